@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+#
+# anicodec_module(NAME STANDARD): a static library anicodec_NAME (alias anicodec::NAME) of every
+# source in the current folder. Headers are included as "module/file.h" from the top of the tree.
+
+add_library(anicodec_flags INTERFACE)
+target_compile_options(anicodec_flags INTERFACE
+  # The integers a decoder predicts from must come out the same everywhere: no fused multiply-add
+  # unless the source asks for it.
+  -ffp-contract=off
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion -Wundef
+  $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast>
+  $<$<BOOL:${ANICODEC_WERROR}>:-Werror>)
+target_include_directories(anicodec_flags INTERFACE "${PROJECT_SOURCE_DIR}")
+
+function(anicodec_module name standard)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp *.h)
+  add_library(anicodec_${name} STATIC ${sources})
+  add_library(anicodec::${name} ALIAS anicodec_${name})
+  target_compile_features(anicodec_${name} PUBLIC cxx_std_${standard})
+  set_target_properties(anicodec_${name} PROPERTIES
+    CXX_STANDARD ${standard} CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_link_libraries(anicodec_${name} PUBLIC $<BUILD_INTERFACE:anicodec_flags>)
+endfunction()
