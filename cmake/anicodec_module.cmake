@@ -9,7 +9,7 @@ target_compile_options(anicodec_flags INTERFACE
   # The integers a decoder predicts from must come out the same everywhere: no fused multiply-add
   # unless the source asks for it.
   -ffp-contract=off
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion -Wundef
+  -Wall -Wextra -Wpedantic -Wshadow -Wundef
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast>
   $<$<BOOL:${ANICODEC_WERROR}>:-Werror>)
 target_include_directories(anicodec_flags INTERFACE "${PROJECT_SOURCE_DIR}")
@@ -23,4 +23,6 @@ function(anicodec_module name standard)
     CXX_STANDARD ${standard} CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(anicodec_${name} PUBLIC $<BUILD_INTERFACE:anicodec_flags>)
+  target_compile_options(anicodec_${name} PRIVATE
+    -Wconversion -Wsign-conversion -Wdouble-promotion)
 endfunction()

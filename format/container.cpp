@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/container.h"
+
+#include "format/checksum.h"
+
+#include <algorithm>
+
+namespace anicodec::format {
+namespace {
+
+constexpr size_t kChecksumAt = 32;
+constexpr uint64_t kKnownFeatures = 0;
+constexpr uint16_t kRequiredFlag = 1;
+
+uint64_t aligned(uint64_t offset) {
+  return (offset + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+uint32_t low32(uint64_t hash) {
+  return static_cast<uint32_t>(hash);
+}
+
+}  // namespace
+
+std::string chunk_name(uint32_t type) {
+  std::string name(4, '?');
+  for (char& c : name) {
+    auto b = static_cast<uint8_t>(type);
+    if (b >= 0x20 && b < 0x7F)
+      c = static_cast<char>(b);
+    type >>= 8;
+  }
+  return name;
+}
+
+void ContainerWriter::add(const char (&type)[5], bool required, uint16_t mesh, uint32_t segment,
+                          Bytes payload) {
+  Chunk chunk;
+  chunk.type = chunk_type(type);
+  chunk.required = required;
+  chunk.mesh = mesh;
+  chunk.segment = segment;
+  chunk.checksum = low32(xxh64(payload));
+  chunk.size = payload.size();
+  chunks_.push_back(chunk);
+  payloads_.push_back(std::move(payload));
+}
+
+Bytes ContainerWriter::finish() const {
+  uint64_t at = kHeaderBytes + kEntryBytes * chunks_.size();
+  ByteWriter table;
+  for (const Chunk& chunk : chunks_) {
+    at = aligned(at);
+    table.u32(chunk.type);
+    table.u16(chunk.required ? kRequiredFlag : 0);
+    table.u16(chunk.mesh);
+    table.u32(chunk.segment);
+    table.u32(chunk.checksum);
+    table.u64(at);
+    table.u64(chunk.size);
+    at += chunk.size;
+  }
+  ByteWriter file;
+  file.raw({kMagic, sizeof kMagic});
+  file.u16(kVersionMajor);
+  file.u16(kVersionMinor);
+  file.u32(static_cast<uint32_t>(chunks_.size()));
+  file.u64(features_);
+  file.u64(at);
+  file.u32(0);
+  file.u32(0);
+  file.raw(table.bytes());
+  uint32_t checksum = low32(xxh64(file.bytes()));
+  for (size_t i = 0; i < 4; ++i)
+    file.bytes()[kChecksumAt + i] = static_cast<uint8_t>(checksum >> (8 * i));
+  for (const Bytes& payload : payloads_) {
+    file.bytes().resize(aligned(file.size()));
+    file.raw(payload);
+  }
+  return std::move(file.bytes());
+}
+
+Failure ContainerReader::open(ByteView file) {
+  chunks_.clear();
+  auto failure = [](Status status, uint64_t offset, const char* detail, uint32_t type = 0) {
+    return Failure{status, offset, type, detail};
+  };
+  if (file.size < sizeof kMagic || !std::equal(kMagic, kMagic + sizeof kMagic, file.data)) {
+    size_t n = std::min(file.size, sizeof kMagic);
+    if (n > 0 && std::equal(file.data, file.data + n, kMagic))
+      return failure(Status::kTruncated, n, "the file ends inside the magic number");
+    return failure(Status::kMagic, 0, "the first eight bytes are not those of an .anic file");
+  }
+  ByteReader header({file.data, std::min(file.size, kHeaderBytes)});
+  header.raw(sizeof kMagic);
+  uint16_t major = header.u16(), minor = header.u16();
+  uint32_t count = header.u32();
+  features_ = header.u64();
+  uint64_t size = header.u64();
+  uint32_t checksum = header.u32();
+  uint32_t reserved = header.u32();
+  if (!header.ok())
+    return failure(Status::kTruncated, file.size, "the file ends inside the header");
+  if (major != kVersionMajor || minor != kVersionMinor)
+    return failure(Status::kVersion, 8, "the file is of another format version");
+  uint64_t table_end = kHeaderBytes + uint64_t{kEntryBytes} * count;
+  if (table_end > file.size)
+    return failure(size > file.size ? Status::kTruncated : Status::kHeader, file.size,
+                   "the file ends inside the chunk table");
+  Bytes covered(file.data, file.data + table_end);
+  std::fill_n(covered.begin() + kChecksumAt, 4, uint8_t{0});
+  if (low32(xxh64(covered)) != checksum)
+    return failure(Status::kHeaderChecksum, kChecksumAt, "header and table are damaged");
+  if (reserved != 0)
+    return failure(Status::kHeader, 36, "a reserved field is not zero");
+  if (features_ & ~kKnownFeatures)
+    return failure(Status::kFeature, 16, "the file needs a feature this reader does not have");
+  if (size > file.size)
+    return failure(Status::kTruncated, file.size, "the file is shorter than its header says");
+  if (size < file.size)
+    return failure(Status::kTrailingBytes, size, "bytes follow the end of the file");
+
+  ByteReader table({file.data + kHeaderBytes, static_cast<size_t>(table_end - kHeaderBytes)});
+  uint64_t at = table_end;
+  chunks_.reserve(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    uint64_t entry = kHeaderBytes + uint64_t{kEntryBytes} * i;
+    Chunk chunk;
+    chunk.type = table.u32();
+    uint16_t flags = table.u16();
+    chunk.mesh = table.u16();
+    chunk.segment = table.u32();
+    chunk.checksum = table.u32();
+    chunk.offset = table.u64();
+    chunk.size = table.u64();
+    if (flags & ~kRequiredFlag)
+      return failure(Status::kHeader, entry + 4, "a reserved chunk flag is set", chunk.type);
+    chunk.required = flags & kRequiredFlag;
+    if (chunk.offset != aligned(at) || chunk.offset > size || chunk.size > size - chunk.offset)
+      return failure(Status::kChunkBounds, entry, "a chunk is not where its neighbours leave room",
+                     chunk.type);
+    for (uint64_t p = at; p < chunk.offset; ++p) {
+      if (file.data[p] != 0)
+        return failure(Status::kPadding, p, "padding is not zero", chunk.type);
+    }
+    at = chunk.offset + chunk.size;
+    chunks_.push_back(chunk);
+  }
+  if (at != size)
+    return failure(Status::kFileSize, at, "the chunks end before the file does");
+  file_ = file;
+  return {};
+}
+
+const Chunk* ContainerReader::find(const char (&type)[5], uint16_t mesh, uint32_t segment) const {
+  uint32_t wanted = chunk_type(type);
+  for (const Chunk& chunk : chunks_) {
+    if (chunk.type == wanted && chunk.mesh == mesh && chunk.segment == segment)
+      return &chunk;
+  }
+  return nullptr;
+}
+
+Failure ContainerReader::payload(const Chunk& chunk, ByteView* out) const {
+  *out = {file_.data + chunk.offset, static_cast<size_t>(chunk.size)};
+  if (low32(xxh64(*out)) != chunk.checksum)
+    return {Status::kChunkChecksum, chunk.offset, chunk.type, "the chunk is damaged"};
+  return {};
+}
+
+}  // namespace anicodec::format

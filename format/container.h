@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The container: header, flat chunk table, aligned payloads (spec/05-file-layout.md). Knows bytes
+// and checksums, not what a chunk means.
+#ifndef ANICODEC_FORMAT_CONTAINER_H_
+#define ANICODEC_FORMAT_CONTAINER_H_
+
+#include "format/bytes.h"
+#include "format/status.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace anicodec::format {
+
+inline constexpr uint8_t kMagic[8] = {0x89, 'A', 'N', 'I', '\r', '\n', 0x1A, '\n'};
+inline constexpr uint16_t kVersionMajor = 0;
+inline constexpr uint16_t kVersionMinor = 1;
+inline constexpr size_t kHeaderBytes = 40;
+inline constexpr size_t kEntryBytes = 32;
+inline constexpr size_t kAlignment = 8;
+
+/// Chunk types are four ASCII characters, the first one in the lowest byte.
+constexpr uint32_t chunk_type(const char (&name)[5]) {
+  uint32_t type = 0;
+  for (int i = 3; i >= 0; --i)
+    type = type << 8 | static_cast<uint8_t>(name[i]);
+  return type;
+}
+
+/// The four characters of a type; anything unprintable becomes '?'.
+std::string chunk_name(uint32_t type);
+
+inline constexpr uint16_t kNoMesh = 0xFFFF;
+inline constexpr uint32_t kNoSegment = 0xFFFFFFFF;
+
+struct Chunk {
+  uint32_t type = 0;
+  bool required = false;          ///< a reader that does not know the type refuses the file
+  uint16_t mesh = kNoMesh;        ///< the mesh it belongs to
+  uint32_t segment = kNoSegment;  ///< the segment it belongs to
+  uint32_t checksum = 0;          ///< low 32 bits of XXH64 of the payload
+  uint64_t offset = 0;            ///< of the payload, from the start of the file
+  uint64_t size = 0;              ///< of the payload
+};
+
+/// Collects chunks in file order and lays out the file.
+class ContainerWriter {
+ public:
+  void add(const char (&type)[5], bool required, uint16_t mesh, uint32_t segment, Bytes payload);
+
+  void require_feature(unsigned bit) { features_ |= uint64_t{1} << bit; }
+
+  /// The whole file. Deterministic.
+  Bytes finish() const;
+
+ private:
+  std::vector<Chunk> chunks_;
+  std::vector<Bytes> payloads_;
+  uint64_t features_ = 0;
+};
+
+/// Reads header and table of a whole file in memory. The bytes must outlive the reader.
+class ContainerReader {
+ public:
+  /// Checks magic, version, features, sizes, table, checksums of header and table, order of chunks,
+  /// padding, and that the file ends where the header says. Payload checksums are checked by
+  /// payload(). Cost: O(chunks), plus the padding.
+  Failure open(ByteView file);
+
+  const std::vector<Chunk>& chunks() const { return chunks_; }
+
+  /// The one chunk of this type, mesh and segment; null when there is none.
+  const Chunk* find(const char (&type)[5], uint16_t mesh = kNoMesh,
+                    uint32_t segment = kNoSegment) const;
+
+  /// The payload after checking its checksum.
+  Failure payload(const Chunk& chunk, ByteView* out) const;
+
+  uint16_t version_major() const { return kVersionMajor; }
+
+  uint16_t version_minor() const { return kVersionMinor; }
+
+  uint64_t features() const { return features_; }
+
+  uint64_t file_size() const { return file_.size; }
+
+ private:
+  ByteView file_;
+  std::vector<Chunk> chunks_;
+  uint64_t features_ = 0;
+};
+
+}  // namespace anicodec::format
+
+#endif  // ANICODEC_FORMAT_CONTAINER_H_

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/records.h"
+
+#include <cmath>
+
+namespace anicodec::format {
+namespace {
+
+constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 16;
+
+bool is_length(double x) {
+  return std::isfinite(x) && x >= 0;
+}
+
+Status finished(const ByteReader& reader) {
+  return reader.finished() ? Status::kOk : Status::kRecord;
+}
+
+}  // namespace
+
+Bytes Limits::write() const {
+  ByteWriter w;
+  w.varint(frames);
+  w.varint(meshes.size());
+  w.varint(segments.size());
+  for (const Mesh& m : meshes) {
+    for (uint32_t x : {m.source_vertices, m.coded_vertices, m.points, m.triangles, m.polygons,
+                       m.corners, m.draco_components, m.draco_bytes})
+      w.varint(x);
+  }
+  for (const Segment& s : segments) {
+    w.varint(s.mesh);
+    w.u8(static_cast<uint8_t>(s.kind));
+    for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
+      w.varint(x);
+  }
+  return std::move(w.bytes());
+}
+
+Status Limits::read(ByteView view, Limits* out) {
+  ByteReader r(view);
+  out->frames = r.varint32(kMaxFrames);
+  uint32_t mesh_count = r.varint32(kMaxMeshes);
+  uint32_t segment_count = r.varint32(kMaxFrames);
+  // A mesh takes at least 8 bytes, a segment 7: no allocation beyond what the chunk can hold.
+  if (!r.ok() || mesh_count > r.remaining() / 8 || segment_count > r.remaining() / 7)
+    return Status::kRecord;
+  if (out->frames == 0 || mesh_count == 0 || segment_count == 0)
+    return Status::kRecord;
+  out->meshes.assign(mesh_count, {});
+  out->segments.assign(segment_count, {});
+  for (Mesh& m : out->meshes) {
+    for (uint32_t* x :
+         {&m.source_vertices, &m.coded_vertices, &m.points, &m.triangles, &m.polygons})
+      *x = r.varint32(kMaxVertices);
+    m.corners = r.varint32();
+    m.draco_components = r.varint32(64 * 255);
+    m.draco_bytes = r.varint32();
+    if (m.source_vertices == 0 || m.coded_vertices == 0 || m.coded_vertices > m.source_vertices)
+      return Status::kRecord;
+  }
+  for (Segment& s : out->segments) {
+    s.mesh = static_cast<uint16_t>(r.varint32(mesh_count - 1));
+    uint8_t kind = r.u8();
+    if (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories))
+      return r.ok() ? Status::kFeature : Status::kRecord;
+    s.kind = static_cast<BasisKind>(kind);
+    s.first_frame = r.varint32(kMaxFrames);
+    s.frames = r.varint32(kMaxFrames);
+    s.components = r.varint32(kMaxComponents);
+    s.wide_components = r.varint32(s.components);
+    s.corrections = r.varint32();
+    if (s.frames == 0 || s.first_frame >= out->frames || s.frames > out->frames - s.first_frame)
+      return Status::kRecord;
+  }
+  return finished(r);
+}
+
+Bytes ClipRecord::write() const {
+  ByteWriter w;
+  w.text(name);
+  w.text(encoder);
+  w.varint(rate_numerator);
+  w.varint(rate_denominator);
+  w.u8(static_cast<uint8_t>((rate_assumed ? kAssumed : 0) | (loop ? kLoop : 0) |
+                            (closed ? kClosed : 0) | (massaged ? kMassaged : 0) |
+                            (times.empty() ? 0 : kTimes)));
+  w.u8(up);
+  w.u8(static_cast<uint8_t>(order));
+  w.f64(start_time);
+  w.f32(static_cast<float>(metres_per_unit));
+  for (double t : times)
+    w.f64(t);
+  w.u8(static_cast<uint8_t>(asked));
+  for (double x : {asked_value, max_error, rmse, kg, diagonal})
+    w.f64(x);
+  if (massaged)
+    w.f64(surface_error);
+  return std::move(w.bytes());
+}
+
+Status ClipRecord::read(ByteView view, uint32_t frames, ClipRecord* out) {
+  ByteReader r(view);
+  out->name = r.text();
+  out->encoder = r.text();
+  out->rate_numerator = r.varint32();
+  out->rate_denominator = r.varint32();
+  uint8_t flags = r.u8();
+  out->rate_assumed = flags & kAssumed;
+  out->loop = flags & kLoop;
+  out->closed = flags & kClosed;
+  out->massaged = flags & kMassaged;
+  out->up = r.u8();
+  uint8_t order = r.u8();
+  out->order = static_cast<OrderMode>(order);
+  out->start_time = r.f64();
+  out->metres_per_unit = static_cast<double>(r.f32());
+  out->times.clear();
+  if (flags & kTimes) {
+    if (r.remaining() / 8 < frames)
+      return Status::kRecord;
+    out->times.resize(frames);
+    double before = -INFINITY;
+    for (double& t : out->times) {
+      t = r.f64();
+      if (!std::isfinite(t) || t < before)
+        return Status::kRecord;
+      before = t;
+    }
+  }
+  uint8_t asked = r.u8();
+  out->asked = static_cast<ErrorMetric>(asked);
+  for (double* x : {&out->asked_value, &out->max_error, &out->rmse, &out->kg, &out->diagonal})
+    *x = r.f64();
+  out->surface_error = out->massaged ? r.f64() : 0;
+  for (double x : {out->asked_value, out->max_error, out->rmse, out->kg, out->diagonal,
+                   out->surface_error, out->metres_per_unit}) {
+    if (!is_length(x))
+      return Status::kRecord;
+  }
+  if (out->rate_numerator == 0 || out->rate_denominator == 0 || (flags & ~0x1F) || out->up > 2 ||
+      order > static_cast<uint8_t>(OrderMode::kAll) || !std::isfinite(out->start_time) ||
+      asked > static_cast<uint8_t>(ErrorMetric::kBpfv))
+    return Status::kRecord;
+  return finished(r);
+}
+
+Bytes MeshRecord::write() const {
+  ByteWriter w;
+  w.text(name);
+  w.u8(static_cast<uint8_t>(coder));
+  w.block(connectivity);
+  w.block(details);
+  return std::move(w.bytes());
+}
+
+Status MeshRecord::read(ByteView view, MeshRecord* out) {
+  ByteReader r(view);
+  out->name = r.text();
+  uint8_t coder = r.u8();
+  if (r.ok() && coder > static_cast<uint8_t>(CoderId::kDraco))
+    return Status::kCoder;
+  out->coder = static_cast<CoderId>(coder);
+  out->connectivity = r.block();
+  out->details = r.block();
+  return finished(r);
+}
+
+Bytes SegmentRecord::write() const {
+  ByteWriter w;
+  w.u8(static_cast<uint8_t>(kind));
+  w.u8(static_cast<uint8_t>(reconstruction));
+  w.u64(hash);
+  for (ByteView part : {parameters, pose, motion, weights})
+    w.block(part);
+  return std::move(w.bytes());
+}
+
+Status SegmentRecord::read(ByteView view, SegmentRecord* out) {
+  ByteReader r(view);
+  uint8_t kind = r.u8(), reconstruction = r.u8();
+  if (r.ok() && (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) ||
+                 reconstruction > static_cast<uint8_t>(Reconstruction::kMsgi)))
+    return Status::kFeature;
+  out->kind = static_cast<BasisKind>(kind);
+  out->reconstruction = static_cast<Reconstruction>(reconstruction);
+  out->hash = r.u64();
+  for (ByteView* part : {&out->parameters, &out->pose, &out->motion, &out->weights})
+    *part = r.block();
+  return finished(r);
+}
+
+}  // namespace anicodec::format

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The records inside the chunks, each with its writer and its reader (spec/06-chunks.md). A reader
+// checks every field against its range; relations between records are checked where they meet.
+#ifndef ANICODEC_FORMAT_RECORDS_H_
+#define ANICODEC_FORMAT_RECORDS_H_
+
+#include "format/bytes.h"
+#include "format/status.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace anicodec::format {
+
+inline constexpr uint32_t kMaxVertices = (1U << 31) - 1;
+inline constexpr uint32_t kMaxFrames = (1U << 24) - 1;
+inline constexpr uint32_t kMaxMeshes = 65535;
+inline constexpr uint32_t kMaxComponents = 1U << 20;
+
+enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
+
+/// How connectivity or integer positions are coded.
+enum class CoderId : uint8_t { kPlain = 0, kDraco = 1, kPredictive = 2 };
+
+/// How a frame between key-frames is rebuilt.
+enum class Reconstruction : uint8_t { kLinear = 0, kMsgi = 1 };
+
+/// Chunk LIMI: all that a host needs to know how much memory opening and playing will take.
+struct Limits {
+  struct Mesh {
+    uint32_t source_vertices = 0;   ///< what the user gets back
+    uint32_t coded_vertices = 0;    ///< distinct trajectories
+    uint32_t points = 0;            ///< coded vertices in faces, non-manifold ones split
+    uint32_t triangles = 0;         ///< of the coded connectivity
+    uint32_t polygons = 0;          ///< what the user gets back
+    uint32_t corners = 0;           ///< of those polygons
+    uint32_t draco_components = 0;  ///< integer components per point in the Draco bitstream
+    uint32_t draco_bytes = 0;       ///< of the Draco bitstream
+  };
+
+  struct Segment {
+    uint16_t mesh = 0;
+    BasisKind kind = BasisKind::kKeyframes;
+    uint32_t first_frame = 0;
+    uint32_t frames = 0;
+    uint32_t components = 0;
+    uint32_t wide_components = 0;  ///< of those, resident as 32-bit integers; the others as 16-bit
+    uint32_t corrections = 0;      ///< corrected vertices over all frames of the segment
+  };
+
+  uint32_t frames = 0;
+  std::vector<Mesh> meshes;
+  std::vector<Segment> segments;
+
+  Bytes write() const;
+  static Status read(ByteView view, Limits* out);
+};
+
+enum class ErrorMetric : uint8_t {
+  kNone = 0,
+  kKg = 1,
+  kMaxError = 2,
+  kRmse = 3,
+  kSize = 4,
+  kBpfv = 5
+};
+enum class OrderMode : uint8_t { kVertices = 0, kFree = 1, kAll = 2 };
+
+/// Chunk CLIP: the clock, the coordinate system, and what the encoder promises.
+struct ClipRecord {
+  std::string name;
+  std::string encoder;           ///< name and version of the encoder
+  uint32_t rate_numerator = 24;  ///< frames per second
+  uint32_t rate_denominator = 1;
+  bool rate_assumed = true;
+  bool loop = false;
+  bool closed = false;  ///< the last frame repeats the first
+  bool massaged = false;
+  uint8_t up = 0;  ///< 0 unknown, 1 y, 2 z
+  OrderMode order = OrderMode::kVertices;
+  double start_time = 0;       ///< seconds
+  double metres_per_unit = 0;  ///< 0 unknown
+  std::vector<double> times;   ///< seconds from start_time, one per frame; empty when even
+
+  ErrorMetric asked = ErrorMetric::kNone;
+  double asked_value = 0;    ///< KG in per cent, lengths in scene units
+  double max_error = 0;      ///< measured, scene units
+  double rmse = 0;           ///< measured, scene units
+  double kg = 0;             ///< measured, per cent
+  double diagonal = 0;       ///< of the box around all frames
+  double surface_error = 0;  ///< when massaged: how far the surface moved at most
+
+  Bytes write() const;
+  static Status read(ByteView view, uint32_t frames, ClipRecord* out);
+};
+
+/// Chunk MESH: connectivity and what restores the source's vertices and polygons.
+struct MeshRecord {
+  std::string name;
+  CoderId coder = CoderId::kPlain;
+  ByteView connectivity;  ///< Draco bitstream, or zstd frame
+  ByteView details;       ///< splits, welds, polygons: entropy-coded
+
+  Bytes write() const;
+  static Status read(ByteView view, MeshRecord* out);
+};
+
+/// Chunk SEGM: one range of frames of one mesh.
+struct SegmentRecord {
+  BasisKind kind = BasisKind::kKeyframes;
+  Reconstruction reconstruction = Reconstruction::kLinear;
+  uint64_t hash = 0;    ///< IntegerHash of the segment's decoded integers
+  ByteView parameters;  ///< of the kind
+  ByteView pose;        ///< reference pose or key-frames not held by the mesh's Draco bitstream
+  ByteView motion;      ///< rigid motion, empty when there is none
+  ByteView weights;     ///< time weights
+
+  Bytes write() const;
+  static Status read(ByteView view, SegmentRecord* out);
+};
+
+}  // namespace anicodec::format
+
+#endif  // ANICODEC_FORMAT_RECORDS_H_

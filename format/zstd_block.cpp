@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/zstd_block.h"
+
+#include <zstd.h>
+
+namespace anicodec::format {
+
+Bytes zstd_compress(ByteView bytes) {
+  Bytes out(ZSTD_compressBound(bytes.size));
+  size_t n = ZSTD_compress(out.data(), out.size(), bytes.data, bytes.size, 19);
+  out.resize(ZSTD_isError(n) ? 0 : n);
+  return out;
+}
+
+Status zstd_decompress(ByteView compressed, size_t size, Bytes* out) {
+  size_t frame = ZSTD_findFrameCompressedSize(compressed.data, compressed.size);
+  if (ZSTD_isError(frame) || frame != compressed.size)
+    return Status::kZstd;
+  out->resize(size);
+  size_t n = ZSTD_decompress(out->data(), size, compressed.data, compressed.size);
+  return ZSTD_isError(n) || n != size ? Status::kZstd : Status::kOk;
+}
+
+}  // namespace anicodec::format

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_CLIP_H_
+#define ANICODEC_SDK_CLIP_H_
+
+#include "format/container.h"
+#include "format/records.h"
+#include "format/status.h"
+#include "sdk/segment.h"
+#include "sdk/topology.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace anicodec {
+
+/// What a host allows a file to ask for. Checked before anything is allocated.
+struct HostLimits {
+  uint64_t vertices = uint64_t{1} << 31;
+  uint64_t frames = uint64_t{1} << 24;
+  uint64_t components = uint64_t{1} << 20;
+  uint64_t resident_bytes = uint64_t{16} << 30;
+};
+
+struct OpenOptions {
+  HostLimits limits;
+  /// Share of the components to open, by number, in (0, 1]: fewer give a coarser clip.
+  double quality = 1;
+};
+
+/// One mesh of a clip.
+struct Mesh {
+  std::string name;
+  Topology topology;
+};
+
+/// An opened file: immutable, so any number of threads may play it. Owns all it needs; the file's
+/// bytes may go after open().
+class Clip {
+ public:
+  /// Opens a whole file in memory. On failure the clip is empty and the failure says where.
+  /// Cost: entropy decoding of all coefficients once; afterwards every frame costs the same.
+  Failure open(format::ByteView file, const OpenOptions& options = {});
+
+  const format::Limits& limits() const { return limits_; }
+
+  const format::ClipRecord& record() const { return record_; }
+
+  const std::vector<Mesh>& meshes() const { return meshes_; }
+
+  const std::vector<Segment>& segments() const { return segments_; }
+
+  uint32_t frame_count() const { return limits_.frames; }
+
+  uint32_t vertex_count(uint32_t mesh = 0) const { return limits_.meshes[mesh].source_vertices; }
+
+  /// The segment of a mesh that holds a frame; null when the mesh is not there in that frame.
+  const Segment* segment_at(uint32_t mesh, uint32_t frame) const;
+
+  /// Bytes that stay allocated while the clip is open.
+  size_t resident_bytes() const;
+
+  /// kHash when the decoded integers of a segment are not those that the encoder saw. Meaningful
+  /// for clips opened at full quality.
+  Failure check_hashes() const;
+
+ private:
+  Failure open_mesh(const format::ContainerReader& file, uint16_t mesh);
+  Failure open_segments(const format::ContainerReader& file, const OpenOptions& options);
+
+  format::Limits limits_;
+  format::ClipRecord record_;
+  std::vector<Mesh> meshes_;
+  std::vector<DracoMesh> draco_;  ///< while opening
+  std::vector<Segment> segments_;
+};
+
+/// Plays one mesh of a clip: small, one per thread or instance. The clip must outlive it.
+class FramePlayer {
+ public:
+  explicit FramePlayer(const Clip& clip, uint32_t mesh = 0);
+
+  /// Positions of one frame in the order of the clip's vertices, three floats each.
+  /// Errors: kFrameRange; kSegment when no segment of the mesh holds the frame. Allocates nothing.
+  Status positions(uint32_t frame, float* out);
+
+ private:
+  const Clip& clip_;
+  uint32_t mesh_;
+  bool identity_;               ///< vertices are the coded vertices, in the same order
+  std::vector<float> scratch_;  ///< coded positions, otherwise
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_CLIP_H_

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_DRACO_MESH_H_
+#define ANICODEC_SDK_DRACO_MESH_H_
+
+#include "format/bytes.h"
+#include "format/status.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace anicodec {
+
+/// A triangle mesh whose points carry integers: what a Draco bitstream of ours holds.
+struct DracoMesh {
+  uint32_t points = 0;
+  std::vector<uint32_t> triangles;  ///< three points each
+  uint32_t components = 0;
+  std::vector<int32_t> values;  ///< points x components
+};
+
+/// Decodes a Draco mesh bitstream (version 2.2) of int32 attributes: first POSITION with three
+/// components, then GENERIC ones; their components are concatenated. The counts must be the ones
+/// the caller knows from the limits, else kDraco. Never throws: Draco's exceptions are caught here.
+/// Only this file of the decoder calls Draco.
+Status decode_draco_mesh(format::ByteView bytes, uint32_t points, uint32_t triangles,
+                         uint32_t components, DracoMesh* out);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_DRACO_MESH_H_

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_SEGMENT_H_
+#define ANICODEC_SDK_SEGMENT_H_
+
+#include "format/records.h"
+#include "format/status.h"
+#include "sdk/draco_mesh.h"
+#include "sdk/topology.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace anicodec {
+
+/// Vertices are played in blocks: one coefficient of all vertices of a block is contiguous.
+inline constexpr uint32_t kBlock = 16;
+
+inline uint32_t block_count(uint32_t vertices) {
+  return (vertices + kBlock - 1) / kBlock;
+}
+
+/// A row-major 3 x 4 matrix: rotation or linear part and translation of an affine map.
+struct Affine {
+  float m[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+};
+
+/// A segment, opened: every coefficient resident as an integer, every time weight as a float, so
+/// that any frame costs the same (spec/09-reconstruction.md). All three basis kinds have this one
+/// form:
+///
+///   x(v, f) = M_f * (A_f * pose(v) + sum_j weight(f, j) * coefficient(j, v)) + correction(v, f)
+///
+/// with A_f affine, M_f rigid, both optional. Vertices are coded vertices.
+struct Segment {
+  format::BasisKind kind = format::BasisKind::kKeyframes;
+  format::Reconstruction reconstruction = format::Reconstruction::kLinear;
+  uint32_t mesh = 0;
+  uint32_t first_frame = 0;
+  uint32_t frames = 0;
+  uint32_t vertices = 0;
+  uint32_t components = 0;  ///< all resident ones; fewer than coded when opened at lower quality
+  uint32_t wide_components = 0;  ///< the first ones, 32-bit; the others are 16-bit
+
+  /// Scalars per vertex of a component: 3 (a vector; one weight per frame) or, for trajectories, 1
+  /// (and three weights per frame).
+  uint32_t channels() const { return kind == format::BasisKind::kEigentrajectories ? 1 : 3; }
+
+  uint32_t weight_channels() const { return channels() == 1 ? 3 : 1; }
+
+  std::vector<float> pose;      ///< blocks x 3 x 16, empty when there is none
+  std::vector<int32_t> wide;    ///< blocks x wide_components x channels x 16
+  std::vector<int16_t> narrow;  ///< blocks x the other components x channels x 16
+  std::vector<float>
+      weights;  ///< frames x components x weight_channels, coefficient scale included
+  std::vector<Affine> pose_maps;  ///< A_f; empty when there is no pose
+  std::vector<Affine> motions;    ///< M_f; empty when there are none
+
+  std::vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
+  double origin[3] = {0, 0, 0};           ///< key-frame kind: offset of every coefficient vector
+
+  /// Corrections of frame f are correction_begin[f] .. correction_begin[f+1]-1; empty when there
+  /// are none. Added last, in scene units.
+  struct Correction {
+    uint32_t vertex;
+    float delta[3];
+  };
+
+  std::vector<uint32_t> correction_begin;
+  std::vector<Correction> corrections;
+
+  uint64_t stored_hash = 0;
+  uint64_t decoded_hash = 0;
+
+  size_t resident_bytes() const;
+};
+
+/// Positions of all coded vertices of a segment in one frame of it (0 .. frames-1), three floats
+/// per vertex, without gaps. Cost: O(vertices x components), the same for every frame. Allocates
+/// nothing.
+void combine(const Segment& segment, uint32_t frame, float* out);
+
+/// What opening a segment needs to know besides its own record.
+struct SegmentContext {
+  const format::Limits::Segment* sizes = nullptr;
+  const format::Limits::Mesh* mesh_sizes = nullptr;
+  const Topology* topology = nullptr;
+  const DracoMesh* draco = nullptr;      ///< null when the connectivity is plain
+  std::vector<format::ByteView> layers;  ///< chunks BASI in file order
+  format::ByteView corrections;          ///< chunk CORR, empty when there is none
+  double quality = 1;                    ///< share of the components wanted
+};
+
+/// Opens a segment of any kind. The counts in `context` have been checked against the host's
+/// limits.
+Status open_segment(const format::SegmentRecord& record, const SegmentContext& context,
+                    Segment* out);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_SEGMENT_H_

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/topology.h"
+
+#include "sdk/details_coding.h"
+#include "sdk/map_coding.h"
+
+#include <numeric>
+
+namespace anicodec {
+
+Status decode_details(format::ByteView details, const format::Limits::Mesh& sizes,
+                      const std::vector<uint32_t>& triangles, Topology* out) {
+  for (uint32_t p : triangles) {
+    if (p >= sizes.points)
+      return Status::kIndexRange;
+  }
+  BinaryDecoder decoder(details.data, details.size);
+  NoTruth none;
+  DetailsCoding<BinaryDecoder, NoTruth> coding(decoder, none, sizes, triangles, out);
+  if (Status status = coding.run(); status != Status::kOk)
+    return status;
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+Status decode_vertex_map(format::ByteView bytes, uint32_t vertices, std::vector<uint32_t>* source) {
+  BinaryDecoder decoder(bytes.data, bytes.size);
+  if (!code_permutation(decoder, vertices, source))
+    return Status::kIndexRange;
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+Status decode_face_map(format::ByteView bytes, const Topology& topology,
+                       std::vector<uint32_t>* place, std::vector<uint32_t>* first) {
+  BinaryDecoder decoder(bytes.data, bytes.size);
+  auto count = static_cast<uint32_t>(topology.polygon_offsets.size() - 1);
+  if (!code_permutation(decoder, count, place))
+    return Status::kIndexRange;
+  first->resize(count);
+  if (!code_rotations(decoder, topology.polygon_offsets, first))
+    return Status::kIndexRange;
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+void apply_vertex_map(const std::vector<uint32_t>& source, Topology* topology) {
+  std::vector<uint32_t> coded(topology->vertex_coded.size());
+  for (size_t i = 0; i < source.size(); ++i)
+    coded[source[i]] = topology->vertex_coded[i];
+  topology->vertex_coded.swap(coded);
+  for (uint32_t& v : topology->polygon_corners)
+    v = source[v];
+}
+
+void apply_face_map(const std::vector<uint32_t>& place, const std::vector<uint32_t>& first,
+                    Topology* topology) {
+  size_t count = place.size();
+  std::vector<uint32_t> canonical(count);  // of each source polygon
+  for (size_t i = 0; i < count; ++i)
+    canonical[place[i]] = static_cast<uint32_t>(i);
+  std::vector<uint32_t> offsets{0}, corners;
+  corners.reserve(topology->polygon_corners.size());
+  for (uint32_t i : canonical) {
+    uint32_t begin = topology->polygon_offsets[i];
+    uint32_t n = topology->polygon_offsets[i + 1] - begin;
+    for (uint32_t k = 0; k < n; ++k)
+      corners.push_back(topology->polygon_corners[begin + (first[i] + k) % n]);
+    offsets.push_back(static_cast<uint32_t>(corners.size()));
+  }
+  topology->polygon_offsets.swap(offsets);
+  topology->polygon_corners.swap(corners);
+}
+
+}  // namespace anicodec
