@@ -72,7 +72,7 @@ class AdaptiveBit {
 /// Writes a stream. Ends with finish(); the object is then spent.
 class BinaryEncoder {
  public:
-  static constexpr bool kDecodes = false;
+  static constexpr bool kAdapts = true;
 
   /// Codes a bit whose probability of being 1 is p / 65536, 0 < p < 65536.
   bool bit(uint32_t p, bool value) {
@@ -126,7 +126,7 @@ class BinaryEncoder {
 /// bits and ok() turns false; every call takes bounded time.
 class BinaryDecoder {
  public:
-  static constexpr bool kDecodes = true;
+  static constexpr bool kAdapts = true;
 
   /// Does not copy: `bytes` outlives the decoder. An empty stream is valid.
   BinaryDecoder(const uint8_t* bytes, size_t size);
@@ -180,7 +180,7 @@ class BinaryDecoder {
 /// Adds up what coding would take, in 1/65536 bit, and adapts nothing.
 class BitCounter {
  public:
-  static constexpr bool kDecodes = false;
+  static constexpr bool kAdapts = false;
 
   bool bit(uint32_t p, bool value) {
     total_ += bit_cost(value ? p : kProbabilityOne - p);

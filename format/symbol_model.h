@@ -27,7 +27,7 @@ constexpr int kSymbolNodes = 64;
 /// `model(node, bit)` codes a decision with the model of a node, `raw(count, value)` bits at one
 /// bit each; both return what was coded. At most 62 decisions, whatever is read.
 /// @pre |value| < 2^31
-template <Sign kSign, class Model, class Raw>
+template <Sign kSign, int kMaxExponent = 30, class Model, class Raw>
 int32_t code_symbol(int32_t value, Model&& model, Raw&& raw) {
   constexpr int kZero = 0, kSignNode = 1, kExponent = 2, kMantissa = 22;
   if (!model(kZero, value != 0))
@@ -41,7 +41,8 @@ int32_t code_symbol(int32_t value, Model&& model, Raw&& raw) {
       value < 0 ? 0u - static_cast<uint32_t>(value) : static_cast<uint32_t>(value);
   const int wanted = floor_log2(magnitude);
   int exponent = 0;
-  while (exponent < 30 && model(kExponent + (exponent < 19 ? exponent : 19), wanted > exponent))
+  while (exponent < kMaxExponent &&
+         model(kExponent + (exponent < 19 ? exponent : 19), wanted > exponent))
     ++exponent;
   uint32_t m = 1;
   if (exponent > 0) {

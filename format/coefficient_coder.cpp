@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/coefficient_coder.h"
+
+#include <algorithm>
+
+namespace anicodec {
+namespace {
+
+constexpr uint32_t kFine = 20;      ///< classes, two per octave
+constexpr uint32_t kCoarse = 12;    ///< classes, one per octave
+constexpr uint32_t kExpected = 48;  ///< classes, four per octave
+constexpr uint32_t kComponents = 8, kLevels = 20, kSelect = 8;
+
+constexpr uint32_t kWeights[8] = {6, 5, 4, 3, 3, 2, 2, 1};
+
+/// 65536 / n, for means of up to 26 weights.
+struct Reciprocals {
+  uint32_t value[27];
+
+  constexpr Reciprocals() : value{} {
+    for (uint32_t n = 1; n < 27; ++n)
+      value[n] = 65536 / n;
+  }
+};
+
+constexpr Reciprocals kReciprocals{};
+
+uint32_t states(uint32_t channels) {
+  return channels == 1 ? 1 : 4;
+}
+
+int sign(int x) {
+  return (x > 0) - (x < 0);
+}
+
+/// -1, 0, 1 to 0, 1, 2.
+uint32_t ternary(int x) {
+  return static_cast<uint32_t>(sign(x) + 1);
+}
+
+/// A signed number limited to +-limit, as 0 .. 2 limit.
+uint32_t centred(int x, int limit) {
+  return static_cast<uint32_t>(std::clamp(x, -limit, limit) + limit);
+}
+
+}  // namespace
+
+CoefficientModel::CoefficientModel(uint32_t vertex_count, uint32_t channels,
+                                   const int32_t* neighbours, uint32_t stride)
+    : vertex_count_(vertex_count),
+      channels_(channels),
+      stride_(stride),
+      neighbours_(neighbours),
+      magnitudes_(
+          {kFine * kFine * states(channels), kFine * kComponents * states(channels),
+           kExpected * states(channels), kCoarse * kCoarse * 8, kFine * kFine * states(channels),
+           kFine * kFine * states(channels), kFine * kLevels * states(channels)},
+          {kSelect * states(channels), kLevels * states(channels)}, kMixedNodes),
+      signs_({81, 49, 243, 243, 41 * 4}, {kSelect, kComponents}, 1),
+      magnitude_(size_t{vertex_count} + 1, 0),
+      last_(size_t{vertex_count} + 1, 0),
+      history_(size_t{vertex_count} + 1, 0),
+      past_(size_t{vertex_count} + 1, 0),
+      agreement_(size_t{vertex_count} * kNear, 0),
+      shares_{13107, 19660, 19660, 6553, 0} {
+  for (std::vector<int8_t>& v : value_)
+    v.assign((size_t{vertex_count} + 1) * channels, 0);
+}
+
+void CoefficientModel::begin_component() {
+  vertex_ = ~0u;
+  running_ = 0;
+  std::fill(magnitude_.begin(), magnitude_.end(), uint16_t{0});
+  std::fill(value_[0].begin(), value_[0].end(), int8_t{0});
+}
+
+void CoefficientModel::end_component() {
+  for (size_t i = 1; i <= vertex_count_; ++i) {
+    const uint32_t m = std::min<uint32_t>(4u * magnitude_[i], 65535);
+    history_[i] = static_cast<uint16_t>((history_[i] + m) >> 1);
+    past_[i] = static_cast<uint16_t>((27u * past_[i] + 5 * m) >> 5);
+  }
+  last_.swap(magnitude_);
+  value_[2].swap(value_[1]);
+  value_[1].swap(value_[0]);
+  ++component_;
+}
+
+void CoefficientModel::prepare_vertex(uint32_t v) {
+  const int32_t* ranks = neighbours_ + size_t{v} * stride_;
+  const uint32_t used = std::min(stride_, kNear);
+  uint32_t near = 0, near_count = 0, weighted = 0, weight = 0, far = 0, two = 0, two_count = 0;
+  for (uint32_t a = 0; a < kNear; ++a) {
+    const uint32_t r = a < used ? static_cast<uint32_t>(ranks[a] + 1) : 0;
+    const uint32_t m = magnitude_[r], present = r != 0;
+    near_[a] = r;
+    weighted += kWeights[a] * m;
+    weight += kWeights[a] * present;
+    if (a < 6) {
+      near += m;
+      near_count += present;
+    }
+    if (a < 2) {
+      two += m;
+      two_count += present;
+    }
+    if (a >= 4)
+      far += m;
+  }
+  near6_ = (near * kReciprocals.value[near_count]) >> 16;
+  near2_ = (two * kReciprocals.value[two_count]) >> 16;
+  weighted_ = (weighted * kReciprocals.value[weight]) >> 16;
+  far_ = far >> 2;
+  sum_ = 0;
+  features_ = {weighted_ * 4, history_[v + 1], past_[v + 1], running_ >> 4, 16};
+  uint64_t expected = 0;
+  for (size_t i = 0; i < features_.size(); ++i)
+    expected += uint64_t{features_[i]} * static_cast<uint32_t>(shares_[i]);
+  expected_ = static_cast<uint32_t>(std::min<uint64_t>(expected >> 16, 65535));
+}
+
+void CoefficientModel::prepare_channel(uint32_t v, uint32_t c) {
+  vertex_ = v;
+  channel_ = c;
+  const uint32_t n = states(channels_);
+  const uint32_t state = c == 0 ? 0 : sum_ == 0 ? 1 : sum_ <= 2 ? 2 : 3;
+  const uint32_t history = history_[v + 1] >> 2, past = past_[v + 1] >> 2;
+  const uint32_t before = c == 0 ? near6_ : (sum_ * 64 * kReciprocals.value[c]) >> 16;
+  const uint32_t level = std::min(static_cast<uint32_t>(floor_log2(v + 1)), kLevels - 1);
+  const auto pair = [&](uint32_t a, uint32_t b) {
+    return (magnitude_class<1>(a, kFine) * kFine + magnitude_class<1>(b, kFine)) * n + state;
+  };
+  magnitudes_.select(
+      {pair(near6_, history),
+       (magnitude_class<1>(past, kFine) * kComponents + std::min(component_, kComponents - 1)) * n +
+           state,
+       magnitude_class<2>(expected_, kExpected) * n + state,
+       (magnitude_class<0>(past, kCoarse) * kCoarse + magnitude_class<0>(before, kCoarse)) * 8 +
+           magnitude_class<0>(near6_ >> 3, 8),
+       pair(weighted_, far_), pair(near2_, last_[v + 1]),
+       (magnitude_class<1>(running_ >> 6, kFine) * kLevels + level) * n + state},
+      magnitude_class<0>(expected_ >> 3, kSelect) * n + state, level * n + state);
+}
+
+void CoefficientModel::prepare_sign(uint32_t v, uint32_t c) {
+  const auto at = [&](const std::vector<int8_t>& values, size_t i, uint32_t channel) {
+    return int{values[i * channels_ + channel]};
+  };
+  const std::vector<int8_t>&now = value_[0], &before = value_[1], &earlier = value_[2];
+  const int own1 = sign(at(before, v + 1, c)), own2 = sign(at(earlier, v + 1, c));
+  // How the neighbours' signs went with this vertex's before, applied to their signs now.
+  int agreed = 0, with1 = 0, with2 = 0, all = 0, axis1 = 0, axis2 = 0;
+  for (size_t a = 0; a < kNear; ++a) {
+    const int s = sign(at(now, near_[a], c));
+    agreed += s * agreement_[size_t{v} * kNear + a];
+    if (a >= 6 || s == 0)
+      continue;
+    all += s;
+    with1 += s * sign(at(before, near_[a], c));
+    with2 += s * sign(at(earlier, near_[a], c));
+    if (c > 0)
+      axis1 += s * sign(at(now, near_[a], c - 1));
+    if (c > 1)
+      axis2 += s * sign(at(now, near_[a], c - 2));
+  }
+  const auto level = [](int x) {  // sign and size, within +-4
+    return sign(x) * static_cast<int>(magnitude_class<0>(static_cast<uint32_t>(x < 0 ? -x : x), 5));
+  };
+  const auto signed_class = [](int x) {
+    return sign(x) *
+           static_cast<int>(magnitude_class<1>(static_cast<uint32_t>(x < 0 ? -x : x), 21));
+  };
+  const int first = at(now, near_[0], c), second = at(now, near_[1], c),
+            third = at(now, near_[2], c);
+  uint32_t across;
+  if (c == 0)
+    across = centred(all, 4) * 3 + ternary(own1);
+  else
+    across = (centred(axis1 * sign(at(now, v + 1, c - 1)), 4) * 9 +
+              (c > 1 ? centred(axis2 * sign(at(now, v + 1, c - 2)), 4) : 4u)) *
+                 3 +
+             c;
+  signs_.select(
+      {((ternary(first) * 3 + ternary(second)) * 3 + ternary(third)) * 3 + ternary(own1),
+       centred(with1 * own1, 3) * 7 + centred(with2 * own2, 3),
+       (centred(level(first), 4) * 9 + centred(level(second), 4)) * 3 + ternary(third), across,
+       centred(signed_class(agreed), 20) * 4 + std::min(component_, 3u)},
+      magnitude_class<0>(static_cast<uint32_t>(agreed < 0 ? -agreed : agreed) >> 2, kSelect),
+      std::min(component_, kComponents - 1));
+}
+
+void CoefficientModel::learn(uint32_t v, uint32_t c, int32_t q) {
+  if (q != 0) {
+    value_[0][(size_t{v} + 1) * channels_ + c] = static_cast<int8_t>(std::clamp(q, -100, 100));
+    for (size_t a = 0; a < kNear; ++a) {
+      int8_t& agreement = agreement_[size_t{v} * kNear + a];
+      const int s = sign(value_[0][near_[a] * channels_ + c]) * sign(q);
+      agreement = static_cast<int8_t>(agreement - agreement / 8 + 14 * s);
+    }
+    const auto magnitude = static_cast<uint32_t>(q < 0 ? -q : q);
+    sum_ += std::min(magnitude, 1023u);
+  }
+  if (c + 1 == channels_)
+    finish_vertex(v);
+  vertex_ = ~0u;
+}
+
+void CoefficientModel::finish_vertex(uint32_t v) {
+  const uint32_t m = std::min((sum_ * 64 * kReciprocals.value[channels_]) >> 16, 65535u);
+  magnitude_[v + 1] = static_cast<uint16_t>(m);
+  running_ = (31 * running_ + 64 * m) >> 5;
+  // Normalised least mean squares; the shares stay within [0, 4].
+  const auto expected = static_cast<int32_t>(expected_);
+  const int32_t error = std::min(static_cast<int32_t>(4 * m), 3 * expected + 512) - expected;
+  uint64_t norm = 1600;
+  for (const uint32_t f : features_)
+    norm += uint64_t{f} * f;
+  int shift = 0;
+  while (norm >> (shift + 1))
+    ++shift;
+  for (size_t i = 0; i < features_.size(); ++i) {
+    const int64_t step = (int64_t{error} * features_[i] * 128) >> shift;
+    shares_[i] = static_cast<int32_t>(std::clamp<int64_t>(shares_[i] + step, 0, 4 << 16));
+  }
+}
+
+}  // namespace anicodec

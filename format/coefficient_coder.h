@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Entropy coding of the quantised prediction residuals of a basis (spec/08-entropy.md, section 5).
+#ifndef ANICODEC_FORMAT_COEFFICIENT_CODER_H_
+#define ANICODEC_FORMAT_COEFFICIENT_CODER_H_
+
+#include "format/binary_coder.h"
+#include "format/magnitude_class.h"
+#include "format/mixing.h"
+#include "format/symbol_model.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace anicodec {
+
+/// |q| of a coefficient residual is below this, whatever a stream says.
+constexpr int32_t kCoefficientLimit = 1 << 24;
+
+/// Context model of the residuals q, coded component by component, in a component vertex by vertex
+/// in decoding order, of a vertex channel by channel. Contexts depend on residuals already coded
+/// and on nothing else, so all residuals can be decoded before anything is predicted. It adapts
+/// over all components it codes: one object per basis.
+///
+/// Memory: about 900 KiB and 50 bytes per vertex (32 more for three channels).
+class CoefficientModel {
+ public:
+  /// @param channels    1 (eigentrajectories) or 3 (eigenshapes)
+  /// @param neighbours  vertex_count x stride ranks in decoding order, nearest first, -1 where
+  /// there is none;
+  ///                    each less than the vertex's own. The first 8 are used. Must outlive the
+  ///                    model.
+  CoefficientModel(uint32_t vertex_count, uint32_t channels, const int32_t* neighbours,
+                   uint32_t stride);
+
+  /// Codes a component: vertex_count x channels residuals, vertex by vertex. A decoder overwrites
+  /// them.
+  template <class Coder>
+  void code_component(Coder& coder, int32_t* q) {
+    begin_component();
+    for (uint32_t v = 0; v < vertex_count_; ++v)
+      for (uint32_t c = 0; c < channels_; ++c, ++q)
+        *q = code(coder, v, c, *q);
+    end_component();
+  }
+
+  /// The same symbol by symbol, for an encoder that decides as it goes.
+  void begin_component();
+  void end_component();
+
+  /// Codes the residual of channel c of vertex v: ascending v, for each v ascending c.
+  /// @pre |q| < kCoefficientLimit
+  template <class Coder>
+  int32_t code(Coder& coder, uint32_t v, uint32_t c, int32_t q = 0) {
+    prepare(v, c);
+    q = code_prepared(coder, v, c, q);
+    learn(v, c, q);
+    return q;
+  }
+
+  /// What code() would take for q, in 1/65536 bit, learning nothing. @pre code() is next for this v
+  /// and c
+  uint64_t cost(uint32_t v, uint32_t c, int32_t q) {
+    prepare(v, c);
+    BitCounter counter;
+    code_prepared(counter, v, c, q);
+    return counter.total();
+  }
+
+ private:
+  static constexpr uint32_t kNear = 8;   ///< neighbours in use
+  static constexpr size_t kMagnitudes = 7;  ///< contexts of zero flag and magnitude
+  static constexpr size_t kSigns = 5;       ///< contexts of the sign
+  static constexpr uint32_t kMixedNodes = 20;
+
+  void prepare(uint32_t v, uint32_t c) {
+    if (vertex_ == v && channel_ == c)
+      return;
+    if (c == 0)
+      prepare_vertex(v);
+    prepare_channel(v, c);
+  }
+
+  void prepare_vertex(uint32_t v);
+  void prepare_channel(uint32_t v, uint32_t c);
+  void prepare_sign(uint32_t v, uint32_t c);
+  void learn(uint32_t v, uint32_t c, int32_t q);
+  void finish_vertex(uint32_t v);
+
+  template <class Coder>
+  int32_t code_prepared(Coder& coder, uint32_t v, uint32_t c, int32_t q) {
+    return code_symbol<Sign::kModelled, 23>(
+        q,
+        [&](int node, bool bit) {
+          if (node == 0)
+            return magnitudes_.code(coder, 0, bit);
+          if (node == 1) {
+            prepare_sign(v, c);
+            return signs_.code(coder, 0, bit);
+          }
+          if (node < 12)
+            return magnitudes_.code(coder, static_cast<uint32_t>(node - 1), bit);
+          if (node >= 22 && node < 31)
+            return magnitudes_.code(coder, static_cast<uint32_t>(node - 11), bit);
+          return coder.bit(rare_[node], bit);
+        },
+        [&](int count, uint32_t bits) { return coder.raw(count, bits); });
+  }
+
+  uint32_t vertex_count_, channels_, stride_;
+  const int32_t* neighbours_;
+
+  MixedModel<kMagnitudes> magnitudes_;
+  MixedModel<kSigns> signs_;
+  AdaptiveBit rare_[kSymbolNodes];
+
+  // Per vertex; element 0 stands for "no neighbour", vertex v is at v + 1.
+  std::vector<uint16_t> magnitude_;       ///< mean |q| of the channels, in 1/64
+  std::vector<uint16_t> last_;            ///< the same of the component before
+  std::vector<uint16_t> history_, past_;  ///< its running means, decay 1/2 and 27/32, in 1/256
+  std::array<std::vector<int8_t>, 3>
+      value_;                      ///< q of this component and the two before, within +-100
+  std::vector<int8_t> agreement_;  ///< kNear per vertex: do the signs of both agree?
+  // Of the component, vertex and channel at hand.
+  uint32_t component_ = 0, vertex_ = ~0u, channel_ = 0;
+  std::array<uint32_t, kNear> near_{};  ///< neighbours plus one
+  uint32_t running_ = 0;                ///< running mean of magnitude_, in 1/4096
+  uint32_t sum_ = 0;                    ///< of |q| over the channels before
+  uint32_t near6_ = 0, near2_ = 0, weighted_ = 0, far_ = 0, expected_ = 0;
+  std::array<uint32_t, 5> features_{};  ///< what expected_ is a combination of ...
+  std::array<int32_t, 5> shares_;       ///< ... with these coefficients, 16.16
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_FORMAT_COEFFICIENT_CODER_H_

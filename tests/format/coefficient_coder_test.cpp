@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/coefficient_coder.h"
+
+#include "tests/format/random.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+struct Basis {
+  uint32_t vertices, channels, components, stride;
+  std::vector<int32_t> neighbours;  // vertices x stride
+  std::vector<int32_t> q;           // components x vertices x channels
+
+  size_t component_size() const { return size_t{vertices} * channels; }
+};
+
+// Random earlier vertices as neighbours; `draw` gives the residuals.
+template <class Draw>
+Basis make_basis(uint32_t vertices, uint32_t channels, uint32_t components, uint32_t stride,
+                 Draw&& draw) {
+  Basis b{vertices, channels, components, stride, {}, {}};
+  Random random(vertices + channels + stride);
+  for (uint32_t v = 0; v < vertices; ++v)
+    for (uint32_t a = 0; a < stride; ++a)
+      b.neighbours.push_back(a < v ? static_cast<int32_t>(random() % v) : -1);
+  b.q.resize(b.component_size() * components);
+  for (size_t i = 0; i < b.q.size(); ++i)
+    b.q[i] = draw(i);
+  return b;
+}
+
+Bytes encode(const Basis& b) {
+  BinaryEncoder encoder;
+  CoefficientModel model(b.vertices, b.channels, b.neighbours.data(), b.stride);
+  std::vector<int32_t> q = b.q;
+  for (uint32_t j = 0; j < b.components; ++j)
+    model.code_component(encoder, q.data() + j * b.component_size());
+  EXPECT_EQ(q, b.q);
+  return encoder.finish();
+}
+
+std::vector<int32_t> decode(const Basis& b, const Bytes& bytes, bool* exact) {
+  BinaryDecoder decoder(bytes.data(), bytes.size());
+  CoefficientModel model(b.vertices, b.channels, b.neighbours.data(), b.stride);
+  std::vector<int32_t> q(b.q.size());
+  for (uint32_t j = 0; j < b.components; ++j)
+    model.code_component(decoder, q.data() + j * b.component_size());
+  *exact = decoder.finish();
+  return q;
+}
+
+void expect_round_trip(const Basis& b) {
+  const Bytes bytes = encode(b);
+  bool exact = false;
+  EXPECT_EQ(decode(b, bytes, &exact), b.q);
+  EXPECT_TRUE(exact);
+}
+
+int32_t residual(Random& random) {
+  const uint32_t r = random();
+  if (r % 8)
+    return 0;
+  return static_cast<int32_t>(random() % 7) - 3;
+}
+
+TEST(CoefficientModel, ReturnsTheResiduals) {
+  Random random(1);
+  for (const uint32_t channels : {1u, 3u})
+    for (const uint32_t stride : {1u, 5u, 8u, 16u})
+      for (const uint32_t vertices : {0u, 1u, 2u, 10u, 500u})
+        expect_round_trip(
+            make_basis(vertices, channels, 5, stride, [&](size_t) { return residual(random); }));
+}
+
+TEST(CoefficientModel, ReturnsExtremeResiduals) {
+  constexpr int32_t kMax = kCoefficientLimit - 1;
+  for (const uint32_t channels : {1u, 3u}) {
+    expect_round_trip(make_basis(300, channels, 4, 8, [](size_t) { return 0; }));
+    expect_round_trip(make_basis(300, channels, 4, 8, [](size_t) { return kMax; }));
+    expect_round_trip(
+        make_basis(300, channels, 40, 8, [](size_t i) { return i % 2 ? kMax : -kMax; }));
+    expect_round_trip(make_basis(300, channels, 4, 8, [](size_t i) {
+      return static_cast<int32_t>(1u << (i % 24)) * (i % 3 ? 1 : -1);
+    }));
+    Random random(2);
+    expect_round_trip(make_basis(300, channels, 8, 8, [&](size_t i) {
+      return i / 100 % 2 ? static_cast<int32_t>(random() % (2 * kMax)) - kMax : 0;
+    }));
+  }
+}
+
+TEST(CoefficientModel, CostIsWhatCodingTakes) {
+  Random random(3);
+  const Basis b = make_basis(400, 3, 3, 8, [&](size_t) { return residual(random); });
+  CoefficientModel model(b.vertices, b.channels, b.neighbours.data(), b.stride);
+  BinaryEncoder encoder;
+  uint64_t total = 0;
+  const int32_t* q = b.q.data();
+  for (uint32_t j = 0; j < b.components; ++j) {
+    model.begin_component();
+    for (uint32_t v = 0; v < b.vertices; ++v)
+      for (uint32_t c = 0; c < b.channels; ++c, ++q) {
+        EXPECT_GT(model.cost(v, c, 5), 0u);
+        EXPECT_GT(model.cost(v, c, 0), 0u);
+        total += model.cost(v, c, *q);
+        model.code(encoder, v, c, *q);
+      }
+    model.end_component();
+  }
+  const Bytes bytes = encoder.finish();
+  EXPECT_EQ(bytes, encode(b));
+  EXPECT_NEAR(static_cast<double>(total) / kBitCostOne / 8, static_cast<double>(bytes.size()), 3);
+}
+
+TEST(CoefficientModel, CodesQuietBasesInNextToNothing) {
+  const Basis b = make_basis(5000, 3, 10, 8, [](size_t) { return 0; });
+  EXPECT_LT(encode(b).size(), 150u);
+}
+
+TEST(CoefficientModel, LearnsSignsThatRepeat) {
+  // Every vertex goes with its first neighbour: signs cost next to nothing.
+  Basis b = make_basis(500, 1, 30, 8, [](size_t) { return 0; });
+  Random random(4);
+  for (uint32_t j = 0; j < b.components; ++j)
+    for (uint32_t v = 0; v < b.vertices; ++v) {
+      const int32_t n = b.neighbours[size_t{v} * b.stride];
+      const size_t at = j * b.component_size();
+      b.q[at + v] = n < 0 ? (random() % 2 ? 1 : -1) : b.q[at + static_cast<size_t>(n)];
+    }
+  EXPECT_LT(encode(b).size(), 400u);
+}
+
+TEST(CoefficientModel, TruncatedOrCorruptStreamsEndInTime) {
+  Random random(5);
+  const Basis b = make_basis(60, 3, 4, 8, [&](size_t) { return residual(random); });
+  const Bytes whole = encode(b);
+  bool exact = false;
+  for (size_t kept = 0; kept < whole.size(); ++kept)
+    for (const int32_t q :
+         decode(b, Bytes(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(kept)), &exact))
+      ASSERT_LT(std::abs(q), kCoefficientLimit);
+  for (int round = 0; round < 300; ++round) {
+    Bytes bytes = whole;
+    for (uint32_t i = random() % 4 + 1; i > 0; --i)
+      bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
+    for (const int32_t q : decode(b, bytes, &exact))
+      ASSERT_LT(std::abs(q), kCoefficientLimit);
+  }
+}
+
+}  // namespace
+}  // namespace anicodec
