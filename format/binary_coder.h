@@ -73,6 +73,7 @@ class AdaptiveBit {
 class BinaryEncoder {
  public:
   static constexpr bool kAdapts = true;
+  static constexpr bool kDecodes = false;
 
   /// Codes a bit whose probability of being 1 is p / 65536, 0 < p < 65536.
   bool bit(uint32_t p, bool value) {
@@ -127,6 +128,7 @@ class BinaryEncoder {
 class BinaryDecoder {
  public:
   static constexpr bool kAdapts = true;
+  static constexpr bool kDecodes = true;
 
   /// Does not copy: `bytes` outlives the decoder. An empty stream is valid.
   BinaryDecoder(const uint8_t* bytes, size_t size);
@@ -181,6 +183,7 @@ class BinaryDecoder {
 class BitCounter {
  public:
   static constexpr bool kAdapts = false;
+  static constexpr bool kDecodes = false;
 
   bool bit(uint32_t p, bool value) {
     total_ += bit_cost(value ? p : kProbabilityOne - p);
