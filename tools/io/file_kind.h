@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_IO_FILE_KIND_H_
+#define ANICODEC_TOOLS_IO_FILE_KIND_H_
+
+#include <string>
+
+namespace anicodec::tools {
+
+enum class FileKind { kUnknown, kObj, kPly, kOff, kStl, kPc2, kMdd };
+
+/// Kind by extension, in any case of letters.
+FileKind kind_of(const std::string& path);
+
+inline bool is_cache(FileKind kind) {
+  return kind == FileKind::kPc2 || kind == FileKind::kMdd;
+}
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_FILE_KIND_H_

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/io/load_sequence.h"
+
+#include "codec/error.h"
+#include "tools/io/byte_source.h"
+#include "tools/io/file_kind.h"
+#include "tools/io/frame_rate.h"
+#include "tools/io/mesh.h"
+#include "tools/io/natural_order.h"
+#include "tools/io/obj.h"
+#include "tools/io/off.h"
+#include "tools/io/ply.h"
+#include "tools/io/stl.h"
+#include "tools/io/vertex_cache.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <glob.h>
+
+namespace anicodec::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_usage(const std::string& text) {
+  throw Error(ErrorKind::kUsage, text);
+}
+
+bool exists(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+std::vector<std::string> matches(const std::string& pattern) {
+  glob_t found = {};
+  int result = ::glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found);
+  std::vector<std::string> paths(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  ::globfree(&found);
+  if (result == GLOB_NOMATCH)
+    throw Error(ErrorKind::kInput, pattern + ": no file matches");
+  if (result != 0)
+    throw Error(ErrorKind::kInput, pattern + ": the folder cannot be read");
+  std::sort(paths.begin(), paths.end(),
+            [](const std::string& a, const std::string& b) { return natural_less(a, b); });
+  return paths;
+}
+
+/// Files behind the inputs. A name that exists is never a pattern.
+std::vector<std::string> expand(std::span<const std::string> inputs) {
+  std::vector<std::string> paths;
+  for (const std::string& input : inputs) {
+    if (input.find_first_of("*?[") != std::string::npos && !exists(input)) {
+      std::vector<std::string> found = matches(input);
+      paths.insert(paths.end(), found.begin(), found.end());
+    } else {
+      paths.push_back(input);
+    }
+  }
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (fs::is_directory(path, error))
+      fail_input(path, "is a directory; name its frames with a pattern such as '" +
+                           (fs::path(path) / "*.obj").string() + "'");
+    if (kind_of(path) == FileKind::kUnknown)
+      fail_input(path, "is of unknown kind; .obj, .ply, .off, .stl, .pc2 and .mdd are read");
+  }
+  return paths;
+}
+
+/// Parses one mesh after the other with the same memory.
+class MeshReader {
+ public:
+  const Mesh& read(const std::string& path) {
+    read_file(path, bytes_);
+    switch (kind_of(path)) {
+      case FileKind::kObj:
+        parse_obj(bytes_, path, mesh_);
+        break;
+      case FileKind::kPly:
+        parse_ply(bytes_, path, mesh_);
+        break;
+      case FileKind::kOff:
+        parse_off(bytes_, path, mesh_);
+        break;
+      default:
+        fail_input(path, "is not an .obj, .ply or .off mesh");
+    }
+    return mesh_;
+  }
+
+ private:
+  std::string bytes_;
+  Mesh mesh_;
+};
+
+std::string listed(std::span<const uint32_t> polygon) {
+  std::string text;
+  for (size_t i = 0; i < polygon.size() && i < 8; ++i)
+    text += (i > 0 ? " " : "") + std::to_string(polygon[i]);
+  return polygon.size() > 8 ? text + " ..." : text;
+}
+
+/// Throws naming the first difference between a frame and frame 0.
+void check_same_mesh(const Mesh& mesh, const std::string& path, const MeshSequence& sequence,
+                     const std::string& first_path) {
+  if (mesh.vertex_count() != sequence.vertex_count)
+    fail_input(path, std::to_string(mesh.vertex_count()) + " vertices, but " + first_path +
+                         " has " + std::to_string(sequence.vertex_count));
+  if (mesh.polygons == sequence.polygons)
+    return;
+  if (mesh.polygons.size() != sequence.polygons.size())
+    fail_input(path, std::to_string(mesh.polygons.size()) + " faces, but " + first_path + " has " +
+                         std::to_string(sequence.polygons.size()));
+  for (size_t p = 0; p < mesh.polygons.size(); ++p) {
+    auto here = mesh.polygons[p], there = sequence.polygons[p];
+    if (!std::equal(here.begin(), here.end(), there.begin(), there.end()))
+      fail_input(path, "face " + std::to_string(p) + " has vertices " + listed(here) + ", but " +
+                           listed(there) + " in " + first_path + " (counted from 0)");
+  }
+}
+
+void reserve(MeshSequence& sequence, size_t frames, const std::string& path) {
+  sequence.frame_count = static_cast<uint32_t>(frames);
+  try {
+    sequence.positions.reserve(size_t{sequence.vertex_count} * 3 * frames);
+  } catch (const std::exception&) {
+    fail_input(path, "not enough memory for " + std::to_string(sequence.vertex_count) +
+                         " vertices x " + std::to_string(frames) + " frames");
+  }
+}
+
+void report(const Progress& progress, size_t done, size_t all) {
+  if (progress)
+    progress("reading", static_cast<double>(done) / static_cast<double>(all));
+}
+
+void load_frames(const std::vector<std::string>& paths, const LoadOptions& options,
+                 MeshSequence& sequence) {
+  MeshReader reader;
+  for (size_t f = 0; f < paths.size(); ++f) {
+    const Mesh& mesh = reader.read(paths[f]);
+    if (f == 0) {
+      sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
+      sequence.polygons = mesh.polygons;
+      reserve(sequence, paths.size(), paths[0]);
+    } else {
+      check_same_mesh(mesh, paths[f], sequence, paths[0]);
+    }
+    sequence.positions.insert(sequence.positions.end(), mesh.positions.begin(),
+                              mesh.positions.end());
+    report(options.progress, f + 1, paths.size());
+  }
+}
+
+void load_stl_frames(const std::vector<std::string>& paths, const LoadOptions& options,
+                     MeshSequence& sequence) {
+  std::string bytes;
+  std::vector<float> soup;
+  std::optional<StlWeld> weld;
+  for (size_t f = 0; f < paths.size(); ++f) {
+    read_file(paths[f], bytes);
+    parse_stl(bytes, paths[f], soup);
+    if (f == 0) {
+      weld.emplace(soup, paths[0], options.weld_stl);
+      sequence.vertex_count = weld->vertex_count();
+      sequence.polygons = weld->polygons();
+      reserve(sequence, paths.size(), paths[0]);
+    }
+    weld->append_vertices(soup, paths[f], sequence.positions);
+    report(options.progress, f + 1, paths.size());
+  }
+}
+
+/// The mesh of a lone cache.
+std::string mesh_beside(const std::string& cache) {
+  for (const char* extension : {".obj", ".ply", ".off"}) {
+    std::string path = fs::path(cache).replace_extension(extension).string();
+    if (exists(path))
+      return path;
+  }
+  throw Error(
+      ErrorKind::kInput,
+      cache + ": a vertex cache has no faces; name the mesh that it moves (.obj, .ply, .off)");
+}
+
+void load_cache(const std::string& cache_path, const std::string& mesh_path,
+                const LoadOptions& options, MeshSequence& sequence) {
+  if (kind_of(mesh_path) == FileKind::kStl)
+    fail_input(mesh_path,
+               "an STL has no order of vertices and cannot be the mesh of a vertex cache");
+  ByteSource source = file_source(cache_path);
+  VertexCache cache = kind_of(cache_path) == FileKind::kPc2 ? open_pc2(source) : open_mdd(source);
+  {
+    MeshReader reader;
+    const Mesh& mesh = reader.read(mesh_path);
+    if (mesh.vertex_count() != cache.vertex_count)
+      fail_input(cache_path, std::to_string(cache.vertex_count) + " vertices, but the mesh " +
+                                 mesh_path + " has " + std::to_string(mesh.vertex_count()));
+    sequence.polygons = mesh.polygons;
+  }
+  sequence.vertex_count = cache.vertex_count;
+  reserve(sequence, cache.frame_count, cache_path);
+  sequence.positions.resize(size_t{cache.vertex_count} * 3 * cache.frame_count);
+  read_positions(cache, source, sequence.positions, options.progress);
+  if (!options.rate && !cache.times.empty()) {
+    Timing timing = timing_of(cache.times, cache_path);
+    sequence.rate = timing.rate;
+    sequence.start_time = timing.start_time;
+    sequence.times = std::move(timing.times);
+  }
+}
+
+void load(const std::vector<std::string>& paths, const LoadOptions& options,
+          MeshSequence& sequence) {
+  std::vector<std::string> caches, meshes;
+  for (const std::string& path : paths)
+    (is_cache(kind_of(path)) ? caches : meshes).push_back(path);
+  if (caches.size() > 1)
+    fail_usage(caches[1] + ": a second vertex cache; a clip has one");
+  if (caches.size() == 1) {
+    if (meshes.size() + (options.mesh.empty() ? 0 : 1) > 1)
+      fail_usage(caches[0] + ": a vertex cache goes with one mesh, but " +
+                 std::to_string(meshes.size() + (options.mesh.empty() ? 0 : 1)) + " are given");
+    std::string mesh = !meshes.empty()         ? meshes[0]
+                       : !options.mesh.empty() ? options.mesh
+                                               : mesh_beside(caches[0]);
+    load_cache(caches[0], mesh, options, sequence);
+    return;
+  }
+  if (!options.mesh.empty())
+    fail_usage(options.mesh + ": a mesh is given for a vertex cache, but there is none");
+  if (meshes.size() > kMaxFrames)
+    fail_usage(std::to_string(meshes.size()) + " frames; at most 2^24 - 1 are possible");
+  FileKind kind = kind_of(meshes[0]);
+  for (const std::string& path : meshes) {
+    if (kind_of(path) != kind)
+      fail_usage(path + ": frames are of one format, but " + meshes[0] + " is of another");
+  }
+  if (kind == FileKind::kStl)
+    load_stl_frames(meshes, options, sequence);
+  else
+    load_frames(meshes, options, sequence);
+}
+
+}  // namespace
+
+bool is_sequence_input(const std::string& path) {
+  return kind_of(path) != FileKind::kUnknown;
+}
+
+MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options) {
+  if (inputs.empty())
+    fail_usage("no input is given");
+  std::vector<std::string> paths = expand(inputs);
+  MeshSequence sequence;
+  sequence.name = fs::path(paths[0]).stem().string();
+  load(paths, options, sequence);
+  if (options.rate) {
+    sequence.rate = *options.rate;
+    sequence.rate.assumed = false;
+  }
+  return sequence;
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_IO_LOAD_SEQUENCE_H_
+#define ANICODEC_TOOLS_IO_LOAD_SEQUENCE_H_
+
+#include "codec/mesh_sequence.h"
+#include "codec/progress.h"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace anicodec::tools {
+
+struct LoadOptions {
+  std::optional<FrameRate>
+      rate;              ///< overrides what the input says, an uneven table of times included
+  std::string mesh;      ///< of a lone vertex cache; empty: same stem .obj, .ply or .off beside it
+  bool weld_stl = true;  ///< see StlWeld
+  Progress progress;     ///< stage "reading"
+};
+
+/// Loads what the command line names, one of
+///   - a mesh (.obj .ply .off .stl) and a vertex cache (.pc2 .mdd), in either order,
+///   - a vertex cache alone, with options.mesh or a mesh beside it,
+///   - frames of one format: meshes of equal connectivity in the order given,
+///   - a pattern of glob(3) for any of these, its results in natural order,
+///   - one mesh: a single frame.
+/// The clip is named by the stem of the first file. Positions are held once. Throws Error(kInput)
+/// naming file and place, Error(kUsage) for inputs that do not make one clip.
+MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options = {});
+
+/// True for the extensions that load_sequence reads, in any case of letters.
+bool is_sequence_input(const std::string& path);
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_LOAD_SEQUENCE_H_

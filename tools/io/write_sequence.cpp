@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/io/write_sequence.h"
+
+#include "codec/error.h"
+#include "tools/io/atomic_file.h"
+#include "tools/io/byte_order.h"
+#include "tools/io/file_kind.h"
+#include "tools/io/obj.h"
+#include "tools/io/off.h"
+#include "tools/io/ply.h"
+#include "tools/io/stl.h"
+#include "tools/io/vertex_cache.h"
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <vector>
+
+namespace anicodec::tools {
+namespace {
+
+[[noreturn]] void fail_usage(const std::string& path, const std::string& text) {
+  throw Error(ErrorKind::kUsage, path + ": " + text);
+}
+
+/// A file name with at most one number in it.
+struct NamePattern {
+  std::string before;
+  std::string after;
+  bool has_number = false;
+  size_t width = 0;
+
+  std::string name(uint64_t number) const {
+    if (!has_number)
+      return before;
+    std::string digits = std::to_string(number);
+    return before + std::string(width - std::min(width, digits.size()), '0') + digits + after;
+  }
+};
+
+NamePattern parse_pattern(const std::string& path) {
+  size_t percent = path.find('%');
+  if (percent == std::string::npos)
+    return {path, "", false, 0};
+  NamePattern pattern;
+  pattern.has_number = true;
+  pattern.before = path.substr(0, percent);
+  size_t i = percent + 1;
+  if (i < path.size() && path[i] == '0') {
+    for (++i; i < path.size() && path[i] >= '0' && path[i] <= '9' && pattern.width < 100; ++i)
+      pattern.width = pattern.width * 10 + static_cast<size_t>(path[i] - '0');
+  }
+  if (i >= path.size() || path[i] != 'd' || path.find('%', i) != std::string::npos)
+    fail_usage(path, "a pattern has one %d or %0Nd, such as frame_%04d.obj");
+  pattern.after = path.substr(i + 1);
+  return pattern;
+}
+
+void append_mesh(FileKind kind, const Polygons& polygons, std::span<const float> positions,
+                 bool ascii, std::string& out) {
+  switch (kind) {
+    case FileKind::kPly:
+      return append_ply(polygons, positions, ascii, out);
+    case FileKind::kOff:
+      return append_off(polygons, positions, out);
+    case FileKind::kStl:
+      return append_stl(polygons, positions, ascii, out);
+    default:
+      return append_obj(polygons, positions, out);
+  }
+}
+
+/// The frames of a clip, checked and reported.
+class Frames {
+ public:
+  Frames(const MeshSequence& clip, const FrameSource& source, const Progress& progress)
+      : clip_(clip), source_(source), progress_(progress) {}
+
+  std::span<const float> operator()(uint32_t f) const {
+    if (progress_)
+      progress_("writing", static_cast<double>(f) / clip_.frame_count);
+    std::span<const float> positions = source_(f);
+    if (positions.size() != size_t{clip_.vertex_count} * 3)
+      throw Error(ErrorKind::kInternal,
+                  "frame " + std::to_string(f) + " has " + std::to_string(positions.size()) +
+                      " coordinates, not 3 x " + std::to_string(clip_.vertex_count));
+    return positions;
+  }
+
+ private:
+  const MeshSequence& clip_;
+  const FrameSource& source_;
+  const Progress& progress_;
+};
+
+std::vector<float> times_of(const MeshSequence& clip) {
+  std::vector<float> times;
+  for (uint32_t f = 0; f < clip.frame_count; ++f) {
+    double t = clip.times.empty() ? f / clip.rate.value() : clip.times[f];
+    times.push_back(static_cast<float>(clip.start_time + t));
+  }
+  return times;
+}
+
+void append_positions(std::span<const float> positions, std::endian order, std::string& out) {
+  if (order == std::endian::native) {
+    out.append(reinterpret_cast<const char*>(positions.data()), positions.size_bytes());
+    return;
+  }
+  for (float x : positions)
+    append(x, order, out);
+}
+
+void write_cache(const std::string& path, const MeshSequence& clip, const Frames& frames,
+                 bool overwrite) {
+  std::string mesh_path = std::filesystem::path(path).replace_extension(".obj").string();
+  std::vector<AtomicFile> files;
+  files.emplace_back(path, overwrite);
+  files.emplace_back(mesh_path, overwrite);
+
+  bool is_pc2 = kind_of(path) == FileKind::kPc2;
+  std::string bytes;
+  if (is_pc2)
+    append_pc2_header(clip.vertex_count, clip.frame_count, bytes);
+  else
+    append_mdd_header(clip.vertex_count, times_of(clip), bytes);
+  for (uint32_t f = 0; f < clip.frame_count; ++f) {
+    std::span<const float> positions = frames(f);
+    append_positions(positions, is_pc2 ? std::endian::little : std::endian::big, bytes);
+    files[0].write(bytes);
+    bytes.clear();
+    if (f == 0) {
+      append_obj(clip.polygons, positions, bytes);
+      files[1].write(bytes);
+      files[1].close();
+      bytes.clear();
+    }
+  }
+  commit_all(files);
+}
+
+void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence& clip,
+                  const Frames& frames, const WriteOptions& options) {
+  std::vector<AtomicFile> files;
+  std::string bytes;
+  for (uint32_t f = 0; f < clip.frame_count; ++f) {
+    AtomicFile& file =
+        files.emplace_back(pattern.name(uint64_t{options.first_number} + f), options.overwrite);
+    append_mesh(kind, clip.polygons, frames(f), options.ascii, bytes);
+    file.write(bytes);
+    file.close();
+    bytes.clear();
+  }
+  commit_all(files);
+}
+
+}  // namespace
+
+void check_output_name(const std::string& path, uint32_t frame_count) {
+  FileKind kind = kind_of(path);
+  if (kind == FileKind::kUnknown)
+    fail_usage(path, "is of unknown kind; .obj, .ply, .off, .stl, .pc2 and .mdd can be written");
+  if (!is_cache(kind) && !parse_pattern(path).has_number && frame_count > 1)
+    fail_usage(path, std::to_string(frame_count) +
+                         " frames need a pattern with a number, such as frame_%04d.obj");
+}
+
+void write_sequence(const std::string& path, const MeshSequence& clip, const FrameSource& source,
+                    const WriteOptions& options) {
+  check_output_name(path, clip.frame_count);
+  if (clip.frame_count == 0)
+    throw Error(ErrorKind::kInput, "the sequence has no frame");
+  Frames frames(clip, source, options.progress);
+  FileKind kind = kind_of(path);
+  if (is_cache(kind))
+    write_cache(path, clip, frames, options.overwrite);
+  else
+    write_frames(parse_pattern(path), kind, clip, frames, options);
+  if (options.progress)
+    options.progress("writing", 1);
+}
+
+void write_sequence(const std::string& path, const MeshSequence& clip,
+                    const WriteOptions& options) {
+  write_sequence(
+      path, clip, [&clip](uint32_t f) { return clip.frame(f); }, options);
+}
+
+}  // namespace anicodec::tools

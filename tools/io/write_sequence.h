@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_IO_WRITE_SEQUENCE_H_
+#define ANICODEC_TOOLS_IO_WRITE_SEQUENCE_H_
+
+#include "codec/mesh_sequence.h"
+#include "codec/progress.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace anicodec::tools {
+
+/// Gives the positions of a frame, vertices x 3, valid until the next call. Called once for each
+/// frame in order; may throw.
+using FrameSource = std::function<std::span<const float>(uint32_t frame)>;
+
+struct WriteOptions {
+  bool overwrite = false;     ///< replace existing outputs instead of refusing
+  bool ascii = false;         ///< PLY and STL as text
+  uint32_t first_number = 0;  ///< of frame files
+  Progress progress;          ///< stage "writing"
+};
+
+/// Writes a clip, one frame in memory at a time:
+///   - clip.pc2, clip.mdd: a vertex cache, with the mesh of frame 0 beside it as clip.obj,
+///   - frame_%04d.obj, .ply, .off, .stl: a file per frame; the %d or %0Nd counts from first_number.
+///   A
+///     single frame may have a plain name.
+/// PC2 carries no rate; MDD has the time of each frame. STL loses polygons and unused vertices.
+/// Counts, polygons and timing come from `clip`, whose positions are not read. All outputs appear
+/// together at the end or, on any exception, not at all. Throws Error(kUsage) for a bad name or an
+/// existing output, Error(kInternal) when the disk is full.
+void write_sequence(const std::string& path, const MeshSequence& clip, const FrameSource& frames,
+                    const WriteOptions& options = {});
+
+/// The same for a clip that is in memory.
+void write_sequence(const std::string& path, const MeshSequence& clip,
+                    const WriteOptions& options = {});
+
+/// Throws the Error(kUsage) that write_sequence would throw for the name; touches nothing.
+void check_output_name(const std::string& path, uint32_t frame_count);
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_WRITE_SEQUENCE_H_
