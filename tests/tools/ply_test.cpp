@@ -211,7 +211,7 @@ TEST(Ply, RejectsBadHeaders) {
   EXPECT_THAT(header_fault("format ascii 1.0\n"), HasSubstr("has no vertex"));
   EXPECT_THAT(header_fault("format binary_big_endian 1.0\nelement vertex 2000000000\n"
                            "property float x\nproperty float y\nproperty float z\n"),
-              HasSubstr("truncated: vertex 0 of 2000000000 needs at least 6000000135 bytes"));
+              HasSubstr("truncated: vertex 0 of 2000000000 needs at least 6000000121 bytes"));
 }
 
 TEST(Ply, FindsTheBodyAfterAnyLineEnd) {

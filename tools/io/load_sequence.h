@@ -13,11 +13,14 @@
 namespace anicodec::tools {
 
 struct LoadOptions {
-  std::optional<FrameRate>
-      rate;              ///< overrides what the input says, an uneven table of times included
-  std::string mesh;      ///< of a lone vertex cache; empty: same stem .obj, .ply or .off beside it
-  bool weld_stl = true;  ///< see StlWeld
-  Progress progress;     ///< stage "reading"
+  /// Overrides what the input says, an uneven table of times included.
+  std::optional<FrameRate> rate = {};
+  /// Mesh of a lone vertex cache; empty: same stem .obj, .ply or .off beside it.
+  std::string mesh = {};
+  /// See StlWeld.
+  bool weld_stl = true;
+  /// Stage "reading".
+  Progress progress = {};
 };
 
 /// Loads what the command line names, one of

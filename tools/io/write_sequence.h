@@ -21,7 +21,7 @@ struct WriteOptions {
   bool overwrite = false;     ///< replace existing outputs instead of refusing
   bool ascii = false;         ///< PLY and STL as text
   uint32_t first_number = 0;  ///< of frame files
-  Progress progress;          ///< stage "writing"
+  Progress progress = {};     ///< stage "writing"
 };
 
 /// Writes a clip, one frame in memory at a time:
