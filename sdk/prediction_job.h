@@ -21,8 +21,9 @@ struct PredictionJob {
   const float* omega = nullptr;    // samples
   const size_t* refits = nullptr;  // number of samples before each refit, ascending
   size_t refit_count = 0;
-  const int16_t* q16 = nullptr;  // samples x vertices in one of the two
-  const int32_t* q32 = nullptr;
+  size_t wide_samples = 0;        // the first ones have 32-bit integers, the others 16-bit
+  const int32_t* wide = nullptr;  // wide samples x vertices
+  const int16_t* narrow = nullptr;
   float* y = nullptr;  // (vertices + 1) x stride; the last row is 0
   size_t stride = 0;   // at least samples, a multiple of 8
 };

@@ -341,8 +341,9 @@ class BatchDecoder {
       p += solver_.weights[a] * x[a];
       p0 += solver_.prior[a] * x[a];
     }
-    const size_t at = s * job_.vertices + first_;
-    const Float q = job_.q16 ? load(job_.q16 + at) : load(job_.q32 + at);
+    const Float q = s < job_.wide_samples
+                        ? load(job_.wide + s * job_.vertices + first_)
+                        : load(job_.narrow + (s - job_.wide_samples) * job_.vertices + first_);
     const Float y = limited_coefficient(rounded_prediction(p) + q);
     y_[in_window] = y;
     residual_[in_window] = y - p0;

@@ -8,7 +8,7 @@
 namespace anicodec {
 
 /// Predictions and coefficients are kept within this magnitude, in steps.
-constexpr float kCoefficientLimit = 1048576.0f;
+constexpr float kMaxCoefficient = 1048576.0f;
 
 // Internal linkage: see prediction_kernel.h.
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// What is not a number becomes the limit.
 template <typename Float>
 inline Float limited_coefficient(Float y) {
-  const Float limit = Float{} + kCoefficientLimit;
+  const Float limit = Float{} + kMaxCoefficient;
   y = y < limit ? y : limit;
   return y > -limit ? y : -limit;
 }

@@ -80,38 +80,24 @@ void ranked_positions(const VertexOrder& order, const int32_t* positions, std::v
 }
 
 Status Reconstruction::init(const VertexOrder& order, const int32_t* positions,
-                            const PredictionParameters& parameters, const uint8_t* omega,
-                            size_t components, const int16_t* q, float* y) {
-  job_ = {};
-  job_.q16 = q;
-  return prepare(order, positions, parameters, omega, components, y);
-}
-
-Status Reconstruction::init(const VertexOrder& order, const int32_t* positions,
-                            const PredictionParameters& parameters, const uint8_t* omega,
-                            size_t components, const int32_t* q, float* y) {
-  job_ = {};
-  job_.q32 = q;
-  return prepare(order, positions, parameters, omega, components, y);
-}
-
-Status Reconstruction::prepare(const VertexOrder& order, const int32_t* positions,
-                               const PredictionParameters& parameters, const uint8_t* omega,
-                               size_t components, float* y) {
+                            const PredictionParameters& parameters,
+                            const PredictionResiduals& residuals, float* y) {
   if (Status s = check_prediction(order, parameters); s != Status::kOk)
     return s;
   const size_t n = order.vertex_count();
   const auto channels = static_cast<size_t>(parameters.channels);
+  const size_t components = residuals.components;
   order_ = &order;
   ranked_positions(order, positions, &positions_);
   omega_.resize(components * channels);
   for (size_t s = 0; s < omega_.size(); ++s)
-    omega_[s] = omega_value(omega[s / channels]);
+    omega_[s] = omega_value(residuals.omega[s / channels]);
   size_t count = 0;
   const uint16_t* refits = refit_components(parameters.schedule, &count);
   refits_.clear();
   for (size_t i = 0; i < count && size_t{refits[i]} + 1 < components; ++i)
     refits_.push_back((size_t{refits[i]} + 1) * channels);
+  job_ = {};
   job_.neighbour_count = order.neighbour_count;
   job_.vertices = n;
   job_.samples = components * channels;
@@ -121,6 +107,9 @@ Status Reconstruction::prepare(const VertexOrder& order, const int32_t* position
   job_.omega = omega_.data();
   job_.refits = refits_.data();
   job_.refit_count = refits_.size();
+  job_.wide_samples = std::min(residuals.wide_components, components) * channels;
+  job_.wide = residuals.wide;
+  job_.narrow = residuals.narrow;
   job_.y = y;
   job_.stride = coefficient_stride(job_.samples);
   std::fill_n(y + n * job_.stride, job_.stride, 0.0f);

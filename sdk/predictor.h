@@ -57,23 +57,31 @@ constexpr size_t coefficient_buffer_size(size_t vertices, size_t samples) {
   return (vertices + 1) * coefficient_stride(samples);
 }
 
+/// The decoded integers of a segment: components x channels x vertices in decoding order, any
+/// values. The first wide_components are 32-bit, the others 16-bit.
+struct PredictionResiduals {
+  size_t components = 0;
+  size_t wide_components = 0;
+  const int32_t* wide = nullptr;
+  const int16_t* narrow = nullptr;
+  const uint8_t* omega = nullptr;  ///< one byte per component
+};
+
 /// Reconstructs the coefficients of one segment from the decoded integers.
 ///
 /// Call init() once, then run() for all ranks in ascending order of levels. Ranges within one level
 /// do not depend on each other and may run at the same time. Allocates 12 bytes per vertex.
 class Reconstruction {
  public:
-  /// positions: reference positions by vertex (x 3), as the order was made from. omega: one byte
-  /// per component. q: components x channels x vertices in decoding order, any values. y: by rank,
-  /// coefficient_buffer_size() floats, receives the coefficients in steps. order, q and y must
-  /// outlive this object. order must come from make_vertex_order() with 8, 12, 16, 20 or 24
-  /// neighbours. kArgument: a parameter out of range.
+  /// @param order       from make_vertex_order() with 8, 12, 16, 20 or 24 neighbours
+  /// @param positions   reference positions by vertex, x 3, as the order was made from
+  /// @param residuals   the decoded integers
+  /// @param y           coefficient_buffer_size() floats: receives the coefficients in steps, by
+  /// rank order, the integers and y must outlive this object.
+  /// @return kArgument: a parameter out of range
   Status init(const VertexOrder& order, const int32_t* positions,
-              const PredictionParameters& parameters, const uint8_t* omega, size_t components,
-              const int16_t* q, float* y);
-  Status init(const VertexOrder& order, const int32_t* positions,
-              const PredictionParameters& parameters, const uint8_t* omega, size_t components,
-              const int32_t* q, float* y);
+              const PredictionParameters& parameters, const PredictionResiduals& residuals,
+              float* y);
 
   /// Ranks [first, last) of one level. Sets the floating-point environment it needs and restores
   /// the caller's.
@@ -83,10 +91,6 @@ class Reconstruction {
   void run_all() const;
 
  private:
-  Status prepare(const VertexOrder& order, const int32_t* positions,
-                 const PredictionParameters& parameters, const uint8_t* omega, size_t components,
-                 float* y);
-
   PredictionJob job_;
   const VertexOrder* order_ = nullptr;
   std::vector<float> positions_;

@@ -25,9 +25,12 @@ struct PredictionCase {
 };
 
 inline constexpr PredictionCase kPredictionCases[] = {
-    {16, 1, 1, 45, 12, RefitSchedule::kDense, 0x0d3eea0242ab2c1b}, {16, 2, 3, 20, 14, RefitSchedule::kMedium, 0x67b92155669ec63e},
-    {8, 1, 3, 7, 9, RefitSchedule::kSparse, 0x91848e4d6f5c1d37},   {12, 4, 1, 30, 20, RefitSchedule::kMedium, 0x6e261346da042123},
-    {20, 1, 1, 12, 12, RefitSchedule::kNone, 0xd0051b13eab2c6f9},  {24, 2, 3, 25, 255, RefitSchedule::kDense, 0xaf210ad467e82f67},
+    {16, 1, 1, 45, 12, RefitSchedule::kDense, 0x0d3eea0242ab2c1b},
+    {16, 2, 3, 20, 14, RefitSchedule::kMedium, 0x67b92155669ec63e},
+    {8, 1, 3, 7, 9, RefitSchedule::kSparse, 0x91848e4d6f5c1d37},
+    {12, 4, 1, 30, 20, RefitSchedule::kMedium, 0x6e261346da042123},
+    {20, 1, 1, 12, 12, RefitSchedule::kNone, 0xd0051b13eab2c6f9},
+    {24, 2, 3, 25, 255, RefitSchedule::kDense, 0xaf210ad467e82f67},
 };
 
 struct PredictionClip {
@@ -91,8 +94,9 @@ inline uint64_t reconstruction_hash(const PredictionCase& c) {
   parameters.schedule = c.schedule;
   std::vector<float> y(coefficient_buffer_size(n, samples));
   Reconstruction reconstruction;
-  if (reconstruction.init(order, clip.positions.data(), parameters, clip.omega.data(), c.components,
-                          clip.q.data(), y.data()) != Status::kOk)
+  if (reconstruction.init(order, clip.positions.data(), parameters,
+                          {c.components, 0, nullptr, clip.q.data(), clip.omega.data()},
+                          y.data()) != Status::kOk)
     return 0;
   reconstruction.run_all();
   uint64_t hash = 0xcbf29ce484222325;

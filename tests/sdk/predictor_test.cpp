@@ -59,14 +59,18 @@ std::vector<float> encoded(const PredictionCase& c, const PredictionClip& clip,
   return y;
 }
 
-template <typename Integer>
+/// wide: 32-bit integers of all components, of which the first wide_components are used.
 std::vector<float> decoded(const PredictionCase& c, const PredictionClip& clip,
-                           const VertexOrder& order, const std::vector<Integer>& q) {
+                           const VertexOrder& order, const std::vector<int32_t>& wide = {},
+                           size_t wide_components = 0) {
   const size_t n = order.vertex_count(), samples = c.components * static_cast<size_t>(c.channels);
   std::vector<float> y(coefficient_buffer_size(n, samples), 123.0f);
   Reconstruction reconstruction;
-  EXPECT_EQ(reconstruction.init(order, clip.positions.data(), parameters_of(c), clip.omega.data(),
-                                c.components, q.data(), y.data()),
+  const size_t skip = wide_components * static_cast<size_t>(c.channels) * n;
+  EXPECT_EQ(reconstruction.init(order, clip.positions.data(), parameters_of(c),
+                                {c.components, wide_components, wide.data(), clip.q.data() + skip,
+                                 clip.omega.data()},
+                                y.data()),
             Status::kOk);
   reconstruction.run_all();
   std::vector<float> packed(n * samples);
@@ -79,7 +83,7 @@ TEST(Predictor, ReconstructsWhatTheEncoderPredictedFrom) {
   for (const PredictionCase& c : kPredictionCases) {
     const PredictionClip clip = prediction_clip(c.components, static_cast<size_t>(c.channels));
     const VertexOrder order = order_of(clip, c.neighbours, c.colours);
-    EXPECT_EQ(encoded(c, clip, order), decoded(c, clip, order, clip.q)) << c.neighbours;
+    EXPECT_EQ(encoded(c, clip, order), decoded(c, clip, order)) << c.neighbours;
   }
 }
 
@@ -93,7 +97,8 @@ TEST(Predictor, TakesIntegersOfEitherWidth) {
   const PredictionClip clip = prediction_clip(c.components, static_cast<size_t>(c.channels));
   const VertexOrder order = order_of(clip, c.neighbours, c.colours);
   const std::vector<int32_t> wide(clip.q.begin(), clip.q.end());
-  EXPECT_EQ(decoded(c, clip, order, clip.q), decoded(c, clip, order, wide));
+  for (const size_t count : {1u, 7u, 20u})
+    EXPECT_EQ(decoded(c, clip, order), decoded(c, clip, order, wide, count));
 }
 
 TEST(Predictor, DecodesTheRangesOfALevelInAnyOrder) {
@@ -103,9 +108,10 @@ TEST(Predictor, DecodesTheRangesOfALevelInAnyOrder) {
   const size_t n = order.vertex_count(), stride = coefficient_stride(c.components);
   std::vector<float> y(coefficient_buffer_size(n, c.components), -1.0f);
   Reconstruction reconstruction;
-  ASSERT_EQ(reconstruction.init(order, clip.positions.data(), parameters_of(c), clip.omega.data(),
-                                c.components, clip.q.data(), y.data()),
-            Status::kOk);
+  ASSERT_EQ(
+      reconstruction.init(order, clip.positions.data(), parameters_of(c),
+                          {c.components, 0, nullptr, clip.q.data(), clip.omega.data()}, y.data()),
+      Status::kOk);
   for (size_t l = 0; l < order.level_count(); ++l) {
     size_t last = order.level_start[l + 1];
     while (last > order.level_start[l]) {  // from the back, in ragged pieces
@@ -115,7 +121,7 @@ TEST(Predictor, DecodesTheRangesOfALevelInAnyOrder) {
       last = first;
     }
   }
-  const std::vector<float> expected = decoded(c, clip, order, clip.q);
+  const std::vector<float> expected = decoded(c, clip, order);
   for (size_t r = 0; r < n; ++r)
     for (size_t s = 0; s < c.components; ++s)
       ASSERT_EQ(y[r * stride + s], expected[r * c.components + s]);
@@ -198,7 +204,7 @@ TEST(Predictor, SurvivesHostileInput) {
     if (flat)
       std::fill(clip.positions.begin(), clip.positions.end(), kMaxReferenceCoordinate);
     const VertexOrder order = order_of(clip, c.neighbours, c.colours);
-    for (const float y : decoded(c, clip, order, q)) {
+    for (const float y : decoded(c, clip, order, q, c.components)) {
       ASSERT_TRUE(std::isfinite(y));
       ASSERT_LE(std::abs(y), 1048576.0f);
     }
