@@ -71,10 +71,9 @@ class CoefficientModel {
   }
 
  private:
-  static constexpr uint32_t kNear = 8;   ///< neighbours in use
+  static constexpr uint32_t kNear = 8;      ///< neighbours in use
   static constexpr size_t kMagnitudes = 7;  ///< contexts of zero flag and magnitude
   static constexpr size_t kSigns = 5;       ///< contexts of the sign
-  static constexpr uint32_t kMixedNodes = 20;
 
   void prepare(uint32_t v, uint32_t c) {
     if (vertex_ == v && channel_ == c)
@@ -92,30 +91,17 @@ class CoefficientModel {
 
   template <class Coder>
   int32_t code_prepared(Coder& coder, uint32_t v, uint32_t c, int32_t q) {
-    return code_symbol<Sign::kModelled, 23>(
-        q,
-        [&](int node, bool bit) {
-          if (node == 0)
-            return magnitudes_.code(coder, 0, bit);
-          if (node == 1) {
-            prepare_sign(v, c);
-            return signs_.code(coder, 0, bit);
-          }
-          if (node < 12)
-            return magnitudes_.code(coder, static_cast<uint32_t>(node - 1), bit);
-          if (node >= 22 && node < 31)
-            return magnitudes_.code(coder, static_cast<uint32_t>(node - 11), bit);
-          return coder.bit(rare_[node], bit);
-        },
-        [&](int count, uint32_t bits) { return coder.raw(count, bits); });
+    return magnitudes_.code(coder, q, [&](bool negative) {
+      prepare_sign(v, c);
+      return signs_.code(coder, 0, negative);
+    });
   }
 
   uint32_t vertex_count_, channels_, stride_;
   const int32_t* neighbours_;
 
-  MixedModel<kMagnitudes> magnitudes_;
+  MixedSymbolModel<kMagnitudes> magnitudes_;
   MixedModel<kSigns> signs_;
-  AdaptiveBit rare_[kSymbolNodes];
 
   // Per vertex; element 0 stands for "no neighbour", vertex v is at v + 1.
   std::vector<uint16_t> magnitude_;       ///< mean |q| of the channels, in 1/64

@@ -8,6 +8,7 @@
 #define ANICODEC_FORMAT_MIXING_H_
 
 #include "format/binary_coder.h"
+#include "format/symbol_model.h"
 
 #include <array>
 #include <cstddef>
@@ -174,6 +175,47 @@ class MixedModel {
   uint32_t selector0_ = 0, selector1_ = 0;
   std::vector<MixCounter> counters_;
   std::vector<Weights> weights_;
+};
+
+/// code_symbol() with mixed contexts: the zero flag, the exponent and the first mantissa bits are
+/// mixed, the rare rest has one adaptive bit per node. Magnitudes below 2^24.
+template <size_t kContexts>
+class MixedSymbolModel {
+ public:
+  MixedSymbolModel(const std::array<uint32_t, kContexts>& sizes,
+                   const std::array<uint32_t, 2>& selectors)
+      : mixed_(sizes, selectors, kMixedNodes) {}
+
+  void select(const std::array<uint32_t, kContexts>& contexts, uint32_t selector0,
+              uint32_t selector1) {
+    mixed_.select(contexts, selector0, selector1);
+  }
+
+  /// `sign(bool)` codes whether the value is negative.
+  template <class Coder, class SignCoder>
+  int32_t code(Coder& coder, int32_t value, SignCoder&& sign) {
+    return code_symbol<Sign::kModelled, 23>(
+        value,
+        [&](uint32_t node, bool bit) {
+          if (node == 1)
+            return sign(bit);
+          if (node == 0)
+            return mixed_.code(coder, 0, bit);
+          if (node < 2 + kExponents)
+            return mixed_.code(coder, node - 1, bit);
+          if (node >= 22 && node < 22 + kMantissas)
+            return mixed_.code(coder, node - 21 + kExponents, bit);
+          return coder.bit(rare_[node], bit);
+        },
+        [&](int count, uint32_t bits) { return coder.raw(count, bits); });
+  }
+
+ private:
+  static constexpr uint32_t kExponents = 10, kMantissas = 9;
+  static constexpr uint32_t kMixedNodes = 1 + kExponents + kMantissas;
+
+  MixedModel<kContexts> mixed_;
+  AdaptiveBit rare_[kSymbolNodes];
 };
 
 }  // namespace anicodec

@@ -29,7 +29,7 @@ constexpr int kSymbolNodes = 64;
 /// @pre |value| < 2^31
 template <Sign kSign, int kMaxExponent = 30, class Model, class Raw>
 int32_t code_symbol(int32_t value, Model&& model, Raw&& raw) {
-  constexpr int kZero = 0, kSignNode = 1, kExponent = 2, kMantissa = 22;
+  constexpr uint32_t kZero = 0, kSignNode = 1, kExponent = 2, kMantissa = 22;
   if (!model(kZero, value != 0))
     return 0;
   bool negative = false;
@@ -42,15 +42,15 @@ int32_t code_symbol(int32_t value, Model&& model, Raw&& raw) {
   const int wanted = floor_log2(magnitude);
   int exponent = 0;
   while (exponent < kMaxExponent &&
-         model(kExponent + (exponent < 19 ? exponent : 19), wanted > exponent))
+         model(kExponent + static_cast<uint32_t>(exponent < 19 ? exponent : 19), wanted > exponent))
     ++exponent;
   uint32_t m = 1;
   if (exponent > 0) {
-    const int base = kMantissa + 3 * ((exponent < 14 ? exponent : 14) - 1);
+    const uint32_t base =
+        kMantissa + 3 * static_cast<uint32_t>((exponent < 14 ? exponent : 14) - 1);
     m = 2 + uint32_t{model(base, (magnitude >> (exponent - 1)) & 1)};
     if (exponent > 1)
-      m = m << 1 |
-          uint32_t{model(base + 1 + static_cast<int>(m & 1), (magnitude >> (exponent - 2)) & 1)};
+      m = m << 1 | uint32_t{model(base + 1 + (m & 1), (magnitude >> (exponent - 2)) & 1)};
     if (exponent > 2)
       m = m << (exponent - 2) | raw(exponent - 2, magnitude & ((1u << (exponent - 2)) - 1));
   }
@@ -67,7 +67,7 @@ class SymbolModel {
   template <class Coder>
   int32_t code(Coder& coder, int32_t value = 0) {
     return code_symbol<kSign>(
-        value, [&](int node, bool bit) { return coder.bit(bits_[node], bit); },
+        value, [&](uint32_t node, bool bit) { return coder.bit(bits_[node], bit); },
         [&](int count, uint32_t bits) { return coder.raw(count, bits); });
   }
 
