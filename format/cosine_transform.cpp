@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/cosine_transform.h"
+
+#include "format/symbol_model.h"
+
+#include <algorithm>
+
+namespace anicodec {
+namespace {
+
+constexpr int64_t kPi = 3373259426;  // pi 2^30, rounded down
+
+/// Largest integer whose square is at most x.
+uint32_t square_root(uint64_t x) {
+  uint64_t root = 0;
+  for (uint64_t bit = uint64_t{1} << 31; bit != 0; bit >>= 1)
+    if ((root | bit) * (root | bit) <= x)
+      root |= bit;
+  return static_cast<uint32_t>(root);
+}
+
+/// cos(pi m / (2 n)) in 1/2^30 for 0 <= m <= n, by its series up to the 16th power of the angle.
+int64_t cosine(int64_t m, int64_t n) {
+  const int64_t angle = kPi * m / (2 * n);
+  const int64_t square = (angle * angle) >> 30;
+  constexpr int64_t kOne = int64_t{1} << 30;
+  int64_t sum = kOne;
+  for (int64_t k = 16; k >= 2; k -= 2)
+    sum = kOne - ((square * sum) >> 30) / (k * (k - 1));
+  return sum;
+}
+
+}  // namespace
+
+CosineTransform::CosineTransform(uint32_t length) : length_(length) {
+  const int up = floor_log2(length) / 2;
+  shift_ = 28 + up;
+  // With 2^up about sqrt(length), |entries| stay below 2^29.
+  const int64_t scale = square_root(((uint64_t{1} << 57) / length) << (2 * up));
+  constant_ = static_cast<int32_t>(square_root(((uint64_t{1} << 56) / length) << (2 * up)));
+  const uint32_t n = length;
+  table_.resize(size_t{4} * n);
+  for (uint32_t m = 0; m <= n; ++m) {
+    const auto c = static_cast<int32_t>((scale * cosine(m, n) + (1 << 29)) >> 30);
+    table_[m] = c;
+    table_[2 * n - m] = -c;
+    table_[2 * n + m] = -c;
+    table_[(4 * n - m) % (4 * n)] = c;
+  }
+  table_[n] = table_[3 * n] = 0;
+}
+
+void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) const {
+  // |coefficient| <= 2^22, |entry| < 2^29, 2^12 terms: the sums stay below 2^63.
+  std::vector<int64_t> sums(length_, int64_t{coefficients[0]} * constant_);
+  const uint32_t period = 4 * length_;
+  for (uint32_t k = 1; k < length_; ++k) {
+    const int64_t y = coefficients[k];
+    if (y == 0)
+      continue;
+    uint32_t m = k;
+    for (uint32_t f = 0; f < length_; ++f) {
+      sums[f] += y * table_[m];
+      m += 2 * k;
+      if (m >= period)
+        m -= period;
+    }
+  }
+  const int down = shift_ - kFractionBits;
+  for (uint32_t f = 0; f < length_; ++f)
+    values[f] = static_cast<int32_t>(std::clamp<int64_t>(
+        (sums[f] + (int64_t{1} << (down - 1))) >> down, -kValueLimit, kValueLimit));
+}
+
+void CosineTransform::forward(const double* values, double* coefficients) const {
+  const double unit = 1.0 / static_cast<double>(int64_t{1} << shift_);
+  const uint32_t period = 4 * length_;
+  for (uint32_t k = 0; k < length_; ++k) {
+    double sum = 0;
+    uint32_t m = k;
+    for (uint32_t f = 0; f < length_; ++f) {
+      sum += values[f] * (k == 0 ? constant_ : table_[m]);
+      m += 2 * k;
+      if (m >= period)
+        m -= period;
+    }
+    coefficients[k] = sum * unit;
+  }
+}
+
+}  // namespace anicodec

@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/time_weights.h"
+
+#include "format/cosine_transform.h"
+#include "format/magnitude_class.h"
+#include "format/mixing.h"
+#include "format/recursive_least_squares.h"
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+constexpr int32_t kStep = 1 << kWeightFractionBits;
+constexpr int32_t kValueLimit = kWeightLimit * kStep;
+constexpr uint32_t kFine = 28;    ///< classes of magnitudes, two per octave
+constexpr uint32_t kMedium = 20;  ///< the same, fewer
+constexpr uint32_t kCoarse = 14;  ///< one per octave
+constexpr uint32_t kSelect = 8;
+constexpr uint32_t kMaxChannels = 3;
+constexpr double kBitWorth =
+    0.14;                       ///< squared steps that a bit is worth when predictors are compared
+constexpr uint32_t kUnit = 64;  ///< magnitudes are kept in 1/64
+constexpr uint32_t kSpacing = 64;  ///< of the frames the bisection starts from
+
+uint32_t fine(uint32_t x) {
+  return magnitude_class<1>(x, kFine);
+}
+
+uint32_t medium(uint32_t x) {
+  return magnitude_class<1>(x, kMedium);
+}
+
+uint32_t coarse(uint32_t x) {
+  return magnitude_class<0>(x >> 2, kCoarse);
+}
+
+uint32_t selector(uint32_t x) {
+  return magnitude_class<0>(x >> 3, kSelect);
+}
+
+/// Codes and counts, but writes nothing: for trying a predictor out.
+class DryEncoder {
+ public:
+  static constexpr bool kAdapts = true;
+
+  bool bit(uint32_t p, bool value) { return counter_.bit(p, value); }
+
+  bool bit(AdaptiveBit& model, bool value) {
+    counter_.bit(model, value);
+    model.update(value);
+    return value;
+  }
+
+  uint32_t raw(int count, uint32_t value) { return counter_.raw(count, value); }
+
+  double bits() const { return static_cast<double>(counter_.total()) / kBitCostOne; }
+
+ private:
+  BitCounter counter_;
+};
+
+/// What a component is encoded from. A decoder has none.
+struct Source {
+  const double* x;
+  double lambda;
+};
+
+/// Magnitudes of a component's coded integers, in kUnit.
+struct Trace {
+  uint32_t channels = 0;            ///< 0: no component yet
+  std::vector<uint32_t> magnitude;  ///< channels x frames
+
+  void start(uint32_t channel_count, uint32_t frames) {
+    channels = channel_count;
+    magnitude.assign(size_t{channel_count} * frames, 0);
+  }
+};
+
+}  // namespace
+
+struct TimeWeightModel::State {
+  explicit State(uint32_t frames);
+
+  template <class Coder>
+  bool code(Coder& coder, uint32_t channels, const Source* source, WeightPredictor& predictor,
+            int32_t* values);
+
+ private:
+  template <class Coder>
+  void code_in_order(Coder& coder, uint32_t channels, const Source* source, int order,
+                     int32_t* values);
+  template <class Coder>
+  void code_bisection(Coder& coder, uint32_t channels, const Source* source, int32_t* values);
+  template <class Coder>
+  void code_cosine(Coder& coder, uint32_t channels, const Source* source, int32_t* values);
+
+  template <class Coder, class Model>
+  int32_t code_value(Coder& coder, Model& model, double x, double lambda);
+  void learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate);
+  uint32_t previous(const Trace& trace, int64_t f, int reach) const;
+
+  uint32_t frames_;
+  AdaptiveBit predictor_[kWeightPredictors];
+  MixedSymbolModel<5> ordered_;
+  MixedSymbolModel<6> bisection_;
+  MixedSymbolModel<5> cosine_;
+  /// Per number of channels (1, 3), level and channel. Levels 0 to 5 interpolate; 6 has no frame to
+  /// the right; 7 is the frames at kSpacing.
+  RecursiveLeastSquares<6> filters_[2][8][3];
+  Trace trace_;      ///< of the component at hand
+  Trace before_[2];  ///< of the last one coded over frames; over frequencies
+  uint32_t slow_[3], all_;
+};
+
+TimeWeightModel::State::State(uint32_t frames)
+    : frames_(frames),
+      ordered_({kFine * 3, kMedium * kMedium, kFine * 3, kCoarse * kCoarse, kFine}, {kSelect, 3}),
+      bisection_(
+          {kFine * 3 * 8, kMedium * kMedium * 3, kFine * 8, kCoarse * kCoarse, 64, kMedium * 8},
+          {kSelect, 8 * 3}),
+      cosine_({kFine * 3, kMedium * 26, kMedium * kMedium, kCoarse * kCoarse, kMedium * 26},
+              {kSelect, 26}) {}
+
+/// Codes the integer nearest to x, or one nearer to zero if that is worth the bits. x is ignored by
+/// a decoder.
+template <class Coder, class Model>
+int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x, double lambda) {
+  const auto sign = [&](auto& c) { return [&](bool negative) { return c.raw(1, negative) != 0; }; };
+  int32_t q = 0;
+  if constexpr (!std::is_same_v<Coder, BinaryDecoder>) {
+    const double size = std::min(x < 0 ? -x : x, 1e8);
+    int32_t best = std::min(static_cast<int32_t>(size + 0.5), (1 << 24) - 1);
+    if (lambda > 0 && best > 0 && best < 200) {
+      const int32_t nearest = best;
+      double least = std::numeric_limits<double>::max();
+      for (int32_t candidate = nearest; candidate >= 0; --candidate) {
+        if (candidate < nearest - 1 && !(candidate == 0 && nearest == 2))
+          break;
+        BitCounter counter;
+        model.code(counter, candidate, sign(counter));
+        const double cost = (size - candidate) * (size - candidate) +
+                            lambda * static_cast<double>(counter.total()) / kBitCostOne;
+        if (cost < least) {
+          least = cost;
+          best = candidate;
+        }
+      }
+    }
+    q = x < 0 ? -best : best;
+  }
+  return model.code(coder, q, sign(coder));
+}
+
+/// rate: of the channel's running mean, in 1/32.
+void TimeWeightModel::State::learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate) {
+  const uint32_t m = static_cast<uint32_t>(std::min(q < 0 ? -q : q, 65535)) * kUnit;
+  trace_.magnitude[size_t{c} * frames_ + index] = m;
+  slow_[c] = ((32 - rate) * slow_[c] + rate * m) >> 5;
+  all_ = (31 * all_ + m) >> 5;
+}
+
+/// Mean over the channels of an earlier component's magnitudes around f: weights 1 2 1 (reach 1) or
+/// equal (reach 2).
+uint32_t TimeWeightModel::State::previous(const Trace& trace, int64_t f, int reach) const {
+  if (trace.channels == 0)
+    return 8 * kUnit;
+  uint64_t sum = 0, weight = 0;
+  for (uint32_t c = 0; c < trace.channels; ++c)
+    for (int64_t d = -reach; d <= reach; ++d) {
+      const int64_t at = f + d;
+      if (at < 0 || at >= int64_t{frames_})
+        continue;
+      const uint64_t w = reach == 1 && d == 0 ? 2 : 1;
+      sum += w * trace.magnitude[size_t{c} * frames_ + static_cast<size_t>(at)];
+      weight += w;
+    }
+  return static_cast<uint32_t>(sum / weight);
+}
+
+template <class Coder>
+void TimeWeightModel::State::code_in_order(Coder& coder, uint32_t channels, const Source* source,
+                                           int order, int32_t* values) {
+  std::fill_n(slow_, 3, 0);
+  all_ = 0;
+  for (uint32_t f = 0; f < frames_; ++f) {
+    const uint32_t m4 = previous(before_[0], f, 1);
+    for (uint32_t c = 0; c < channels; ++c) {
+      int32_t* v = values + size_t{c} * frames_ + f;
+      const int32_t prediction = order == 0 || f == 0   ? 0
+                                 : order == 1 || f == 1 ? v[-1]
+                                                        : 2 * v[-1] - v[-2];
+      const uint32_t* m = &trace_.magnitude[size_t{c} * frames_ + f];
+      const uint32_t m1 = f == 0 ? 0 : f == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
+      uint32_t m3 = 0;
+      for (uint32_t e = 0; e < channels; ++e)
+        if (e != c && (e < c || f > 0))
+          m3 += trace_.magnitude[size_t{e} * frames_ + f - (e < c ? 0 : 1)];
+      m3 /= std::max(channels - 1, 1u);
+      const uint32_t slow = slow_[c], expected = (2 * m1 + 2 * slow + m3 + m4) / 6;
+      ordered_.select(
+          {fine((5 * m1 + 3 * slow) >> 3) * 3 + c, medium(m1) * kMedium + medium(m3),
+           fine(m4) * 3 + std::min(f, 2u), coarse(slow) * kCoarse + coarse(m4), fine(all_)},
+          f == 0 ? kSelect - 1 : selector(expected), c);
+      const double x = source ? source->x[size_t{c} * frames_ + f] - prediction * (1.0 / kStep) : 0;
+      const int32_t q = code_value(coder, ordered_, x, source ? source->lambda : 0);
+      *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
+      learn(f, c, q, 5);
+    }
+  }
+}
+
+template <class Coder>
+void TimeWeightModel::State::code_bisection(Coder& coder, uint32_t channels, const Source* source,
+                                            int32_t* values) {
+  using Filter = RecursiveLeastSquares<6>;
+  const int64_t frames = frames_;
+  int64_t spacing = 1;
+  while (spacing * 2 < frames && spacing < int64_t{kSpacing})
+    spacing *= 2;
+  std::fill_n(slow_, 3, 8 * kUnit);
+  all_ = 8 * kUnit;
+  std::vector<int32_t> coded(size_t{channels} * frames_);
+  // One frame from those at distances s and 3 s; s = 0: a frame at `spacing`.
+  const auto step = [&](int64_t f, int64_t s, uint32_t level) {
+    // A frame is known if it is a multiple of 2 s, or of s and before f.
+    const auto known = [&](int64_t g) {
+      return g >= 0 && g < frames && (g % (2 * s) == 0 || g < f);
+    };
+    const uint32_t m4 = previous(before_[0], f, 1);
+    for (uint32_t c = 0; c < channels; ++c) {
+      const int32_t* row = values + size_t{c} * frames_;
+      const auto at = [&](int64_t g) { return row[g] * (1.0 / kStep); };
+      Filter::Vector z{}, weights{};
+      size_t own;
+      uint32_t kind = level;
+      if (s == 0) {
+        own = 2;
+        z[0] = f >= spacing ? at(f - spacing) : 0;
+        z[1] = f >= 2 * spacing ? at(f - 2 * spacing) : 0;
+        weights[0] = 1;
+      } else {
+        const double a = at(f - s);
+        const bool left = f >= 3 * s;
+        if (f + s < frames) {
+          own = 4;
+          const double b = at(f + s);
+          const double l = left ? at(f - 3 * s) : 2 * a - b;
+          const double r = f + 3 * s < frames ? at(f + 3 * s) : 2 * b - a;
+          z[0] = a + b;
+          z[1] = l + r;
+          z[2] = a - b;
+          z[3] = l - r;
+          weights[0] = 0.5625;
+          weights[1] = -0.0625;
+        } else {
+          own = 2;
+          kind = 6;
+          z[0] = a;
+          z[1] = left ? at(f - 3 * s) : a;
+          weights[0] = 1.25;
+          weights[1] = -0.25;
+        }
+      }
+      size_t size = own;
+      if (s != 0)
+        for (uint32_t e = 0; e < c; ++e)
+          z[size++] = coded[size_t{e} * frames_ + static_cast<size_t>(f)];
+      Filter& filter = filters_[channels == 1 ? 0 : 1][kind][c];
+      if (filter.size() == 0) {
+        Filter::Vector variance{};
+        for (size_t i = 0; i < size; ++i)
+          variance[i] = i < own ? 0.01 : 0.04;
+        filter.start(size, weights, variance);
+      }
+      // Rounded to a quarter of a step; the comparison is false for what is not a number.
+      const double quarters = filter.predict(z) * 4;
+      const double limit = kWeightLimit * 4.0;
+      const auto prediction = static_cast<int32_t>(
+          quarters > -limit && quarters < limit
+              ? (static_cast<int64_t>(quarters + limit + 0.5) - kWeightLimit * int64_t{4}) *
+                    (kStep / 4)
+              : 0);
+      uint32_t m1 = 8 * kUnit, m3 = 0;
+      const uint32_t* m = &trace_.magnitude[size_t{c} * frames_];
+      if (s == 0) {
+        if (f >= spacing)
+          m1 = m[f - spacing];
+      } else {
+        uint32_t sum = 0, count = 0;
+        for (const int64_t d : {-s, s, -2 * s, 2 * s})
+          if (known(f + d)) {
+            sum += m[f + d];
+            ++count;
+          }
+        m1 = sum / count;
+      }
+      for (uint32_t e = 0; e < c; ++e)
+        m3 += trace_.magnitude[size_t{e} * frames_ + static_cast<size_t>(f)];
+      m3 = c == 0 ? m1 : m3 / c;
+      const uint32_t slow = slow_[c], expected = (slow + m3 + 2 * m4 + (c ? 0 : all_)) / 4;
+      bisection_.select(
+          {(fine(slow) * 3 + c) * 8 + level, (medium(m3) * kMedium + medium(m4)) * 3 + c,
+           fine(m4) * 8 + level, coarse(m1) * kCoarse + coarse(m4),
+           magnitude_class<2>(expected, 64), medium(all_) * 8 + level},
+          selector(expected), level * 3 + c);
+      const size_t index = size_t{c} * frames_ + static_cast<size_t>(f);
+      const double x = source ? source->x[index] - prediction * (1.0 / kStep) : 0;
+      const int32_t q = code_value(coder, bisection_, x, source ? source->lambda : 0);
+      values[index] = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
+      coded[index] = q;
+      learn(static_cast<uint32_t>(f), c, q, 5);
+      const double noise = slow_[c] * (1.0 / kUnit);
+      filter.learn(z, at(f), 1.0 / 12 + noise * noise);
+    }
+  };
+  for (int64_t f = 0; f < frames; f += spacing)
+    step(f, 0, 7);
+  uint32_t level = 0;
+  for (int64_t s = spacing / 2; s >= 1; s /= 2, ++level)
+    for (int64_t f = s; f < frames; f += 2 * s)
+      step(f, s, level);
+}
+
+template <class Coder>
+void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const Source* source,
+                                         int32_t* values) {
+  const CosineTransform transform(frames_);
+  std::vector<double> target(source ? size_t{channels} * frames_ : 0);
+  if (source)
+    for (uint32_t c = 0; c < channels; ++c)
+      transform.forward(source->x + size_t{c} * frames_, &target[size_t{c} * frames_]);
+  std::fill_n(slow_, 3, 4 * kUnit);
+  all_ = 0;
+  std::vector<int32_t> coded(size_t{channels} * frames_);
+  for (uint32_t k = 0; k < frames_; ++k) {
+    const uint32_t m4 = before_[1].channels ? previous(before_[1], k, 2) : 0;
+    // Half octaves of the frequency.
+    const uint32_t band = magnitude_class<1>(k, 26);
+    for (uint32_t c = 0; c < channels; ++c) {
+      const uint32_t* m = &trace_.magnitude[size_t{c} * frames_ + k];
+      const uint32_t m1 = k == 0 ? 20 * kUnit : k == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
+      uint32_t m3 = 0;
+      for (uint32_t e = 0; e < channels; ++e)
+        if (e != c)
+          m3 += e > c && k == 0 ? 10 * kUnit
+                                : trace_.magnitude[size_t{e} * frames_ + k - (e < c ? 0 : 1)];
+      m3 /= std::max(channels - 1, 1u);
+      const uint32_t slow = slow_[c], expected = (m1 + 2 * slow + m3 + 2 * m4) / 6;
+      cosine_.select(
+          {fine(expected) * 3 + c, medium(m1) * 26 + band, medium(m4) * kMedium + medium(slow),
+           coarse(slow) * kCoarse + coarse(m3), medium(m4) * 26 + band},
+          selector(expected), band);
+      const size_t index = size_t{c} * frames_ + k;
+      int32_t q =
+          code_value(coder, cosine_, source ? target[index] : 0, source ? source->lambda : 0);
+      coded[index] = std::clamp(q, -CosineTransform::kLimit, CosineTransform::kLimit);
+      learn(k, c, q, 8);
+    }
+  }
+  for (uint32_t c = 0; c < channels; ++c)
+    transform.inverse(&coded[size_t{c} * frames_], values + size_t{c} * frames_);
+}
+
+template <class Coder>
+bool TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source* source,
+                                  WeightPredictor& predictor, int32_t* values) {
+  const auto wanted = static_cast<uint32_t>(predictor);
+  uint32_t p = 0;
+  while (p + 1 < kWeightPredictors && coder.bit(predictor_[p], wanted > p))
+    ++p;
+  predictor = static_cast<WeightPredictor>(p);
+  const bool cosine = predictor == WeightPredictor::kCosine;
+  if (cosine && frames_ > CosineTransform::kMaxLength)
+    return false;
+  trace_.start(channels, frames_);
+  if (cosine)
+    code_cosine(coder, channels, source, values);
+  else if (predictor == WeightPredictor::kBisection)
+    code_bisection(coder, channels, source, values);
+  else
+    code_in_order(coder, channels, source, static_cast<int>(p), values);
+  std::swap(before_[cosine], trace_);
+  return true;
+}
+
+TimeWeightModel::TimeWeightModel(uint32_t frames) : frames_(frames), state_(new State(frames)) {}
+
+TimeWeightModel::~TimeWeightModel() = default;
+
+TimeWeightModel::TimeWeightModel(const TimeWeightModel& other)
+    : frames_(other.frames_), state_(new State(*other.state_)) {}
+
+TimeWeightModel& TimeWeightModel::operator=(const TimeWeightModel& other) {
+  frames_ = other.frames_;
+  *state_ = *other.state_;
+  return *this;
+}
+
+Status TimeWeightModel::decode(BinaryDecoder& decoder, uint32_t channels, int32_t* values) {
+  if (channels != 1 && channels != kMaxChannels)
+    return Status::kArgument;
+  if (frames_ == 0)
+    return Status::kOk;
+  WeightPredictor predictor{};
+  const bool ok = state_->code(decoder, channels, nullptr, predictor, values);
+  return ok && decoder.ok() ? Status::kOk : Status::kEntropy;
+}
+
+TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t channels,
+                                                const double* x, double lambda, int32_t* values,
+                                                uint32_t allowed) {
+  const Source source{x, lambda};
+  Choice best{WeightPredictor::kOrder0, 0, 0};
+  if (frames_ == 0)
+    return best;
+  double least = std::numeric_limits<double>::max();
+  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+    auto predictor = static_cast<WeightPredictor>(p);
+    if (!(allowed >> p & 1) ||
+        (predictor == WeightPredictor::kCosine && frames_ > CosineTransform::kMaxLength))
+      continue;
+    State trial = *state_;
+    DryEncoder dry;
+    trial.code(dry, channels, &source, predictor, values);
+    double error = 0;
+    for (size_t i = 0; i < size_t{channels} * frames_; ++i) {
+      const double d = values[i] * (1.0 / kStep) - x[i];
+      error += d * d;
+    }
+    const double cost = error + kBitWorth * dry.bits();
+    if (cost < least) {
+      least = cost;
+      best = {predictor, error, dry.bits()};
+    }
+  }
+  state_->code(encoder, channels, &source, best.predictor, values);
+  return best;
+}
+
+}  // namespace anicodec

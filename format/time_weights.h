@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Entropy coding of the time weights of a segment (spec/08-entropy.md, section 6).
+#ifndef ANICODEC_FORMAT_TIME_WEIGHTS_H_
+#define ANICODEC_FORMAT_TIME_WEIGHTS_H_
+
+#include "format/binary_coder.h"
+#include "format/status.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace anicodec {
+
+/// How the weights of a component are predicted in time; chosen per component. Numbers are pinned.
+enum class WeightPredictor : uint8_t {
+  kOrder0 = 0,
+  kOrder1 = 1,
+  kOrder2 = 2,  ///< a straight line through the two frames before
+  kBisection =
+      3,        ///< frames in halving distances, interpolated from both sides by adapting weights
+  kCosine = 4,  ///< discrete cosine transform over all frames
+};
+
+constexpr uint32_t kWeightPredictors = 5;
+
+/// Decoded weights are in 1/16 of the weight step.
+constexpr int kWeightFractionBits = 4;
+
+/// In steps: a decoded weight is within +-kWeightLimit, one to encode within half of that.
+constexpr int32_t kWeightLimit = 1 << 22;
+
+/// Codes the time weights of the components of one segment, one component after the other:
+/// `channels` (1 or 3) rows of `frames` values each. Contexts and the bisection's weights carry
+/// over from component to component. Memory: about 1.5 MiB and 30 bytes per frame.
+class TimeWeightModel {
+ public:
+  explicit TimeWeightModel(uint32_t frames);
+  ~TimeWeightModel();
+  TimeWeightModel(const TimeWeightModel&);
+  TimeWeightModel& operator=(const TimeWeightModel&);
+
+  /// Reads a component into `values`: channels x frames. kEntropy: not a stream of an encoder;
+  /// values are then arbitrary but within limits. O(frames x channels), with kCosine O(frames^2 x
+  /// channels), which takes at most CosineTransform::kMaxLength frames.
+  Status decode(BinaryDecoder& decoder, uint32_t channels, int32_t* values);
+
+  struct Choice {
+    WeightPredictor predictor;
+    double squared_error;  ///< of all values, in steps^2
+    double bits;
+  };
+
+  /// Codes real weights `x` (channels x frames, in steps, |x| <= kWeightLimit / 2) by the predictor
+  /// with the smallest squared error + 0.14 bits, quantising each with squared error + lambda bits
+  /// in mind (0.08 to 0.12 is good; 0 rounds to the nearest). `values` receives what a decoder
+  /// gets. `allowed`: bit p for predictor p.
+  Choice encode(BinaryEncoder& encoder, uint32_t channels, const double* x, double lambda,
+                int32_t* values, uint32_t allowed = (1u << kWeightPredictors) - 1);
+
+ private:
+  struct State;
+  uint32_t frames_;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_FORMAT_TIME_WEIGHTS_H_

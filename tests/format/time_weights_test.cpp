@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/time_weights.h"
+
+#include "format/cosine_transform.h"
+#include "tests/format/random.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+constexpr uint32_t kAll = (1u << kWeightPredictors) - 1;
+constexpr double kPi = 3.14159265358979323846;
+
+struct Component {
+  uint32_t channels;
+  std::vector<double> x;
+};
+
+struct Coded {
+  Bytes bytes;
+  std::vector<std::vector<int32_t>> values;
+  std::vector<WeightPredictor> predictors;
+};
+
+Coded encode(uint32_t frames, const std::vector<Component>& components, uint32_t allowed = kAll,
+             double lambda = 0.1) {
+  Coded coded;
+  BinaryEncoder encoder;
+  TimeWeightModel model(frames);
+  for (const Component& c : components) {
+    coded.values.emplace_back(c.x.size());
+    coded.predictors.push_back(
+        model.encode(encoder, c.channels, c.x.data(), lambda, coded.values.back().data(), allowed)
+            .predictor);
+  }
+  coded.bytes = encoder.finish();
+  return coded;
+}
+
+// False if decoding reports an error.
+bool decode(uint32_t frames, const std::vector<Component>& components, const Bytes& bytes,
+            std::vector<std::vector<int32_t>>* values) {
+  BinaryDecoder decoder(bytes.data(), bytes.size());
+  TimeWeightModel model(frames);
+  values->clear();
+  for (const Component& c : components) {
+    values->emplace_back(c.x.size());
+    if (model.decode(decoder, c.channels, values->back().data()) != Status::kOk)
+      return false;
+  }
+  return decoder.finish();
+}
+
+// Sums of a few waves and some noise.
+std::vector<Component> smooth(uint32_t frames, uint32_t components, double size, uint32_t seed) {
+  Random random(seed);
+  std::vector<Component> result;
+  for (uint32_t j = 0; j < components; ++j) {
+    Component c{j % 4 == 3 ? 1u : 3u, {}};
+    for (uint32_t d = 0; d < c.channels; ++d) {
+      const double wave = 1 + random() % 9, phase = random() % 100;
+      for (uint32_t f = 0; f < frames; ++f)
+        c.x.push_back(size / (j + 1) * std::sin(wave * kPi * f / frames + phase) +
+                      static_cast<double>(random() % 1000) / 1000);
+    }
+    result.push_back(std::move(c));
+  }
+  return result;
+}
+
+void expect_round_trip(uint32_t frames, const std::vector<Component>& components,
+                       uint32_t allowed) {
+  const Coded coded = encode(frames, components, allowed);
+  std::vector<std::vector<int32_t>> values;
+  EXPECT_TRUE(decode(frames, components, coded.bytes, &values)) << frames << " frames, " << allowed;
+  EXPECT_EQ(values, coded.values);
+  if (allowed >> static_cast<uint32_t>(WeightPredictor::kCosine))
+    return;
+  for (size_t j = 0; j < components.size(); ++j)
+    for (size_t i = 0; i < components[j].x.size(); ++i)
+      ASSERT_NEAR(coded.values[j][i] / 16.0, components[j].x[i], 2.01);
+}
+
+TEST(TimeWeightModel, ReturnsWhatTheEncoderSaw) {
+  for (const uint32_t frames : {0u, 1u, 2u, 3u, 4u, 5u, 63u, 64u, 65u, 127u, 128u, 129u, 200u})
+    for (uint32_t p = 0; p < kWeightPredictors; ++p)
+      expect_round_trip(frames, smooth(frames, 6, 100, frames), 1u << p);
+  expect_round_trip(150, smooth(150, 40, 1000, 5), kAll);
+}
+
+TEST(TimeWeightModel, ReturnsExtremeWeights) {
+  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+    std::vector<Component> components(4, {3, {}});
+    Random random(p);
+    for (uint32_t i = 0; i < 300; ++i) {
+      components[0].x.push_back(i % 2 ? kWeightLimit / 2 : -kWeightLimit / 2);
+      components[1].x.push_back(0);
+      components[2].x.push_back(kWeightLimit / 2);
+      components[3].x.push_back(random() % 4 ? 0 : static_cast<double>(random() % 4000000) - 2e6);
+    }
+    if (p != static_cast<uint32_t>(WeightPredictor::kCosine)) {
+      expect_round_trip(100, components, 1u << p);
+      continue;
+    }
+    const Coded coded = encode(100, components, 1u << p);
+    std::vector<std::vector<int32_t>> values;
+    EXPECT_TRUE(decode(100, components, coded.bytes, &values));
+    EXPECT_EQ(values, coded.values);
+  }
+}
+
+TEST(TimeWeightModel, PicksThePredictorThatFits) {
+  std::vector<Component> line{{1, {}}}, wave{{1, {}}}, noise{{1, {}}};
+  Random random(1);
+  for (int f = 0; f < 256; ++f) {
+    line[0].x.push_back(25 * f);
+    wave[0].x.push_back(300 * std::cos(kPi * (f + 0.5) * 9 / 256));
+    noise[0].x.push_back(random() % 2 ? 1 : -1);
+  }
+  EXPECT_EQ(encode(256, line).predictors[0], WeightPredictor::kOrder2);
+  EXPECT_LT(encode(256, line).bytes.size(), 16u);
+  EXPECT_EQ(encode(256, wave).predictors[0], WeightPredictor::kCosine);
+  EXPECT_LT(encode(256, wave).bytes.size(), 16u);
+  EXPECT_EQ(encode(256, noise).predictors[0], WeightPredictor::kOrder0);
+}
+
+TEST(TimeWeightModel, RoundsToTheNearestWithoutLambda) {
+  const std::vector<Component> components = smooth(100, 3, 50, 3);
+  for (const uint32_t allowed : {1u, 2u, 4u, 8u}) {
+    const Coded coded = encode(100, components, allowed, 0);
+    for (size_t j = 0; j < components.size(); ++j)
+      for (size_t i = 0; i < components[j].x.size(); ++i)
+        ASSERT_NEAR(coded.values[j][i] / 16.0, components[j].x[i], 0.5 + 1e-9);
+  }
+}
+
+TEST(TimeWeightModel, TruncatedOrCorruptStreamsEndInTime) {
+  const std::vector<Component> components = smooth(70, 6, 60, 4);
+  std::vector<std::vector<int32_t>> values;
+  const auto expect_within_limits = [&] {
+    for (const std::vector<int32_t>& row : values)
+      for (const int32_t v : row)
+        ASSERT_LE(std::abs(int64_t{v}), int64_t{kWeightLimit} << kWeightFractionBits);
+  };
+  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+    const Bytes whole = encode(70, components, 1u << p).bytes;
+    for (size_t kept = 0; kept < whole.size(); kept += 3) {
+      decode(70, components, Bytes(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(kept)),
+             &values);
+      expect_within_limits();
+    }
+    Random random(p);
+    for (int round = 0; round < 100; ++round) {
+      Bytes bytes = whole;
+      for (uint32_t i = random() % 4 + 1; i > 0; --i)
+        bytes[random() % std::min<size_t>(bytes.size(), 200)] = static_cast<uint8_t>(random());
+      decode(70, components, bytes, &values);
+      expect_within_limits();
+    }
+  }
+}
+
+TEST(TimeWeightModel, RefusesCosinesOfTooManyFrames) {
+  const uint32_t frames = CosineTransform::kMaxLength + 1;
+  const std::vector<Component> components{{1, std::vector<double>(frames, 1.0)}};
+  EXPECT_NE(encode(frames, components).predictors[0], WeightPredictor::kCosine);
+  BinaryEncoder encoder;
+  AdaptiveBit choice[kWeightPredictors];
+  for (AdaptiveBit& bit : choice)
+    encoder.bit(bit, true);
+  const Bytes bytes = encoder.finish();
+  std::vector<std::vector<int32_t>> values;
+  EXPECT_FALSE(decode(frames, components, bytes, &values));
+}
+
+TEST(CosineTransform, InvertsTheForwardTransform) {
+  for (const uint32_t n : {1u, 2u, 3u, 5u, 48u, 201u, 1000u, 4096u}) {
+    const CosineTransform transform(n);
+    std::vector<double> x(n), y(n);
+    Random random(n);
+    for (double& v : x)
+      v = static_cast<double>(random() % 20000) - 10000;
+    transform.forward(x.data(), y.data());
+    std::vector<int32_t> q(n), back(n);
+    double energy = 0, error = 0, rounding = 0;
+    for (uint32_t k = 0; k < n; ++k) {
+      q[k] = static_cast<int32_t>(std::lround(y[k]));
+      energy += x[k] * x[k] - y[k] * y[k];
+      rounding += (q[k] - y[k]) * (q[k] - y[k]);
+    }
+    EXPECT_NEAR(energy / n, 0, 1) << n;
+    transform.inverse(q.data(), back.data());
+    for (uint32_t k = 0; k < n; ++k)
+      error += (back[k] / 16.0 - x[k]) * (back[k] / 16.0 - x[k]);
+    EXPECT_NEAR(error / n, rounding / n, 0.05) << n;
+  }
+}
+
+TEST(CosineTransform, StaysWithinLimits) {
+  for (const uint32_t n : {1u, 2u, 48u, 4096u}) {
+    std::vector<int32_t> y(n), x(n);
+    for (const int32_t sign : {-1, 1}) {
+      for (uint32_t k = 0; k < n; ++k)
+        y[k] = k % 2 ? CosineTransform::kLimit : sign * CosineTransform::kLimit;
+      CosineTransform(n).inverse(y.data(), x.data());
+      for (const int32_t v : x)
+        ASSERT_LE(std::abs(int64_t{v}), CosineTransform::kValueLimit);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace anicodec
