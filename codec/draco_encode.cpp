@@ -59,8 +59,13 @@ format::Bytes encode(const draco::Mesh& mesh) {
   return {buffer.data(), buffer.data() + buffer.size()};
 }
 
-/// The traversal depends on the connectivity alone: encode the points' numbers and see where they
-/// go.
+/// Draco numbers points by the connectivity, and differently when POSITION is the only attribute:
+/// so there is always another one.
+void add_stand_in(draco::Mesh& mesh) {
+  add_attribute(mesh, draco::GeometryAttribute::GENERIC, 1, [](uint32_t, int32_t* x) { *x = 0; });
+}
+
+/// Encodes the points' numbers to see where they go.
 std::vector<uint32_t> decoding_order(uint32_t points, std::span<const uint32_t> triangles) {
   draco::Mesh mesh;
   set_connectivity(mesh, points, triangles);
@@ -68,10 +73,11 @@ std::vector<uint32_t> decoding_order(uint32_t points, std::span<const uint32_t> 
     x[0] = static_cast<int32_t>(p);
     x[1] = x[2] = 0;
   });
+  add_stand_in(mesh);
   format::Bytes bytes = encode(mesh);
   DracoMesh decoded;
   if (bytes.empty() || decode_draco_mesh(bytes, points, static_cast<uint32_t>(triangles.size() / 3),
-                                         3, &decoded) != Status::kOk)
+                                         draco_components(1), &decoded) != Status::kOk)
     return {};
   std::vector<uint32_t> order(points);
   std::vector<bool> seen(points, false);
@@ -92,9 +98,11 @@ format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> trian
                                 std::vector<uint32_t>* points_by_decoded) {
   if (triangles.empty() || poses.size() > kMaxDracoPoses)
     return {};
-  *points_by_decoded = decoding_order(points, triangles);
-  if (points_by_decoded->empty())
-    return {};
+  if (points_by_decoded) {
+    *points_by_decoded = decoding_order(points, triangles);
+    if (points_by_decoded->empty())
+      return {};
+  }
   draco::Mesh mesh;
   set_connectivity(mesh, points, triangles);
   add_attribute(mesh, draco::GeometryAttribute::POSITION, 3, [&](uint32_t p, int32_t* x) {
@@ -110,6 +118,8 @@ format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> trian
         x[i] = poses[first + i / 3][size_t{3} * p + i % 3];
     });
   }
+  if (rest == 0)
+    add_stand_in(mesh);
   return encode(mesh);
 }
 

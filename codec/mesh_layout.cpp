@@ -164,8 +164,8 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
     layout.connectivity = encode_draco_mesh(manifold.points, manifold.triangles, {}, &order);
     DracoMesh decoded;
     if (!layout.connectivity.empty() &&
-        decode_draco_mesh(layout.connectivity, manifold.points, triangle_count, 3, &decoded) ==
-            Status::kOk) {
+        decode_draco_mesh(layout.connectivity, manifold.points, triangle_count, draco_components(0),
+                          &decoded) == Status::kOk) {
       layout.coder = format::CoderId::kDraco;
       point_of = order;
       triangles = decoded.triangles;
@@ -257,8 +257,7 @@ format::Bytes encode_with_poses(const MeshLayout& layout,
       values.insert(values.end(), pose.begin() + ptrdiff_t{3} * c,
                     pose.begin() + ptrdiff_t{3} * c + 3);
   }
-  std::vector<uint32_t> order;
-  return encode_draco_mesh(layout.sizes.points, layout.draco_triangles, at_points, &order);
+  return encode_draco_mesh(layout.sizes.points, layout.draco_triangles, at_points);
 }
 
 }  // namespace anicodec

@@ -56,7 +56,7 @@ Topology decoded(const MeshLayout& layout, bool vertices, bool faces) {
   std::vector<uint32_t> triangles;
   if (layout.coder == format::CoderId::kDraco) {
     DracoMesh draco;
-    EXPECT_EQ(decode_draco_mesh(layout.connectivity, layout.sizes.points, layout.sizes.triangles, 3,
+    EXPECT_EQ(decode_draco_mesh(layout.connectivity, layout.sizes.points, layout.sizes.triangles, 4,
                                 &draco),
               Status::kOk);
     triangles = draco.triangles;

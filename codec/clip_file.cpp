@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/clip_file.h"
+
+#include "codec/draco_encode.h"
+#include "codec/error.h"
+#include "format/container.h"
+
+namespace anicodec {
+
+format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layout,
+                        const std::vector<const EncodedSegment*>& segments) {
+  constexpr uint16_t kMesh = 0;
+  format::MeshRecord mesh;
+  mesh.coder = layout.coder;
+  mesh.details = layout.details;
+  format::Bytes connectivity = layout.connectivity;
+  format::Limits limits;
+  limits.meshes.push_back(layout.sizes);
+  size_t poses = 0;
+  for (const EncodedSegment* segment : segments) {
+    limits.frames += segment->sizes.frames;
+    limits.segments.push_back(segment->sizes);
+    if (!segment->draco_poses.empty()) {
+      connectivity = encode_with_poses(layout, segment->draco_poses);
+      if (connectivity.empty())
+        throw Error(ErrorKind::kInternal, "Draco cannot code the key-frames");
+      poses = segment->draco_poses.size();
+    }
+  }
+  if (layout.coder == format::CoderId::kDraco) {
+    limits.meshes[0].draco_components = draco_components(poses);
+    limits.meshes[0].draco_bytes = static_cast<uint32_t>(connectivity.size());
+  }
+  mesh.connectivity = connectivity;
+
+  format::ContainerWriter file;
+  file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
+  file.add("CLIP", true, format::kNoMesh, format::kNoSegment, record.write());
+  file.add("MESH", true, kMesh, format::kNoSegment, mesh.write());
+  if (record.order != format::OrderMode::kFree)
+    file.add("VMAP", true, kMesh, format::kNoSegment, layout.vertex_map);
+  if (record.order == format::OrderMode::kAll)
+    file.add("FMAP", true, kMesh, format::kNoSegment, layout.face_map);
+  for (uint32_t i = 0; i < segments.size(); ++i) {
+    const EncodedSegment& s = *segments[i];
+    format::SegmentRecord segment;
+    segment.kind = s.sizes.kind;
+    segment.reconstruction = s.reconstruction;
+    segment.hash = s.hash;
+    segment.parameters = s.parameters;
+    segment.pose = s.pose;
+    segment.motion = s.motion;
+    segment.weights = s.weights;
+    file.add("SEGM", true, kMesh, i, segment.write());
+    for (const format::Bytes& layer : s.layers)
+      file.add("BASI", true, kMesh, i, layer);
+    if (!s.corrections.empty())
+      file.add("CORR", true, kMesh, i, s.corrections);
+  }
+  return file.finish();
+}
+
+}  // namespace anicodec

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_CLIP_FILE_H_
+#define ANICODEC_CODEC_CLIP_FILE_H_
+
+#include "codec/encoded_segment.h"
+#include "codec/mesh_layout.h"
+#include "format/records.h"
+
+#include <vector>
+
+namespace anicodec {
+
+/// Puts a clip of one mesh together: limits, clip record, mesh, maps as the order mode asks, and
+/// for each segment its record, layers and corrections, in the order in which a reader needs them.
+format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layout,
+                        const std::vector<const EncodedSegment*>& segments);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_CLIP_FILE_H_

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_ENCODE_H_
+#define ANICODEC_CODEC_ENCODE_H_
+
+#include "codec/frame_selection.h"
+#include "codec/mesh_sequence.h"
+#include "codec/progress.h"
+#include "format/records.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace anicodec {
+
+enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajectories };
+
+/// What the file must keep to.
+struct Target {
+  format::ErrorMetric metric = format::ErrorMetric::kNone;
+  double value = 0;      ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
+  bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames
+};
+
+struct EncodeOptions {
+  Target target;              ///< kNone: only with `keyframes`
+  std::optional<Target> cap;  ///< a maximum error beside another target
+  BasisChoice basis = BasisChoice::kAuto;
+  std::optional<uint32_t> keyframes;  ///< exact number of key-frames
+  KeyframeMethod select = KeyframeMethod::kPivot;
+  format::OrderMode order = format::OrderMode::kVertices;
+  format::CoderId mesh_coder = format::CoderId::kDraco;
+  std::string encoder;  ///< name and version to store in the file
+  int effort = 5;       ///< 1..9: how long to search
+};
+
+/// One encoding that the search tried: for `-v`.
+struct Trial {
+  std::string what;
+  uint64_t bytes = 0;
+  double rmse = 0;
+  double max_error = 0;
+};
+
+/// The encoded clip and what is known about it. Errors are measured on the decoded file.
+struct EncodeResult {
+  format::Bytes file;
+  format::BasisKind kind = format::BasisKind::kKeyframes;
+  uint32_t components = 0;
+  double kg = 0;         ///< per cent
+  double rmse = 0;       ///< scene units
+  double max_error = 0;  ///< scene units
+  double diagonal = 0;
+  std::vector<Trial> trials;
+};
+
+/// Encodes a sequence, decodes the result, and checks that it keeps what was asked.
+/// Throws Error: kInput for a bad sequence, kUsage for a target that cannot be reached (the text
+/// states the best that can), kInternal when the check fails. Deterministic; the bytes do not
+/// depend on the number of threads. Memory: about twice the positions beside the sequence itself.
+EncodeResult encode(const MeshSequence& sequence, const EncodeOptions& options,
+                    const Progress& progress = {});
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_ENCODE_H_

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_KEYFRAME_SEGMENT_ENCODE_H_
+#define ANICODEC_CODEC_KEYFRAME_SEGMENT_ENCODE_H_
+
+#include "codec/encoded_segment.h"
+#include "codec/keyframe_fit.h"
+
+#include <span>
+
+namespace anicodec {
+
+/// Quantises a fit and codes it as a segment of the key-frame kind (thesis chapter 5).
+///   step           of the grid on which the key-frames' coordinates are rounded, scene units
+///   mean_position  the fit's FrameGram::mean_position()
+/// The weights' step is chosen so that weights add about a third of the key-frames' own rounding
+/// error.
+EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, KeyframeWeights kind,
+                                const Eigen::Vector3d& mean_position, double step,
+                                const MeshLayout& layout);
+
+/// The step for which rounding of key-frames and weights adds about `rms` (root mean square
+/// distance, scene units) to every frame.
+double step_for_rounding_error(const KeyframeFit& fit, double rms);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_KEYFRAME_SEGMENT_ENCODE_H_

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/rate_control.h"
+
+#include "codec/clip_file.h"
+#include "codec/error.h"
+#include "codec/keyframe_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace anicodec {
+namespace {
+
+using format::ErrorMetric;
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+}  // namespace
+
+Target in_scene_units(Target target, double diagonal) {
+  if (target.metric == ErrorMetric::kNone)
+    return target;
+  bool positive = std::isfinite(target.value) && target.value > 0;
+  if (target.metric == ErrorMetric::kMaxError && target.value == 0 && std::isfinite(target.value))
+    throw Error(ErrorKind::kUsage,
+                "a maximum error of 0 needs a lossless mode, which there is not");
+  if (!positive)
+    throw Error(ErrorKind::kUsage, "the target must be greater than 0");
+  if (target.percent) {
+    target.value *= diagonal / 100;
+    target.percent = false;
+  }
+  return target;
+}
+
+std::vector<const EncodedSegment*> Solution::segments() const {
+  std::vector<const EncodedSegment*> list;
+  for (const Part& part : parts)
+    list.push_back(&part.encoded);
+  return list;
+}
+
+double Solution::squared_error() const {
+  double sum = 0;
+  for (const Part& part : parts)
+    sum += part.error.squared;
+  return sum;
+}
+
+double Solution::max_error() const {
+  double largest = 0;
+  for (const Part& part : parts)
+    largest = std::max(largest, part.error.max);
+  return largest;
+}
+
+RateControl::RateControl(const EncoderInput& input, const EncodeOptions& options,
+                         const Target& target, double diagonal, const Progress& progress)
+    : input_(input), options_(options), target_(target), diagonal_(diagonal), progress_(progress) {
+  if (options.cap)
+    cap_ = in_scene_units(*options.cap, diagonal).value;
+  std::optional<double> bound = cap_;
+  if (target.metric == ErrorMetric::kMaxError)
+    bound = target.value;
+  if (bound && *bound < smallest_bound() && *bound > 0)
+    throw Error(ErrorKind::kUsage,
+                "the maximum error is below what float32 keeps at these coordinates; the smallest "
+                "possible is " +
+                    number(smallest_bound()));
+}
+
+/// A position is rounded a few times on its way: allow four units in the last place.
+double RateControl::smallest_bound() const {
+  return std::max(input_.largest_coordinate * 0x1p-21, 1e-30);
+}
+
+double RateControl::rmse_of_kg(double kg) const {
+  return kg / 100 *
+         std::sqrt(input_.kg_reference / input_.sequence.vertex_count /
+                   input_.sequence.frame_count);
+}
+
+Solution RateControl::finished(Part part) {
+  if (cap_) {
+    correct(input_.frames(), *cap_, part.opened, part.encoded);
+    part.error = measure(part.opened, input_.frames(), input_.copies);
+  }
+  Solution solution;
+  solution.parts.push_back(std::move(part));
+  format::ClipRecord record;
+  record.name = input_.sequence.name;
+  record.encoder = options_.encoder;
+  record.times = input_.sequence.times;
+  record.order = options_.order;
+  solution.bytes = clip_file(record, input_.layout, solution.segments()).size();
+  trials_.push_back({solution.parts[0].what, solution.bytes, input_.rmse(solution.squared_error()),
+                     solution.max_error()});
+  return solution;
+}
+
+std::optional<Solution> RateControl::at_rmse(SegmentCoder& coder, double rmse) {
+  std::optional<Part> part = coder.at_rmse(rmse);
+  if (!part)
+    return std::nullopt;
+  return finished(std::move(*part));
+}
+
+std::optional<Solution> RateControl::at_max_error(SegmentCoder& coder, double bound) {
+  if (bound == 0)  // per cent of nothing: all vertices are one point that stands still
+    return at_rmse(coder, smallest_bound());
+  // Corrections take care of the outliers: how many are worth having is measured.
+  cap_ = bound - smallest_bound() / 4;
+  std::optional<Solution> best;
+  for (double ratio : {2.5, 4.0, 6.5}) {
+    std::optional<Solution> trial = at_rmse(coder, bound / ratio);
+    if (trial && (!best || trial->bytes < best->bytes))
+      best = std::move(trial);
+  }
+  return best;
+}
+
+std::optional<Solution> RateControl::at_bytes(SegmentCoder& coder, size_t bytes) {
+  // The size falls as the error grows: bisection on its logarithm.
+  double low = smallest_bound(), high = std::max(rmse_of_kg(100), 2 * low);
+  std::optional<Solution> best;
+  for (int round = 0; round < 12 && high / low > 1.01; ++round) {
+    double middle = std::sqrt(low * high);
+    std::optional<Solution> trial = at_rmse(coder, middle);
+    bool fits = trial && trial->bytes <= bytes;
+    if (fits && (!best || trial->squared_error() < best->squared_error()))
+      best = std::move(trial);
+    (fits ? high : low) = middle;
+  }
+  return best;
+}
+
+std::optional<Solution> RateControl::reach(SegmentCoder& coder) {
+  switch (target_.metric) {
+    case ErrorMetric::kKg:
+      return at_rmse(coder, rmse_of_kg(target_.value));
+    case ErrorMetric::kRmse:
+      return at_rmse(coder, target_.value);
+    case ErrorMetric::kMaxError:
+      return at_max_error(coder, target_.value);
+    case ErrorMetric::kSize:
+      return at_bytes(coder, static_cast<size_t>(target_.value));
+    case ErrorMetric::kBpfv:
+      return at_bytes(coder, static_cast<size_t>(target_.value / 8 * input_.sequence.vertex_count *
+                                                 input_.sequence.frame_count));
+    case ErrorMetric::kNone:
+      break;
+  }
+  return std::nullopt;
+}
+
+Solution RateControl::solve() {
+  KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
+  if (target_.metric == ErrorMetric::kNone)
+    return finished(keyframes.at_count());
+  if (std::optional<Solution> solution = reach(keyframes))
+    return std::move(*solution);
+  std::string text = "the target cannot be reached";
+  if (options_.keyframes) {
+    double rmse = input_.rmse(keyframes.at_count().error.squared);
+    text += " with " + std::to_string(*options_.keyframes) +
+            " key-frames; the best is a KG error of " + number(100 * rmse / rmse_of_kg(100)) +
+            " %, an RMSE of " + number(rmse);
+  }
+  throw Error(ErrorKind::kUsage, text);
+}
+
+void RateControl::require_kept(double kg, double rmse, double max_error, size_t bytes) const {
+  double value = target_.value;
+  bool kept = true;
+  switch (target_.metric) {
+    case ErrorMetric::kKg:
+      kept = kg <= value;
+      break;
+    case ErrorMetric::kRmse:
+      kept = rmse <= value;
+      break;
+    case ErrorMetric::kMaxError:
+      kept = max_error <= value;
+      break;
+    case ErrorMetric::kSize:
+      kept = static_cast<double>(bytes) <= value;
+      break;
+    case ErrorMetric::kBpfv:
+      kept = 8.0 * static_cast<double>(bytes) <=
+             value * input_.sequence.vertex_count * input_.sequence.frame_count;
+      break;
+    case ErrorMetric::kNone:
+      break;
+  }
+  if (cap_ && target_.metric != ErrorMetric::kMaxError)
+    kept &= max_error <= *cap_;
+  if (!kept)
+    throw Error(ErrorKind::kInternal, "the encoded file does not keep what was asked");
+}
+
+}  // namespace anicodec

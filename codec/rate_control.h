@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_RATE_CONTROL_H_
+#define ANICODEC_CODEC_RATE_CONTROL_H_
+
+#include "codec/encode.h"
+#include "codec/segment_coder.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace anicodec {
+
+/// The target with lengths in scene units. Throws Error(kUsage) for values that make no sense.
+Target in_scene_units(Target target, double diagonal);
+
+/// A way to code the clip.
+struct Solution {
+  std::vector<Part> parts;
+  size_t bytes = 0;  ///< of the file
+
+  std::vector<const EncodedSegment*> segments() const;
+  double squared_error() const;
+  double max_error() const;
+};
+
+/// Searches for the smallest file that keeps to the target: every trial is opened and measured as a
+/// decoder sees it.
+class RateControl {
+ public:
+  RateControl(const EncoderInput& input, const EncodeOptions& options, const Target& target,
+              double diagonal, const Progress& progress);
+
+  /// Throws Error(kUsage) when the target cannot be reached; the text says what can.
+  Solution solve();
+
+  /// Throws Error(kInternal) when measured errors are not within the target.
+  void require_kept(double kg, double rmse, double max_error, size_t bytes) const;
+
+  const std::vector<Trial>& trials() const { return trials_; }
+
+ private:
+  std::optional<Solution> at_rmse(SegmentCoder& coder, double rmse);
+  std::optional<Solution> at_max_error(SegmentCoder& coder, double bound);
+  std::optional<Solution> at_bytes(SegmentCoder& coder, size_t bytes);
+  std::optional<Solution> reach(SegmentCoder& coder);
+  Solution finished(Part part);
+  double smallest_bound() const;
+  double rmse_of_kg(double kg) const;
+
+  const EncoderInput& input_;
+  const EncodeOptions& options_;
+  Target target_;
+  std::optional<double> cap_;  ///< maximum error beside another target, scene units
+  double diagonal_;
+  const Progress& progress_;
+  std::vector<Trial> trials_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_RATE_CONTROL_H_

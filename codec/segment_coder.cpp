@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/segment_coder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anicodec {
+
+EncoderInput::EncoderInput(const MeshSequence& source, format::CoderId mesh_coder)
+    : sequence(source), layout(lay_out_mesh(source, mesh_coder)) {
+  size_t n = layout.sizes.coded_vertices;
+  copies.assign(n, 0);
+  for (uint32_t c : layout.source_coded)
+    ++copies[c];
+  coded.resize(3 * n * sequence.frame_count);
+  float* to = coded.data();
+  for (size_t f = 0; f < sequence.frame_count; ++f) {
+    const float* from = sequence.frame(f).data();
+    double mean[3] = {0, 0, 0}, squares = 0;
+    for (size_t v = 0; v < sequence.vertex_count; ++v) {
+      for (size_t c = 0; c < 3; ++c)
+        mean[c] += static_cast<double>(from[3 * v + c]) / sequence.vertex_count;
+    }
+    for (size_t v = 0; v < sequence.vertex_count; ++v) {
+      for (size_t c = 0; c < 3; ++c) {
+        double x = static_cast<double>(from[3 * v + c]);
+        squares += (x - mean[c]) * (x - mean[c]);
+        largest_coordinate = std::max(largest_coordinate, std::abs(x));
+      }
+    }
+    kg_reference += squares;
+    for (uint32_t v : layout.coded_source)
+      to = std::copy_n(from + size_t{3} * v, 3, to);
+  }
+  if (kg_reference == 0)
+    kg_reference = 1;
+}
+
+double EncoderInput::rmse(double squared) const {
+  return std::sqrt(squared / sequence.vertex_count / sequence.frame_count);
+}
+
+}  // namespace anicodec

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEGMENT_CODER_H_
+#define ANICODEC_CODEC_SEGMENT_CODER_H_
+
+#include "codec/encoded_segment.h"
+#include "codec/frame_view.h"
+#include "codec/mesh_layout.h"
+#include "codec/mesh_sequence.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace anicodec {
+
+/// What all ways of coding share: the clip by coded vertices, and how it leads back to the source.
+struct EncoderInput {
+  EncoderInput(const MeshSequence& source, format::CoderId mesh_coder);
+
+  FrameView frames() const {
+    return {coded.data(), sequence.frame_count, layout.sizes.coded_vertices};
+  }
+
+  /// Root mean square over the source's vertices and frames.
+  double rmse(double squared) const;
+
+  const MeshSequence& sequence;
+  MeshLayout layout;
+  std::vector<float> coded;       ///< frames x coded vertices x 3
+  std::vector<uint32_t> copies;   ///< source vertices of each coded one
+  double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0
+  double largest_coordinate = 0;  ///< in magnitude
+};
+
+/// A coded segment and what its decoder shows.
+struct Part {
+  EncodedSegment encoded;
+  Segment opened;
+  SegmentError error;
+  std::string what;  ///< how it was coded, in a few words
+};
+
+/// One way of coding a segment: a kind of basis.
+class SegmentCoder {
+ public:
+  virtual ~SegmentCoder() = default;
+
+  /// Codes with an error of at most `rmse` (scene units, over the source's vertices), close to it.
+  /// Nothing when it cannot be reached.
+  virtual std::optional<Part> at_rmse(double rmse) = 0;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEGMENT_CODER_H_

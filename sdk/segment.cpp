@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/segment.h"
+
+#include "sdk/correction_coding.h"
+#include "sdk/keyframe_segment.h"
+#include "sdk/residency.h"
+
+#include <cmath>
+
+namespace anicodec {
+
+ResidentWriter::ResidentWriter(Segment* segment) : segment_(*segment) {
+  size_t per_component = size_t{block_count(segment->vertices)} * segment->channels() * kBlock;
+  segment->wide.assign(per_component * segment->wide_components, 0);
+  segment->narrow.assign(per_component * (segment->components - segment->wide_components), 0);
+}
+
+bool ResidentWriter::store(uint32_t component, const int32_t* values, uint32_t channels) {
+  bool wide = component < segment_.wide_components;
+  uint32_t count = wide ? segment_.wide_components : segment_.components - segment_.wide_components;
+  uint32_t row = wide ? component : component - segment_.wide_components;
+  for (uint32_t v = 0; v < segment_.vertices; ++v) {
+    for (uint32_t c = 0; c < channels; ++c) {
+      int32_t x = *values++;
+      size_t at = ((size_t{v / kBlock} * count + row) * channels + c) * kBlock + v % kBlock;
+      if (wide) {
+        segment_.wide[at] = x;
+      } else {
+        if (x != static_cast<int16_t>(x))
+          return false;
+        segment_.narrow[at] = static_cast<int16_t>(x);
+      }
+    }
+  }
+  return true;
+}
+
+namespace {
+
+Status read_corrections(format::ByteView bytes, uint32_t total, Segment* out) {
+  if (bytes.size == 0)
+    return total == 0 ? Status::kOk : Status::kChunkMissing;
+  format::ByteReader reader(bytes);
+  double step = reader.f64();
+  if (!reader.ok() || !std::isfinite(step) || step <= 0)
+    return Status::kQuantizer;
+  format::ByteView stream = reader.raw(reader.remaining());
+  BinaryDecoder decoder(stream.data, stream.size);
+  CorrectionCoding coding(out->vertices);
+  std::vector<IntegerCorrection> frame;
+  out->correction_begin.assign(1, 0);
+  for (uint32_t f = 0; f < out->frames; ++f) {
+    if (!coding.code_frame(decoder, total - out->corrections.size(), &frame))
+      return Status::kEntropy;
+    for (const IntegerCorrection& c : frame) {
+      Segment::Correction& correction = out->corrections.emplace_back();
+      correction.vertex = c.vertex;
+      for (size_t i = 0; i < 3; ++i)
+        correction.delta[i] = static_cast<float>(c.delta[i] * step);
+    }
+    out->correction_begin.push_back(static_cast<uint32_t>(out->corrections.size()));
+  }
+  return decoder.finish() && out->corrections.size() == total ? Status::kOk : Status::kEntropy;
+}
+
+}  // namespace
+
+Status open_segment(const format::SegmentRecord& record, const SegmentContext& context,
+                    Segment* out) {
+  const format::Limits::Segment& sizes = *context.sizes;
+  out->kind = record.kind;
+  out->reconstruction = record.reconstruction;
+  out->mesh = sizes.mesh;
+  out->first_frame = sizes.first_frame;
+  out->frames = sizes.frames;
+  out->vertices = context.topology->coded_vertices;
+  out->components = sizes.components;
+  out->wide_components = sizes.wide_components;
+  out->stored_hash = record.hash;
+  if (record.kind != format::BasisKind::kKeyframes)
+    return Status::kFeature;
+  if (Status s = open_keyframe_segment(record, context, out); s != Status::kOk)
+    return s;
+  return read_corrections(context.corrections, sizes.corrections, out);
+}
+
+}  // namespace anicodec

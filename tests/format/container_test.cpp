@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/container.h"
+
+#include "format/checksum.h"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace anicodec::format {
+namespace {
+
+Bytes text(const char* s) {
+  return {s, s + std::char_traits<char>::length(s)};
+}
+
+Bytes example() {
+  ContainerWriter writer;
+  writer.add("LIMI", true, kNoMesh, kNoSegment, text("limits"));
+  writer.add("MESH", true, 0, kNoSegment, text("a mesh of some length"));
+  writer.add("note", false, kNoMesh, kNoSegment, {});
+  writer.add("BASI", true, 0, 3, text("basis"));
+  return writer.finish();
+}
+
+Status status_of(const Bytes& bytes) {
+  // An exactly sized copy, so that a sanitizer sees a read past the end.
+  std::unique_ptr<uint8_t[]> copy(new uint8_t[bytes.size()]);
+  std::copy(bytes.begin(), bytes.end(), copy.get());
+  ContainerReader reader;
+  return reader.open({copy.get(), bytes.size()}).status;
+}
+
+/// Changes a byte of header or table and makes the checksum fit again.
+Bytes with_byte(size_t at, uint8_t value) {
+  Bytes bytes = example();
+  bytes[at] = value;
+  Bytes covered(bytes.begin(), bytes.begin() + kHeaderBytes + 4 * kEntryBytes);
+  std::fill_n(covered.begin() + 32, 4, uint8_t{0});
+  auto checksum = static_cast<uint32_t>(xxh64(covered));
+  for (int i = 0; i < 4; ++i)
+    bytes[32 + i] = static_cast<uint8_t>(checksum >> (8 * i));
+  return bytes;
+}
+
+TEST(Container, RoundTrips) {
+  Bytes bytes = example();
+  ContainerReader reader;
+  ASSERT_TRUE(reader.open(bytes).ok());
+  ASSERT_EQ(reader.chunks().size(), 4U);
+  const Chunk* mesh = reader.find("MESH", 0);
+  ASSERT_NE(mesh, nullptr);
+  EXPECT_EQ(mesh->offset % kAlignment, 0U);
+  ByteView payload;
+  ASSERT_TRUE(reader.payload(*mesh, &payload).ok());
+  EXPECT_EQ(Bytes(payload.data, payload.data + payload.size), text("a mesh of some length"));
+  EXPECT_EQ(reader.find("MESH", 1), nullptr);
+  EXPECT_NE(reader.find("BASI", 0, 3), nullptr);
+  EXPECT_EQ(chunk_name(mesh->type), "MESH");
+}
+
+TEST(Container, RejectsEveryTruncation) {
+  Bytes bytes = example();
+  for (size_t n = 0; n < bytes.size(); ++n)
+    EXPECT_NE(status_of({bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(n)}), Status::kOk)
+        << n;
+}
+
+TEST(Container, NoticesEveryChangedByte) {
+  Bytes bytes = example();
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    Bytes changed = bytes;
+    changed[i] ^= 0x10;
+    ContainerReader reader;
+    Failure failure = reader.open(changed);
+    for (const Chunk& chunk : reader.chunks()) {
+      ByteView payload;
+      if (failure.ok())
+        failure = reader.payload(chunk, &payload);
+    }
+    EXPECT_FALSE(failure.ok()) << i;
+  }
+}
+
+TEST(Container, NamesWhatIsWrong) {
+  EXPECT_EQ(status_of(text("PNG file?")), Status::kMagic);
+  EXPECT_EQ(status_of({}), Status::kMagic);
+  EXPECT_EQ(status_of({0x89, 'A', 'N'}), Status::kTruncated);
+  EXPECT_EQ(status_of(with_byte(8, 9)), Status::kVersion);
+  EXPECT_EQ(status_of(with_byte(16, 1)), Status::kFeature);
+  EXPECT_EQ(status_of(with_byte(36, 1)), Status::kHeader);
+  EXPECT_EQ(status_of(with_byte(30, 1)), Status::kTruncated);
+  EXPECT_EQ(status_of(with_byte(kHeaderBytes + 5, 1)), Status::kHeader);        // reserved flag
+  EXPECT_EQ(status_of(with_byte(kHeaderBytes + 16, 1)), Status::kChunkBounds);  // offset
+  EXPECT_EQ(status_of(with_byte(kHeaderBytes + 31, 1)), Status::kChunkBounds);  // size
+  Bytes damaged = example();
+  damaged[40] ^= 1;
+  EXPECT_EQ(status_of(damaged), Status::kHeaderChecksum);
+  Bytes longer = example();
+  longer.push_back(0);
+  EXPECT_EQ(status_of(longer), Status::kTrailingBytes);
+  Bytes padded = example();
+  padded[kHeaderBytes + 4 * kEntryBytes + 6] = 1;  // behind "limits"
+  EXPECT_EQ(status_of(padded), Status::kPadding);
+}
+
+TEST(ByteReader, RefusesWhatIsMissingOrNotShortest) {
+  const uint8_t long_zero[] = {0x80, 0x00};
+  ByteReader reader({long_zero, 2});
+  reader.varint();
+  EXPECT_FALSE(reader.ok());
+  ByteWriter writer;
+  writer.varint(UINT64_MAX);
+  writer.varint(300);
+  writer.f64(-2.5);
+  ByteReader back(writer.bytes());
+  EXPECT_EQ(back.varint(), UINT64_MAX);
+  EXPECT_EQ(back.varint(300), 300U);
+  EXPECT_EQ(back.f64(), -2.5);
+  EXPECT_TRUE(back.finished());
+  back.u8();
+  EXPECT_FALSE(back.ok());
+}
+
+}  // namespace
+}  // namespace anicodec::format
