@@ -30,12 +30,13 @@ std::vector<std::string> basis_error_methods();
 
 /// Error against the number of elements (thesis table 5.1 and figure 5.7), for every method and
 /// every k that the clip has frames for, method by method. Principal components come from the
-/// eigenvalues alone. Pass the kinds of weights wanted; "pca" and "pca-mean" always come.
+/// eigenvalues alone. Without with_rigid the methods that align
+/// frames are left out.
 std::vector<BasisError> basis_errors(KeyframeFitter& fitter, std::span<const size_t> counts,
                                      bool with_rigid = true);
 
-/// Squared errors of the best linear spans of 0, 1, ... frames dimensions: entry k is what k
-/// principal components leave. Cost O(frames^3).
+/// Squared errors that 0, 1, ... frames principal components leave; gram: frames x frames products.
+/// Cost O(frames^3).
 std::vector<double> principal_errors(const Eigen::MatrixXd& gram);
 
 }  // namespace anicodec
