@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace anicodec {
 namespace {
@@ -179,6 +180,19 @@ TEST(Hausdorff, ComparesClipsFrameByFrame) {
   SurfaceComparison again = compare_surfaces(a, b);
   EXPECT_EQ(c.total.mean(), again.total.mean());
   EXPECT_EQ(c.total.rms(), again.total.rms());
+}
+
+TEST(Hausdorff, DoesNotDependOnTheNumberOfThreads) {
+  MeshSequence s = corpus::make_clip("limb");
+  Shape a = frame_of(s, 0), b = frame_of(s, 9);
+  auto with_threads = [&](size_t threads) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return between(a, b);
+  };
+  HausdorffDistance one = with_threads(1), many = with_threads(4);
+  EXPECT_EQ(one.forward.mean, many.forward.mean);
+  EXPECT_EQ(one.backward.rms, many.backward.rms);
+  EXPECT_EQ(one.max(), many.max());
 }
 
 TEST(Hausdorff, RefusesWhatHasNoDistance) {

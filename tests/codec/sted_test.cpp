@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace anicodec {
 namespace {
@@ -231,6 +232,19 @@ INSTANTIATE_TEST_SUITE_P(Sted, StedOfClips,
                          testing::Values("nonmanifold", "polygons", "leftovers", "open_pair",
                                          "quad_box"),
                          [](const auto& test) { return std::string(test.param); });
+
+TEST(Sted, DoesNotDependOnTheNumberOfThreads) {
+  MeshSequence p = corpus::make_scaled("cloth", 20000, 8), q = p;
+  for (size_t i = 0; i < q.positions.size(); i += 7)
+    q.positions[i] += 0.01F;
+  auto with_threads = [&](size_t threads) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return sted_of(p, q);
+  };
+  Sted one = with_threads(1), many = with_threads(4);
+  EXPECT_EQ(one.spatial, many.spatial);
+  EXPECT_EQ(one.temporal, many.temporal);
+}
 
 TEST(Sted, OneFrameHasNoTemporalPart) {
   MeshSequence p = square(1), q = p;
