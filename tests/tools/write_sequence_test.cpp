@@ -148,6 +148,9 @@ TEST(WriteSequence, RefusesExistingOutputsUnlessOverwriting) {
   EXPECT_THAT(fault([&] { write_sequence(folder / "f%d.obj", clip); }, ErrorKind::kUsage),
               HasSubstr("f1.obj: the file exists already"));
   EXPECT_FALSE(std::filesystem::exists(folder / "f0.obj"));
+  EXPECT_THAT(fault([&] { check_sequence_output(folder / "f%d.obj", 2); }, ErrorKind::kUsage),
+              HasSubstr("f1.obj: the file exists already"));
+  EXPECT_NO_THROW(check_sequence_output(folder / "f%d.obj", 2, {.first_number = 2}));
 }
 
 TEST(WriteSequence, RejectsFramesOfTheWrongSize) {

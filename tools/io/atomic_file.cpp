@@ -33,6 +33,19 @@ std::string temporary_name(const fs::path& target) {
 
 }  // namespace
 
+void check_output(const std::string& path, bool overwrite) {
+  std::error_code error;
+  fs::file_status status = fs::status(path, error);
+  if (fs::exists(status)) {
+    if (!fs::is_regular_file(status))
+      fail_usage(path, fs::is_directory(status) ? "is a directory" : "is not a regular file");
+    if (!overwrite)
+      fail_usage(path, "the file exists already");
+  } else if (fs::is_symlink(fs::symlink_status(path, error))) {
+    fail_usage(path, "is a symbolic link to nothing");
+  }
+}
+
 struct AtomicFile::Descriptor {
   explicit Descriptor(int n) : number(n) {}
 
@@ -49,17 +62,9 @@ struct AtomicFile::Descriptor {
 
 AtomicFile::AtomicFile(const std::string& path, bool overwrite)
     : path_(path), target_(path), overwrite_(overwrite) {
-  std::error_code error;
-  fs::file_status status = fs::status(path, error);
-  if (fs::exists(status)) {
-    if (!fs::is_regular_file(status))
-      fail_usage(path, fs::is_directory(status) ? "is a directory" : "is not a regular file");
-    if (!overwrite)
-      fail_usage(path, "the file exists already");
+  check_output(path, overwrite);
+  if (std::error_code error; fs::exists(path, error))
     target_ = fs::canonical(path).string();
-  } else if (fs::is_symlink(fs::symlink_status(path, error))) {
-    fail_usage(path, "is a symbolic link to nothing");
-  }
   int number = -1;
   do {
     temporary_ = temporary_name(target_);
@@ -127,6 +132,11 @@ void AtomicFile::commit() {
   remove_on_signal_.reset();
 }
 
+void AtomicFile::undo() {
+  if (!remove_on_signal_)
+    ::unlink(target_.c_str());
+}
+
 void commit_all(std::vector<AtomicFile>& files) {
   for (AtomicFile& file : files)
     file.close();
@@ -136,7 +146,7 @@ void commit_all(std::vector<AtomicFile>& files) {
       files[done].commit();
   } catch (...) {
     for (size_t i = 0; i < done; ++i)
-      ::unlink(files[i].path().c_str());
+      files[i].undo();
     throw;
   }
 }

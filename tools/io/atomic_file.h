@@ -12,13 +12,16 @@
 
 namespace anicodec::tools {
 
+/// Throws Error(kUsage) when the path exists and overwrite is false or is not a regular file. Lets
+/// a long computation fail before it starts.
+void check_output(const std::string& path, bool overwrite);
+
 /// An output that appears under its name whole or not at all: written beside it under a temporary
 /// name, renamed by commit(), removed by the destructor otherwise and by signals
 /// (install_cleanup_on_signal). Writes through symbolic links.
 class AtomicFile {
  public:
-  /// Throws Error(kUsage) when the path exists and overwrite is false, is not a regular file or
-  /// cannot be created.
+  /// Throws like check_output, and Error(kUsage) when the file cannot be created.
   AtomicFile(const std::string& path, bool overwrite);
   AtomicFile(AtomicFile&&) noexcept;
   AtomicFile& operator=(AtomicFile&&) = delete;
@@ -33,6 +36,9 @@ class AtomicFile {
   /// Closes and renames. Throws Error(kUsage) when the path has come to exist and overwrite is
   /// false.
   void commit();
+
+  /// Removes what commit() has put in place.
+  void undo();
 
   const std::string& path() const { return path_; }
 

@@ -112,12 +112,15 @@ void append_positions(std::span<const float> positions, std::endian order, std::
     append(x, order, out);
 }
 
+std::string mesh_beside(const std::string& cache) {
+  return std::filesystem::path(cache).replace_extension(".obj").string();
+}
+
 void write_cache(const std::string& path, const MeshSequence& clip, const Frames& frames,
                  bool overwrite) {
-  std::string mesh_path = std::filesystem::path(path).replace_extension(".obj").string();
   std::vector<AtomicFile> files;
   files.emplace_back(path, overwrite);
-  files.emplace_back(mesh_path, overwrite);
+  files.emplace_back(mesh_beside(path), overwrite);
 
   bool is_pc2 = kind_of(path) == FileKind::kPc2;
   std::string bytes;
@@ -157,18 +160,27 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
 
 }  // namespace
 
-void check_output_name(const std::string& path, uint32_t frame_count) {
+void check_sequence_output(const std::string& path, uint32_t frame_count,
+                           const WriteOptions& options) {
   FileKind kind = kind_of(path);
   if (kind == FileKind::kUnknown)
     fail_usage(path, "is of unknown kind; .obj, .ply, .off, .stl, .pc2 and .mdd can be written");
-  if (!is_cache(kind) && !parse_pattern(path).has_number && frame_count > 1)
+  if (is_cache(kind)) {
+    check_output(path, options.overwrite);
+    check_output(mesh_beside(path), options.overwrite);
+    return;
+  }
+  NamePattern pattern = parse_pattern(path);
+  if (!pattern.has_number && frame_count > 1)
     fail_usage(path, std::to_string(frame_count) +
                          " frames need a pattern with a number, such as frame_%04d.obj");
+  for (uint32_t f = 0; f < frame_count; ++f)
+    check_output(pattern.name(uint64_t{options.first_number} + f), options.overwrite);
 }
 
 void write_sequence(const std::string& path, const MeshSequence& clip, const FrameSource& source,
                     const WriteOptions& options) {
-  check_output_name(path, clip.frame_count);
+  check_sequence_output(path, clip.frame_count, options);
   if (clip.frame_count == 0)
     throw Error(ErrorKind::kInput, "the sequence has no frame");
   Frames frames(clip, source, options.progress);

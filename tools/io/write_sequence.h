@@ -40,8 +40,10 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
 void write_sequence(const std::string& path, const MeshSequence& clip,
                     const WriteOptions& options = {});
 
-/// Throws the Error(kUsage) that write_sequence would throw for the name; touches nothing.
-void check_output_name(const std::string& path, uint32_t frame_count);
+/// Throws the Error(kUsage) that write_sequence would throw for a bad name or an existing output,
+/// before anything is computed or written.
+void check_sequence_output(const std::string& path, uint32_t frame_count,
+                           const WriteOptions& options = {});
 
 }  // namespace anicodec::tools
 

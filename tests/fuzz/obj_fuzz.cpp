@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tests/fuzz/fuzz_mesh.h"
+#include "tools/io/obj.h"
+
+using namespace anicodec::tools;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  fuzz_mesh(as_text(data, size), parse_obj, append_obj);
+  return 0;
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tests/fuzz/fuzz_mesh.h"
+#include "tools/io/ply.h"
+
+using namespace anicodec::tools;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  for (bool ascii : {true, false}) {
+    fuzz_mesh(as_text(data, size), parse_ply,
+              [ascii](const auto& polygons, const auto& positions, std::string& out) {
+                append_ply(polygons, positions, ascii, out);
+              });
+  }
+  return 0;
+}
