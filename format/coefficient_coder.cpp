@@ -10,9 +10,11 @@ namespace {
 constexpr uint32_t kFine = 20;      ///< classes, two per octave
 constexpr uint32_t kCoarse = 12;    ///< classes, one per octave
 constexpr uint32_t kExpected = 48;  ///< classes, four per octave
+constexpr uint32_t kQuiet = 64;     ///< expected magnitude below which a vertex may be quiet, 1/256
 constexpr uint32_t kComponents = 8, kLevels = 20, kSelect = 8;
 
-constexpr uint32_t kWeights[8] = {6, 5, 4, 3, 3, 2, 2, 1};
+/// Sum of the weights 6, 5, 4, 3, 3, 2, 2, 1 of the first n neighbours.
+constexpr uint32_t kWeights[9] = {0, 6, 11, 15, 18, 21, 23, 25, 26};
 
 /// 65536 / n, for means of up to 26 weights.
 struct Reciprocals {
@@ -52,6 +54,7 @@ CoefficientModel::CoefficientModel(uint32_t vertex_count, uint32_t channels,
       channels_(channels),
       stride_(stride),
       neighbours_(neighbours),
+      valid_(vertex_count, uint8_t{0}),
       magnitudes_(
           {kFine * kFine * states(channels), kFine * kComponents * states(channels),
            kExpected * states(channels), kCoarse * kCoarse * 8, kFine * kFine * states(channels),
@@ -63,7 +66,17 @@ CoefficientModel::CoefficientModel(uint32_t vertex_count, uint32_t channels,
       history_(size_t{vertex_count} + 1, 0),
       past_(size_t{vertex_count} + 1, 0),
       agreement_(size_t{vertex_count} * kNear, 0),
-      shares_{13107, 19660, 19660, 6553, 0} {
+      shares_{13107, 19660, 19660, 6553} {
+  if (stride < kNear) {
+    padded_.assign(size_t{vertex_count} * kNear, -1);
+    for (uint32_t v = 0; v < vertex_count; ++v)
+      std::copy_n(neighbours + size_t{v} * stride, stride, &padded_[size_t{v} * kNear]);
+    neighbours_ = padded_.data();
+    stride_ = kNear;
+  }
+  for (uint32_t v = 0; v < vertex_count; ++v)
+    while (valid_[v] < kNear && this->neighbours(v)[valid_[v]] >= 0)
+      ++valid_[v];
   for (std::vector<int8_t>& v : value_)
     v.assign((size_t{vertex_count} + 1) * channels, 0);
 }
@@ -88,81 +101,82 @@ void CoefficientModel::end_component() {
 }
 
 void CoefficientModel::prepare_vertex(uint32_t v) {
-  const int32_t* ranks = neighbours_ + size_t{v} * stride_;
-  const uint32_t used = std::min(stride_, kNear);
-  uint32_t near = 0, near_count = 0, weighted = 0, weight = 0, far = 0, two = 0, two_count = 0;
-  for (uint32_t a = 0; a < kNear; ++a) {
-    const uint32_t r = a < used ? static_cast<uint32_t>(ranks[a] + 1) : 0;
-    const uint32_t m = magnitude_[r], present = r != 0;
-    near_[a] = r;
-    weighted += kWeights[a] * m;
-    weight += kWeights[a] * present;
-    if (a < 6) {
-      near += m;
-      near_count += present;
-    }
-    if (a < 2) {
-      two += m;
-      two_count += present;
-    }
-    if (a >= 4)
-      far += m;
+  const int32_t* ranks = neighbours(v);
+  const uint16_t* m = magnitude_.data() + 1;  // rank -1: none
+  const uint32_t m0 = m[ranks[0]], m1 = m[ranks[1]], m2 = m[ranks[2]], m3 = m[ranks[3]],
+                 m4 = m[ranks[4]], m5 = m[ranks[5]], m6 = m[ranks[6]], m7 = m[ranks[7]];
+  const uint32_t sum = 6 * m0 + 5 * m1 + 4 * m2 + 3 * (m3 + m4) + 2 * (m5 + m6) + m7;
+  near2_ = near6_ = weighted_ = far_ = 0;
+  if (sum != 0) {
+    const uint32_t count = valid_[v];
+    near2_ = ((m0 + m1) * kReciprocals.value[std::min(count, 2u)]) >> 16;
+    near6_ = ((m0 + m1 + m2 + m3 + m4 + m5) * kReciprocals.value[std::min(count, 6u)]) >> 16;
+    weighted_ = (sum * kReciprocals.value[kWeights[count]]) >> 16;
+    far_ = (m4 + m5 + m6 + m7) >> 2;
   }
-  near6_ = (near * kReciprocals.value[near_count]) >> 16;
-  near2_ = (two * kReciprocals.value[two_count]) >> 16;
-  weighted_ = (weighted * kReciprocals.value[weight]) >> 16;
-  far_ = far >> 2;
   sum_ = 0;
-  features_ = {weighted_ * 4, history_[v + 1], past_[v + 1], running_ >> 4, 16};
+  features_ = {weighted_ * 4, history_[v + 1], past_[v + 1], running_ >> 4};
   uint64_t expected = 0;
   for (size_t i = 0; i < features_.size(); ++i)
     expected += uint64_t{features_[i]} * static_cast<uint32_t>(shares_[i]);
   expected_ = static_cast<uint32_t>(std::min<uint64_t>(expected >> 16, 65535));
+  quiet_ = sum == 0 && last_[v + 1] == 0 && expected_ < kQuiet;
+  prepared_ = false;
+}
+
+void CoefficientModel::prepare_contexts(uint32_t v) {
+  prepared_ = true;
+  const uint32_t n = states(channels_);
+  const uint32_t history = history_[v + 1] >> 2, past = past_[v + 1] >> 2;
+  const uint32_t level = std::min(static_cast<uint32_t>(floor_log2(v + 1)), kLevels - 1);
+  const auto pair = [&](uint32_t a, uint32_t b) {
+    return (magnitude_class<1>(a, kFine) * kFine + magnitude_class<1>(b, kFine)) * n;
+  };
+  contexts_ = {
+      pair(near6_, history),
+      (magnitude_class<1>(past, kFine) * kComponents + std::min(component_, kComponents - 1)) * n,
+      magnitude_class<2>(expected_, kExpected) * n,
+      magnitude_class<0>(past, kCoarse) * kCoarse * 8 + magnitude_class<0>(near6_ >> 3, 8),
+      pair(weighted_, far_),
+      pair(near2_, last_[v + 1]),
+      (magnitude_class<1>(running_ >> 6, kFine) * kLevels + level) * n};
+  selectors_ = {magnitude_class<0>(expected_ >> 3, kSelect) * n, level * n};
 }
 
 void CoefficientModel::prepare_channel(uint32_t v, uint32_t c) {
-  vertex_ = v;
-  channel_ = c;
-  const uint32_t n = states(channels_);
+  if (!prepared_)
+    prepare_contexts(v);
   const uint32_t state = c == 0 ? 0 : sum_ == 0 ? 1 : sum_ <= 2 ? 2 : 3;
-  const uint32_t history = history_[v + 1] >> 2, past = past_[v + 1] >> 2;
   const uint32_t before = c == 0 ? near6_ : (sum_ * 64 * kReciprocals.value[c]) >> 16;
-  const uint32_t level = std::min(static_cast<uint32_t>(floor_log2(v + 1)), kLevels - 1);
-  const auto pair = [&](uint32_t a, uint32_t b) {
-    return (magnitude_class<1>(a, kFine) * kFine + magnitude_class<1>(b, kFine)) * n + state;
-  };
+  const std::array<uint32_t, 7>& x = contexts_;
   magnitudes_.select(
-      {pair(near6_, history),
-       (magnitude_class<1>(past, kFine) * kComponents + std::min(component_, kComponents - 1)) * n +
-           state,
-       magnitude_class<2>(expected_, kExpected) * n + state,
-       (magnitude_class<0>(past, kCoarse) * kCoarse + magnitude_class<0>(before, kCoarse)) * 8 +
-           magnitude_class<0>(near6_ >> 3, 8),
-       pair(weighted_, far_), pair(near2_, last_[v + 1]),
-       (magnitude_class<1>(running_ >> 6, kFine) * kLevels + level) * n + state},
-      magnitude_class<0>(expected_ >> 3, kSelect) * n + state, level * n + state);
+      {x[0] + state, x[1] + state, x[2] + state, x[3] + magnitude_class<0>(before, kCoarse) * 8,
+       x[4] + state, x[5] + state, x[6] + state},
+      selectors_[0] + state, selectors_[1] + state);
 }
 
 void CoefficientModel::prepare_sign(uint32_t v, uint32_t c) {
   const auto at = [&](const std::vector<int8_t>& values, size_t i, uint32_t channel) {
     return int{values[i * channels_ + channel]};
   };
+  const int32_t* ranks = neighbours(v);
+  const auto near = [&](size_t a) { return static_cast<size_t>(ranks[a] + 1); };
   const std::vector<int8_t>&now = value_[0], &before = value_[1], &earlier = value_[2];
   const int own1 = sign(at(before, v + 1, c)), own2 = sign(at(earlier, v + 1, c));
   // How the neighbours' signs went with this vertex's before, applied to their signs now.
   int agreed = 0, with1 = 0, with2 = 0, all = 0, axis1 = 0, axis2 = 0;
   for (size_t a = 0; a < kNear; ++a) {
-    const int s = sign(at(now, near_[a], c));
+    const int s = sign(at(now, near(a), c));
     agreed += s * agreement_[size_t{v} * kNear + a];
     if (a >= 6 || s == 0)
       continue;
     all += s;
-    with1 += s * sign(at(before, near_[a], c));
-    with2 += s * sign(at(earlier, near_[a], c));
+    with1 += s * sign(at(before, near(a), c));
+    with2 += s * sign(at(earlier, near(a), c));
     if (c > 0)
-      axis1 += s * sign(at(now, near_[a], c - 1));
+      axis1 += s * sign(at(now, near(a), c - 1));
     if (c > 1)
-      axis2 += s * sign(at(now, near_[a], c - 2));
+      axis2 += s * sign(at(now, near(a), c - 2));
   }
   const auto level = [](int x) {  // sign and size, within +-4
     return sign(x) * static_cast<int>(magnitude_class<0>(static_cast<uint32_t>(x < 0 ? -x : x), 5));
@@ -171,8 +185,7 @@ void CoefficientModel::prepare_sign(uint32_t v, uint32_t c) {
     return sign(x) *
            static_cast<int>(magnitude_class<1>(static_cast<uint32_t>(x < 0 ? -x : x), 21));
   };
-  const int first = at(now, near_[0], c), second = at(now, near_[1], c),
-            third = at(now, near_[2], c);
+  const int first = at(now, near(0), c), second = at(now, near(1), c), third = at(now, near(2), c);
   uint32_t across;
   if (c == 0)
     across = centred(all, 4) * 3 + ternary(own1);
@@ -193,9 +206,10 @@ void CoefficientModel::prepare_sign(uint32_t v, uint32_t c) {
 void CoefficientModel::learn(uint32_t v, uint32_t c, int32_t q) {
   if (q != 0) {
     value_[0][(size_t{v} + 1) * channels_ + c] = static_cast<int8_t>(std::clamp(q, -100, 100));
+    const int32_t* ranks = neighbours(v);
     for (size_t a = 0; a < kNear; ++a) {
       int8_t& agreement = agreement_[size_t{v} * kNear + a];
-      const int s = sign(value_[0][near_[a] * channels_ + c]) * sign(q);
+      const int s = sign(value_[0][static_cast<size_t>(ranks[a] + 1) * channels_ + c]) * sign(q);
       agreement = static_cast<int8_t>(agreement - agreement / 8 + 14 * s);
     }
     const auto magnitude = static_cast<uint32_t>(q < 0 ? -q : q);
@@ -210,15 +224,15 @@ void CoefficientModel::finish_vertex(uint32_t v) {
   const uint32_t m = std::min((sum_ * 64 * kReciprocals.value[channels_]) >> 16, 65535u);
   magnitude_[v + 1] = static_cast<uint16_t>(m);
   running_ = (31 * running_ + 64 * m) >> 5;
+  if (quiet_ && m == 0)
+    return;
   // Normalised least mean squares; the shares stay within [0, 4].
   const auto expected = static_cast<int32_t>(expected_);
   const int32_t error = std::min(static_cast<int32_t>(4 * m), 3 * expected + 512) - expected;
   uint64_t norm = 1600;
   for (const uint32_t f : features_)
     norm += uint64_t{f} * f;
-  int shift = 0;
-  while (norm >> (shift + 1))
-    ++shift;
+  const int shift = 63 - __builtin_clzll(norm);
   for (size_t i = 0; i < features_.size(); ++i) {
     const int64_t step = (int64_t{error} * features_[i] * 128) >> shift;
     shares_[i] = static_cast<int32_t>(std::clamp<int64_t>(shares_[i] + step, 0, 4 << 16));

@@ -80,10 +80,14 @@ class CoefficientModel {
       return;
     if (c == 0)
       prepare_vertex(v);
-    prepare_channel(v, c);
+    vertex_ = v;
+    channel_ = c;
+    if (!quiet_)
+      prepare_channel(v, c);
   }
 
   void prepare_vertex(uint32_t v);
+  void prepare_contexts(uint32_t v);
   void prepare_channel(uint32_t v, uint32_t c);
   void prepare_sign(uint32_t v, uint32_t c);
   void learn(uint32_t v, uint32_t c, int32_t q);
@@ -91,14 +95,28 @@ class CoefficientModel {
 
   template <class Coder>
   int32_t code_prepared(Coder& coder, uint32_t v, uint32_t c, int32_t q) {
-    return magnitudes_.code(coder, q, [&](bool negative) {
+    const auto sign = [&](bool negative) {
       prepare_sign(v, c);
       return signs_.code(coder, 0, negative);
-    });
+    };
+    if (quiet_) {
+      AdaptiveBit& zero = quiet_bits_[magnitude_class<1>(expected_, 16)][c == 0      ? 0
+                                                                         : sum_ == 0 ? 1
+                                                                                     : 2];
+      if (!coder.bit(zero, q != 0))
+        return 0;
+      prepare_channel(v, c);
+      return magnitudes_.code_nonzero(coder, q, sign);
+    }
+    return magnitudes_.code(coder, q, sign);
   }
+
+  const int32_t* neighbours(uint32_t v) const { return neighbours_ + size_t{v} * stride_; }
 
   uint32_t vertex_count_, channels_, stride_;
   const int32_t* neighbours_;
+  std::vector<int32_t> padded_;  ///< neighbours if there are fewer than kNear to a vertex
+  std::vector<uint8_t> valid_;   ///< neighbours of a vertex before the first -1
 
   MixedSymbolModel<kMagnitudes> magnitudes_;
   MixedModel<kSigns> signs_;
@@ -112,12 +130,15 @@ class CoefficientModel {
   std::vector<int8_t> agreement_;  ///< kNear per vertex: do the signs of both agree?
   // Of the component, vertex and channel at hand.
   uint32_t component_ = 0, vertex_ = ~0u, channel_ = 0;
-  std::array<uint32_t, kNear> near_{};  ///< neighbours plus one
-  uint32_t running_ = 0;                ///< running mean of magnitude_, in 1/4096
-  uint32_t sum_ = 0;                    ///< of |q| over the channels before
+  bool quiet_ = false, prepared_ = false;
+  std::array<uint32_t, kMagnitudes> contexts_{};  ///< of all channels
+  std::array<uint32_t, 2> selectors_{};
+  AdaptiveBit quiet_bits_[16][3];
+  uint32_t running_ = 0;  ///< running mean of magnitude_, in 1/4096
+  uint32_t sum_ = 0;      ///< of |q| over the channels before
   uint32_t near6_ = 0, near2_ = 0, weighted_ = 0, far_ = 0, expected_ = 0;
-  std::array<uint32_t, 5> features_{};  ///< what expected_ is a combination of ...
-  std::array<int32_t, 5> shares_;       ///< ... with these coefficients, 16.16
+  std::array<uint32_t, 4> features_{};  ///< what expected_ is a combination of ...
+  std::array<int32_t, 4> shares_;       ///< ... with these coefficients, 16.16
 };
 
 }  // namespace anicodec

@@ -14,13 +14,16 @@ namespace anicodec {
 /// 1 << kPerOctaveBits classes per octave, one per value at the start: 0, 1, 2, ... At most count
 /// - 1.
 template <int kPerOctaveBits>
-uint32_t magnitude_class(uint32_t x, uint32_t count) {
-  constexpr uint32_t kExact = 1u << kPerOctaveBits;
-  uint32_t c = x;
-  if (x >= kExact) {
-    const int e = floor_log2(x) - kPerOctaveBits;
-    c = (static_cast<uint32_t>(e) << kPerOctaveBits) + (x >> e);
-  }
+constexpr uint32_t magnitude_class(uint32_t x) {
+  if (x < (1u << kPerOctaveBits))
+    return x;
+  const int e = floor_log2(x) - kPerOctaveBits;
+  return (static_cast<uint32_t>(e) << kPerOctaveBits) + (x >> e);
+}
+
+template <int kPerOctaveBits>
+constexpr uint32_t magnitude_class(uint32_t x, uint32_t count) {
+  const uint32_t c = magnitude_class<kPerOctaveBits>(x);
   return c < count ? c : count - 1;
 }
 

@@ -12,29 +12,27 @@ constexpr uint64_t kDecay = 4290775039;  // floor(2^32 exp(-1/1024))
 
 constexpr Logistic::Tables::Tables() : stretch{}, squash{} {
   // e runs through 2^32 exp(-x / 1024) for x = 0, 1, ...
-  constexpr int kHalf = kLimit >> kSquashShift;
   uint64_t e = kUnit;
-  for (int32_t x = 0; x <= kLimit; ++x) {
-    if (x % (1 << kSquashShift) == (1 << kSquashShift) / 2) {  // the middle of a table entry
-      const int i = x >> kSquashShift;
+  for (int32_t x = 0; x < 4 * kSquashEntries; ++x) {
+    if (x % 8 == 4) {  // the middle of an entry
+      const int32_t i = x / 8, half = kSquashEntries / 2;
       const auto p = static_cast<uint32_t>((kUnit << 16) / (kUnit + e));
-      squash[kHalf + i] = static_cast<uint16_t>(p);
-      squash[kHalf - 1 - i] = static_cast<uint16_t>(kProbabilityOne - p);
+      squash[half + i] = static_cast<uint16_t>(p);
+      squash[half - 1 - i] = static_cast<uint16_t>(kProbabilityOne - p);
     }
     e = (e * kDecay) >> 32;
   }
-  constexpr int kEntries = kStretchEntries;
   e = kUnit;
   int32_t x = 0;
-  for (int i = kEntries / 2 - 1; i >= 0;
-       --i) {  // p = (2i + 1) / (2 kEntries), the middle of an entry
+  for (int i = kStretchEntries / 2 - 1; i >= 0;
+       --i) {  // p = (2i + 1) / 8192, the middle of an entry
     const auto odds = static_cast<uint64_t>(2 * i + 1);
-    while (e * (2 * kEntries - odds) > odds * kUnit) {
+    while (e * (2 * kStretchEntries - odds) > odds * kUnit) {
       e = (e * kDecay) >> 32;
       ++x;
     }
-    stretch[i] = static_cast<int16_t>(-x);
-    stretch[kEntries - 1 - i] = static_cast<int16_t>(x);
+    stretch[i] = static_cast<int16_t>(-((x + 2) >> 2));
+    stretch[kStretchEntries - 1 - i] = static_cast<int16_t>((x + 2) >> 2);
   }
 }
 

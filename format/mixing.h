@@ -7,6 +7,10 @@
 #ifndef ANICODEC_FORMAT_MIXING_H_
 #define ANICODEC_FORMAT_MIXING_H_
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include "format/binary_coder.h"
 #include "format/symbol_model.h"
 
@@ -18,26 +22,27 @@
 namespace anicodec {
 
 /// stretch(p) = ln(p / (1 - p)) and its inverse squash(), from tables made by integer arithmetic
-/// alone. The logistic domain is in 1/1024, probabilities in 1/65536.
+/// alone. Probabilities are in 1/65536.
 class Logistic {
  public:
-  static constexpr int32_t kLimit = 10 << 10;  ///< squash() takes everything beyond as the limit
+  static constexpr int32_t kStretchLimit = 2307;  ///< |stretch()| is at most this
 
-  /// @pre p < 4096, a probability in 1/4096. Result within +-9230.
+  /// In 1/256. @pre p < 4096, a probability in 1/4096
   static int32_t stretch(uint32_t p) { return kTables.stretch[p]; }
 
-  /// In 1/65536, within [2, 65534].
+  /// x in 1/2^21, limited to +-10. Within [3, 65533].
   static uint32_t squash(int32_t x) {
-    x = x < -kLimit ? -kLimit : x > kLimit - 1 ? kLimit - 1 : x;
-    return kTables.squash[(x + kLimit) >> kSquashShift];
+    constexpr int32_t kHalf = kSquashEntries / 2;
+    const int32_t i = x >> 14;
+    return kTables.squash[(i < -kHalf ? -kHalf : i > kHalf - 1 ? kHalf - 1 : i) + kHalf];
   }
 
  private:
-  static constexpr int kStretchEntries = 4096, kSquashShift = 3;
+  static constexpr int32_t kStretchEntries = 4096, kSquashEntries = 2560;
 
   struct Tables {
     int16_t stretch[kStretchEntries];
-    uint16_t squash[(2 * kLimit) >> kSquashShift];
+    uint16_t squash[kSquashEntries];
     constexpr Tables();
   };
 
@@ -52,11 +57,11 @@ class MixCounter {
 
   void update(bool bit) {
     const uint32_t count = state_ & 1023;
-    const auto p = static_cast<int32_t>(state_ >> 10);
-    const int64_t step = int64_t{(bit ? kOne - 1 : 0) - p} * kAdaptationRates.value[count];
-    // p stays in [0, kOne): the rate is below one, and rounding down cannot pass 0.
-    state_ = static_cast<uint32_t>(p + static_cast<int32_t>(step >> 15)) << 10 |
-             (count + (count < kCountLimit ? 1 : 0));
+    // The probability stays in [0, 2^22): the rate is below one, and rounding down cannot pass 0.
+    const int64_t error = int64_t{bit ? kOne - 1 : 0} - (state_ >> 10);
+    const int64_t step = (error * kAdaptationRates.value[count]) >> 15;
+    state_ += static_cast<uint32_t>(step) << 10;
+    state_ += count < kCountLimit;
   }
 
  private:
@@ -64,6 +69,80 @@ class MixCounter {
   static constexpr uint32_t kCountLimit = 255;
 
   uint32_t state_ = uint32_t{kOne / 2} << 10;  ///< probability of a one in 22 bits, count in 10
+};
+
+/// Learning rate of a set of weights after n bits, in 1/1024.
+struct LearningRates {
+  static constexpr uint32_t kCount = 320;
+  int32_t value[kCount];
+
+  constexpr LearningRates() : value{} {
+    for (int n = 0; n < static_cast<int>(kCount); ++n)
+      value[n] = 8 + 320 / (n + 8);
+  }
+};
+
+inline constexpr LearningRates kLearningRates{};
+
+/// A set of weights, 1/8192, and what it has learnt. Unused lanes are 0 and stay 0.
+struct MixWeights {
+  static constexpr size_t kLanes = 8;
+  static constexpr int32_t kOne = 1 << 13;
+  using Lanes = std::array<int16_t, kLanes>;
+#if defined(__SSE2__)
+  using Inputs = __m128i;
+#else
+  using Inputs = const Lanes&;
+#endif
+
+  alignas(16) Lanes w;
+  uint32_t count;
+
+  /// In 1/2^21. |w| <= 2^15 and |input| <= 2307: eight products stay below 2^30, the sum of two
+  /// results below 2^31.
+  int32_t dot(Inputs inputs) const {
+#if defined(__SSE2__)
+    __m128i sum = _mm_madd_epi16(load(w), inputs);
+    sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, _MM_SHUFFLE(1, 0, 3, 2)));
+    sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, _MM_SHUFFLE(2, 3, 0, 1)));
+    return _mm_cvtsi128_si32(sum);
+#else
+    int32_t sum = 0;
+    for (size_t i = 0; i < kLanes; ++i)
+      sum += int32_t{w[i]} * inputs[i];
+    return sum;
+#endif
+  }
+
+  /// w += rate * error * input, rounded and saturated to 16 bits, the error being that of the
+  /// prediction x; the rate falls from 3/64 to 1/128. |error| < 2^16, so |scaled| < 2^16 * 48 / 128
+  /// fits 16 bits and the products stay below 2^27.
+  void train(Inputs inputs, int32_t x, bool bit) {
+    const int32_t error = (bit ? 65535 : 0) - static_cast<int32_t>(Logistic::squash(x));
+    const auto scaled = static_cast<int16_t>((error * kLearningRates.value[count]) >> 7);
+    count += count < LearningRates::kCount - 1 ? 1 : 0;
+#if defined(__SSE2__)
+    const __m128i in = inputs, factor = _mm_set1_epi16(scaled);
+    const __m128i low = _mm_mullo_epi16(in, factor), high = _mm_mulhi_epi16(in, factor);
+    const __m128i half = _mm_set1_epi32(1 << 13);
+    const __m128i step0 = _mm_srai_epi32(_mm_add_epi32(_mm_unpacklo_epi16(low, high), half), 14);
+    const __m128i step1 = _mm_srai_epi32(_mm_add_epi32(_mm_unpackhi_epi16(low, high), half), 14);
+    _mm_store_si128(reinterpret_cast<__m128i*>(w.data()),
+                    _mm_adds_epi16(load(w), _mm_packs_epi32(step0, step1)));
+#else
+    for (size_t i = 0; i < kLanes; ++i) {
+      const int32_t sum = w[i] + ((int32_t{scaled} * inputs[i] + (1 << 13)) >> 14);
+      w[i] = static_cast<int16_t>(sum < -32768 ? -32768 : sum > 32767 ? 32767 : sum);
+    }
+#endif
+  }
+
+ private:
+#if defined(__SSE2__)
+  static __m128i load(const Lanes& lanes) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(lanes.data()));
+  }
+#endif
 };
 
 /// Codes bits, each of one of `nodes` kinds (the decisions of a binarisation), in kContexts
@@ -76,105 +155,68 @@ class MixedModel {
   /// sizes[i]: number of values of context i; selectors[s]: of selector s.
   MixedModel(const std::array<uint32_t, kContexts>& sizes, const std::array<uint32_t, 2>& selectors,
              uint32_t nodes)
-      : sizes_(sizes), selectors_(selectors) {
-    uint32_t total = 0;
+      : selectors_(selectors) {
     for (size_t i = 0; i < kContexts; ++i) {
-      offsets_[i] = total;
-      total += sizes[i] * nodes;
+      offsets_[i] = per_node_;
+      per_node_ += sizes[i];
     }
-    counters_.resize(total);
-    Weights start;
-    start.w.fill(kStartWeight);
-    start.w[kContexts] = 0;
+    counters_.resize(size_t{per_node_} * nodes);
+    MixWeights start{};
+    for (size_t i = 0; i < kContexts; ++i)
+      start.w[i] = kStartWeight;
     weights_.resize(size_t{nodes} * (selectors[0] + selectors[1]), start);
   }
 
   /// Contexts and selectors of the bits that follow. @pre each below its size
   void select(const std::array<uint32_t, kContexts>& contexts, uint32_t selector0,
               uint32_t selector1) {
-    contexts_ = contexts;
+    for (size_t i = 0; i < kContexts; ++i)
+      contexts_[i] = offsets_[i] + contexts[i];
     selector0_ = selector0;
     selector1_ = selectors_[0] + selector1;
   }
 
   template <class Coder>
   bool code(Coder& coder, uint32_t node, bool bit) {
-    std::array<MixCounter*, kContexts> counters;
-    std::array<int32_t, kContexts + 1> inputs;
-    for (size_t i = 0; i < kContexts; ++i) {
-      counters[i] = &counters_[offsets_[i] + node * sizes_[i] + contexts_[i]];
-      inputs[i] = counters[i]->stretch();
-    }
-    inputs[kContexts] = kBias;
     const size_t row = size_t{node} * (selectors_[0] + selectors_[1]);
-    Weights& w0 = weights_[row + selector0_];
-    Weights& w1 = weights_[row + selector1_];
-    const int32_t x0 = dot(w0, inputs), x1 = dot(w1, inputs);
+    MixWeights& w0 = weights_[row + selector0_];
+    MixWeights& w1 = weights_[row + selector1_];
+    MixCounter* const counters = &counters_[size_t{node} * per_node_];
+    const auto input = [&](size_t i) {
+      return i < kContexts
+                 ? static_cast<int16_t>(counters[contexts_[i < kContexts ? i : 0]].stretch())
+             : i == kContexts ? kBias
+                              : int16_t{0};
+    };
+#if defined(__SSE2__)
+    const MixWeights::Inputs inputs = _mm_set_epi16(input(7), input(6), input(5), input(4),
+                                                    input(3), input(2), input(1), input(0));
+#else
+    const MixWeights::Lanes inputs{input(0), input(1), input(2), input(3),
+                                   input(4), input(5), input(6), input(7)};
+#endif
+    const int32_t x0 = w0.dot(inputs), x1 = w1.dot(inputs);
     bit = coder.bit(Logistic::squash((x0 + x1) >> 1), bit);
     if constexpr (Coder::kAdapts) {
-      train(w0, inputs, x0, bit);
-      train(w1, inputs, x1, bit);
-      for (MixCounter* counter : counters)
-        counter->update(bit);
+      w0.train(inputs, x0, bit);
+      w1.train(inputs, x1, bit);
+      for (const uint32_t context : contexts_)
+        counters[context].update(bit);
     }
     return bit;
   }
 
  private:
-  static constexpr int32_t kWeightOne = 1 << 16;
-  static constexpr int32_t kWeightLimit = 8 * kWeightOne;
-  static constexpr int32_t kStartWeight = kWeightOne * 13 / 10 / static_cast<int32_t>(kContexts);
-  static constexpr int32_t kBias = 256;
+  static_assert(kContexts < MixWeights::kLanes);
+  static constexpr int16_t kStartWeight =
+      MixWeights::kOne * 13 / 10 / static_cast<int32_t>(kContexts);
+  static constexpr int16_t kBias = 64;
 
-  struct Weights {
-    std::array<int32_t, kContexts + 1> w;
-    uint32_t count = 0;
-  };
-
-  /// |w| <= 2^19 and |input| < 2^14, so 64 bits hold the sum of any number of contexts; the result
-  /// is limited to what squash() tells apart, so sums of two stay far within 32 bits.
-  static int32_t dot(const Weights& weights, const std::array<int32_t, kContexts + 1>& inputs) {
-    int64_t sum = 0;
-    for (size_t i = 0; i <= kContexts; ++i)
-      sum += int64_t{weights.w[i]} * inputs[i];
-    sum >>= 16;
-    return static_cast<int32_t>(sum < -Logistic::kLimit  ? -Logistic::kLimit
-                                : sum > Logistic::kLimit ? Logistic::kLimit
-                                                         : sum);
-  }
-
-  /// w += rate * error * input, rounded; the rate falls from 3/64 to 1/128.
-  /// |error * input| < 2^30, times a rate of at most 48: 64 bits.
-  static void train(Weights& weights, const std::array<int32_t, kContexts + 1>& inputs, int32_t x,
-                    bool bit) {
-    const int32_t error = (bit ? 65535 : 0) - static_cast<int32_t>(Logistic::squash(x));
-    const int64_t scaled = int64_t{error} * kRates.value[weights.count];
-    weights.count += weights.count < Rates::kCount - 1 ? 1 : 0;
-    for (size_t i = 0; i <= kContexts; ++i) {
-      const int64_t w = weights.w[i] + ((scaled * inputs[i] + (1 << 19)) >> 20);
-      weights.w[i] = static_cast<int32_t>(w < -kWeightLimit  ? -kWeightLimit
-                                          : w > kWeightLimit ? kWeightLimit
-                                                             : w);
-    }
-  }
-
-  struct Rates {
-    static constexpr uint32_t kCount = 320;
-    int32_t value[kCount];
-
-    constexpr Rates() : value{} {
-      for (int n = 0; n < static_cast<int>(kCount); ++n)
-        value[n] = 8 + 320 / (n + 8);
-    }
-  };
-
-  static constexpr Rates kRates{};
-
-  std::array<uint32_t, kContexts> sizes_, offsets_{}, contexts_{};
+  std::array<uint32_t, kContexts> offsets_{}, contexts_{};
   std::array<uint32_t, 2> selectors_;
-  uint32_t selector0_ = 0, selector1_ = 0;
+  uint32_t per_node_ = 0, selector0_ = 0, selector1_ = 0;
   std::vector<MixCounter> counters_;
-  std::vector<Weights> weights_;
+  std::vector<MixWeights> weights_;
 };
 
 /// code_symbol() with mixed contexts: the zero flag, the exponent and the first mantissa bits are
@@ -189,6 +231,25 @@ class MixedSymbolModel {
   void select(const std::array<uint32_t, kContexts>& contexts, uint32_t selector0,
               uint32_t selector1) {
     mixed_.select(contexts, selector0, selector1);
+  }
+
+  /// The same for a value known not to be 0.
+  template <class Coder, class SignCoder>
+  int32_t code_nonzero(Coder& coder, int32_t value, SignCoder&& sign) {
+    return code_symbol<Sign::kModelled, 23>(
+        value,
+        [&](uint32_t node, bool bit) {
+          if (node == 1)
+            return sign(bit);
+          if (node == 0)
+            return true;
+          if (node < 2 + kExponents)
+            return mixed_.code(coder, node - 1, bit);
+          if (node >= 22 && node < 22 + kMantissas)
+            return mixed_.code(coder, node - 21 + kExponents, bit);
+          return coder.bit(rare_[node], bit);
+        },
+        [&](int count, uint32_t bits) { return coder.raw(count, bits); });
   }
 
   /// `sign(bool)` codes whether the value is negative.

@@ -10,7 +10,7 @@
 namespace anicodec {
 
 /// Position of the highest set bit; 0 for 0.
-inline int floor_log2(uint32_t x) {
+constexpr int floor_log2(uint32_t x) {
   return x == 0 ? 0 : 31 - __builtin_clz(x);
 }
 

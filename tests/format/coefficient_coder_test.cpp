@@ -158,5 +158,18 @@ TEST(CoefficientModel, TruncatedOrCorruptStreamsEndInTime) {
   }
 }
 
+// Pins the bytes: a change here is a change of the format (spec/08-entropy.md, section 8).
+TEST(CoefficientModel, WritesThePinnedBytes) {
+  for (const uint32_t channels : {1u, 3u}) {
+    const Basis b = make_basis(200, channels, 6, 8, [](size_t i) {
+      const auto x = static_cast<uint32_t>(i * i * 2654435761u) >> 20;
+      return x % 8 < 6 ? 0 : static_cast<int32_t>(x % 23 * (x % 11)) - 60;
+    });
+    const Bytes bytes = encode(b);
+    EXPECT_EQ(bytes.size(), channels == 1 ? 429u : 1291u);
+    EXPECT_EQ(hash(bytes), channels == 1 ? 16426747390868440015u : 463550482718701741u);
+  }
+}
+
 }  // namespace
 }  // namespace anicodec

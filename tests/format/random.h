@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <random>
+#include <vector>
 
 namespace anicodec {
 
@@ -18,6 +19,14 @@ class Random {
  private:
   std::mt19937 engine_;
 };
+
+/// FNV-1a, to pin a stream by one number.
+inline uint64_t hash(const std::vector<uint8_t>& bytes) {
+  uint64_t h = 14695981039346656037u;
+  for (const uint8_t b : bytes)
+    h = (h ^ b) * 1099511628211u;
+  return h;
+}
 
 }  // namespace anicodec
 

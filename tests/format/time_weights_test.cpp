@@ -182,6 +182,26 @@ TEST(TimeWeightModel, RefusesCosinesOfTooManyFrames) {
   EXPECT_FALSE(decode(frames, components, bytes, &values));
 }
 
+// Pins the bytes, the bisection's binary64 arithmetic included: a change here is a change of the
+// format (spec/08-entropy.md, section 8).
+TEST(TimeWeightModel, WritesThePinnedBytes) {
+  std::vector<Component> components;
+  for (int j = 0; j < 8; ++j) {
+    Component c{j % 2 ? 1u : 3u, {}};
+    for (uint32_t i = 0; i < c.channels * 130; ++i) {
+      const auto noise = static_cast<double>(static_cast<uint32_t>(i * i * 2654435761u) >> 28);
+      const double t = i % 130 - 65.0;
+      c.x.push_back(t * t * t / 512 * (j - 3) + t * 4 + noise);
+    }
+    components.push_back(c);
+  }
+  constexpr uint64_t kHashes[kWeightPredictors] = {17565359508407031052u, 17493155188475066915u,
+                                                   5823401416937112978u, 7612660333225376607u,
+                                                   2265140290484134898u};
+  for (uint32_t p = 0; p < kWeightPredictors; ++p)
+    EXPECT_EQ(hash(encode(130, components, 1u << p).bytes), kHashes[p]) << p;
+}
+
 TEST(CosineTransform, InvertsTheForwardTransform) {
   for (const uint32_t n : {1u, 2u, 3u, 5u, 48u, 201u, 1000u, 4096u}) {
     const CosineTransform transform(n);
