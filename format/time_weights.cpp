@@ -8,6 +8,7 @@
 #include "format/recursive_least_squares.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -37,6 +38,10 @@ uint32_t medium(uint32_t x) {
 
 uint32_t coarse(uint32_t x) {
   return magnitude_class<0>(x >> 2, kCoarse);
+}
+
+int32_t sign(int32_t x) {
+  return (x > 0) - (x < 0);
 }
 
 uint32_t selector(uint32_t x) {
@@ -101,6 +106,8 @@ struct TimeWeightModel::State {
 
   template <class Coder, class Model>
   int32_t code_value(Coder& coder, Model& model, double x, double lambda);
+  void prepare_sign(uint32_t family, uint32_t group, size_t index, uint32_t c, int32_t a, int32_t b,
+                    int32_t d);
   void learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate);
   uint32_t previous(const Trace& trace, int64_t f, int reach) const;
 
@@ -112,8 +119,11 @@ struct TimeWeightModel::State {
   /// Per number of channels (1, 3), level and channel. Levels 0 to 5 interpolate; 6 has no frame to
   /// the right; 7 is the frames at kSpacing.
   RecursiveLeastSquares<6> filters_[2][8][3];
-  Trace trace_;      ///< of the component at hand
-  Trace before_[2];  ///< of the last one coded over frames; over frequencies
+  MixedModel<4> signs_;
+  int32_t agreement_[3][3];     ///< of the signs of two channels, in this component
+  std::vector<int32_t> coded_;  ///< of this component, channels x frames
+  Trace trace_;                 ///< of the component at hand
+  Trace before_[2];             ///< of the last one coded over frames; over frequencies
   uint32_t slow_[3], all_;
 };
 
@@ -124,13 +134,16 @@ TimeWeightModel::State::State(uint32_t frames)
           {kFine * 3 * 8, kMedium * kMedium * 3, kFine * 8, kCoarse * kCoarse, 64, kMedium * 8},
           {kSelect, 8 * 3}),
       cosine_({kFine * 3, kMedium * 26, kMedium * kMedium, kCoarse * kCoarse, kMedium * 26},
-              {kSelect, 26}) {}
+              {kSelect, 26}),
+      signs_({27 * 24, 49 * 24, 33 * 3, 21 * 24}, {24, 17}, 1) {}
 
 /// Codes the integer nearest to x, or one nearer to zero if that is worth the bits. x is ignored by
 /// a decoder.
 template <class Coder, class Model>
 int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x, double lambda) {
-  const auto sign = [&](auto& c) { return [&](bool negative) { return c.raw(1, negative) != 0; }; };
+  const auto sign = [&](auto& c) {
+    return [&](bool negative) { return signs_.code(c, 0, negative); };
+  };
   int32_t q = 0;
   if constexpr (!std::is_same_v<Coder, BinaryDecoder>) {
     const double size = std::min(x < 0 ? -x : x, 1e8);
@@ -142,7 +155,7 @@ int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x,
         if (candidate < nearest - 1 && !(candidate == 0 && nearest == 2))
           break;
         BitCounter counter;
-        model.code(counter, candidate, sign(counter));
+        model.code(counter, x < 0 ? -candidate : candidate, sign(counter));
         const double cost = (size - candidate) * (size - candidate) +
                             lambda * static_cast<double>(counter.total()) / kBitCostOne;
         if (cost < least) {
@@ -156,10 +169,38 @@ int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x,
   return model.code(coder, q, sign(coder));
 }
 
+/// Contexts of the sign of the value at `index`: signs and sizes of three values near it, and of
+/// the channels before.
+void TimeWeightModel::State::prepare_sign(uint32_t family, uint32_t group, size_t index, uint32_t c,
+                                          int32_t a, int32_t b, int32_t d) {
+  const auto ternary = [](int32_t x) { return static_cast<uint32_t>(sign(x) + 1); };
+  const auto level = [](int32_t x) {
+    return static_cast<uint32_t>(3 + sign(x) * static_cast<int32_t>(magnitude_class<0>(
+                                                   static_cast<uint32_t>(x < 0 ? -x : x), 4)));
+  };
+  int32_t evidence = 0;
+  for (uint32_t e = 0; e < c; ++e)
+    evidence += agreement_[c][e] * sign(coded_[size_t{e} * frames_ + index]);
+  const auto strength =
+      magnitude_class<1>(static_cast<uint32_t>(evidence < 0 ? -evidence : evidence) >> 2, 16);
+  const auto s = static_cast<uint32_t>(16 + sign(evidence) * static_cast<int32_t>(strength));
+  const uint32_t g = family * 8 + group;
+  signs_.select(
+      {((ternary(a) * 3 + ternary(b)) * 3 + ternary(d)) * 24 + g,
+       (level(a) * 7 + level(b)) * 24 + g, s * 3 + family, (level(d) * 3 + ternary(a)) * 24 + g},
+      g, s / 2);
+}
+
 /// rate: of the channel's running mean, in 1/32.
 void TimeWeightModel::State::learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate) {
   const uint32_t m = static_cast<uint32_t>(std::min(q < 0 ? -q : q, 65535)) * kUnit;
   trace_.magnitude[size_t{c} * frames_ + index] = m;
+  coded_[size_t{c} * frames_ + index] = q;
+  if (q != 0)
+    for (uint32_t e = 0; e < c; ++e) {
+      int32_t& agreement = agreement_[c][e];
+      agreement += 32 * sign(q) * sign(coded_[size_t{e} * frames_ + index]) - agreement / 8;
+    }
   slow_[c] = ((32 - rate) * slow_[c] + rate * m) >> 5;
   all_ = (31 * all_ + m) >> 5;
 }
@@ -206,6 +247,9 @@ void TimeWeightModel::State::code_in_order(Coder& coder, uint32_t channels, cons
           {fine((5 * m1 + 3 * slow) >> 3) * 3 + c, medium(m1) * kMedium + medium(m3),
            fine(m4) * 3 + std::min(f, 2u), coarse(slow) * kCoarse + coarse(m4), fine(all_)},
           f == 0 ? kSelect - 1 : selector(expected), c);
+      const int32_t* q0 = &coded_[size_t{c} * frames_ + f];
+      prepare_sign(0, static_cast<uint32_t>(order), f, c, f > 0 ? q0[-1] : 0, f > 1 ? q0[-2] : 0,
+                   f > 2 ? q0[-3] : 0);
       const double x = source ? source->x[size_t{c} * frames_ + f] - prediction * (1.0 / kStep) : 0;
       const int32_t q = code_value(coder, ordered_, x, source ? source->lambda : 0);
       *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
@@ -224,7 +268,6 @@ void TimeWeightModel::State::code_bisection(Coder& coder, uint32_t channels, con
     spacing *= 2;
   std::fill_n(slow_, 3, 8 * kUnit);
   all_ = 8 * kUnit;
-  std::vector<int32_t> coded(size_t{channels} * frames_);
   // One frame from those at distances s and 3 s; s = 0: a frame at `spacing`.
   const auto step = [&](int64_t f, int64_t s, uint32_t level) {
     // A frame is known if it is a multiple of 2 s, or of s and before f.
@@ -269,7 +312,7 @@ void TimeWeightModel::State::code_bisection(Coder& coder, uint32_t channels, con
       size_t size = own;
       if (s != 0)
         for (uint32_t e = 0; e < c; ++e)
-          z[size++] = coded[size_t{e} * frames_ + static_cast<size_t>(f)];
+          z[size++] = coded_[size_t{e} * frames_ + static_cast<size_t>(f)];
       Filter& filter = filters_[channels == 1 ? 0 : 1][kind][c];
       if (filter.size() == 0) {
         Filter::Vector variance{};
@@ -309,10 +352,12 @@ void TimeWeightModel::State::code_bisection(Coder& coder, uint32_t channels, con
            magnitude_class<2>(expected, 64), medium(all_) * 8 + level},
           selector(expected), level * 3 + c);
       const size_t index = size_t{c} * frames_ + static_cast<size_t>(f);
+      const int32_t* q0 = &coded_[size_t{c} * frames_];
+      const auto near = [&](int64_t g) { return s != 0 && known(g) ? q0[g] : 0; };
+      prepare_sign(1, level, static_cast<size_t>(f), c, near(f - 2 * s), near(f - s), near(f + s));
       const double x = source ? source->x[index] - prediction * (1.0 / kStep) : 0;
       const int32_t q = code_value(coder, bisection_, x, source ? source->lambda : 0);
       values[index] = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
-      coded[index] = q;
       learn(static_cast<uint32_t>(f), c, q, 5);
       const double noise = slow_[c] * (1.0 / kUnit);
       filter.learn(z, at(f), 1.0 / 12 + noise * noise);
@@ -336,7 +381,6 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
       transform.forward(source->x + size_t{c} * frames_, &target[size_t{c} * frames_]);
   std::fill_n(slow_, 3, 4 * kUnit);
   all_ = 0;
-  std::vector<int32_t> coded(size_t{channels} * frames_);
   for (uint32_t k = 0; k < frames_; ++k) {
     const uint32_t m4 = before_[1].channels ? previous(before_[1], k, 2) : 0;
     // Half octaves of the frequency.
@@ -356,14 +400,17 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
            coarse(slow) * kCoarse + coarse(m3), medium(m4) * 26 + band},
           selector(expected), band);
       const size_t index = size_t{c} * frames_ + k;
+      const int32_t* q0 = &coded_[index];
+      prepare_sign(2, std::min(band, 7u), k, c, k > 0 ? q0[-1] : 0, k > 1 ? q0[-2] : 0,
+                   k > 2 ? q0[-3] : 0);
       int32_t q =
           code_value(coder, cosine_, source ? target[index] : 0, source ? source->lambda : 0);
-      coded[index] = std::clamp(q, -CosineTransform::kLimit, CosineTransform::kLimit);
+      q = std::clamp(q, -CosineTransform::kLimit, CosineTransform::kLimit);
       learn(k, c, q, 8);
     }
   }
   for (uint32_t c = 0; c < channels; ++c)
-    transform.inverse(&coded[size_t{c} * frames_], values + size_t{c} * frames_);
+    transform.inverse(&coded_[size_t{c} * frames_], values + size_t{c} * frames_);
 }
 
 template <class Coder>
@@ -378,6 +425,9 @@ bool TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source*
   if (cosine && frames_ > CosineTransform::kMaxLength)
     return false;
   trace_.start(channels, frames_);
+  coded_.assign(size_t{channels} * frames_, 0);
+  for (auto& row : agreement_)
+    std::fill(std::begin(row), std::end(row), 0);
   if (cosine)
     code_cosine(coder, channels, source, values);
   else if (predictor == WeightPredictor::kBisection)
