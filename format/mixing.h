@@ -50,7 +50,7 @@ class Logistic {
 };
 
 /// What one context knows of one bit: the average of the bits seen, which forgets the old ones once
-/// it has seen kMixCountLimit.
+/// it has seen kCountLimit.
 class MixCounter {
  public:
   int32_t stretch() const { return Logistic::stretch(state_ >> 20); }
@@ -255,20 +255,7 @@ class MixedSymbolModel {
   /// `sign(bool)` codes whether the value is negative.
   template <class Coder, class SignCoder>
   int32_t code(Coder& coder, int32_t value, SignCoder&& sign) {
-    return code_symbol<Sign::kModelled, 23>(
-        value,
-        [&](uint32_t node, bool bit) {
-          if (node == 1)
-            return sign(bit);
-          if (node == 0)
-            return mixed_.code(coder, 0, bit);
-          if (node < 2 + kExponents)
-            return mixed_.code(coder, node - 1, bit);
-          if (node >= 22 && node < 22 + kMantissas)
-            return mixed_.code(coder, node - 21 + kExponents, bit);
-          return coder.bit(rare_[node], bit);
-        },
-        [&](int count, uint32_t bits) { return coder.raw(count, bits); });
+    return mixed_.code(coder, 0, value != 0) ? code_nonzero(coder, value, sign) : 0;
   }
 
  private:

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 namespace anicodec {
@@ -52,6 +51,7 @@ uint32_t selector(uint32_t x) {
 class DryEncoder {
  public:
   static constexpr bool kAdapts = true;
+  static constexpr bool kDecodes = false;
 
   bool bit(uint32_t p, bool value) { return counter_.bit(p, value); }
 
@@ -68,6 +68,14 @@ class DryEncoder {
  private:
   BitCounter counter_;
 };
+
+/// True once a decoder's stream has run out: what follows is not worth the time.
+template <class Coder>
+bool exhausted(const Coder& coder) {
+  if constexpr (Coder::kDecodes)
+    return !coder.ok();
+  return false;
+}
 
 /// What a component is encoded from. A decoder has none.
 struct Source {
@@ -145,7 +153,7 @@ int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x,
     return [&](bool negative) { return signs_.code(c, 0, negative); };
   };
   int32_t q = 0;
-  if constexpr (!std::is_same_v<Coder, BinaryDecoder>) {
+  if constexpr (!Coder::kDecodes) {
     const double size = std::min(x < 0 ? -x : x, 1e8);
     int32_t best = std::min(static_cast<int32_t>(size + 0.5), (1 << 24) - 1);
     if (lambda > 0 && best > 0 && best < 200) {
@@ -228,7 +236,7 @@ void TimeWeightModel::State::code_in_order(Coder& coder, uint32_t channels, cons
                                            int order, int32_t* values) {
   std::fill_n(slow_, 3, 0);
   all_ = 0;
-  for (uint32_t f = 0; f < frames_; ++f) {
+  for (uint32_t f = 0; f < frames_ && !exhausted(coder); ++f) {
     const uint32_t m4 = previous(before_[0], f, 1);
     for (uint32_t c = 0; c < channels; ++c) {
       int32_t* v = values + size_t{c} * frames_ + f;
@@ -363,11 +371,11 @@ void TimeWeightModel::State::code_bisection(Coder& coder, uint32_t channels, con
       filter.learn(z, at(f), 1.0 / 12 + noise * noise);
     }
   };
-  for (int64_t f = 0; f < frames; f += spacing)
+  for (int64_t f = 0; f < frames && !exhausted(coder); f += spacing)
     step(f, 0, 7);
   uint32_t level = 0;
   for (int64_t s = spacing / 2; s >= 1; s /= 2, ++level)
-    for (int64_t f = s; f < frames; f += 2 * s)
+    for (int64_t f = s; f < frames && !exhausted(coder); f += 2 * s)
       step(f, s, level);
 }
 
@@ -381,7 +389,7 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
       transform.forward(source->x + size_t{c} * frames_, &target[size_t{c} * frames_]);
   std::fill_n(slow_, 3, 4 * kUnit);
   all_ = 0;
-  for (uint32_t k = 0; k < frames_; ++k) {
+  for (uint32_t k = 0; k < frames_ && !exhausted(coder); ++k) {
     const uint32_t m4 = before_[1].channels ? previous(before_[1], k, 2) : 0;
     // Half octaves of the frequency.
     const uint32_t band = magnitude_class<1>(k, 26);
@@ -424,6 +432,7 @@ bool TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source*
   const bool cosine = predictor == WeightPredictor::kCosine;
   if (cosine && frames_ > CosineTransform::kMaxLength)
     return false;
+  std::fill_n(values, size_t{channels} * frames_, 0);
   trace_.start(channels, frames_);
   coded_.assign(size_t{channels} * frames_, 0);
   for (auto& row : agreement_)

@@ -36,7 +36,7 @@ constexpr int32_t kWeightLimit = 1 << 22;
 
 /// Codes the time weights of the components of one segment, one component after the other:
 /// `channels` (1 or 3) rows of `frames` values each. Contexts and the bisection's weights carry
-/// over from component to component. Memory: about 1.5 MiB and 30 bytes per frame.
+/// over from component to component. Memory: about 0.5 MiB and 80 bytes per frame.
 class TimeWeightModel {
  public:
   explicit TimeWeightModel(uint32_t frames);
