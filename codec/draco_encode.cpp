@@ -82,7 +82,7 @@ std::vector<uint32_t> decoding_order(uint32_t points, std::span<const uint32_t> 
   std::vector<uint32_t> order(points);
   std::vector<bool> seen(points, false);
   for (uint32_t d = 0; d < points; ++d) {
-    auto p = static_cast<uint32_t>(decoded.values[size_t{3} * d]);
+    auto p = static_cast<uint32_t>(decoded.values[size_t{decoded.components} * d]);
     if (p >= points || seen[p])
       return {};
     seen[p] = true;

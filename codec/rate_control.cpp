@@ -4,7 +4,7 @@
 
 #include "codec/clip_file.h"
 #include "codec/error.h"
-#include "codec/keyframe_search.h"
+#include "codec/linear_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,10 @@
 namespace anicodec {
 namespace {
 
+using format::BasisKind;
 using format::ErrorMetric;
+
+constexpr uint32_t kLayers = 1;
 
 std::string number(double x) {
   char text[32];
@@ -161,11 +164,47 @@ std::optional<Solution> RateControl::reach(SegmentCoder& coder) {
 }
 
 Solution RateControl::solve() {
-  KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
-  if (target_.metric == ErrorMetric::kNone)
-    return finished(keyframes.at_count());
-  if (std::optional<Solution> solution = reach(keyframes))
-    return std::move(*solution);
+  bool keyframes_alone = options_.basis == BasisChoice::kKeyframes || options_.keyframes;
+  std::optional<Solution> best;
+  auto offer = [&](SegmentCoder& coder) {
+    std::optional<Solution> solution = reach(coder);
+    if (solution && (!best || better(*solution, *best)))
+      best = std::move(solution);
+  };
+  if (keyframes_alone) {
+    KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
+    if (target_.metric == ErrorMetric::kNone)
+      return finished(keyframes.at_count());
+    offer(keyframes);
+    if (!best)
+      fail(keyframes);
+    return std::move(*best);
+  }
+  LinearAnalysis analysis(input_.frames());
+  for (format::BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
+    BasisChoice own = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
+                                                      : BasisChoice::kEigentrajectories;
+    if (options_.basis == BasisChoice::kAuto || options_.basis == own) {
+      LinearCoder coder(input_, analysis, kind, options_.effort, kLayers);
+      offer(coder);
+    }
+  }
+  if (options_.basis == BasisChoice::kAuto) {
+    KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
+    offer(keyframes);
+  }
+  if (!best)
+    throw Error(ErrorKind::kUsage, "the target cannot be reached");
+  return std::move(*best);
+}
+
+bool RateControl::better(const Solution& a, const Solution& b) const {
+  if (target_.metric == ErrorMetric::kSize || target_.metric == ErrorMetric::kBpfv)
+    return a.squared_error() < b.squared_error();
+  return a.bytes < b.bytes;
+}
+
+void RateControl::fail(KeyframeCoder& keyframes) {
   std::string text = "the target cannot be reached";
   if (options_.keyframes) {
     double rmse = input_.rmse(keyframes.at_count().error.squared);

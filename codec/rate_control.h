@@ -4,6 +4,7 @@
 #define ANICODEC_CODEC_RATE_CONTROL_H_
 
 #include "codec/encode.h"
+#include "codec/keyframe_search.h"
 #include "codec/segment_coder.h"
 
 #include <functional>
@@ -45,6 +46,8 @@ class RateControl {
   std::optional<Solution> at_max_error(SegmentCoder& coder, double bound);
   std::optional<Solution> at_bytes(SegmentCoder& coder, size_t bytes);
   std::optional<Solution> reach(SegmentCoder& coder);
+  bool better(const Solution& a, const Solution& b) const;
+  [[noreturn]] void fail(KeyframeCoder& keyframes);
   Solution finished(Part part);
   double smallest_bound() const;
   double rmse_of_kg(double kg) const;

@@ -4,6 +4,7 @@
 
 #include "sdk/correction_coding.h"
 #include "sdk/keyframe_segment.h"
+#include "sdk/linear_segment.h"
 #include "sdk/residency.h"
 
 #include <cmath>
@@ -78,10 +79,11 @@ Status open_segment(const format::SegmentRecord& record, const SegmentContext& c
   out->components = sizes.components;
   out->wide_components = sizes.wide_components;
   out->stored_hash = record.hash;
-  if (record.kind != format::BasisKind::kKeyframes)
-    return Status::kFeature;
-  if (Status s = open_keyframe_segment(record, context, out); s != Status::kOk)
-    return s;
+  Status status = record.kind == format::BasisKind::kKeyframes
+                      ? open_keyframe_segment(record, context, out)
+                      : open_linear_segment(record, context, out);
+  if (status != Status::kOk)
+    return status;
   return read_corrections(context.corrections, sizes.corrections, out);
 }
 

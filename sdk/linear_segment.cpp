@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/linear_segment.h"
+
+#include "format/checksum.h"
+#include "format/coefficient_coder.h"
+#include "format/time_weights.h"
+#include "sdk/affine_functions.h"
+#include "sdk/plain_coding.h"
+#include "sdk/residency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anicodec {
+namespace {
+
+constexpr uint8_t kAffineFlag = 1;
+
+/// Coded vertices that occur in a triangle come first.
+uint32_t vertices_in_triangles(const Topology& topology) {
+  uint32_t count = 0;
+  for (uint32_t c : topology.point_vertex)
+    count = std::max(count, c + 1);
+  return count;
+}
+
+/// The reference pose: coded vertices x 3 integers.
+Status read_pose(const format::SegmentRecord& record, const SegmentContext& context,
+                 const LinearParameters& parameters, std::vector<int32_t>* pose) {
+  size_t n = context.topology->coded_vertices;
+  if (parameters.pose_coder == format::CoderId::kPlain)
+    return decode_plain_integers(record.pose, 3 * n, 3, pose);
+  const DracoMesh& draco = *context.draco;
+  if (draco.components < 3)
+    return Status::kSegment;
+  size_t in_triangles = vertices_in_triangles(*context.topology);
+  std::vector<int32_t> loose;
+  if (Status s = decode_plain_integers(record.pose, 3 * (n - in_triangles), 3, &loose);
+      s != Status::kOk)
+    return s;
+  pose->resize(3 * n);
+  const std::vector<uint32_t>& point_vertex = context.topology->point_vertex;
+  for (size_t p = 0; p < point_vertex.size(); ++p)
+    std::copy_n(draco.values.data() + p * draco.components, 3,
+                pose->data() + size_t{3} * point_vertex[p]);
+  std::copy(loose.begin(), loose.end(), pose->begin() + static_cast<ptrdiff_t>(3 * in_triangles));
+  return Status::kOk;
+}
+
+/// Time weights: those of the affine base become maps of the pose, the others stay integers.
+Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
+                    const std::vector<int32_t>& pose, format::IntegerHash* hash, Segment* out,
+                    std::vector<int32_t>* weights) {
+  BinaryDecoder decoder(bytes.data, bytes.size);
+  TimeWeightModel model(out->frames);
+  size_t frames = out->frames;
+  AffineFunctions functions;
+  double unit = parameters.weight_step / (1 << kWeightFractionBits);
+  if (parameters.affine) {
+    functions = AffineFunctions::of(pose.data(), pose.size() / 3);
+    std::vector<int32_t> values[kAffineFunctions];
+    for (std::vector<int32_t>& v : values) {
+      v.resize(3 * frames);
+      if (Status s = model.decode(decoder, 3, v.data()); s != Status::kOk)
+        return s;
+      hash->add(v.data(), v.size());
+    }
+    out->pose_maps.resize(frames);
+    for (size_t f = 0; f < frames; ++f) {
+      double w[3][kAffineFunctions], map[12];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        for (size_t b = 0; b < kAffineFunctions; ++b)
+          w[axis][b] = unit * values[b][axis * frames + f];
+      }
+      functions.map(w, map);
+      for (size_t i = 0; i < 12; ++i)
+        out->pose_maps[f].m[i] =
+            static_cast<float>(i % 4 == 3 ? map[i] + parameters.origin[i / 4] : map[i]);
+    }
+  } else {
+    Affine still;
+    for (size_t i = 0; i < 12; ++i)
+      still.m[i] = static_cast<float>(i % 4 == 3   ? parameters.origin[i / 4]
+                                      : i % 5 == 0 ? parameters.pose_step
+                                                   : 0.0);
+    out->pose_maps.assign(frames, still);
+  }
+  size_t per_component = frames * out->weight_channels();
+  weights->resize(per_component * parameters.sigma.size());
+  for (size_t j = 0; j < parameters.sigma.size(); ++j) {
+    int32_t* values = weights->data() + j * per_component;
+    if (Status s = model.decode(decoder, out->weight_channels(), values); s != Status::kOk)
+      return s;
+    hash->add(values, per_component);
+  }
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+/// Residuals of the components in the layers, components x channels x vertices in decoding order;
+/// stops after `wanted` components.
+Status read_residuals(const std::vector<format::ByteView>& layers, const VertexOrder& order,
+                      uint32_t channels, uint32_t components, uint32_t wanted,
+                      std::vector<int32_t>* residuals) {
+  auto n = static_cast<uint32_t>(order.vertex_count());
+  CoefficientModel model(n, channels, order.neighbours.data(),
+                         static_cast<uint32_t>(order.neighbour_count));
+  residuals->resize(size_t{wanted} * channels * n);
+  std::vector<int32_t> interleaved(channels == 1 ? 0 : size_t{channels} * n);
+  uint32_t j = 0;
+  for (format::ByteView layer : layers) {
+    format::ByteReader reader(layer);
+    uint32_t count = reader.varint32(components - j);
+    if (!reader.ok())
+      return Status::kRecord;
+    format::ByteView stream = reader.raw(reader.remaining());
+    BinaryDecoder decoder(stream.data, stream.size);
+    for (uint32_t end = j + count; j < end; ++j) {
+      if (j == wanted)
+        return Status::kOk;
+      int32_t* to = residuals->data() + size_t{j} * channels * n;
+      model.code_component(decoder, channels == 1 ? to : interleaved.data());
+      if (!decoder.ok())
+        return Status::kEntropy;
+      for (uint32_t i = 0; channels > 1 && i < n; ++i) {
+        for (uint32_t c = 0; c < channels; ++c)
+          to[size_t{c} * n + i] = interleaved[size_t{i} * channels + c];
+      }
+    }
+    if (!decoder.finish())
+      return Status::kEntropy;
+  }
+  return j == wanted ? Status::kOk : Status::kChunkMissing;
+}
+
+/// Puts the coefficients into the resident blocks, each component with as many fraction bits as
+/// fit, and scales its weights accordingly.
+Status make_resident(const VertexOrder& order, const std::vector<float>& y, size_t stride,
+                     const LinearParameters& parameters, const std::vector<int32_t>& weights,
+                     Segment* out) {
+  ResidentWriter writer(out);
+  uint32_t channels = out->channels(), weight_channels = out->weight_channels();
+  size_t n = out->vertices;
+  std::vector<int32_t> values(n * channels);
+  out->weights.resize(size_t{out->frames} * out->components * weight_channels);
+  for (uint32_t j = 0; j < out->components; ++j) {
+    float largest = 0;
+    for (size_t i = 0; i < n; ++i) {
+      for (size_t c = 0; c < channels; ++c)
+        largest = std::max(largest, std::fabs(y[i * stride + size_t{j} * channels + c]));
+    }
+    int bits = kFractionBits;
+    if (j >= out->wide_components) {
+      while (bits > 0 && largest * static_cast<float>(1 << bits) > 32767)
+        --bits;
+    }
+    auto scale = static_cast<float>(1 << bits);
+    for (size_t i = 0; i < n; ++i) {
+      for (size_t c = 0; c < channels; ++c)
+        values[order.order[i] * channels + c] =
+            static_cast<int32_t>(std::nearbyint(y[i * stride + size_t{j} * channels + c] * scale));
+    }
+    if (!(channels == 3 ? writer.vectors(j, values.data()) : writer.scalars(j, values.data())))
+      return Status::kQuantizer;
+    double unit = parameters.weight_step / (1 << kWeightFractionBits) /
+                  LinearParameters::sigma_value(parameters.sigma[j]) * parameters.basis_step /
+                  (1 << bits);
+    const int32_t* w = weights.data() + size_t{j} * weight_channels * out->frames;
+    for (size_t f = 0; f < out->frames; ++f) {
+      for (size_t c = 0; c < weight_channels; ++c)
+        out->weights[(f * out->components + j) * weight_channels + c] =
+            static_cast<float>(unit * w[c * out->frames + f]);
+    }
+  }
+  return Status::kOk;
+}
+
+}  // namespace
+
+double LinearParameters::sigma_value(int32_t eighths) {
+  constexpr double kRoots[8] = {1.0,
+                                1.0905077326652577,
+                                1.1892071150027210,
+                                1.2968395546510096,
+                                1.4142135623730951,
+                                1.5422108254079407,
+                                1.6817928305074290,
+                                1.8340080864093424};
+  return std::ldexp(kRoots[eighths & 7], eighths >> 3);
+}
+
+int32_t LinearParameters::sigma_eighths(double sigma) {
+  return static_cast<int32_t>(std::lround(8 * std::log2(sigma)));
+}
+
+format::Bytes LinearParameters::write() const {
+  format::ByteWriter w;
+  w.u8(affine ? kAffineFlag : 0);
+  w.u8(static_cast<uint8_t>(pose_coder));
+  for (double x : {origin[0], origin[1], origin[2], pose_step, basis_step, weight_step})
+    w.f64(x);
+  for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule)})
+    w.u8(x);
+  // The components' table: what changes little from one to the next.
+  BinaryEncoder encoder;
+  SymbolModel<> omega_model, sigma_model;
+  int32_t last_omega = 128, last_sigma = 0;
+  for (size_t j = 0; j < omega.size(); ++j) {
+    omega_model.code(encoder, omega[j] - last_omega);
+    sigma_model.code(encoder, sigma[j] - last_sigma);
+    last_omega = omega[j];
+    last_sigma = sigma[j];
+  }
+  w.raw(encoder.finish());
+  return std::move(w.bytes());
+}
+
+Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
+  format::ByteReader r(bytes);
+  uint8_t flags = r.u8(), coder = r.u8();
+  affine = flags & kAffineFlag;
+  pose_coder = static_cast<format::CoderId>(coder);
+  bool finite = true;
+  for (double* x : {&origin[0], &origin[1], &origin[2], &pose_step, &basis_step, &weight_step}) {
+    *x = r.f64();
+    finite &= std::isfinite(*x);
+  }
+  neighbours = r.u8();
+  colours = r.u8();
+  radius = r.u8();
+  uint8_t id = r.u8();
+  schedule = static_cast<RefitSchedule>(id);
+  if (!r.ok() || (flags & ~kAffineFlag))
+    return Status::kRecord;
+  if (coder > static_cast<uint8_t>(format::CoderId::kDraco))
+    return Status::kCoder;
+  if (!finite || pose_step <= 0 || basis_step <= 0 || weight_step <= 0 || neighbours < 8 ||
+      neighbours > kMaxNeighbours || neighbours % 4 != 0 || colours == 0 || colours > kMaxColours ||
+      radius == 0 || id >= kRefitScheduleCount)
+    return Status::kQuantizer;
+  format::ByteView stream = r.raw(r.remaining());
+  BinaryDecoder decoder(stream.data, stream.size);
+  SymbolModel<> omega_model, sigma_model;
+  int32_t last_omega = 128, last_sigma = 0;
+  omega.resize(components);
+  sigma.resize(components);
+  for (uint32_t j = 0; j < components; ++j) {
+    int64_t o = int64_t{last_omega} + omega_model.code(decoder);
+    int64_t s = int64_t{last_sigma} + sigma_model.code(decoder);
+    if (!decoder.ok() || o < 0 || o > 255 || s < -8000 || s > 8000)
+      return Status::kQuantizer;
+    omega[j] = static_cast<uint8_t>(last_omega = static_cast<int32_t>(o));
+    sigma[j] = last_sigma = static_cast<int32_t>(s);
+  }
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+Status open_linear_segment(const format::SegmentRecord& record, const SegmentContext& context,
+                           Segment* out) {
+  LinearParameters parameters;
+  uint32_t components = context.sizes->components;
+  if (Status s = parameters.read(record.parameters, components); s != Status::kOk)
+    return s;
+  if (record.motion.size != 0)
+    return Status::kRecord;
+  const Topology& topology = *context.topology;
+  size_t n = topology.coded_vertices;
+  std::vector<int32_t> pose;
+  if (Status s = read_pose(record, context, parameters, &pose); s != Status::kOk)
+    return s;
+  format::IntegerHash hash;
+  hash.add(pose.data(), pose.size());
+
+  std::vector<int32_t> weights;
+  if (Status s = read_weights(record.weights, parameters, pose, &hash, out, &weights);
+      s != Status::kOk)
+    return s;
+  out->pose.assign(size_t{block_count(out->vertices)} * 3 * kBlock, 0);
+  for (size_t v = 0; v < n; ++v) {
+    for (size_t c = 0; c < 3; ++c)
+      out->pose[(v / kBlock * 3 + c) * kBlock + v % kBlock] = static_cast<float>(pose[3 * v + c]);
+  }
+
+  auto wanted = static_cast<uint32_t>(std::ceil(context.quality * components));
+  wanted = std::min(wanted, components);
+  out->components = wanted;
+  out->wide_components = std::min(out->wide_components, wanted);
+  if (wanted == 0) {
+    out->decoded_hash = hash.digest();
+    ResidentWriter empty(out);
+    return components == 0 ? Status::kOk : Status::kSegment;
+  }
+  VertexOrder order;
+  if (Status s =
+          make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3, pose.data(),
+                            n, parameters.neighbours, parameters.colours, &order);
+      s != Status::kOk)
+    return s;
+  uint32_t channels = out->channels();
+  std::vector<int32_t> residuals;
+  if (Status s = read_residuals(context.layers, order, channels, components, wanted, &residuals);
+      s != Status::kOk)
+    return s;
+
+  PredictionParameters prediction;
+  prediction.channels = static_cast<int>(channels);
+  prediction.radius = parameters.radius;
+  prediction.schedule = parameters.schedule;
+  PredictionResiduals input;
+  input.components = input.wide_components = wanted;
+  input.wide = residuals.data();
+  input.omega = parameters.omega.data();
+  size_t samples = size_t{wanted} * channels;
+  std::vector<float> y(coefficient_buffer_size(n, samples));
+  Reconstruction reconstruction;
+  if (Status s = reconstruction.init(order, pose.data(), prediction, input, y.data());
+      s != Status::kOk)
+    return s;
+  reconstruction.run_all();
+
+  size_t stride = coefficient_stride(samples);
+  std::vector<int32_t> exact(samples);
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t s = 0; s < samples; ++s)
+      exact[s] = static_cast<int32_t>(y[i * stride + s] * (1 << kFractionBits));
+    hash.add(exact.data(), samples);
+  }
+  out->decoded_hash = hash.digest();
+  return make_resident(order, y, stride, parameters, weights, out);
+}
+
+}  // namespace anicodec

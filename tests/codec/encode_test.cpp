@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/encode.h"
+
+#include "codec/error.h"
+#include "codec/metrics.h"
+#include "corpus/clips.h"
+#include "format/checksum.h"
+#include "format/container.h"
+#include "sdk/clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+namespace anicodec {
+namespace {
+
+Target max_error(double percent) {
+  return {format::ErrorMetric::kMaxError, percent, true};
+}
+
+EncodeOptions asking(const Target& target, BasisChoice basis) {
+  EncodeOptions options;
+  options.target = target;
+  options.basis = basis;
+  options.effort = 1;
+  return options;
+}
+
+/// Polygons of a clip's mesh, each rotated to start at its smallest corner, sorted.
+std::vector<std::vector<uint32_t>> cycles(const std::vector<uint32_t>& offsets,
+                                          const std::vector<uint32_t>& corners) {
+  std::vector<std::vector<uint32_t>> all;
+  for (size_t p = 0; p + 1 < offsets.size(); ++p) {
+    std::vector<uint32_t>& f =
+        all.emplace_back(corners.begin() + offsets[p], corners.begin() + offsets[p + 1]);
+    if (!f.empty())
+      std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+MeshSequence decoded(const format::Bytes& file, const MeshSequence& like) {
+  Clip clip;
+  Failure failure = clip.open(file);
+  EXPECT_TRUE(failure.ok()) << status_string(failure.status) << ": " << failure.detail;
+  EXPECT_TRUE(clip.check_hashes().ok());
+  EXPECT_EQ(clip.vertex_count(), like.vertex_count);
+  EXPECT_EQ(clip.frame_count(), like.frame_count);
+  MeshSequence out = like;
+  FramePlayer player(clip);
+  for (uint32_t f = 0; f < clip.frame_count(); ++f)
+    EXPECT_EQ(player.positions(f, out.frame(f).data()), Status::kOk);
+  const Topology& t = clip.meshes()[0].topology;
+  EXPECT_EQ(cycles(t.polygon_offsets, t.polygon_corners),
+            cycles(like.polygons.offsets, like.polygons.corners));
+  return out;
+}
+
+struct Case {
+  std::string clip;
+  BasisChoice basis;
+};
+
+class EncodeClip : public testing::TestWithParam<std::tuple<std::string, BasisChoice>> {};
+
+TEST_P(EncodeClip, KeepsTheMaximumErrorInTheSourcesOrder) {
+  auto [name, basis] = GetParam();
+  MeshSequence source = corpus::make_clip(name);
+  EncodeResult result = encode(source, asking(max_error(0.05), basis));
+  Comparison measured = compare(source, decoded(result.file, source), {.sted = false});
+  EXPECT_LE(measured.max_error, 0.0005 * diagonal(source));
+  EXPECT_DOUBLE_EQ(measured.max_error, result.max_error);
+  EXPECT_DOUBLE_EQ(measured.kg, result.kg);
+}
+
+std::string parameter_name(const testing::TestParamInfo<EncodeClip::ParamType>& info) {
+  constexpr const char* kBases[] = {"auto", "keyframes", "eigenshapes", "eigentrajectories"};
+  std::string name =
+      std::get<0>(info.param) + "_" + kBases[static_cast<int>(std::get<1>(info.param))];
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, EncodeClip,
+                         testing::Combine(testing::ValuesIn(corpus::clip_names()),
+                                          testing::Values(BasisChoice::kKeyframes)),
+                         parameter_name);
+
+TEST(Encode, IsAFunctionOfItsInput) {
+  MeshSequence source = corpus::make_clip(corpus::clip_names()[0]);
+  for (BasisChoice basis : {BasisChoice::kKeyframes}) {
+    format::Bytes first = encode(source, asking(max_error(0.1), basis)).file;
+    tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(encode(source, asking(max_error(0.1), basis)).file, first);
+  }
+}
+
+TEST(Encode, KeyframeCountAddsAtMostATenthToTheError) {
+  MeshSequence source = corpus::make_clip(corpus::clip_names()[0]);
+  EncodeOptions options;
+  options.keyframes = 5;
+  options.basis = BasisChoice::kKeyframes;
+  EncodeResult coarse = encode(source, options);
+  EXPECT_EQ(coarse.components, 5U);
+  EXPECT_GT(coarse.max_error, 0);
+}
+
+TEST(Encode, RefusesWhatCannotBe) {
+  MeshSequence source = corpus::make_clip(corpus::clip_names()[0]);
+  auto fault = [&](const EncodeOptions& options) -> std::string {
+    try {
+      encode(source, options);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::kUsage);
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(fault({}), testing::HasSubstr("must be asked for"));
+  EXPECT_THAT(fault(asking(max_error(0), BasisChoice::kKeyframes)), testing::HasSubstr("lossless"));
+  EXPECT_THAT(fault(asking(max_error(-1), BasisChoice::kKeyframes)), testing::HasSubstr("greater"));
+  EXPECT_THAT(fault(asking(max_error(1e-9), BasisChoice::kKeyframes)),
+              testing::HasSubstr("smallest possible"));
+  EncodeOptions few = asking({format::ErrorMetric::kKg, 0.001, false}, BasisChoice::kKeyframes);
+  few.keyframes = 2;
+  EXPECT_THAT(fault(few), testing::HasSubstr("the best is"));
+}
+
+TEST(Encode, SizeTargetIsKept) {
+  MeshSequence source = corpus::make_clip(corpus::clip_names()[0]);
+  EncodeResult all = encode(source, asking(max_error(0.05), BasisChoice::kKeyframes));
+  double budget = 0.7 * static_cast<double>(all.file.size());
+  EncodeResult small =
+      encode(source, asking({format::ErrorMetric::kSize, budget, false}, BasisChoice::kKeyframes));
+  EXPECT_LE(static_cast<double>(small.file.size()), budget);
+  EXPECT_GT(small.rmse, all.rmse);
+}
+
+/// An exactly sized copy on the heap, so that a sanitizer sees a read past its end.
+Status open_status(const format::Bytes& bytes) {
+  std::unique_ptr<uint8_t[]> copy(new uint8_t[bytes.size()]);
+  std::copy(bytes.begin(), bytes.end(), copy.get());
+  Clip clip;
+  OpenOptions options;
+  options.limits.vertices = 100000;
+  options.limits.resident_bytes = 100 << 20;
+  Status status = clip.open({copy.get(), bytes.size()}, options).status;
+  if (status == Status::kOk) {
+    FramePlayer player(clip);
+    std::vector<float> frame(size_t{3} * clip.vertex_count());
+    for (uint32_t f = 0; f < std::min(clip.frame_count(), 4U); ++f)
+      player.positions(f, frame.data());
+  }
+  return status;
+}
+
+/// Replaces the payload of one chunk and makes every checksum fit again.
+format::Bytes with_payload(const format::Bytes& file, size_t index, const format::Bytes& payload) {
+  format::ContainerReader reader;
+  EXPECT_TRUE(reader.open(file).ok());
+  format::ContainerWriter writer;
+  for (size_t i = 0; i < reader.chunks().size(); ++i) {
+    const format::Chunk& chunk = reader.chunks()[i];
+    format::ByteView view;
+    EXPECT_TRUE(reader.payload(chunk, &view).ok());
+    std::string type = format::chunk_name(chunk.type);
+    char name[5] = {type[0], type[1], type[2], type[3], 0};
+    writer.add(name, chunk.required, chunk.mesh, chunk.segment,
+               i == index ? payload : format::Bytes(view.data, view.data + view.size));
+  }
+  return writer.finish();
+}
+
+class HostileFile : public testing::TestWithParam<BasisChoice> {};
+
+TEST_P(HostileFile, EveryTruncationIsRefused) {
+  format::Bytes file =
+      encode(corpus::make_clip("nonmanifold"), asking(max_error(1), GetParam())).file;
+  ASSERT_EQ(open_status(file), Status::kOk);
+  for (size_t n = 0; n < file.size(); ++n)
+    EXPECT_NE(open_status({file.begin(), file.begin() + static_cast<ptrdiff_t>(n)}), Status::kOk);
+}
+
+TEST_P(HostileFile, TruncatedAndChangedPayloadsDoNoHarm) {
+  format::Bytes file =
+      encode(corpus::make_clip("nonmanifold"), asking(max_error(1), GetParam())).file;
+  format::ContainerReader reader;
+  ASSERT_TRUE(reader.open(file).ok());
+  std::mt19937 random(5);
+  for (size_t i = 0; i < reader.chunks().size(); ++i) {
+    format::ByteView view;
+    ASSERT_TRUE(reader.payload(reader.chunks()[i], &view).ok());
+    format::Bytes payload(view.data, view.data + view.size);
+    // A cut stream may be another valid one: only checksums and hashes tell.
+    for (size_t n = 0; n < payload.size(); n += 1 + payload.size() / 50)
+      open_status(
+          with_payload(file, i, {payload.begin(), payload.begin() + static_cast<ptrdiff_t>(n)}));
+    for (int run = 0; run < 60; ++run) {
+      format::Bytes changed = payload;
+      for (int flips = 0; flips < 1 + run % 4; ++flips)
+        changed[random() % changed.size()] ^= static_cast<uint8_t>(1 << random() % 8);
+      open_status(with_payload(file, i, changed));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bases, HostileFile, testing::Values(BasisChoice::kKeyframes));
+
+}  // namespace
+}  // namespace anicodec
