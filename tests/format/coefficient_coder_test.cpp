@@ -158,7 +158,7 @@ TEST(CoefficientModel, TruncatedOrCorruptStreamsEndInTime) {
   }
 }
 
-// Pins the bytes: a change here is a change of the format (spec/08-entropy.md, section 8).
+// Pins the bytes: a change here is a change of the format (spec/08-entropy.md, section 7).
 TEST(CoefficientModel, WritesThePinnedBytes) {
   for (const uint32_t channels : {1u, 3u}) {
     const Basis b = make_basis(200, channels, 6, 8, [](size_t i) {

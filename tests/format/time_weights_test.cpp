@@ -183,7 +183,7 @@ TEST(TimeWeightModel, RefusesCosinesOfTooManyFrames) {
 }
 
 // Pins the bytes, the bisection's binary64 arithmetic included: a change here is a change of the
-// format (spec/08-entropy.md, section 8).
+// format (spec/08-entropy.md, section 7).
 TEST(TimeWeightModel, WritesThePinnedBytes) {
   std::vector<Component> components;
   for (int j = 0; j < 8; ++j) {
