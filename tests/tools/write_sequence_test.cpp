@@ -89,7 +89,7 @@ TEST(WriteSequence, StreamsFrameByFrame) {
     frame.assign(whole.frame(f).begin(), whole.frame(f).end());
     return std::span<const float>(frame);
   };
-  write_sequence(folder / "a.pc2", clip, source);
+  write_sequence(folder / "a.pc2", clip, source, {});
   EXPECT_THAT(asked, ElementsAre(0, 1, 2, 3, 4));
   expect_same(load({folder / "a.pc2"}), whole);
 }
@@ -128,7 +128,7 @@ TEST(WriteSequence, LeavesNothingWhenItFails) {
         throw Error(ErrorKind::kCorrupt, "broken");
       return std::as_const(clip).frame(f);
     };
-    EXPECT_EQ(fault([&] { write_sequence(folder / name, clip, source); }, ErrorKind::kCorrupt),
+    EXPECT_EQ(fault([&] { write_sequence(folder / name, clip, source, {}); }, ErrorKind::kCorrupt),
               "broken");
     EXPECT_THAT(folder.files(), IsEmpty());
   }
@@ -157,8 +157,9 @@ TEST(WriteSequence, RejectsFramesOfTheWrongSize) {
   MeshSequence clip = awkward_clip(1);
   TemporaryFolder folder;
   auto source = [&](uint32_t) { return std::as_const(clip).frame(0).subspan(3); };
-  EXPECT_THAT(fault([&] { write_sequence(folder / "a.obj", clip, source); }, ErrorKind::kInternal),
-              HasSubstr("frame 0 has 27 coordinates, not 3 x 10"));
+  EXPECT_THAT(
+      fault([&] { write_sequence(folder / "a.obj", clip, source, {}); }, ErrorKind::kInternal),
+      HasSubstr("frame 0 has 27 coordinates, not 3 x 10"));
 }
 
 }  // namespace

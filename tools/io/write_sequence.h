@@ -26,15 +26,15 @@ struct WriteOptions {
 
 /// Writes a clip, one frame in memory at a time:
 ///   - clip.pc2, clip.mdd: a vertex cache, with the mesh of frame 0 beside it as clip.obj,
-///   - frame_%04d.obj, .ply, .off, .stl: a file per frame; the %d or %0Nd counts from first_number.
-///   A
-///     single frame may have a plain name.
-/// PC2 carries no rate; MDD has the time of each frame. STL loses polygons and unused vertices.
-/// Counts, polygons and timing come from `clip`, whose positions are not read. All outputs appear
-/// together at the end or, on any exception, not at all. Throws Error(kUsage) for a bad name or an
-/// existing output, Error(kInternal) when the disk is full.
+///   - frame_%04d.obj, .ply, .off, .stl: a file per frame, its %d or %0Nd counting from
+///   first_number.
+/// A single frame may have a plain name. PC2 carries no rate; MDD has the time of each frame. STL
+/// loses polygons and unused vertices. Counts, polygons and timing come from `clip`, whose
+/// positions are not read. All outputs appear together at the end or, on any exception, not at all.
+/// Throws Error(kUsage) for a bad name or an existing output, Error(kInternal) when the disk is
+/// full.
 void write_sequence(const std::string& path, const MeshSequence& clip, const FrameSource& frames,
-                    const WriteOptions& options = {});
+                    const WriteOptions& options);
 
 /// The same for a clip that is in memory.
 void write_sequence(const std::string& path, const MeshSequence& clip,
