@@ -95,8 +95,9 @@ Faces cycles(const std::vector<uint32_t>& offsets, const std::vector<uint32_t>& 
 
 void expect_round_trip(const MeshSequence& s, format::CoderId coder) {
   MeshLayout layout = lay_out_mesh(s, coder);
-  if (layout.sizes.triangles > 0)
+  if (layout.sizes.triangles > 0) {
     EXPECT_EQ(layout.coder, coder);
+  }
   Topology t = decoded(layout, true, false);
   ASSERT_EQ(t.vertex_coded.size(), s.vertex_count);
   EXPECT_EQ(t.vertex_coded, layout.source_coded);
