@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
 namespace anicodec {
 namespace {
 
-constexpr double kClose = 0.99;     // of the error asked for: near enough
+constexpr double kClose = 0.997;  // of the error asked for: near enough
+constexpr double kAim = 0.9985;   // where to aim, of the same
+constexpr int kRounds = 8;
 constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
 constexpr size_t kMostComponents = 2000;
 
@@ -32,7 +35,8 @@ const LinearBasis& LinearCoder::basis(ReferencePose pose, Base base) {
   return found->second;
 }
 
-double LinearCoder::first_step(const Choice& choice, double rmse) {
+/// The choice with a step and a number of components that should meet the error.
+LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
   const LinearBasis& b = basis(choice.pose, choice.base);
   FrameView clip = input_.frames();
   double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
@@ -40,16 +44,18 @@ double LinearCoder::first_step(const Choice& choice, double rmse) {
   double scalars = static_cast<double>(clip.vertex_count * (shapes ? 3 : 1));
   // Bisection: the error of rounding and of what is left out grows with the step.
   double low = rmse * 1e-6, high = rmse * 1e6;
-  LinearSettings settings = choice.settings;
+  LinearSettings& settings = choice.settings;
   for (int round = 0; round < 60; ++round) {
+    settings.components = 0;
     settings.step = std::sqrt(low * high);
-    size_t k = component_count(b, settings, clip.vertex_count, clip.frame_count);
-    double rest = b.base_energy - b.energies.head(static_cast<Eigen::Index>(k)).sum();
+    settings.components = component_count(b, settings, clip.vertex_count, clip.frame_count);
+    auto k = static_cast<Eigen::Index>(settings.components);
+    double rest = b.base_energy - b.energies.head(k).sum();
     double error = std::max(rest, 0.0) +
                    0.12 * static_cast<double>(k) * scalars * settings.step * settings.step;
     (error > budget ? high : low) = settings.step;
   }
-  return std::sqrt(low * high);
+  return choice;
 }
 
 LinearCoder::Measured LinearCoder::measured(const Choice& choice, double rmse) {
@@ -67,51 +73,56 @@ LinearCoder::Measured LinearCoder::measured(const Choice& choice, double rmse) {
   return m;
 }
 
+double LinearCoder::probe(double rmse) {
+  choice_ = started(choice_, rmse);
+  return measured(choice_, rmse).bytes;
+}
+
 void LinearCoder::choose_settings(double rmse) {
   chosen_ = true;
-  choice_.settings.step = first_step(choice_, rmse);
-  if (effort_ < 2)
+  choice_ = started(choice_, rmse);
+  // One change at a time, those that pay most often first; what helps is kept.
+  using Change = std::function<void(Choice&)>;
+  bool shapes = kind_ == format::BasisKind::kEigenshapes;
+  const std::vector<Change> changes = {
+      [](Choice& c) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
+      [](Choice& c) { c.settings.neighbours = 20; },
+      [](Choice& c) { c.settings.pose_factor *= 1.4; },
+      [shapes](Choice& c) {
+        c.pose = shapes ? ReferencePose::kRankThree : ReferencePose::kMean;
+        c.base = Base::kAffine;
+      },
+      [](Choice& c) { c.settings.lambda = 0.05; },
+      [](Choice& c) { c.settings.weight_factor *= 1.2; },
+      [](Choice& c) { c.settings.colours = 2; },
+      [](Choice& c) { c.settings.rank_factor *= 1.5; },
+      [](Choice& c) { c.settings.radius = 16; },
+      [](Choice& c) { c.settings.neighbours = 24; },
+      [](Choice& c) { c.settings.pose_factor *= 1.4; },
+      [](Choice& c) { c.settings.lambda = 0.11; },
+      [](Choice& c) { c.settings.weight_factor *= 1.2; },
+      [](Choice& c) { c.settings.pose_factor /= 1.3; },
+      [](Choice& c) { c.settings.weight_factor /= 1.15; },
+      [](Choice& c) { c.settings.rank_factor /= 1.5; },
+      [](Choice& c) { c.settings.radius = 9; },
+  };
+  constexpr size_t kTrials[10] = {0, 0, 1, 3, 5, 7, 9, 12, 15, 17};
+  size_t trials = std::min(kTrials[std::clamp(effort_, 1, 9)], changes.size());
+  if (trials == 0)
     return;
   double least = measured(choice_, rmse).bytes;
-  auto consider = [&](auto change) {
+  for (size_t i = 0; i < trials; ++i) {
     Choice other = choice_;
-    change(other);
-    if (other.pose != choice_.pose || other.base != choice_.base)
-      other.settings.step = first_step(other, rmse);
+    changes[i](other);
+    if (other.settings.rank_factor != choice_.settings.rank_factor || other.pose != choice_.pose ||
+        other.base != choice_.base)
+      other = started(other, rmse);
     double bytes = measured(other, rmse).bytes;
     if (bytes < least) {
       least = bytes;
       choice_ = other;
     }
-  };
-  bool shapes = kind_ == format::BasisKind::kEigenshapes;
-  consider([&](Choice& c) {
-    c.pose = ReferencePose::kFrame;
-    c.base = Base::kAffine;
-  });
-  if (effort_ < 4)
-    return;
-  consider([&](Choice& c) {
-    c.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
-    c.base = Base::kAffine;
-    if (!shapes)
-      c.pose = ReferencePose::kMean;
-  });
-  consider([](Choice& c) { c.settings.neighbours = 20; });
-  if (effort_ < 6)
-    return;
-  consider([](Choice& c) { c.settings.colours = 2; });
-  consider([](Choice& c) { c.settings.radius = 16; });
-  consider([](Choice& c) { c.settings.neighbours = 24; });
-  consider([](Choice& c) { c.settings.lambda = 0.05; });
-  if (effort_ < 8)
-    return;
-  consider([](Choice& c) { c.settings.lambda = 0.11; });
-  consider([](Choice& c) { c.settings.weight_factor = 2; });
-  consider([](Choice& c) { c.settings.weight_factor = 2.9; });
-  consider([](Choice& c) { c.settings.pose_factor = 1; });
-  consider([](Choice& c) { c.settings.pose_factor = 1.6; });
-  consider([](Choice& c) { c.settings.rank_factor = 0.3; });
+  }
 }
 
 std::optional<Part> LinearCoder::at_rmse(double rmse) {
@@ -120,17 +131,28 @@ std::optional<Part> LinearCoder::at_rmse(double rmse) {
   if (!chosen_)
     choose_settings(rmse);
   else
-    choice_.settings.step = first_step(choice_, rmse);
+    choice_ = started(choice_, rmse);
   std::optional<Measured> best;
-  for (int round = 0; round < 7; ++round) {
+  double inside = 0, outside = std::numeric_limits<double>::infinity();  // steps known to be so
+  for (int round = 0; round < kRounds; ++round) {
     Measured trial = measured(choice_, rmse);
-    double ratio = trial.rmse / rmse;
-    if (ratio <= 1 && (!best || trial.rmse > best->rmse))
+    double ratio = trial.rmse / rmse, step = choice_.settings.step;
+    bool fits = ratio <= 1;
+    (fits ? inside : outside) = step;
+    if (fits && (!best || trial.rmse > best->rmse))
       best = std::move(trial);
-    if (best && (best->rmse >= kClose * rmse || round >= 4))
+    if (best && best->rmse >= kClose * rmse)
       break;
-    // Aim a little below the target: what counts is to end there from below.
-    choice_.settings.step *= std::clamp(0.996 / std::max(ratio, 1e-9), 0.25, 4.0);
+    if (outside < inside || round == 3) {
+      // The components left out alone take most of the error: more of them.
+      choice_.settings.components += choice_.settings.components / 16 + (best ? 0 : 1);
+      outside = std::numeric_limits<double>::infinity();
+    }
+    // Aim just below the target: what counts is to end there from below.
+    double next = step * std::clamp(kAim / std::max(ratio, 1e-9), 0.25, 4.0);
+    if (next >= outside || next <= inside)
+      next = std::isinf(outside) ? next : std::sqrt(std::max(inside, 0.5 * outside) * outside);
+    choice_.settings.step = next;
   }
   if (!best)
     return std::nullopt;

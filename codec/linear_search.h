@@ -24,6 +24,9 @@ class LinearCoder : public SegmentCoder {
 
   std::optional<Part> at_rmse(double rmse) override;
 
+  /// About the bytes that an error costs, from one trial.
+  double probe(double rmse);
+
  private:
   struct Choice {
     ReferencePose pose;
@@ -38,7 +41,7 @@ class LinearCoder : public SegmentCoder {
   };
 
   const LinearBasis& basis(ReferencePose pose, Base base);
-  double first_step(const Choice& choice, double rmse);
+  Choice started(Choice choice, double rmse);
   Measured measured(const Choice& choice, double rmse);
   void choose_settings(double rmse);
 

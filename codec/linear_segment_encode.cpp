@@ -160,6 +160,8 @@ int32_t rounded(CoefficientModel& model, uint32_t v, uint32_t c, double residual
 
 size_t component_count(const LinearBasis& basis, const LinearSettings& settings, size_t vertices,
                        size_t frames) {
+  if (settings.components > 0)
+    return std::min(settings.components, static_cast<size_t>(basis.energies.size()));
   bool shapes = basis.kind == format::BasisKind::kEigenshapes;
   double scalars = static_cast<double>(shapes ? 3 * vertices + frames : vertices + 3 * frames);
   double smallest = settings.rank_factor * scalars * settings.step * settings.step;

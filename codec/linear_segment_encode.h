@@ -23,6 +23,7 @@ struct LinearSettings {
   double weight_lambda = 0.1;  ///< the same for time weights
   double rank_factor =
       0.2;  ///< components with less energy per scalar, in squared steps, are left out
+  size_t components = 0;  ///< exact number of components; 0: as many as rank_factor says
   uint8_t neighbours = 16;
   uint8_t colours = 1;
   uint8_t radius = 12;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/rate_control.h"
 
+#include "codec/basis_error.h"
 #include "codec/clip_file.h"
 #include "codec/error.h"
 #include "codec/linear_search.h"
@@ -18,6 +19,7 @@ using format::BasisKind;
 using format::ErrorMetric;
 
 constexpr uint32_t kLayers = 1;
+constexpr double kFarBehind = 1.15;
 
 std::string number(double x) {
   char text[32];
@@ -118,13 +120,23 @@ std::optional<Solution> RateControl::at_rmse(SegmentCoder& coder, double rmse) {
 std::optional<Solution> RateControl::at_max_error(SegmentCoder& coder, double bound) {
   if (bound == 0)  // per cent of nothing: all vertices are one point that stands still
     return at_rmse(coder, smallest_bound());
-  // Corrections take care of the outliers: how many are worth having is measured.
+  // Corrections take care of the outliers: how many are worth having is measured, going from a
+  // usual ratio of maximum to mean error in the direction that pays.
   cap_ = bound - smallest_bound() / 4;
   std::optional<Solution> best;
-  for (double ratio : {2.5, 4.0, 6.5}) {
+  auto trial_is_better = [&](double ratio) {
     std::optional<Solution> trial = at_rmse(coder, bound / ratio);
-    if (trial && (!best || trial->bytes < best->bytes))
-      best = std::move(trial);
+    if (!trial || (best && trial->bytes >= best->bytes))
+      return false;
+    best = std::move(trial);
+    return true;
+  };
+  constexpr double kUsual = 4, kFactor = 1.4;
+  trial_is_better(kUsual);
+  bool higher = trial_is_better(kUsual * kFactor);
+  double factor = higher ? kFactor : 1 / kFactor;
+  double ratio = higher ? kUsual * kFactor : kUsual;
+  for (int round = 0; round < 3 && trial_is_better(ratio *= factor); ++round) {
   }
   return best;
 }
@@ -181,21 +193,53 @@ Solution RateControl::solve() {
     return std::move(*best);
   }
   LinearAnalysis analysis(input_.frames());
-  for (format::BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
+  std::vector<std::unique_ptr<LinearCoder>> coders;
+  for (BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
     BasisChoice own = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
                                                       : BasisChoice::kEigentrajectories;
-    if (options_.basis == BasisChoice::kAuto || options_.basis == own) {
-      LinearCoder coder(input_, analysis, kind, options_.effort, kLayers);
-      offer(coder);
-    }
+    if (options_.basis == BasisChoice::kAuto || options_.basis == own)
+      coders.push_back(
+          std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort, kLayers));
   }
-  if (options_.basis == BasisChoice::kAuto) {
+  if (coders.size() == 2) {
+    // A kind that one trial shows to be far behind is not searched.
+    double rmse = typical_rmse();
+    double bytes[2] = {coders[0]->probe(rmse), coders[1]->probe(rmse)};
+    if (std::max(bytes[0], bytes[1]) > kFarBehind * std::min(bytes[0], bytes[1]))
+      coders.erase(coders.begin() + (bytes[0] < bytes[1] ? 1 : 0));
+  }
+  for (std::unique_ptr<LinearCoder>& coder : coders)
+    offer(*coder);
+  if (options_.basis == BasisChoice::kAuto && !(best && beats_keyframes(*best))) {
     KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
     offer(keyframes);
   }
   if (!best)
     throw Error(ErrorKind::kUsage, "the target cannot be reached");
   return std::move(*best);
+}
+
+double RateControl::typical_rmse() const {
+  switch (target_.metric) {
+    case ErrorMetric::kKg:
+      return rmse_of_kg(target_.value);
+    case ErrorMetric::kRmse:
+      return target_.value;
+    case ErrorMetric::kMaxError:
+      return std::max(target_.value, smallest_bound()) / 4;
+    default:
+      return rmse_of_kg(0.1);
+  }
+}
+
+bool RateControl::beats_keyframes(const Solution& solution) const {
+  // No fewer key-frames than principal components can do, each at a bit per coordinate at least.
+  std::vector<double> left = principal_errors(frame_gram(input_.frames()).clip_centred());
+  size_t k = 0;
+  while (k + 1 < left.size() && left[k] > solution.squared_error())
+    ++k;
+  return static_cast<double>(k) * 3 * input_.layout.sizes.coded_vertices / 8 >
+         static_cast<double>(solution.bytes);
 }
 
 bool RateControl::better(const Solution& a, const Solution& b) const {

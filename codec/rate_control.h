@@ -49,7 +49,9 @@ class RateControl {
   bool better(const Solution& a, const Solution& b) const;
   [[noreturn]] void fail(KeyframeCoder& keyframes);
   Solution finished(Part part);
+  bool beats_keyframes(const Solution& solution) const;
   double smallest_bound() const;
+  double typical_rmse() const;
   double rmse_of_kg(double kg) const;
 
   const EncoderInput& input_;
