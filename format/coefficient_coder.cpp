@@ -10,7 +10,6 @@ namespace {
 constexpr uint32_t kFine = 20;      ///< classes, two per octave
 constexpr uint32_t kCoarse = 12;    ///< classes, one per octave
 constexpr uint32_t kExpected = 48;  ///< classes, four per octave
-constexpr uint32_t kQuiet = 64;     ///< expected magnitude below which a vertex may be quiet, 1/256
 constexpr uint32_t kComponents = 8, kLevels = 20, kSelect = 8;
 
 /// Sum of the weights 6, 5, 4, 3, 3, 2, 2, 1 of the first n neighbours.
@@ -82,7 +81,7 @@ CoefficientModel::CoefficientModel(uint32_t vertex_count, uint32_t channels,
 }
 
 void CoefficientModel::begin_component() {
-  vertex_ = ~0u;
+  ready_ = false;
   running_ = 0;
   std::fill(magnitude_.begin(), magnitude_.end(), uint16_t{0});
   std::fill(value_[0].begin(), value_[0].end(), int8_t{0});
@@ -105,29 +104,21 @@ void CoefficientModel::prepare_vertex(uint32_t v) {
   const uint16_t* m = magnitude_.data() + 1;  // rank -1: none
   const uint32_t m0 = m[ranks[0]], m1 = m[ranks[1]], m2 = m[ranks[2]], m3 = m[ranks[3]],
                  m4 = m[ranks[4]], m5 = m[ranks[5]], m6 = m[ranks[6]], m7 = m[ranks[7]];
-  const uint32_t sum = 6 * m0 + 5 * m1 + 4 * m2 + 3 * (m3 + m4) + 2 * (m5 + m6) + m7;
-  near2_ = near6_ = weighted_ = far_ = 0;
-  if (sum != 0) {
-    const uint32_t count = valid_[v];
-    near2_ = ((m0 + m1) * kReciprocals.value[std::min(count, 2u)]) >> 16;
-    near6_ = ((m0 + m1 + m2 + m3 + m4 + m5) * kReciprocals.value[std::min(count, 6u)]) >> 16;
-    weighted_ = (sum * kReciprocals.value[kWeights[count]]) >> 16;
-    far_ = (m4 + m5 + m6 + m7) >> 2;
-  }
-  sum_ = 0;
-  features_ = {weighted_ * 4, history_[v + 1], past_[v + 1], running_ >> 4};
+  const uint32_t count = valid_[v];
+  const uint32_t near2 = ((m0 + m1) * kReciprocals.value[std::min(count, 2u)]) >> 16;
+  near6_ = ((m0 + m1 + m2 + m3 + m4 + m5) * kReciprocals.value[std::min(count, 6u)]) >> 16;
+  const uint32_t total = 6 * m0 + 5 * m1 + 4 * m2 + 3 * (m3 + m4) + 2 * (m5 + m6) + m7;
+  const uint32_t near = (total * kReciprocals.value[kWeights[count]]) >> 16;
+  const uint32_t far = (m4 + m5 + m6 + m7) >> 2;
+  const uint32_t history = history_[v + 1] >> 2, past = past_[v + 1] >> 2;
+
+  features_ = {near * 4, history_[v + 1], past_[v + 1], running_ >> 4};
   uint64_t expected = 0;
   for (size_t i = 0; i < features_.size(); ++i)
     expected += uint64_t{features_[i]} * static_cast<uint32_t>(shares_[i]);
   expected_ = static_cast<uint32_t>(std::min<uint64_t>(expected >> 16, 65535));
-  quiet_ = sum == 0 && last_[v + 1] == 0 && expected_ < kQuiet;
-  prepared_ = false;
-}
 
-void CoefficientModel::prepare_contexts(uint32_t v) {
-  prepared_ = true;
   const uint32_t n = states(channels_);
-  const uint32_t history = history_[v + 1] >> 2, past = past_[v + 1] >> 2;
   const uint32_t level = std::min(static_cast<uint32_t>(floor_log2(v + 1)), kLevels - 1);
   const auto pair = [&](uint32_t a, uint32_t b) {
     return (magnitude_class<1>(a, kFine) * kFine + magnitude_class<1>(b, kFine)) * n;
@@ -137,18 +128,19 @@ void CoefficientModel::prepare_contexts(uint32_t v) {
       (magnitude_class<1>(past, kFine) * kComponents + std::min(component_, kComponents - 1)) * n,
       magnitude_class<2>(expected_, kExpected) * n,
       magnitude_class<0>(past, kCoarse) * kCoarse * 8 + magnitude_class<0>(near6_ >> 3, 8),
-      pair(weighted_, far_),
-      pair(near2_, last_[v + 1]),
+      pair(near, far),
+      pair(near2, last_[v + 1]),
       (magnitude_class<1>(running_ >> 6, kFine) * kLevels + level) * n};
   selectors_ = {magnitude_class<0>(expected_ >> 3, kSelect) * n, level * n};
+  prepared_ = true;
 }
 
 void CoefficientModel::prepare_channel(uint32_t v, uint32_t c) {
   if (!prepared_)
-    prepare_contexts(v);
+    prepare_vertex(v);
   const uint32_t state = c == 0 ? 0 : sum_ == 0 ? 1 : sum_ <= 2 ? 2 : 3;
   const uint32_t before = c == 0 ? near6_ : (sum_ * 64 * kReciprocals.value[c]) >> 16;
-  const std::array<uint32_t, 7>& x = contexts_;
+  const std::array<uint32_t, kMagnitudes>& x = contexts_;
   magnitudes_.select(
       {x[0] + state, x[1] + state, x[2] + state, x[3] + magnitude_class<0>(before, kCoarse) * 8,
        x[4] + state, x[5] + state, x[6] + state},
@@ -203,29 +195,21 @@ void CoefficientModel::prepare_sign(uint32_t v, uint32_t c) {
       std::min(component_, kComponents - 1));
 }
 
-void CoefficientModel::learn(uint32_t v, uint32_t c, int32_t q) {
-  if (q != 0) {
-    value_[0][(size_t{v} + 1) * channels_ + c] = static_cast<int8_t>(std::clamp(q, -100, 100));
-    const int32_t* ranks = neighbours(v);
-    for (size_t a = 0; a < kNear; ++a) {
-      int8_t& agreement = agreement_[size_t{v} * kNear + a];
-      const int s = sign(value_[0][static_cast<size_t>(ranks[a] + 1) * channels_ + c]) * sign(q);
-      agreement = static_cast<int8_t>(agreement - agreement / 8 + 14 * s);
-    }
-    const auto magnitude = static_cast<uint32_t>(q < 0 ? -q : q);
-    sum_ += std::min(magnitude, 1023u);
+void CoefficientModel::learn_nonzero(uint32_t v, uint32_t c, int32_t q) {
+  value_[0][(size_t{v} + 1) * channels_ + c] = static_cast<int8_t>(std::clamp(q, -100, 100));
+  const int32_t* ranks = neighbours(v);
+  for (size_t a = 0; a < kNear; ++a) {
+    int8_t& agreement = agreement_[size_t{v} * kNear + a];
+    const int s = sign(value_[0][static_cast<size_t>(ranks[a] + 1) * channels_ + c]) * sign(q);
+    agreement = static_cast<int8_t>(agreement - agreement / 8 + 14 * s);
   }
-  if (c + 1 == channels_)
-    finish_vertex(v);
-  vertex_ = ~0u;
+  sum_ += std::min(static_cast<uint32_t>(q < 0 ? -q : q), 1023u);
 }
 
 void CoefficientModel::finish_vertex(uint32_t v) {
-  const uint32_t m = std::min((sum_ * 64 * kReciprocals.value[channels_]) >> 16, 65535u);
+  const uint32_t m = (sum_ * 64 * kReciprocals.value[channels_]) >> 16;
   magnitude_[v + 1] = static_cast<uint16_t>(m);
   running_ = (31 * running_ + 64 * m) >> 5;
-  if (quiet_ && m == 0)
-    return;
   // Normalised least mean squares; the shares stay within [0, 4].
   const auto expected = static_cast<int32_t>(expected_);
   const int32_t error = std::min(static_cast<int32_t>(4 * m), 3 * expected + 512) - expected;

@@ -38,7 +38,7 @@ class CoefficientModel {
                    uint32_t stride);
 
   /// Codes a component: vertex_count x channels residuals, vertex by vertex. A decoder overwrites
-  /// them.
+  /// them, but leaves the rest as they were once its stream has run out (!coder.ok()).
   template <class Coder>
   void code_component(Coder& coder, int32_t* q) {
     begin_component();
@@ -79,24 +79,42 @@ class CoefficientModel {
   static constexpr uint32_t kNear = 8;      ///< neighbours in use
   static constexpr size_t kMagnitudes = 7;  ///< contexts of zero flag and magnitude
   static constexpr size_t kSigns = 5;       ///< contexts of the sign
+  static constexpr uint32_t kQuiet = 128;    ///< bound of a quiet vertex's running means, 1/256
 
   void prepare(uint32_t v, uint32_t c) {
-    if (vertex_ == v && channel_ == c)
+    if (ready_)
       return;
+    ready_ = true;
     if (c == 0)
-      prepare_vertex(v);
-    vertex_ = v;
-    channel_ = c;
+      start_vertex(v);
     if (!quiet_)
       prepare_channel(v, c);
   }
 
-  void prepare_vertex(uint32_t v);
-  void prepare_contexts(uint32_t v);
-  void prepare_channel(uint32_t v, uint32_t c);
-  void prepare_sign(uint32_t v, uint32_t c);
-  void learn(uint32_t v, uint32_t c, int32_t q);
-  void finish_vertex(uint32_t v);
+  /// A vertex is quiet if its neighbours are zero and it has itself been zero for a while. Zero
+  /// flags of quiet vertices, half of all symbols, take the short way.
+  void start_vertex(uint32_t v) {
+    const int32_t* ranks = neighbours(v);
+    const uint16_t* m = magnitude_.data() + 1;  // rank -1: none
+    uint32_t any = last_[v + 1];
+    for (size_t a = 0; a < kNear; ++a)
+      any |= m[ranks[a]];
+    quiet_ = any == 0 && history_[v + 1] < kQuiet && past_[v + 1] < kQuiet;
+    prepared_ = false;
+    sum_ = 0;
+  }
+
+  void learn(uint32_t v, uint32_t c, int32_t q) {
+    ready_ = false;
+    if (q != 0)
+      learn_nonzero(v, c, q);
+    if (c + 1 < channels_)
+      return;
+    if (quiet_ && sum_ == 0)
+      running_ = (31 * running_) >> 5;
+    else
+      finish_vertex(v);
+  }
 
   template <class Coder>
   int32_t code_prepared(Coder& coder, uint32_t v, uint32_t c, int32_t q) {
@@ -104,17 +122,20 @@ class CoefficientModel {
       prepare_sign(v, c);
       return signs_.code(coder, 0, negative);
     };
-    if (quiet_) {
-      AdaptiveBit& zero = quiet_bits_[magnitude_class<1>(expected_, 16)][c == 0      ? 0
-                                                                         : sum_ == 0 ? 1
-                                                                                     : 2];
-      if (!coder.bit(zero, q != 0))
-        return 0;
-      prepare_channel(v, c);
-      return magnitudes_.code_nonzero(coder, q, sign);
-    }
-    return magnitudes_.code(coder, q, sign);
+    if (!quiet_)
+      return magnitudes_.code(coder, q, sign);
+    const uint32_t state = c == 0 ? 0 : sum_ == 0 ? 1 : 2;
+    if (!coder.bit(quiet_bits_[magnitude_class<1>(past_[v + 1], 16)][state], q != 0))
+      return 0;
+    prepare_channel(v, c);
+    return magnitudes_.code_nonzero(coder, q, sign);
   }
+
+  void prepare_vertex(uint32_t v);
+  void prepare_channel(uint32_t v, uint32_t c);
+  void prepare_sign(uint32_t v, uint32_t c);
+  void learn_nonzero(uint32_t v, uint32_t c, int32_t q);
+  void finish_vertex(uint32_t v);
 
   const int32_t* neighbours(uint32_t v) const { return neighbours_ + size_t{v} * stride_; }
 
@@ -134,14 +155,16 @@ class CoefficientModel {
       value_;                      ///< q of this component and the two before, within +-100
   std::vector<int8_t> agreement_;  ///< kNear per vertex: do the signs of both agree?
   // Of the component, vertex and channel at hand.
-  uint32_t component_ = 0, vertex_ = ~0u, channel_ = 0;
-  bool quiet_ = false, prepared_ = false;
+  uint32_t component_ = 0;
+  bool ready_ = false;                            ///< the channel is prepared
+  bool quiet_ = false;                            ///< the vertex is quiet
+  bool prepared_ = false;                         ///< the vertex is prepared for mixing
   std::array<uint32_t, kMagnitudes> contexts_{};  ///< of all channels
   std::array<uint32_t, 2> selectors_{};
   AdaptiveBit quiet_bits_[16][3];
   uint32_t running_ = 0;  ///< running mean of magnitude_, in 1/4096
   uint32_t sum_ = 0;      ///< of |q| over the channels before
-  uint32_t near6_ = 0, near2_ = 0, weighted_ = 0, far_ = 0, expected_ = 0;
+  uint32_t near6_ = 0, expected_ = 0;
   std::array<uint32_t, 4> features_{};  ///< what expected_ is a combination of ...
   std::array<int32_t, 4> shares_;       ///< ... with these coefficients, 16.16
 };

@@ -195,7 +195,9 @@ TEST(TimeWeightModel, WritesThePinnedBytes) {
     }
     components.push_back(c);
   }
-  constexpr uint64_t kHashes[kWeightPredictors] = {398567561082569490u, 6612177965898796023u, 11269550775905784053u, 10875039179736114835u, 10161661477667020728u};
+  constexpr uint64_t kHashes[kWeightPredictors] = {398567561082569490u, 6612177965898796023u,
+                                                   11269550775905784053u, 10875039179736114835u,
+                                                   10161661477667020728u};
   for (uint32_t p = 0; p < kWeightPredictors; ++p)
     EXPECT_EQ(hash(encode(130, components, 1u << p).bytes), kHashes[p]) << p;
 }
