@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+// Any bytes through the entropy decoders. The first byte picks the model, the second its size. What
+// a decoder accepts, the encoder writes again, byte for byte.
+#include "format/binary_coder.h"
+#include "format/coefficient_coder.h"
+#include "format/symbol_model.h"
+#include "format/time_weights.h"
+
+#include <cstdlib>
+#include <vector>
+
+using namespace anicodec;
+
+namespace {
+
+void require(bool condition) {
+  if (!condition)
+    std::abort();
+}
+
+bool same(const std::vector<uint8_t>& bytes, const uint8_t* data, size_t size) {
+  return bytes == std::vector<uint8_t>(data, data + size);
+}
+
+void fuzz_integers(size_t count, const uint8_t* data, size_t size) {
+  BinaryDecoder decoder(data, size);
+  BinaryEncoder encoder;
+  SymbolModel<> read, write;
+  for (size_t i = 0; i < count; ++i)
+    write.code(encoder, read.code(decoder));
+  require(decoder.finish() == same(encoder.finish(), data, size));
+}
+
+void fuzz_coefficients(uint32_t channels, uint32_t vertices, const uint8_t* data, size_t size) {
+  constexpr uint32_t kStride = 8, kComponents = 4;
+  std::vector<int32_t> neighbours;
+  for (uint32_t v = 0; v < vertices; ++v) {
+    for (uint32_t a = 0; a < kStride; ++a)
+      neighbours.push_back(a < v ? static_cast<int32_t>((v * 7 + a * 5) % v) : -1);
+  }
+  BinaryDecoder decoder(data, size);
+  BinaryEncoder encoder;
+  CoefficientModel read(vertices, channels, neighbours.data(), kStride);
+  CoefficientModel write(vertices, channels, neighbours.data(), kStride);
+  std::vector<int32_t> q(size_t{vertices} * channels);
+  for (uint32_t j = 0; j < kComponents; ++j) {
+    read.code_component(decoder, q.data());
+    for (const int32_t value : q)
+      require(std::abs(value) < kCoefficientLimit);
+    write.code_component(encoder, q.data());
+  }
+  if (decoder.finish())
+    require(same(encoder.finish(), data, size));
+}
+
+void fuzz_weights(uint32_t frames, const uint8_t* data, size_t size) {
+  constexpr int64_t kLimit = int64_t{kWeightLimit} << kWeightFractionBits;
+  BinaryDecoder decoder(data, size);
+  TimeWeightModel model(frames);
+  std::vector<int32_t> values(size_t{3} * frames);
+  for (const uint32_t channels : {3u, 1u, 3u, 1u}) {
+    if (model.decode(decoder, channels, values.data()) != Status::kOk)
+      return;
+    for (const int32_t value : values)
+      require(std::abs(int64_t{value}) <= kLimit);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  if (size < 2)
+    return 0;
+  const uint32_t count = data[1];
+  switch (data[0] % 4) {
+    case 0:
+      fuzz_integers(count, data + 2, size - 2);
+      break;
+    case 1:
+      fuzz_coefficients(1, count, data + 2, size - 2);
+      break;
+    case 2:
+      fuzz_coefficients(3, count, data + 2, size - 2);
+      break;
+    default:
+      fuzz_weights(count, data + 2, size - 2);
+      break;
+  }
+  return 0;
+}
