@@ -6,7 +6,21 @@
 #include "codec/error.h"
 #include "format/container.h"
 
+#include <algorithm>
+
 namespace anicodec {
+namespace {
+
+format::Bytes pose_record(const EncodedPose& pose) {
+  format::PoseRecord record;
+  record.coder = pose.coder;
+  std::copy_n(pose.grid.origin, 3, record.origin);
+  record.step = pose.grid.step;
+  record.stream = pose.stream;
+  return record.write();
+}
+
+}  // namespace
 
 format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layout,
                         const std::vector<const EncodedSegment*>& segments) {
@@ -21,11 +35,12 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
   for (const EncodedSegment* segment : segments) {
     limits.frames += segment->sizes.frames;
     limits.segments.push_back(segment->sizes);
-    if (!segment->draco_poses.empty()) {
-      connectivity = encode_with_poses(layout, segment->draco_poses);
+    if (std::vector<std::vector<int32_t>> carried = segment->poses_for_draco();
+        poses == 0 && !carried.empty()) {
+      connectivity = encode_with_poses(layout, carried);
       if (connectivity.empty())
         throw Error(ErrorKind::kInternal, "Draco cannot code the key-frames");
-      poses = segment->draco_poses.size();
+      poses = carried.size();
     }
   }
   if (layout.coder == format::CoderId::kDraco) {
@@ -42,8 +57,13 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
     file.add("VMAP", true, kMesh, format::kNoSegment, layout.vertex_map);
   if (record.order == format::OrderMode::kAll)
     file.add("FMAP", true, kMesh, format::kNoSegment, layout.face_map);
+  const EncodedPose* of_mesh = segments[0]->reference.get();
+  if (of_mesh)
+    file.add("POSE", true, kMesh, format::kNoSegment, pose_record(*of_mesh));
   for (uint32_t i = 0; i < segments.size(); ++i) {
     const EncodedSegment& s = *segments[i];
+    if (s.reference && s.reference.get() != of_mesh)
+      file.add("POSE", true, kMesh, i, pose_record(*s.reference));
     format::SegmentRecord segment;
     segment.kind = s.sizes.kind;
     segment.reconstruction = s.reconstruction;

@@ -48,6 +48,12 @@ size_t EncodedSegment::bytes() const {
   return total;
 }
 
+std::vector<std::vector<int32_t>> EncodedSegment::poses_for_draco() const {
+  if (reference && reference->coder == format::CoderId::kDraco)
+    return {reference->grid.points};
+  return draco_poses;
+}
+
 Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   DracoMesh draco;
   draco.points = layout.sizes.points;
@@ -70,6 +76,7 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   context.mesh_sizes = &layout.sizes;
   context.topology = &layout.topology;
   context.draco = &draco;
+  context.pose = encoded.reference ? &encoded.reference->grid : nullptr;
   context.layers.assign(encoded.layers.begin(), encoded.layers.end());
   context.corrections = encoded.corrections;
   Segment segment;

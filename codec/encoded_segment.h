@@ -15,6 +15,13 @@
 
 namespace anicodec {
 
+/// A reference pose, ready for the file.
+struct EncodedPose {
+  PoseGrid grid;
+  format::CoderId coder = format::CoderId::kPlain;
+  format::Bytes stream;  ///< what the mesh's Draco bitstream does not hold
+};
+
 /// The streams of one segment, ready for the file.
 struct EncodedSegment {
   format::Limits::Segment sizes;
@@ -23,10 +30,14 @@ struct EncodedSegment {
   std::vector<format::Bytes> layers;              ///< chunks BASI
   format::Bytes corrections;                      ///< chunk CORR
   std::vector<std::vector<int32_t>> draco_poses;  ///< to be carried by the mesh's Draco bitstream
+  std::shared_ptr<const EncodedPose> reference;   ///< of linear bases; segments may share it
   uint64_t hash = 0;
 
-  /// Bytes in the file but for those of draco_poses.
+  /// Bytes in the file but for what Draco and the reference pose take.
   size_t bytes() const;
+
+  /// The poses that the mesh's Draco bitstream is to carry.
+  std::vector<std::vector<int32_t>> poses_for_draco() const;
 };
 
 /// How far a decoded segment is from the coded vertices of the source.

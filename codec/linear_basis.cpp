@@ -104,7 +104,8 @@ MatrixXd LinearAnalysis::rank_three_pose() const {
 }
 
 LinearBasis LinearAnalysis::basis(format::BasisKind kind, ReferencePose pose, Base base,
-                                  size_t max_components, double smallest) const {
+                                  size_t max_components, double smallest,
+                                  const MatrixXd* given) const {
   const bool shapes = kind == format::BasisKind::kEigenshapes;
   if (!shapes && (kind != format::BasisKind::kEigentrajectories || base != Base::kAffine))
     throw Error(ErrorKind::kInternal, "no such linear basis");
@@ -128,6 +129,9 @@ LinearBasis LinearAnalysis::basis(format::BasisKind kind, ReferencePose pose, Ba
       break;
     case ReferencePose::kRankThree:
       out.pose = rank_three_pose();
+      break;
+    case ReferencePose::kGiven:
+      out.pose = *given;
       break;
   }
   MatrixXd rest = gram_;

@@ -15,9 +15,10 @@ namespace anicodec {
 
 /// The pose that order and prior weights are taken from, and that the components are added to.
 enum class ReferencePose : uint8_t {
-  kMean,      ///< mean of all frames
-  kFrame,     ///< the frame whose affine images explain most of the clip
-  kRankThree  ///< the three leading trajectories, mapped onto that frame
+  kMean,       ///< mean of all frames
+  kFrame,      ///< the frame whose affine images explain most of the clip
+  kRankThree,  ///< the three leading trajectories, mapped onto that frame
+  kGiven       ///< chosen elsewhere
 };
 
 /// What is taken out of the clip before the components.
@@ -50,8 +51,9 @@ class LinearAnalysis {
 
   /// Components with energy above `smallest`, at most max_components. Trajectories need
   /// Base::kAffine. Cost: the eigenpairs, and at most two passes over the clip.
+  /// For ReferencePose::kGiven: `given`, vertices x 3, with any origin.
   LinearBasis basis(format::BasisKind kind, ReferencePose pose, Base base, size_t max_components,
-                    double smallest) const;
+                    double smallest, const Eigen::MatrixXd* given = nullptr) const;
 
   const FrameView& clip() const { return clip_; }
 

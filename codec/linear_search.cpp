@@ -28,17 +28,35 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   choice_.settings.layers = layers;
 }
 
+void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
+  pose_ = std::move(pose);
+  const PoseGrid& grid = pose_->grid;
+  given_.resize(static_cast<Eigen::Index>(grid.points.size() / 3), 3);
+  for (Eigen::Index i = 0; i < given_.size(); ++i)
+    given_(i / 3, i % 3) = grid.points[static_cast<size_t>(i)] * grid.step;
+  choice_.pose = ReferencePose::kGiven;
+  choice_.base = Base::kAffine;
+  bases_.clear();
+  chosen_ = true;
+}
+
+/// What the pose takes in the mesh's Draco bitstream and beside it.
+size_t LinearCoder::pose_bytes(const EncodedSegment& encoded) const {
+  return encode_with_poses(input_.layout, encoded.poses_for_draco()).size() +
+         encoded.reference->stream.size();
+}
+
 const LinearBasis& LinearCoder::basis(ReferencePose pose, Base base) {
   auto [found, fresh] = bases_.try_emplace({pose, base});
   if (fresh)
-    found->second = analysis_.basis(kind_, pose, base, kMostComponents, 0);
+    found->second = analysis_.basis(kind_, pose, base, kMostComponents, 0, &given_);
   return found->second;
 }
 
 /// The choice with a step and a number of components that should meet the error.
 LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
   const LinearBasis& b = basis(choice.pose, choice.base);
-  FrameView clip = input_.frames();
+  FrameView clip = analysis_.clip();
   double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
   bool shapes = kind_ == format::BasisKind::kEigenshapes;
   double scalars = static_cast<double>(clip.vertex_count * (shapes ? 3 : 1));
@@ -61,13 +79,13 @@ LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
 LinearCoder::Measured LinearCoder::measured(const Choice& choice, double rmse) {
   Measured m;
   const LinearBasis& b = basis(choice.pose, choice.base);
-  m.part.encoded = encode_linear(input_.frames(), b, choice.settings, input_.layout);
+  m.part.encoded = encode_linear(analysis_.clip(), b, choice.settings, input_.layout, pose_);
   m.part.opened = open_encoded(m.part.encoded, input_.layout);
-  m.part.error = measure(m.part.opened, input_.frames(), input_.copies);
+  m.part.error = measure(m.part.opened, analysis_.clip(), input_.copies);
   m.part.what = std::to_string(m.part.encoded.sizes.components) +
                 (kind_ == format::BasisKind::kEigenshapes ? " eigenshapes" : " eigentrajectories");
-  m.rmse = input_.rmse(m.part.error.squared);
-  size_t pose = encode_with_poses(input_.layout, m.part.encoded.draco_poses).size();
+  m.rmse = input_.rmse(m.part.error.squared, analysis_.clip().frame_count);
+  size_t pose = pose_ ? 0 : pose_bytes(m.part.encoded);
   m.bytes = static_cast<double>(m.part.encoded.bytes() + pose) *
             std::pow(std::max(m.rmse, rmse * 1e-3) / rmse, kRateSlope);
   return m;

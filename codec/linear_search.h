@@ -24,6 +24,13 @@ class LinearCoder : public SegmentCoder {
 
   std::optional<Part> at_rmse(double rmse) override;
 
+  /// Makes the coder use a pose that the file has already, with a base that is an affine image of
+  /// it, and the settings as they are.
+  void share_pose(std::shared_ptr<const EncodedPose> pose);
+
+  /// Takes over the settings of another coder.
+  void settings_of(const LinearCoder& other) { choice_.settings = other.choice_.settings; }
+
   /// About the bytes that an error costs, from one trial.
   double probe(double rmse);
 
@@ -41,6 +48,7 @@ class LinearCoder : public SegmentCoder {
   };
 
   const LinearBasis& basis(ReferencePose pose, Base base);
+  size_t pose_bytes(const EncodedSegment& encoded) const;
   Choice started(Choice choice, double rmse);
   Measured measured(const Choice& choice, double rmse);
   void choose_settings(double rmse);
@@ -51,6 +59,8 @@ class LinearCoder : public SegmentCoder {
   int effort_;
   Choice choice_;
   bool chosen_ = false;
+  std::shared_ptr<const EncodedPose> pose_;
+  Eigen::MatrixXd given_;
   std::map<std::pair<ReferencePose, Base>, LinearBasis> bases_;
 };
 

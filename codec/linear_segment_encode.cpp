@@ -30,17 +30,26 @@ constexpr double kBitsPerUnit = 65536;  // of BitCounter
   throw Error(ErrorKind::kUsage, "the error asked for is too fine for the size of the clip");
 }
 
-/// The pose on its grid.
-std::vector<int32_t> quantised_pose(const MatrixXd& pose, double* step) {
+/// The pose of a basis on a grid of at least this step.
+std::shared_ptr<const EncodedPose> encode_pose(const LinearBasis& basis, double step,
+                                               const MeshLayout& layout) {
+  auto encoded = std::make_shared<EncodedPose>();
+  PoseGrid& grid = encoded->grid;
+  const MatrixXd& pose = basis.pose;
   double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
-  *step = std::max({*step, largest / (kMaxReferenceCoordinate - 1), 1e-37});
-  std::vector<int32_t> grid;
-  grid.reserve(static_cast<size_t>(pose.size()));
+  grid.step = std::max({step, largest / (kMaxReferenceCoordinate - 1), 1e-37});
+  std::copy_n(basis.origin.data(), 3, grid.origin);
+  grid.points.reserve(static_cast<size_t>(pose.size()));
   for (Index v = 0; v < pose.rows(); ++v) {
     for (Index c = 0; c < 3; ++c)
-      grid.push_back(static_cast<int32_t>(std::lround(pose(v, c) / *step)));
+      grid.points.push_back(static_cast<int32_t>(std::lround(pose(v, c) / grid.step)));
   }
-  return grid;
+  encoded->coder = layout.coder;
+  size_t held =
+      layout.coder == format::CoderId::kDraco ? vertices_in_triangles(layout.topology) : 0;
+  encoded->stream = encode_plain_integers(
+      {grid.points.begin() + static_cast<ptrdiff_t>(3 * held), grid.points.end()}, 3);
+  return encoded;
 }
 
 /// Values of the affine functions of a pose: vertices x 4.
@@ -97,7 +106,8 @@ class WeightCoder {
 using Coefficients = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The basis that goes best with the decoded weights `u` (a column per component), base taken out.
-Coefficients refitted(const FrameView& clip, const LinearBasis& basis, const MatrixXd& u,
+Coefficients refitted(const FrameView& clip, const LinearBasis& basis,
+                      const Eigen::Vector3d& origin, const MatrixXd& u,
                       const MatrixXd& base_weights, const MatrixXd& base_functions,
                       const MatrixXd& pose, double step) {
   Index k = u.cols();
@@ -120,7 +130,7 @@ Coefficients refitted(const FrameView& clip, const LinearBasis& basis, const Mat
     }
   }
   VectorXd sums = solved.colwise().sum().transpose();
-  combine_rows(clip, basis.origin, solved, [&](size_t first, const MatrixXd& block) {
+  combine_rows(clip, origin, solved, [&](size_t first, const MatrixXd& block) {
     for (Index i = 0; i < block.rows(); ++i) {
       Index v = static_cast<Index>(first) + i / channels, c = i % channels;
       for (Index j = 0; j < k; ++j) {
@@ -169,7 +179,8 @@ size_t component_count(const LinearBasis& basis, const LinearSettings& settings,
 }
 
 EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
-                             const LinearSettings& settings, const MeshLayout& layout) {
+                             const LinearSettings& settings, const MeshLayout& layout,
+                             std::shared_ptr<const EncodedPose> shared) {
   size_t n = clip.vertex_count, frames = clip.frame_count;
   bool shapes = basis.kind == format::BasisKind::kEigenshapes;
   uint32_t channels = shapes ? 3 : 1, weight_channels = shapes ? 1 : 3;
@@ -177,12 +188,8 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
 
   LinearParameters parameters;
   parameters.affine = basis.base == Base::kAffine;
-  parameters.pose_coder = layout.coder;
-  std::copy_n(basis.origin.data(), 3, parameters.origin);
   parameters.basis_step = settings.step;
   parameters.weight_step = settings.weight_factor * settings.step;
-  parameters.pose_step =
-      settings.pose_factor * settings.step / std::sqrt(static_cast<double>(frames));
   parameters.neighbours = settings.neighbours;
   parameters.colours = settings.colours;
   parameters.radius = settings.radius;
@@ -192,26 +199,21 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
   encoded.sizes.kind = basis.kind;
   encoded.sizes.frames = static_cast<uint32_t>(frames);
   encoded.sizes.components = static_cast<uint32_t>(k);
-  std::vector<int32_t> pose = quantised_pose(basis.pose, &parameters.pose_step);
-  size_t in_triangles = 0;  // coded vertices that Draco holds
-  if (layout.coder == format::CoderId::kDraco) {
-    for (uint32_t c : layout.topology.point_vertex)
-      in_triangles = std::max<size_t>(in_triangles, c + 1);
-    encoded.draco_poses.push_back(pose);
-  }
-  encoded.pose = encode_plain_integers(
-      {pose.begin() + static_cast<ptrdiff_t>(3 * in_triangles), pose.end()}, 3);
+  double pose_step = settings.pose_factor * settings.step / std::sqrt(static_cast<double>(frames));
+  encoded.reference = shared ? std::move(shared) : encode_pose(basis, pose_step, layout);
+  const std::vector<int32_t>& pose = encoded.reference->grid.points;
+  const Eigen::Vector3d origin(encoded.reference->grid.origin);
 
   WeightCoder weight_coder(frames, settings.weight_lambda);
   MatrixXd functions, base_weights, still(static_cast<Index>(n), 3);
   if (parameters.affine) {
     functions = function_values(pose);
-    base_weights = project_on_functions(clip, basis.origin, functions);
+    base_weights = project_on_functions(clip, origin, functions);
     for (Index b = 0; b < base_weights.cols(); ++b)
       weight_coder.code(3, parameters.weight_step, base_weights.col(b));
   } else {
     for (Index i = 0; i < still.size(); ++i)
-      still(i / 3, i % 3) = pose[static_cast<size_t>(i)] * parameters.pose_step;
+      still(i / 3, i % 3) = pose[static_cast<size_t>(i)] * encoded.reference->grid.step;
   }
   MatrixXd u = basis.time.leftCols(static_cast<Index>(k));
   for (size_t j = 0; j < k; ++j) {
@@ -229,7 +231,8 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
     return encoded;
   }
 
-  Coefficients target = refitted(clip, basis, u, base_weights, functions, still, settings.step);
+  Coefficients target =
+      refitted(clip, basis, origin, u, base_weights, functions, still, settings.step);
   VertexOrder order;
   if (make_vertex_order(layout.topology.triangles.data(), layout.topology.triangles.size() / 3,
                         pose.data(), n, settings.neighbours, settings.colours,

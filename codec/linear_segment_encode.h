@@ -37,9 +37,11 @@ size_t component_count(const LinearBasis& basis, const LinearSettings& settings,
 
 /// Quantises and codes a basis as a segment: pose, time weights, the basis refitted to the decoded
 /// weights (closed loop), its coefficients predicted and rounded with their cost in mind.
+/// `shared`: a pose that the file has already, from which the basis was made; null: the basis' own.
 /// Cost: O(vertices x components x neighbours^2), two passes over the clip.
 EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
-                             const LinearSettings& settings, const MeshLayout& layout);
+                             const LinearSettings& settings, const MeshLayout& layout,
+                             std::shared_ptr<const EncodedPose> shared = nullptr);
 
 }  // namespace anicodec
 

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/mesh_sequence.h"
 
+#include "codec/error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "codec/error.h"
 
 namespace anicodec {
 

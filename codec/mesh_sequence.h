@@ -41,24 +41,26 @@ struct FrameRate {
 
 enum class UpAxis : uint8_t { kUnknown = 0, kY = 1, kZ = 2 };
 
-/// An animated mesh: one connectivity, a position per vertex per frame. Positions are kept as given:
-/// nothing is rotated or scaled.
+/// An animated mesh: one connectivity, a position per vertex per frame. Positions are kept as
+/// given: nothing is rotated or scaled.
 struct MeshSequence {
-  std::string name;                ///< of the clip, never a path
+  std::string name;  ///< of the clip, never a path
   Polygons polygons;
   uint32_t vertex_count = 0;
   uint32_t frame_count = 0;
-  std::vector<float> positions;    ///< frame_count x vertex_count x 3, row-major
+  std::vector<float> positions;  ///< frame_count x vertex_count x 3, row-major
   FrameRate rate;
-  double start_time = 0;           ///< seconds
-  std::vector<double> times;       ///< frame_count seconds from start_time for uneven sampling, else empty
+  double start_time = 0;  ///< seconds
+  std::vector<double>
+      times;  ///< frame_count seconds from start_time for uneven sampling, else empty
   UpAxis up = UpAxis::kUnknown;
-  double metres_per_unit = 0;      ///< 0: unknown
+  double metres_per_unit = 0;  ///< 0: unknown
 
   /// Positions of one frame: vertex_count x 3.
   std::span<const float> frame(size_t f) const {
     return {positions.data() + f * vertex_count * 3, size_t{vertex_count} * 3};
   }
+
   std::span<float> frame(size_t f) {
     return {positions.data() + f * vertex_count * 3, size_t{vertex_count} * 3};
   }

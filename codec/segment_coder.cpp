@@ -37,8 +37,8 @@ EncoderInput::EncoderInput(const MeshSequence& source, format::CoderId mesh_code
     kg_reference = 1;
 }
 
-double EncoderInput::rmse(double squared) const {
-  return std::sqrt(squared / sequence.vertex_count / sequence.frame_count);
+double EncoderInput::rmse(double squared, size_t frames) const {
+  return std::sqrt(squared / sequence.vertex_count / static_cast<double>(frames));
 }
 
 }  // namespace anicodec

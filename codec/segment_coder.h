@@ -23,8 +23,10 @@ struct EncoderInput {
     return {coded.data(), sequence.frame_count, layout.sizes.coded_vertices};
   }
 
-  /// Root mean square over the source's vertices and frames.
-  double rmse(double squared) const;
+  /// Root mean square over the source's vertices and some frames.
+  double rmse(double squared, size_t frames) const;
+
+  double rmse(double squared) const { return rmse(squared, sequence.frame_count); }
 
   const MeshSequence& sequence;
   MeshLayout layout;

@@ -167,6 +167,32 @@ Status MeshRecord::read(ByteView view, MeshRecord* out) {
   return finished(r);
 }
 
+Bytes PoseRecord::write() const {
+  ByteWriter w;
+  w.u8(static_cast<uint8_t>(coder));
+  for (double x : {origin[0], origin[1], origin[2], step})
+    w.f64(x);
+  w.raw(stream);
+  return std::move(w.bytes());
+}
+
+Status PoseRecord::read(ByteView view, PoseRecord* out) {
+  ByteReader r(view);
+  uint8_t coder = r.u8();
+  bool finite = true;
+  for (double* x : {&out->origin[0], &out->origin[1], &out->origin[2], &out->step}) {
+    *x = r.f64();
+    finite &= std::isfinite(*x);
+  }
+  out->stream = r.raw(r.remaining());
+  if (!r.ok())
+    return Status::kRecord;
+  if (coder > static_cast<uint8_t>(CoderId::kPredictive))
+    return Status::kCoder;
+  out->coder = static_cast<CoderId>(coder);
+  return finite && out->step > 0 ? Status::kOk : Status::kQuantizer;
+}
+
 Bytes SegmentRecord::write() const {
   ByteWriter w;
   w.u8(static_cast<uint8_t>(kind));

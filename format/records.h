@@ -108,13 +108,25 @@ struct MeshRecord {
   static Status read(ByteView view, MeshRecord* out);
 };
 
+/// Chunk POSE: a reference pose on its grid. That of a mesh serves all its segments of eigenshapes
+/// and eigentrajectories; one that names a segment serves that one.
+struct PoseRecord {
+  CoderId coder = CoderId::kPlain;
+  double origin[3] = {0, 0, 0};
+  double step = 1;
+  ByteView stream;  ///< coordinates that the mesh's Draco bitstream does not hold
+
+  Bytes write() const;
+  static Status read(ByteView view, PoseRecord* out);
+};
+
 /// Chunk SEGM: one range of frames of one mesh.
 struct SegmentRecord {
   BasisKind kind = BasisKind::kKeyframes;
   Reconstruction reconstruction = Reconstruction::kLinear;
   uint64_t hash = 0;    ///< IntegerHash of the segment's decoded integers
   ByteView parameters;  ///< of the kind
-  ByteView pose;        ///< reference pose or key-frames not held by the mesh's Draco bitstream
+  ByteView pose;        ///< key-frames that the mesh's Draco bitstream does not hold
   ByteView motion;      ///< rigid motion, empty when there is none
   ByteView weights;     ///< time weights
 

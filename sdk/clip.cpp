@@ -15,8 +15,8 @@ using format::Chunk;
 using format::chunk_type;
 
 constexpr uint32_t kKnownChunks[] = {chunk_type("LIMI"), chunk_type("CLIP"), chunk_type("MESH"),
-                                     chunk_type("VMAP"), chunk_type("FMAP"), chunk_type("SEGM"),
-                                     chunk_type("BASI"), chunk_type("CORR")};
+                                     chunk_type("VMAP"), chunk_type("FMAP"), chunk_type("POSE"),
+                                     chunk_type("SEGM"), chunk_type("BASI"), chunk_type("CORR")};
 
 Failure at(const Chunk& chunk, Status status, const char* detail) {
   return {status, chunk.offset, chunk.type, detail};
@@ -173,6 +173,23 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
     if (chunk.type == chunk_type("BASI") && chunk.segment < layers.size())
       layers[chunk.segment].push_back(&chunk);
   }
+  auto read_pose = [&](const format::ContainerReader& from, const Chunk& chunk, PoseGrid* out) {
+    ByteView payload;
+    if (Failure f = from.payload(chunk, &payload); !f.ok())
+      return f;
+    format::PoseRecord record;
+    Status s = format::PoseRecord::read(payload, &record);
+    if (s == Status::kOk)
+      s = open_pose(record, meshes_[chunk.mesh].topology, draco_[chunk.mesh], out);
+    return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
+  };
+  std::vector<PoseGrid> poses(meshes_.size());
+  for (size_t m = 0; m < meshes_.size(); ++m) {
+    if (const Chunk* chunk = file.find("POSE", static_cast<uint16_t>(m))) {
+      if (Failure f = read_pose(file, *chunk, &poses[m]); !f.ok())
+        return f;
+    }
+  }
   for (uint32_t i = 0; i < segments_.size(); ++i) {
     const format::Limits::Segment& sizes = limits_.segments[i];
     const Chunk* chunk;
@@ -190,6 +207,15 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
     context.mesh_sizes = &limits_.meshes[sizes.mesh];
     context.topology = &meshes_[sizes.mesh].topology;
     context.draco = &draco_[sizes.mesh];
+    PoseGrid own;
+    context.pose = &poses[sizes.mesh];
+    if (const Chunk* chunk_of_pose = file.find("POSE", sizes.mesh, i)) {
+      if (Failure f = read_pose(file, *chunk_of_pose, &own); !f.ok())
+        return f;
+      context.pose = &own;
+    }
+    if (context.pose->points.empty())
+      context.pose = nullptr;
     context.quality = options.quality;
     for (const Chunk* layer : layers[i]) {
       ByteView bytes;

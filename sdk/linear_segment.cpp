@@ -6,7 +6,6 @@
 #include "format/coefficient_coder.h"
 #include "format/time_weights.h"
 #include "sdk/affine_functions.h"
-#include "sdk/plain_coding.h"
 #include "sdk/residency.h"
 
 #include <algorithm>
@@ -17,40 +16,9 @@ namespace {
 
 constexpr uint8_t kAffineFlag = 1;
 
-/// Coded vertices that occur in a triangle come first.
-uint32_t vertices_in_triangles(const Topology& topology) {
-  uint32_t count = 0;
-  for (uint32_t c : topology.point_vertex)
-    count = std::max(count, c + 1);
-  return count;
-}
-
-/// The reference pose: coded vertices x 3 integers.
-Status read_pose(const format::SegmentRecord& record, const SegmentContext& context,
-                 const LinearParameters& parameters, std::vector<int32_t>* pose) {
-  size_t n = context.topology->coded_vertices;
-  if (parameters.pose_coder == format::CoderId::kPlain)
-    return decode_plain_integers(record.pose, 3 * n, 3, pose);
-  const DracoMesh& draco = *context.draco;
-  if (draco.components < 3)
-    return Status::kSegment;
-  size_t in_triangles = vertices_in_triangles(*context.topology);
-  std::vector<int32_t> loose;
-  if (Status s = decode_plain_integers(record.pose, 3 * (n - in_triangles), 3, &loose);
-      s != Status::kOk)
-    return s;
-  pose->resize(3 * n);
-  const std::vector<uint32_t>& point_vertex = context.topology->point_vertex;
-  for (size_t p = 0; p < point_vertex.size(); ++p)
-    std::copy_n(draco.values.data() + p * draco.components, 3,
-                pose->data() + size_t{3} * point_vertex[p]);
-  std::copy(loose.begin(), loose.end(), pose->begin() + static_cast<ptrdiff_t>(3 * in_triangles));
-  return Status::kOk;
-}
-
 /// Time weights: those of the affine base become maps of the pose, the others stay integers.
 Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
-                    const std::vector<int32_t>& pose, format::IntegerHash* hash, Segment* out,
+                    const PoseGrid& pose, format::IntegerHash* hash, Segment* out,
                     std::vector<int32_t>* weights) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   TimeWeightModel model(out->frames);
@@ -58,7 +26,7 @@ Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
   AffineFunctions functions;
   double unit = parameters.weight_step / (1 << kWeightFractionBits);
   if (parameters.affine) {
-    functions = AffineFunctions::of(pose.data(), pose.size() / 3);
+    functions = AffineFunctions::of(pose.points.data(), pose.points.size() / 3);
     std::vector<int32_t> values[kAffineFunctions];
     for (std::vector<int32_t>& v : values) {
       v.resize(3 * frames);
@@ -76,13 +44,13 @@ Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
       functions.map(w, map);
       for (size_t i = 0; i < 12; ++i)
         out->pose_maps[f].m[i] =
-            static_cast<float>(i % 4 == 3 ? map[i] + parameters.origin[i / 4] : map[i]);
+            static_cast<float>(i % 4 == 3 ? map[i] + pose.origin[i / 4] : map[i]);
     }
   } else {
     Affine still;
     for (size_t i = 0; i < 12; ++i)
-      still.m[i] = static_cast<float>(i % 4 == 3   ? parameters.origin[i / 4]
-                                      : i % 5 == 0 ? parameters.pose_step
+      still.m[i] = static_cast<float>(i % 4 == 3   ? pose.origin[i / 4]
+                                      : i % 5 == 0 ? pose.step
                                                    : 0.0);
     out->pose_maps.assign(frames, still);
   }
@@ -196,9 +164,8 @@ int32_t LinearParameters::sigma_eighths(double sigma) {
 format::Bytes LinearParameters::write() const {
   format::ByteWriter w;
   w.u8(affine ? kAffineFlag : 0);
-  w.u8(static_cast<uint8_t>(pose_coder));
-  for (double x : {origin[0], origin[1], origin[2], pose_step, basis_step, weight_step})
-    w.f64(x);
+  w.f64(basis_step);
+  w.f64(weight_step);
   for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule)})
     w.u8(x);
   // The components' table: what changes little from one to the next.
@@ -217,14 +184,10 @@ format::Bytes LinearParameters::write() const {
 
 Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
   format::ByteReader r(bytes);
-  uint8_t flags = r.u8(), coder = r.u8();
+  uint8_t flags = r.u8();
   affine = flags & kAffineFlag;
-  pose_coder = static_cast<format::CoderId>(coder);
-  bool finite = true;
-  for (double* x : {&origin[0], &origin[1], &origin[2], &pose_step, &basis_step, &weight_step}) {
-    *x = r.f64();
-    finite &= std::isfinite(*x);
-  }
+  basis_step = r.f64();
+  weight_step = r.f64();
   neighbours = r.u8();
   colours = r.u8();
   radius = r.u8();
@@ -232,9 +195,8 @@ Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
   schedule = static_cast<RefitSchedule>(id);
   if (!r.ok() || (flags & ~kAffineFlag))
     return Status::kRecord;
-  if (coder > static_cast<uint8_t>(format::CoderId::kDraco))
-    return Status::kCoder;
-  if (!finite || pose_step <= 0 || basis_step <= 0 || weight_step <= 0 || neighbours < 8 ||
+  if (!(std::isfinite(basis_step) && basis_step > 0) ||
+      !(std::isfinite(weight_step) && weight_step > 0) || neighbours < 8 ||
       neighbours > kMaxNeighbours || neighbours % 4 != 0 || colours == 0 || colours > kMaxColours ||
       radius == 0 || id >= kRefitScheduleCount)
     return Status::kQuantizer;
@@ -261,15 +223,15 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   uint32_t components = context.sizes->components;
   if (Status s = parameters.read(record.parameters, components); s != Status::kOk)
     return s;
-  if (record.motion.size != 0)
+  if (record.motion.size != 0 || record.pose.size != 0)
     return Status::kRecord;
+  if (!context.pose)
+    return Status::kChunkMissing;
   const Topology& topology = *context.topology;
   size_t n = topology.coded_vertices;
-  std::vector<int32_t> pose;
-  if (Status s = read_pose(record, context, parameters, &pose); s != Status::kOk)
-    return s;
+  const PoseGrid& pose = *context.pose;
   format::IntegerHash hash;
-  hash.add(pose.data(), pose.size());
+  hash.add(pose.points.data(), pose.points.size());
 
   std::vector<int32_t> weights;
   if (Status s = read_weights(record.weights, parameters, pose, &hash, out, &weights);
@@ -278,7 +240,8 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   out->pose.assign(size_t{block_count(out->vertices)} * 3 * kBlock, 0);
   for (size_t v = 0; v < n; ++v) {
     for (size_t c = 0; c < 3; ++c)
-      out->pose[(v / kBlock * 3 + c) * kBlock + v % kBlock] = static_cast<float>(pose[3 * v + c]);
+      out->pose[(v / kBlock * 3 + c) * kBlock + v % kBlock] =
+          static_cast<float>(pose.points[3 * v + c]);
   }
 
   auto wanted = static_cast<uint32_t>(std::ceil(context.quality * components));
@@ -291,9 +254,9 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
     return components == 0 ? Status::kOk : Status::kSegment;
   }
   VertexOrder order;
-  if (Status s =
-          make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3, pose.data(),
-                            n, parameters.neighbours, parameters.colours, &order);
+  if (Status s = make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3,
+                                   pose.points.data(), n, parameters.neighbours, parameters.colours,
+                                   &order);
       s != Status::kOk)
     return s;
   uint32_t channels = out->channels();
@@ -313,7 +276,7 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   size_t samples = size_t{wanted} * channels;
   std::vector<float> y(coefficient_buffer_size(n, samples));
   Reconstruction reconstruction;
-  if (Status s = reconstruction.init(order, pose.data(), prediction, input, y.data());
+  if (Status s = reconstruction.init(order, pose.points.data(), prediction, input, y.data());
       s != Status::kOk)
     return s;
   reconstruction.run_all();

@@ -20,9 +20,6 @@ namespace anicodec {
 /// of it, whose twelve numbers per frame are four more components of sigma 1.
 struct LinearParameters {
   bool affine = true;  ///< the base moves with the frames
-  format::CoderId pose_coder = format::CoderId::kDraco;
-  double origin[3] = {0, 0, 0};  ///< of the pose's grid
-  double pose_step = 1;
   double basis_step = 1;
   double weight_step = 1;
   uint8_t neighbours = 16;  ///< m, see VertexOrder

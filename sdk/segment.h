@@ -6,6 +6,7 @@
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/draco_mesh.h"
+#include "sdk/reference_pose.h"
 #include "sdk/topology.h"
 
 #include <cstdint>
@@ -85,6 +86,7 @@ struct SegmentContext {
   const format::Limits::Segment* sizes = nullptr;
   const format::Limits::Mesh* mesh_sizes = nullptr;
   const Topology* topology = nullptr;
+  const PoseGrid* pose = nullptr;        ///< null when the file has none for the segment
   const DracoMesh* draco = nullptr;      ///< null when the connectivity is plain
   std::vector<format::ByteView> layers;  ///< chunks BASI in file order
   format::ByteView corrections;          ///< chunk CORR, empty when there is none
