@@ -30,6 +30,7 @@ format::ClipRecord describe(const MeshSequence& sequence, const EncodeOptions& o
   record.rate_numerator = sequence.rate.numerator;
   record.rate_denominator = sequence.rate.denominator;
   record.rate_assumed = sequence.rate.assumed;
+  record.loop = sequence.loop;
   record.closed = is_closed(sequence);
   record.up = static_cast<uint8_t>(sequence.up);
   record.order = options.order;

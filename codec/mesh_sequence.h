@@ -55,6 +55,7 @@ struct MeshSequence {
       times;  ///< frame_count seconds from start_time for uneven sampling, else empty
   UpAxis up = UpAxis::kUnknown;
   double metres_per_unit = 0;  ///< 0: unknown
+  bool loop = false;           ///< meant to be repeated
 
   /// Positions of one frame: vertex_count x 3.
   std::span<const float> frame(size_t f) const {

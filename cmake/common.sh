@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+#
+# What quickstart.sh and test.sh share: the list of packages, installing them, and building a preset.
+# To be sourced, with the checkout as current folder.
+
+# Debian packages needed to build and test.
+packages=(
+  g++ cmake ninja-build
+  libzstd-dev libxxhash-dev libdraco-dev       # format, sdk
+  libeigen3-dev libtbb-dev libembree-dev       # codec
+  libcli11-dev libfmt-dev nlohmann-json3-dev   # tools
+  libgtest-dev libgmock-dev python3            # tests
+)
+
+say() { printf '\n== %s\n' "$*"; }
+
+fail() {
+  printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+  exit 1
+}
+
+# Installs what is missing. Asks for the package lists only when the ones at hand do not do.
+install_packages() {
+  local missing=() package
+  for package in "${packages[@]}"; do
+    [[ $(dpkg-query -W -f '${Status}' "$package" 2>/dev/null) == *' installed' ]] ||
+      missing+=("$package")
+  done
+  if ((${#missing[@]} == 0)); then
+    say "All ${#packages[@]} Debian packages are installed"
+    return
+  fi
+  command -v apt-get >/dev/null ||
+    fail "this is no Debian: install ${missing[*]} in your way, then add --no-install"
+  local as_root=()
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+      fail "installing ${missing[*]} needs root or sudo; --no-install goes without"
+    as_root=(sudo)
+  fi
+  say "Installing Debian packages: ${missing[*]}"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q
+    -o Acquire::Retries=3 -o DPkg::Lock::Timeout=600)
+  local install=(install -y --no-install-recommends "${missing[@]}")
+  if ! "${apt[@]}" --simulate "${install[@]}" >/dev/null 2>&1 || ! "${apt[@]}" "${install[@]}"; then
+    "${apt[@]}" update
+    "${apt[@]}" "${install[@]}"
+  fi
+}
+
+# build PRESET [TARGET...]: configures where needed, and builds in build/PRESET.
+build() {
+  local preset=$1 fresh=() home
+  shift
+  home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
+  if [[ -n $home && $home != "$(pwd -P)" ]]; then
+    fresh=(--fresh)  # the checkout has been moved or copied
+  fi
+  if ((${#fresh[@]})) || [[ ! -f build/$preset/build.ninja ]]; then
+    say "Configuring build/$preset"
+    cmake --preset "$preset" "${fresh[@]}"
+  fi
+  say "Building build/$preset"
+  cmake --build --preset "$preset" ${1:+--target "$@"}
+}

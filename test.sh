@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+set -euo pipefail
+cd -P "$(dirname "${BASH_SOURCE[0]}")"
+source cmake/common.sh
+
+usage="usage: ./test.sh [--no-install] [ctest options]
+Installs the Debian packages anicodec needs, builds it in build/dev with warnings as errors, and runs
+all tests. --no-install: without the packages. Other options go to ctest: -L tools runs those of one
+module, -LE 'slow|data' leaves out those that take long or want real data."
+
+packages_wanted=true
+ctest_options=()
+for argument in "$@"; do
+  case $argument in
+    --no-install) packages_wanted=false ;;
+    -h | --help) echo "$usage"; exit ;;
+    *) ctest_options+=("$argument") ;;
+  esac
+done
+
+if $packages_wanted; then
+  install_packages
+fi
+build dev
+say "Running the tests"
+ctest --preset dev -j "$(nproc)" "${ctest_options[@]}"

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Checks that every module includes only what it may: tools -> codec -> sdk -> format.
+
+usage: check_layering.py CHECKOUT      one line for every include that is not allowed; exit status 1 if there is any
+"""
+import pathlib
+import re
+import sys
+
+# C and C++ headers of the machine and of vectors: no files, no operating system.
+SIMD = ["<immintrin.h>", "<xmmintrin.h>", "<emmintrin.h>", "<arm_neon.h>", "<wasm_simd128.h>"]
+STREAMS = {"<iostream>", "<fstream>", "<sstream>", "<filesystem>", "<istream>", "<ostream>", "<streambuf>"}
+POSIX = ["<fcntl.h>", "<glob.h>", "<sys/stat.h>", "<unistd.h>"]
+
+# Prefixes of what a module may include beside the standard library.
+ALLOWED = {
+    "format": ['"format/', "<zstd.h>", "<xxhash.h>"],
+    "sdk": ['"sdk/', '"format/', "<anicodec/", *SIMD],
+    "codec": ['"codec/', '"sdk/', '"format/', "<Eigen/", "<tbb/", "<embree3/"],
+    "corpus": ['"corpus/', '"codec/', "<xxhash.h>"],
+    "tools": ['"tools/', '"corpus/', '"codec/', '"sdk/', '"format/', "<anicodec/",
+              "<CLI/", "<fmt/", "<nlohmann/", "<tbb/", *POSIX],
+}
+# One file calls Draco's decoder, one its encoder.
+EXCEPTIONS = {"sdk/draco_mesh.cpp": ["<draco/"], "codec/draco_encode.cpp": ["<draco/"]}
+# Memory in, memory out; and no exceptions cross the decoder.
+NO_STREAMS = {"format", "sdk", "codec"}
+NO_THROW = {"format", "sdk"}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"][^>"]*[>"])', re.MULTILINE)
+STANDARD = re.compile(r"^<[a-z_0-9]+>$")
+THROW = re.compile(r"^[^/\"]*\bthrow\b", re.MULTILINE)
+
+
+def faults(checkout):
+    found_any = False
+    for module, prefixes in ALLOWED.items():
+        for path in sorted((checkout / module).rglob("*")):
+            if path.suffix not in (".h", ".cpp", ".hpp", ".c"):
+                continue
+            found_any = True
+            name = path.relative_to(checkout).as_posix()
+            text = path.read_text(encoding="utf-8")
+            allowed = prefixes + EXCEPTIONS.get(name, [])
+            for header in INCLUDE.findall(text):
+                streams = module in NO_STREAMS and header in STREAMS
+                if streams or not (STANDARD.match(header) or any(header.startswith(p) for p in allowed)):
+                    yield f"{name} must not include {header}"
+            if module in NO_THROW and name not in EXCEPTIONS and THROW.search(text):
+                yield f"{name} must not throw"
+    if not found_any:
+        yield f"{checkout} has no sources"
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    lines = list(faults(pathlib.Path(sys.argv[1])))
+    print("\n".join(lines) if lines else "every include is allowed")
+    sys.exit(1 if lines else 0)
+
+
+if __name__ == "__main__":
+    main()

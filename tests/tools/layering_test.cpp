@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Modules include only what stands below them.
+#include "tests/tools/command_testing.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::HasSubstr;
+
+Outcome check_layering(const std::string& checkout) {
+  return run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_layering.py", checkout});
+}
+
+TEST(Layering, EveryIncludeIsAllowed) {
+  Outcome outcome = check_layering(ANICODEC_SOURCE_DIR);
+  EXPECT_EQ(outcome.status, 0) << outcome;
+}
+
+TEST(Layering, FindsWhatPointsUpwards) {
+  TemporaryFolder folder;
+  folder.write("format/a.h", "#include \"sdk/clip.h\"\n");
+  folder.write("sdk/b.cpp", "#include <iostream>\nvoid f() { throw 1; }\n");
+  folder.write("codec/c.cpp", "# include <draco/core/status.h>\n#include \"tools/version.h\"\n");
+  folder.write("sdk/draco_mesh.cpp", "#include <draco/core/status.h>\n");
+  Outcome outcome = check_layering(folder / "");
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* fault :
+       {"format/a.h must not include \"sdk/clip.h\"", "sdk/b.cpp must not include <iostream>",
+        "sdk/b.cpp must not throw", "codec/c.cpp must not include <draco/core/status.h>",
+        "codec/c.cpp must not include \"tools/version.h\""})
+    EXPECT_THAT(outcome.out, HasSubstr(fault));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("draco_mesh")));
+}
+
+}  // namespace
+}  // namespace anicodec::tools

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/clip_input.h"
+
+#include "format/container.h"
+#include "tools/io/byte_source.h"
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+
+bool is_anic(const std::string& path) {
+  constexpr std::string_view kExtension = ".anic";
+  return path.size() >= kExtension.size() &&
+         std::equal(kExtension.rbegin(), kExtension.rend(), path.rbegin(), [](char a, char b) {
+           return a == std::tolower(static_cast<unsigned char>(b));
+         });
+}
+
+ErrorKind error_kind(Status status) {
+  switch (status) {
+    case Status::kVersion:
+    case Status::kFeature:
+    case Status::kCoder:
+    case Status::kChunkUnknown:
+    case Status::kLimit:
+      return ErrorKind::kUnsupported;
+    case Status::kArgument:
+    case Status::kState:
+    case Status::kBufferSize:
+    case Status::kFrameRange:
+    case Status::kMemory:
+    case Status::kInternal:
+      return ErrorKind::kInternal;
+    case Status::kRead:
+      return ErrorKind::kInput;
+    default:
+      return ErrorKind::kCorrupt;
+  }
+}
+
+void fail_clip(const std::string& path, const Failure& failure) {
+  std::string text = path + ": ";
+  if (failure.status != Status::kMagic)
+    text += fmt::format("offset {:#x}", failure.offset);
+  if (failure.chunk != 0)
+    text += ", chunk " + format::chunk_name(failure.chunk);
+  text += failure.status != Status::kMagic ? ": " : "";
+  text += status_string(failure.status);
+  if (*failure.detail)
+    text += fmt::format(" ({})", failure.detail);
+  throw Error(error_kind(failure.status), text);
+}
+
+std::string read_bytes(const std::string& path) {
+  std::string bytes;
+  read_file(path, bytes);
+  return bytes;
+}
+
+void open_clip(const std::string& path, const std::string& bytes, const OpenOptions& options,
+               Clip& clip) {
+  if (Failure failure = clip.open(view_of(bytes), options); !failure.ok())
+    fail_clip(path, failure);
+  if (clip.meshes().size() != 1)
+    throw Error(ErrorKind::kUnsupported,
+                fmt::format("{}: {} meshes; this version plays clips of one mesh", path,
+                            clip.meshes().size()));
+}
+
+MeshSequence describe_clip(const Clip& clip) {
+  const format::ClipRecord& record = clip.record();
+  const Topology& topology = clip.meshes()[0].topology;
+  MeshSequence sequence;
+  sequence.name = record.name;
+  sequence.polygons.offsets = topology.polygon_offsets;
+  sequence.polygons.corners = topology.polygon_corners;
+  sequence.vertex_count = clip.vertex_count();
+  sequence.frame_count = clip.frame_count();
+  sequence.rate = {record.rate_numerator, record.rate_denominator, record.rate_assumed};
+  sequence.start_time = record.start_time;
+  sequence.times = record.times;
+  sequence.up = static_cast<UpAxis>(record.up);
+  sequence.metres_per_unit = record.metres_per_unit;
+  return sequence;
+}
+
+FrameSource play(const std::string& path, const Clip& clip) {
+  struct Playback {
+    FramePlayer player;
+    std::vector<float> positions;
+  };
+
+  auto playback = std::make_shared<Playback>(
+      Playback{FramePlayer(clip), std::vector<float>(size_t{3} * clip.vertex_count())});
+  return [path, playback](uint32_t frame) -> std::span<const float> {
+    Status status = playback->player.positions(frame, playback->positions.data());
+    if (status != Status::kOk)
+      throw Error(error_kind(status),
+                  fmt::format("{}: frame {}: {}", path, frame, status_string(status)));
+    return playback->positions;
+  };
+}
+
+}  // namespace anicodec::tools

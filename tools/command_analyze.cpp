@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/basis_error.h"
+#include "codec/error.h"
+#include "tools/command.h"
+#include "tools/io/load_sequence.h"
+#include "tools/progress.h"
+#include "tools/quantity.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Expresses the clip by K exact key-frames, chosen by Neural Gas (gas), pivoting (pivot) or evenly
+(uniform), with free weights (linear), weights that sum to one, or those and a rigid motion per frame
+(rigid), and by K principal components (pca). Nothing is quantised. The table holds KG errors in per
+cent; --csv prints method,k,kg,rmse.
+
+Examples:
+  anicodec analyze dance.obj dance.pc2
+  anicodec analyze 'frames/*.obj' --counts 5,10,20,45 --csv > errors.csv)";
+
+struct AnalyzeCommand {
+  std::vector<std::string> inputs;
+  std::string mesh;
+  std::string counts = "1,2,5,10,15,20,30,45,60,80,100";
+  bool csv = false;
+};
+
+void print_csv(const std::vector<BasisError>& rows) {
+  fmt::print("method,k,kg,rmse\n");
+  for (const BasisError& row : rows)
+    fmt::print("{},{},{:.6g},{:.6g}\n", row.method, row.k, row.kg, row.rmse);
+}
+
+/// A row for every method, a column for every k.
+void print_table(const std::vector<BasisError>& rows) {
+  std::vector<std::string> methods;
+  std::vector<size_t> counts;
+  for (const BasisError& row : rows) {
+    if (std::find(methods.begin(), methods.end(), row.method) == methods.end())
+      methods.push_back(row.method);
+    if (std::find(counts.begin(), counts.end(), row.k) == counts.end())
+      counts.push_back(row.k);
+  }
+  std::sort(counts.begin(), counts.end());
+  fmt::print("{:<20}", "KG error in % at k =");
+  for (size_t k : counts)
+    fmt::print(" {:>8}", k);
+  fmt::print("\n");
+  for (const std::string& method : methods) {
+    fmt::print("{:<20}", method);
+    for (size_t k : counts) {
+      auto row = std::find_if(rows.begin(), rows.end(),
+                              [&](const BasisError& r) { return r.method == method && r.k == k; });
+      fmt::print(" {:>8}", row == rows.end() ? "" : fmt::format("{:#.4g}", row->kg));
+    }
+    fmt::print("\n");
+  }
+}
+
+void run(const AnalyzeCommand& command, const CommonOptions& common) {
+  std::vector<size_t> counts = parse_counts(command.counts, "--counts");
+  ProgressLine line(common.quiet);
+  LoadOptions options;
+  options.mesh = command.mesh;
+  options.progress = line.callback();
+  MeshSequence sequence = load_sequence(command.inputs, options);
+  line.show("analysing", 0);
+  KeyframeFitter fitter{FrameView(sequence)};
+  std::vector<BasisError> rows = basis_errors(fitter, counts);
+  line.clear();
+  if (command.csv)
+    print_csv(rows);
+  else
+    print_table(rows);
+}
+
+}  // namespace
+
+void add_analyze(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<AnalyzeCommand>();
+  CLI::App* command =
+      add_command(app, common,
+                  {"analyze", "INPUT... [options]",
+                   "Error against the number of key-frames and components", kFooter},
+                  [c, &common] { run(*c, common); });
+  command->add_option("INPUT", c->inputs, "As for encode")->required();
+  command
+      ->add_option("--mesh", c->mesh, "Mesh of a lone vertex cache (default: same stem beside it)")
+      ->option_text("FILE");
+  command->add_option("--counts", c->counts, "Numbers of components to try")
+      ->option_text("K,K,...");
+  command->add_flag("--csv", c->csv, "Print comma-separated values: method,k,kg,rmse");
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/error.h"
+#include "sdk/clip.h"
+#include "tools/clip_input.h"
+#include "tools/command.h"
+#include "tools/io/write_sequence.h"
+#include "tools/output_folder.h"
+#include "tools/progress.h"
+#include "tools/quantity.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(OUT is a vertex cache (clip.pc2, clip.mdd; the mesh is written beside it as clip.obj) or a file per
+frame (dir/frame_%04d.obj, .ply, .off, .stl). Polygons come back as polygons. Frames are counted
+from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate that STEP divides
+is divided; PC2 carries no rate.
+
+Examples:
+  anicodec decode clip.anic -o clip.pc2
+  anicodec decode clip.anic -o frames/frame_%04d.ply --frames 0:100:2
+  anicodec decode clip.anic -o first.obj --frames 0)";
+
+struct DecodeCommand {
+  std::string input, output, frames;
+  double quality = 1;
+  uint32_t start = 0;
+  bool ascii = false;
+};
+
+/// Timing of every step-th frame of a clip.
+void take_frames(const FrameRange& range, MeshSequence& clip) {
+  if (clip.times.empty()) {
+    clip.start_time += range.first / clip.rate.value();
+    if (range.step > 1 && clip.rate.denominator <= UINT32_MAX / range.step)
+      clip.rate.denominator *= range.step;
+  } else {
+    std::vector<double> times;
+    for (uint32_t i = 0; i < range.size(); ++i)
+      times.push_back(clip.times[range.first + i * range.step] - clip.times[range.first]);
+    clip.start_time += clip.times[range.first];
+    clip.times = std::move(times);
+  }
+  clip.frame_count = range.size();
+}
+
+void run(const DecodeCommand& command, const CommonOptions& common) {
+  ProgressLine line(common.quiet);
+  std::string bytes = read_bytes(command.input);
+  OpenOptions open_options;
+  open_options.quality = command.quality;
+  Clip clip;
+  open_clip(command.input, bytes, open_options, clip);
+  if (Failure failure = clip.check_hashes(); command.quality == 1 && !failure.ok())
+    fail_clip(command.input, failure);
+  bytes = {};
+
+  MeshSequence description = describe_clip(clip);
+  FrameRange range{0, clip.frame_count(), 1};
+  if (!command.frames.empty()) {
+    range = parse_frames(command.frames, "--frames", clip.frame_count());
+    take_frames(range, description);
+  }
+  check_output_name(command.output, range.size());
+  WriteOptions options;
+  options.overwrite = common.overwrite;
+  options.ascii = command.ascii;
+  options.first_number = command.start;
+  options.progress = line.callback();
+  FrameSource all = play(command.input, clip);
+  OutputFolder folder(command.output);
+  write_sequence(
+      command.output, description,
+      [&all, range](uint32_t f) { return all(range.first + f * range.step); }, options);
+  folder.keep();
+  line.clear();
+  if (!common.quiet)
+    fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output,
+               description.frame_count, description.vertex_count, description.polygons.size());
+}
+
+}  // namespace
+
+void add_decode(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<DecodeCommand>();
+  CLI::App* command = add_command(
+      app, common,
+      {"decode", "FILE.anic -o OUT [options]", "Decode an .anic file to a mesh sequence", kFooter},
+      [c, &common] { run(*c, common); });
+  command->add_option("FILE", c->input, "The .anic file to read")->required();
+  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
+      ->option_text("OUT")
+      ->required();
+  command->add_option("--frames", c->frames, "Frames A to B - 1, every STEP-th (default: all)")
+      ->option_text("A:B[:STEP]");
+  command->add_option("--start", c->start, "Number of the first file (default 0)")
+      ->option_text("N");
+  command->add_flag("--ascii", c->ascii, "PLY and STL as text");
+  command->add_option("--quality", c->quality, "Share of the components to use, above 0 to 1")
+      ->option_text("Q")
+      ->check([](const std::string& text) {
+        return parse_positive(text, "--quality") <= 1 ? "" : "must not be above 1";
+      });
+}
+
+}  // namespace anicodec::tools

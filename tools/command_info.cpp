@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/container.h"
+#include "format/records.h"
+#include "sdk/clip.h"
+#include "tools/clip_input.h"
+#include "tools/command.h"
+#include "tools/names.h"
+#include "tools/quantity.h"
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(--json prints one object: file, bytes, ratio (float32 positions against the file), bpfv,
+resident_bytes, format, encoder, name, vertices, coded_vertices, faces, frames, fps, fps_assumed,
+start_time, loop, closed (the last frame repeats the first), up, metres_per_unit, order, diagonal,
+asked (metric, value), max_error, max_error_percent, rmse, kg, massaged, surface_error, segments
+(basis, first_frame, frames, components, corrections), chunks (type, offset, size, required, mesh,
+segment). Lengths are in scene units, errors those the encoder measured.)";
+
+struct InfoCommand {
+  std::string input;
+  bool json = false;
+};
+
+struct Contents {
+  uint64_t bytes = 0;
+  format::ContainerReader container;
+  Clip clip;
+};
+
+double percent(const format::ClipRecord& record) {
+  return record.max_error == 0 ? 0 : 100 * record.max_error / record.diagonal;
+}
+
+double positions(const Clip& clip) {
+  return static_cast<double>(clip.vertex_count()) * clip.frame_count();
+}
+
+void print_json(const std::string& path, const Contents& c) {
+  const format::ClipRecord& record = c.clip.record();
+  const format::Limits& limits = c.clip.limits();
+  nlohmann::ordered_json json;
+  json["file"] = path;
+  json["bytes"] = c.bytes;
+  json["ratio"] = 12 * positions(c.clip) / static_cast<double>(c.bytes);
+  json["bpfv"] = 8 * static_cast<double>(c.bytes) / positions(c.clip);
+  json["resident_bytes"] = c.clip.resident_bytes();
+  json["format"] = fmt::format("{}.{}", c.container.version_major(), c.container.version_minor());
+  json["encoder"] = record.encoder;
+  json["name"] = record.name;
+  json["vertices"] = limits.meshes[0].source_vertices;
+  json["coded_vertices"] = limits.meshes[0].coded_vertices;
+  json["faces"] = limits.meshes[0].polygons;
+  json["frames"] = limits.frames;
+  json["fps"] = {record.rate_numerator, record.rate_denominator};
+  json["fps_assumed"] = record.rate_assumed;
+  json["start_time"] = record.start_time;
+  json["loop"] = record.loop;
+  json["closed"] = record.closed;
+  json["up"] = up_name(record.up);
+  json["metres_per_unit"] = nullptr;
+  if (record.metres_per_unit > 0)
+    json["metres_per_unit"] = record.metres_per_unit;
+  json["order"] = name_of(record.order);
+  json["diagonal"] = record.diagonal;
+  json["asked"] = {{"metric", name_of(record.asked)}, {"value", record.asked_value}};
+  json["max_error"] = record.max_error;
+  json["max_error_percent"] = percent(record);
+  json["rmse"] = record.rmse;
+  json["kg"] = record.kg;
+  json["massaged"] = record.massaged;
+  json["surface_error"] = record.surface_error;
+  json["segments"] = nlohmann::ordered_json::array();
+  for (const format::Limits::Segment& s : limits.segments)
+    json["segments"].push_back({{"basis", name_of(s.kind)},
+                                {"first_frame", s.first_frame},
+                                {"frames", s.frames},
+                                {"components", s.components},
+                                {"corrections", s.corrections}});
+  json["chunks"] = nlohmann::ordered_json::array();
+  for (const format::Chunk& chunk : c.container.chunks()) {
+    nlohmann::ordered_json entry = {{"type", format::chunk_name(chunk.type)},
+                                    {"offset", chunk.offset},
+                                    {"size", chunk.size},
+                                    {"required", chunk.required},
+                                    {"mesh", nullptr},
+                                    {"segment", nullptr}};
+    if (chunk.mesh != format::kNoMesh)
+      entry["mesh"] = chunk.mesh;
+    if (chunk.segment != format::kNoSegment)
+      entry["segment"] = chunk.segment;
+    json["chunks"].push_back(entry);
+  }
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+std::string asked_text(const format::ClipRecord& record) {
+  double value = record.asked_value;
+  switch (record.asked) {
+    case format::ErrorMetric::kNone:
+      return "a number of key-frames";
+    case format::ErrorMetric::kKg:
+      return fmt::format("KG error of at most {:.4g} %", value);
+    case format::ErrorMetric::kMaxError:
+      return fmt::format("max error of at most {:.4g}", value);
+    case format::ErrorMetric::kRmse:
+      return fmt::format("RMSE of at most {:.4g}", value);
+    case format::ErrorMetric::kSize:
+      return fmt::format("at most {} bytes", grouped(static_cast<uint64_t>(value)));
+    case format::ErrorMetric::kBpfv:
+      return fmt::format("at most {:.4g} bits per frame and vertex", value);
+  }
+  return "unknown";
+}
+
+std::string rate_text(const format::ClipRecord& record) {
+  double value = static_cast<double>(record.rate_numerator) / record.rate_denominator;
+  return fmt::format("{:.6g} fps{}{}", value, record.rate_assumed ? " (assumed)" : "",
+                     record.times.empty() ? "" : ", uneven times");
+}
+
+void print_chunks(const Contents& c) {
+  fmt::print("\n{:<6} {:>8} {:>12} {:>12} {:>7}\n", "chunk", "segment", "offset", "bytes", "share");
+  for (const format::Chunk& chunk : c.container.chunks()) {
+    std::string segment =
+        chunk.segment == format::kNoSegment ? "" : fmt::format("{}", chunk.segment);
+    fmt::print("{:<6} {:>8} {:>12} {:>12} {:>5.1f} %\n", format::chunk_name(chunk.type), segment,
+               chunk.offset, grouped(chunk.size),
+               100 * static_cast<double>(chunk.size) / static_cast<double>(c.bytes));
+  }
+}
+
+/// Unprintable characters as '?': a file may hold any name.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      c = '?';
+  }
+  return text;
+}
+
+void print_text(const std::string& path, const Contents& c) {
+  const format::ClipRecord& record = c.clip.record();
+  const format::Limits& limits = c.clip.limits();
+  const format::Limits::Mesh& mesh = limits.meshes[0];
+  auto row = [](const char* name, const std::string& value) {
+    fmt::print("{:<10} {}\n", name, value);
+  };
+  row("file", path);
+  row("name", printable(record.name));
+  row("format", fmt::format("{}.{}, written by {}", c.container.version_major(),
+                            c.container.version_minor(), printable(record.encoder)));
+  row("clip", fmt::format("{} vertices ({} coded), {} faces, {} frames at {}", mesh.source_vertices,
+                          mesh.coded_vertices, mesh.polygons, limits.frames, rate_text(record)));
+  std::string traits = fmt::format(
+      "up {}, unit {}", up_name(record.up),
+      record.metres_per_unit > 0 ? fmt::format("{:.6g} m", record.metres_per_unit) : "unknown");
+  traits += record.loop ? ", loops" : "";
+  traits += record.closed ? ", the last frame repeats the first" : "";
+  row("", traits);
+  row("order", name_of(record.order));
+  row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv; {} in memory", grouped(c.bytes),
+                          12 * positions(c.clip) / static_cast<double>(c.bytes),
+                          8 * static_cast<double>(c.bytes) / positions(c.clip),
+                          readable_bytes(c.clip.resident_bytes())));
+  row("asked", asked_text(record));
+  row("measured",
+      fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %",
+                  record.max_error, percent(record), record.rmse, record.kg));
+  if (record.massaged)
+    row("massaged", fmt::format("the surface moved by up to {:.4g}", record.surface_error));
+  for (const format::Limits::Segment& s : limits.segments)
+    row("segment",
+        fmt::format("frames {}:{}, {} {}, {} corrections", s.first_frame, s.first_frame + s.frames,
+                    s.components, components_of(s.kind), s.corrections));
+  print_chunks(c);
+}
+
+void run(const InfoCommand& command) {
+  std::string bytes = read_bytes(command.input);
+  Contents contents;
+  contents.bytes = bytes.size();
+  open_clip(command.input, bytes, {}, contents.clip);
+  if (Failure failure = contents.container.open(view_of(bytes)); !failure.ok())
+    fail_clip(command.input, failure);
+  if (command.json)
+    print_json(command.input, contents);
+  else
+    print_text(command.input, contents);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<InfoCommand>();
+  CLI::App* command = add_command(
+      app, common, {"info", "FILE.anic [--json]", "Say what is in an .anic file", kFooter},
+      [c] { run(*c); });
+  command->add_option("FILE", c->input, "The .anic file to read")->required();
+  command->add_flag("--json", c->json, "Print one JSON object");
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/compared_clip.h"
+
+#include "tools/clip_input.h"
+#include "tools/io/file_kind.h"
+#include "tools/io/load_sequence.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace anicodec::tools {
+namespace {
+
+/// The polygons as sorted lists of corners, each turned so that the least list stands first.
+std::vector<std::vector<uint32_t>> canonical(const Polygons& polygons) {
+  std::vector<std::vector<uint32_t>> list;
+  list.reserve(polygons.size());
+  for (size_t p = 0; p < polygons.size(); ++p) {
+    std::vector<uint32_t> corners(polygons[p].begin(), polygons[p].end());
+    std::vector<uint32_t> least = corners;
+    for (size_t turn = 1; turn < corners.size(); ++turn) {
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+      least = std::min(least, corners);
+    }
+    list.push_back(std::move(least));
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+}  // namespace
+
+ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
+                           const Progress& progress)
+    : path_(path) {
+  if (is_anic(path)) {
+    std::string bytes = read_bytes(path);
+    bytes_ = bytes.size();
+    clip_ = std::make_unique<Clip>();
+    open_clip(path, bytes, {}, *clip_);
+    sequence_ = describe_clip(*clip_);
+    return;
+  }
+  LoadOptions options;
+  options.progress = progress;
+  if (is_cache(kind_of(path)))
+    options.mesh = mesh;
+  sequence_ = load_sequence(std::vector<std::string>{path}, options);
+}
+
+bool ComparedClip::has_free_order() const {
+  return clip_ && clip_->record().order == format::OrderMode::kFree;
+}
+
+FrameSource ComparedClip::frames() const {
+  return clip_ ? play(path_, *clip_) : frames_of(sequence_);
+}
+
+bool same_faces(const Polygons& a, const Polygons& b) {
+  return a == b || (a.size() == b.size() && canonical(a) == canonical(b));
+}
+
+}  // namespace anicodec::tools
