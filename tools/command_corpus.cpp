@@ -43,7 +43,7 @@ void run(const CorpusCommand& command, const CommonOptions& common) {
   WriteOptions options;
   options.overwrite = common.overwrite;
   options.progress = line.callback();
-  check_output_name(command.output, clip.frame_count);
+  check_sequence_output(command.output, clip.frame_count, options);
   OutputFolder folder(command.output);
   write_sequence(command.output, clip, options);
   folder.keep();

@@ -70,12 +70,12 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
     range = parse_frames(command.frames, "--frames", clip.frame_count());
     take_frames(range, description);
   }
-  check_output_name(command.output, range.size());
   WriteOptions options;
   options.overwrite = common.overwrite;
   options.ascii = command.ascii;
   options.first_number = command.start;
   options.progress = line.callback();
+  check_sequence_output(command.output, range.size(), options);
   FrameSource all = play(command.input, clip);
   OutputFolder folder(command.output);
   write_sequence(

@@ -45,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(, RealDataEncode,
                                          "classic/dance.pc2", "classic/chicken.pc2",
                                          "captured/face.pc2", "simulated/flag.pc2",
                                          "exported/obj/*.obj"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& test) {
+                           std::string name = test.param;
                            for (char& c : name)
                              c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
                            return name;

@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Journey{"repeats", kPc2, kPc2}, Journey{"cuts", kPc2, kPc2},
                     Journey{"soup", kPc2, kPc2}, Journey{"tiny", kPly, kPc2},
                     Journey{"large", kPc2, kPly}, Journey{"moebius", kOff, kOff}),
-    [](const auto& info) { return info.param.clip; });
+    [](const auto& test) { return test.param.clip; });
 
 TEST(RoundTripOrder, AllBringsFacesBackAsTheyWere) {
   TemporaryFolder folder;
