@@ -19,9 +19,9 @@ namespace {
 
 constexpr const char* kFooter =
     R"(Expresses the clip by K exact key-frames, chosen by Neural Gas (gas), pivoting (pivot) or evenly
-(uniform), with free weights (linear), weights that sum to one, or those and a rigid motion per frame
-(rigid), and by K principal components (pca). Nothing is quantised. The table holds KG errors in per
-cent; --csv prints method,k,kg,rmse.
+(uniform), with free weights (linear), weights that sum to one, or those and a rigid motion of each
+frame (rigid), and by K principal components (pca). Nothing is quantised. The table holds KG errors
+in per cent; --csv prints method,k,kg,rmse.
 
 Examples:
   anicodec analyze dance.obj dance.pc2

@@ -89,6 +89,8 @@ EncodeOptions options_of(const EncodeCommand& command) {
   EncodeOptions options;
   options.basis = command.basis;
   if (command.keyframes > 0) {
+    if (command.basis != BasisChoice::kAuto && command.basis != BasisChoice::kKeyframes)
+      throw Error(ErrorKind::kUsage, "--keyframes goes with --basis keyframes only");
     options.keyframes = command.keyframes;
     options.basis = BasisChoice::kKeyframes;
   }
@@ -226,8 +228,11 @@ void add_encode(CLI::App& app, CommonOptions& common) {
 
   const char* method = "Method";
   add_choice<BasisChoice>(*command, "--basis", c->basis,
-                          {{"auto", BasisChoice::kAuto}, {"keyframes", BasisChoice::kKeyframes}},
-                          "Kind of basis (default auto)")
+                          {{"auto", BasisChoice::kAuto},
+                           {"keyframes", BasisChoice::kKeyframes},
+                           {"eigenshapes", BasisChoice::kEigenshapes},
+                           {"eigentrajectories", BasisChoice::kEigentrajectories}},
+                          "Kind of basis (default auto: the smallest file)")
       ->group(method);
   command->add_option("--keyframes", c->keyframes, "Number of key-frames (default: as few as do)")
       ->option_text("K")

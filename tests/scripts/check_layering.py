@@ -9,14 +9,14 @@ import pathlib
 import re
 import sys
 
-# C and C++ headers of the machine and of vectors: no files, no operating system.
+# Vectors of the machine.
 SIMD = ["<immintrin.h>", "<xmmintrin.h>", "<emmintrin.h>", "<arm_neon.h>", "<wasm_simd128.h>"]
 STREAMS = {"<iostream>", "<fstream>", "<sstream>", "<filesystem>", "<istream>", "<ostream>", "<streambuf>"}
 POSIX = ["<fcntl.h>", "<glob.h>", "<sys/stat.h>", "<unistd.h>"]
 
 # Prefixes of what a module may include beside the standard library.
 ALLOWED = {
-    "format": ['"format/', "<zstd.h>", "<xxhash.h>"],
+    "format": ['"format/', "<zstd.h>", "<xxhash.h>", *SIMD],
     "sdk": ['"sdk/', '"format/', "<anicodec/", *SIMD],
     "codec": ['"codec/', '"sdk/', '"format/', "<Eigen/", "<tbb/", "<embree3/"],
     "corpus": ['"corpus/', '"codec/', "<xxhash.h>"],

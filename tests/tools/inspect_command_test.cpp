@@ -28,7 +28,8 @@ class InspectCommand : public testing::Test {
  protected:
   InspectCommand() {
     write_sequence(folder_ / "a.pc2", corpus::make_clip("nonmanifold"));
-    Outcome outcome = anicodec({"encode", folder_ / "a.pc2", "-o", folder_ / "a.anic"});
+    Outcome outcome =
+        anicodec({"encode", folder_ / "a.pc2", "-o", folder_ / "a.anic", "--basis", "keyframes"});
     EXPECT_EQ(outcome.status, 0) << outcome;
     bytes_ = folder_.read("a.anic");
   }
