@@ -12,8 +12,9 @@ namespace anicodec {
 /// Haykin, "Adaptive Filter Theory", chapter 10).
 ///
 /// A decoder repeats it exactly: IEEE binary64, round to nearest, no contraction, every sum in
-/// ascending order, nothing but + - * /. Sizes up to kSize regressors.
-template <size_t kSize>
+/// ascending order, nothing but + - * /. Sizes up to kSize regressors; what was learnt n values ago
+/// counts (kForgetPerMille / 1000)^n.
+template <size_t kSize, int kForgetPerMille = 999>
 class RecursiveLeastSquares {
  public:
   using Vector = std::array<double, kSize>;
@@ -58,7 +59,7 @@ class RecursiveLeastSquares {
   }
 
  private:
-  static constexpr double kForget = 0.999;
+  static constexpr double kForget = kForgetPerMille / 1000.0;
 
   void reset_covariance() {
     p_ = {};
