@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Integers coded with a mixture of predictions, each with its own scale (spec/09c-reference-pose.md,
-// section 6). Blending by past performance after B. Meyer and P. Tischer, "TMW - a new method for
-// lossless image compression", 1997; the share given back after M. Herbster and M. Warmuth,
-// "Tracking the best expert", 1998.
+// Integers coded with a mixture of predictions, each with its own scale
+// (spec/09c-reference-pose.md, section 6). Blending by past performance after B. Meyer and P.
+// Tischer, "TMW - a new method for lossless image compression", 1997; the share given back after M.
+// Herbster and M. Warmuth, "Tracking the best expert", 1998.
 #ifndef ANICODEC_FORMAT_STUDENT_MIXTURE_H_
 #define ANICODEC_FORMAT_STUDENT_MIXTURE_H_
 

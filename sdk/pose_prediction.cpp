@@ -11,11 +11,11 @@
 namespace anicodec {
 namespace {
 
-constexpr double kNoise = 1e-2;        // variance of rounding and the like
-constexpr double kShrink = 1.02;       // of a local regression towards the global one, relative
-constexpr double kShrinkBy = 0.3;      // and absolute
+constexpr double kNoise = 1e-2;         // variance of rounding and the like
+constexpr double kShrink = 1.02;        // of a local regression towards the global one, relative
+constexpr double kShrinkBy = 0.3;       // and absolute
 constexpr double kPatchRegular = 1e-3;  // weight of the parallelogram in its patch
-constexpr double kNear = 0.1;          // softens the weights of near points of a fit, in lengths^4
+constexpr double kNear = 0.1;           // softens the weights of near points of a fit, in lengths^4
 
 }  // namespace
 
@@ -183,9 +183,8 @@ void PosePrediction::make_vectors(const Vector3& forward, double valences) {
 
 /// Known vertices in the first two rings.
 void PosePrediction::gather_nearby() {
-  nearby_.assign(neighbours_.begin(),
-                 neighbours_.begin() +
-                     static_cast<ptrdiff_t>(std::min(neighbours_.size(), kMostNearby)));
+  nearby_.assign(neighbours_.begin(), neighbours_.begin() + static_cast<ptrdiff_t>(std::min(
+                                                                neighbours_.size(), kMostNearby)));
   size_t ring = nearby_.size();
   for (size_t q = 0; q < ring && nearby_.size() < kMostNearby; ++q) {
     uint32_t w = nearby_[q];
@@ -323,7 +322,7 @@ void PosePrediction::expect_tangential(int step) {
   regressed_ = offset_slow_[kind_].predict(z_);
   double start = base_[d] + (step == 1 ? correlation_ * residual_[axis_[0]] : 0);
   expected_ = start + regressed_;
-  s_ = {tangential_,       disagreement_, length_,
+  s_ = {tangential_,         disagreement_, length_,
         length(vectors_[1]), usual_[0],     step == 1 ? std::fabs(relative_error_) : 0};
   double usual = tangential_ > 0 ? tangential_ : usual_[0];
   spread_now_ = kept_within(spread_of_[0][kind_].predict(s_), std::max(usual, 1e-3));
@@ -406,12 +405,9 @@ void PosePrediction::expect_height() {
   plane_ = base_[k] -
            (normal_[i] * (place[i] - base_[i]) + normal_[j] * (place[j] - base_[j])) / normal_[k];
   double quadric = fitted_height(true), plane = fitted_height(false);
-  h_ = {quadric,
-        plane,
-        height_of(patch_),
-        gates_.size() > 1 ? height_of(gates_[0]) : 0,
-        height_of(mean_),
-        dot(normal_, mean_offset_) / normal_[k]};
+  h_ = {quadric,           plane,
+        height_of(patch_), gates_.size() > 1 ? height_of(gates_[0]) : 0,
+        height_of(mean_),  dot(normal_, mean_offset_) / normal_[k]};
   regressed_ = height_slow_[kind_].predict(h_);
   expected_ = plane_ + regressed_;
   double disagreement = 0;

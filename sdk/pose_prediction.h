@@ -69,7 +69,9 @@ class PosePrediction {
   };
 
   Vector3 position(uint32_t v) const;
+
   bool known(uint32_t v) const { return known_[v]; }
+
   uint32_t corners(uint32_t v) const;
   void note_neighbour(uint32_t w);
   void gather_gates();
@@ -99,7 +101,7 @@ class PosePrediction {
   Slow<kHeights> height_slow_[kKinds];
   Fast<kHeights> height_fast_[kKinds];
   Slow<kSpreads> spread_of_[2][kKinds];
-  double usual_[2] = {100, 10};     ///< running means of the errors, tangential and normal
+  double usual_[2] = {100, 10};       ///< running means of the errors, tangential and normal
   double far_usual_[2] = {1e4, 300};  ///< the same for kAlone and kBeside
 
   // Of the vertex at hand.

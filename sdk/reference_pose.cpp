@@ -3,6 +3,7 @@
 #include "sdk/reference_pose.h"
 
 #include "sdk/plain_coding.h"
+#include "sdk/pose_coding.h"
 
 #include <algorithm>
 
@@ -22,8 +23,8 @@ Status open_pose(const format::PoseRecord& record, const Topology& topology, con
   size_t n = topology.coded_vertices;
   if (record.coder == format::CoderId::kPlain)
     return decode_plain_integers(record.stream, 3 * n, 3, &out->points);
-  if (record.coder != format::CoderId::kDraco)
-    return Status::kCoder;
+  if (record.coder == format::CoderId::kPredictive)
+    return decode_pose(record.stream, topology, &out->points);
   if (draco.components < 3)
     return Status::kSegment;
   size_t in_triangles = vertices_in_triangles(topology);
