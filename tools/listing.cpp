@@ -74,6 +74,13 @@ void list_mesh(FieldReader& r) {
   r.block("details");
 }
 
+void list_pose(FieldReader& r) {
+  r.explain(name_of(static_cast<format::CoderId>(r.u8("coder"))));
+  for (const char* name : {"origin x", "origin y", "origin z", "step"})
+    r.f64(name);
+  r.rest("coordinates");
+}
+
 void list_segment(FieldReader& r) {
   r.explain(name_of(static_cast<format::BasisKind>(r.u8("basis"))));
   r.explain(name_of(static_cast<format::Reconstruction>(r.u8("reconstruction"))));
@@ -91,6 +98,8 @@ void list_payload(const Chunk& chunk, ByteView payload, uint32_t frames,
     list_clip(r, frames);
   else if (chunk.type == chunk_type("MESH"))
     list_mesh(r);
+  else if (chunk.type == chunk_type("POSE"))
+    list_pose(r);
   else if (chunk.type == chunk_type("SEGM"))
     list_segment(r);
   else
