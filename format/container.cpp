@@ -5,6 +5,8 @@
 #include "format/checksum.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace anicodec::format {
 namespace {
@@ -83,6 +85,7 @@ Bytes ContainerWriter::finish() const {
 
 Failure ContainerReader::open(ByteView file) {
   chunks_.clear();
+  by_key_.clear();
   auto failure = [](Status status, uint64_t offset, const char* detail, uint32_t type = 0) {
     return Failure{status, offset, type, detail};
   };
@@ -149,17 +152,20 @@ Failure ContainerReader::open(ByteView file) {
   }
   if (at != size)
     return failure(Status::kFileSize, at, "the chunks end before the file does");
+  by_key_.resize(count);
+  std::iota(by_key_.begin(), by_key_.end(), 0U);
+  std::sort(by_key_.begin(), by_key_.end(), [&](uint32_t a, uint32_t b) {
+    return std::pair(key(chunks_[a]), a) < std::pair(key(chunks_[b]), b);
+  });
   file_ = file;
   return {};
 }
 
 const Chunk* ContainerReader::find(const char (&type)[5], uint16_t mesh, uint32_t segment) const {
-  uint32_t wanted = chunk_type(type);
-  for (const Chunk& chunk : chunks_) {
-    if (chunk.type == wanted && chunk.mesh == mesh && chunk.segment == segment)
-      return &chunk;
-  }
-  return nullptr;
+  const std::tuple wanted(chunk_type(type), mesh, segment);
+  auto found = std::partition_point(by_key_.begin(), by_key_.end(),
+                                    [&](uint32_t i) { return key(chunks_[i]) < wanted; });
+  return found != by_key_.end() && key(chunks_[*found]) == wanted ? &chunks_[*found] : nullptr;
 }
 
 Failure ContainerReader::payload(const Chunk& chunk, ByteView* out) const {

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace anicodec::format {
@@ -46,6 +47,11 @@ struct Chunk {
   uint64_t size = 0;              ///< of the payload
 };
 
+/// What chunks are found by; see ContainerReader::by_key().
+inline std::tuple<uint32_t, uint16_t, uint32_t> key(const Chunk& chunk) {
+  return {chunk.type, chunk.mesh, chunk.segment};
+}
+
 /// Collects chunks in file order and lays out the file.
 class ContainerWriter {
  public:
@@ -67,12 +73,16 @@ class ContainerReader {
  public:
   /// Checks magic, version, features, sizes, table, checksums of header and table, order of chunks,
   /// padding, and that the file ends where the header says. Payload checksums are checked by
-  /// payload(). Cost: O(chunks), plus the padding.
+  /// payload(). Cost: O(chunks log chunks), plus the padding.
   Failure open(ByteView file);
 
   const std::vector<Chunk>& chunks() const { return chunks_; }
 
-  /// The one chunk of this type, mesh and segment; null when there is none.
+  /// Numbers of the chunks, ascending by type, mesh and segment; equal ones in the order of the
+  /// file.
+  const std::vector<uint32_t>& by_key() const { return by_key_; }
+
+  /// The first chunk of this type, mesh and segment; null when there is none. O(log chunks).
   const Chunk* find(const char (&type)[5], uint16_t mesh = kNoMesh,
                     uint32_t segment = kNoSegment) const;
 
@@ -90,6 +100,7 @@ class ContainerReader {
  private:
   ByteView file_;
   std::vector<Chunk> chunks_;
+  std::vector<uint32_t> by_key_;
   uint64_t features_ = 0;
 };
 

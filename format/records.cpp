@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/records.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace anicodec::format {
 namespace {
@@ -57,7 +60,8 @@ Status Limits::read(ByteView view, Limits* out) {
     m.corners = r.varint32();
     m.draco_components = r.varint32(64 * 255);
     m.draco_bytes = r.varint32();
-    if (m.source_vertices == 0 || m.coded_vertices == 0 || m.coded_vertices > m.source_vertices)
+    if (m.triangles > kMaxTriangles || m.source_vertices == 0 || m.coded_vertices == 0 ||
+        m.coded_vertices > m.source_vertices)
       return Status::kRecord;
   }
   for (Segment& s : out->segments) {
@@ -74,7 +78,21 @@ Status Limits::read(ByteView view, Limits* out) {
     if (s.frames == 0 || s.first_frame >= out->frames || s.frames > out->frames - s.first_frame)
       return Status::kRecord;
   }
+  const std::vector<uint32_t> order = out->segments_by_frame();
+  for (size_t i = 1; i < order.size(); ++i) {
+    const Segment &a = out->segments[order[i - 1]], &b = out->segments[order[i]];
+    if (a.mesh == b.mesh && b.first_frame - a.first_frame < a.frames)
+      return Status::kRecord;
+  }
   return finished(r);
+}
+
+std::vector<uint32_t> Limits::segments_by_frame() const {
+  std::vector<uint32_t> order(segments.size());
+  std::iota(order.begin(), order.end(), 0U);
+  auto at = [&](uint32_t i) { return std::tuple(segments[i].mesh, segments[i].first_frame, i); };
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return at(a) < at(b); });
+  return order;
 }
 
 Bytes ClipRecord::write() const {
@@ -207,7 +225,7 @@ Status SegmentRecord::read(ByteView view, SegmentRecord* out) {
   ByteReader r(view);
   uint8_t kind = r.u8(), reconstruction = r.u8();
   if (r.ok() && (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) ||
-                 reconstruction > static_cast<uint8_t>(Reconstruction::kMsgi)))
+                 reconstruction != static_cast<uint8_t>(Reconstruction::kLinear)))
     return Status::kFeature;
   out->kind = static_cast<BasisKind>(kind);
   out->reconstruction = static_cast<Reconstruction>(reconstruction);

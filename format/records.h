@@ -16,6 +16,7 @@
 namespace anicodec::format {
 
 inline constexpr uint32_t kMaxVertices = (1U << 31) - 1;
+inline constexpr uint32_t kMaxTriangles = UINT32_MAX / 3;  // corners are numbered with 32 bits
 inline constexpr uint32_t kMaxFrames = (1U << 24) - 1;
 inline constexpr uint32_t kMaxMeshes = 65535;
 inline constexpr uint32_t kMaxComponents = 1U << 20;
@@ -25,7 +26,7 @@ enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentraject
 /// How connectivity or integer positions are coded.
 enum class CoderId : uint8_t { kPlain = 0, kDraco = 1, kPredictive = 2 };
 
-/// How a frame between key-frames is rebuilt.
+/// How a frame between key-frames is rebuilt. kMsgi is reserved: readers of this version refuse it.
 enum class Reconstruction : uint8_t { kLinear = 0, kMsgi = 1 };
 
 /// Chunk LIMI: all that a host needs to know how much memory opening and playing will take.
@@ -55,7 +56,11 @@ struct Limits {
   std::vector<Mesh> meshes;
   std::vector<Segment> segments;
 
+  /// Numbers of the segments, ascending by mesh and first frame. O(segments log segments).
+  std::vector<uint32_t> segments_by_frame() const;
+
   Bytes write() const;
+  /// Checks that no two segments of a mesh share a frame, too.
   static Status read(ByteView view, Limits* out);
 };
 

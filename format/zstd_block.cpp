@@ -2,9 +2,16 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/zstd_block.h"
 
+#include <algorithm>
+
 #include <zstd.h>
 
 namespace anicodec::format {
+namespace {
+
+constexpr uint8_t kFrame[] = {0x28, 0xB5, 0x2F, 0xFD};  // the magic number of a frame
+
+}  // namespace
 
 Bytes zstd_compress(ByteView bytes) {
   Bytes out(ZSTD_compressBound(bytes.size));
@@ -14,6 +21,11 @@ Bytes zstd_compress(ByteView bytes) {
 }
 
 Status zstd_decompress(ByteView compressed, size_t size, Bytes* out) {
+  // A plain frame that says how long its content is; not a skippable one, not an old one.
+  if (compressed.size < sizeof kFrame ||
+      !std::equal(kFrame, kFrame + sizeof kFrame, compressed.data) ||
+      ZSTD_getFrameContentSize(compressed.data, compressed.size) != size)
+    return Status::kZstd;
   size_t frame = ZSTD_findFrameCompressedSize(compressed.data, compressed.size);
   if (ZSTD_isError(frame) || frame != compressed.size)
     return Status::kZstd;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip.h"
 
+#include "sdk/memory.h"
 #include "sdk/plain_coding.h"
 
 #include <algorithm>
@@ -14,31 +15,72 @@ using format::ByteView;
 using format::Chunk;
 using format::chunk_type;
 
-constexpr uint32_t kKnownChunks[] = {chunk_type("LIMI"), chunk_type("CLIP"), chunk_type("MESH"),
-                                     chunk_type("VMAP"), chunk_type("FMAP"), chunk_type("POSE"),
-                                     chunk_type("SEGM"), chunk_type("BASI"), chunk_type("CORR")};
-
 Failure at(const Chunk& chunk, Status status, const char* detail) {
   return {status, chunk.offset, chunk.type, detail};
 }
 
+/// Which meshes and segments the chunks of a type may belong to.
+enum class Owner : uint8_t { kClip, kMesh, kSegment, kEither };
+
+struct KnownChunk {
+  uint32_t type;
+  Owner owner;
+};
+
+constexpr KnownChunk kKnownChunks[] = {
+    {chunk_type("LIMI"), Owner::kClip},    {chunk_type("CLIP"), Owner::kClip},
+    {chunk_type("MESH"), Owner::kMesh},    {chunk_type("VMAP"), Owner::kMesh},
+    {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
+    {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
+    {chunk_type("CORR"), Owner::kSegment}};
+
+const KnownChunk* known(const Chunk& chunk) {
+  const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
+                                         [&](const KnownChunk& k) { return k.type == chunk.type; });
+  return found == std::end(kKnownChunks) ? nullptr : found;
+}
+
 /// Unknown chunks are skipped, unless required; only layers of a basis may occur twice.
 Failure check_chunks(const format::ContainerReader& file) {
-  std::vector<std::pair<uint64_t, const Chunk*>> keys;
   for (const Chunk& chunk : file.chunks()) {
-    bool known = std::find(std::begin(kKnownChunks), std::end(kKnownChunks), chunk.type) !=
-                 std::end(kKnownChunks);
-    if (!known && chunk.required)
+    if (chunk.required && !known(chunk))
       return at(chunk, Status::kChunkUnknown, "the file needs a chunk this reader does not know");
-    if (known && chunk.type != chunk_type("BASI"))
-      keys.emplace_back((uint64_t{chunk.type} << 32) ^ (uint64_t{chunk.mesh} << 48) ^ chunk.segment,
-                        &chunk);
   }
-  std::sort(keys.begin(), keys.end());
-  for (size_t i = 1; i < keys.size(); ++i) {
-    const Chunk &a = *keys[i - 1].second, &b = *keys[i].second;
-    if (a.type == b.type && a.mesh == b.mesh && a.segment == b.segment)
+  for (size_t i = 1; i < file.by_key().size(); ++i) {
+    const Chunk &a = file.chunks()[file.by_key()[i - 1]], &b = file.chunks()[file.by_key()[i]];
+    if (key(a) == key(b) && b.type != chunk_type("BASI") && known(b))
       return at(b, Status::kChunkDuplicate, "a chunk occurs twice");
+  }
+  return {};
+}
+
+/// Known chunks are where the limits and the order of the vertices want them, and nowhere else.
+Failure check_places(const format::ContainerReader& file, const format::Limits& limits,
+                     format::OrderMode order) {
+  using format::BasisKind;
+  auto fits = [&](const Chunk& chunk, Owner owner) {
+    const bool of_segment = chunk.segment != format::kNoSegment;
+    if (owner == Owner::kClip)
+      return chunk.mesh == format::kNoMesh && !of_segment;
+    if (chunk.mesh >= limits.meshes.size() || (owner == Owner::kMesh && of_segment) ||
+        (owner == Owner::kSegment && !of_segment))
+      return false;
+    if (!of_segment)
+      return (chunk.type != chunk_type("VMAP") || order != format::OrderMode::kFree) &&
+             (chunk.type != chunk_type("FMAP") || order == format::OrderMode::kAll);
+    if (chunk.segment >= limits.segments.size())
+      return false;
+    const format::Limits::Segment& segment = limits.segments[chunk.segment];
+    if (segment.mesh != chunk.mesh)
+      return false;
+    if (chunk.type == chunk_type("CORR"))
+      return segment.corrections > 0;
+    return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
+  };
+  for (const Chunk& chunk : file.chunks()) {
+    const KnownChunk* k = known(chunk);
+    if (k && !(chunk.required && fits(chunk, k->owner)))
+      return at(chunk, Status::kIndexRange, "a chunk belongs to nothing in the file");
   }
   return {};
 }
@@ -69,7 +111,6 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
     return f;
   if (Status s = format::Limits::read(payload, &limits_); s != Status::kOk)
     return at(*chunk, s, "the limits are malformed");
-  uint64_t resident = 0;
   // Even a mesh that is all alike takes some thousandth of a bit per vertex.
   uint64_t plausible = uint64_t{bytes.size} << 16;
   for (const auto& mesh : limits_.meshes) {
@@ -79,7 +120,6 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
         mesh.triangles > plausible || mesh.polygons > plausible || mesh.points > plausible ||
         mesh.draco_bytes > bytes.size)
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
-    resident += uint64_t{4} * mesh.source_vertices + uint64_t{8} * mesh.corners;
   }
   if (limits_.frames > options.limits.frames)
     return at(*chunk, Status::kLimit, "more frames than allowed");
@@ -91,9 +131,8 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
     uint64_t weights = uint64_t{4} * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
-    resident += 2 * coefficients + weights + uint64_t{16} * s.corrections;
   }
-  if (resident > options.limits.resident_bytes)
+  if (estimate_memory(limits_).opening > options.limits.resident_bytes)
     return at(*chunk, Status::kLimit, "more memory than allowed");
 
   if (Failure f = required(file, "CLIP", format::kNoMesh, format::kNoSegment, &chunk, &payload);
@@ -101,6 +140,8 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
     return f;
   if (Status s = format::ClipRecord::read(payload, limits_.frames, &record_); s != Status::kOk)
     return at(*chunk, s, "the clip record is malformed");
+  if (Failure f = check_places(file, limits_, record_.order); !f.ok())
+    return f;
 
   meshes_.resize(limits_.meshes.size());
   draco_.resize(limits_.meshes.size());
@@ -134,8 +175,8 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh) {
     if (s != Status::kOk)
       return at(*chunk, s, "the Draco bitstream is damaged");
   } else {
-    if (sizes.draco_components != 0)
-      return at(*chunk, Status::kRecord, "Draco components without Draco");
+    if (sizes.draco_components != 0 || sizes.draco_bytes != 0)
+      return at(*chunk, Status::kRecord, "counts of a Draco bitstream without one");
     Status s = decode_plain_triangles(record.connectivity, sizes.triangles, &draco.triangles);
     if (s != Status::kOk)
       return at(*chunk, s, "the plain connectivity is damaged");
@@ -167,6 +208,7 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh) {
 
 Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptions& options) {
   segments_.resize(limits_.segments.size());
+  by_frame_ = limits_.segments_by_frame();
   // Layers by segment, in file order, in one pass.
   std::vector<std::vector<const Chunk*>> layers(segments_.size());
   for (const Chunk& chunk : file.chunks()) {
@@ -236,11 +278,15 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
 }
 
 const Segment* Clip::segment_at(uint32_t mesh, uint32_t frame) const {
-  for (const Segment& s : segments_) {
-    if (s.mesh == mesh && frame >= s.first_frame && frame - s.first_frame < s.frames)
-      return &s;
-  }
-  return nullptr;
+  // The last segment of the mesh that begins at the frame or before.
+  auto after = std::partition_point(by_frame_.begin(), by_frame_.end(), [&](uint32_t i) {
+    const Segment& s = segments_[i];
+    return s.mesh != mesh ? s.mesh < mesh : s.first_frame <= frame;
+  });
+  if (after == by_frame_.begin())
+    return nullptr;
+  const Segment& s = segments_[*(after - 1)];
+  return s.mesh == mesh && frame - s.first_frame < s.frames ? &s : nullptr;
 }
 
 size_t Clip::resident_bytes() const {

@@ -20,7 +20,7 @@ struct HostLimits {
   uint64_t vertices = uint64_t{1} << 31;
   uint64_t frames = uint64_t{1} << 24;
   uint64_t components = uint64_t{1} << 20;
-  uint64_t resident_bytes = uint64_t{16} << 30;
+  uint64_t resident_bytes = uint64_t{16} << 30;  ///< while opening, see estimate_memory()
 };
 
 struct OpenOptions {
@@ -56,6 +56,7 @@ class Clip {
   uint32_t vertex_count(uint32_t mesh = 0) const { return limits_.meshes[mesh].source_vertices; }
 
   /// The segment of a mesh that holds a frame; null when the mesh is not there in that frame.
+  /// O(log segments).
   const Segment* segment_at(uint32_t mesh, uint32_t frame) const;
 
   /// Bytes that stay allocated while the clip is open.
@@ -74,6 +75,7 @@ class Clip {
   std::vector<Mesh> meshes_;
   std::vector<DracoMesh> draco_;  ///< while opening
   std::vector<Segment> segments_;
+  std::vector<uint32_t> by_frame_;  ///< segments, ascending by mesh and first frame
 };
 
 /// Plays one mesh of a clip: small, one per thread or instance. The clip must outlive it.

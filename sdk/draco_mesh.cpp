@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <memory>
 #include <new>
-#include <utility>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -15,22 +14,68 @@
 #pragma GCC diagnostic ignored "-Wundef"
 #pragma GCC diagnostic ignored "-Wpedantic"
 #include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #pragma GCC diagnostic pop
 
 namespace anicodec {
 namespace {
 
+constexpr int kMaxAttributes = 64;
+
+/// Whether the counts at the head of a bitstream are those of the limits. Draco sizes its tables by
+/// them before it reads any more.
+bool is_plausible(format::ByteView bytes, uint32_t points, uint32_t triangles) {
+  constexpr uint8_t kHead[] = {
+      'D', 'R', 'A', 'C', 'O', 2, 2, draco::TRIANGULAR_MESH, draco::MESH_EDGEBREAKER_ENCODING};
+  format::ByteReader r(bytes);
+  format::ByteView head = r.raw(sizeof kHead);
+  if (head.size != sizeof kHead || !std::equal(kHead, kHead + sizeof kHead, head.data))
+    return false;
+  const uint16_t flags = r.u16();
+  const uint8_t traversal = r.u8();
+  const uint64_t vertices = r.varint(), faces = r.varint();
+  const uint8_t attribute_data = r.u8();
+  const uint64_t symbols = r.varint(), split_symbols = r.varint();
+  return r.ok() && flags == 0 &&
+         (traversal == draco::MESH_EDGEBREAKER_STANDARD_ENCODING ||
+          traversal == draco::MESH_EDGEBREAKER_VALENCE_ENCODING) &&
+         vertices <= points && faces == triangles && attribute_data < kMaxAttributes &&
+         symbols <= faces && split_symbols <= symbols;
+}
+
+/// Draco's decoder, which looks at what the attributes announce before it makes room for them.
+class BoundedDecoder : public draco::MeshEdgebreakerDecoder {
+ public:
+  BoundedDecoder(uint32_t points, uint32_t triangles, uint32_t components)
+      : points_(points), triangles_(triangles), components_(components) {}
+
+ protected:
+  bool DecodeAllAttributes() override {
+    const draco::Mesh& mesh = *this->mesh();
+    if (mesh.num_points() != points_ || mesh.num_faces() != triangles_ ||
+        mesh.num_attributes() > kMaxAttributes)
+      return false;
+    uint32_t total = 0;
+    for (int a = 0; a < mesh.num_attributes(); ++a)
+      total += static_cast<uint32_t>(mesh.attribute(a)->num_components());
+    return total == components_ && draco::MeshEdgebreakerDecoder::DecodeAllAttributes();
+  }
+
+ private:
+  uint32_t points_, triangles_, components_;
+};
+
 Status decode(format::ByteView bytes, uint32_t points, uint32_t triangles, uint32_t components,
               DracoMesh* out) {
-  // Draco sizes its tables by the counts the stream announces: they follow the header (11 bytes)
-  // and the edgebreaker method, and must not exceed what the limits promised.
+  if (!is_plausible(bytes, points, triangles))
+    return Status::kDraco;
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data), bytes.size);
-  draco::Decoder decoder;
-  auto result = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!result.ok() || buffer.remaining_size() != 0)
+  BoundedDecoder decoder(points, triangles, components);
+  auto mesh = std::make_unique<draco::Mesh>();
+  const draco::DecoderOptions options;
+  if (!decoder.Decode(options, &buffer, mesh.get()).ok() || buffer.remaining_size() != 0)
     return Status::kDraco;
-  std::unique_ptr<draco::Mesh> mesh = std::move(result).value();
   if (mesh->num_points() != points || mesh->num_faces() != triangles)
     return Status::kDraco;
   uint32_t total = 0;

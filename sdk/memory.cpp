@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/memory.h"
+
+#include <algorithm>
+
+namespace anicodec {
+namespace {
+
+using format::BasisKind;
+using format::Limits;
+
+constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
+constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
+constexpr uint64_t kMatrix = 48;                 // bytes of a pose map or motion
+
+/// A sum that stays at its end instead of wrapping.
+class Sum {
+ public:
+  void add(uint64_t x) { total_ += std::min(x, UINT64_MAX - total_); }
+
+  uint64_t total() const { return total_; }
+
+ private:
+  uint64_t total_ = 0;
+};
+
+uint64_t resident(const Limits::Mesh& m) {
+  return 4 * (uint64_t{3} * m.triangles + m.points + m.source_vertices + m.polygons + 1 +
+              uint64_t{m.corners});
+}
+
+// The factors of a product have at most 31 + 21 bits, its constant 6: each term fits 64 bits.
+uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
+  const uint64_t n = (uint64_t{mesh.coded_vertices} + 15) / 16 * 16;
+  const uint64_t frames = s.frames, components = s.components;
+  const uint64_t integers = components + s.wide_components;  // in units of 16 bits
+  uint64_t bytes = kMatrix * frames;
+  switch (s.kind) {
+    case BasisKind::kKeyframes:
+      bytes += 6 * n * integers + 4 * frames * components;
+      break;
+    case BasisKind::kEigenshapes:
+      bytes += 12 * n + 6 * n * integers + 4 * frames * components;
+      break;
+    case BasisKind::kEigentrajectories:
+      bytes += 12 * n + 2 * n * integers + 12 * frames * components;
+      break;
+  }
+  if (s.corrections > 0)
+    bytes += uint64_t{16} * s.corrections + 4 * (frames + 1);
+  return bytes;
+}
+
+uint64_t opening(const Limits::Mesh& m) {
+  const uint64_t details =
+      uint64_t{28} * 3 * m.triangles + uint64_t{12} * m.coded_vertices + 4 * m.source_vertices;
+  const uint64_t maps =
+      uint64_t{20} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{4} * m.corners;
+  return std::max(details, maps);
+}
+
+uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
+  // Kinds with a prediction: residuals and coefficients, weights, the order of the vertices.
+  const uint64_t n = mesh.coded_vertices, frames = s.frames, components = s.components;
+  if (s.kind == BasisKind::kKeyframes)
+    return 36 * n * components + 4 * frames * components + 28 * frames + kModels;
+  const uint64_t channels = s.kind == BasisKind::kEigenshapes ? 3 : 1;
+  return 8 * channels * (n + 1) * (components + 8) + 12 * frames * components + 80 * frames +
+         (8 * kNeighbours + 256) * n + uint64_t{48} * mesh.triangles + kModels;
+}
+
+}  // namespace
+
+MemoryEstimate estimate_memory(const Limits& limits) {
+  Sum open, held;  // held: until the segments are open
+  uint64_t largest = 0;
+  for (const Limits::Mesh& m : limits.meshes) {
+    open.add(resident(m));
+    held.add(uint64_t{12} * m.triangles + uint64_t{8} * m.points * m.draco_components);
+    held.add(uint64_t{12} * m.coded_vertices);  // the reference pose
+    largest = std::max(largest, opening(m));
+  }
+  for (const Limits::Segment& s : limits.segments) {
+    const Limits::Mesh& mesh = limits.meshes[s.mesh];
+    open.add(resident(s, mesh));
+    largest = std::max(largest, opening(s, mesh));
+  }
+  MemoryEstimate estimate;
+  estimate.resident = open.total();
+  open.add(held.total());
+  open.add(largest);
+  estimate.opening = open.total();
+  return estimate;
+}
+
+}  // namespace anicodec

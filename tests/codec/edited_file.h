@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TESTS_CODEC_EDITED_FILE_H_
+#define ANICODEC_TESTS_CODEC_EDITED_FILE_H_
+
+#include "format/container.h"
+#include "format/records.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace anicodec {
+
+/// A file taken apart, to be changed and put together with checksums that fit.
+struct EditedFile {
+  struct Part {
+    format::Chunk chunk;
+    format::Bytes payload;
+  };
+
+  std::vector<Part> parts;
+
+  /// Leaves out what cannot be read.
+  explicit EditedFile(const format::Bytes& file) {
+    format::ContainerReader reader;
+    if (!reader.open(file).ok())
+      return;
+    for (const format::Chunk& chunk : reader.chunks()) {
+      format::ByteView view;
+      if (reader.payload(chunk, &view).ok())
+        parts.push_back({chunk, {view.data, view.data + view.size}});
+    }
+  }
+
+  /// The first part of a type; there must be one.
+  Part& part(const char (&type)[5]) {
+    return *std::find_if(parts.begin(), parts.end(),
+                         [&](const Part& p) { return p.chunk.type == format::chunk_type(type); });
+  }
+
+  template <class Change>
+  void change_limits(Change change) {
+    format::Limits limits;
+    format::Limits::read(part("LIMI").payload, &limits);
+    change(limits);
+    part("LIMI").payload = limits.write();
+  }
+
+  /// `change(record)` of a record whose views lie in the old payload.
+  template <class Record, class Change>
+  void change_record(const char (&type)[5], Change change) {
+    const format::Bytes old = part(type).payload;
+    Record record;
+    Record::read(old, &record);
+    change(record);
+    part(type).payload = record.write();
+  }
+
+  format::Bytes bytes() const {
+    format::ContainerWriter writer;
+    for (const Part& p : parts) {
+      std::string type = format::chunk_name(p.chunk.type);
+      const char name[5] = {type[0], type[1], type[2], type[3], 0};
+      writer.add(name, p.chunk.required, p.chunk.mesh, p.chunk.segment, p.payload);
+    }
+    return writer.finish();
+  }
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_TESTS_CODEC_EDITED_FILE_H_

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Files whose checksums fit and whose contents do not: each rule of a decoder, broken once.
+#include "codec/encode.h"
+#include "corpus/clips.h"
+#include "sdk/clip.h"
+#include "sdk/memory.h"
+#include "tests/codec/edited_file.h"
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+using format::BasisKind;
+using format::Limits;
+
+format::Bytes encoded(const char* clip, BasisChoice basis,
+                      format::OrderMode order = format::OrderMode::kVertices,
+                      format::CoderId coder = format::CoderId::kDraco) {
+  EncodeOptions options;
+  options.target = {format::ErrorMetric::kMaxError, 1, true};
+  options.basis = basis;
+  options.effort = 1;
+  options.order = order;
+  options.mesh_coder = coder;
+  return encode(corpus::make_clip(clip), options).file;
+}
+
+Status status_of(const EditedFile& file, uint64_t resident_bytes = uint64_t{1} << 30) {
+  format::Bytes bytes = file.bytes();
+  Clip clip;
+  OpenOptions options;
+  options.limits.resident_bytes = resident_bytes;
+  return clip.open(bytes, options).status;
+}
+
+class RefusedFile : public testing::Test {
+ protected:
+  const format::Bytes keyframes_ = encoded("nonmanifold", BasisChoice::kKeyframes);
+  const format::Bytes shapes_ = encoded("nonmanifold", BasisChoice::kEigenshapes);
+};
+
+TEST_F(RefusedFile, UnchangedOpens) {
+  for (const format::Bytes& bytes : {keyframes_, shapes_}) {
+    EXPECT_EQ(EditedFile(bytes).bytes(), bytes);
+    EXPECT_EQ(status_of(EditedFile(bytes)), Status::kOk);
+  }
+}
+
+TEST_F(RefusedFile, NeedsNoMoreMemoryThanAllowed) {
+  Limits limits;
+  EditedFile file(shapes_);
+  ASSERT_EQ(Limits::read(file.part("LIMI").payload, &limits), Status::kOk);
+  MemoryEstimate estimate = estimate_memory(limits);
+  EXPECT_EQ(status_of(file, estimate.opening), Status::kOk);
+  EXPECT_EQ(status_of(file, estimate.opening - 1), Status::kLimit);
+  Clip clip;
+  ASSERT_TRUE(clip.open(shapes_).ok());
+  EXPECT_LE(clip.resident_bytes(), estimate.resident);
+  // Sums that do not fit 64 bits do not wrap.
+  limits.meshes[0].coded_vertices = format::kMaxVertices;
+  limits.segments[0].components = format::kMaxComponents;
+  limits.segments.resize(1 << 16, limits.segments[0]);
+  EXPECT_EQ(estimate_memory(limits).opening, UINT64_MAX);
+}
+
+TEST_F(RefusedFile, SegmentsOverlap) {
+  EditedFile file(keyframes_);
+  file.change_limits([](Limits& limits) { limits.segments.push_back(limits.segments[0]); });
+  EXPECT_EQ(status_of(file), Status::kRecord);
+}
+
+TEST_F(RefusedFile, MoreTrianglesThanCornersCanBeNumbered) {
+  EditedFile file(keyframes_);
+  file.change_limits(
+      [](Limits& limits) { limits.meshes[0].triangles = format::kMaxTriangles + 1; });
+  EXPECT_EQ(status_of(file), Status::kRecord);
+}
+
+TEST_F(RefusedFile, ReservedReconstruction) {
+  EditedFile file(keyframes_);
+  file.change_record<format::SegmentRecord>("SEGM", [](format::SegmentRecord& record) {
+    record.reconstruction = format::Reconstruction::kMsgi;
+  });
+  EXPECT_EQ(status_of(file), Status::kFeature);
+}
+
+TEST_F(RefusedFile, DracoBytesWithoutDraco) {
+  EditedFile file(encoded("nonmanifold", BasisChoice::kKeyframes, format::OrderMode::kVertices,
+                          format::CoderId::kPlain));
+  ASSERT_EQ(status_of(file), Status::kOk);
+  file.change_limits([](Limits& limits) { limits.meshes[0].draco_bytes = 1; });
+  EXPECT_EQ(status_of(file), Status::kRecord);
+}
+
+TEST_F(RefusedFile, StrayChunks) {
+  auto with = [](const format::Bytes& bytes, const char(&like)[5], auto change) {
+    EditedFile file(bytes);
+    EditedFile::Part part = file.part(like);
+    change(part);
+    file.parts.push_back(part);
+    return status_of(file);
+  };
+  for (const format::Bytes& bytes : {keyframes_, shapes_}) {
+    auto of_another_mesh = [](auto& part) { part.chunk.mesh = 1; };
+    EXPECT_EQ(with(bytes, "MESH", of_another_mesh), Status::kIndexRange);
+    EXPECT_EQ(with(bytes, "VMAP", of_another_mesh), Status::kIndexRange);
+    EXPECT_EQ(with(bytes, "SEGM", of_another_mesh), Status::kIndexRange);
+    EXPECT_EQ(with(bytes, "SEGM", [](auto& part) { part.chunk.segment = 1; }), Status::kIndexRange);
+    EXPECT_EQ(with(bytes, "CLIP", [](auto& part) { part.chunk.mesh = 0; }), Status::kIndexRange);
+    EXPECT_EQ(with(bytes, "SEGM", [](auto& part) { part.chunk.type = format::chunk_type("FMAP"); }),
+              Status::kIndexRange);
+  }
+  EXPECT_EQ(
+      with(keyframes_, "SEGM", [](auto& part) { part.chunk.type = format::chunk_type("BASI"); }),
+      Status::kIndexRange);
+  EXPECT_EQ(
+      with(keyframes_, "SEGM", [](auto& part) { part.chunk.type = format::chunk_type("POSE"); }),
+      Status::kIndexRange);
+  EXPECT_EQ(with(shapes_, "BASI", [](auto& part) { part.chunk.mesh = 1; }), Status::kIndexRange);
+  EditedFile optional(shapes_);
+  optional.part("VMAP").chunk.required = false;
+  EXPECT_EQ(status_of(optional), Status::kIndexRange);
+  EXPECT_EQ(with(shapes_, "VMAP", [](auto&) {}), Status::kChunkDuplicate);
+}
+
+TEST_F(RefusedFile, DracoBitstreamThatAnnouncesTooMuch) {
+  const format::Bytes stream = [&] {
+    EditedFile file(keyframes_);
+    format::MeshRecord record;
+    format::MeshRecord::read(file.part("MESH").payload, &record);
+    return format::Bytes(record.connectivity.data,
+                         record.connectivity.data + record.connectivity.size);
+  }();
+  // Version, geometry, method, flags, traversal, and the counts up to the split symbols.
+  for (size_t at : {0, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}) {
+    format::Bytes changed = stream;
+    changed[at] ^= 0x7F;
+    EditedFile file(keyframes_);
+    file.change_record<format::MeshRecord>(
+        "MESH", [&](format::MeshRecord& record) { record.connectivity = changed; });
+    EXPECT_EQ(status_of(file), Status::kDraco) << at;
+  }
+}
+
+TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
+  EditedFile file(shapes_);
+  for (const format::Bytes& frame :
+       {format::Bytes{0x50, 0x2A, 0x4D, 0x18, 0, 0, 0, 0},           // skippable, empty
+        format::Bytes{0x28, 0xB5, 0x2F, 0xFD, 0x00, 0x58, 1, 0, 0},  // states no size
+        format::Bytes{}}) {
+    file.change_record<format::PoseRecord>(
+        "POSE", [&](format::PoseRecord& record) { record.stream = frame; });
+    EXPECT_EQ(status_of(file), Status::kZstd);
+  }
+}
+
+}  // namespace
+}  // namespace anicodec
