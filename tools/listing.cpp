@@ -78,7 +78,7 @@ void list_pose(FieldReader& r) {
   r.explain(name_of(static_cast<format::CoderId>(r.u8("coder"))));
   for (const char* name : {"origin x", "origin y", "origin z", "step"})
     r.f64(name);
-  r.rest("coordinates");
+  r.bytes("coordinates", r.remaining());
 }
 
 void list_segment(FieldReader& r) {

@@ -52,6 +52,8 @@ class FieldReader {
 
   bool ok() const { return reader_.ok(); }
 
+  uint64_t remaining() const { return reader_.remaining(); }
+
  private:
   template <typename Value>
   Value listed(std::string_view name, uint64_t begin, Value x);
