@@ -22,7 +22,7 @@ struct StudentMixture {
   static constexpr double kLeastScale = 0.04, kRange = 1e10;
 
   int count = 0;
-  double mean[kMost], scale[kMost];
+  double mean[kMost], scale[kMost], inverse[kMost];  ///< inverse: 1 / scale
 
   void clear() { count = 0; }
 
@@ -31,15 +31,16 @@ struct StudentMixture {
   void add(double m, double s) {
     mean[count] = m > -kRange && m < kRange ? m : 0;
     scale[count] = s > kLeastScale ? (s < kRange ? s : kRange) : kLeastScale;
+    inverse[count] = 1 / scale[count];
     ++count;
   }
 
-  /// Distribution function of one of them: with z = x / scale, r = sqrt(4 + z^2),
-  /// 1/2 + 3/4 z/r (1 - z^2 / (3 r^2)). Only operations that IEEE 754 rounds correctly.
+  /// Distribution function of one of them: 1/2 + u (3 - u^2) / 4 with u = z / sqrt(4 + z^2), z = x
+  /// - mean in scales. Only operations that IEEE 754 rounds correctly.
   double below(int i, double x) const {
-    const double z = (x - mean[i]) / scale[i];
-    const double r2 = 4 + z * z;
-    return 0.5 + 0.75 * (z / std::sqrt(r2)) * (1 - z * z / (3 * r2));
+    const double z = (x - mean[i]) * inverse[i];
+    const double u = z / std::sqrt(4 + z * z);
+    return 0.5 + u * (0.75 - 0.25 * (u * u));
   }
 };
 

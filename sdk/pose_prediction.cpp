@@ -29,6 +29,7 @@ PosePrediction::PosePrediction(const CornerTable& table)
   std::array<double, kVectors> vector_start{}, vector_variance{};
   std::array<double, kHeights> height_start{}, height_variance{};
   std::array<double, kSpreads> spread_start{}, spread_variance{};
+  vector_start[1] = 0.4;  // the patch
   vector_variance.fill(0.05);
   height_variance.fill(0.05);
   spread_variance.fill(0.1);
@@ -178,15 +179,14 @@ void PosePrediction::make_vectors(const Vector3& forward, double valences) {
               (6.0 / valence - 1) * forward,
               (valences / 12 - 1) * forward,
               gates_.size() > 1 ? gates_[0] - base_ : Vector3{},
-              Vector3{}};
+              gates_.size() > 2 ? gates_[1] - base_ : Vector3{}};
 }
 
 /// Known vertices in the first two rings.
 void PosePrediction::gather_nearby() {
   nearby_.assign(neighbours_.begin(), neighbours_.begin() + static_cast<ptrdiff_t>(std::min(
                                                                 neighbours_.size(), kMostNearby)));
-  size_t ring = nearby_.size();
-  for (size_t q = 0; q < ring && nearby_.size() < kMostNearby; ++q) {
+  for (size_t q = 0; q < nearby_.size() && nearby_.size() < kMostNearby; ++q) {
     uint32_t w = nearby_[q];
     for (uint32_t i = 0; i < corners(w); ++i) {
       uint32_t c = table_.corner(w, i);
@@ -279,33 +279,73 @@ void PosePrediction::expect_far(int step) {
   mixture_.add(mean, step > 0 ? std::fabs(residual_[axis_[step - 1]]) : 3 * usual);
 }
 
-/// Regression nearby on what remains of the global one; the weights serve both tangential axes.
+/// Adds the regressors z, of which the global regression left `rest`, to a regression nearby.
+template <size_t kSize>
+void PosePrediction::accumulate(const std::array<double, kSize>& z, double rest, double spread,
+                                SmallSystem<kSize>& system) {
+  double weight = 1 / (spread * spread + kNoise);
+  for (size_t m = 0; m < kSize; ++m) {
+    for (size_t o = 0; o <= m; ++o)
+      system.a[m][o] += weight * z[m] * z[o];
+    system.b[m][0] += weight * z[m] * rest;
+  }
+}
+
+/// The solution, kept close to 0; 0 where there is none.
+template <size_t kSize>
+std::array<double, kSize> PosePrediction::shrunk_solution(SmallSystem<kSize> system) {
+  for (size_t m = 0; m < kSize; ++m)
+    system.a[m][m] = system.a[m][m] * kShrink + kShrinkBy;
+  std::array<double, kSize> x{};
+  if (system.solve(kSize)) {
+    for (size_t m = 0; m < kSize; ++m)
+      x[m] = system.b[m][0];
+  }
+  return x;
+}
+
+/// Regressions nearby on what remains of the global one, over so many of the nearest vertices; the
+/// weights serve both tangential axes.
 void PosePrediction::solve_local_offsets() {
   SmallSystem<kVectors> system;
-  const auto& global = offset_slow_[kind_];
-  for (uint32_t w : nearby_) {
-    const Sample& s = samples_[w];
-    double spread = static_cast<double>(s.spread[0]);
-    if (!(spread > 0))
-      continue;
-    double weight = 1 / (spread * spread + kNoise);
-    for (int step = 0; step < 2; ++step) {
-      std::array<double, kVectors> z;
-      for (size_t m = 0; m < kVectors; ++m)
-        z[m] = static_cast<double>(s.vectors[m][axis_[step]]);
-      double rest = static_cast<double>(s.offset[axis_[step]]) - global.predict(z);
-      for (size_t m = 0; m < kVectors; ++m) {
-        for (size_t o = 0; o <= m; ++o)
-          system.a[m][o] += weight * z[m] * z[o];
-        system.b[m][0] += weight * z[m] * rest;
+  size_t q = 0;
+  for (size_t reach = 0; reach < kReaches; ++reach) {
+    for (; q < std::min(nearby_.size(), kReach[reach]); ++q) {
+      const Sample& s = samples_[nearby_[q]];
+      if (!(s.spread[0] > 0))
+        continue;
+      for (int step = 0; step < 2; ++step) {
+        std::array<double, kVectors> z;
+        for (size_t m = 0; m < kVectors; ++m)
+          z[m] = static_cast<double>(s.vectors[m][axis_[step]]);
+        double rest = static_cast<double>(s.offset[axis_[step]]) - offset_slow_[kind_].predict(z);
+        accumulate(z, rest, static_cast<double>(s.spread[0]), system);
       }
     }
+    local_weights_[reach] = shrunk_solution(system);
   }
-  for (size_t m = 0; m < kVectors; ++m)
-    system.a[m][m] = system.a[m][m] * kShrink + kShrinkBy;
-  bool solved = system.solve(kVectors);
-  for (size_t m = 0; m < kVectors; ++m)
-    local_weights_[m] = solved ? system.b[m][0] : 0;
+}
+
+/// The same of the heights.
+void PosePrediction::solve_local_heights() {
+  SmallSystem<kHeights> system;
+  size_t q = 0;
+  for (size_t reach = 0; reach < kReaches; ++reach) {
+    for (; q < std::min(nearby_.size(), kReach[reach]); ++q) {
+      const Sample& s = samples_[nearby_[q]];
+      if (!(s.spread[1] > 0))
+        continue;
+      std::array<double, kHeights> z;
+      for (size_t m = 0; m < kHeights; ++m)
+        z[m] = static_cast<double>(s.heights[m]);
+      double rest = static_cast<double>(s.height) - height_slow_[kind_].predict(z);
+      accumulate(z, rest, static_cast<double>(s.spread[1]), system);
+    }
+    std::array<double, kHeights> x = shrunk_solution(system);
+    local_height_[reach] = 0;
+    for (size_t m = 0; m < kHeights; ++m)
+      local_height_[reach] += x[m] * h_[m];
+  }
 }
 
 void PosePrediction::expect_tangential(int step) {
@@ -314,11 +354,8 @@ void PosePrediction::expect_tangential(int step) {
     vectors_[1] = patch_ - base_;
     solve_local_offsets();
   }
-  double local = 0;
-  for (size_t m = 0; m < kVectors; ++m) {
+  for (size_t m = 0; m < kVectors; ++m)
     z_[m] = vectors_[m][d];
-    local += local_weights_[m] * z_[m];
-  }
   regressed_ = offset_slow_[kind_].predict(z_);
   double start = base_[d] + (step == 1 ? correlation_ * residual_[axis_[0]] : 0);
   expected_ = start + regressed_;
@@ -332,7 +369,12 @@ void PosePrediction::expect_tangential(int step) {
   mixture_.add(start, 0.9 * scale);
   mixture_.add(start + vectors_[1][d], 0.9 * scale);
   mixture_.add(start + offset_fast_[kind_].predict(z_), 0.8 * scale);
-  mixture_.add(expected_ + local, 0.8 * scale);
+  for (const auto& weights : local_weights_) {
+    double local = 0;
+    for (size_t m = 0; m < kVectors; ++m)
+      local += weights[m] * z_[m];
+    mixture_.add(expected_ + local, 0.8 * scale);
+  }
 }
 
 /// Height of q along the last axis above the plane of the normal through the base.
@@ -370,35 +412,6 @@ double PosePrediction::fitted_height(bool quadratic) const {
   return system.solve(terms) ? system.b[0][0] : 0;
 }
 
-double PosePrediction::local_height() const {
-  SmallSystem<kHeights> system;
-  const auto& global = height_slow_[kind_];
-  for (uint32_t w : nearby_) {
-    const Sample& s = samples_[w];
-    double spread = static_cast<double>(s.spread[1]);
-    if (!(spread > 0))
-      continue;
-    double weight = 1 / (spread * spread + kNoise);
-    std::array<double, kHeights> z;
-    for (size_t m = 0; m < kHeights; ++m)
-      z[m] = static_cast<double>(s.heights[m]);
-    double rest = static_cast<double>(s.height) - global.predict(z);
-    for (size_t m = 0; m < kHeights; ++m) {
-      for (size_t o = 0; o <= m; ++o)
-        system.a[m][o] += weight * z[m] * z[o];
-      system.b[m][0] += weight * z[m] * rest;
-    }
-  }
-  for (size_t m = 0; m < kHeights; ++m)
-    system.a[m][m] = system.a[m][m] * kShrink + kShrinkBy;
-  double sum = 0;
-  if (system.solve(kHeights)) {
-    for (size_t m = 0; m < kHeights; ++m)
-      sum += system.b[m][0] * h_[m];
-  }
-  return sum;
-}
-
 void PosePrediction::expect_height() {
   const int32_t* place = positions_ + size_t{3} * vertex_;
   size_t i = axis_[0], j = axis_[1], k = axis_[2];
@@ -428,7 +441,9 @@ void PosePrediction::expect_height() {
   mixture_.add(plane_ + quadric, 0.9 * scale);
   mixture_.add(plane_ + plane, 0.9 * scale);
   mixture_.add(plane_ + height_fast_[kind_].predict(h_), 0.8 * scale);
-  mixture_.add(expected_ + local_height(), 0.8 * scale);
+  solve_local_heights();
+  for (double local : local_height_)
+    mixture_.add(expected_ + local, 0.8 * scale);
 }
 
 void PosePrediction::learn(int step, int32_t value) {

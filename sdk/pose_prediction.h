@@ -7,6 +7,7 @@
 
 #include "format/recursive_least_squares.h"
 #include "format/student_mixture.h"
+#include "sdk/small_solver.h"
 #include "sdk/surface_growth.h"
 #include "sdk/vector3.h"
 
@@ -52,7 +53,10 @@ class PosePrediction {
   static constexpr size_t kKinds = 5;
   static constexpr size_t kVectors = 8, kHeights = 6, kSpreads = 6;
   static constexpr uint32_t kMostCorners = 32;  ///< of a vertex that are looked at
-  static constexpr size_t kMostNearby = 40, kMostUnknown = 10, kMostGates = 16;
+  static constexpr size_t kMostNearby = 32, kMostUnknown = 10, kMostGates = 16;
+
+  static constexpr size_t kReaches = 3;
+  static constexpr size_t kReach[kReaches] = {6, 14, 32};  ///< nearby vertices of a regression
 
   template <size_t kSize>
   using Slow = RecursiveLeastSquares<kSize, 997>;
@@ -79,8 +83,13 @@ class PosePrediction {
   Vector3 solved_patch();
   void choose_axes(const Vector3& normal);
   void make_vectors(const Vector3& forward, double valences);
+  template <size_t kSize>
+  static void accumulate(const std::array<double, kSize>& z, double rest, double spread,
+                         SmallSystem<kSize>& system);
+  template <size_t kSize>
+  static std::array<double, kSize> shrunk_solution(SmallSystem<kSize> system);
   void solve_local_offsets();
-  double local_height() const;
+  void solve_local_heights();
   double fitted_height(bool quadratic) const;
   double height_of(const Vector3& q) const;
   double kept_within(double spread, double usual) const;
@@ -118,7 +127,8 @@ class PosePrediction {
   double length_ = 0;            ///< mean distance of the known neighbours from the base
   double disagreement_ = 0;      ///< of the parallelograms
   double tangential_ = 0, normal_error_ = 0;  ///< mean errors of the known neighbours
-  std::array<double, kVectors> local_weights_{}, z_{};
+  std::array<double, kVectors> local_weights_[kReaches] = {}, z_{};
+  double local_height_[kReaches] = {};
   std::array<double, kHeights> h_{};
   std::array<double, kSpreads> s_{};
   // Of the step at hand and those before.
