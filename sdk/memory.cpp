@@ -57,7 +57,8 @@ uint64_t opening(const Limits::Mesh& m) {
       uint64_t{28} * 3 * m.triangles + uint64_t{12} * m.coded_vertices + 4 * m.source_vertices;
   const uint64_t maps =
       uint64_t{20} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{4} * m.corners;
-  return std::max(details, maps);
+  const uint64_t pose = uint64_t{340} * m.coded_vertices + uint64_t{72} * m.triangles;
+  return std::max({details, maps, pose});
 }
 
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
