@@ -41,7 +41,7 @@ Pose quantised(const std::vector<float>& points, const Eigen::Vector3d& origin, 
     double q =
         std::round((static_cast<double>(points[i]) - origin[static_cast<int>(i % 3)]) / step);
     if (!(std::abs(q) < kLargest))
-      throw Error(ErrorKind::kUsage, "the error asked for is too fine for the size of the clip");
+      throw TooFine();
     pose[i] = static_cast<int32_t>(q);
   }
   return pose;
@@ -83,7 +83,7 @@ std::vector<uint32_t> choose_parents(const MeshLayout& layout, const std::vector
 
 void code_series(BinaryEncoder& encoder, SeriesCoding& coding, std::vector<int32_t>& series) {
   if (!coding.code(encoder, series.size(), SeriesCoding::best_order(series), &series))
-    throw Error(ErrorKind::kUsage, "the error asked for is too fine for the size of the clip");
+    throw TooFine();
 }
 
 int32_t rounded(double x) {

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/linear_search.h"
 
+#include "codec/error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -79,7 +81,12 @@ LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
 LinearCoder::Measured LinearCoder::measured(const Choice& choice, double rmse) {
   Measured m;
   const LinearBasis& b = basis(choice.pose, choice.base);
-  m.part.encoded = encode_linear(analysis_.clip(), b, choice.settings, input_.layout, pose_);
+  try {
+    m.part.encoded = encode_linear(analysis_.clip(), b, choice.settings, input_.layout, pose_);
+  } catch (const TooFine&) {
+    m.rmse = m.bytes = std::numeric_limits<double>::infinity();
+    return m;
+  }
   m.part.opened = open_encoded(m.part.encoded, input_.layout);
   m.part.error = measure(m.part.opened, analysis_.clip(), input_.copies);
   m.part.what = std::to_string(m.part.encoded.sizes.components) +
@@ -154,6 +161,8 @@ std::optional<Part> LinearCoder::at_rmse(double rmse) {
   double inside = 0, outside = std::numeric_limits<double>::infinity();  // steps known to be so
   for (int round = 0; round < kRounds; ++round) {
     Measured trial = measured(choice_, rmse);
+    if (std::isinf(trial.rmse))
+      break;
     double ratio = trial.rmse / rmse, step = choice_.settings.step;
     bool fits = ratio <= 1;
     (fits ? inside : outside) = step;
@@ -174,6 +183,7 @@ std::optional<Part> LinearCoder::at_rmse(double rmse) {
   }
   if (!best)
     return std::nullopt;
+  best->part.asked = rmse;
   return std::move(best->part);
 }
 

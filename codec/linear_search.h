@@ -24,6 +24,8 @@ class LinearCoder : public SegmentCoder {
 
   std::optional<Part> at_rmse(double rmse) override;
 
+  format::BasisKind kind() const { return kind_; }
+
   /// Makes the coder use a pose that the file has already, with a base that is an affine image of
   /// it, and the settings as they are.
   void share_pose(std::shared_ptr<const EncodedPose> pose);

@@ -28,7 +28,7 @@ constexpr int kFewestFractionBits = 4;  // with fewer, residency would add to th
 constexpr double kBitsPerUnit = 65536;  // of BitCounter
 
 [[noreturn]] void too_fine() {
-  throw Error(ErrorKind::kUsage, "the error asked for is too fine for the size of the clip");
+  throw TooFine();
 }
 
 /// The pose of a basis on a grid of at least this step.
@@ -227,7 +227,9 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
   MatrixXd u = basis.time.leftCols(static_cast<Index>(k));
   for (size_t j = 0; j < k; ++j) {
     auto column = static_cast<Index>(j);
-    int32_t eighths = LinearParameters::sigma_eighths(std::sqrt(basis.energies[column]));
+    // Weights of a component of next to no energy would have no step.
+    double sigma = std::max(std::sqrt(basis.energies[column]), 1e-6 * parameters.weight_step);
+    int32_t eighths = LinearParameters::sigma_eighths(sigma);
     parameters.sigma.push_back(eighths);
     weight_coder.code(weight_channels,
                       parameters.weight_step / LinearParameters::sigma_value(eighths),

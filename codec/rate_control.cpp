@@ -6,6 +6,7 @@
 #include "codec/clip_file.h"
 #include "codec/error.h"
 #include "codec/linear_search.h"
+#include "codec/time_segmentation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace {
 using format::BasisKind;
 using format::ErrorMetric;
 
-constexpr uint32_t kLayers = 1;
+constexpr uint32_t kLayers = 3;
 constexpr double kFarBehind = 1.15;
 
 std::string number(double x) {
@@ -92,29 +93,41 @@ double RateControl::rmse_of_kg(double kg) const {
                    input_.sequence.frame_count);
 }
 
-Solution RateControl::finished(Part part) {
-  if (cap_) {
-    correct(input_.frames(), *cap_, part.opened, part.encoded);
-    part.error = measure(part.opened, input_.frames(), input_.copies);
-  }
+Solution RateControl::finished(std::vector<Part> parts) {
   Solution solution;
-  solution.parts.push_back(std::move(part));
+  solution.parts = std::move(parts);
+  std::string what;
+  for (Part& part : solution.parts) {
+    const format::Limits::Segment& sizes = part.encoded.sizes;
+    FrameView frames = input_.frames(sizes.first_frame, sizes.frames);
+    if (cap_) {
+      correct(frames, *cap_, part.opened, part.encoded);
+      part.error = measure(part.opened, frames, input_.copies);
+    }
+    what += (what.empty() ? "" : " + ") + part.what;
+  }
   format::ClipRecord record;
   record.name = input_.sequence.name;
   record.encoder = options_.encoder;
   record.times = input_.sequence.times;
   record.order = options_.order;
   solution.bytes = clip_file(record, input_.layout, solution.segments()).size();
-  trials_.push_back({solution.parts[0].what, solution.bytes, input_.rmse(solution.squared_error()),
-                     solution.max_error()});
+  trials_.push_back(
+      {what, solution.bytes, input_.rmse(solution.squared_error()), solution.max_error()});
   return solution;
 }
 
 std::optional<Solution> RateControl::at_rmse(SegmentCoder& coder, double rmse) {
-  std::optional<Part> part = coder.at_rmse(rmse);
+  std::optional<Part> part;
+  try {
+    part = coder.at_rmse(rmse);
+  } catch (const TooFine&) {
+  }
   if (!part)
     return std::nullopt;
-  return finished(std::move(*part));
+  std::vector<Part> parts;
+  parts.push_back(std::move(*part));
+  return finished(std::move(parts));
 }
 
 std::optional<Solution> RateControl::at_max_error(SegmentCoder& coder, double bound) {
@@ -185,8 +198,11 @@ Solution RateControl::solve() {
   };
   if (keyframes_alone) {
     KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
-    if (target_.metric == ErrorMetric::kNone)
-      return finished(keyframes.at_count());
+    if (target_.metric == ErrorMetric::kNone) {
+      std::vector<Part> parts;
+      parts.push_back(keyframes.at_count());
+      return finished(std::move(parts));
+    }
     offer(keyframes);
     if (!best)
       fail(keyframes);
@@ -210,6 +226,17 @@ Solution RateControl::solve() {
   }
   for (std::unique_ptr<LinearCoder>& coder : coders)
     offer(*coder);
+  if (best) {
+    BasisKind kind = best->parts[0].encoded.sizes.kind;
+    for (std::unique_ptr<LinearCoder>& coder : coders) {
+      if (coder->kind() != kind)
+        continue;
+      std::optional<Solution> cut = cut_in_time(*best, *coder);
+      if (cut && better(*cut, *best))
+        best = std::move(cut);
+      break;
+    }
+  }
   if (options_.basis == BasisChoice::kAuto && !(best && beats_keyframes(*best))) {
     KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
     offer(keyframes);
@@ -217,6 +244,23 @@ Solution RateControl::solve() {
   if (!best)
     throw Error(ErrorKind::kUsage, "the target cannot be reached");
   return std::move(*best);
+}
+
+std::optional<Solution> RateControl::cut_in_time(const Solution& whole, const LinearCoder& coder) {
+  double rmse = whole.parts[0].asked;
+  TimeSegmentation segmentation(input_, coder, whole.parts[0].encoded.reference, rmse);
+  std::vector<FrameRange> ranges = segmentation.find();
+  if (ranges.size() < 2)
+    return std::nullopt;
+  std::vector<Part> parts;
+  for (const FrameRange& range : ranges) {
+    std::optional<Part> part = segmentation.coded(range);
+    if (!part)
+      return std::nullopt;
+    part->encoded.sizes.first_frame = range.first;
+    parts.push_back(std::move(*part));
+  }
+  return finished(std::move(parts));
 }
 
 double RateControl::typical_rmse() const {

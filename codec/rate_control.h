@@ -5,6 +5,7 @@
 
 #include "codec/encode.h"
 #include "codec/keyframe_search.h"
+#include "codec/linear_search.h"
 #include "codec/segment_coder.h"
 
 #include <functional>
@@ -48,7 +49,8 @@ class RateControl {
   std::optional<Solution> reach(SegmentCoder& coder);
   bool better(const Solution& a, const Solution& b) const;
   [[noreturn]] void fail(KeyframeCoder& keyframes);
-  Solution finished(Part part);
+  Solution finished(std::vector<Part> parts);
+  std::optional<Solution> cut_in_time(const Solution& whole, const LinearCoder& coder);
   bool beats_keyframes(const Solution& solution) const;
   double smallest_bound() const;
   double typical_rmse() const;

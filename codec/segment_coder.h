@@ -19,6 +19,8 @@ namespace anicodec {
 struct EncoderInput {
   EncoderInput(const MeshSequence& source, format::CoderId mesh_coder);
 
+  FrameView frames(size_t first, size_t count) const { return frames().frames(first, count); }
+
   FrameView frames() const {
     return {coded.data(), sequence.frame_count, layout.sizes.coded_vertices};
   }
@@ -41,6 +43,7 @@ struct Part {
   EncodedSegment encoded;
   Segment opened;
   SegmentError error;
+  double asked = 0;  ///< the error that it was coded for
   std::string what;  ///< how it was coded, in a few words
 };
 
