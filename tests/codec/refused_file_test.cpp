@@ -151,8 +151,10 @@ TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
        {format::Bytes{0x50, 0x2A, 0x4D, 0x18, 0, 0, 0, 0},           // skippable, empty
         format::Bytes{0x28, 0xB5, 0x2F, 0xFD, 0x00, 0x58, 1, 0, 0},  // states no size
         format::Bytes{}}) {
-    file.change_record<format::PoseRecord>(
-        "POSE", [&](format::PoseRecord& record) { record.stream = frame; });
+    file.change_record<format::PoseRecord>("POSE", [&](format::PoseRecord& record) {
+      record.coder = format::CoderId::kPlain;
+      record.stream = frame;
+    });
     EXPECT_EQ(status_of(file), Status::kZstd);
   }
 }
