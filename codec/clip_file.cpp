@@ -32,15 +32,21 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
   format::Limits limits;
   limits.meshes.push_back(layout.sizes);
   size_t poses = 0;
+  const EncodedSegment* carried_of = nullptr;
   for (const EncodedSegment* segment : segments) {
     limits.frames += segment->sizes.frames;
     limits.segments.push_back(segment->sizes);
-    if (std::vector<std::vector<int32_t>> carried = segment->poses_for_draco();
-        poses == 0 && !carried.empty()) {
+    std::vector<std::vector<int32_t>> carried = segment->poses_for_draco();
+    if (carried.empty())
+      continue;
+    if (!carried_of) {
+      carried_of = segment;
       connectivity = encode_with_poses(layout, carried);
       if (connectivity.empty())
         throw Error(ErrorKind::kInternal, "Draco cannot code the key-frames");
       poses = carried.size();
+    } else if (!segment->reference || segment->reference != carried_of->reference) {
+      throw Error(ErrorKind::kInternal, "a Draco bitstream holds the poses of one segment");
     }
   }
   if (layout.coder == format::CoderId::kDraco) {

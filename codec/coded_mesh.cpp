@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/coded_mesh.h"
 
+#include "sdk/details_coding.h"
+
 #include <algorithm>
 #include <cstring>
 #include <numeric>
@@ -78,8 +80,8 @@ bool is_manifold(const std::vector<HalfEdge>& edges, size_t first, size_t last) 
          (last - first == 2 && edges[first].forward != edges[first + 1].forward);
 }
 
-/// Marks polygons that no triangle mesh can hold as such: too few corners, a repeated vertex, or
-/// the vertices of an earlier polygon.
+/// Marks polygons that no triangle mesh can hold as such: too few corners or too many, a repeated
+/// vertex, or the vertices of an earlier polygon.
 std::vector<bool> degenerate_or_duplicate(const Polygons& polygons,
                                           std::span<const uint32_t> welded) {
   std::vector<bool> apart(polygons.size(), false);
@@ -92,7 +94,8 @@ std::vector<bool> degenerate_or_duplicate(const Polygons& polygons,
       sorted.push_back(welded[v]);
     auto begin = sorted.begin() + static_cast<ptrdiff_t>(offsets.back());
     std::sort(begin, sorted.end());
-    apart[p] = sorted.end() - begin < 3 || std::adjacent_find(begin, sorted.end()) != sorted.end();
+    apart[p] = sorted.end() - begin < 3 || polygons[p].size() > kMaxJoinedCorners ||
+               std::adjacent_find(begin, sorted.end()) != sorted.end();
     if (!apart[p])
       keys.emplace_back(std::accumulate(begin, sorted.end(), uint64_t{0}, mixed), p);
     offsets.push_back(sorted.size());

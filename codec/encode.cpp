@@ -90,6 +90,10 @@ EncodeResult encode(const MeshSequence& sequence, const EncodeOptions& options,
   EncoderInput input(sequence, options.mesh_coder);
   RateControl control(input, options, target, clip_diagonal, progress);
   Solution solution = control.solve();
+  for (Part& part : solution.parts) {
+    if (!part.encoded.corrections.empty())  // added after it was opened
+      part.opened = open_encoded(part.encoded, input.layout);
+  }
 
   format::ClipRecord record = describe(sequence, options, target, clip_diagonal);
   format::Bytes file = clip_file(record, input.layout, solution.segments());

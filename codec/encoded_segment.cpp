@@ -80,7 +80,10 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   context.layers.assign(encoded.layers.begin(), encoded.layers.end());
   context.corrections = encoded.corrections;
   Segment segment;
-  if (Status status = open_segment(record, context, &segment); status != Status::kOk)
+  Status status = open_segment(record, context, &segment);
+  if (status == Status::kNonFinite)
+    throw Error(ErrorKind::kUsage, "the coordinates are too large");
+  if (status != Status::kOk)
     throw Error(ErrorKind::kInternal,
                 std::string("the encoded segment cannot be opened: ") + status_string(status));
   encoded.hash = segment.stored_hash = segment.decoded_hash;

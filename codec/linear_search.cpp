@@ -63,7 +63,9 @@ LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
   bool shapes = kind_ == format::BasisKind::kEigenshapes;
   double scalars = static_cast<double>(clip.vertex_count * (shapes ? 3 : 1));
   // Bisection: the error of rounding and of what is left out grows with the step.
-  double low = rmse * 1e-6, high = rmse * 1e6;
+  // Without components the step is that of the pose, tied to the number of frames.
+  double low = rmse * 1e-6;
+  double high = 3 * rmse * std::sqrt(static_cast<double>(clip.frame_count));
   LinearSettings& settings = choice.settings;
   for (int round = 0; round < 60; ++round) {
     settings.components = 0;

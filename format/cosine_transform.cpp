@@ -52,7 +52,7 @@ CosineTransform::CosineTransform(uint32_t length) : length_(length) {
 }
 
 void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) const {
-  // |coefficient| <= 2^22, |entry| < 2^29, 2^12 terms: the sums stay below 2^63.
+  // |coefficient| <= 2^22, |entry| < 2^29, 2^10 terms: the sums stay below 2^63.
   std::vector<int64_t> sums(length_, int64_t{coefficients[0]} * constant_);
   const uint32_t period = 4 * length_;
   for (uint32_t k = 1; k < length_; ++k) {

@@ -15,7 +15,7 @@ namespace anicodec {
 /// Memory: 16 bytes per value.
 class CosineTransform {
  public:
-  static constexpr uint32_t kMaxLength = 4096;
+  static constexpr uint32_t kMaxLength = 1024;
   static constexpr int32_t kLimit = 1 << 22;       ///< |coefficient| is at most this
   static constexpr int kFractionBits = 4;          ///< of what inverse() returns
   static constexpr int64_t kValueLimit = 1 << 26;  ///< |value| is limited to this

@@ -85,6 +85,24 @@ Failure check_places(const format::ContainerReader& file, const format::Limits& 
   return {};
 }
 
+/// Whether the points of each coded vertex have the same values.
+bool agree(const DracoMesh& draco, const std::vector<uint32_t>& point_vertex) {
+  if (draco.components == 0)
+    return true;
+  std::vector<uint32_t> first;  // point of each coded vertex; new ones come in ascending order
+  for (uint32_t p = 0; p < point_vertex.size(); ++p) {
+    if (point_vertex[p] == first.size()) {
+      first.push_back(p);
+      continue;
+    }
+    const int32_t* values = draco.values.data() + size_t{p} * draco.components;
+    if (!std::equal(values, values + draco.components,
+                    draco.values.data() + size_t{first[point_vertex[p]]} * draco.components))
+      return false;
+  }
+  return true;
+}
+
 /// The payload of a chunk that must be there.
 Failure required(const format::ContainerReader& file, const char (&type)[5], uint16_t mesh,
                  uint32_t segment, const Chunk** chunk, ByteView* out) {
@@ -187,6 +205,8 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh) {
       s != Status::kOk)
     return at(*chunk, s, "the mesh details are damaged");
 
+  if (!agree(draco, out.topology.point_vertex))
+    return at(*chunk, Status::kDraco, "points of one vertex have different values");
   if (record_.order == format::OrderMode::kFree)
     return {};
   if (Failure f = required(file, "VMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())

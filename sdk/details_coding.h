@@ -68,6 +68,9 @@ class OppositeTriangles {
   std::vector<uint32_t> opposite_;
 };
 
+/// Polygons with more corners are kept apart: joining takes time quadratic in a polygon's corners.
+inline constexpr uint32_t kMaxJoinedCorners = 1024;
+
 template <class Coder, class Source>
 class DetailsCoding {
  public:
@@ -99,7 +102,9 @@ class DetailsCoding {
       }
       int32_t back = split_distance_.code(
           coder_, static_cast<int32_t>(count - 1 - source_.coded_vertex_of(p)));
-      if (static_cast<uint32_t>(back) >= count || !alive(p))
+      if (!alive(p))
+        return Status::kEntropy;
+      if (static_cast<uint32_t>(back) >= count)
         return Status::kTopology;
       t_.point_vertex[p] = count - 1 - static_cast<uint32_t>(back);
     }
@@ -171,7 +176,7 @@ class DetailsCoding {
           if (open && wanted == size && source_.same_polygon(t, o / 3))
             wanted = e;
         }
-        if (options == 0 ||
+        if (options == 0 || size >= kMaxJoinedCorners ||
             !coder_.bit(more_[std::min(size, 7U)][std::min(size_before, 7U)], wanted != size))
           break;
         uint32_t rank = 0;

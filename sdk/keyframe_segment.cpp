@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/keyframe_segment.h"
 
-#include "format/checksum.h"
+#include "sdk/bounded_float.h"
 #include "sdk/plain_coding.h"
 #include "sdk/residency.h"
 #include "sdk/series_coding.h"
@@ -15,21 +15,24 @@ namespace {
 
 constexpr uint8_t kSumToOne = 1, kRigid = 2;
 
-/// Rotation matrix and translation of a quaternion (x, y, z, w) of any length but zero.
-Affine rigid_motion(const double q[4], const double t[3]) {
+/// Rotation matrix and translation of a quaternion (x, y, z, w) of any length. False when an entry
+/// is too large.
+bool rigid_motion(const double q[4], const double t[3], Affine* map) {
   double n = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   double s = n > 0 ? 2 / n : 0;
   double x = q[0], y = q[1], z = q[2], w = q[3];
   double r[9] = {1 - s * (y * y + z * z), s * (x * y - z * w),     s * (x * z + y * w),
                  s * (x * y + z * w),     1 - s * (x * x + z * z), s * (y * z - x * w),
                  s * (x * z - y * w),     s * (y * z + x * w),     1 - s * (x * x + y * y)};
-  Affine map;
   for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j)
-      map.m[4 * i + j] = static_cast<float>(r[3 * i + j]);
-    map.m[4 * i + 3] = static_cast<float>(t[i]);
+    for (size_t j = 0; j < 3; ++j) {
+      if (!to_float(r[3 * i + j], &map->m[4 * i + j]))
+        return false;
+    }
+    if (!to_float(t[i], &map->m[4 * i + 3]))
+      return false;
   }
-  return map;
+  return true;
 }
 
 /// Key-frames as integers, coded vertices x 3 each, before the differences are undone.
@@ -87,7 +90,8 @@ Status read_motions(format::ByteView bytes, const KeyframeParameters& parameters
       q[i] = std::ldexp(series[i][f], -parameters.rotation_bits);
     for (size_t i = 0; i < 3; ++i)
       t[i] = series[4 + i][f] * parameters.translation_step;
-    out->motions[f] = rigid_motion(q, t);
+    if (!rigid_motion(q, t, &out->motions[f]))
+      return Status::kNonFinite;
   }
   return Status::kOk;
 }
@@ -158,7 +162,7 @@ Status KeyframeParameters::read(format::ByteView bytes, uint32_t components,
 }
 
 Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                             Segment* out) {
+                             format::IntegerHash& hash, Segment* out) {
   KeyframeParameters parameters;
   uint32_t k = context.sizes->components;
   if (k == 0)
@@ -168,7 +172,6 @@ Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentC
   std::vector<std::vector<int32_t>> poses;
   if (Status s = read_poses(record, context, parameters, &poses); s != Status::kOk)
     return s;
-  format::IntegerHash hash;
   for (uint32_t j = 0; j < k; ++j) {
     if (parameters.parents[j] != 0) {
       const std::vector<int32_t>& parent = poses[parameters.parents[j] - 1];
@@ -198,8 +201,10 @@ Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentC
   double unit = std::ldexp(parameters.step, -parameters.weight_bits);
   out->weights.resize(size_t{out->frames} * k);
   for (size_t f = 0; f < out->frames; ++f) {
-    for (size_t j = 0; j < k; ++j)
-      out->weights[f * k + j] = static_cast<float>(unit * series[j][f]);
+    for (size_t j = 0; j < k; ++j) {
+      if (!to_float(unit * series[j][f], &out->weights[f * k + j]))
+        return Status::kNonFinite;
+    }
   }
   if (parameters.rigid) {
     if (Status s = read_motions(record.motion, parameters, &hash, out); s != Status::kOk)
@@ -207,9 +212,13 @@ Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentC
   } else if (record.motion.size != 0) {
     return Status::kRecord;
   }
-  std::copy_n(parameters.origin, 3, out->origin);
+  for (size_t i = 0; i < 3; ++i) {
+    float unused;
+    if (!to_float(parameters.origin[i], &unused))
+      return Status::kNonFinite;
+    out->origin[i] = parameters.origin[i];
+  }
   out->keyframe_frames = parameters.frames;
-  out->decoded_hash = hash.digest();
   ResidentWriter writer(out);
   for (uint32_t j = 0; j < k; ++j) {
     if (!writer.vectors(j, poses[j].data()))

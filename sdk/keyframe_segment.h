@@ -3,6 +3,7 @@
 #ifndef ANICODEC_SDK_KEYFRAME_SEGMENT_H_
 #define ANICODEC_SDK_KEYFRAME_SEGMENT_H_
 
+#include "format/checksum.h"
 #include "sdk/segment.h"
 
 #include <cstdint>
@@ -32,7 +33,7 @@ struct KeyframeParameters {
 };
 
 Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                             Segment* out);
+                             format::IntegerHash& hash, Segment* out);
 
 }  // namespace anicodec
 

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/linear_segment.h"
 
-#include "format/checksum.h"
 #include "format/coefficient_coder.h"
 #include "format/time_weights.h"
 #include "sdk/affine_functions.h"
+#include "sdk/bounded_float.h"
 #include "sdk/residency.h"
 
 #include <algorithm>
@@ -42,16 +42,17 @@ Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
           w[axis][b] = unit * values[b][axis * frames + f];
       }
       functions.map(w, map);
-      for (size_t i = 0; i < 12; ++i)
-        out->pose_maps[f].m[i] =
-            static_cast<float>(i % 4 == 3 ? map[i] + pose.origin[i / 4] : map[i]);
+      for (size_t i = 0; i < 12; ++i) {
+        if (!to_float(i % 4 == 3 ? map[i] + pose.origin[i / 4] : map[i], &out->pose_maps[f].m[i]))
+          return Status::kNonFinite;
+      }
     }
   } else {
     Affine still;
-    for (size_t i = 0; i < 12; ++i)
-      still.m[i] = static_cast<float>(i % 4 == 3   ? pose.origin[i / 4]
-                                      : i % 5 == 0 ? pose.step
-                                                   : 0.0);
+    for (size_t i = 0; i < 12; ++i) {
+      if (!to_float(i % 4 == 3 ? pose.origin[i / 4] : i % 5 == 0 ? pose.step : 0.0, &still.m[i]))
+        return Status::kNonFinite;
+    }
     out->pose_maps.assign(frames, still);
   }
   size_t per_component = frames * out->weight_channels();
@@ -135,9 +136,11 @@ Status make_resident(const VertexOrder& order, const std::vector<float>& y, size
                   (1 << bits);
     const int32_t* w = weights.data() + size_t{j} * weight_channels * out->frames;
     for (size_t f = 0; f < out->frames; ++f) {
-      for (size_t c = 0; c < weight_channels; ++c)
-        out->weights[(f * out->components + j) * weight_channels + c] =
-            static_cast<float>(unit * w[c * out->frames + f]);
+      for (size_t c = 0; c < weight_channels; ++c) {
+        if (!to_float(unit * w[c * out->frames + f],
+                      &out->weights[(f * out->components + j) * weight_channels + c]))
+          return Status::kNonFinite;
+      }
     }
   }
   return Status::kOk;
@@ -209,7 +212,9 @@ Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
   for (uint32_t j = 0; j < components; ++j) {
     int64_t o = int64_t{last_omega} + omega_model.code(decoder);
     int64_t s = int64_t{last_sigma} + sigma_model.code(decoder);
-    if (!decoder.ok() || o < 0 || o > 255 || s < -8000 || s > 8000)
+    if (!decoder.ok())
+      return Status::kEntropy;
+    if (o < 0 || o > 255 || s < -8000 || s > 8000)
       return Status::kQuantizer;
     omega[j] = static_cast<uint8_t>(last_omega = static_cast<int32_t>(o));
     sigma[j] = last_sigma = static_cast<int32_t>(s);
@@ -218,7 +223,7 @@ Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
 }
 
 Status open_linear_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                           Segment* out) {
+                           format::IntegerHash& hash, Segment* out) {
   LinearParameters parameters;
   uint32_t components = context.sizes->components;
   if (Status s = parameters.read(record.parameters, components); s != Status::kOk)
@@ -230,7 +235,6 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   const Topology& topology = *context.topology;
   size_t n = topology.coded_vertices;
   const PoseGrid& pose = *context.pose;
-  format::IntegerHash hash;
   hash.add(pose.points.data(), pose.points.size());
 
   std::vector<int32_t> weights;
@@ -249,7 +253,6 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   out->components = wanted;
   out->wide_components = std::min(out->wide_components, wanted);
   if (wanted == 0) {
-    out->decoded_hash = hash.digest();
     ResidentWriter empty(out);
     return components == 0 ? Status::kOk : Status::kSegment;
   }
@@ -288,7 +291,6 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
       exact[s] = static_cast<int32_t>(y[i * stride + s] * (1 << kFractionBits));
     hash.add(exact.data(), samples);
   }
-  out->decoded_hash = hash.digest();
   return make_resident(order, y, stride, parameters, weights, out);
 }
 

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_SDK_LINEAR_SEGMENT_H_
 #define ANICODEC_SDK_LINEAR_SEGMENT_H_
 
+#include "format/checksum.h"
 #include "sdk/predictor.h"
 #include "sdk/segment.h"
 
@@ -44,7 +45,7 @@ struct LinearParameters {
 inline constexpr int kFractionBits = 6;
 
 Status open_linear_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                           Segment* out);
+                           format::IntegerHash& hash, Segment* out);
 
 }  // namespace anicodec
 

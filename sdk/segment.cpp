@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/segment.h"
 
+#include "format/checksum.h"
+#include "sdk/bounded_float.h"
 #include "sdk/correction_coding.h"
+#include "sdk/float_control.h"
 #include "sdk/keyframe_segment.h"
 #include "sdk/linear_segment.h"
 #include "sdk/residency.h"
@@ -39,7 +42,8 @@ bool ResidentWriter::store(uint32_t component, const int32_t* values, uint32_t c
 
 namespace {
 
-Status read_corrections(format::ByteView bytes, uint32_t total, Segment* out) {
+Status read_corrections(format::ByteView bytes, uint32_t total, format::IntegerHash& hash,
+                        Segment* out) {
   if (bytes.size == 0)
     return total == 0 ? Status::kOk : Status::kChunkMissing;
   format::ByteReader reader(bytes);
@@ -57,8 +61,13 @@ Status read_corrections(format::ByteView bytes, uint32_t total, Segment* out) {
     for (const IntegerCorrection& c : frame) {
       Segment::Correction& correction = out->corrections.emplace_back();
       correction.vertex = c.vertex;
-      for (size_t i = 0; i < 3; ++i)
-        correction.delta[i] = static_cast<float>(c.delta[i] * step);
+      for (size_t i = 0; i < 3; ++i) {
+        if (!to_float(c.delta[i] * step, &correction.delta[i]))
+          return Status::kNonFinite;
+      }
+      const int32_t hashed[5] = {static_cast<int32_t>(f), static_cast<int32_t>(c.vertex),
+                                 c.delta[0], c.delta[1], c.delta[2]};
+      hash.add(hashed, 5);
     }
     out->correction_begin.push_back(static_cast<uint32_t>(out->corrections.size()));
   }
@@ -79,12 +88,15 @@ Status open_segment(const format::SegmentRecord& record, const SegmentContext& c
   out->components = sizes.components;
   out->wide_components = sizes.wide_components;
   out->stored_hash = record.hash;
+  const FloatControl control;
+  format::IntegerHash hash;
   Status status = record.kind == format::BasisKind::kKeyframes
-                      ? open_keyframe_segment(record, context, out)
-                      : open_linear_segment(record, context, out);
-  if (status != Status::kOk)
-    return status;
-  return read_corrections(context.corrections, sizes.corrections, out);
+                      ? open_keyframe_segment(record, context, hash, out)
+                      : open_linear_segment(record, context, hash, out);
+  if (status == Status::kOk)
+    status = read_corrections(context.corrections, sizes.corrections, hash, out);
+  out->decoded_hash = hash.digest();
+  return status;
 }
 
 }  // namespace anicodec

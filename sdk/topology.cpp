@@ -26,7 +26,7 @@ Status decode_details(format::ByteView details, const format::Limits::Mesh& size
 Status decode_vertex_map(format::ByteView bytes, uint32_t vertices, std::vector<uint32_t>* source) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   if (!code_permutation(decoder, vertices, source))
-    return Status::kIndexRange;
+    return decoder.ok() ? Status::kIndexRange : Status::kEntropy;
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
@@ -35,10 +35,10 @@ Status decode_face_map(format::ByteView bytes, const Topology& topology,
   BinaryDecoder decoder(bytes.data, bytes.size);
   auto count = static_cast<uint32_t>(topology.polygon_offsets.size() - 1);
   if (!code_permutation(decoder, count, place))
-    return Status::kIndexRange;
+    return decoder.ok() ? Status::kIndexRange : Status::kEntropy;
   first->resize(count);
   if (!code_rotations(decoder, topology.polygon_offsets, first))
-    return Status::kIndexRange;
+    return decoder.ok() ? Status::kIndexRange : Status::kEntropy;
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 

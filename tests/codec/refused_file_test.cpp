@@ -5,8 +5,12 @@
 #include "codec/encode.h"
 #include "corpus/clips.h"
 #include "sdk/clip.h"
+#include "sdk/keyframe_segment.h"
 #include "sdk/memory.h"
 #include "tests/codec/edited_file.h"
+
+#include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -36,10 +40,18 @@ Status status_of(const EditedFile& file, uint64_t resident_bytes = uint64_t{1} <
   return clip.open(bytes, options).status;
 }
 
+uint32_t components(const format::Bytes& bytes) {
+  EditedFile file(bytes);
+  Limits limits;
+  Limits::read(file.part("LIMI").payload, &limits);
+  return limits.segments[0].components;
+}
+
 class RefusedFile : public testing::Test {
  protected:
   const format::Bytes keyframes_ = encoded("nonmanifold", BasisChoice::kKeyframes);
   const format::Bytes shapes_ = encoded("nonmanifold", BasisChoice::kEigenshapes);
+  format::Bytes changed_;  // what a record refers to
 };
 
 TEST_F(RefusedFile, UnchangedOpens) {
@@ -156,6 +168,84 @@ TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
       record.stream = frame;
     });
     EXPECT_EQ(status_of(file), Status::kZstd);
+  }
+}
+
+TEST_F(RefusedFile, NumbersTooLargeToPlay) {
+  for (double huge : {1e20, 1e300}) {
+    EditedFile file(shapes_);
+    file.change_record<format::PoseRecord>(
+        "POSE", [&](format::PoseRecord& record) { record.origin[1] = -huge; });
+    EXPECT_EQ(status_of(file), Status::kNonFinite);
+  }
+  EditedFile file(keyframes_);
+  file.change_record<format::SegmentRecord>("SEGM", [&](format::SegmentRecord& record) {
+    KeyframeParameters parameters;
+    ASSERT_EQ(parameters.read(record.parameters, components(keyframes_), 1 << 20), Status::kOk);
+    parameters.step = 1e300;
+    changed_ = parameters.write();
+    record.parameters = changed_;
+  });
+  EXPECT_EQ(status_of(file), Status::kNonFinite);
+}
+
+TEST_F(RefusedFile, HashCoversCorrections) {
+  const format::Bytes bytes = encoded("soup", BasisChoice::kKeyframes);
+  EditedFile file(bytes);
+  Limits limits;
+  Limits::read(file.part("LIMI").payload, &limits);
+  ASSERT_GT(limits.segments[0].corrections, 0U);
+  file.change_limits([](Limits& l) { l.segments[0].corrections = 0; });
+  file.parts.erase(file.parts.begin() + (&file.part("CORR") - file.parts.data()));
+  const format::Bytes without = file.bytes();
+  Clip clip;
+  ASSERT_TRUE(clip.open(bytes).ok());
+  EXPECT_TRUE(clip.check_hashes().ok());
+  ASSERT_TRUE(clip.open(without).ok());
+  EXPECT_EQ(clip.check_hashes().status, Status::kHash);
+}
+
+TEST_F(RefusedFile, MapThatRunsOut) {
+  EditedFile file(encoded("large", BasisChoice::kKeyframes, format::OrderMode::kAll));
+  ASSERT_EQ(status_of(file), Status::kOk);
+  for (size_t i = 0; i < file.parts.size(); ++i) {
+    if (file.parts[i].chunk.type == format::chunk_type("VMAP")) {
+      EditedFile cut = file;
+      cut.parts[i].payload.resize(cut.parts[i].payload.size() - 1);
+      Status status = status_of(cut);
+      EXPECT_TRUE(status == Status::kEntropy || status == Status::kIndexRange);
+    }
+  }
+}
+
+TEST(LongPolygon, ComesBackJoinedOrApart) {
+  for (uint32_t corners : {1023U, 1024U, 1025U, 3000U}) {
+    MeshSequence source;
+    source.vertex_count = corners;
+    source.frame_count = 2;
+    source.polygons.offsets = {0, corners};
+    for (uint32_t f = 0; f < 2; ++f) {
+      for (uint32_t v = 0; v < corners; ++v) {
+        const double angle = 2 * M_PI * v / corners;
+        source.positions.push_back(static_cast<float>(std::cos(angle)));
+        source.positions.push_back(static_cast<float>(std::sin(angle)));
+        source.positions.push_back(static_cast<float>(f));
+      }
+    }
+    for (uint32_t v = 0; v < corners; ++v)
+      source.polygons.corners.push_back(v);
+    EncodeOptions options;
+    options.target = {format::ErrorMetric::kMaxError, 1, true};
+    options.basis = BasisChoice::kKeyframes;
+    const format::Bytes bytes = encode(source, options).file;
+    Clip clip;
+    ASSERT_TRUE(clip.open(bytes).ok());
+    const Topology& t = clip.meshes()[0].topology;
+    ASSERT_EQ(t.polygon_offsets, source.polygons.offsets);
+    std::vector<uint32_t> cycle = t.polygon_corners;
+    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+    EXPECT_EQ(cycle, source.polygons.corners);
+    EXPECT_EQ(t.triangles.size(), corners > 1024 ? 0U : 3 * (corners - 2));
   }
 }
 
