@@ -16,6 +16,7 @@ namespace {
 constexpr double kClose = 0.997;  // of the error asked for: near enough
 constexpr double kAim = 0.9985;   // where to aim, of the same
 constexpr int kRounds = 8;
+constexpr int kSlowPoseEffort = 7;  // below, files open faster
 constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
 constexpr size_t kMostComponents = 2000;
 
@@ -28,6 +29,7 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
+  choice_.settings.slow_pose = effort >= kSlowPoseEffort;
 }
 
 void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {

@@ -32,7 +32,7 @@ constexpr double kBitsPerUnit = 65536;  // of BitCounter
 }
 
 /// The pose of a basis on a grid of at least this step.
-std::shared_ptr<const EncodedPose> reference_pose(const LinearBasis& basis, double step,
+std::shared_ptr<const EncodedPose> reference_pose(const LinearBasis& basis, double step, bool slow,
                                                   const MeshLayout& layout) {
   auto encoded = std::make_shared<EncodedPose>();
   PoseGrid& grid = encoded->grid;
@@ -50,6 +50,8 @@ std::shared_ptr<const EncodedPose> reference_pose(const LinearBasis& basis, doub
       layout.coder == format::CoderId::kDraco ? vertices_in_triangles(layout.topology) : 0;
   encoded->stream = encode_plain_integers(
       {grid.points.begin() + static_cast<ptrdiff_t>(3 * held), grid.points.end()}, 3);
+  if (!slow)
+    return encoded;
   size_t bytes = encoded->stream.size();
   if (encoded->coder == format::CoderId::kDraco)
     bytes += encode_with_poses(layout, {&grid.points, 1}).size() - layout.connectivity.size();
@@ -209,7 +211,8 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
   encoded.sizes.frames = static_cast<uint32_t>(frames);
   encoded.sizes.components = static_cast<uint32_t>(k);
   double pose_step = settings.pose_factor * settings.step / std::sqrt(static_cast<double>(frames));
-  encoded.reference = shared ? std::move(shared) : reference_pose(basis, pose_step, layout);
+  encoded.reference =
+      shared ? std::move(shared) : reference_pose(basis, pose_step, settings.slow_pose, layout);
   const std::vector<int32_t>& pose = encoded.reference->grid.points;
   const Eigen::Vector3d origin(encoded.reference->grid.origin);
 

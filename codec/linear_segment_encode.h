@@ -28,6 +28,8 @@ struct LinearSettings {
   uint8_t colours = 1;
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
+  bool slow_pose =
+      false;            ///< offer the predictive pose coder: smaller, some 15 us per vertex to open
   uint32_t layers = 1;  ///< parts that the components are stored in
 };
 
