@@ -255,7 +255,9 @@ void add_encode(CLI::App& app, CommonOptions& common) {
       {{"draco", format::CoderId::kDraco}, {"plain", format::CoderId::kPlain}},
       "Coder of faces and key-frames (default draco)")
       ->group(method);
-  command->add_option("--effort", c->effort, "How long to search, 1 to 9 (default 5)")
+  command
+      ->add_option("--effort", c->effort,
+                   "How long to search, 1 to 9 (default 5); files from 7 on open slower")
       ->option_text("N")
       ->check(CLI::Range(1, 9))
       ->group(method);

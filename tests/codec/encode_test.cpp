@@ -170,9 +170,10 @@ Status open_status(const format::Bytes& bytes) {
     FramePlayer player(clip);
     std::vector<float> frame(size_t{3} * clip.vertex_count());
     for (uint32_t f = 0; f < std::min(clip.frame_count(), 4U); ++f) {
-      if (player.positions(f, frame.data()) == Status::kOk)
+      if (player.positions(f, frame.data()) == Status::kOk) {
         EXPECT_TRUE(
             std::all_of(frame.begin(), frame.end(), [](float x) { return std::isfinite(x); }));
+      }
     }
   }
   return status;
