@@ -102,8 +102,9 @@ TEST(PoseCoding, TruncatedStreamsAreRefused) {
   for (size_t size = 0; size < bytes.size(); ++size) {
     Status status = decode_pose({bytes.data(), size}, s.topology, &decoded);
     // Without its last bytes it may be the stream of another pose.
-    if (size + 8 < bytes.size())
+    if (size + 8 < bytes.size()) {
       EXPECT_EQ(status, Status::kEntropy) << size;
+    }
     else
       EXPECT_NE(decoded, s.pose) << size;
   }
