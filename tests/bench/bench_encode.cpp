@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tests/bench/bench_encode.h"
+
+#include "codec/error.h"
+#include "codec/mesh_layout.h"
+#include "format/container.h"
+#include "format/records.h"
+#include "tests/bench/stopwatch.h"
+#include "tools/version.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace anicodec::bench {
+namespace {
+
+void require(bool ok) {
+  if (!ok)
+    throw Error(ErrorKind::kInternal, "the encoded file cannot be read");
+}
+
+void add_mesh(const format::MeshRecord& record, const MeshSequence& sequence,
+              format::CoderId mesh_coder, ByteShares& shares) {
+  uint64_t bare = record.connectivity.size;
+  if (record.coder == format::CoderId::kDraco)
+    bare = std::min<uint64_t>(bare, lay_out_mesh(sequence, mesh_coder).connectivity.size());
+  shares.pose += record.connectivity.size - bare;
+  shares.mesh += bare + record.details.size + record.name.size();
+}
+
+}  // namespace
+
+ByteShares byte_shares(format::ByteView file, const MeshSequence& sequence,
+                       format::CoderId mesh_coder) {
+  using format::chunk_type;
+  format::ContainerReader container;
+  require(container.open(file).ok());
+  ByteShares shares;
+  for (const format::Chunk& chunk : container.chunks()) {
+    format::ByteView payload;
+    require(container.payload(chunk, &payload).ok());
+    if (chunk.type == chunk_type("MESH")) {
+      format::MeshRecord record;
+      require(format::MeshRecord::read(payload, &record) == Status::kOk);
+      add_mesh(record, sequence, mesh_coder, shares);
+    } else if (chunk.type == chunk_type("POSE")) {
+      shares.pose += chunk.size;
+    } else if (chunk.type == chunk_type("SEGM")) {
+      format::SegmentRecord record;
+      require(format::SegmentRecord::read(payload, &record) == Status::kOk);
+      shares.pose += record.pose.size;
+      shares.weights += record.weights.size;
+      shares.basis += record.parameters.size;
+    } else if (chunk.type == chunk_type("BASI")) {
+      shares.basis += chunk.size;
+    } else if (chunk.type == chunk_type("CORR")) {
+      shares.corrections += chunk.size;
+    }
+  }
+  shares.rest =
+      file.size - shares.mesh - shares.pose - shares.weights - shares.basis - shares.corrections;
+  return shares;
+}
+
+TimedEncode encode_timed(const MeshSequence& sequence, const Target& target, BasisChoice basis,
+                         int effort, bool verbose) {
+  EncodeOptions options;
+  options.target = target;
+  options.basis = basis;
+  options.order = format::OrderMode::kFree;
+  options.effort = effort;
+  options.encoder = fmt::format("anicodec {}", tools::version());
+
+  TimedEncode timed;
+  Stopwatch wall(CLOCK_MONOTONIC), cpu(CLOCK_PROCESS_CPUTIME_ID);
+  std::string stage = "start";
+  double stage_start = 0;
+  auto finish_stage = [&](std::string_view next) {
+    double now = cpu.seconds();
+    timed.stages[stage] = timed.stages.value(stage, 0.0) + now - stage_start;
+    stage = next;
+    stage_start = now;
+  };
+  timed.result = encode(sequence, options, [&](std::string_view name, double) {
+    if (name != stage)
+      finish_stage(name);
+  });
+  finish_stage("");
+  timed.wall_seconds = wall.seconds();
+  timed.cpu_seconds = cpu.seconds();
+  if (verbose) {
+    for (const Trial& trial : timed.result.trials)
+      fmt::print(stderr, "  tried {:<40} {:>10} bytes  RMSE {:<10.4g} max error {:.4g}\n",
+                 trial.what, trial.bytes, trial.rmse, trial.max_error);
+    for (const auto& [name, seconds] : timed.stages.items())
+      fmt::print(stderr, "  stage {:<34} {:>8.2f} s\n", name, seconds.get<double>());
+  }
+  return timed;
+}
+
+double bpfv(uint64_t bytes, const MeshSequence& sequence) {
+  return 8 * static_cast<double>(bytes) /
+         (static_cast<double>(sequence.vertex_count) * sequence.frame_count);
+}
+
+}  // namespace anicodec::bench

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TESTS_BENCH_BENCH_ENCODE_H_
+#define ANICODEC_TESTS_BENCH_BENCH_ENCODE_H_
+
+#include "codec/encode.h"
+
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace anicodec::bench {
+
+/// Where the bytes of a file of one mesh went.
+struct ByteShares {
+  uint64_t mesh = 0;         ///< connectivity and what restores the source's mesh
+  uint64_t pose = 0;         ///< reference pose, key-frames
+  uint64_t weights = 0;      ///< in time
+  uint64_t basis = 0;        ///< coefficients of the components and their parameters
+  uint64_t corrections = 0;  ///< of single vertices
+  uint64_t rest = 0;         ///< header, table, clip record, rigid motions, padding
+};
+
+/// A pose inside the mesh's Draco bitstream counts as what it adds to the bare connectivity.
+ByteShares byte_shares(format::ByteView file, const MeshSequence& sequence,
+                       format::CoderId mesh_coder);
+
+/// An encoding with what it took.
+struct TimedEncode {
+  EncodeResult result;
+  double wall_seconds = 0;
+  double cpu_seconds = 0;  ///< of all threads
+  nlohmann::ordered_json stages =
+      nlohmann::ordered_json::object();  ///< processor seconds by stage, in the order of first use
+};
+
+/// Encodes with `--order free` and the program's other defaults; with `verbose` the trials and
+/// stages go to stderr.
+TimedEncode encode_timed(const MeshSequence& sequence, const Target& target, BasisChoice basis,
+                         int effort, bool verbose);
+
+/// Bits per frame and vertex.
+double bpfv(uint64_t bytes, const MeshSequence& sequence);
+
+}  // namespace anicodec::bench
+
+#endif  // ANICODEC_TESTS_BENCH_BENCH_ENCODE_H_

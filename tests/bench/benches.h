@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TESTS_BENCH_BENCHES_H_
+#define ANICODEC_TESTS_BENCH_BENCHES_H_
+
+#include "codec/encode.h"
+#include "tests/bench/table.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace anicodec::bench {
+
+/// What the sub-commands share.
+struct BenchOptions {
+  std::vector<std::string> clips;  ///< words for load_clip()
+  BasisChoice basis = BasisChoice::kAuto;
+  int effort = 5;
+  bool verbose = false;
+};
+
+/// Bytes at KG errors in per cent, and Draco and frame deltas at no larger error.
+Table run_rate(const BenchOptions& options, const std::vector<double>& targets);
+
+/// Bytes at a maximum error in per cent of the diagonal, and frame deltas at the same.
+Table run_near(const BenchOptions& options, double max_error_percent);
+
+/// Opening and playing all frames, against Draco decoding them one by one; one thread.
+Table run_decode(const BenchOptions& options, double kg, int runs);
+
+/// A wave grid of eigenshapes: encoding, its memory, and opening against one Draco mesh.
+Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames, uint32_t shapes,
+                int runs);
+
+/// Bytes with each kind of basis and with the choice between them.
+Table run_auto(const BenchOptions& options, double kg);
+
+}  // namespace anicodec::bench
+
+#endif  // ANICODEC_TESTS_BENCH_BENCHES_H_

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/error.h"
+#include "corpus/clips.h"
+#include "sdk/clip.h"
+#include "tests/bench/bench_clips.h"
+#include "tests/bench/bench_encode.h"
+#include "tests/bench/benches.h"
+#include "tests/bench/draco_frames.h"
+#include "tests/bench/stopwatch.h"
+#include "tools/clip_input.h"
+#include "tools/names.h"
+
+namespace anicodec::bench {
+namespace {
+
+void open(const format::Bytes& file, Clip& clip) {
+  if (Failure failure = clip.open(file); !failure.ok())
+    tools::fail_clip("the encoded clip", failure);
+}
+
+void play(const Clip& clip, std::vector<float>& positions) {
+  FramePlayer player(clip);
+  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+    if (player.positions(f, positions.data()) != Status::kOk)
+      throw Error(ErrorKind::kInternal, "a frame cannot be played");
+  }
+}
+
+}  // namespace
+
+Table run_decode(const BenchOptions& options, double kg, int runs) {
+  Table table({{"clip", "clip", ""},
+               {"frames", "frames", ""},
+               {"basis", "kind", ""},
+               {"components", "k", ""},
+               {"bytes", "bytes", ""},
+               {"open_ms", "open ms", "{:.1f}"},
+               {"play_ms", "play ms", "{:.1f}"},
+               {"decode_ms", "open + play ms", "{:.1f}"},
+               {"draco_bits", "Draco bits", ""},
+               {"draco_ms", "Draco ms", "{:.1f}"},
+               {"ratio", "Draco : ours", "{:.2f}"}});
+  for (const std::string& name : options.clips) {
+    MeshSequence sequence = load_clip(name);
+    Target target{format::ErrorMetric::kKg, kg, false};
+    TimedEncode timed =
+        encode_timed(sequence, target, options.basis, options.effort, options.verbose);
+    DracoFrames draco = draco_at_kg(sequence, triangles_of(sequence.polygons), kg);
+
+    std::vector<float> positions(size_t{3} * sequence.vertex_count);
+    double whole = median_thread_seconds(runs, [&] {
+      Clip clip;
+      open(timed.result.file, clip);
+      play(clip, positions);
+    });
+    double others = median_thread_seconds(runs, [&] {
+      for (const auto& frame : draco.frames)
+        decode_draco(frame);
+    });
+    Clip clip;
+    double opening = median_thread_seconds(runs, [&] {
+      Clip again;
+      open(timed.result.file, again);
+    });
+    open(timed.result.file, clip);
+    double playing = median_thread_seconds(runs, [&] { play(clip, positions); });
+    table.add({{"clip", name},
+               {"vertices", sequence.vertex_count},
+               {"frames", sequence.frame_count},
+               {"basis", tools::name_of(timed.result.kind)},
+               {"components", timed.result.components},
+               {"bytes", timed.result.file.size()},
+               {"open_ms", 1e3 * opening},
+               {"play_ms", 1e3 * playing},
+               {"decode_ms", 1e3 * whole},
+               {"draco_bits", draco.bits},
+               {"draco_bytes", draco.bytes()},
+               {"draco_ms", 1e3 * others},
+               {"ratio", others / whole}});
+  }
+  return table;
+}
+
+Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames, uint32_t shapes,
+                int runs) {
+  Table table({{"clip", "clip", ""},
+               {"frames", "frames", ""},
+               {"components", "k", ""},
+               {"bytes", "bytes", ""},
+               {"encode_seconds", "encode s", "{:.1f}"},
+               {"encode_cpu_seconds", "CPU s", "{:.1f}"},
+               {"float32_bytes", "float32 bytes", ""},
+               {"peak_bytes", "peak memory", ""},
+               {"peak_ratio", "ratio", "{:.2f}"},
+               {"open_ms", "open ms", "{:.0f}"},
+               {"draco_ms", "one Draco mesh ms", "{:.1f}"},
+               {"open_ratio", "ours : Draco", "{:.1f}"},
+               {"frame_ms", "frame ms", "{:.2f}"}});
+  MeshSequence sequence = corpus::make_wave_grid(vertices, frames, shapes);
+  constexpr double kKg = 0.1;
+  constexpr int kBits = 11;
+  TimedEncode timed = encode_timed(sequence, {format::ErrorMetric::kKg, kKg, false},
+                                   BasisChoice::kEigenshapes, options.effort, options.verbose);
+  uint64_t peak = peak_memory();
+  std::vector<char> draco = draco_frame(sequence, triangles_of(sequence.polygons), 0, kBits);
+  double opening = median_thread_seconds(runs, [&] {
+    Clip clip;
+    open(timed.result.file, clip);
+  });
+  double mesh = median_thread_seconds(runs, [&] { decode_draco(draco); });
+  Clip clip;
+  open(timed.result.file, clip);
+  std::vector<float> positions(size_t{3} * vertices);
+  double playing = median_thread_seconds(runs, [&] { play(clip, positions); });
+  uint64_t raw = sequence.positions.size() * sizeof(float);
+  table.add({{"clip", "wave grid of " + std::to_string(vertices)},
+             {"vertices", vertices},
+             {"frames", frames},
+             {"shapes", shapes},
+             {"components", timed.result.components},
+             {"bytes", timed.result.file.size()},
+             {"kg", timed.result.kg},
+             {"encode_seconds", timed.wall_seconds},
+             {"encode_cpu_seconds", timed.cpu_seconds},
+             {"stages", timed.stages},
+             {"float32_bytes", raw},
+             {"peak_bytes", peak},
+             {"peak_ratio", static_cast<double>(peak) / static_cast<double>(raw)},
+             {"open_ms", 1e3 * opening},
+             {"draco_bits", kBits},
+             {"draco_ms", 1e3 * mesh},
+             {"open_ratio", opening / mesh},
+             {"frame_ms", 1e3 * playing / frames}});
+  return table;
+}
+
+}  // namespace anicodec::bench

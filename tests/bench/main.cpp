@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/error.h"
+#include "tests/bench/bench_clips.h"
+#include "tests/bench/benches.h"
+#include "tools/choice.h"
+
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+namespace anicodec::bench {
+namespace {
+
+constexpr const char* kFooter = R"(
+A CLIP is the name of a clip of the corpus (waves), the name of a mesh and its cache in the folder
+$ANICODEC_DATA (classic/dance), or files joined by commas (mesh.obj,cache.pc2). INPUT is names of
+clips, or together the files of one clip as anicodec encode takes them.)";
+
+struct Arguments {
+  std::vector<std::string> inputs, clips;
+  BenchOptions bench;
+  bool json = false, csv = false;
+  int threads = 0;
+  std::vector<double> kg{0.1, 0.02};
+  double one_kg = 0.1;
+  double max_error = 0.002;
+  int runs = 5;
+  uint32_t vertices = 210000, frames = 100, shapes = 30;
+
+  void print(const std::string& command, const std::vector<Table>& tables) const {
+    TableStyle style = csv ? TableStyle::kCsv : TableStyle::kText;
+    if (json) {
+      nlohmann::ordered_json all{{"command", command}};
+      all["rows"] = nlohmann::ordered_json::array();
+      for (const Table& table : tables)
+        all["rows"].insert(all["rows"].end(), table.rows().begin(), table.rows().end());
+      fmt::print("{}\n", all.dump(2));
+      return;
+    }
+    for (size_t i = 0; i < tables.size(); ++i)
+      fmt::print("{}{}", i ? "\n" : "", tables[i].print(style));
+  }
+};
+
+using Run = std::function<std::vector<Table>(Arguments&)>;
+
+CLI::App* add(CLI::App& app, Arguments& a, const char* name, const char* description,
+              const Run& run) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->footer(kFooter);
+  command->add_option("INPUT", a.inputs, "Names of clips, or the files of one clip");
+  command->add_option("--clip", a.clips, "A clip; may be repeated")
+      ->option_text("CLIP")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--effort", a.bench.effort, "As for anicodec encode (default 5)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 9));
+  command->add_option("-j,--threads", a.threads, "Threads of the encoder (default: all)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("-v,--verbose", a.bench.verbose, "Trials and times of the encoder on stderr");
+  CLI::Option* json = command->add_flag("--json", a.json, "Print one JSON object");
+  command->add_flag("--csv", a.csv, "Print comma-separated values")->excludes(json);
+  command->callback([&a, name, run] {
+    std::optional<tbb::global_control> limit;
+    if (a.threads > 0)
+      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(a.threads));
+    a.print(name, run(a));
+  });
+  return command;
+}
+
+void add_basis(CLI::App& command, Arguments& a) {
+  tools::add_choice<BasisChoice>(command, "--basis", a.bench.basis,
+                                 {{"auto", BasisChoice::kAuto},
+                                  {"keyframes", BasisChoice::kKeyframes},
+                                  {"eigenshapes", BasisChoice::kEigenshapes},
+                                  {"eigentrajectories", BasisChoice::kEigentrajectories}},
+                                 "Kind of basis (default auto)");
+}
+
+void add_rate(CLI::App& app, Arguments& a) {
+  CLI::App* command = add(app, a, "rate", "Bytes at a KG error, against Draco and frame deltas",
+                          [](Arguments& args) {
+                            args.bench.clips = clip_words(args.inputs, args.clips);
+                            return std::vector{run_rate(args.bench, args.kg)};
+                          });
+  command->add_option("--kg", a.kg, "KG errors in per cent (default 0.1,0.02)")
+      ->option_text("PCT,...")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  add_basis(*command, a);
+}
+
+void add_near(CLI::App& app, Arguments& a) {
+  CLI::App* command = add(app, a, "near", "Bytes at a small maximum error, against frame deltas",
+                          [](Arguments& args) {
+                            args.bench.clips = clip_words(args.inputs, args.clips);
+                            return std::vector{run_near(args.bench, args.max_error)};
+                          });
+  command->add_option("--max-error", a.max_error, "Per cent of the diagonal (default 0.002)")
+      ->option_text("PCT")
+      ->check(CLI::PositiveNumber);
+  add_basis(*command, a);
+}
+
+void add_decode(CLI::App& app, Arguments& a) {
+  CLI::App* command =
+      add(app, a, "decode", "Time to open and play, against Draco", [](Arguments& args) {
+        std::vector<Table> tables;
+        // The large clip first: its peak memory is that of the process.
+        if (args.vertices > 0)
+          tables.push_back(
+              run_large(args.bench, args.vertices, args.frames, args.shapes, args.runs));
+        if (!args.inputs.empty() || !args.clips.empty() || tables.empty()) {
+          args.bench.clips = clip_words(args.inputs, args.clips);
+          tables.push_back(run_decode(args.bench, args.one_kg, args.runs));
+        }
+        return tables;
+      });
+  command->add_option("--kg", a.one_kg, "KG error in per cent (default 0.1)")
+      ->option_text("PCT")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--runs", a.runs, "Runs to take the median of (default 5)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--vertices", a.vertices,
+                   "Vertices of the generated clip (default 210000; 0: none)")
+      ->option_text("N");
+  command->add_option("--frames", a.frames, "Frames of the generated clip (default 100)")
+      ->option_text("N");
+  command->add_option("--shapes", a.shapes, "Shapes of the generated clip (default 30)")
+      ->option_text("N");
+  add_basis(*command, a);
+}
+
+void add_auto(CLI::App& app, Arguments& a) {
+  CLI::App* command =
+      add(app, a, "auto", "Bytes with each kind of basis and with auto", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{run_auto(args.bench, args.one_kg)};
+      });
+  command->add_option("--kg", a.one_kg, "KG error in per cent (default 0.1)")
+      ->option_text("PCT")
+      ->check(CLI::PositiveNumber);
+}
+
+int run(int argc, const char* const* argv) {
+  Arguments arguments;
+  CLI::App app("Measures anicodec on clips against other ways to store them.", "anicodec_bench");
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  for (auto add_command : {add_rate, add_near, add_decode, add_auto})
+    add_command(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
+  } catch (const Error& e) {
+    fmt::print(stderr, "anicodec_bench: {}\n", e.what());
+    return static_cast<int>(e.kind());
+  }
+  return std::fflush(stdout) == 0 ? 0 : static_cast<int>(ErrorKind::kInternal);
+}
+
+}  // namespace
+}  // namespace anicodec::bench
+
+int main(int argc, char** argv) {
+  try {
+    return anicodec::bench::run(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "anicodec_bench: %s\n", e.what());
+    return static_cast<int>(anicodec::ErrorKind::kInternal);
+  }
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tests/bench/bench_clips.h"
+#include "tests/bench/bench_encode.h"
+#include "tests/bench/benches.h"
+#include "tests/bench/cubic_grid.h"
+#include "tests/bench/draco_frames.h"
+#include "tests/bench/frame_deltas.h"
+#include "tools/names.h"
+
+#include <cmath>
+
+namespace anicodec::bench {
+namespace {
+
+using nlohmann::ordered_json;
+
+double ratio(uint64_t other, uint64_t ours) {
+  return static_cast<double>(other) / static_cast<double>(ours);
+}
+
+/// The part of a row about the encoded file.
+ordered_json describe(const std::string& clip, const MeshSequence& sequence,
+                      const TimedEncode& timed) {
+  const EncodeResult& result = timed.result;
+  ByteShares shares = byte_shares(result.file, sequence, format::CoderId::kDraco);
+  return {{"clip", clip},
+          {"vertices", sequence.vertex_count},
+          {"frames", sequence.frame_count},
+          {"bytes", result.file.size()},
+          {"bpfv", bpfv(result.file.size(), sequence)},
+          {"basis", tools::name_of(result.kind)},
+          {"components", result.components},
+          {"kg", result.kg},
+          {"max_error_percent", 100 * result.max_error / result.diagonal},
+          {"mesh_bytes", shares.mesh},
+          {"pose_bytes", shares.pose},
+          {"weights_bytes", shares.weights},
+          {"basis_bytes", shares.basis},
+          {"corrections_bytes", shares.corrections},
+          {"rest_bytes", shares.rest},
+          {"encode_seconds", timed.wall_seconds},
+          {"encode_cpu_seconds", timed.cpu_seconds},
+          {"stages", timed.stages}};
+}
+
+const std::vector<Table::Column> kShares = {
+    {"mesh_bytes", "mesh", ""},         {"pose_bytes", "pose", ""},
+    {"weights_bytes", "weights", ""},   {"basis_bytes", "basis", ""},
+    {"corrections_bytes", "corr.", ""}, {"rest_bytes", "rest", ""},
+    {"encode_seconds", "s", "{:.1f}"},  {"encode_cpu_seconds", "CPU s", "{:.1f}"}};
+
+std::vector<Table::Column> columns_with_shares(std::vector<Table::Column> first,
+                                               const std::vector<Table::Column>& last) {
+  first.insert(first.end(), kShares.begin(), kShares.end());
+  first.insert(first.end(), last.begin(), last.end());
+  return first;
+}
+
+}  // namespace
+
+Table run_rate(const BenchOptions& options, const std::vector<double>& targets) {
+  Table table(columns_with_shares({{"clip", "clip", ""},
+                                   {"asked_kg", "KG asked", "{:g}"},
+                                   {"kg", "KG", "{:.4f}"},
+                                   {"bytes", "bytes", ""},
+                                   {"bpfv", "bpfv", "{:.3f}"},
+                                   {"basis", "kind", ""},
+                                   {"components", "k", ""}},
+                                  {{"draco_bits", "Draco bits", ""},
+                                   {"draco_kg", "KG", "{:.4f}"},
+                                   {"draco_bytes", "bytes", ""},
+                                   {"draco_ratio", "ratio", "{:.1f}"},
+                                   {"grid_kg", "grid KG", "{:.4f}"},
+                                   {"draco_grid_bytes", "Draco bytes", ""},
+                                   {"draco_grid_ratio", "ratio", "{:.1f}"},
+                                   {"deltas_bytes", "deltas bytes", ""},
+                                   {"deltas_ratio", "ratio", "{:.1f}"}}));
+  for (const std::string& clip : options.clips) {
+    MeshSequence sequence = load_clip(clip);
+    std::vector<uint32_t> triangles = triangles_of(sequence.polygons);
+    for (double kg : targets) {
+      Target target{format::ErrorMetric::kKg, kg, false};
+      TimedEncode timed =
+          encode_timed(sequence, target, options.basis, options.effort, options.verbose);
+      uint64_t bytes = timed.result.file.size();
+      ordered_json row = describe(clip, sequence, timed);
+      row["asked_kg"] = kg;
+      GriddedClip grid = on_grid_at_kg(sequence, kg);
+      FrameDeltaSize deltas = frame_delta_size(grid, sequence.vertex_count, triangles);
+      row["grid_kg"] = grid.error.kg;
+      row["grid_step"] = grid.step;
+      row["deltas_bytes"] = deltas.bytes;
+      row["deltas_variant"] = deltas.variant;
+      row["deltas_ratio"] = ratio(deltas.bytes, bytes);
+      if (!triangles.empty()) {
+        DracoFrames draco = draco_at_kg(sequence, triangles, kg);
+        DracoFrames draco_grid = draco_on_grid(sequence, triangles, grid);
+        row["draco_bits"] = draco.bits;
+        row["draco_kg"] = draco.kg;
+        row["draco_bytes"] = draco.bytes();
+        row["draco_ratio"] = ratio(draco.bytes(), bytes);
+        row["draco_grid_bytes"] = draco_grid.bytes();
+        row["draco_grid_ratio"] = ratio(draco_grid.bytes(), bytes);
+      }
+      table.add(std::move(row));
+    }
+  }
+  return table;
+}
+
+Table run_near(const BenchOptions& options, double max_error_percent) {
+  Table table(columns_with_shares({{"clip", "clip", ""},
+                                   {"asked_percent", "asked %", "{:g}"},
+                                   {"max_error_percent", "max error %", "{:.5f}"},
+                                   {"bytes", "bytes", ""},
+                                   {"bpfv", "bpfv", "{:.3f}"},
+                                   {"basis", "kind", ""},
+                                   {"components", "k", ""}},
+                                  {{"grid_max_error_percent", "grid max error %", "{:.5f}"},
+                                   {"deltas_bytes", "deltas bytes", ""},
+                                   {"deltas_bpfv", "bpfv", "{:.3f}"},
+                                   {"deltas_ratio", "ratio", "{:.2f}"}}));
+  for (const std::string& clip : options.clips) {
+    MeshSequence sequence = load_clip(clip);
+    Target target{format::ErrorMetric::kMaxError, max_error_percent, true};
+    TimedEncode timed =
+        encode_timed(sequence, target, options.basis, options.effort, options.verbose);
+    // Half the diagonal of a cell is the largest error.
+    double bound = max_error_percent / 100 * diagonal(sequence);
+    GriddedClip grid = on_grid(sequence, 2 * bound / std::sqrt(3.0));
+    FrameDeltaSize deltas =
+        frame_delta_size(grid, sequence.vertex_count, triangles_of(sequence.polygons));
+    ordered_json row = describe(clip, sequence, timed);
+    row["asked_percent"] = max_error_percent;
+    row["grid_max_error_percent"] = 100 * grid.error.max_error / grid.error.diagonal;
+    row["deltas_bytes"] = deltas.bytes;
+    row["deltas_variant"] = deltas.variant;
+    row["deltas_bpfv"] = bpfv(deltas.bytes, sequence);
+    row["deltas_ratio"] = ratio(deltas.bytes, timed.result.file.size());
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace anicodec::bench

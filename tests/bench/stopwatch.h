@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TESTS_BENCH_STOPWATCH_H_
+#define ANICODEC_TESTS_BENCH_STOPWATCH_H_
+
+#include <algorithm>
+#include <cstdint>
+#include <ctime>
+#include <vector>
+
+#include <sys/resource.h>
+
+namespace anicodec::bench {
+
+/// Seconds of a POSIX clock since the start.
+class Stopwatch {
+ public:
+  explicit Stopwatch(clockid_t clock) : clock_(clock), start_(now()) {}
+
+  double seconds() const { return now() - start_; }
+
+ private:
+  double now() const {
+    timespec t{};
+    clock_gettime(clock_, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+
+  clockid_t clock_;
+  double start_;
+};
+
+/// Processor time of one thread, which other programs disturb least; median of `runs` calls.
+template <class Work>
+double median_thread_seconds(int runs, Work work) {
+  std::vector<double> seconds;
+  for (int i = 0; i < runs; ++i) {
+    Stopwatch watch(CLOCK_THREAD_CPUTIME_ID);
+    work();
+    seconds.push_back(watch.seconds());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[seconds.size() / 2];
+}
+
+/// Largest resident memory of the process so far, in bytes.
+inline uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return uint64_t{1024} * static_cast<uint64_t>(usage.ru_maxrss);
+}
+
+}  // namespace anicodec::bench
+
+#endif  // ANICODEC_TESTS_BENCH_STOPWATCH_H_
