@@ -11,6 +11,7 @@ packages=(
   libeigen3-dev libtbb-dev libembree-dev       # codec
   libcli11-dev libfmt-dev nlohmann-json3-dev   # tools
   libgtest-dev libgmock-dev python3            # tests
+  libmeshoptimizer-dev                         # bench
 )
 
 say() { printf '\n== %s\n' "$*"; }
