@@ -7,6 +7,7 @@
 #include "codec/keyframe_search.h"
 #include "codec/metrics.h"
 #include "codec/rate_control.h"
+#include "codec/search_progress.h"
 #include "sdk/clip.h"
 
 #include <algorithm>
@@ -88,7 +89,9 @@ EncodeResult encode(const MeshSequence& sequence, const EncodeOptions& options,
     throw Error(ErrorKind::kUsage, "an error, a size, or a number of key-frames must be asked for");
 
   EncoderInput input(sequence, options.mesh_coder);
-  RateControl control(input, options, target, clip_diagonal, progress);
+  RateControl control(input, options, target, clip_diagonal);
+  SearchProgress search(progress, control.expected_trials());
+  input.on_trial = [&search] { search.trial(); };
   Solution solution = control.solve();
   for (Part& part : solution.parts) {
     if (!part.encoded.corrections.empty())  // added after it was opened

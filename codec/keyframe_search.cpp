@@ -44,6 +44,7 @@ KeyframeFit KeyframeCoder::fit(double rmse) {
 }
 
 Part KeyframeCoder::coded(const KeyframeFit& fit, double rounding_rms) {
+  input_.begin_trial();
   double finest = input_.largest_coordinate * 0x1p-22;
   double step = std::max(
       {step_for_rounding_error(fit, rounding_rms), finest, std::numeric_limits<double>::min()});

@@ -83,6 +83,7 @@ LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
 }
 
 LinearCoder::Measured LinearCoder::measured(const Choice& choice, double rmse) {
+  input_.begin_trial();
   Measured m;
   const LinearBasis& b = basis(choice.pose, choice.base);
   try {

@@ -68,8 +68,8 @@ double Solution::max_error() const {
 }
 
 RateControl::RateControl(const EncoderInput& input, const EncodeOptions& options,
-                         const Target& target, double diagonal, const Progress& progress)
-    : input_(input), options_(options), target_(target), diagonal_(diagonal), progress_(progress) {
+                         const Target& target, double diagonal)
+    : input_(input), options_(options), target_(target), diagonal_(diagonal) {
   if (options.cap)
     cap_ = in_scene_units(*options.cap, diagonal).value;
   std::optional<double> bound = cap_;
@@ -242,7 +242,7 @@ Solution RateControl::solve() {
     offer(keyframes);
   }
   if (!best)
-    throw Error(ErrorKind::kUsage, "the target cannot be reached");
+    fail();
   return std::move(*best);
 }
 
@@ -290,6 +290,30 @@ bool RateControl::better(const Solution& a, const Solution& b) const {
   if (target_.metric == ErrorMetric::kSize || target_.metric == ErrorMetric::kBpfv)
     return a.squared_error() < b.squared_error();
   return a.bytes < b.bytes;
+}
+
+void RateControl::fail() const {
+  std::string text = "the target cannot be reached";
+  if (target_.metric == ErrorMetric::kSize || target_.metric == ErrorMetric::kBpfv) {
+    auto smallest = std::ranges::min_element(trials_, {}, &Trial::bytes);
+    if (smallest != trials_.end())
+      text += "; the smallest file found takes " + std::to_string(smallest->bytes) + " bytes";
+  }
+  throw Error(ErrorKind::kUsage, text);
+}
+
+double RateControl::expected_trials() const {
+  constexpr double kOfOneError = 3;  // until an error is met
+  double settings = 2 * options_.effort - 3;
+  switch (target_.metric) {
+    case ErrorMetric::kMaxError:
+      return std::max(settings, 0.0) + 4 * kOfOneError;
+    case ErrorMetric::kSize:
+    case ErrorMetric::kBpfv:
+      return std::max(settings, 0.0) + 11 * kOfOneError;
+    default:
+      return std::max(settings, 0.0) + kOfOneError;
+  }
 }
 
 void RateControl::fail(KeyframeCoder& keyframes) {

@@ -32,13 +32,16 @@ struct Solution {
 class RateControl {
  public:
   RateControl(const EncoderInput& input, const EncodeOptions& options, const Target& target,
-              double diagonal, const Progress& progress);
+              double diagonal);
 
   /// Throws Error(kUsage) when the target cannot be reached; the text says what can.
   Solution solve();
 
   /// Throws Error(kInternal) when measured errors are not within the target.
   void require_kept(double kg, double rmse, double max_error, size_t bytes) const;
+
+  /// About how many trials of the coders solve() makes.
+  double expected_trials() const;
 
   const std::vector<Trial>& trials() const { return trials_; }
 
@@ -48,6 +51,7 @@ class RateControl {
   std::optional<Solution> at_bytes(SegmentCoder& coder, size_t bytes);
   std::optional<Solution> reach(SegmentCoder& coder);
   bool better(const Solution& a, const Solution& b) const;
+  [[noreturn]] void fail() const;
   [[noreturn]] void fail(KeyframeCoder& keyframes);
   Solution finished(std::vector<Part> parts);
   std::optional<Solution> cut_in_time(const Solution& whole, const LinearCoder& coder);
@@ -61,7 +65,6 @@ class RateControl {
   Target target_;
   std::optional<double> cap_;  ///< maximum error beside another target, scene units
   double diagonal_;
-  const Progress& progress_;
   std::vector<Trial> trials_;
 };
 

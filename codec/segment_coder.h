@@ -9,6 +9,7 @@
 #include "codec/mesh_sequence.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,14 @@ struct EncoderInput {
   std::vector<uint32_t> copies;   ///< source vertices of each coded one
   double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0
   double largest_coordinate = 0;  ///< in magnitude
+
+  /// Called by coders before every trial, which is what takes time; may be empty.
+  std::function<void()> on_trial;
+
+  void begin_trial() const {
+    if (on_trial)
+      on_trial();
+  }
 };
 
 /// A coded segment and what its decoder shows.
