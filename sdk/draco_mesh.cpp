@@ -20,11 +20,15 @@
 namespace anicodec {
 namespace {
 
-constexpr int kMaxAttributes = 64;
+/// Attributes hold poses of three components each; there may be a stand-in.
+int most_attributes(uint32_t components) {
+  return static_cast<int>(std::clamp(components / 3, 2U, 64U));
+}
 
 /// Whether the counts at the head of a bitstream are those of the limits. Draco sizes its tables by
 /// them before it reads any more.
-bool is_plausible(format::ByteView bytes, uint32_t points, uint32_t triangles) {
+bool is_plausible(format::ByteView bytes, uint32_t points, uint32_t triangles,
+                  uint32_t components) {
   constexpr uint8_t kHead[] = {
       'D', 'R', 'A', 'C', 'O', 2, 2, draco::TRIANGULAR_MESH, draco::MESH_EDGEBREAKER_ENCODING};
   format::ByteReader r(bytes);
@@ -39,7 +43,7 @@ bool is_plausible(format::ByteView bytes, uint32_t points, uint32_t triangles) {
   return r.ok() && flags == 0 &&
          (traversal == draco::MESH_EDGEBREAKER_STANDARD_ENCODING ||
           traversal == draco::MESH_EDGEBREAKER_VALENCE_ENCODING) &&
-         vertices <= points && faces == triangles && attribute_data < kMaxAttributes &&
+         vertices <= points && faces == triangles && attribute_data < most_attributes(components) &&
          symbols <= faces && split_symbols <= symbols;
 }
 
@@ -53,7 +57,7 @@ class BoundedDecoder : public draco::MeshEdgebreakerDecoder {
   bool DecodeAllAttributes() override {
     const draco::Mesh& mesh = *this->mesh();
     if (mesh.num_points() != points_ || mesh.num_faces() != triangles_ ||
-        mesh.num_attributes() > kMaxAttributes)
+        mesh.num_attributes() > most_attributes(components_))
       return false;
     uint32_t total = 0;
     for (int a = 0; a < mesh.num_attributes(); ++a)
@@ -67,7 +71,7 @@ class BoundedDecoder : public draco::MeshEdgebreakerDecoder {
 
 Status decode(format::ByteView bytes, uint32_t points, uint32_t triangles, uint32_t components,
               DracoMesh* out) {
-  if (!is_plausible(bytes, points, triangles))
+  if (!is_plausible(bytes, points, triangles, components))
     return Status::kDraco;
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data), bytes.size);

@@ -58,7 +58,14 @@ uint64_t opening(const Limits::Mesh& m) {
   const uint64_t maps =
       uint64_t{20} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{4} * m.corners;
   const uint64_t pose = uint64_t{340} * m.coded_vertices + uint64_t{72} * m.triangles;
-  return std::max({details, maps, pose});
+  // Draco's decoder keeps values twice, and a connectivity for each attribute.
+  uint64_t draco = 0;
+  if (m.draco_components > 0) {
+    const uint64_t attributes = std::clamp(m.draco_components / 3, 2U, 64U);
+    draco = uint64_t{8} * m.points * m.draco_components + uint64_t{100} * m.triangles +
+            attributes * (uint64_t{20} * m.triangles + uint64_t{24} * m.points);
+  }
+  return std::max({details, maps, pose, draco});
 }
 
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
@@ -78,7 +85,7 @@ MemoryEstimate estimate_memory(const Limits& limits) {
   uint64_t largest = 0;
   for (const Limits::Mesh& m : limits.meshes) {
     open.add(resident(m));
-    held.add(uint64_t{12} * m.triangles + uint64_t{8} * m.points * m.draco_components);
+    held.add(uint64_t{12} * m.triangles + uint64_t{4} * m.points * m.draco_components);
     held.add(uint64_t{12} * m.coded_vertices);  // the reference pose
     largest = std::max(largest, opening(m));
   }

@@ -16,7 +16,7 @@ struct MemoryEstimate {
   uint64_t opening = 0;   ///< bytes at most while it opens, the resident ones included
 };
 
-/// O(meshes + segments). What Draco's decoder takes for itself is not included.
+/// O(meshes + segments).
 MemoryEstimate estimate_memory(const format::Limits& limits);
 
 }  // namespace anicodec
