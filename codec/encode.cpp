@@ -53,7 +53,6 @@ Comparison check_file(const format::Bytes& file, const MeshSequence& sequence,
                 std::string("the encoded file cannot be opened: ") + status_string(failure.status));
   if (Failure failure = clip.check_hashes(); !failure.ok())
     throw Error(ErrorKind::kInternal, "the encoded file decodes to other integers");
-  FramePlayer player(clip);
   std::vector<float> played(size_t{3} * sequence.vertex_count), ordered;
   const std::vector<uint32_t>& coded = clip.meshes()[0].topology.vertex_coded;
   bool source_order = clip.record().order != format::OrderMode::kFree;
@@ -66,7 +65,7 @@ Comparison check_file(const format::Bytes& file, const MeshSequence& sequence,
       sequence.polygons, sequence.vertex_count, sequence.frame_count,
       [&](uint32_t f) { return sequence.frame(f); },
       [&](uint32_t f) -> std::span<const float> {
-        player.positions(f, played.data());
+        clip.positions(0, f, played.data());
         if (source_order)
           return played;
         ordered.resize(played.size());

@@ -4,6 +4,7 @@
 
 #include "codec/error.h"
 #include "format/status.h"
+#include "sdk/combine.h"
 #include "sdk/correction_coding.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ void for_each_frame(const Segment& segment, Visit visit) {
   tbb::parallel_for(uint32_t{0}, tasks, [&](uint32_t task) {
     std::vector<float> decoded(size_t{3} * segment.vertices);
     for (uint32_t f = task * kFrames; f < std::min(segment.frames, (task + 1) * kFrames); ++f) {
-      combine(segment, f, decoded.data());
+      combine(frame_state(segment, f), 0, segment.vertices, decoded.data());
       visit(f, decoded.data());
     }
   });
@@ -105,7 +106,8 @@ SegmentError measure(const Segment& segment, const FrameView& source,
           std::sqrt(*std::max_element(largest.begin(), largest.end()))};
 }
 
-void correct(const FrameView& source, double bound, Segment& segment, EncodedSegment& encoded) {
+void correct(const FrameView& source, const std::vector<uint32_t>& copies, double bound,
+             Segment& segment, EncodedSegment& encoded) {
   // Rounding to a cubic grid leaves at most half its diagonal: 0.95 of the bound, the rest is for
   // float32.
   double step = 1.9 * bound / std::sqrt(3.0);
@@ -137,7 +139,8 @@ void correct(const FrameView& source, double bound, Segment& segment, EncodedSeg
   BinaryEncoder encoder;
   size_t total = 0;
   for (std::vector<IntegerCorrection>& frame : frames) {
-    total += frame.size();
+    for (const IntegerCorrection& c : frame)
+      total += copies[c.vertex];
     coding.code_frame(encoder, frame.size(), &frame);
   }
   encoded.sizes.corrections = static_cast<uint32_t>(total);

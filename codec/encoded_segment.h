@@ -59,7 +59,8 @@ SegmentError measure(const Segment& segment, const FrameView& source,
 /// replaces earlier ones. `segment` is opened without corrections and gets them. The hash covers
 /// them too: open_encoded() stores the new one. Throws Error(kUsage) when float32 is too coarse for
 /// the bound.
-void correct(const FrameView& source, double bound, Segment& segment, EncodedSegment& encoded);
+void correct(const FrameView& source, const std::vector<uint32_t>& copies, double bound,
+             Segment& segment, EncodedSegment& encoded);
 
 }  // namespace anicodec
 

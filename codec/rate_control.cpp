@@ -101,7 +101,7 @@ Solution RateControl::finished(std::vector<Part> parts) {
     const format::Limits::Segment& sizes = part.encoded.sizes;
     FrameView frames = input_.frames(sizes.first_frame, sizes.frames);
     if (cap_) {
-      correct(frames, *cap_, part.opened, part.encoded);
+      correct(frames, input_.copies, *cap_, part.opened, part.encoded);
       part.error = measure(part.opened, frames, input_.copies);
     }
     what += (what.empty() ? "" : " + ") + part.what;

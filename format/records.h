@@ -49,7 +49,7 @@ struct Limits {
     uint32_t frames = 0;
     uint32_t components = 0;
     uint32_t wide_components = 0;  ///< of those, resident as 32-bit integers; the others as 16-bit
-    uint32_t corrections = 0;      ///< corrected vertices over all frames of the segment
+    uint32_t corrections = 0;      ///< of vertices, copies included, over all frames
   };
 
   uint32_t frames = 0;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip.h"
 
+#include "sdk/combine.h"
 #include "sdk/memory.h"
 #include "sdk/plain_coding.h"
 
@@ -268,6 +269,7 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
     context.sizes = &sizes;
     context.mesh_sizes = &limits_.meshes[sizes.mesh];
     context.topology = &meshes_[sizes.mesh].topology;
+    context.vertex_coded = &context.topology->vertex_coded;
     context.draco = &draco_[sizes.mesh];
     PoseGrid own;
     context.pose = &poses[sizes.mesh];
@@ -328,30 +330,13 @@ Failure Clip::check_hashes() const {
   return {};
 }
 
-FramePlayer::FramePlayer(const Clip& clip, uint32_t mesh) : clip_(clip), mesh_(mesh) {
-  const std::vector<uint32_t>& coded = clip.meshes()[mesh].topology.vertex_coded;
-  identity_ = true;
-  for (uint32_t v = 0; v < coded.size() && identity_; ++v)
-    identity_ = coded[v] == v;
-  if (!identity_)
-    scratch_.resize(size_t{3} * clip.meshes()[mesh].topology.coded_vertices);
-}
-
-Status FramePlayer::positions(uint32_t frame, float* out) {
-  if (frame >= clip_.frame_count())
+Status Clip::positions(uint32_t mesh, uint32_t frame, float* out) const {
+  if (frame >= frame_count())
     return Status::kFrameRange;
-  const Segment* segment = clip_.segment_at(mesh_, frame);
+  const Segment* segment = segment_at(mesh, frame);
   if (!segment)
     return Status::kSegment;
-  float* coded = identity_ ? out : scratch_.data();
-  combine(*segment, frame - segment->first_frame, coded);
-  if (identity_)
-    return Status::kOk;
-  const std::vector<uint32_t>& map = clip_.meshes()[mesh_].topology.vertex_coded;
-  for (uint32_t c : map) {
-    std::copy_n(coded + size_t{3} * c, 3, out);
-    out += 3;
-  }
+  combine(frame_state(*segment, frame - segment->first_frame), 0, segment->vertices, out);
   return Status::kOk;
 }
 

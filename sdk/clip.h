@@ -59,6 +59,11 @@ class Clip {
   /// O(log segments).
   const Segment* segment_at(uint32_t mesh, uint32_t frame) const;
 
+  /// Positions of all vertices of a mesh in one frame, in the order of the clip, three floats each.
+  /// Errors: kFrameRange; kSegment when no segment of the mesh holds the frame. Cost: O(vertices x
+  /// components), the same for every frame. Allocates nothing.
+  Status positions(uint32_t mesh, uint32_t frame, float* out) const;
+
   /// Bytes that stay allocated while the clip is open.
   size_t resident_bytes() const;
 
@@ -76,22 +81,6 @@ class Clip {
   std::vector<DracoMesh> draco_;  ///< while opening
   std::vector<Segment> segments_;
   std::vector<uint32_t> by_frame_;  ///< segments, ascending by mesh and first frame
-};
-
-/// Plays one mesh of a clip: small, one per thread or instance. The clip must outlive it.
-class FramePlayer {
- public:
-  explicit FramePlayer(const Clip& clip, uint32_t mesh = 0);
-
-  /// Positions of one frame in the order of the clip's vertices, three floats each.
-  /// Errors: kFrameRange; kSegment when no segment of the mesh holds the frame. Allocates nothing.
-  Status positions(uint32_t frame, float* out);
-
- private:
-  const Clip& clip_;
-  uint32_t mesh_;
-  bool identity_;               ///< vertices are the coded vertices, in the same order
-  std::vector<float> scratch_;  ///< coded positions, otherwise
 };
 
 }  // namespace anicodec

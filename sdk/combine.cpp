@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "sdk/segment.h"
+#include "sdk/combine.h"
+
+#include <algorithm>
 
 namespace anicodec {
 namespace {
@@ -46,75 +48,86 @@ inline void transform(const Affine& map, const float (*in)[kBlock], float (*out)
   }
 }
 
-ANICODEC_CLONES
-void combine_blocks(const Segment& s, uint32_t frame, float* out) {
+/// One block of the segment: sum[c][i] is coordinate c of its vertex i, without corrections.
+inline void combine_block(const FrameState& state, uint32_t block, float (*sum)[kBlock]) {
+  const Segment& s = *state.segment;
   uint32_t narrow = s.components - s.wide_components;
   uint32_t channels = s.channels();
-  size_t wide_stride = size_t{s.wide_components} * channels * kBlock;
-  size_t narrow_stride = size_t{narrow} * channels * kBlock;
-  const float* weights = s.weights.data() + size_t{frame} * s.components * s.weight_channels();
+  const float* weights = state.weights;
   const float* narrow_weights = weights + size_t{s.wide_components} * s.weight_channels();
-  for (uint32_t b = 0, blocks = block_count(s.vertices); b < blocks; ++b) {
-    float sum[3][kBlock] = {};
-    if (!s.pose.empty()) {
-      float pose[3][kBlock];
-      for (uint32_t i = 0; i < 3 * kBlock; ++i)
-        pose[i / kBlock][i % kBlock] = s.pose[size_t{b} * 3 * kBlock + i];
-      transform(s.pose_maps[frame], pose, sum);
+  if (s.pose.empty()) {
+    std::fill_n(sum[0], 3 * kBlock, 0.F);
+  } else {
+    float pose[3][kBlock];
+    for (uint32_t i = 0; i < 3 * kBlock; ++i)
+      pose[i / kBlock][i % kBlock] = s.pose[size_t{block} * 3 * kBlock + i];
+    transform(state.pose_map, pose, sum);
+  }
+  const int32_t* wide = s.wide.data() + size_t{block} * s.wide_components * channels * kBlock;
+  const int16_t* small = s.narrow.data() + size_t{block} * narrow * channels * kBlock;
+  if (channels == 3) {
+    add_vectors(wide, weights, s.wide_components, sum);
+    add_vectors(small, narrow_weights, narrow, sum);
+  } else {
+    add_scalars(wide, weights, s.wide_components, sum);
+    add_scalars(small, narrow_weights, narrow, sum);
+  }
+  if (s.pose.empty()) {  // last, as it may be large
+    for (uint32_t c = 0; c < 3; ++c) {
+      for (uint32_t i = 0; i < kBlock; ++i)
+        sum[c][i] += static_cast<float>(s.origin[c]);
     }
-    const int32_t* wide = s.wide.data() + b * wide_stride;
-    const int16_t* small = s.narrow.data() + b * narrow_stride;
-    if (channels == 3) {
-      add_vectors(wide, weights, s.wide_components, sum);
-      add_vectors(small, narrow_weights, narrow, sum);
-    } else {
-      add_scalars(wide, weights, s.wide_components, sum);
-      add_scalars(small, narrow_weights, narrow, sum);
-    }
-    if (!s.motions.empty()) {
-      float still[3][kBlock];
-      for (uint32_t c = 0; c < 3; ++c) {
-        for (uint32_t i = 0; i < kBlock; ++i)
-          still[c][i] = sum[c][i] + static_cast<float>(s.origin[c]);
-      }
-      transform(s.motions[frame], still, sum);
-    } else if (s.pose.empty()) {
-      for (uint32_t c = 0; c < 3; ++c) {
-        for (uint32_t i = 0; i < kBlock; ++i)
-          sum[c][i] += static_cast<float>(s.origin[c]);
-      }
-    }
-    uint32_t first = b * kBlock;
-    uint32_t count = s.vertices - first < kBlock ? s.vertices - first : kBlock;
-    float* to = out + size_t{3} * first;
-    for (uint32_t i = 0; i < count; ++i) {
-      for (uint32_t c = 0; c < 3; ++c)
-        *to++ = sum[c][i];
-    }
+  }
+  if (!s.motions.empty()) {
+    float still[3][kBlock];
+    std::copy_n(sum[0], 3 * kBlock, still[0]);
+    transform(state.motion, still, sum);
   }
 }
 
-template <class T>
-size_t bytes(const std::vector<T>& v) {
-  return v.size() * sizeof(T);
+ANICODEC_CLONES
+void combine_range(const FrameState& state, uint32_t first, uint32_t count, float* out) {
+  const Segment::Correction* correction = state.corrections;
+  const Segment::Correction* corrections_end = correction + state.correction_count;
+  correction = std::partition_point(correction, corrections_end,
+                                    [&](const auto& c) { return c.vertex < first; });
+  for (uint32_t end = first + count; first < end;) {
+    uint32_t block = first / kBlock;
+    float sum[3][kBlock];
+    combine_block(state, block, sum);
+    uint32_t stop = std::min(end, (block + 1) * kBlock);
+    for (; correction != corrections_end && correction->vertex < stop; ++correction) {
+      for (uint32_t c = 0; c < 3; ++c)
+        sum[c][correction->vertex % kBlock] += correction->delta[c];
+    }
+    for (; first < stop; ++first) {
+      for (uint32_t c = 0; c < 3; ++c)
+        *out++ = sum[c][first % kBlock];
+    }
+  }
 }
 
 }  // namespace
 
-void combine(const Segment& segment, uint32_t frame, float* out) {
-  combine_blocks(segment, frame, out);
-  if (segment.correction_begin.empty())
-    return;
-  for (uint32_t i = segment.correction_begin[frame]; i < segment.correction_begin[frame + 1]; ++i) {
-    const Segment::Correction& correction = segment.corrections[i];
-    for (size_t c = 0; c < 3; ++c)
-      out[size_t{3} * correction.vertex + c] += correction.delta[c];
+FrameState frame_state(const Segment& segment, uint32_t frame) {
+  FrameState state;
+  state.segment = &segment;
+  state.weights =
+      segment.weights.data() + size_t{frame} * segment.components * segment.weight_channels();
+  if (!segment.pose_maps.empty())
+    state.pose_map = segment.pose_maps[frame];
+  if (!segment.motions.empty())
+    state.motion = segment.motions[frame];
+  if (!segment.correction_begin.empty()) {
+    uint32_t begin = segment.correction_begin[frame];
+    state.corrections = segment.corrections.data() + begin;
+    state.correction_count = segment.correction_begin[frame + 1] - begin;
   }
+  return state;
 }
 
-size_t Segment::resident_bytes() const {
-  return bytes(pose) + bytes(wide) + bytes(narrow) + bytes(weights) + bytes(pose_maps) +
-         bytes(motions) + bytes(correction_begin) + bytes(corrections);
+void combine(const FrameState& state, uint32_t first, uint32_t count, float* out) {
+  combine_range(state, first, count, out);
 }
 
 }  // namespace anicodec

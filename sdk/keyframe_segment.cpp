@@ -219,7 +219,7 @@ Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentC
     out->origin[i] = parameters.origin[i];
   }
   out->keyframe_frames = parameters.frames;
-  ResidentWriter writer(out);
+  ResidentWriter writer(context.vertex_coded, out);
   for (uint32_t j = 0; j < k; ++j) {
     if (!writer.vectors(j, poses[j].data()))
       return Status::kQuantizer;

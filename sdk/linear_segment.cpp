@@ -106,10 +106,9 @@ Status read_residuals(const std::vector<format::ByteView>& layers, const VertexO
 /// fit, and scales its weights accordingly.
 Status make_resident(const VertexOrder& order, const std::vector<float>& y, size_t stride,
                      const LinearParameters& parameters, const std::vector<int32_t>& weights,
-                     Segment* out) {
-  ResidentWriter writer(out);
+                     ResidentWriter& writer, Segment* out) {
   uint32_t channels = out->channels(), weight_channels = out->weight_channels();
-  size_t n = out->vertices;
+  size_t n = order.vertex_count();
   std::vector<int32_t> values(n * channels);
   out->weights.resize(size_t{out->frames} * out->components * weight_channels);
   for (uint32_t j = 0; j < out->components; ++j) {
@@ -241,21 +240,14 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   if (Status s = read_weights(record.weights, parameters, pose, &hash, out, &weights);
       s != Status::kOk)
     return s;
-  out->pose.assign(size_t{block_count(out->vertices)} * 3 * kBlock, 0);
-  for (size_t v = 0; v < n; ++v) {
-    for (size_t c = 0; c < 3; ++c)
-      out->pose[(v / kBlock * 3 + c) * kBlock + v % kBlock] =
-          static_cast<float>(pose.points[3 * v + c]);
-  }
-
   auto wanted = static_cast<uint32_t>(std::ceil(context.quality * components));
   wanted = std::min(wanted, components);
   out->components = wanted;
   out->wide_components = std::min(out->wide_components, wanted);
-  if (wanted == 0) {
-    ResidentWriter empty(out);
+  ResidentWriter writer(context.vertex_coded, out);
+  writer.pose(pose.points.data());
+  if (wanted == 0)
     return components == 0 ? Status::kOk : Status::kSegment;
-  }
   VertexOrder order;
   if (Status s = make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3,
                                    pose.points.data(), n, parameters.neighbours, parameters.colours,
@@ -291,7 +283,7 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
       exact[s] = static_cast<int32_t>(y[i * stride + s] * (1 << kFractionBits));
     hash.add(exact.data(), samples);
   }
-  return make_resident(order, y, stride, parameters, weights, out);
+  return make_resident(order, y, stride, parameters, weights, writer, out);
 }
 
 }  // namespace anicodec

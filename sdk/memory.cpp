@@ -32,7 +32,7 @@ uint64_t resident(const Limits::Mesh& m) {
 
 // The factors of a product have at most 31 + 21 bits, its constant 6: each term fits 64 bits.
 uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
-  const uint64_t n = (uint64_t{mesh.coded_vertices} + 15) / 16 * 16;
+  const uint64_t n = (uint64_t{mesh.source_vertices} + 15) / 16 * 16;
   const uint64_t frames = s.frames, components = s.components;
   const uint64_t integers = components + s.wide_components;  // in units of 16 bits
   uint64_t bytes = kMatrix * frames;

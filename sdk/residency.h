@@ -5,26 +5,36 @@
 
 #include "sdk/segment.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace anicodec {
 
-/// Puts components into the blocks of a segment. Construct it when vertices, kind, components and
-/// wide_components of the segment are set: it sizes the arrays, with zeros.
+/// Puts what is decoded for coded vertices into the blocks of a segment, vertex by vertex of the
+/// segment. Construct it when vertices, kind, components and wide_components of the segment are
+/// set: it sizes the arrays of coefficients, with zeros.
 class ResidentWriter {
  public:
-  explicit ResidentWriter(Segment* segment);
+  /// vertex_coded: see SegmentContext; must outlive the writer.
+  ResidentWriter(const std::vector<uint32_t>* vertex_coded, Segment* segment);
 
-  /// Stores a component of vectors: vertices x 3 integers. False when it is a narrow component and
-  /// a value does not fit 16 bits.
+  /// Stores the reference pose: coded vertices x 3 integers.
+  void pose(const int32_t* points);
+
+  /// Stores a component of vectors: coded vertices x 3 integers. False when it is a narrow
+  /// component and a value does not fit 16 bits.
   bool vectors(uint32_t component, const int32_t* values) { return store(component, values, 3); }
 
-  /// The same for a component of scalars: one integer per vertex.
+  /// The same for a component of scalars: one integer per coded vertex.
   bool scalars(uint32_t component, const int32_t* values) { return store(component, values, 1); }
 
  private:
   bool store(uint32_t component, const int32_t* values, uint32_t channels);
 
+  size_t coded(uint32_t vertex) const { return vertex_coded_ ? (*vertex_coded_)[vertex] : vertex; }
+
+  const std::vector<uint32_t>* vertex_coded_;
   Segment& segment_;
 };
 

@@ -10,14 +10,25 @@
 #include "sdk/linear_segment.h"
 #include "sdk/residency.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace anicodec {
 
-ResidentWriter::ResidentWriter(Segment* segment) : segment_(*segment) {
+ResidentWriter::ResidentWriter(const std::vector<uint32_t>* vertex_coded, Segment* segment)
+    : vertex_coded_(vertex_coded), segment_(*segment) {
   size_t per_component = size_t{block_count(segment->vertices)} * segment->channels() * kBlock;
   segment->wide.assign(per_component * segment->wide_components, 0);
   segment->narrow.assign(per_component * (segment->components - segment->wide_components), 0);
+}
+
+void ResidentWriter::pose(const int32_t* points) {
+  segment_.pose.assign(size_t{block_count(segment_.vertices)} * 3 * kBlock, 0);
+  for (uint32_t v = 0; v < segment_.vertices; ++v) {
+    for (size_t c = 0; c < 3; ++c)
+      segment_.pose[(v / kBlock * 3 + c) * kBlock + v % kBlock] =
+          static_cast<float>(points[3 * coded(v) + c]);
+  }
 }
 
 bool ResidentWriter::store(uint32_t component, const int32_t* values, uint32_t channels) {
@@ -25,8 +36,9 @@ bool ResidentWriter::store(uint32_t component, const int32_t* values, uint32_t c
   uint32_t count = wide ? segment_.wide_components : segment_.components - segment_.wide_components;
   uint32_t row = wide ? component : component - segment_.wide_components;
   for (uint32_t v = 0; v < segment_.vertices; ++v) {
+    const int32_t* from = values + coded(v) * channels;
     for (uint32_t c = 0; c < channels; ++c) {
-      int32_t x = *values++;
+      int32_t x = from[c];
       size_t at = ((size_t{v / kBlock} * count + row) * channels + c) * kBlock + v % kBlock;
       if (wide) {
         segment_.wide[at] = x;
@@ -42,36 +54,69 @@ bool ResidentWriter::store(uint32_t component, const int32_t* values, uint32_t c
 
 namespace {
 
-Status read_corrections(format::ByteView bytes, uint32_t total, format::IntegerHash& hash,
-                        Segment* out) {
-  if (bytes.size == 0)
+/// The vertices of each coded vertex v: vertices[begin[v]] .. vertices[begin[v + 1] - 1],
+/// ascending.
+struct Copies {
+  Copies(const std::vector<uint32_t>& vertex_coded, uint32_t coded_vertices)
+      : begin(size_t{coded_vertices} + 1, 0), vertices(vertex_coded.size()) {
+    for (uint32_t c : vertex_coded)
+      ++begin[c + 1];
+    for (size_t c = 0; c < coded_vertices; ++c)
+      begin[c + 1] += begin[c];
+    std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
+    for (uint32_t v = 0; v < vertex_coded.size(); ++v)
+      vertices[next[vertex_coded[v]]++] = v;
+  }
+
+  uint32_t count(uint32_t coded) const { return begin[coded + 1] - begin[coded]; }
+
+  std::vector<uint32_t> begin, vertices;
+};
+
+Status read_corrections(const SegmentContext& context, format::IntegerHash& hash, Segment* out) {
+  const uint32_t total = context.sizes->corrections;
+  if (context.corrections.size == 0)
     return total == 0 ? Status::kOk : Status::kChunkMissing;
-  format::ByteReader reader(bytes);
+  format::ByteReader reader(context.corrections);
   double step = reader.f64();
   if (!reader.ok() || !std::isfinite(step) || step <= 0)
     return Status::kQuantizer;
   format::ByteView stream = reader.raw(reader.remaining());
   BinaryDecoder decoder(stream.data, stream.size);
-  CorrectionCoding coding(out->vertices);
+  const uint32_t coded_vertices = context.topology->coded_vertices;
+  const Copies copies(context.topology->vertex_coded, coded_vertices);
+  CorrectionCoding coding(coded_vertices);
   std::vector<IntegerCorrection> frame;
+  uint64_t corrected = 0;  // vertices, over the frames
   out->correction_begin.assign(1, 0);
   for (uint32_t f = 0; f < out->frames; ++f) {
-    if (!coding.code_frame(decoder, total - out->corrections.size(), &frame))
+    if (!coding.code_frame(decoder, total - corrected, &frame))
       return Status::kEntropy;
     for (const IntegerCorrection& c : frame) {
-      Segment::Correction& correction = out->corrections.emplace_back();
+      corrected += copies.count(c.vertex);
+      if (corrected > total)
+        return Status::kEntropy;
+      Segment::Correction correction;
       correction.vertex = c.vertex;
       for (size_t i = 0; i < 3; ++i) {
         if (!to_float(c.delta[i] * step, &correction.delta[i]))
           return Status::kNonFinite;
       }
+      if (!context.vertex_coded)
+        out->corrections.push_back(correction);
+      for (uint32_t i = 0; context.vertex_coded && i < copies.count(c.vertex); ++i) {
+        correction.vertex = copies.vertices[copies.begin[c.vertex] + i];
+        out->corrections.push_back(correction);
+      }
       const int32_t hashed[5] = {static_cast<int32_t>(f), static_cast<int32_t>(c.vertex),
                                  c.delta[0], c.delta[1], c.delta[2]};
       hash.add(hashed, 5);
     }
+    std::sort(out->corrections.begin() + out->correction_begin.back(), out->corrections.end(),
+              [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
     out->correction_begin.push_back(static_cast<uint32_t>(out->corrections.size()));
   }
-  return decoder.finish() && out->corrections.size() == total ? Status::kOk : Status::kEntropy;
+  return decoder.finish() && corrected == total ? Status::kOk : Status::kEntropy;
 }
 
 }  // namespace
@@ -84,7 +129,8 @@ Status open_segment(const format::SegmentRecord& record, const SegmentContext& c
   out->mesh = sizes.mesh;
   out->first_frame = sizes.first_frame;
   out->frames = sizes.frames;
-  out->vertices = context.topology->coded_vertices;
+  out->vertices = context.vertex_coded ? static_cast<uint32_t>(context.vertex_coded->size())
+                                       : context.topology->coded_vertices;
   out->components = sizes.components;
   out->wide_components = sizes.wide_components;
   out->stored_hash = record.hash;
@@ -94,9 +140,15 @@ Status open_segment(const format::SegmentRecord& record, const SegmentContext& c
                       ? open_keyframe_segment(record, context, hash, out)
                       : open_linear_segment(record, context, hash, out);
   if (status == Status::kOk)
-    status = read_corrections(context.corrections, sizes.corrections, hash, out);
+    status = read_corrections(context, hash, out);
   out->decoded_hash = hash.digest();
   return status;
+}
+
+size_t Segment::resident_bytes() const {
+  auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
+  return bytes(pose) + bytes(wide) + bytes(narrow) + bytes(weights) + bytes(pose_maps) +
+         bytes(motions) + bytes(correction_begin) + bytes(corrections);
 }
 
 }  // namespace anicodec

@@ -32,7 +32,8 @@ struct Affine {
 ///
 ///   x(v, f) = M_f * (A_f * pose(v) + sum_j weight(f, j) * coefficient(j, v)) + correction(v, f)
 ///
-/// with A_f affine, M_f rigid, both optional. Vertices are coded vertices.
+/// with A_f affine, M_f rigid, both optional. Its vertices are those of the user, in the user's
+/// order, or the coded ones (SegmentContext::vertex_coded).
 struct Segment {
   format::BasisKind kind = format::BasisKind::kKeyframes;
   format::Reconstruction reconstruction = format::Reconstruction::kLinear;
@@ -60,8 +61,8 @@ struct Segment {
   std::vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
   double origin[3] = {0, 0, 0};           ///< key-frame kind: offset of every coefficient vector
 
-  /// Corrections of frame f are correction_begin[f] .. correction_begin[f+1]-1; empty when there
-  /// are none. Added last, in scene units.
+  /// Corrections of frame f are correction_begin[f] .. correction_begin[f+1]-1, ascending by
+  /// vertex; empty when there are none. Added last, in scene units.
   struct Correction {
     uint32_t vertex;
     float delta[3];
@@ -76,16 +77,13 @@ struct Segment {
   size_t resident_bytes() const;
 };
 
-/// Positions of all coded vertices of a segment in one frame of it (0 .. frames-1), three floats
-/// per vertex, without gaps. Cost: O(vertices x components), the same for every frame. Allocates
-/// nothing.
-void combine(const Segment& segment, uint32_t frame, float* out);
-
 /// What opening a segment needs to know besides its own record.
 struct SegmentContext {
   const format::Limits::Segment* sizes = nullptr;
   const format::Limits::Mesh* mesh_sizes = nullptr;
   const Topology* topology = nullptr;
+  /// Coded vertex of each vertex of the opened segment; null: it holds the coded vertices.
+  const std::vector<uint32_t>* vertex_coded = nullptr;
   const PoseGrid* pose = nullptr;        ///< null when the file has none for the segment
   const DracoMesh* draco = nullptr;      ///< null when the connectivity is plain
   std::vector<format::ByteView> layers;  ///< chunks BASI in file order

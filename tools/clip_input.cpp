@@ -92,19 +92,13 @@ MeshSequence describe_clip(const Clip& clip) {
 }
 
 FrameSource play(const std::string& path, const Clip& clip) {
-  struct Playback {
-    FramePlayer player;
-    std::vector<float> positions;
-  };
-
-  auto playback = std::make_shared<Playback>(
-      Playback{FramePlayer(clip), std::vector<float>(size_t{3} * clip.vertex_count())});
-  return [path, playback](uint32_t frame) -> std::span<const float> {
-    Status status = playback->player.positions(frame, playback->positions.data());
+  auto positions = std::make_shared<std::vector<float>>(size_t{3} * clip.vertex_count());
+  return [path, &clip, positions](uint32_t frame) -> std::span<const float> {
+    Status status = clip.positions(0, frame, positions->data());
     if (status != Status::kOk)
       throw Error(error_kind(status),
                   fmt::format("{}: frame {}: {}", path, frame, status_string(status)));
-    return playback->positions;
+    return *positions;
   };
 }
 

@@ -20,9 +20,8 @@ void open(const format::Bytes& file, Clip& clip) {
 }
 
 void play(const Clip& clip, std::vector<float>& positions) {
-  FramePlayer player(clip);
   for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-    if (player.positions(f, positions.data()) != Status::kOk)
+    if (clip.positions(0, f, positions.data()) != Status::kOk)
       throw Error(ErrorKind::kInternal, "a frame cannot be played");
   }
 }
