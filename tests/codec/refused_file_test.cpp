@@ -72,7 +72,7 @@ TEST_F(RefusedFile, NeedsNoMoreMemoryThanAllowed) {
   ASSERT_TRUE(clip.open(shapes_).ok());
   EXPECT_LE(clip.resident_bytes(), estimate.resident);
   // Sums that do not fit 64 bits do not wrap.
-  limits.meshes[0].coded_vertices = format::kMaxVertices;
+  limits.meshes[0].source_vertices = limits.meshes[0].coded_vertices = format::kMaxVertices;
   limits.segments[0].components = format::kMaxComponents;
   limits.segments.resize(1 << 16, limits.segments[0]);
   EXPECT_EQ(estimate_memory(limits).opening, UINT64_MAX);
