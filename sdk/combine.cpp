@@ -2,109 +2,71 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/combine.h"
 
+#include "sdk/combine_job.h"
+
 #include <algorithm>
+
+#if defined(ANICODEC_COMBINE_AVX2)
+#include <cpuid.h>
+#endif
 
 namespace anicodec {
 namespace {
 
-// One clone per instruction set, chosen when the library is loaded.
-#if defined(__x86_64__) && defined(__linux__)
-#define ANICODEC_CLONES __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define ANICODEC_CLONES
+OutputScale output_scale(const VertexOutput& output) {
+  OutputScale scale = {};
+  switch (output.format) {
+    case VertexFormat::kUnorm16x3:
+    case VertexFormat::kUnorm16x4:
+      scale.one = 65535;
+      break;
+    case VertexFormat::kSnorm16x3:
+    case VertexFormat::kSnorm16x4:
+      scale.one = 32767;
+      break;
+    default:
+      scale.one = 1;
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    scale.offset[c] = output.offset[c];
+    scale.factor[c] = scale.one / output.scale[c];
+  }
+  return scale;
+}
+
+void set_segment(const Segment& segment, CombineJob* job) {
+  job->channels = segment.channels();
+  job->wide_components = segment.wide_components;
+  job->narrow_components = segment.components - segment.wide_components;
+  job->wide = segment.wide.data();
+  job->narrow = segment.narrow.data();
+  job->pose = segment.pose.empty() ? nullptr : segment.pose.data();
+  for (size_t c = 0; c < 3; ++c)
+    job->origin[c] = static_cast<float>(segment.origin[c]);
+}
+
+void set_frame(const FrameState& state, const VertexOutput& output, uint32_t first,
+               CombineJob::Frame* frame) {
+  frame->weights = state.weights;
+  frame->pose_map = state.pose_map.m;
+  frame->motion = state.segment->motions.empty() ? nullptr : state.motion.m;
+  frame->corrections_end = state.corrections + state.correction_count;
+  frame->correction = std::partition_point(state.corrections, frame->corrections_end,
+                                           [&](const auto& c) { return c.vertex < first; });
+  frame->out = static_cast<unsigned char*>(output.data);
+  frame->stride = output.stride;
+  frame->format = output.format;
+  frame->scale = output_scale(output);
+}
+
+const CombineKernels& fastest_kernels() {
+#if defined(ANICODEC_COMBINE_AVX2)
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+      __get_cpuid(1, &eax, &ebx, &ecx, &edx) && (ecx & bit_F16C))
+    return kCombineKernelsAvx2;
 #endif
-
-/// sum[c][i] += weight * q[c][i], c < 3: a component of vectors.
-template <class Int>
-inline void add_vectors(const Int* q, const float* weights, uint32_t count, float (*sum)[kBlock]) {
-  for (uint32_t j = 0; j < count; ++j, q += 3 * kBlock) {
-    float w = weights[j];
-    for (uint32_t c = 0; c < 3; ++c) {
-      for (uint32_t i = 0; i < kBlock; ++i)
-        sum[c][i] += w * static_cast<float>(q[c * kBlock + i]);
-    }
-  }
-}
-
-/// sum[c][i] += weight[c] * q[i]: a component of scalars.
-template <class Int>
-inline void add_scalars(const Int* q, const float* weights, uint32_t count, float (*sum)[kBlock]) {
-  for (uint32_t j = 0; j < count; ++j, q += kBlock) {
-    float x = weights[3 * j], y = weights[3 * j + 1], z = weights[3 * j + 2];
-    for (uint32_t i = 0; i < kBlock; ++i) {
-      auto value = static_cast<float>(q[i]);
-      sum[0][i] += x * value;
-      sum[1][i] += y * value;
-      sum[2][i] += z * value;
-    }
-  }
-}
-
-inline void transform(const Affine& map, const float (*in)[kBlock], float (*out)[kBlock]) {
-  for (uint32_t r = 0; r < 3; ++r) {
-    const float* m = map.m + 4 * r;
-    for (uint32_t i = 0; i < kBlock; ++i)
-      out[r][i] = m[3] + m[0] * in[0][i] + m[1] * in[1][i] + m[2] * in[2][i];
-  }
-}
-
-/// One block of the segment: sum[c][i] is coordinate c of its vertex i, without corrections.
-inline void combine_block(const FrameState& state, uint32_t block, float (*sum)[kBlock]) {
-  const Segment& s = *state.segment;
-  uint32_t narrow = s.components - s.wide_components;
-  uint32_t channels = s.channels();
-  const float* weights = state.weights;
-  const float* narrow_weights = weights + size_t{s.wide_components} * s.weight_channels();
-  if (s.pose.empty()) {
-    std::fill_n(sum[0], 3 * kBlock, 0.F);
-  } else {
-    float pose[3][kBlock];
-    for (uint32_t i = 0; i < 3 * kBlock; ++i)
-      pose[i / kBlock][i % kBlock] = s.pose[size_t{block} * 3 * kBlock + i];
-    transform(state.pose_map, pose, sum);
-  }
-  const int32_t* wide = s.wide.data() + size_t{block} * s.wide_components * channels * kBlock;
-  const int16_t* small = s.narrow.data() + size_t{block} * narrow * channels * kBlock;
-  if (channels == 3) {
-    add_vectors(wide, weights, s.wide_components, sum);
-    add_vectors(small, narrow_weights, narrow, sum);
-  } else {
-    add_scalars(wide, weights, s.wide_components, sum);
-    add_scalars(small, narrow_weights, narrow, sum);
-  }
-  if (s.pose.empty()) {  // last, as it may be large
-    for (uint32_t c = 0; c < 3; ++c) {
-      for (uint32_t i = 0; i < kBlock; ++i)
-        sum[c][i] += static_cast<float>(s.origin[c]);
-    }
-  }
-  if (!s.motions.empty()) {
-    float still[3][kBlock];
-    std::copy_n(sum[0], 3 * kBlock, still[0]);
-    transform(state.motion, still, sum);
-  }
-}
-
-ANICODEC_CLONES
-void combine_range(const FrameState& state, uint32_t first, uint32_t count, float* out) {
-  const Segment::Correction* correction = state.corrections;
-  const Segment::Correction* corrections_end = correction + state.correction_count;
-  correction = std::partition_point(correction, corrections_end,
-                                    [&](const auto& c) { return c.vertex < first; });
-  for (uint32_t end = first + count; first < end;) {
-    uint32_t block = first / kBlock;
-    float sum[3][kBlock];
-    combine_block(state, block, sum);
-    uint32_t stop = std::min(end, (block + 1) * kBlock);
-    for (; correction != corrections_end && correction->vertex < stop; ++correction) {
-      for (uint32_t c = 0; c < 3; ++c)
-        sum[c][correction->vertex % kBlock] += correction->delta[c];
-    }
-    for (; first < stop; ++first) {
-      for (uint32_t c = 0; c < 3; ++c)
-        *out++ = sum[c][first % kBlock];
-    }
-  }
+  return kCombineKernelsPortable;
 }
 
 }  // namespace
@@ -126,8 +88,50 @@ FrameState frame_state(const Segment& segment, uint32_t frame) {
   return state;
 }
 
+const CombineKernels& combine_kernels() {
+  static const CombineKernels& best = fastest_kernels();
+  return best;
+}
+
+size_t all_combine_kernels(const CombineKernels* (&out)[kMaxCombineKernels]) {
+  size_t count = 0;
+  out[count++] = &kCombineKernelsScalar;
+  out[count++] = &kCombineKernelsPortable;
+  if (&combine_kernels() != &kCombineKernelsPortable)
+    out[count++] = &combine_kernels();
+  return count;
+}
+
+const char* combine_kernels_name() {
+  return combine_kernels().name;
+}
+
+void combine_with(const CombineKernels& kernels, const FrameState* states, uint32_t frames,
+                  uint32_t first, uint32_t count, const VertexOutput* outputs) {
+  for (uint32_t f = 0; f < frames;) {
+    CombineJob job;
+    set_segment(*states[f].segment, &job);
+    job.first = first;
+    job.end = first + count;
+    do {
+      set_frame(states[f], outputs[f], first, &job.frame[job.frames]);
+      ++job.frames;
+      ++f;
+    } while (f < frames && job.frames < kMaxCombinedFrames &&
+             states[f].segment == states[f - 1].segment);
+    kernels.combine(job);
+  }
+}
+
+void combine(const FrameState* states, uint32_t frames, uint32_t first, uint32_t count,
+             const VertexOutput* outputs) {
+  combine_with(combine_kernels(), states, frames, first, count, outputs);
+}
+
 void combine(const FrameState& state, uint32_t first, uint32_t count, float* out) {
-  combine_range(state, first, count, out);
+  VertexOutput output;
+  output.data = out;
+  combine(&state, 1, first, count, &output);
 }
 
 }  // namespace anicodec

@@ -4,6 +4,7 @@
 #define ANICODEC_SDK_COMBINE_H_
 
 #include "sdk/segment.h"
+#include "sdk/vertex_output.h"
 
 #include <cstdint>
 
@@ -23,10 +24,24 @@ struct FrameState {
 /// A whole frame, 0 .. frames - 1 of the segment. O(1).
 FrameState frame_state(const Segment& segment, uint32_t frame);
 
-/// Positions of the vertices first .. first + count - 1 of the segment, three floats each, without
-/// gaps; written once, in order. Cost: O(count x components), the same for every frame. Allocates
-/// nothing.
+/// Stores the positions of the vertices first .. first + count - 1 of the segment in `count`
+/// frames: that of vertex `first` in frame i goes to outputs[i].data. Each output is written once
+/// and in order, and not read; the outputs must not overlap, and must be valid (is_valid()).
+///
+/// A position is within the tolerance of spec/09a-segments.md, section 7, and on one machine it has
+/// the same bits whatever the range and whatever other frames are made with it. Allocates nothing;
+/// any number of threads may do so at the same time. Cost: O(vertices x components) per frame, the
+/// same for every frame. Frames of one segment that follow each other share passes over its
+/// coefficients, four at most, which takes about half the time of one by one.
+void combine(const FrameState* states, uint32_t frames, uint32_t first, uint32_t count,
+             const VertexOutput* outputs);
+
+/// One frame, three floats for each vertex, without gaps.
 void combine(const FrameState& state, uint32_t first, uint32_t count, float* out);
+
+/// What combine() runs on this machine: "avx2", "portable" (the instruction set of the build) or
+/// "scalar".
+const char* combine_kernels_name();
 
 }  // namespace anicodec
 

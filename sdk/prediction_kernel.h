@@ -18,22 +18,12 @@
 #include <immintrin.h>
 #endif
 
+#include "sdk/lanes.h"
 #include "sdk/prediction_job.h"
 #include "sdk/prediction_rounding.h"
 
 namespace anicodec {
 namespace {
-
-template <size_t W>
-struct LaneTypes {
-  // Aliases (using) lose the attribute where it depends on a template parameter (GCC).
-  typedef float Float __attribute__((vector_size(4 * W)));
-  typedef float Unaligned __attribute__((vector_size(4 * W), aligned(4), may_alias));
-};
-
-// Small loops with constant bounds over registers must be unrolled, at every optimisation level.
-#define ANICODEC_INLINE inline __attribute__((always_inline))
-#define ANICODEC_UNROLL _Pragma("GCC unroll 8")
 
 template <typename V>
 ANICODEC_INLINE V square_root(V x) {

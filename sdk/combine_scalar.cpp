@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Playing in plain loops: what the other kernels are tested against.
+#include "sdk/combine_loop.h"
+#include "sdk/half_float.h"
+
+namespace anicodec {
+namespace {
+
+/// sum[c][i] += weight * q[c][i]: components of vectors.
+template <class Int>
+void add_vectors(const Int* q, const float* weights, uint32_t count, Block& sum) {
+  for (uint32_t j = 0; j < count; ++j, q += 3 * kBlock) {
+    for (uint32_t c = 0; c < 3; ++c) {
+      for (uint32_t i = 0; i < kBlock; ++i)
+        sum[c][i] += weights[j] * static_cast<float>(q[c * kBlock + i]);
+    }
+  }
+}
+
+/// sum[c][i] += weight[c] * q[i]: components of scalars.
+template <class Int>
+void add_scalars(const Int* q, const float* weights, uint32_t count, Block& sum) {
+  for (uint32_t j = 0; j < count; ++j, q += kBlock, weights += 3) {
+    for (uint32_t c = 0; c < 3; ++c) {
+      for (uint32_t i = 0; i < kBlock; ++i)
+        sum[c][i] += weights[c] * static_cast<float>(q[i]);
+    }
+  }
+}
+
+/// The map of each point of `in`, which is not `out`.
+void transform(const float* map, const float (*in)[kBlock], Block& out) {
+  for (uint32_t r = 0; r < 3; ++r) {
+    const float* m = map + size_t{4} * r;
+    for (uint32_t i = 0; i < kBlock; ++i)
+      out[r][i] = m[3] + m[0] * in[0][i] + m[1] * in[1][i] + m[2] * in[2][i];
+  }
+}
+
+void combine_block(const CombineJob& job, const CombineJob::Frame& frame, uint32_t block,
+                   Block& sum) {
+  if (job.pose) {
+    Block pose;
+    __builtin_memcpy(pose, job.pose + size_t{block} * 3 * kBlock, sizeof pose);
+    transform(frame.pose_map, pose, sum);
+  } else {
+    __builtin_memset(sum, 0, sizeof sum);
+  }
+  const size_t scalars = size_t{block} * job.channels * kBlock;
+  const int32_t* wide = job.wide + scalars * job.wide_components;
+  const int16_t* narrow = job.narrow + scalars * job.narrow_components;
+  if (job.channels == 3) {
+    add_vectors(wide, frame.weights, job.wide_components, sum);
+    add_vectors(narrow, frame.weights + job.wide_components, job.narrow_components, sum);
+  } else {
+    add_scalars(wide, frame.weights, job.wide_components, sum);
+    add_scalars(narrow, frame.weights + size_t{3} * job.wide_components, job.narrow_components,
+                sum);
+  }
+  for (uint32_t c = 0; !job.pose && c < 3; ++c) {  // last, as it may be large
+    for (uint32_t i = 0; i < kBlock; ++i)
+      sum[c][i] += job.origin[c];
+  }
+  if (frame.motion) {
+    Block still;
+    __builtin_memcpy(still, sum, sizeof still);
+    transform(frame.motion, still, sum);
+  }
+}
+
+uint16_t normalised(float x, float low, float high, float bias, int32_t integer_bias) {
+  x = x > low ? x : low;
+  x = x < high ? x : high;
+  return static_cast<uint16_t>(static_cast<int32_t>(x + bias) - integer_bias);
+}
+
+uint16_t element(VertexFormat format, float x) {
+  switch (format) {
+    case VertexFormat::kUnorm16x3:
+    case VertexFormat::kUnorm16x4:
+      return normalised(x, 0, 65535, 0.5F, 0);
+    case VertexFormat::kSnorm16x3:
+    case VertexFormat::kSnorm16x4:
+      return normalised(x, -32767, 32767, 32768.5F, 32768);
+    default:
+      return static_cast<uint16_t>(half_bits<float, int32_t>(x));
+  }
+}
+
+struct ScalarKernel {
+  template <uint32_t F>
+  static void sums(const CombineJob& job, uint32_t block, Block* sums) {
+    for (uint32_t f = 0; f < F; ++f)
+      combine_block(job, job.frame[f], block, sums[f]);
+  }
+
+  static void write(const CombineJob::Frame& frame, const Block& sum, uint32_t begin, uint32_t end,
+                    unsigned char* to) {
+    const bool wide = frame.format <= VertexFormat::kFloat32x4;
+    const bool fourth = static_cast<uint32_t>(frame.format) % 2;
+    for (uint32_t i = begin; i < end; ++i, to += frame.stride) {
+      float point[4] = {sum[0][i], sum[1][i], sum[2][i], 1};
+      if (wide) {
+        __builtin_memcpy(to, point, fourth ? 16 : 12);
+        continue;
+      }
+      uint16_t small[4];
+      for (uint32_t c = 0; c < 3; ++c)
+        small[c] =
+            element(frame.format, (point[c] - frame.scale.offset[c]) * frame.scale.factor[c]);
+      small[3] = element(frame.format, frame.scale.one);
+      __builtin_memcpy(to, small, fourth ? 8 : 6);
+    }
+  }
+};
+
+}  // namespace
+
+void combine_scalar(const CombineJob& job) {
+  combine_job<ScalarKernel>(job);
+}
+
+const CombineKernels kCombineKernelsScalar = {"scalar", false, combine_scalar};
+
+}  // namespace anicodec
