@@ -95,6 +95,7 @@ std::vector<uint32_t> decoding_order(uint32_t points, std::span<const uint32_t> 
 
 format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> triangles,
                                 std::span<const std::vector<int32_t>> poses,
+                                std::span<const uint32_t> rows,
                                 std::vector<uint32_t>* points_by_decoded) {
   if (triangles.empty() || poses.size() > kMaxDracoPoses)
     return {};
@@ -107,7 +108,7 @@ format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> trian
   set_connectivity(mesh, points, triangles);
   add_attribute(mesh, draco::GeometryAttribute::POSITION, 3, [&](uint32_t p, int32_t* x) {
     for (size_t i = 0; i < 3; ++i)
-      x[i] = poses.empty() ? 0 : poses[0][size_t{3} * p + i];
+      x[i] = poses.empty() ? 0 : poses[0][size_t{3} * rows[p] + i];
   });
   size_t rest = poses.empty() ? 0 : poses.size() - 1;
   size_t group = (rest + kMaxAttributes - 2) / (kMaxAttributes - 1);  // poses per attribute
@@ -115,7 +116,7 @@ format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> trian
     size_t count = std::min(group, poses.size() - first);
     add_attribute(mesh, draco::GeometryAttribute::GENERIC, 3 * count, [&](uint32_t p, int32_t* x) {
       for (size_t i = 0; i < 3 * count; ++i)
-        x[i] = poses[first + i / 3][size_t{3} * p + i % 3];
+        x[i] = poses[first + i / 3][size_t{3} * rows[p] + i % 3];
     });
   }
   if (rest == 0)

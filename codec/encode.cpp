@@ -12,7 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <numeric>
+#include <utility>
 
 namespace anicodec {
 namespace {
@@ -45,49 +46,59 @@ format::ClipRecord describe(const MeshSequence& sequence, const EncodeOptions& o
 }
 
 /// Plays a file and compares it with the source, in the source's vertex order whatever the file's.
-Comparison check_file(const format::Bytes& file, const MeshSequence& sequence,
-                      const MeshLayout& layout) {
+Comparison check_file(const format::Bytes& file, const EncoderInput& input) {
   Clip clip;
   if (Failure failure = clip.open(file); !failure.ok())
     throw Error(ErrorKind::kInternal,
                 std::string("the encoded file cannot be opened: ") + status_string(failure.status));
   if (Failure failure = clip.check_hashes(); !failure.ok())
     throw Error(ErrorKind::kInternal, "the encoded file decodes to other integers");
-  std::vector<float> played(size_t{3} * sequence.vertex_count), ordered;
-  const std::vector<uint32_t>& coded = clip.meshes()[0].topology.vertex_coded;
-  bool source_order = clip.record().order != format::OrderMode::kFree;
-  std::vector<uint32_t> place(layout.sizes.coded_vertices);  // a played vertex of each coded one
-  for (uint32_t v = 0; v < coded.size(); ++v)
-    place[coded[v]] = v;
+  const MeshLayout& layout = input.layout;
+  const uint32_t vertices = input.sequence.vertex_count;
+  std::vector<uint32_t> played_of(vertices);  // the played vertex that shows a vertex of the source
+  if (clip.record().order == format::OrderMode::kFree) {
+    const std::vector<uint32_t>& coded = clip.meshes()[0].topology.vertex_coded;
+    std::vector<uint32_t> place(layout.sizes.coded_vertices);
+    for (uint32_t v = 0; v < coded.size(); ++v)
+      place[coded[v]] = v;
+    for (uint32_t v = 0; v < vertices; ++v)
+      played_of[v] = place[layout.source_coded[v]];
+  } else {
+    std::iota(played_of.begin(), played_of.end(), 0U);
+  }
+  auto gather = [vertices](const float* rows, const std::vector<uint32_t>& row, float* out) {
+    for (uint32_t v = 0; v < vertices; ++v)
+      out = std::copy_n(rows + size_t{3} * row[v], 3, out);
+  };
+  std::vector<float> original(size_t{3} * vertices), played(original.size()),
+      decoded(original.size());
   CompareOptions options;
   options.sted = false;
   return compare(
-      sequence.polygons, sequence.vertex_count, sequence.frame_count,
-      [&](uint32_t f) { return sequence.frame(f); },
+      input.sequence.polygons, vertices, input.sequence.frame_count,
+      [&](uint32_t f) -> std::span<const float> {
+        gather(input.frames().frame(f), layout.source_coded, original.data());
+        return original;
+      },
       [&](uint32_t f) -> std::span<const float> {
         clip.positions(0, f, played.data());
-        if (source_order)
-          return played;
-        ordered.resize(played.size());
-        for (size_t v = 0; v < sequence.vertex_count; ++v)
-          std::copy_n(played.begin() + ptrdiff_t{3} * place[layout.source_coded[v]], 3,
-                      ordered.begin() + static_cast<ptrdiff_t>(3 * v));
-        return ordered;
+        gather(played.data(), played_of, decoded.data());
+        return decoded;
       },
       options);
 }
 
 }  // namespace
 
-EncodeResult encode(const MeshSequence& sequence, const EncodeOptions& options,
-                    const Progress& progress) {
+EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
   check(sequence);
   double clip_diagonal = diagonal(sequence);
   Target target = in_scene_units(options.target, clip_diagonal);
   if (target.metric == format::ErrorMetric::kNone && !options.keyframes)
     throw Error(ErrorKind::kUsage, "an error, a size, or a number of key-frames must be asked for");
 
-  EncoderInput input(sequence, options.mesh_coder);
+  format::ClipRecord record = describe(sequence, options, target, clip_diagonal);
+  EncoderInput input(std::move(sequence), options.mesh_coder);
   RateControl control(input, options, target, clip_diagonal);
   SearchProgress search(progress, control.expected_trials());
   input.on_trial = [&search] { search.trial(); };
@@ -97,9 +108,8 @@ EncodeResult encode(const MeshSequence& sequence, const EncodeOptions& options,
       part.opened = open_encoded(part.encoded, input.layout);
   }
 
-  format::ClipRecord record = describe(sequence, options, target, clip_diagonal);
   format::Bytes file = clip_file(record, input.layout, solution.segments());
-  Comparison measured = check_file(file, sequence, input.layout);
+  Comparison measured = check_file(file, input);
   control.require_kept(measured.kg, measured.rmse, measured.max_error, file.size());
   record.kg = measured.kg;
   record.rmse = measured.rmse;
@@ -107,6 +117,9 @@ EncodeResult encode(const MeshSequence& sequence, const EncodeOptions& options,
 
   EncodeResult result;
   result.file = clip_file(record, input.layout, solution.segments());
+  result.vertices = input.sequence.vertex_count;
+  result.faces = static_cast<uint32_t>(input.sequence.polygons.size());
+  result.frames = input.sequence.frame_count;
   result.kind = solution.parts[0].encoded.sizes.kind;
   result.components = solution.parts[0].encoded.sizes.components;
   result.kg = measured.kg;

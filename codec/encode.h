@@ -47,6 +47,9 @@ struct Trial {
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
 struct EncodeResult {
   format::Bytes file;
+  uint32_t vertices = 0;  ///< of the source
+  uint32_t faces = 0;
+  uint32_t frames = 0;
   format::BasisKind kind = format::BasisKind::kKeyframes;
   uint32_t components = 0;
   double kg = 0;         ///< per cent
@@ -59,8 +62,9 @@ struct EncodeResult {
 /// Encodes a sequence, decodes the result, and checks that it keeps what was asked.
 /// Throws Error: kInput for a bad sequence, kUsage for a target that cannot be reached (the text
 /// states the best that can), kInternal when the check fails. Deterministic; the bytes do not
-/// depend on the number of threads. Memory: about twice the positions beside the sequence itself.
-EncodeResult encode(const MeshSequence& sequence, const EncodeOptions& options,
+/// depend on the number of threads. Memory: at most about twice the positions
+/// beside the sequence, which is taken over.
+EncodeResult encode(MeshSequence sequence, const EncodeOptions& options,
                     const Progress& progress = {});
 
 }  // namespace anicodec

@@ -49,9 +49,9 @@ size_t EncodedSegment::bytes() const {
   return total;
 }
 
-std::vector<std::vector<int32_t>> EncodedSegment::poses_for_draco() const {
+std::span<const std::vector<int32_t>> EncodedSegment::poses_for_draco() const {
   if (reference && reference->coder == format::CoderId::kDraco)
-    return {reference->grid.points};
+    return {&reference->grid.points, 1};
   return draco_poses;
 }
 

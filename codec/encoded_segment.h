@@ -37,7 +37,7 @@ struct EncodedSegment {
   size_t bytes() const;
 
   /// The poses that the mesh's Draco bitstream is to carry.
-  std::vector<std::vector<int32_t>> poses_for_draco() const;
+  std::span<const std::vector<int32_t>> poses_for_draco() const;
 };
 
 /// How far a decoded segment is from the coded vertices of the source.

@@ -179,11 +179,12 @@ EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, K
   if (parameters.coder == format::CoderId::kDraco) {
     for (uint32_t c : layout.topology.point_vertex)
       loose_from = std::max<size_t>(loose_from, c + 1);
-    encoded.draco_poses = poses;
   }
   for (const Pose& pose : poses)
     plain.insert(plain.end(), pose.begin() + static_cast<ptrdiff_t>(3 * loose_from), pose.end());
   encoded.pose = encode_plain_integers(plain, 3);
+  if (parameters.coder == format::CoderId::kDraco)
+    encoded.draco_poses = std::move(poses);
 
   BinaryEncoder encoder;
   SeriesCoding coding;

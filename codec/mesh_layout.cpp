@@ -161,7 +161,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   std::vector<uint32_t> triangle_polygon = manifold.triangle_polygon;
   if (coder == format::CoderId::kDraco) {
     std::vector<uint32_t> order;
-    layout.connectivity = encode_draco_mesh(manifold.points, manifold.triangles, {}, &order);
+    layout.connectivity = encode_draco_mesh(manifold.points, manifold.triangles, {}, {}, &order);
     DracoMesh decoded;
     if (!layout.connectivity.empty() &&
         decode_draco_mesh(layout.connectivity, manifold.points, triangle_count, draco_components(0),
@@ -249,15 +249,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
 
 format::Bytes encode_with_poses(const MeshLayout& layout,
                                 std::span<const std::vector<int32_t>> poses) {
-  std::vector<std::vector<int32_t>> at_points;
-  for (const std::vector<int32_t>& pose : poses) {
-    std::vector<int32_t>& values = at_points.emplace_back();
-    values.reserve(3 * layout.draco_points.size());
-    for (uint32_t c : layout.draco_points)
-      values.insert(values.end(), pose.begin() + ptrdiff_t{3} * c,
-                    pose.begin() + ptrdiff_t{3} * c + 3);
-  }
-  return encode_draco_mesh(layout.sizes.points, layout.draco_triangles, at_points);
+  return encode_draco_mesh(layout.sizes.points, layout.draco_triangles, poses, layout.draco_points);
 }
 
 }  // namespace anicodec

@@ -4,35 +4,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace anicodec {
 
-EncoderInput::EncoderInput(const MeshSequence& source, format::CoderId mesh_coder)
-    : sequence(source), layout(lay_out_mesh(source, mesh_coder)) {
-  size_t n = layout.sizes.coded_vertices;
+EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder)
+    : sequence(std::move(source)), layout(lay_out_mesh(sequence, mesh_coder)) {
+  const size_t n = layout.sizes.coded_vertices;
   copies.assign(n, 0);
   for (uint32_t c : layout.source_coded)
     ++copies[c];
-  coded.resize(3 * n * sequence.frame_count);
-  float* to = coded.data();
+  std::vector<float> frame(size_t{3} * sequence.vertex_count);
+  float* to = sequence.positions.data();  // never ahead of what is yet to be read
   for (size_t f = 0; f < sequence.frame_count; ++f) {
-    const float* from = sequence.frame(f).data();
+    std::ranges::copy(sequence.frame(f), frame.begin());
     double mean[3] = {0, 0, 0}, squares = 0;
     for (size_t v = 0; v < sequence.vertex_count; ++v) {
       for (size_t c = 0; c < 3; ++c)
-        mean[c] += static_cast<double>(from[3 * v + c]) / sequence.vertex_count;
+        mean[c] += static_cast<double>(frame[3 * v + c]) / sequence.vertex_count;
     }
     for (size_t v = 0; v < sequence.vertex_count; ++v) {
       for (size_t c = 0; c < 3; ++c) {
-        double x = static_cast<double>(from[3 * v + c]);
+        double x = static_cast<double>(frame[3 * v + c]);
         squares += (x - mean[c]) * (x - mean[c]);
         largest_coordinate = std::max(largest_coordinate, std::abs(x));
       }
     }
     kg_reference += squares;
     for (uint32_t v : layout.coded_source)
-      to = std::copy_n(from + size_t{3} * v, 3, to);
+      to = std::copy_n(frame.begin() + ptrdiff_t{3} * v, 3, to);
   }
+  coded = std::move(sequence.positions);
+  coded.resize(3 * n * sequence.frame_count);
+  sequence.positions.clear();
   if (kg_reference == 0)
     kg_reference = 1;
 }

@@ -18,7 +18,8 @@ namespace anicodec {
 
 /// What all ways of coding share: the clip by coded vertices, and how it leads back to the source.
 struct EncoderInput {
-  EncoderInput(const MeshSequence& source, format::CoderId mesh_coder);
+  /// Takes the positions over: they are put into coded order in place.
+  EncoderInput(MeshSequence source, format::CoderId mesh_coder);
 
   FrameView frames(size_t first, size_t count) const { return frames().frames(first, count); }
 
@@ -31,7 +32,7 @@ struct EncoderInput {
 
   double rmse(double squared) const { return rmse(squared, sequence.frame_count); }
 
-  const MeshSequence& sequence;
+  MeshSequence sequence;  ///< the source without its positions
   MeshLayout layout;
   std::vector<float> coded;       ///< frames x coded vertices x 3
   std::vector<uint32_t> copies;   ///< source vertices of each coded one

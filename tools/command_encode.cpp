@@ -120,10 +120,11 @@ MeshSequence load(const EncodeCommand& command, const Progress& progress) {
 
 /// What a file of this size means for a clip.
 struct Rate {
-  Rate(uint64_t bytes, const MeshSequence& sequence) {
-    double positions = static_cast<double>(sequence.vertex_count) * sequence.frame_count;
-    ratio = 12 * positions / static_cast<double>(bytes);
-    bpfv = 8 * static_cast<double>(bytes) / positions;
+  explicit Rate(const EncodeResult& result) {
+    double positions = static_cast<double>(result.vertices) * result.frames;
+    auto bytes = static_cast<double>(result.file.size());
+    ratio = 12 * positions / bytes;
+    bpfv = 8 * bytes / positions;
   }
 
   double ratio = 0;  ///< float32 positions against it
@@ -134,17 +135,16 @@ double percent(double length, double diagonal) {
   return length == 0 ? 0 : 100 * length / diagonal;
 }
 
-void print_json(const EncodeCommand& command, const MeshSequence& sequence,
-                const EncodeResult& result) {
-  Rate rate(result.file.size(), sequence);
+void print_json(const EncodeCommand& command, const EncodeResult& result) {
+  Rate rate(result);
   nlohmann::ordered_json json;
   json["file"] = command.output;
   json["bytes"] = result.file.size();
   json["ratio"] = rate.ratio;
   json["bpfv"] = rate.bpfv;
-  json["vertices"] = sequence.vertex_count;
-  json["faces"] = sequence.polygons.size();
-  json["frames"] = sequence.frame_count;
+  json["vertices"] = result.vertices;
+  json["faces"] = result.faces;
+  json["frames"] = result.frames;
   json["basis"] = name_of(result.kind);
   json["components"] = result.components;
   json["kg"] = result.kg;
@@ -155,14 +155,13 @@ void print_json(const EncodeCommand& command, const MeshSequence& sequence,
   fmt::print("{}\n", json.dump(2));
 }
 
-void print_text(const EncodeCommand& command, const MeshSequence& sequence,
-                const EncodeResult& result, int verbosity) {
+void print_text(const EncodeCommand& command, const EncodeResult& result, int verbosity) {
   if (verbosity > 0) {
     for (const Trial& trial : result.trials)
       fmt::print("  tried {:<28} {:>12} bytes  RMSE {:<11.4g} max error {:.4g}\n", trial.what,
                  grouped(trial.bytes), trial.rmse, trial.max_error);
   }
-  Rate rate(result.file.size(), sequence);
+  Rate rate(result);
   fmt::print(
       "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {} {}; max error {:.4g} ({:.3g} %), KG {:.3g} %\n",
       command.output, grouped(result.file.size()), rate.ratio, rate.bpfv, result.components,
@@ -186,7 +185,7 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
                             command.inputs[0], sequence.frame_count));
   EncodeResult result;
   try {
-    result = encode(sequence, options, progress);
+    result = encode(std::move(sequence), options, progress);
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
   }
@@ -194,9 +193,9 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
   output.commit();
   line.clear();
   if (command.json)
-    print_json(command, sequence, result);
+    print_json(command, result);
   else if (!common.quiet)
-    print_text(command, sequence, result, common.verbosity);
+    print_text(command, result, common.verbosity);
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ ByteShares byte_shares(format::ByteView file, const MeshSequence& sequence,
   return shares;
 }
 
-TimedEncode encode_timed(const MeshSequence& sequence, const Target& target, BasisChoice basis,
-                         int effort, bool verbose) {
+TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
+                         bool verbose) {
   EncodeOptions options;
   options.target = target;
   options.basis = basis;
@@ -83,7 +83,7 @@ TimedEncode encode_timed(const MeshSequence& sequence, const Target& target, Bas
     stage = next;
     stage_start = now;
   };
-  timed.result = encode(sequence, options, [&](std::string_view name, double) {
+  timed.result = encode(std::move(sequence), options, [&](std::string_view name, double) {
     if (name != stage)
       finish_stage(name);
   });

@@ -37,8 +37,8 @@ struct TimedEncode {
 
 /// Encodes with `--order free` and the program's other defaults; with `verbose` the trials and
 /// stages go to stderr.
-TimedEncode encode_timed(const MeshSequence& sequence, const Target& target, BasisChoice basis,
-                         int effort, bool verbose);
+TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
+                         bool verbose);
 
 /// Bits per frame and vertex.
 double bpfv(uint64_t bytes, const MeshSequence& sequence);

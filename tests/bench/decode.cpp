@@ -99,10 +99,11 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
   MeshSequence sequence = corpus::make_wave_grid(vertices, frames, shapes);
   constexpr double kKg = 0.1;
   constexpr int kBits = 11;
-  TimedEncode timed = encode_timed(sequence, {format::ErrorMetric::kKg, kKg, false},
+  std::vector<char> draco = draco_frame(sequence, triangles_of(sequence.polygons), 0, kBits);
+  uint64_t raw = sequence.positions.size() * sizeof(float);
+  TimedEncode timed = encode_timed(std::move(sequence), {format::ErrorMetric::kKg, kKg, false},
                                    BasisChoice::kEigenshapes, options.effort, options.verbose);
   uint64_t peak = peak_memory();
-  std::vector<char> draco = draco_frame(sequence, triangles_of(sequence.polygons), 0, kBits);
   double opening = median_thread_seconds(runs, [&] {
     Clip clip;
     open(timed.result.file, clip);
@@ -112,7 +113,6 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
   open(timed.result.file, clip);
   std::vector<float> positions(size_t{3} * vertices);
   double playing = median_thread_seconds(runs, [&] { play(clip, positions); });
-  uint64_t raw = sequence.positions.size() * sizeof(float);
   table.add({{"clip", "wave grid of " + std::to_string(vertices)},
              {"vertices", vertices},
              {"frames", frames},
