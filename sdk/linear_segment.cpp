@@ -102,34 +102,42 @@ Status read_residuals(const std::vector<format::ByteView>& layers, const VertexO
   return j == wanted ? Status::kOk : Status::kChunkMissing;
 }
 
+/// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample.
+std::vector<float> hash_coefficients(const std::vector<float>& y, size_t stride, size_t ranks,
+                                     size_t samples, format::IntegerHash& hash) {
+  std::vector<int32_t> exact(samples);
+  std::vector<float> largest(samples, 0.F);
+  for (size_t i = 0; i < ranks; ++i) {
+    const float* row = y.data() + i * stride;
+    for (size_t s = 0; s < samples; ++s) {
+      exact[s] = static_cast<int32_t>(row[s] * (1 << kFractionBits));
+      largest[s] = std::max(largest[s], std::fabs(row[s]));
+    }
+    hash.add(exact.data(), samples);
+  }
+  return largest;
+}
+
 /// Puts the coefficients into the resident blocks, each component with as many fraction bits as
-/// fit, and scales its weights accordingly.
+/// fit, and scales its weights accordingly. `largest`: magnitudes by sample.
 Status make_resident(const VertexOrder& order, const std::vector<float>& y, size_t stride,
-                     const LinearParameters& parameters, const std::vector<int32_t>& weights,
-                     ResidentWriter& writer, Segment* out) {
+                     const std::vector<float>& largest, const LinearParameters& parameters,
+                     const std::vector<int32_t>& weights, ResidentWriter& writer, Segment* out) {
   uint32_t channels = out->channels(), weight_channels = out->weight_channels();
-  size_t n = order.vertex_count();
-  std::vector<int32_t> values(n * channels);
+  std::vector<float> scale(size_t{out->components} * channels);
   out->weights.resize(size_t{out->frames} * out->components * weight_channels);
   for (uint32_t j = 0; j < out->components; ++j) {
-    float largest = 0;
-    for (size_t i = 0; i < n; ++i) {
-      for (size_t c = 0; c < channels; ++c)
-        largest = std::max(largest, std::fabs(y[i * stride + size_t{j} * channels + c]));
-    }
+    float most = *std::max_element(largest.begin() + ptrdiff_t{channels} * j,
+                                   largest.begin() + ptrdiff_t{channels} * (j + 1));
     int bits = kFractionBits;
     if (j >= out->wide_components) {
-      while (bits > 0 && largest * static_cast<float>(1 << bits) > 32767)
+      while (bits > 0 && most * static_cast<float>(1 << bits) > 32767)
         --bits;
+      if (most * static_cast<float>(1 << bits) > 32767)
+        return Status::kQuantizer;
     }
-    auto scale = static_cast<float>(1 << bits);
-    for (size_t i = 0; i < n; ++i) {
-      for (size_t c = 0; c < channels; ++c)
-        values[order.order[i] * channels + c] =
-            static_cast<int32_t>(std::nearbyint(y[i * stride + size_t{j} * channels + c] * scale));
-    }
-    if (!(channels == 3 ? writer.vectors(j, values.data()) : writer.scalars(j, values.data())))
-      return Status::kQuantizer;
+    for (uint32_t c = 0; c < channels; ++c)
+      scale[size_t{j} * channels + c] = static_cast<float>(1 << bits);
     double unit = parameters.weight_step / (1 << kWeightFractionBits) /
                   LinearParameters::sigma_value(parameters.sigma[j]) * parameters.basis_step /
                   (1 << bits);
@@ -142,6 +150,10 @@ Status make_resident(const VertexOrder& order, const std::vector<float>& y, size
       }
     }
   }
+  std::vector<uint32_t> rank(order.order.size());
+  for (uint32_t i = 0; i < rank.size(); ++i)
+    rank[order.order[i]] = i;
+  writer.samples(rank, y.data(), stride, scale.data());
   return Status::kOk;
 }
 
@@ -277,13 +289,8 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   reconstruction.run_all();
 
   size_t stride = coefficient_stride(samples);
-  std::vector<int32_t> exact(samples);
-  for (size_t i = 0; i < n; ++i) {
-    for (size_t s = 0; s < samples; ++s)
-      exact[s] = static_cast<int32_t>(y[i * stride + s] * (1 << kFractionBits));
-    hash.add(exact.data(), samples);
-  }
-  return make_resident(order, y, stride, parameters, weights, writer, out);
+  const std::vector<float> largest = hash_coefficients(y, stride, n, samples, hash);
+  return make_resident(order, y, stride, largest, parameters, weights, writer, out);
 }
 
 }  // namespace anicodec

@@ -24,14 +24,15 @@ class ResidentWriter {
 
   /// Stores a component of vectors: coded vertices x 3 integers. False when it is a narrow
   /// component and a value does not fit 16 bits.
-  bool vectors(uint32_t component, const int32_t* values) { return store(component, values, 3); }
+  bool vectors(uint32_t component, const int32_t* values);
 
-  /// The same for a component of scalars: one integer per coded vertex.
-  bool scalars(uint32_t component, const int32_t* values) { return store(component, values, 1); }
+  /// Stores all components at once, rounded: sample s = channels x component + channel of coded
+  /// vertex c is rows[rank[c] * stride + s] * scale[s], which must fit the component's width. One
+  /// pass over the blocks, each row read once.
+  void samples(const std::vector<uint32_t>& rank, const float* rows, size_t stride,
+               const float* scale);
 
  private:
-  bool store(uint32_t component, const int32_t* values, uint32_t channels);
-
   size_t coded(uint32_t vertex) const { return vertex_coded_ ? (*vertex_coded_)[vertex] : vertex; }
 
   const std::vector<uint32_t>* vertex_coded_;
