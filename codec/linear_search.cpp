@@ -16,7 +16,7 @@ namespace {
 constexpr double kClose = 0.997;  // of the error asked for: near enough
 constexpr double kAim = 0.9985;   // where to aim, of the same
 constexpr int kRounds = 8;
-constexpr int kSlowPoseEffort = 7;  // below, files open faster
+constexpr int kSlowEffort = 7;      // from here on, files may open slower to be smaller
 constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
 constexpr size_t kMostComponents = 2000;
 
@@ -29,7 +29,7 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
-  choice_.settings.slow_pose = effort >= kSlowPoseEffort;
+  choice_.settings.slow_pose = effort >= kSlowEffort;
 }
 
 void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
@@ -114,9 +114,8 @@ void LinearCoder::choose_settings(double rmse) {
   // One change at a time, those that pay most often first; what helps is kept.
   using Change = std::function<void(Choice&)>;
   bool shapes = kind_ == format::BasisKind::kEigenshapes;
-  const std::vector<Change> changes = {
+  std::vector<Change> changes = {
       [](Choice& c) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
-      [](Choice& c) { c.settings.neighbours = 20; },
       [](Choice& c) { c.settings.pose_factor *= 1.4; },
       [shapes](Choice& c) {
         c.pose = shapes ? ReferencePose::kRankThree : ReferencePose::kMean;
@@ -127,7 +126,6 @@ void LinearCoder::choose_settings(double rmse) {
       [](Choice& c) { c.settings.colours = 2; },
       [](Choice& c) { c.settings.rank_factor *= 1.5; },
       [](Choice& c) { c.settings.radius = 16; },
-      [](Choice& c) { c.settings.neighbours = 24; },
       [](Choice& c) { c.settings.pose_factor *= 1.4; },
       [](Choice& c) { c.settings.lambda = 0.11; },
       [](Choice& c) { c.settings.weight_factor *= 1.2; },
@@ -136,6 +134,11 @@ void LinearCoder::choose_settings(double rmse) {
       [](Choice& c) { c.settings.rank_factor /= 1.5; },
       [](Choice& c) { c.settings.radius = 9; },
   };
+  const bool slow = effort_ >= kSlowEffort;
+  if (shapes || slow)
+    changes.insert(changes.begin() + 1, [](Choice& c) { c.settings.neighbours = 20; });
+  if (slow)
+    changes.insert(changes.begin() + 9, [](Choice& c) { c.settings.neighbours = 24; });
   constexpr size_t kTrials[10] = {0, 0, 1, 3, 5, 7, 9, 12, 15, 17};
   size_t trials = std::min(kTrials[std::clamp(effort_, 1, 9)], changes.size());
   if (trials == 0)

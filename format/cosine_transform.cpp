@@ -52,25 +52,33 @@ CosineTransform::CosineTransform(uint32_t length) : length_(length) {
 }
 
 void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) const {
-  // |coefficient| <= 2^22, |entry| < 2^29, 2^10 terms: the sums stay below 2^63.
-  std::vector<int64_t> sums(length_, int64_t{coefficients[0]} * constant_);
-  const uint32_t period = 4 * length_;
+  // |coefficient| <= 2^22, |entry| < 2^29, 2^10 terms: the sums stay below 2^63. Even functions are
+  // the same from both ends, odd ones change sign: half of the values, of each kind apart.
+  const uint32_t half = (length_ + 1) / 2, period = 4 * length_;
+  std::vector<int64_t> sums(size_t{2} * half, 0);
+  std::fill_n(sums.begin(), half, int64_t{coefficients[0]} * constant_);
   for (uint32_t k = 1; k < length_; ++k) {
     const int64_t y = coefficients[k];
     if (y == 0)
       continue;
+    int64_t* sum = sums.data() + (k % 2) * half;
     uint32_t m = k;
-    for (uint32_t f = 0; f < length_; ++f) {
-      sums[f] += y * table_[m];
+    for (uint32_t f = 0; f < half; ++f) {
+      sum[f] += y * table_[m];
       m += 2 * k;
       if (m >= period)
         m -= period;
     }
   }
   const int down = shift_ - kFractionBits;
-  for (uint32_t f = 0; f < length_; ++f)
-    values[f] = static_cast<int32_t>(std::clamp<int64_t>(
-        (sums[f] + (int64_t{1} << (down - 1))) >> down, -kValueLimit, kValueLimit));
+  const auto rounded = [&](int64_t sum) {
+    return static_cast<int32_t>(
+        std::clamp<int64_t>((sum + (int64_t{1} << (down - 1))) >> down, -kValueLimit, kValueLimit));
+  };
+  for (uint32_t f = 0; f < half; ++f) {
+    values[f] = rounded(sums[f] + sums[half + f]);
+    values[length_ - 1 - f] = rounded(sums[f] - sums[half + f]);
+  }
 }
 
 void CosineTransform::forward(const double* values, double* coefficients) const {
