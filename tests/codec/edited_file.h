@@ -48,6 +48,16 @@ struct EditedFile {
     part("LIMI").payload = limits.write();
   }
 
+  template <class Change>
+  void change_clip(Change change) {
+    format::Limits limits;
+    format::Limits::read(part("LIMI").payload, &limits);
+    format::ClipRecord record;
+    format::ClipRecord::read(part("CLIP").payload, limits.frames, &record);
+    change(record);
+    part("CLIP").payload = record.write();
+  }
+
   /// `change(record)` of a record whose views lie in the old payload.
   template <class Record, class Change>
   void change_record(const char (&type)[5], Change change) {

@@ -115,6 +115,21 @@ TEST(Encode, IsAFunctionOfItsInput) {
   }
 }
 
+TEST(Encode, FreeOrderLeavesOutTheVertexMapAndNothingElse) {
+  for (const char* clip : {"limb", "nonmanifold"}) {
+    EncodeOptions options = asking({format::ErrorMetric::kKg, 0.5, false}, BasisChoice::kAuto);
+    options.effort = 1;
+    EditedFile ordered(encode(corpus::make_clip(clip), options).file);
+    options.order = format::OrderMode::kFree;
+    EditedFile free(encode(corpus::make_clip(clip), options).file);
+    ASSERT_EQ(ordered.part("VMAP").chunk.type, format::chunk_type("VMAP"));
+    std::erase_if(ordered.parts,
+                  [](const auto& p) { return p.chunk.type == format::chunk_type("VMAP"); });
+    ordered.change_clip([](format::ClipRecord& r) { r.order = format::OrderMode::kFree; });
+    EXPECT_EQ(ordered.bytes(), free.bytes()) << clip;
+  }
+}
+
 TEST(Encode, KeyframeCountAddsAtMostATenthToTheError) {
   MeshSequence source = corpus::make_clip(corpus::clip_names()[0]);
   EncodeOptions options;
