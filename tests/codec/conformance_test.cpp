@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The files of tests/conformance/, and the example that the specification takes apart.
+#include "corpus/clips.h"
+#include "sdk/clip.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+const std::string kSource = ANICODEC_SOURCE_DIR;
+
+struct Vector {
+  const char* file;
+  const char* clip;
+};
+
+format::Bytes read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+class Conformance : public testing::TestWithParam<Vector> {};
+
+TEST_P(Conformance, DecodesAsTheFileSays) {
+  Clip clip;
+  Failure failure = clip.open(read(kSource + "/tests/conformance/" + GetParam().file));
+  ASSERT_TRUE(failure.ok()) << status_string(failure.status) << ": " << failure.detail;
+  EXPECT_TRUE(clip.check_hashes().ok());
+  const MeshSequence source = corpus::make_clip(GetParam().clip);
+  ASSERT_EQ(clip.vertex_count(), source.vertex_count);
+  ASSERT_EQ(clip.frame_count(), source.frame_count);
+  std::vector<float> played(size_t{3} * source.vertex_count);
+  double largest = 0;
+  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+    ASSERT_EQ(clip.positions(0, f, played.data()), Status::kOk);
+    for (size_t v = 0; v < source.vertex_count; ++v) {
+      double squared = 0;
+      for (size_t c = 0; c < 3; ++c)
+        squared += std::pow(double{played[3 * v + c]} - double{source.frame(f)[3 * v + c]}, 2);
+      largest = std::max(largest, std::sqrt(squared));
+    }
+  }
+  EXPECT_NEAR(largest, clip.record().max_error, 1e-4 * clip.record().max_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Conformance,
+                         testing::Values(Vector{"triangle.anic", "one_triangle"},
+                                         Vector{"nonmanifold_keyframes.anic", "nonmanifold"},
+                                         Vector{"polygons_all.anic", "polygons"},
+                                         Vector{"quad_box_corrected.anic", "quad_box"},
+                                         Vector{"soup_plain.anic", "soup"},
+                                         Vector{"limb_effort9.anic", "limb"}),
+                         [](const auto& vector) {
+                           return std::string(vector.param.file,
+                                              std::string(vector.param.file).find('.'));
+                         });
+
+TEST(ConformanceExample, IsTheFileThatTheSpecificationShows) {
+  std::ifstream page(kSource + "/spec/A-examples.md");
+  const std::regex bytes_of_line(R"(^([0-9a-f]{4}) +((?:[0-9a-f]{2} )+) .*)");
+  format::Bytes shown;
+  std::string line;
+  while (std::getline(page, line)) {
+    std::smatch match;
+    if (!std::regex_match(line, match, bytes_of_line))
+      continue;
+    EXPECT_EQ(std::stoul(match[1], nullptr, 16), shown.size()) << line;
+    for (size_t i = 0; i + 3 <= match[2].str().size(); i += 3)
+      shown.push_back(static_cast<uint8_t>(std::stoul(match[2].str().substr(i, 2), nullptr, 16)));
+  }
+  EXPECT_EQ(shown, read(kSource + "/tests/conformance/triangle.anic"));
+}
+
+}  // namespace
+}  // namespace anicodec
