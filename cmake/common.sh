@@ -10,6 +10,7 @@ packages=(
   libzstd-dev libxxhash-dev libdraco-dev       # format, sdk
   libeigen3-dev libtbb-dev libembree-dev       # codec
   libcli11-dev libfmt-dev nlohmann-json3-dev   # tools
+  libpng-dev libgif-dev                        # tools: pictures
   libgtest-dev libgmock-dev python3            # tests
   libmeshoptimizer-dev                         # bench
 )

@@ -39,6 +39,7 @@ void add_verify(CLI::App& app, CommonOptions& common);
 void add_compare(CLI::App& app, CommonOptions& common);
 void add_analyze(CLI::App& app, CommonOptions& common);
 void add_dump(CLI::App& app, CommonOptions& common);
+void add_render(CLI::App& app, CommonOptions& common);
 void add_corpus(CLI::App& app, CommonOptions& common);
 
 }  // namespace anicodec::tools

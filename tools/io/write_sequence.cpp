@@ -6,6 +6,7 @@
 #include "tools/io/atomic_file.h"
 #include "tools/io/byte_order.h"
 #include "tools/io/file_kind.h"
+#include "tools/io/name_pattern.h"
 #include "tools/io/obj.h"
 #include "tools/io/off.h"
 #include "tools/io/ply.h"
@@ -22,39 +23,6 @@ namespace {
 
 [[noreturn]] void fail_usage(const std::string& path, const std::string& text) {
   throw Error(ErrorKind::kUsage, path + ": " + text);
-}
-
-/// A file name with at most one number in it.
-struct NamePattern {
-  std::string before;
-  std::string after;
-  bool has_number = false;
-  size_t width = 0;
-
-  std::string name(uint64_t number) const {
-    if (!has_number)
-      return before;
-    std::string digits = std::to_string(number);
-    return before + std::string(width - std::min(width, digits.size()), '0') + digits + after;
-  }
-};
-
-NamePattern parse_pattern(const std::string& path) {
-  size_t percent = path.find('%');
-  if (percent == std::string::npos)
-    return {path, "", false, 0};
-  NamePattern pattern;
-  pattern.has_number = true;
-  pattern.before = path.substr(0, percent);
-  size_t i = percent + 1;
-  if (i < path.size() && path[i] == '0') {
-    for (++i; i < path.size() && path[i] >= '0' && path[i] <= '9' && pattern.width < 100; ++i)
-      pattern.width = pattern.width * 10 + static_cast<size_t>(path[i] - '0');
-  }
-  if (i >= path.size() || path[i] != 'd' || path.find('%', i) != std::string::npos)
-    fail_usage(path, "a pattern has one %d or %0Nd, such as frame_%04d.obj");
-  pattern.after = path.substr(i + 1);
-  return pattern;
 }
 
 void append_mesh(FileKind kind, const Polygons& polygons, std::span<const float> positions,
@@ -170,7 +138,7 @@ void check_sequence_output(const std::string& path, uint32_t frame_count,
     check_output(mesh_beside(path), options.overwrite);
     return;
   }
-  NamePattern pattern = parse_pattern(path);
+  NamePattern pattern = parse_name_pattern(path);
   if (!pattern.has_number && frame_count > 1)
     fail_usage(path, std::to_string(frame_count) +
                          " frames need a pattern with a number, such as frame_%04d.obj");
@@ -188,7 +156,7 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
   if (is_cache(kind))
     write_cache(path, clip, frames, options.overwrite);
   else
-    write_frames(parse_pattern(path), kind, clip, frames, options);
+    write_frames(parse_name_pattern(path), kind, clip, frames, options);
   if (options.progress)
     options.progress("writing", 1);
 }
