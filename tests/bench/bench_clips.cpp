@@ -70,14 +70,4 @@ std::vector<std::string> clip_words(const std::vector<std::string>& inputs,
   return words;
 }
 
-std::vector<uint32_t> triangles_of(const Polygons& polygons) {
-  std::vector<uint32_t> triangles;
-  for (size_t p = 0; p < polygons.size(); ++p) {
-    std::span<const uint32_t> corners = polygons[p];
-    for (size_t i = 2; i < corners.size(); ++i)
-      triangles.insert(triangles.end(), {corners[0], corners[i - 1], corners[i]});
-  }
-  return triangles;
-}
-
 }  // namespace anicodec::bench

@@ -20,9 +20,6 @@ MeshSequence load_clip(const std::string& word);
 std::vector<std::string> clip_words(const std::vector<std::string>& inputs,
                                     const std::vector<std::string>& clips);
 
-/// Every polygon as a fan of triangles: three vertices each.
-std::vector<uint32_t> triangles_of(const Polygons& polygons);
-
 }  // namespace anicodec::bench
 
 #endif  // ANICODEC_TESTS_BENCH_BENCH_CLIPS_H_

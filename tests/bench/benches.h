@@ -10,7 +10,11 @@
 #include <string>
 #include <vector>
 
+namespace anicodec::peers {}
+
 namespace anicodec::bench {
+
+using namespace peers;  // what is compared with
 
 /// What the sub-commands share.
 struct BenchOptions {

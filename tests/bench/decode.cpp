@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/closest_point.h"
 #include "codec/error.h"
 #include "corpus/clips.h"
 #include "sdk/clip.h"
@@ -7,10 +8,10 @@
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
-#include "tests/bench/draco_frames.h"
 #include "tests/bench/stopwatch.h"
 #include "tools/clip_input.h"
 #include "tools/names.h"
+#include "tools/peers/draco_frames.h"
 
 namespace anicodec::bench {
 namespace {
@@ -58,7 +59,7 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
     Target target{format::ErrorMetric::kKg, kg, false};
     TimedEncode timed =
         encode_timed(sequence, target, options.basis, options.effort, options.verbose);
-    DracoFrames draco = draco_at_kg(sequence, triangles_of(sequence.polygons), kg);
+    DracoFrames draco = draco_at_kg(sequence, fan_triangles(sequence.polygons), kg);
 
     std::vector<float> positions;
     double whole = median_thread_seconds(runs, [&] {
@@ -112,7 +113,7 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
   MeshSequence sequence = corpus::make_wave_grid(vertices, frames, shapes);
   constexpr double kKg = 0.1;
   constexpr int kBits = 11;
-  std::vector<char> draco = draco_frame(sequence, triangles_of(sequence.polygons), 0, kBits);
+  std::vector<char> draco = draco_frame(sequence, fan_triangles(sequence.polygons), 0, kBits);
   uint64_t raw = sequence.positions.size() * sizeof(float);
   TimedEncode timed = encode_timed(std::move(sequence), {format::ErrorMetric::kKg, kKg, false},
                                    BasisChoice::kEigenshapes, options.effort, options.verbose);

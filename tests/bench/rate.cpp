@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/closest_point.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
-#include "tests/bench/cubic_grid.h"
-#include "tests/bench/draco_frames.h"
-#include "tests/bench/frame_deltas.h"
 #include "tools/names.h"
+#include "tools/peers/cubic_grid.h"
+#include "tools/peers/draco_frames.h"
+#include "tools/peers/frame_deltas.h"
 
 #include <cmath>
 
@@ -78,7 +79,7 @@ Table run_rate(const BenchOptions& options, const std::vector<double>& targets) 
                                    {"deltas_ratio", "ratio", "{:.1f}"}}));
   for (const std::string& clip : options.clips) {
     MeshSequence sequence = load_clip(clip);
-    std::vector<uint32_t> triangles = triangles_of(sequence.polygons);
+    std::vector<uint32_t> triangles = fan_triangles(sequence.polygons);
     for (double kg : targets) {
       Target target{format::ErrorMetric::kKg, kg, false};
       TimedEncode timed =
@@ -130,7 +131,7 @@ Table run_near(const BenchOptions& options, double max_error_percent) {
     double bound = max_error_percent / 100 * diagonal(sequence);
     GriddedClip grid = on_grid(sequence, 2 * bound / std::sqrt(3.0));
     FrameDeltaSize deltas =
-        frame_delta_size(grid, sequence.vertex_count, triangles_of(sequence.polygons));
+        frame_delta_size(grid, sequence.vertex_count, fan_triangles(sequence.polygons));
     ordered_json row = describe(clip, sequence, timed);
     row["asked_percent"] = max_error_percent;
     row["grid_max_error_percent"] = 100 * grid.error.max_error / grid.error.diagonal;

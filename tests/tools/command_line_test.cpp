@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::vector<std::string> kCommands = {"encode",  "decode",  "info", "verify",
-                                            "compare", "analyze", "dump", "corpus"};
+                                            "compare", "analyze", "dump", "render", "corpus"};
 
 /// Exit status 1 and one line on stderr that starts with the command's name.
 void expect_usage_error(const Outcome& outcome) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_TESTS_BENCH_DRACO_FRAMES_H_
-#define ANICODEC_TESTS_BENCH_DRACO_FRAMES_H_
+#ifndef ANICODEC_TOOLS_PEERS_DRACO_FRAMES_H_
+#define ANICODEC_TOOLS_PEERS_DRACO_FRAMES_H_
 
 #include "codec/mesh_sequence.h"
-#include "tests/bench/cubic_grid.h"
+#include "tools/peers/cubic_grid.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace anicodec::bench {
+namespace anicodec::peers {
 
 /// Every frame as a Draco mesh of its own: edgebreaker, speed 0 (the smallest and slowest).
 struct DracoFrames {
@@ -37,6 +37,6 @@ DracoFrames draco_on_grid(const MeshSequence& sequence, std::span<const uint32_t
 /// Decodes a mesh; returns its number of points. Throws Error(kInternal).
 uint32_t decode_draco(std::span<const char> bytes);
 
-}  // namespace anicodec::bench
+}  // namespace anicodec::peers
 
-#endif  // ANICODEC_TESTS_BENCH_DRACO_FRAMES_H_
+#endif  // ANICODEC_TOOLS_PEERS_DRACO_FRAMES_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tests/bench/frame_deltas.h"
+#include "tools/peers/frame_deltas.h"
 
 #include "codec/error.h"
 
@@ -13,7 +13,7 @@
 #include <meshoptimizer.h>
 #include <zstd.h>
 
-namespace anicodec::bench {
+namespace anicodec::peers {
 namespace {
 
 using Buffer = std::vector<unsigned char>;
@@ -117,4 +117,4 @@ FrameDeltaSize frame_delta_size(const GriddedClip& clip, uint32_t vertex_count,
   return result;
 }
 
-}  // namespace anicodec::bench
+}  // namespace anicodec::peers

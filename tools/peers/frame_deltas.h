@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_TESTS_BENCH_FRAME_DELTAS_H_
-#define ANICODEC_TESTS_BENCH_FRAME_DELTAS_H_
+#ifndef ANICODEC_TOOLS_PEERS_FRAME_DELTAS_H_
+#define ANICODEC_TOOLS_PEERS_FRAME_DELTAS_H_
 
-#include "tests/bench/cubic_grid.h"
+#include "tools/peers/cubic_grid.h"
 
 #include <cstdint>
 #include <span>
 #include <string>
 
-namespace anicodec::bench {
+namespace anicodec::peers {
 
 struct FrameDeltaSize {
   uint64_t bytes = 0;   ///< of positions and connectivity
@@ -24,6 +24,6 @@ struct FrameDeltaSize {
 FrameDeltaSize frame_delta_size(const GriddedClip& clip, uint32_t vertex_count,
                                 std::span<const uint32_t> triangles);
 
-}  // namespace anicodec::bench
+}  // namespace anicodec::peers
 
-#endif  // ANICODEC_TESTS_BENCH_FRAME_DELTAS_H_
+#endif  // ANICODEC_TOOLS_PEERS_FRAME_DELTAS_H_

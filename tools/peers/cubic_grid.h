@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Positions on a cubic grid, the same for all frames: what codecs without a basis store.
-#ifndef ANICODEC_TESTS_BENCH_CUBIC_GRID_H_
-#define ANICODEC_TESTS_BENCH_CUBIC_GRID_H_
+#ifndef ANICODEC_TOOLS_PEERS_CUBIC_GRID_H_
+#define ANICODEC_TOOLS_PEERS_CUBIC_GRID_H_
 
 #include "codec/mesh_sequence.h"
 #include "codec/metrics.h"
@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace anicodec::bench {
+namespace anicodec::peers {
 
 struct GriddedClip {
   double origin[3] = {0, 0, 0};  ///< smallest position
@@ -29,6 +29,6 @@ GriddedClip on_grid(const MeshSequence& sequence, double step);
 /// least 99.5 % of what is asked unless the clip does not move at all.
 GriddedClip on_grid_at_kg(const MeshSequence& sequence, double kg);
 
-}  // namespace anicodec::bench
+}  // namespace anicodec::peers
 
-#endif  // ANICODEC_TESTS_BENCH_CUBIC_GRID_H_
+#endif  // ANICODEC_TOOLS_PEERS_CUBIC_GRID_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tests/bench/cubic_grid.h"
+#include "tools/peers/cubic_grid.h"
 
 #include "codec/error.h"
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace anicodec::bench {
+namespace anicodec::peers {
 
 GriddedClip on_grid(const MeshSequence& sequence, double step) {
   GriddedClip clip;
@@ -60,4 +60,4 @@ GriddedClip on_grid_at_kg(const MeshSequence& sequence, double kg) {
   return best;
 }
 
-}  // namespace anicodec::bench
+}  // namespace anicodec::peers

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tests/bench/draco_frames.h"
+#include "tools/peers/draco_frames.h"
 
 #include "codec/error.h"
 #include "codec/metrics.h"
@@ -21,7 +21,7 @@
 #include <draco/mesh/mesh.h>
 #pragma GCC diagnostic pop
 
-namespace anicodec::bench {
+namespace anicodec::peers {
 namespace {
 
 constexpr int kFewestBits = 4, kMostBits = 24;
@@ -173,4 +173,4 @@ uint32_t decode_draco(std::span<const char> bytes) {
   return result.value()->num_points();
 }
 
-}  // namespace anicodec::bench
+}  // namespace anicodec::peers

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/report/report.h"
+
+#include "corpus/clips.h"
+#include "tests/tools/command_testing.h"
+#include "tools/io/write_sequence.h"
+#include "tools/report/chart.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Chart, DrawsAPointWhereItsValuesAre) {
+  Chart chart;
+  chart.series = {{"a<b", {{0, 0}, {10, 100}}, false}, {"c", {{5, 50}}, true}};
+  const std::string svg = svg_of(chart);
+  EXPECT_THAT(svg, HasSubstr("a&lt;b: 10, 100"));
+  EXPECT_THAT(svg, HasSubstr(">60</text>"));
+  EXPECT_THAT(svg, HasSubstr("s1 dashed"));
+}
+
+TEST(Chart, LeavesOutWhatALogarithmCannotShow) {
+  Chart chart;
+  chart.log_y = true;
+  chart.series = {{"a", {{1, 0}, {2, -1}}, false}};
+  EXPECT_THAT(svg_of(chart), HasSubstr("Nothing to draw"));
+  chart.series[0].points.emplace_back(3, 0.1);
+  EXPECT_THAT(svg_of(chart), HasSubstr("<circle"));
+}
+
+TEST(Report, NeedsNothingButABrowser) {
+  TemporaryFolder folder;
+  write_sequence(folder / "limb.pc2", corpus::make_clip("limb"));
+  Outcome outcome = anicodec({"analyze", folder / "limb.obj", folder / "limb.pc2", "--counts",
+                              "2,8", "--effort", "1", "-o", folder / "r.html", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const std::string page = folder.read("r.html");
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  EXPECT_THAT(page, Not(HasSubstr("Nothing to draw")));
+  const nlohmann::json json = outcome.json();
+  EXPECT_EQ(json["frames"], 72);
+  uint64_t shares = 0;
+  for (const auto& [what, bytes] : json["shares"].items())
+    shares += bytes.get<uint64_t>();
+  EXPECT_EQ(json["shown_bytes"], shares);
+  EXPECT_EQ(json["frame_errors"].size(), 72U);
+  double before = 0;
+  for (const auto& point : json["rates"]) {
+    if (point["codec"] != "anicodec")
+      continue;
+    EXPECT_GT(point["bytes"], before);
+    before = point["bytes"];
+  }
+  EXPECT_GT(before, 0);
+}
+
+TEST(Report, TakesClipsWithoutFacesOrMotion) {
+  for (const char* name : {"points", "one_frame", "one_vertex"}) {
+    MeshSequence clip = corpus::make_clip(name);
+    clip.name = "<b>";
+    ReportOptions options;
+    options.effort = 1;
+    options.counts = {1};
+    const std::string page = report_page(make_report(clip, options));
+    EXPECT_THAT(page, HasSubstr("&lt;b&gt;")) << name;
+    EXPECT_THAT(page, HasSubstr("</html>")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace anicodec::tools

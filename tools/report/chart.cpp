@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/report/chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr double kWidth = 640, kHeight = 360, kLeft = 62, kRight = 14, kTop = 12, kBottom = 44;
+
+/// One direction of a chart: from values to positions, with ticks at round values.
+class Axis {
+ public:
+  Axis(double low, double high, bool logarithmic) : logarithmic_(logarithmic) {
+    low_ = map(low);
+    high_ = map(high);
+    const double margin = high_ > low_ ? 0.04 * (high_ - low_) : 0.5;
+    low_ -= margin;
+    high_ += margin;
+    if (!logarithmic_ && low >= 0)
+      low_ = std::max(low_, 0.0);
+  }
+
+  double share(double value) const { return (map(value) - low_) / (high_ - low_); }
+
+  std::vector<double> ticks() const {
+    std::vector<double> out;
+    if (logarithmic_) {
+      // 1, 2, 5 where there are few decades, else powers of ten.
+      const bool few = high_ - low_ < 2.5;
+      for (double decade = std::floor(low_); decade <= high_; ++decade) {
+        for (double digit : {1.0, 2.0, 5.0}) {
+          const double value = digit * std::pow(10, decade);
+          if ((few || digit == 1) && map(value) >= low_ && map(value) <= high_)
+            out.push_back(value);
+        }
+      }
+      return out;
+    }
+    const double rough = (high_ - low_) / 6, decade = std::pow(10, std::floor(std::log10(rough)));
+    double step = 10 * decade;
+    for (double digit : {5.0, 2.0, 1.0}) {
+      if (digit * decade >= rough)
+        step = digit * decade;
+    }
+    for (double value = std::ceil(low_ / step) * step; value <= high_; value += step)
+      out.push_back(std::abs(value) < 1e-9 * step ? 0 : value);
+    return out;
+  }
+
+ private:
+  double map(double value) const { return logarithmic_ ? std::log10(value) : value; }
+
+  bool logarithmic_;
+  double low_, high_;
+};
+
+std::string label_of(double value) {
+  const double size = std::abs(value);
+  if (size >= 1e6)
+    return fmt::format("{:g}M", value / 1e6);
+  if (size >= 1e4)
+    return fmt::format("{:g}k", value / 1e3);
+  return fmt::format("{:.4g}", value);
+}
+
+}  // namespace
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    switch (c) {
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string svg_of(const Chart& chart) {
+  double low[2], high[2];
+  std::fill_n(low, 2, std::numeric_limits<double>::infinity());
+  std::fill_n(high, 2, -std::numeric_limits<double>::infinity());
+  auto shown = [&](const std::pair<double, double>& p) {
+    return std::isfinite(p.first) && std::isfinite(p.second) && (!chart.log_x || p.first > 0) &&
+           (!chart.log_y || p.second > 0);
+  };
+  for (const Series& series : chart.series) {
+    for (const auto& p : series.points) {
+      if (!shown(p))
+        continue;
+      const double value[2] = {p.first, p.second};
+      for (int i = 0; i < 2; ++i) {
+        low[i] = std::min(low[i], value[i]);
+        high[i] = std::max(high[i], value[i]);
+      }
+    }
+  }
+  if (!(low[0] <= high[0]))
+    return "<p>Nothing to draw.</p>";
+  const Axis x(low[0], high[0], chart.log_x), y(low[1], high[1], chart.log_y);
+  auto px = [&](double v) { return kLeft + x.share(v) * (kWidth - kLeft - kRight); };
+  auto py = [&](double v) { return kHeight - kBottom - y.share(v) * (kHeight - kTop - kBottom); };
+
+  std::string out =
+      fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\">", kWidth, kHeight);
+  for (double tick : x.ticks())
+    out += fmt::format(
+        "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
+        "text-anchor=\"middle\">{4}</text>",
+        px(tick), kTop, kHeight - kBottom, kHeight - kBottom + 16, label_of(tick));
+  for (double tick : y.ticks())
+    out += fmt::format(
+        "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}H{2:.1f}\"/><text x=\"{3:.1f}\" y=\"{4:.1f}\" "
+        "text-anchor=\"end\">{5}</text>",
+        kLeft, py(tick), kWidth - kRight, kLeft - 6, py(tick) + 4, label_of(tick));
+  out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
+                     (kLeft + kWidth - kRight) / 2, kHeight - 8, escaped(chart.x_label));
+  out += fmt::format(
+      "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+      (kTop + kHeight - kBottom) / 2, escaped(chart.y_label));
+  std::string legend;
+  for (size_t s = 0; s < chart.series.size(); ++s) {
+    const Series& series = chart.series[s];
+    std::string path, dots;
+    for (const auto& p : series.points) {
+      if (!shown(p))
+        continue;
+      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px(p.first), py(p.second));
+      if (chart.dots)
+        dots += fmt::format(
+            "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"><title>{}: {:.6g}, "
+            "{:.4g}</title></circle>",
+            px(p.first), py(p.second), escaped(series.name), p.first, p.second);
+    }
+    out += fmt::format("<g class=\"s{}{}\"><path class=\"line\" d=\"{}\"/>{}</g>", s % 8,
+                       series.dashed ? " dashed" : "", path, dots);
+    legend += fmt::format("<span class=\"s{}{}\"><i></i>{}</span> ", s % 8,
+                          series.dashed ? " dashed" : "", escaped(series.name));
+  }
+  out += "</svg>";
+  if (chart.series.size() > 1)
+    out += "<figcaption class=\"legend\">" + legend + "</figcaption>";
+  return out + "</figure>";
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_REPORT_CHART_H_
+#define ANICODEC_TOOLS_REPORT_CHART_H_
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace anicodec::tools {
+
+/// A line of a chart. Points are drawn in the order given.
+struct Series {
+  std::string name;
+  std::vector<std::pair<double, double>> points;
+  bool dashed = false;
+};
+
+struct Chart {
+  std::string x_label, y_label;
+  bool log_x = false, log_y = false;  ///< values that are not above 0 are then left out
+  bool dots = true;
+  std::vector<Series> series;
+};
+
+/// The chart as an SVG element with its legend below. Colours are the classes s0, s1, ... of the
+/// page, so that they follow its theme; every point has a title with its values.
+std::string svg_of(const Chart& chart);
+
+/// Text as it may stand in HTML.
+std::string escaped(const std::string& text);
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_REPORT_CHART_H_

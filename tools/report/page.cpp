@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/quantity.h"
+#include "tools/report/chart.h"
+#include "tools/report/report.h"
+#include "tools/version.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kStyle = R"(
+:root{color-scheme:light dark;--page:#fff;--text:#1c2430;--quiet:#5a6675;--rule:#e1e5ea;--card:#f6f8fa;
+--c0:#1f6feb;--c1:#d1660a;--c2:#1a7f4b;--c3:#b02a5b;--c4:#6f42c1;--c5:#00788a;--c6:#8a6d00;--c7:#6b7280}
+@media(prefers-color-scheme:dark){:root{--page:#12161c;--text:#e6eaf0;--quiet:#9aa6b5;--rule:#2b333d;
+--card:#1a2028;--c0:#6ea8ff;--c1:#ffa657;--c2:#56d39b;--c3:#ff7eb0;--c4:#b99aff;--c5:#4fd1e5;--c6:#e3c34c;--c7:#aab4c0}}
+*{box-sizing:border-box}
+body{margin:0;background:var(--page);color:var(--text);font:16px/1.5 system-ui,sans-serif}
+main{max-width:1080px;margin:0 auto;padding:24px 16px 64px}
+h1{font-size:1.7rem;margin:0 0 4px}h2{font-size:1.2rem;margin:40px 0 8px;border-top:1px solid var(--rule);padding-top:20px}
+p{max-width:46em}.quiet{color:var(--quiet)}
+.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(140px,1fr));gap:12px;margin:20px 0}
+.tiles div{background:var(--card);border-radius:8px;padding:12px 14px}
+.tiles b{display:block;font-size:1.35rem;font-variant-numeric:tabular-nums}
+.charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(420px,100%),1fr));gap:16px}
+figure{margin:0;min-width:0}svg{width:100%;height:auto;display:block}
+svg text{fill:var(--quiet);font:12px system-ui,sans-serif}.grid{stroke:var(--rule);fill:none}
+.line{fill:none;stroke:currentColor;stroke-width:2}circle{fill:currentColor}
+.dashed .line{stroke-dasharray:5 4}
+.s0{color:var(--c0)}.s1{color:var(--c1)}.s2{color:var(--c2)}.s3{color:var(--c3)}
+.s4{color:var(--c4)}.s5{color:var(--c5)}.s6{color:var(--c6)}.s7{color:var(--c7)}
+.legend{font-size:.85rem;line-height:1.9}.legend span{white-space:nowrap;margin-right:12px}
+.legend i{display:inline-block;width:18px;border-top:3px solid;margin-right:5px;vertical-align:middle}
+.legend .dashed i{border-top-style:dashed}
+.scroll{overflow-x:auto}table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
+th,td{padding:4px 12px 4px 0;text-align:right;white-space:nowrap;border-bottom:1px solid var(--rule)}
+th:first-child,td:first-child{text-align:left}
+.bar{height:26px;display:flex;border-radius:6px;overflow:hidden;margin:12px 0}
+.bar span{background:currentColor;min-width:1px}
+img{max-width:100%;height:auto;border-radius:8px;display:block}
+.pictures figure{margin:0 0 16px}.sheet{display:grid;grid-template-columns:repeat(auto-fill,minmax(140px,1fr));gap:10px}
+figcaption{color:var(--quiet);font-size:.85rem;margin-top:4px}
+)";
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t group = 0;
+    for (size_t j = 0; j < 3; ++j)
+      group = group << 8 | (i + j < bytes.size() ? static_cast<uint8_t>(bytes[i + j]) : 0U);
+    for (size_t j = 0; j < 4; ++j)
+      out += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63] : '=';
+  }
+  return out;
+}
+
+std::string picture(const ReportPicture& p) {
+  return fmt::format(
+      "<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" src=\"data:image/png;base64,{3}\">"
+      "<figcaption>{0}</figcaption></figure>",
+      escaped(p.caption), p.image.width, p.image.height, base64(png_bytes(p.image)));
+}
+
+std::string tile(const std::string& value, const std::string& what) {
+  return fmt::format("<div><b>{}</b><span class=\"quiet\">{}</span></div>", value, what);
+}
+
+/// Lines by codec, in the order of their names.
+template <class Value>
+Chart rate_chart(const Report& report, const char* label, Value value) {
+  Chart chart;
+  chart.x_label = "bits per vertex and frame";
+  chart.y_label = label;
+  chart.log_x = chart.log_y = true;
+  for (const RatePoint& p : report.rates) {
+    if (chart.series.empty() || chart.series.back().name != p.codec)
+      chart.series.push_back({p.codec, {}, !is_own(p.codec)});
+    chart.series.back().points.emplace_back(p.bpfv, value(p));
+  }
+  return chart;
+}
+
+/// Errors of the methods whose names `wanted` accepts, against the number of elements.
+template <class Wanted>
+Chart basis_chart(const Report& report, Wanted wanted) {
+  Chart chart;
+  chart.x_label = "key-frames or components";
+  chart.y_label = "KG error in %";
+  chart.log_y = true;
+  for (const BasisError& e : report.basis_errors) {
+    if (!wanted(e.method))
+      continue;
+    if (chart.series.empty() || chart.series.back().name != e.method)
+      chart.series.push_back({e.method, {}, e.method.rfind("pca", 0) == 0});
+    chart.series.back().points.emplace_back(static_cast<double>(e.k), e.kg);
+  }
+  return chart;
+}
+
+std::string rate_table(const Report& report) {
+  std::string out =
+      "<div class=\"scroll\"><table><tr><th>codec</th><th>bytes</th><th>bits per vertex and "
+      "frame</th><th>KG error %</th><th>largest error, % of diagonal</th><th>STED</th></tr>";
+  for (const RatePoint& p : report.rates)
+    out += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td></"
+        "tr>",
+        escaped(p.codec), grouped(p.bytes), p.bpfv, p.kg, p.max_error_percent, p.sted);
+  return out + "</table></div>";
+}
+
+std::string share_bar(const Report& report) {
+  std::string bar, legend;
+  for (size_t i = 0; i < report.shares.size(); ++i) {
+    const ByteShare& share = report.shares[i];
+    const double percent =
+        100 * static_cast<double>(share.bytes) / static_cast<double>(report.shown_bytes);
+    bar += fmt::format("<span class=\"s{}\" style=\"width:{:.2f}%\" title=\"{}\"></span>", i % 8,
+                       percent, escaped(share.what));
+    legend += fmt::format("<span class=\"s{}\"><i></i>{}: {} bytes, {:.1f} %</span> ", i % 8,
+                          escaped(share.what), grouped(share.bytes), percent);
+  }
+  return "<div class=\"bar\">" + bar + "</div><div class=\"legend\">" + legend + "</div>";
+}
+
+Chart frame_chart(const Report& report) {
+  Chart chart;
+  chart.x_label = "frame";
+  chart.y_label = "error, % of the diagonal";
+  chart.dots = false;
+  chart.series = {{"largest", {}, false}, {"root mean square", {}, false}};
+  for (size_t f = 0; f < report.shown.frames.size(); ++f) {
+    const FrameError& e = report.shown.frames[f];
+    chart.series[0].points.emplace_back(static_cast<double>(f), report.shown.percent(e.max));
+    chart.series[1].points.emplace_back(static_cast<double>(f), report.shown.percent(e.rmse));
+  }
+  return chart;
+}
+
+bool starts_with(const std::string& text, const char* prefix) {
+  return text.rfind(prefix, 0) == 0;
+}
+
+}  // namespace
+
+std::string report_page(const Report& report) {
+  const std::string name = escaped(report.name.empty() ? "clip" : report.name);
+  std::string out = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
+      "<title>{0} – anicodec</title><style>{1}</style></head><body><main><h1>{0}</h1>"
+      "<p class=\"quiet\">{2} vertices, {3} faces, {4} frames at {5:.4g} per second. Made by "
+      "anicodec {6}.</p>",
+      name, kStyle, grouped(report.vertices), grouped(report.faces), report.frames,
+      report.frame_rate, version());
+  const double raw = 12.0 * report.vertices * report.frames;
+  if (report.shown_bytes > 0) {
+    const auto bytes = static_cast<double>(report.shown_bytes);
+    out += "<div class=\"tiles\">" +
+           tile(readable_bytes(report.shown_bytes),
+                fmt::format("at a KG error of {:g} %", report.shown_kg)) +
+           tile(fmt::format("{:.0f} : 1", raw / bytes), "against float32 positions") +
+           tile(fmt::format("{:.3f}", 8 * bytes / report.vertices / report.frames),
+                "bits per vertex and frame") +
+           tile(fmt::format("{:.3g} %", report.shown.percent(report.shown.max_error)),
+                "largest error, of the diagonal") +
+           "</div>";
+  }
+  out +=
+      "<h2>Size against error</h2><p>Whole files. Lower and further left is better. Other codecs "
+      "are dashed: they store the positions of a cubic grid whose step gives the error.</p>"
+      "<div class=\"charts\">";
+  out += svg_of(rate_chart(report, "KG error in %", [](const RatePoint& p) { return p.kg; }));
+  out += svg_of(rate_chart(report, "largest error, % of the diagonal",
+                           [](const RatePoint& p) { return p.max_error_percent; }));
+  out += svg_of(rate_chart(report, "STED", [](const RatePoint& p) { return p.sted; }));
+  out += "</div>" + rate_table(report);
+  if (report.shown_bytes > 0) {
+    out += fmt::format(
+        "<h2>Where the bytes went</h2><p>The file of {} bytes at a KG error of {:g} %."
+        "</p>",
+        grouped(report.shown_bytes), report.shown_kg);
+    out += share_bar(report);
+    out += "<h2>Where the error is</h2><div class=\"charts\">" + svg_of(frame_chart(report)) +
+           "</div>";
+    if (!report.pictures.empty()) {
+      out +=
+          "<p>Original, decoded, and the decoded frame coloured by error: grey is none, black the "
+          "largest of the clip.</p><div class=\"pictures\">";
+      for (const ReportPicture& p : report.pictures)
+        out += picture(p);
+      out += "</div>";
+    }
+  }
+  out +=
+      "<h2>Key-frames and components</h2><p>The clip expressed by so many exact key-frames, chosen "
+      "by Neural Gas (gas), pivoting (pivot) or evenly (uniform), or by principal components "
+      "(pca, dashed). Nothing is quantised.</p><div class=\"charts\">";
+  for (const char* weights : {"linear", "sum-to-one", "rigid"}) {
+    const Chart chart = basis_chart(report, [&](const std::string& method) {
+      const bool rigid = std::string(weights) == "rigid";
+      return method.find(std::string("-") + weights) != std::string::npos ||
+             (!rigid && starts_with(method, "pca") && method != "pca-mean-rigid");
+    });
+    out += svg_of(chart);
+  }
+  out += "</div>";
+  if (!report.keyframes.empty()) {
+    out += "<p>Key-frames that pivoting takes first.</p><div class=\"sheet\">";
+    for (const ReportPicture& p : report.keyframes)
+      out += picture(p);
+    out += "</div>";
+  }
+  return out + "</main></body></html>\n";
+}
+
+}  // namespace anicodec::tools
