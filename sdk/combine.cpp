@@ -59,16 +59,6 @@ void set_frame(const FrameState& state, const VertexOutput& output, uint32_t fir
   frame->scale = output_scale(output);
 }
 
-const CombineKernels& fastest_kernels() {
-#if defined(ANICODEC_COMBINE_AVX2)
-  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-      __get_cpuid(1, &eax, &ebx, &ecx, &edx) && (ecx & bit_F16C))
-    return kCombineKernelsAvx2;
-#endif
-  return kCombineKernelsPortable;
-}
-
 }  // namespace
 
 FrameState frame_state(const Segment& segment, uint32_t frame) {
@@ -88,18 +78,28 @@ FrameState frame_state(const Segment& segment, uint32_t frame) {
   return state;
 }
 
-const CombineKernels& combine_kernels() {
-  static const CombineKernels& best = fastest_kernels();
-  return best;
-}
-
 size_t all_combine_kernels(const CombineKernels* (&out)[kMaxCombineKernels]) {
   size_t count = 0;
   out[count++] = &kCombineKernelsScalar;
   out[count++] = &kCombineKernelsPortable;
-  if (&combine_kernels() != &kCombineKernelsPortable)
-    out[count++] = &combine_kernels();
+#if defined(ANICODEC_COMBINE_AVX2)
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+      __get_cpuid(1, &eax, &ebx, &ecx, &edx) && (ecx & bit_F16C)) {
+    out[count++] = &kCombineKernelsAvx2;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
+      out[count++] = &kCombineKernelsAvx512;
+  }
+#endif
   return count;
+}
+
+const CombineKernels& combine_kernels() {
+  static const CombineKernels& fastest = []() -> const CombineKernels& {
+    const CombineKernels* all[kMaxCombineKernels];
+    return *all[all_combine_kernels(all) - 1];
+  }();
+  return fastest;
 }
 
 const char* combine_kernels_name() {

@@ -39,8 +39,8 @@ void combine(const FrameState* states, uint32_t frames, uint32_t first, uint32_t
 /// One frame, three floats for each vertex, without gaps.
 void combine(const FrameState& state, uint32_t first, uint32_t count, float* out);
 
-/// What combine() runs on this machine: "avx2", "portable" (the instruction set of the build) or
-/// "scalar".
+/// What combine() runs on this machine: "avx512", "avx2", "portable" (the instruction set of the
+/// build) or "scalar".
 const char* combine_kernels_name();
 
 }  // namespace anicodec

@@ -39,6 +39,7 @@ void transform(const float* map, const float (*in)[kBlock], Block& out) {
   }
 }
 
+template <uint32_t Channels>
 void combine_block(const CombineJob& job, const CombineJob::Frame& frame, uint32_t block,
                    Block& sum) {
   if (job.pose) {
@@ -48,10 +49,10 @@ void combine_block(const CombineJob& job, const CombineJob::Frame& frame, uint32
   } else {
     __builtin_memset(sum, 0, sizeof sum);
   }
-  const size_t scalars = size_t{block} * job.channels * kBlock;
+  const size_t scalars = size_t{block} * Channels * kBlock;
   const int32_t* wide = job.wide + scalars * job.wide_components;
   const int16_t* narrow = job.narrow + scalars * job.narrow_components;
-  if (job.channels == 3) {
+  if (Channels == 3) {
     add_vectors(wide, frame.weights, job.wide_components, sum);
     add_vectors(narrow, frame.weights + job.wide_components, job.narrow_components, sum);
   } else {
@@ -62,11 +63,6 @@ void combine_block(const CombineJob& job, const CombineJob::Frame& frame, uint32
   for (uint32_t c = 0; !job.pose && c < 3; ++c) {  // last, as it may be large
     for (uint32_t i = 0; i < kBlock; ++i)
       sum[c][i] += job.origin[c];
-  }
-  if (frame.motion) {
-    Block still;
-    __builtin_memcpy(still, sum, sizeof still);
-    transform(frame.motion, still, sum);
   }
 }
 
@@ -90,10 +86,22 @@ uint16_t element(VertexFormat format, float x) {
 }
 
 struct ScalarKernel {
-  template <uint32_t F>
-  static void sums(const CombineJob& job, uint32_t block, Block* sums) {
-    for (uint32_t f = 0; f < F; ++f)
-      combine_block(job, job.frame[f], block, sums[f]);
+  template <uint32_t F, uint32_t Channels>
+  static void sums(const CombineJob& job, uint32_t block, Block* sums,
+                   unsigned char* const* direct) {
+    for (uint32_t f = 0; f < F; ++f) {
+      combine_block<Channels>(job, job.frame[f], block, sums[f]);
+      for (uint32_t i = 0; direct && i < kBlock; ++i) {
+        const float point[3] = {sums[f][0][i], sums[f][1][i], sums[f][2][i]};
+        __builtin_memcpy(direct[f] + 12 * i, point, sizeof point);
+      }
+    }
+  }
+
+  static void move(const float* motion, Block& sum) {
+    Block still;
+    __builtin_memcpy(still, sum, sizeof still);
+    transform(motion, still, sum);
   }
 
   static void write(const CombineJob::Frame& frame, const Block& sum, uint32_t begin, uint32_t end,

@@ -11,7 +11,7 @@
 #include "sdk/half_float.h"
 #include "sdk/lanes.h"
 
-#if defined(__x86_64__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 

@@ -37,6 +37,12 @@ Table run_decode(const BenchOptions& options, double kg, int runs);
 Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames, uint32_t shapes,
                 int runs);
 
+/// Playing one frame, and four per pass, of random bases of so many vertices and components, against
+/// Draco decoding a frame, Eigen's float product, reading the coefficients and the limit of
+/// multiply-adds; one thread. The clips of the options count as vertices too, with their Draco frame.
+Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertices,
+               const std::vector<uint32_t>& components, int runs);
+
 /// Bytes with each kind of basis and with the choice between them.
 Table run_auto(const BenchOptions& options, double kg);
 

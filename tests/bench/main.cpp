@@ -35,6 +35,7 @@ struct Arguments {
   double max_error = 0.002;
   int runs = 5;
   uint32_t vertices = 210000, frames = 100, shapes = 30;
+  std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
 
   void print(const std::string& command, const std::vector<Table>& tables) const {
     TableStyle style = csv ? TableStyle::kCsv : TableStyle::kText;
@@ -145,6 +146,26 @@ void add_decode(CLI::App& app, Arguments& a) {
   add_basis(*command, a);
 }
 
+void add_play(CLI::App& app, Arguments& a) {
+  CLI::App* command = add(
+      app, a, "play", "Time to play a frame, against Draco, Eigen and the machine's limits",
+      [](Arguments& args) {
+        if (!args.inputs.empty() || !args.clips.empty())
+          args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{run_play(args.bench, args.play_vertices, args.components, args.runs)};
+      });
+  command
+      ->add_option("--vertices", a.play_vertices, "Vertices (default 7000,42000,210000; 0: none)")
+      ->option_text("N,...")
+      ->delimiter(',');
+  command->add_option("--components", a.components, "Components (default 16,43,100,163)")
+      ->option_text("N,...")
+      ->delimiter(',');
+  command->add_option("--runs", a.runs, "Runs to take the median of (default 5)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1000));
+}
+
 void add_auto(CLI::App& app, Arguments& a) {
   CLI::App* command =
       add(app, a, "auto", "Bytes with each kind of basis and with auto", [](Arguments& args) {
@@ -161,7 +182,7 @@ int run(int argc, const char* const* argv) {
   CLI::App app("Measures anicodec on clips against other ways to store them.", "anicodec_bench");
   app.require_subcommand(1);
   app.footer(kFooter);
-  for (auto add_command : {add_rate, add_near, add_decode, add_auto})
+  for (auto add_command : {add_rate, add_near, add_decode, add_play, add_auto})
     add_command(app, arguments);
   try {
     app.parse(argc, argv);
