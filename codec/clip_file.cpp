@@ -36,7 +36,7 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
   for (const EncodedSegment* segment : segments) {
     limits.frames += segment->sizes.frames;
     limits.segments.push_back(segment->sizes);
-    std::span<const std::vector<int32_t>> carried = segment->poses_for_draco();
+    std::span<const Vector<int32_t>> carried = segment->poses_for_draco();
     if (carried.empty())
       continue;
     if (!carried_of) {

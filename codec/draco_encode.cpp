@@ -42,7 +42,7 @@ void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, size_
   description.Init(type, nullptr, static_cast<uint8_t>(components), draco::DT_INT32, false,
                    static_cast<int64_t>(components * sizeof(int32_t)), 0);
   int id = mesh.AddAttribute(description, true, mesh.num_points());
-  std::vector<int32_t> values(components);
+  Vector<int32_t> values(components);
   for (uint32_t p = 0; p < mesh.num_points(); ++p) {
     fill(p, values.data());
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(p), values.data());
@@ -94,7 +94,7 @@ std::vector<uint32_t> decoding_order(uint32_t points, std::span<const uint32_t> 
 }  // namespace
 
 format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> triangles,
-                                std::span<const std::vector<int32_t>> poses,
+                                std::span<const Vector<int32_t>> poses,
                                 std::span<const uint32_t> rows,
                                 std::vector<uint32_t>* points_by_decoded) {
   if (triangles.empty() || poses.size() > kMaxDracoPoses)

@@ -38,7 +38,7 @@ format::ClipRecord describe(const MeshSequence& sequence, const EncodeOptions& o
   record.order = options.order;
   record.start_time = sequence.start_time;
   record.metres_per_unit = sequence.metres_per_unit;
-  record.times = sequence.times;
+  record.times.assign(sequence.times.begin(), sequence.times.end());
   record.asked = target.metric;
   record.asked_value = target.value;
   record.diagonal = clip_diagonal;
@@ -57,7 +57,7 @@ Comparison check_file(const format::Bytes& file, const EncoderInput& input) {
   const uint32_t vertices = input.sequence.vertex_count;
   std::vector<uint32_t> played_of(vertices);  // the played vertex that shows a vertex of the source
   if (clip.record().order == format::OrderMode::kFree) {
-    const std::vector<uint32_t>& coded = clip.meshes()[0].topology.vertex_coded;
+    const Vector<uint32_t>& coded = clip.meshes()[0].topology.vertex_coded;
     std::vector<uint32_t> place(layout.sizes.coded_vertices);
     for (uint32_t v = 0; v < coded.size(); ++v)
       place[coded[v]] = v;

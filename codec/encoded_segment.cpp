@@ -49,7 +49,7 @@ size_t EncodedSegment::bytes() const {
   return total;
 }
 
-std::span<const std::vector<int32_t>> EncodedSegment::poses_for_draco() const {
+std::span<const Vector<int32_t>> EncodedSegment::poses_for_draco() const {
   if (reference && reference->coder == format::CoderId::kDraco)
     return {&reference->grid.points, 1};
   return draco_poses;
@@ -113,7 +113,7 @@ void correct(const FrameView& source, const std::vector<uint32_t>& copies, doubl
   double step = 1.9 * bound / std::sqrt(3.0);
   segment.correction_begin.clear();
   segment.corrections.clear();
-  std::vector<std::vector<IntegerCorrection>> frames(segment.frames);
+  std::vector<Vector<IntegerCorrection>> frames(segment.frames);
   std::vector<uint8_t> too_fine(segment.frames, 0);
   for_each_frame(segment, [&](uint32_t f, const float* decoded) {
     const float* original = source.frame(f);
@@ -138,7 +138,7 @@ void correct(const FrameView& source, const std::vector<uint32_t>& copies, doubl
   CorrectionCoding coding(segment.vertices);
   BinaryEncoder encoder;
   size_t total = 0;
-  for (std::vector<IntegerCorrection>& frame : frames) {
+  for (Vector<IntegerCorrection>& frame : frames) {
     for (const IntegerCorrection& c : frame)
       total += copies[c.vertex];
     coding.code_frame(encoder, frame.size(), &frame);
@@ -152,7 +152,7 @@ void correct(const FrameView& source, const std::vector<uint32_t>& copies, doubl
   writer.raw(encoder.finish());
   encoded.corrections = std::move(writer.bytes());
   segment.correction_begin.assign(1, 0);
-  for (const std::vector<IntegerCorrection>& frame : frames) {
+  for (const Vector<IntegerCorrection>& frame : frames) {
     for (const IntegerCorrection& c : frame) {
       Segment::Correction& correction = segment.corrections.emplace_back();
       correction.vertex = c.vertex;

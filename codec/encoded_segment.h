@@ -29,7 +29,7 @@ struct EncodedSegment {
   format::Bytes parameters, pose, motion, weights;
   std::vector<format::Bytes> layers;              ///< chunks BASI
   format::Bytes corrections;                      ///< chunk CORR
-  std::vector<std::vector<int32_t>> draco_poses;  ///< to be carried by the mesh's Draco bitstream
+  std::vector<Vector<int32_t>> draco_poses;  ///< to be carried by the mesh's Draco bitstream
   std::shared_ptr<const EncodedPose> reference;   ///< of linear bases; segments may share it
   uint64_t hash = 0;
 
@@ -37,7 +37,7 @@ struct EncodedSegment {
   size_t bytes() const;
 
   /// The poses that the mesh's Draco bitstream is to carry.
-  std::span<const std::vector<int32_t>> poses_for_draco() const;
+  std::span<const Vector<int32_t>> poses_for_draco() const;
 };
 
 /// How far a decoded segment is from the coded vertices of the source.

@@ -15,7 +15,7 @@
 namespace anicodec {
 namespace {
 
-using Pose = std::vector<int32_t>;
+using Pose = Vector<int32_t>;
 
 constexpr double kWeightShare = 0.3;  // of the key-frames' rounding error, in squares
 constexpr int32_t kLargest = 1 << 28;
@@ -50,7 +50,7 @@ Pose quantised(const std::vector<float>& points, const Eigen::Vector3d& origin, 
 /// About the bits that a mesh coder spends on a pose, or on a difference of poses: how much
 /// neighbours differ, over a sample of edges.
 double edge_cost(const MeshLayout& layout, const Pose& pose, const Pose* parent) {
-  const std::vector<uint32_t>& triangles = layout.topology.triangles;
+  const Vector<uint32_t>& triangles = layout.topology.triangles;
   size_t stride = 3 * std::max<size_t>(1, triangles.size() / 3 / 2000);
   double bits = 0;
   for (size_t t = 0; t + 2 < triangles.size(); t += stride) {
@@ -66,8 +66,8 @@ double edge_cost(const MeshLayout& layout, const Pose& pose, const Pose* parent)
 }
 
 /// For each key-frame 0, or one more than the earlier one it is cheapest to code against.
-std::vector<uint32_t> choose_parents(const MeshLayout& layout, const std::vector<Pose>& poses) {
-  std::vector<uint32_t> parents(poses.size(), 0);
+Vector<uint32_t> choose_parents(const MeshLayout& layout, const std::vector<Pose>& poses) {
+  Vector<uint32_t> parents(poses.size(), 0);
   for (uint32_t j = 0; j < poses.size(); ++j) {
     double least = edge_cost(layout, poses[j], nullptr);
     for (uint32_t p = 0; p < j; ++p) {
@@ -81,7 +81,7 @@ std::vector<uint32_t> choose_parents(const MeshLayout& layout, const std::vector
   return parents;
 }
 
-void code_series(BinaryEncoder& encoder, SeriesCoding& coding, std::vector<int32_t>& series) {
+void code_series(BinaryEncoder& encoder, SeriesCoding& coding, Vector<int32_t>& series) {
   if (!coding.code(encoder, series.size(), SeriesCoding::best_order(series), &series))
     throw TooFine();
 }
@@ -93,7 +93,7 @@ int32_t rounded(double x) {
 /// Quaternions with no jump of sign, then translations, as integers.
 format::Bytes code_motions(const std::vector<RigidMotion>& motions,
                            const KeyframeParameters& parameters) {
-  std::vector<int32_t> series[7];
+  Vector<int32_t> series[7];
   Eigen::Vector4d before(0, 0, 0, 1);
   for (const RigidMotion& motion : motions) {
     Eigen::Vector4d q = Eigen::Quaterniond(motion.rotation).coeffs();
@@ -107,7 +107,7 @@ format::Bytes code_motions(const std::vector<RigidMotion>& motions,
   }
   BinaryEncoder encoder;
   SeriesCoding coding;
-  for (std::vector<int32_t>& s : series)
+  for (Vector<int32_t>& s : series)
     code_series(encoder, coding, s);
   return encoder.finish();
 }
@@ -130,7 +130,7 @@ EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, K
   parameters.rigid = kind == KeyframeWeights::kRigid;
   parameters.coder = layout.coder;
   parameters.step = step;
-  parameters.frames = fit.keyframes;
+  parameters.frames.assign(fit.keyframes.begin(), fit.keyframes.end());
   Eigen::Vector3d origin = parameters.rigid ? Eigen::Vector3d::Zero().eval() : mean_position;
   std::copy_n(origin.data(), 3, parameters.origin);
 
@@ -189,7 +189,7 @@ EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, K
   BinaryEncoder encoder;
   SeriesCoding coding;
   for (size_t j = parameters.sum_to_one ? 1 : 0; j < k; ++j) {
-    std::vector<int32_t> series(clip.frame_count);
+    Vector<int32_t> series(clip.frame_count);
     for (size_t f = 0; f < clip.frame_count; ++f)
       series[f] = rounded(
           std::ldexp(fit.weights(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(j)),

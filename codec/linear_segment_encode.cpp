@@ -64,7 +64,7 @@ std::shared_ptr<const EncodedPose> reference_pose(const LinearBasis& basis, doub
 }
 
 /// Values of the affine functions of a pose: vertices x 4.
-MatrixXd function_values(const std::vector<int32_t>& pose) {
+MatrixXd function_values(const Vector<int32_t>& pose) {
   AffineFunctions functions = AffineFunctions::of(pose.data(), pose.size() / 3);
   MatrixXd values(static_cast<Index>(pose.size() / 3), Index{kAffineFunctions});
   for (Index v = 0; v < values.rows(); ++v) {
@@ -87,7 +87,7 @@ class WeightCoder {
 
   void code(uint32_t channels, double unit, Eigen::Ref<VectorXd> column) {
     std::vector<double> x(channels * frames_);
-    std::vector<int32_t> values(x.size());
+    Vector<int32_t> values(x.size());
     for (size_t f = 0; f < frames_; ++f) {
       for (size_t c = 0; c < channels; ++c) {
         double value = column[static_cast<Index>(channels * f + c)] / unit;
@@ -213,7 +213,7 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
   double pose_step = settings.pose_factor * settings.step / std::sqrt(static_cast<double>(frames));
   encoded.reference =
       shared ? std::move(shared) : reference_pose(basis, pose_step, settings.slow_pose, layout);
-  const std::vector<int32_t>& pose = encoded.reference->grid.points;
+  const Vector<int32_t>& pose = encoded.reference->grid.points;
   const Eigen::Vector3d origin(encoded.reference->grid.origin);
 
   WeightCoder weight_coder(frames, settings.weight_lambda);

@@ -132,9 +132,9 @@ class Truth {
 };
 
 /// Source polygon of each canonical polygon, in the order in which the details rebuild them.
-std::vector<uint32_t> canonical_polygons(const std::vector<uint32_t>& triangle_polygon,
+Vector<uint32_t> canonical_polygons(const std::vector<uint32_t>& triangle_polygon,
                                          const std::vector<uint32_t>& apart, size_t count) {
-  std::vector<uint32_t> order;
+  Vector<uint32_t> order;
   std::vector<bool> seen(count, false);
   for (const auto& list : {triangle_polygon, apart}) {
     for (uint32_t p : list) {
@@ -155,7 +155,8 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   auto triangle_count = static_cast<uint32_t>(manifold.triangle_polygon.size());
 
   MeshLayout layout;
-  std::vector<uint32_t> triangles = manifold.triangles;  // as the decoder will see them,
+  Vector<uint32_t> triangles(manifold.triangles.begin(),
+                             manifold.triangles.end());  // as the decoder will see them,
   std::vector<uint32_t> point_of(manifold.points);       // over renumbered points
   std::iota(point_of.begin(), point_of.end(), 0U);
   std::vector<uint32_t> triangle_polygon = manifold.triangle_polygon;
@@ -220,7 +221,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   layout.details = encoder.finish();
   truth.number_the_rest();
 
-  std::vector<uint32_t> map(sequence.vertex_count), canonical(sequence.vertex_count);
+  Vector<uint32_t> map(sequence.vertex_count), canonical(sequence.vertex_count);
   for (uint32_t v = 0; v < sequence.vertex_count; ++v) {
     canonical[v] = truth.canonical(v);
     map[canonical[v]] = v;
@@ -229,9 +230,9 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   code_permutation(map_encoder, sequence.vertex_count, &map);
   layout.vertex_map = map_encoder.finish();
 
-  std::vector<uint32_t> place =
+  Vector<uint32_t> place =
       canonical_polygons(triangle_polygon, manifold.apart, sequence.polygons.size());
-  std::vector<uint32_t> first(place.size(), 0);
+  Vector<uint32_t> first(place.size(), 0);
   for (size_t i = 0; i < place.size(); ++i) {
     std::span<const uint32_t> source = sequence.polygons[place[i]];
     uint32_t begin = layout.topology.polygon_offsets[i];
@@ -248,7 +249,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
 }
 
 format::Bytes encode_with_poses(const MeshLayout& layout,
-                                std::span<const std::vector<int32_t>> poses) {
+                                std::span<const Vector<int32_t>> poses) {
   return encode_draco_mesh(layout.sizes.points, layout.draco_triangles, poses, layout.draco_points);
 }
 

@@ -36,7 +36,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder);
 /// Encodes the connectivity with `poses` (coded vertices x 3 integers each, in coded order) as its
 /// integer attributes. Empty when Draco could not.
 format::Bytes encode_with_poses(const MeshLayout& layout,
-                                std::span<const std::vector<int32_t>> poses);
+                                std::span<const Vector<int32_t>> poses);
 
 }  // namespace anicodec
 

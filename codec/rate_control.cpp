@@ -109,7 +109,7 @@ Solution RateControl::finished(std::vector<Part> parts) {
   format::ClipRecord record;
   record.name = input_.sequence.name;
   record.encoder = options_.encoder;
-  record.times = input_.sequence.times;
+  record.times.assign(input_.sequence.times.begin(), input_.sequence.times.end());
   record.order = options_.order;
   solution.bytes = clip_file(record, input_.layout, solution.segments()).size();
   trials_.push_back(

@@ -42,7 +42,7 @@ void BinaryEncoder::shift() {
   range_ <<= 32;
 }
 
-std::vector<uint8_t> BinaryEncoder::finish() {
+Vector<uint8_t> BinaryEncoder::finish() {
   add(distance_to_end(low_, range_));
   const size_t kept = kTail - zero_bytes(low_);
   for (size_t i = 0; i < kept; ++i)

@@ -12,10 +12,10 @@
 #define ANICODEC_FORMAT_BINARY_CODER_H_
 
 #include "format/bit_cost.h"
+#include "format/memory.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -103,7 +103,7 @@ class BinaryEncoder {
   }
 
   /// Ends the stream with as few bytes as identify it (0 to 8) and hands it over.
-  std::vector<uint8_t> finish();
+  Vector<uint8_t> finish();
 
   /// Bytes written so far, without those finish() adds.
   size_t size() const { return bytes_.size(); }
@@ -120,7 +120,7 @@ class BinaryEncoder {
 
   uint64_t low_ = 0;
   uint64_t range_ = ~uint64_t{0};
-  std::vector<uint8_t> bytes_;
+  Vector<uint8_t> bytes_;
 };
 
 /// Reads a stream of BinaryEncoder. Any bytes are safe: a stream that runs out yields arbitrary

@@ -6,15 +6,15 @@
 #ifndef ANICODEC_FORMAT_BYTES_H_
 #define ANICODEC_FORMAT_BYTES_H_
 
+#include "format/memory.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <string>
-#include <vector>
 
 namespace anicodec::format {
 
-using Bytes = std::vector<uint8_t>;
+using Bytes = Vector<uint8_t>;
 
 /// A range of bytes owned by someone else.
 struct ByteView {
@@ -66,7 +66,7 @@ class ByteWriter {
     raw(view);
   }
 
-  void text(const std::string& s) { block({reinterpret_cast<const uint8_t*>(s.data()), s.size()}); }
+  void text(const String& s) { block({reinterpret_cast<const uint8_t*>(s.data()), s.size()}); }
 
   size_t size() const { return bytes_.size(); }
 
@@ -153,10 +153,9 @@ class ByteReader {
 
   ByteView block() { return raw(varint()); }
 
-  std::string text() {
+  String text() {
     ByteView part = block();
-    return part.size ? std::string(reinterpret_cast<const char*>(part.data), part.size)
-                     : std::string();
+    return part.size ? String(reinterpret_cast<const char*>(part.data), part.size) : String();
   }
 
  private:

@@ -76,7 +76,7 @@ CoefficientModel::CoefficientModel(uint32_t vertex_count, uint32_t channels,
   for (uint32_t v = 0; v < vertex_count; ++v)
     while (valid_[v] < kNear && this->neighbours(v)[valid_[v]] >= 0)
       ++valid_[v];
-  for (std::vector<int8_t>& v : value_)
+  for (Vector<int8_t>& v : value_)
     v.assign((size_t{vertex_count} + 1) * channels, 0);
 }
 
@@ -148,12 +148,12 @@ void CoefficientModel::prepare_channel(uint32_t v, uint32_t c) {
 }
 
 void CoefficientModel::prepare_sign(uint32_t v, uint32_t c) {
-  const auto at = [&](const std::vector<int8_t>& values, size_t i, uint32_t channel) {
+  const auto at = [&](const Vector<int8_t>& values, size_t i, uint32_t channel) {
     return int{values[i * channels_ + channel]};
   };
   const int32_t* ranks = neighbours(v);
   const auto near = [&](size_t a) { return static_cast<size_t>(ranks[a] + 1); };
-  const std::vector<int8_t>&now = value_[0], &before = value_[1], &earlier = value_[2];
+  const Vector<int8_t>&now = value_[0], &before = value_[1], &earlier = value_[2];
   const int own1 = sign(at(before, v + 1, c)), own2 = sign(at(earlier, v + 1, c));
   // How the neighbours' signs went with this vertex's before, applied to their signs now.
   int agreed = 0, with1 = 0, with2 = 0, all = 0, axis1 = 0, axis2 = 0;

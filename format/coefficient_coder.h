@@ -7,13 +7,13 @@
 
 #include "format/binary_coder.h"
 #include "format/magnitude_class.h"
+#include "format/memory.h"
 #include "format/mixing.h"
 #include "format/symbol_model.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -79,7 +79,7 @@ class CoefficientModel {
   static constexpr uint32_t kNear = 8;      ///< neighbours in use
   static constexpr size_t kMagnitudes = 7;  ///< contexts of zero flag and magnitude
   static constexpr size_t kSigns = 5;       ///< contexts of the sign
-  static constexpr uint32_t kQuiet = 128;    ///< bound of a quiet vertex's running means, 1/256
+  static constexpr uint32_t kQuiet = 128;   ///< bound of a quiet vertex's running means, 1/256
 
   void prepare(uint32_t v, uint32_t c) {
     if (ready_)
@@ -141,19 +141,18 @@ class CoefficientModel {
 
   uint32_t vertex_count_, channels_, stride_;
   const int32_t* neighbours_;
-  std::vector<int32_t> padded_;  ///< neighbours if there are fewer than kNear to a vertex
-  std::vector<uint8_t> valid_;   ///< neighbours of a vertex before the first -1
+  Vector<int32_t> padded_;  ///< neighbours if there are fewer than kNear to a vertex
+  Vector<uint8_t> valid_;   ///< neighbours of a vertex before the first -1
 
   MixedSymbolModel<kMagnitudes> magnitudes_;
   MixedModel<kSigns> signs_;
 
   // Per vertex; element 0 stands for "no neighbour", vertex v is at v + 1.
-  std::vector<uint16_t> magnitude_;       ///< mean |q| of the channels, in 1/64
-  std::vector<uint16_t> last_;            ///< the same of the component before
-  std::vector<uint16_t> history_, past_;  ///< its running means, decay 1/2 and 27/32, in 1/256
-  std::array<std::vector<int8_t>, 3>
-      value_;                      ///< q of this component and the two before, within +-100
-  std::vector<int8_t> agreement_;  ///< kNear per vertex: do the signs of both agree?
+  Vector<uint16_t> magnitude_;           ///< mean |q| of the channels, in 1/64
+  Vector<uint16_t> last_;                ///< the same of the component before
+  Vector<uint16_t> history_, past_;      ///< its running means, decay 1/2 and 27/32, in 1/256
+  std::array<Vector<int8_t>, 3> value_;  ///< q of this component and the two before, within +-100
+  Vector<int8_t> agreement_;             ///< kNear per vertex: do the signs of both agree?
   // Of the component, vertex and channel at hand.
   uint32_t component_ = 0;
   bool ready_ = false;                            ///< the channel is prepared

@@ -7,12 +7,12 @@
 #define ANICODEC_FORMAT_CONTAINER_H_
 
 #include "format/bytes.h"
+#include "format/memory.h"
 #include "format/status.h"
 
 #include <cstdint>
 #include <string>
 #include <tuple>
-#include <vector>
 
 namespace anicodec::format {
 
@@ -63,8 +63,8 @@ class ContainerWriter {
   Bytes finish() const;
 
  private:
-  std::vector<Chunk> chunks_;
-  std::vector<Bytes> payloads_;
+  Vector<Chunk> chunks_;
+  Vector<Bytes> payloads_;
   uint64_t features_ = 0;
 };
 
@@ -76,11 +76,11 @@ class ContainerReader {
   /// payload(). Cost: O(chunks log chunks), plus the padding.
   Failure open(ByteView file);
 
-  const std::vector<Chunk>& chunks() const { return chunks_; }
+  const Vector<Chunk>& chunks() const { return chunks_; }
 
   /// Numbers of the chunks, ascending by type, mesh and segment; equal ones in the order of the
   /// file.
-  const std::vector<uint32_t>& by_key() const { return by_key_; }
+  const Vector<uint32_t>& by_key() const { return by_key_; }
 
   /// The first chunk of this type, mesh and segment; null when there is none. O(log chunks).
   const Chunk* find(const char (&type)[5], uint16_t mesh = kNoMesh,
@@ -99,8 +99,8 @@ class ContainerReader {
 
  private:
   ByteView file_;
-  std::vector<Chunk> chunks_;
-  std::vector<uint32_t> by_key_;
+  Vector<Chunk> chunks_;
+  Vector<uint32_t> by_key_;
   uint64_t features_ = 0;
 };
 

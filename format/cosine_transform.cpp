@@ -55,7 +55,7 @@ void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) cons
   // |coefficient| <= 2^22, |entry| < 2^29, 2^10 terms: the sums stay below 2^63. Even functions are
   // the same from both ends, odd ones change sign: half of the values, of each kind apart.
   const uint32_t half = (length_ + 1) / 2, period = 4 * length_;
-  std::vector<int64_t> sums(size_t{2} * half, 0);
+  Vector<int64_t> sums(size_t{2} * half, 0);
   std::fill_n(sums.begin(), half, int64_t{coefficients[0]} * constant_);
   for (uint32_t k = 1; k < length_; ++k) {
     const int64_t y = coefficients[k];

@@ -6,8 +6,9 @@
 #ifndef ANICODEC_FORMAT_COSINE_TRANSFORM_H_
 #define ANICODEC_FORMAT_COSINE_TRANSFORM_H_
 
+#include "format/memory.h"
+
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -33,9 +34,9 @@ class CosineTransform {
 
  private:
   uint32_t length_;
-  int shift_;                   ///< table entries are scaled by 2^shift_
-  int32_t constant_;            ///< of coefficient 0
-  std::vector<int32_t> table_;  ///< sqrt(2 / length) cos(pi m / (2 length)), m = 0 .. 4 length - 1
+  int shift_;              ///< table entries are scaled by 2^shift_
+  int32_t constant_;       ///< of coefficient 0
+  Vector<int32_t> table_;  ///< sqrt(2 / length) cos(pi m / (2 length)), m = 0 .. 4 length - 1
 };
 
 }  // namespace anicodec

@@ -12,12 +12,12 @@
 #endif
 
 #include "format/binary_coder.h"
+#include "format/memory.h"
 #include "format/symbol_model.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -215,8 +215,8 @@ class MixedModel {
   std::array<uint32_t, kContexts> offsets_{}, contexts_{};
   std::array<uint32_t, 2> selectors_;
   uint32_t per_node_ = 0, selector0_ = 0, selector1_ = 0;
-  std::vector<MixCounter> counters_;
-  std::vector<MixWeights> weights_;
+  Vector<MixCounter> counters_;
+  Vector<MixWeights> weights_;
 };
 
 /// code_symbol() with mixed contexts: the zero flag, the exponent and the first mantissa bits are

@@ -78,7 +78,7 @@ Status Limits::read(ByteView view, Limits* out) {
     if (s.frames == 0 || s.first_frame >= out->frames || s.frames > out->frames - s.first_frame)
       return Status::kRecord;
   }
-  const std::vector<uint32_t> order = out->segments_by_frame();
+  const Vector<uint32_t> order = out->segments_by_frame();
   for (size_t i = 1; i < order.size(); ++i) {
     const Segment &a = out->segments[order[i - 1]], &b = out->segments[order[i]];
     if (a.mesh == b.mesh && b.first_frame - a.first_frame < a.frames)
@@ -87,8 +87,8 @@ Status Limits::read(ByteView view, Limits* out) {
   return finished(r);
 }
 
-std::vector<uint32_t> Limits::segments_by_frame() const {
-  std::vector<uint32_t> order(segments.size());
+Vector<uint32_t> Limits::segments_by_frame() const {
+  Vector<uint32_t> order(segments.size());
   std::iota(order.begin(), order.end(), 0U);
   auto at = [&](uint32_t i) { return std::tuple(segments[i].mesh, segments[i].first_frame, i); };
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return at(a) < at(b); });

@@ -7,11 +7,10 @@
 #define ANICODEC_FORMAT_RECORDS_H_
 
 #include "format/bytes.h"
+#include "format/memory.h"
 #include "format/status.h"
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace anicodec::format {
 
@@ -53,11 +52,11 @@ struct Limits {
   };
 
   uint32_t frames = 0;
-  std::vector<Mesh> meshes;
-  std::vector<Segment> segments;
+  Vector<Mesh> meshes;
+  Vector<Segment> segments;
 
   /// Numbers of the segments, ascending by mesh and first frame. O(segments log segments).
-  std::vector<uint32_t> segments_by_frame() const;
+  Vector<uint32_t> segments_by_frame() const;
 
   Bytes write() const;
   /// Checks that no two segments of a mesh share a frame, too.
@@ -76,8 +75,8 @@ enum class OrderMode : uint8_t { kVertices = 0, kFree = 1, kAll = 2 };
 
 /// Chunk CLIP: the clock, the coordinate system, and what the encoder promises.
 struct ClipRecord {
-  std::string name;
-  std::string encoder;           ///< name and version of the encoder
+  String name;
+  String encoder;                ///< name and version of the encoder
   uint32_t rate_numerator = 24;  ///< frames per second
   uint32_t rate_denominator = 1;
   bool rate_assumed = true;
@@ -88,7 +87,7 @@ struct ClipRecord {
   OrderMode order = OrderMode::kVertices;
   double start_time = 0;       ///< seconds
   double metres_per_unit = 0;  ///< 0 unknown
-  std::vector<double> times;   ///< seconds from start_time, one per frame; empty when even
+  Vector<double> times;        ///< seconds from start_time, one per frame; empty when even
 
   ErrorMetric asked = ErrorMetric::kNone;
   double asked_value = 0;    ///< KG in per cent, lengths in scene units
@@ -104,7 +103,7 @@ struct ClipRecord {
 
 /// Chunk MESH: connectivity and what restores the source's vertices and polygons.
 struct MeshRecord {
-  std::string name;
+  String name;
   CoderId coder = CoderId::kPlain;
   ByteView connectivity;  ///< Draco bitstream, or zstd frame
   ByteView details;       ///< splits, welds, polygons: entropy-coded

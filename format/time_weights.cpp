@@ -85,8 +85,8 @@ struct Source {
 
 /// Magnitudes of a component's coded integers, in kUnit.
 struct Trace {
-  uint32_t channels = 0;            ///< 0: no component yet
-  std::vector<uint32_t> magnitude;  ///< channels x frames
+  uint32_t channels = 0;       ///< 0: no component yet
+  Vector<uint32_t> magnitude;  ///< channels x frames
 
   void start(uint32_t channel_count, uint32_t frames) {
     channels = channel_count;
@@ -128,10 +128,10 @@ struct TimeWeightModel::State {
   /// the right; 7 is the frames at kSpacing.
   RecursiveLeastSquares<6> filters_[2][8][3];
   MixedModel<4> signs_;
-  int32_t agreement_[3][3];     ///< of the signs of two channels, in this component
-  std::vector<int32_t> coded_;  ///< of this component, channels x frames
-  Trace trace_;                 ///< of the component at hand
-  Trace before_[2];             ///< of the last one coded over frames; over frequencies
+  int32_t agreement_[3][3];  ///< of the signs of two channels, in this component
+  Vector<int32_t> coded_;    ///< of this component, channels x frames
+  Trace trace_;              ///< of the component at hand
+  Trace before_[2];          ///< of the last one coded over frames; over frequencies
   uint32_t slow_[3], all_;
 };
 
@@ -383,7 +383,7 @@ template <class Coder>
 void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const Source* source,
                                          int32_t* values) {
   const CosineTransform transform(frames_);
-  std::vector<double> target(source ? size_t{channels} * frames_ : 0);
+  Vector<double> target(source ? size_t{channels} * frames_ : 0);
   if (source)
     for (uint32_t c = 0; c < channels; ++c)
       transform.forward(source->x + size_t{c} * frames_, &target[size_t{c} * frames_]);

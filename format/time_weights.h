@@ -6,13 +6,13 @@
 #define ANICODEC_FORMAT_TIME_WEIGHTS_H_
 
 #include "format/binary_coder.h"
+#include "format/memory.h"
 #include "format/status.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace anicodec {
 

@@ -87,10 +87,10 @@ Failure check_places(const format::ContainerReader& file, const format::Limits& 
 }
 
 /// Whether the points of each coded vertex have the same values.
-bool agree(const DracoMesh& draco, const std::vector<uint32_t>& point_vertex) {
+bool agree(const DracoMesh& draco, const Vector<uint32_t>& point_vertex) {
   if (draco.components == 0)
     return true;
-  std::vector<uint32_t> first;  // point of each coded vertex; new ones come in ascending order
+  Vector<uint32_t> first;  // point of each coded vertex; new ones come in ascending order
   for (uint32_t p = 0; p < point_vertex.size(); ++p) {
     if (point_vertex[p] == first.size()) {
       first.push_back(p);
@@ -212,13 +212,13 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh) {
     return {};
   if (Failure f = required(file, "VMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
     return f;
-  std::vector<uint32_t> map;
+  Vector<uint32_t> map;
   if (Status s = decode_vertex_map(payload, sizes.source_vertices, &map); s != Status::kOk)
     return at(*chunk, s, "the vertex map is damaged");
   if (record_.order == format::OrderMode::kAll) {
     if (Failure f = required(file, "FMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
       return f;
-    std::vector<uint32_t> place, first;
+    Vector<uint32_t> place, first;
     if (Status s = decode_face_map(payload, out.topology, &place, &first); s != Status::kOk)
       return at(*chunk, s, "the face map is damaged");
     apply_face_map(place, first, &out.topology);
@@ -231,7 +231,7 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
   segments_.resize(limits_.segments.size());
   by_frame_ = limits_.segments_by_frame();
   // Layers by segment, in file order, in one pass.
-  std::vector<std::vector<const Chunk*>> layers(segments_.size());
+  Vector<Vector<const Chunk*>> layers(segments_.size());
   for (const Chunk& chunk : file.chunks()) {
     if (chunk.type == chunk_type("BASI") && chunk.segment < layers.size())
       layers[chunk.segment].push_back(&chunk);
@@ -246,7 +246,7 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
       s = open_pose(record, meshes_[chunk.mesh].topology, draco_[chunk.mesh], out);
     return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
   };
-  std::vector<PoseGrid> poses(meshes_.size());
+  Vector<PoseGrid> poses(meshes_.size());
   for (size_t m = 0; m < meshes_.size(); ++m) {
     if (const Chunk* chunk = file.find("POSE", static_cast<uint16_t>(m))) {
       if (Failure f = read_pose(file, *chunk, &poses[m]); !f.ok())

@@ -4,14 +4,13 @@
 #define ANICODEC_SDK_CLIP_H_
 
 #include "format/container.h"
+#include "format/memory.h"
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/segment.h"
 #include "sdk/topology.h"
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace anicodec {
 
@@ -31,7 +30,7 @@ struct OpenOptions {
 
 /// One mesh of a clip.
 struct Mesh {
-  std::string name;
+  String name;
   Topology topology;
 };
 
@@ -47,9 +46,9 @@ class Clip {
 
   const format::ClipRecord& record() const { return record_; }
 
-  const std::vector<Mesh>& meshes() const { return meshes_; }
+  const Vector<Mesh>& meshes() const { return meshes_; }
 
-  const std::vector<Segment>& segments() const { return segments_; }
+  const Vector<Segment>& segments() const { return segments_; }
 
   uint32_t frame_count() const { return limits_.frames; }
 
@@ -77,10 +76,10 @@ class Clip {
 
   format::Limits limits_;
   format::ClipRecord record_;
-  std::vector<Mesh> meshes_;
-  std::vector<DracoMesh> draco_;  ///< while opening
-  std::vector<Segment> segments_;
-  std::vector<uint32_t> by_frame_;  ///< segments, ascending by mesh and first frame
+  Vector<Mesh> meshes_;
+  Vector<DracoMesh> draco_;  ///< while opening
+  Vector<Segment> segments_;
+  Vector<uint32_t> by_frame_;  ///< segments, ascending by mesh and first frame
 };
 
 }  // namespace anicodec

@@ -7,12 +7,12 @@
 #define ANICODEC_SDK_CORRECTION_CODING_H_
 
 #include "format/binary_coder.h"
+#include "format/memory.h"
 #include "format/symbol_model.h"
 #include "sdk/segment.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -30,7 +30,7 @@ class CorrectionCoding {
   /// Codes the corrections of the next frame. False when the stream ran out, or there are more than
   /// `limit` of them.
   template <class Coder>
-  bool code_frame(Coder& coder, size_t limit, std::vector<IntegerCorrection>* frame) {
+  bool code_frame(Coder& coder, size_t limit, Vector<IntegerCorrection>* frame) {
     size_t at = 0;
     if constexpr (Coder::kDecodes)
       frame->clear();
@@ -85,7 +85,7 @@ class CorrectionCoding {
   }
 
   uint32_t vertices_;
-  std::vector<uint8_t> before_, block_before_;  ///< corrected in the previous frame
+  Vector<uint8_t> before_, block_before_;  ///< corrected in the previous frame
   bool any_before_ = false;
   AdaptiveBit any_[2], block_[4], vertex_[8];
   SymbolModel<> delta_[6];

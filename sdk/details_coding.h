@@ -8,6 +8,7 @@
 #define ANICODEC_SDK_DETAILS_CODING_H_
 
 #include "format/binary_coder.h"
+#include "format/memory.h"
 #include "format/records.h"
 #include "format/symbol_model.h"
 #include "sdk/topology.h"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace anicodec {
 
@@ -47,8 +47,8 @@ class OppositeTriangles {
  public:
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  explicit OppositeTriangles(const std::vector<uint32_t>& triangles) : opposite_(triangles.size()) {
-    std::vector<std::pair<uint64_t, uint32_t>> edges(triangles.size());
+  explicit OppositeTriangles(const Vector<uint32_t>& triangles) : opposite_(triangles.size()) {
+    Vector<std::pair<uint64_t, uint32_t>> edges(triangles.size());
     for (uint32_t c = 0; c < triangles.size(); ++c)
       edges[c] = {uint64_t{triangles[c]} << 32 | triangles[next(c)], c};
     std::sort(edges.begin(), edges.end());
@@ -65,7 +65,7 @@ class OppositeTriangles {
   uint32_t operator[](uint32_t corner) const { return opposite_[corner]; }
 
  private:
-  std::vector<uint32_t> opposite_;
+  Vector<uint32_t> opposite_;
 };
 
 /// Polygons with more corners are kept apart: joining takes time quadratic in a polygon's corners.
@@ -75,7 +75,7 @@ template <class Coder, class Source>
 class DetailsCoding {
  public:
   DetailsCoding(Coder& coder, Source& source, const format::Limits::Mesh& sizes,
-                const std::vector<uint32_t>& triangles, Topology* topology)
+                const Vector<uint32_t>& triangles, Topology* topology)
       : coder_(coder), source_(source), sizes_(sizes), triangles_(triangles), t_(*topology) {}
 
   Status run() {
@@ -157,8 +157,8 @@ class DetailsCoding {
       return alive(0) ? Status::kOk : Status::kEntropy;
     }
     OppositeTriangles opposite(triangles_);
-    std::vector<bool> used(count, false);
-    std::vector<uint32_t> border;  // corners: where each border edge of the polygon starts
+    Vector<bool> used(count, false);
+    Vector<uint32_t> border;  // corners: where each border edge of the polygon starts
     uint32_t size_before = 0;
     for (uint32_t t = 0; t < count; ++t) {
       if (used[t])
@@ -271,9 +271,9 @@ class DetailsCoding {
   Coder& coder_;
   Source& source_;
   const format::Limits::Mesh& sizes_;
-  const std::vector<uint32_t>& triangles_;
+  const Vector<uint32_t>& triangles_;
   Topology& t_;
-  std::vector<uint32_t> first_copy_, used_, recent_;
+  Vector<uint32_t> first_copy_, used_, recent_;
 
   AdaptiveBit flag_[2], repeated_[2], more_[8][8], edge_[8][8], fresh_[8], again_;
   UnsignedModel split_distance_, copies_[4], which_, corners_;

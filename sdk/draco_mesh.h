@@ -4,19 +4,19 @@
 #define ANICODEC_SDK_DRACO_MESH_H_
 
 #include "format/bytes.h"
+#include "format/memory.h"
 #include "format/status.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
 /// A triangle mesh whose points carry integers: what a Draco bitstream of ours holds.
 struct DracoMesh {
   uint32_t points = 0;
-  std::vector<uint32_t> triangles;  ///< three points each
+  Vector<uint32_t> triangles;  ///< three points each
   uint32_t components = 0;
-  std::vector<int32_t> values;  ///< points x components
+  Vector<int32_t> values;  ///< points x components
 };
 
 /// Decodes a Draco mesh bitstream (version 2.2) of int32 attributes: first POSITION with three

@@ -5,6 +5,7 @@
 #ifndef ANICODEC_SDK_ENCODER_PREDICTOR_H_
 #define ANICODEC_SDK_ENCODER_PREDICTOR_H_
 
+#include "format/memory.h"
 #include "format/status.h"
 #include "sdk/prediction_job.h"
 #include "sdk/predictor.h"
@@ -12,7 +13,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -57,7 +57,7 @@ class EncoderPredictor {
   size_t block_count_ = 0, lanes_ = 1, neighbour_count_ = 0;
   PredictionParameters parameters_;
   const VertexOrder* order_ = nullptr;
-  std::vector<float> positions_, state_, y_;
+  Vector<float> positions_, state_, y_;
 };
 
 }  // namespace anicodec

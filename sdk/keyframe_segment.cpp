@@ -37,10 +37,10 @@ bool rigid_motion(const double q[4], const double t[3], Affine* map) {
 
 /// Key-frames as integers, coded vertices x 3 each, before the differences are undone.
 Status read_poses(const format::SegmentRecord& record, const SegmentContext& context,
-                  const KeyframeParameters& parameters, std::vector<std::vector<int32_t>>* poses) {
+                  const KeyframeParameters& parameters, Vector<Vector<int32_t>>* poses) {
   size_t n = context.topology->coded_vertices;
   size_t k = context.sizes->components;
-  std::vector<int32_t> plain;
+  Vector<int32_t> plain;
   if (parameters.coder == format::CoderId::kPlain) {
     if (Status s = decode_plain_integers(record.pose, 3 * n * k, 3, &plain); s != Status::kOk)
       return s;
@@ -53,7 +53,7 @@ Status read_poses(const format::SegmentRecord& record, const SegmentContext& con
   const DracoMesh& draco = *context.draco;
   if (draco.components / 3 != k)
     return Status::kSegment;
-  const std::vector<uint32_t>& point_vertex = context.topology->point_vertex;
+  const Vector<uint32_t>& point_vertex = context.topology->point_vertex;
   size_t in_triangles = 0;
   for (uint32_t c : point_vertex)
     in_triangles = std::max<size_t>(in_triangles, c + 1);
@@ -61,7 +61,7 @@ Status read_poses(const format::SegmentRecord& record, const SegmentContext& con
   if (Status s = decode_plain_integers(record.pose, 3 * loose * k, 3, &plain); s != Status::kOk)
     return s;
   for (size_t j = 0; j < k; ++j) {
-    std::vector<int32_t>& pose = poses->emplace_back(3 * n);
+    Vector<int32_t>& pose = poses->emplace_back(3 * n);
     for (size_t p = 0; p < point_vertex.size(); ++p)
       std::copy_n(draco.values.data() + p * draco.components + 3 * j, 3,
                   pose.data() + size_t{3} * point_vertex[p]);
@@ -75,8 +75,8 @@ Status read_motions(format::ByteView bytes, const KeyframeParameters& parameters
                     format::IntegerHash* hash, Segment* out) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   SeriesCoding coding;
-  std::vector<int32_t> series[7];
-  for (std::vector<int32_t>& s : series) {
+  Vector<int32_t> series[7];
+  for (Vector<int32_t>& s : series) {
     if (!coding.code(decoder, out->frames, 0, &s))
       return Status::kEntropy;
     hash->add(s.data(), s.size());
@@ -169,12 +169,12 @@ Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentC
     return Status::kSegment;
   if (Status s = parameters.read(record.parameters, k, out->frames); s != Status::kOk)
     return s;
-  std::vector<std::vector<int32_t>> poses;
+  Vector<Vector<int32_t>> poses;
   if (Status s = read_poses(record, context, parameters, &poses); s != Status::kOk)
     return s;
   for (uint32_t j = 0; j < k; ++j) {
     if (parameters.parents[j] != 0) {
-      const std::vector<int32_t>& parent = poses[parameters.parents[j] - 1];
+      const Vector<int32_t>& parent = poses[parameters.parents[j] - 1];
       for (size_t i = 0; i < poses[j].size(); ++i)
         poses[j][i] = static_cast<int32_t>(static_cast<uint32_t>(poses[j][i]) +
                                            static_cast<uint32_t>(parent[i]));
@@ -183,7 +183,7 @@ Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentC
   }
   BinaryDecoder decoder(record.weights.data, record.weights.size);
   SeriesCoding coding;
-  std::vector<std::vector<int32_t>> series(k);
+  Vector<Vector<int32_t>> series(k);
   int32_t one = 1 << parameters.weight_bits;
   uint32_t first = parameters.sum_to_one ? 1 : 0;
   if (parameters.sum_to_one)

@@ -4,10 +4,10 @@
 #define ANICODEC_SDK_KEYFRAME_SEGMENT_H_
 
 #include "format/checksum.h"
+#include "format/memory.h"
 #include "sdk/segment.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -25,8 +25,8 @@ struct KeyframeParameters {
   uint8_t weight_bits = 12;
   uint8_t rotation_bits = 16;  ///< quaternions are integers in units of 2^-rotation_bits
   double translation_step = 1;
-  std::vector<uint32_t> frames;   ///< of each key-frame in the segment, ascending
-  std::vector<uint32_t> parents;  ///< 0, or one more than the earlier key-frame it is coded against
+  Vector<uint32_t> frames;   ///< of each key-frame in the segment, ascending
+  Vector<uint32_t> parents;  ///< 0, or one more than the earlier key-frame it is coded against
 
   format::Bytes write() const;
   Status read(format::ByteView bytes, uint32_t components, uint32_t segment_frames);

@@ -19,7 +19,7 @@ constexpr uint8_t kAffineFlag = 1;
 /// Time weights: those of the affine base become maps of the pose, the others stay integers.
 Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
                     const PoseGrid& pose, format::IntegerHash* hash, Segment* out,
-                    std::vector<int32_t>* weights) {
+                    Vector<int32_t>* weights) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   TimeWeightModel model(out->frames);
   size_t frames = out->frames;
@@ -27,8 +27,8 @@ Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
   double unit = parameters.weight_step / (1 << kWeightFractionBits);
   if (parameters.affine) {
     functions = AffineFunctions::of(pose.points.data(), pose.points.size() / 3);
-    std::vector<int32_t> values[kAffineFunctions];
-    for (std::vector<int32_t>& v : values) {
+    Vector<int32_t> values[kAffineFunctions];
+    for (Vector<int32_t>& v : values) {
       v.resize(3 * frames);
       if (Status s = model.decode(decoder, 3, v.data()); s != Status::kOk)
         return s;
@@ -68,14 +68,14 @@ Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
 
 /// Residuals of the components in the layers, components x channels x vertices in decoding order;
 /// stops after `wanted` components.
-Status read_residuals(const std::vector<format::ByteView>& layers, const VertexOrder& order,
+Status read_residuals(const Vector<format::ByteView>& layers, const VertexOrder& order,
                       uint32_t channels, uint32_t components, uint32_t wanted,
-                      std::vector<int32_t>* residuals) {
+                      Vector<int32_t>* residuals) {
   auto n = static_cast<uint32_t>(order.vertex_count());
   CoefficientModel model(n, channels, order.neighbours.data(),
                          static_cast<uint32_t>(order.neighbour_count));
   residuals->resize(size_t{wanted} * channels * n);
-  std::vector<int32_t> interleaved(channels == 1 ? 0 : size_t{channels} * n);
+  Vector<int32_t> interleaved(channels == 1 ? 0 : size_t{channels} * n);
   uint32_t j = 0;
   for (format::ByteView layer : layers) {
     format::ByteReader reader(layer);
@@ -103,10 +103,10 @@ Status read_residuals(const std::vector<format::ByteView>& layers, const VertexO
 }
 
 /// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample.
-std::vector<float> hash_coefficients(const std::vector<float>& y, size_t stride, size_t ranks,
+Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ranks,
                                      size_t samples, format::IntegerHash& hash) {
-  std::vector<int32_t> exact(samples);
-  std::vector<float> largest(samples, 0.F);
+  Vector<int32_t> exact(samples);
+  Vector<float> largest(samples, 0.F);
   for (size_t i = 0; i < ranks; ++i) {
     const float* row = y.data() + i * stride;
     for (size_t s = 0; s < samples; ++s) {
@@ -120,11 +120,11 @@ std::vector<float> hash_coefficients(const std::vector<float>& y, size_t stride,
 
 /// Puts the coefficients into the resident blocks, each component with as many fraction bits as
 /// fit, and scales its weights accordingly. `largest`: magnitudes by sample.
-Status make_resident(const VertexOrder& order, const std::vector<float>& y, size_t stride,
-                     const std::vector<float>& largest, const LinearParameters& parameters,
-                     const std::vector<int32_t>& weights, ResidentWriter& writer, Segment* out) {
+Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t stride,
+                     const Vector<float>& largest, const LinearParameters& parameters,
+                     const Vector<int32_t>& weights, ResidentWriter& writer, Segment* out) {
   uint32_t channels = out->channels(), weight_channels = out->weight_channels();
-  std::vector<float> scale(size_t{out->components} * channels);
+  Vector<float> scale(size_t{out->components} * channels);
   out->weights.resize(size_t{out->frames} * out->components * weight_channels);
   for (uint32_t j = 0; j < out->components; ++j) {
     float most = *std::max_element(largest.begin() + ptrdiff_t{channels} * j,
@@ -150,7 +150,7 @@ Status make_resident(const VertexOrder& order, const std::vector<float>& y, size
       }
     }
   }
-  std::vector<uint32_t> rank(order.order.size());
+  Vector<uint32_t> rank(order.order.size());
   for (uint32_t i = 0; i < rank.size(); ++i)
     rank[order.order[i]] = i;
   writer.samples(rank, y.data(), stride, scale.data());
@@ -248,7 +248,7 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   const PoseGrid& pose = *context.pose;
   hash.add(pose.points.data(), pose.points.size());
 
-  std::vector<int32_t> weights;
+  Vector<int32_t> weights;
   if (Status s = read_weights(record.weights, parameters, pose, &hash, out, &weights);
       s != Status::kOk)
     return s;
@@ -267,7 +267,7 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
       s != Status::kOk)
     return s;
   uint32_t channels = out->channels();
-  std::vector<int32_t> residuals;
+  Vector<int32_t> residuals;
   if (Status s = read_residuals(context.layers, order, channels, components, wanted, &residuals);
       s != Status::kOk)
     return s;
@@ -281,7 +281,7 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   input.wide = residuals.data();
   input.omega = parameters.omega.data();
   size_t samples = size_t{wanted} * channels;
-  std::vector<float> y(coefficient_buffer_size(n, samples));
+  Vector<float> y(coefficient_buffer_size(n, samples));
   Reconstruction reconstruction;
   if (Status s = reconstruction.init(order, pose.points.data(), prediction, input, y.data());
       s != Status::kOk)
@@ -289,7 +289,7 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   reconstruction.run_all();
 
   size_t stride = coefficient_stride(samples);
-  const std::vector<float> largest = hash_coefficients(y, stride, n, samples, hash);
+  const Vector<float> largest = hash_coefficients(y, stride, n, samples, hash);
   return make_resident(order, y, stride, largest, parameters, weights, writer, out);
 }
 

@@ -4,11 +4,11 @@
 #define ANICODEC_SDK_LINEAR_SEGMENT_H_
 
 #include "format/checksum.h"
+#include "format/memory.h"
 #include "sdk/predictor.h"
 #include "sdk/segment.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -29,8 +29,8 @@ struct LinearParameters {
   RefitSchedule schedule = RefitSchedule::kDense;
 
   /// Per component, in the order of the file.
-  std::vector<uint8_t> omega;  ///< see omega_value()
-  std::vector<int32_t> sigma;  ///< in eighths of an octave: sigma(j) = 2^(sigma / 8)
+  Vector<uint8_t> omega;  ///< see omega_value()
+  Vector<int32_t> sigma;  ///< in eighths of an octave: sigma(j) = 2^(sigma / 8)
 
   format::Bytes write() const;
   Status read(format::ByteView bytes, uint32_t components);

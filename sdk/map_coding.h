@@ -6,11 +6,11 @@
 #define ANICODEC_SDK_MAP_CODING_H_
 
 #include "format/binary_coder.h"
+#include "format/memory.h"
 #include "format/symbol_model.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -34,20 +34,20 @@ class FreePlaces {
   }
 
  private:
-  static uint32_t find(std::vector<uint32_t>& link, uint32_t i) {
+  static uint32_t find(Vector<uint32_t>& link, uint32_t i) {
     while (link[i] != i)
       i = link[i] = link[link[i]];
     return i;
   }
 
-  std::vector<uint32_t> up_, down_;
+  Vector<uint32_t> up_, down_;
 };
 
 /// Codes a permutation whose neighbouring entries tend to be near each other. Each entry is the
 /// next free place after or before the entry before it, or one of the steps used last, or any step.
 /// False when what was read is no permutation or the stream ran out. O(count) in practice.
 template <class Coder>
-bool code_permutation(Coder& coder, uint32_t count, std::vector<uint32_t>* permutation) {
+bool code_permutation(Coder& coder, uint32_t count, Vector<uint32_t>* permutation) {
   constexpr int kRecent = 12;
   AdaptiveBit hit[kRecent + 2][4];
   SymbolModel<> step_model;
@@ -100,8 +100,7 @@ bool code_permutation(Coder& coder, uint32_t count, std::vector<uint32_t>* permu
 
 /// Codes, for each polygon, which of its corners comes first.
 template <class Coder>
-bool code_rotations(Coder& coder, const std::vector<uint32_t>& offsets,
-                    std::vector<uint32_t>* first) {
+bool code_rotations(Coder& coder, const Vector<uint32_t>& offsets, Vector<uint32_t>* first) {
   UnsignedModel model[4];
   uint32_t before = 0;
   for (size_t p = 0; p < first->size(); ++p) {

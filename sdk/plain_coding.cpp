@@ -17,7 +17,7 @@ uint32_t unfolded(uint32_t x) {
 
 }  // namespace
 
-format::Bytes encode_plain_integers(const std::vector<int32_t>& values, size_t stride) {
+format::Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride) {
   size_t n = values.size();
   format::Bytes planes(4 * n);
   for (size_t i = 0; i < n; ++i) {
@@ -30,7 +30,7 @@ format::Bytes encode_plain_integers(const std::vector<int32_t>& values, size_t s
 }
 
 Status decode_plain_integers(format::ByteView bytes, size_t count, size_t stride,
-                             std::vector<int32_t>* values) {
+                             Vector<int32_t>* values) {
   format::Bytes planes;
   if (Status s = format::zstd_decompress(bytes, 4 * count, &planes); s != Status::kOk)
     return s;
@@ -45,13 +45,12 @@ Status decode_plain_integers(format::ByteView bytes, size_t count, size_t stride
   return Status::kOk;
 }
 
-format::Bytes encode_plain_triangles(const std::vector<uint32_t>& triangles) {
+format::Bytes encode_plain_triangles(const Vector<uint32_t>& triangles) {
   return encode_plain_integers({triangles.begin(), triangles.end()}, 3);
 }
 
-Status decode_plain_triangles(format::ByteView bytes, size_t count,
-                              std::vector<uint32_t>* triangles) {
-  std::vector<int32_t> values;
+Status decode_plain_triangles(format::ByteView bytes, size_t count, Vector<uint32_t>* triangles) {
+  Vector<int32_t> values;
   if (Status s = decode_plain_integers(bytes, 3 * count, 3, &values); s != Status::kOk)
     return s;
   triangles->resize(values.size());

@@ -4,23 +4,22 @@
 #define ANICODEC_SDK_PLAIN_CODING_H_
 
 #include "format/bytes.h"
+#include "format/memory.h"
 #include "format/status.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
 /// Coder 0: integers as differences, folded to unsigned, split into four byte planes, one zstd
 /// frame (spec/07-topology.md). The differences are taken between entries `stride` apart.
-format::Bytes encode_plain_integers(const std::vector<int32_t>& values, size_t stride);
+format::Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride);
 Status decode_plain_integers(format::ByteView bytes, size_t count, size_t stride,
-                             std::vector<int32_t>* values);
+                             Vector<int32_t>* values);
 
 /// Triangles are plain integers of stride 3.
-format::Bytes encode_plain_triangles(const std::vector<uint32_t>& triangles);
-Status decode_plain_triangles(format::ByteView bytes, size_t count,
-                              std::vector<uint32_t>* triangles);
+format::Bytes encode_plain_triangles(const Vector<uint32_t>& triangles);
+Status decode_plain_triangles(format::ByteView bytes, size_t count, Vector<uint32_t>* triangles);
 
 }  // namespace anicodec
 

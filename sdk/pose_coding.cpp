@@ -12,7 +12,7 @@ namespace {
 
 /// Codes the pose, or decodes into it; stops when a stream has run out.
 template <class Coder>
-void code_pose(Coder& coder, const Topology& topology, std::vector<int32_t>& pose) {
+void code_pose(Coder& coder, const Topology& topology, Vector<int32_t>& pose) {
   FloatControl control;
   CornerTable table(topology.coded_vertices, topology.triangles);
   PosePrediction prediction(table);
@@ -33,14 +33,14 @@ void code_pose(Coder& coder, const Topology& topology, std::vector<int32_t>& pos
 
 }  // namespace
 
-format::Bytes encode_pose(const Topology& topology, const std::vector<int32_t>& pose) {
-  std::vector<int32_t> copy = pose;
+format::Bytes encode_pose(const Topology& topology, const Vector<int32_t>& pose) {
+  Vector<int32_t> copy = pose;
   BinaryEncoder encoder;
   code_pose(encoder, topology, copy);
   return encoder.finish();
 }
 
-Status decode_pose(format::ByteView stream, const Topology& topology, std::vector<int32_t>* pose) {
+Status decode_pose(format::ByteView stream, const Topology& topology, Vector<int32_t>* pose) {
   pose->assign(size_t{3} * topology.coded_vertices, 0);
   BinaryDecoder decoder(stream.data, stream.size);
   code_pose(decoder, topology, *pose);

@@ -5,6 +5,7 @@
 #ifndef ANICODEC_SDK_POSE_PREDICTION_H_
 #define ANICODEC_SDK_POSE_PREDICTION_H_
 
+#include "format/memory.h"
 #include "format/recursive_least_squares.h"
 #include "format/student_mixture.h"
 #include "sdk/small_solver.h"
@@ -14,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -99,10 +99,10 @@ class PosePrediction {
 
   const CornerTable& table_;
   const int32_t* positions_ = nullptr;
-  std::vector<bool> known_;
-  std::vector<uint32_t> vertex_stamp_, corner_stamp_;  ///< vertex that noted them last
-  std::vector<int8_t> unknown_index_;
-  std::vector<Sample> samples_;
+  Vector<bool> known_;
+  Vector<uint32_t> vertex_stamp_, corner_stamp_;  ///< vertex that noted them last
+  Vector<int8_t> unknown_index_;
+  Vector<Sample> samples_;
 
   MixtureWeights weights_[kKinds][3];
   Slow<kVectors> offset_slow_[kKinds];
@@ -117,8 +117,8 @@ class PosePrediction {
   uint32_t vertex_ = 0, last_ = 0;
   bool any_ = false;
   Kind kind_ = kAlone;
-  std::vector<uint32_t> neighbours_, unknown_, nearby_;
-  std::vector<Vector3> gates_;
+  Vector<uint32_t> neighbours_, unknown_, nearby_;
+  Vector<Vector3> gates_;
   Vector3 base_, normal_, mean_, patch_, mean_offset_;
   Vectors vectors_;
   size_t axis_[3] = {0, 1, 2};

@@ -71,7 +71,7 @@ Status check_prediction(const VertexOrder& order, const PredictionParameters& pa
   return Status::kOk;
 }
 
-void ranked_positions(const VertexOrder& order, const int32_t* positions, std::vector<float>* out) {
+void ranked_positions(const VertexOrder& order, const int32_t* positions, Vector<float>* out) {
   const size_t n = order.vertex_count();
   out->resize(3 * n);
   for (size_t r = 0; r < n; ++r)

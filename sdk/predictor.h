@@ -6,13 +6,13 @@
 #ifndef ANICODEC_SDK_PREDICTOR_H_
 #define ANICODEC_SDK_PREDICTOR_H_
 
+#include "format/memory.h"
 #include "format/status.h"
 #include "sdk/prediction_job.h"
 #include "sdk/vertex_order.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -45,7 +45,7 @@ uint8_t omega_byte(double energy);
 Status check_prediction(const VertexOrder& order, const PredictionParameters& parameters);
 
 /// Positions (vertex x 3) as floats in decoding order.
-void ranked_positions(const VertexOrder& order, const int32_t* positions, std::vector<float>* out);
+void ranked_positions(const VertexOrder& order, const int32_t* positions, Vector<float>* out);
 
 /// Floats of one vertex in the output: samples, rounded up.
 constexpr size_t coefficient_stride(size_t samples) {
@@ -93,9 +93,9 @@ class Reconstruction {
  private:
   PredictionJob job_;
   const VertexOrder* order_ = nullptr;
-  std::vector<float> positions_;
-  std::vector<float> omega_;
-  std::vector<size_t> refits_;
+  Vector<float> positions_;
+  Vector<float> omega_;
+  Vector<size_t> refits_;
 };
 
 }  // namespace anicodec

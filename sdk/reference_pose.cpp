@@ -28,7 +28,7 @@ Status open_pose(const format::PoseRecord& record, const Topology& topology, con
   if (draco.components < 3)
     return Status::kSegment;
   size_t in_triangles = vertices_in_triangles(topology);
-  std::vector<int32_t> loose;
+  Vector<int32_t> loose;
   if (Status s = decode_plain_integers(record.stream, 3 * (n - in_triangles), 3, &loose);
       s != Status::kOk)
     return s;

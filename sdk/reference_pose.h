@@ -3,12 +3,12 @@
 #ifndef ANICODEC_SDK_REFERENCE_POSE_H_
 #define ANICODEC_SDK_REFERENCE_POSE_H_
 
+#include "format/memory.h"
 #include "format/records.h"
 #include "sdk/draco_mesh.h"
 #include "sdk/topology.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -17,7 +17,7 @@ namespace anicodec {
 struct PoseGrid {
   double origin[3] = {0, 0, 0};
   double step = 1;
-  std::vector<int32_t> points;  ///< coded vertices x 3
+  Vector<int32_t> points;  ///< coded vertices x 3
 };
 
 /// Coded vertices that are in a triangle: they come first, the loose ones follow.

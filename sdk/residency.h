@@ -3,11 +3,11 @@
 #ifndef ANICODEC_SDK_RESIDENCY_H_
 #define ANICODEC_SDK_RESIDENCY_H_
 
+#include "format/memory.h"
 #include "sdk/segment.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -17,7 +17,7 @@ namespace anicodec {
 class ResidentWriter {
  public:
   /// vertex_coded: see SegmentContext; must outlive the writer.
-  ResidentWriter(const std::vector<uint32_t>* vertex_coded, Segment* segment);
+  ResidentWriter(const Vector<uint32_t>* vertex_coded, Segment* segment);
 
   /// Stores the reference pose: coded vertices x 3 integers.
   void pose(const int32_t* points);
@@ -29,13 +29,13 @@ class ResidentWriter {
   /// Stores all components at once, rounded: sample s = channels x component + channel of coded
   /// vertex c is rows[rank[c] * stride + s] * scale[s], which must fit the component's width. One
   /// pass over the blocks, each row read once.
-  void samples(const std::vector<uint32_t>& rank, const float* rows, size_t stride,
+  void samples(const Vector<uint32_t>& rank, const float* rows, size_t stride,
                const float* scale);
 
  private:
   size_t coded(uint32_t vertex) const { return vertex_coded_ ? (*vertex_coded_)[vertex] : vertex; }
 
-  const std::vector<uint32_t>* vertex_coded_;
+  const Vector<uint32_t>* vertex_coded_;
   Segment& segment_;
 };
 

@@ -15,7 +15,7 @@
 
 namespace anicodec {
 
-ResidentWriter::ResidentWriter(const std::vector<uint32_t>* vertex_coded, Segment* segment)
+ResidentWriter::ResidentWriter(const Vector<uint32_t>* vertex_coded, Segment* segment)
     : vertex_coded_(vertex_coded), segment_(*segment) {
   size_t per_component = size_t{block_count(segment->vertices)} * segment->channels() * kBlock;
   segment->wide.assign(per_component * segment->wide_components, 0);
@@ -52,7 +52,7 @@ bool ResidentWriter::vectors(uint32_t component, const int32_t* values) {
   return true;
 }
 
-void ResidentWriter::samples(const std::vector<uint32_t>& rank, const float* rows, size_t stride,
+void ResidentWriter::samples(const Vector<uint32_t>& rank, const float* rows, size_t stride,
                              const float* scale) {
   const size_t channels = segment_.channels();
   const size_t wide = segment_.wide_components * channels;
@@ -82,20 +82,20 @@ namespace {
 /// The vertices of each coded vertex v: vertices[begin[v]] .. vertices[begin[v + 1] - 1],
 /// ascending.
 struct Copies {
-  Copies(const std::vector<uint32_t>& vertex_coded, uint32_t coded_vertices)
+  Copies(const Vector<uint32_t>& vertex_coded, uint32_t coded_vertices)
       : begin(size_t{coded_vertices} + 1, 0), vertices(vertex_coded.size()) {
     for (uint32_t c : vertex_coded)
       ++begin[c + 1];
     for (size_t c = 0; c < coded_vertices; ++c)
       begin[c + 1] += begin[c];
-    std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
+    Vector<uint32_t> next(begin.begin(), begin.end() - 1);
     for (uint32_t v = 0; v < vertex_coded.size(); ++v)
       vertices[next[vertex_coded[v]]++] = v;
   }
 
   uint32_t count(uint32_t coded) const { return begin[coded + 1] - begin[coded]; }
 
-  std::vector<uint32_t> begin, vertices;
+  Vector<uint32_t> begin, vertices;
 };
 
 Status read_corrections(const SegmentContext& context, format::IntegerHash& hash, Segment* out) {
@@ -111,7 +111,7 @@ Status read_corrections(const SegmentContext& context, format::IntegerHash& hash
   const uint32_t coded_vertices = context.topology->coded_vertices;
   const Copies copies(context.topology->vertex_coded, coded_vertices);
   CorrectionCoding coding(coded_vertices);
-  std::vector<IntegerCorrection> frame;
+  Vector<IntegerCorrection> frame;
   uint64_t corrected = 0;  // vertices, over the frames
   out->correction_begin.assign(1, 0);
   for (uint32_t f = 0; f < out->frames; ++f) {

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_SDK_SEGMENT_H_
 #define ANICODEC_SDK_SEGMENT_H_
 
+#include "format/memory.h"
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/draco_mesh.h"
@@ -10,7 +11,6 @@
 #include "sdk/topology.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -50,16 +50,15 @@ struct Segment {
 
   uint32_t weight_channels() const { return channels() == 1 ? 3 : 1; }
 
-  std::vector<float> pose;      ///< blocks x 3 x 16, empty when there is none
-  std::vector<int32_t> wide;    ///< blocks x wide_components x channels x 16
-  std::vector<int16_t> narrow;  ///< blocks x the other components x channels x 16
-  std::vector<float>
-      weights;  ///< frames x components x weight_channels, coefficient scale included
-  std::vector<Affine> pose_maps;  ///< A_f; empty when there is no pose
-  std::vector<Affine> motions;    ///< M_f; empty when there are none
+  Vector<float> pose;        ///< blocks x 3 x 16, empty when there is none
+  Vector<int32_t> wide;      ///< blocks x wide_components x channels x 16
+  Vector<int16_t> narrow;    ///< blocks x the other components x channels x 16
+  Vector<float> weights;     ///< frames x components x weight_channels, coefficient scale included
+  Vector<Affine> pose_maps;  ///< A_f; empty when there is no pose
+  Vector<Affine> motions;    ///< M_f; empty when there are none
 
-  std::vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
-  double origin[3] = {0, 0, 0};           ///< key-frame kind: offset of every coefficient vector
+  Vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
+  double origin[3] = {0, 0, 0};      ///< key-frame kind: offset of every coefficient vector
 
   /// Corrections of frame f are correction_begin[f] .. correction_begin[f+1]-1, ascending by
   /// vertex; empty when there are none. Added last, in scene units.
@@ -68,8 +67,8 @@ struct Segment {
     float delta[3];
   };
 
-  std::vector<uint32_t> correction_begin;
-  std::vector<Correction> corrections;
+  Vector<uint32_t> correction_begin;
+  Vector<Correction> corrections;
 
   uint64_t stored_hash = 0;
   uint64_t decoded_hash = 0;
@@ -83,12 +82,12 @@ struct SegmentContext {
   const format::Limits::Mesh* mesh_sizes = nullptr;
   const Topology* topology = nullptr;
   /// Coded vertex of each vertex of the opened segment; null: it holds the coded vertices.
-  const std::vector<uint32_t>* vertex_coded = nullptr;
-  const PoseGrid* pose = nullptr;        ///< null when the file has none for the segment
-  const DracoMesh* draco = nullptr;      ///< null when the connectivity is plain
-  std::vector<format::ByteView> layers;  ///< chunks BASI in file order
-  format::ByteView corrections;          ///< chunk CORR, empty when there is none
-  double quality = 1;                    ///< share of the components wanted
+  const Vector<uint32_t>* vertex_coded = nullptr;
+  const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
+  const DracoMesh* draco = nullptr;  ///< null when the connectivity is plain
+  Vector<format::ByteView> layers;   ///< chunks BASI in file order
+  format::ByteView corrections;      ///< chunk CORR, empty when there is none
+  double quality = 1;                ///< share of the components wanted
 };
 
 /// Opens a segment of any kind. The counts in `context` have been checked against the host's

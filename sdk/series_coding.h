@@ -7,11 +7,11 @@
 #define ANICODEC_SDK_SERIES_CODING_H_
 
 #include "format/binary_coder.h"
+#include "format/memory.h"
 #include "format/symbol_model.h"
 
 #include <cstdint>
 #include <cstdlib>
-#include <vector>
 
 namespace anicodec {
 
@@ -24,7 +24,7 @@ class SeriesCoding {
   /// extrapolation of polynomial order 0, 1 or 2; an encoder passes the order that suits best.
   /// False when the stream ran out or a value passes the limit.
   template <class Coder>
-  bool code(Coder& coder, size_t count, int32_t order, std::vector<int32_t>* values) {
+  bool code(Coder& coder, size_t count, int32_t order, Vector<int32_t>* values) {
     order = order_.code(coder, order);
     if (order > 2)
       return false;
@@ -53,7 +53,7 @@ class SeriesCoding {
   }
 
   /// The order with the smallest residuals.
-  static int32_t best_order(const std::vector<int32_t>& values) {
+  static int32_t best_order(const Vector<int32_t>& values) {
     int32_t best = 0;
     double least = 0;
     for (int32_t order = 0; order <= 2; ++order) {
@@ -71,7 +71,7 @@ class SeriesCoding {
   }
 
  private:
-  static int64_t extrapolated(const std::vector<int32_t>& x, size_t f, int32_t order) {
+  static int64_t extrapolated(const Vector<int32_t>& x, size_t f, int32_t order) {
     if (order == 0 || f == 0)
       return 0;
     if (order == 1 || f == 1)

@@ -6,7 +6,7 @@
 
 namespace anicodec {
 
-CornerTable::CornerTable(uint32_t vertex_count, const std::vector<uint32_t>& triangles)
+CornerTable::CornerTable(uint32_t vertex_count, const Vector<uint32_t>& triangles)
     : triangles_(triangles),
       start_(size_t{vertex_count} + 1, 0),
       corners_(triangles.size()),
@@ -16,7 +16,7 @@ CornerTable::CornerTable(uint32_t vertex_count, const std::vector<uint32_t>& tri
     ++start_[size_t{v} + 1];
   for (size_t v = 0; v < vertex_count; ++v)
     start_[v + 1] += start_[v];
-  std::vector<uint32_t> end(start_.begin(), start_.end() - 1);
+  Vector<uint32_t> end(start_.begin(), start_.end() - 1);
   for (uint32_t c = 0; c < count; ++c)
     corners_[end[triangles[c]]++] = c;
 
@@ -28,7 +28,7 @@ CornerTable::CornerTable(uint32_t vertex_count, const std::vector<uint32_t>& tri
     }
   };
 
-  std::vector<Edge> edges(count);
+  Vector<Edge> edges(count);
   for (uint32_t c = 0; c < count; ++c) {
     uint32_t a = triangles[next(c)], b = triangles[previous(c)];
     edges[c] = {std::min(a, b), std::max(a, b), c};
@@ -111,19 +111,19 @@ class Front {
   }
 
   const CornerTable& table_;
-  std::vector<uint32_t> waiting_[kPlaces];
+  Vector<uint32_t> waiting_[kPlaces];
   size_t head_[kPlaces] = {};
-  std::vector<uint8_t> place_;
-  std::vector<uint32_t> gates_;          ///< complete parallelograms
-  std::vector<uint32_t> known_corners_;  ///< corners of its triangles at vertices that are done
-  std::vector<bool> done_;
+  Vector<uint8_t> place_;
+  Vector<uint32_t> gates_;          ///< complete parallelograms
+  Vector<uint32_t> known_corners_;  ///< corners of its triangles at vertices that are done
+  Vector<bool> done_;
   uint32_t seed_ = 0;
 };
 
 }  // namespace
 
-std::vector<uint32_t> growth_order(const CornerTable& table) {
-  std::vector<uint32_t> order;
+Vector<uint32_t> growth_order(const CornerTable& table) {
+  Vector<uint32_t> order;
   order.reserve(table.vertex_count());
   Front front(table);
   while (order.size() < table.vertex_count()) {

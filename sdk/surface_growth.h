@@ -6,9 +6,10 @@
 #ifndef ANICODEC_SDK_SURFACE_GROWTH_H_
 #define ANICODEC_SDK_SURFACE_GROWTH_H_
 
+#include "format/memory.h"
+
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -19,7 +20,7 @@ class CornerTable {
   static constexpr uint32_t kNone = UINT32_MAX;
 
   /// `triangles`: three vertices below vertex_count each; must outlive the table.
-  CornerTable(uint32_t vertex_count, const std::vector<uint32_t>& triangles);
+  CornerTable(uint32_t vertex_count, const Vector<uint32_t>& triangles);
 
   static uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
@@ -41,13 +42,13 @@ class CornerTable {
   uint32_t corner(uint32_t v, uint32_t i) const { return corners_[start_[v] + i]; }
 
  private:
-  const std::vector<uint32_t>& triangles_;
-  std::vector<uint32_t> start_, corners_, opposite_;
+  const Vector<uint32_t>& triangles_;
+  Vector<uint32_t> start_, corners_, opposite_;
 };
 
 /// All vertices, each as often as possible with several parallelograms of earlier vertices at hand.
 /// Cost: O(vertices + triangles).
-std::vector<uint32_t> growth_order(const CornerTable& table);
+Vector<uint32_t> growth_order(const CornerTable& table);
 
 }  // namespace anicodec
 

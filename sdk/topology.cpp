@@ -10,7 +10,7 @@
 namespace anicodec {
 
 Status decode_details(format::ByteView details, const format::Limits::Mesh& sizes,
-                      const std::vector<uint32_t>& triangles, Topology* out) {
+                      const Vector<uint32_t>& triangles, Topology* out) {
   for (uint32_t p : triangles) {
     if (p >= sizes.points)
       return Status::kIndexRange;
@@ -23,15 +23,15 @@ Status decode_details(format::ByteView details, const format::Limits::Mesh& size
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
-Status decode_vertex_map(format::ByteView bytes, uint32_t vertices, std::vector<uint32_t>* source) {
+Status decode_vertex_map(format::ByteView bytes, uint32_t vertices, Vector<uint32_t>* source) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   if (!code_permutation(decoder, vertices, source))
     return decoder.ok() ? Status::kIndexRange : Status::kEntropy;
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
-Status decode_face_map(format::ByteView bytes, const Topology& topology,
-                       std::vector<uint32_t>* place, std::vector<uint32_t>* first) {
+Status decode_face_map(format::ByteView bytes, const Topology& topology, Vector<uint32_t>* place,
+                       Vector<uint32_t>* first) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   auto count = static_cast<uint32_t>(topology.polygon_offsets.size() - 1);
   if (!code_permutation(decoder, count, place))
@@ -42,8 +42,8 @@ Status decode_face_map(format::ByteView bytes, const Topology& topology,
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
-void apply_vertex_map(const std::vector<uint32_t>& source, Topology* topology) {
-  std::vector<uint32_t> coded(topology->vertex_coded.size());
+void apply_vertex_map(const Vector<uint32_t>& source, Topology* topology) {
+  Vector<uint32_t> coded(topology->vertex_coded.size());
   for (size_t i = 0; i < source.size(); ++i)
     coded[source[i]] = topology->vertex_coded[i];
   topology->vertex_coded.swap(coded);
@@ -51,13 +51,13 @@ void apply_vertex_map(const std::vector<uint32_t>& source, Topology* topology) {
     v = source[v];
 }
 
-void apply_face_map(const std::vector<uint32_t>& place, const std::vector<uint32_t>& first,
+void apply_face_map(const Vector<uint32_t>& place, const Vector<uint32_t>& first,
                     Topology* topology) {
   size_t count = place.size();
-  std::vector<uint32_t> canonical(count);  // of each source polygon
+  Vector<uint32_t> canonical(count);  // of each source polygon
   for (size_t i = 0; i < count; ++i)
     canonical[place[i]] = static_cast<uint32_t>(i);
-  std::vector<uint32_t> offsets{0}, corners;
+  Vector<uint32_t> offsets{0}, corners;
   corners.reserve(topology->polygon_corners.size());
   for (uint32_t i : canonical) {
     uint32_t begin = topology->polygon_offsets[i];

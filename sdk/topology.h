@@ -3,11 +3,11 @@
 #ifndef ANICODEC_SDK_TOPOLOGY_H_
 #define ANICODEC_SDK_TOPOLOGY_H_
 
+#include "format/memory.h"
 #include "format/records.h"
 #include "format/status.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -22,32 +22,32 @@ namespace anicodec {
 ///                    use by a polygon corner; the vertex map then restores the source's order.
 struct Topology {
   uint32_t coded_vertices = 0;
-  std::vector<uint32_t> triangles;        ///< coded vertices, three per triangle
-  std::vector<uint32_t> point_vertex;     ///< coded vertex of each point
-  std::vector<uint32_t> vertex_coded;     ///< coded vertex of each vertex
-  std::vector<uint32_t> polygon_offsets;  ///< polygon p has corners offsets[p] .. offsets[p+1]-1
-  std::vector<uint32_t> polygon_corners;  ///< vertex of each corner
+  Vector<uint32_t> triangles;        ///< coded vertices, three per triangle
+  Vector<uint32_t> point_vertex;     ///< coded vertex of each point
+  Vector<uint32_t> vertex_coded;     ///< coded vertex of each vertex
+  Vector<uint32_t> polygon_offsets;  ///< polygon p has corners offsets[p] .. offsets[p+1]-1
+  Vector<uint32_t> polygon_corners;  ///< vertex of each corner
 };
 
 /// Decodes the details of a mesh record: splits, welds, polygons, faces kept apart. `triangles` are
 /// over points, as the connectivity coder gave them. Cost: O(corners log corners).
 Status decode_details(format::ByteView details, const format::Limits::Mesh& sizes,
-                      const std::vector<uint32_t>& triangles, Topology* out);
+                      const Vector<uint32_t>& triangles, Topology* out);
 
 /// Decodes a vertex map (chunk VMAP): `source[i]` is the place, in the source's order, of vertex i
 /// of the canonical order; a permutation, else kIndexRange.
-Status decode_vertex_map(format::ByteView bytes, uint32_t vertices, std::vector<uint32_t>* source);
+Status decode_vertex_map(format::ByteView bytes, uint32_t vertices, Vector<uint32_t>* source);
 
 /// Decodes a face map (chunk FMAP): polygon i of the canonical order is number place[i] of the
 /// source, whose first corner is corner first[i] of it.
-Status decode_face_map(format::ByteView bytes, const Topology& topology,
-                       std::vector<uint32_t>* place, std::vector<uint32_t>* first);
+Status decode_face_map(format::ByteView bytes, const Topology& topology, Vector<uint32_t>* place,
+                       Vector<uint32_t>* first);
 
 /// Renumbers vertices into the source's order.
-void apply_vertex_map(const std::vector<uint32_t>& source, Topology* topology);
+void apply_vertex_map(const Vector<uint32_t>& source, Topology* topology);
 
 /// Reorders polygons and rotates their corners into the source's order.
-void apply_face_map(const std::vector<uint32_t>& place, const std::vector<uint32_t>& first,
+void apply_face_map(const Vector<uint32_t>& place, const Vector<uint32_t>& first,
                     Topology* topology);
 
 }  // namespace anicodec

@@ -57,7 +57,7 @@ uint64_t morton_key(const Node& v) {
 /// Undirected graph without loops and multiple edges: vertex v has adjacent[start[v]] ..
 /// [start[v+1]-1].
 struct Graph {
-  std::vector<uint32_t> start, adjacent;
+  Vector<uint32_t> start, adjacent;
 
   uint32_t degree(uint32_t v) const { return start[v + 1] - start[v]; }
 
@@ -172,28 +172,28 @@ class Contraction {
   void advance();
 
   int m_, colours_;
-  std::vector<Node> nodes_;          // all vertices
-  std::vector<int32_t> neighbours_;  // of all vertices, by index
-  std::vector<uint32_t> removal_;    // vertices, finest level first
-  std::vector<uint32_t> level_end_;  // in removal_
-  std::vector<uint32_t> isolated_;   // alive vertices without edges, not part of the graph
+  Vector<Node> nodes_;          // all vertices
+  Vector<int32_t> neighbours_;  // of all vertices, by index
+  Vector<uint32_t> removal_;    // vertices, finest level first
+  Vector<uint32_t> level_end_;  // in removal_
+  Vector<uint32_t> isolated_;   // alive vertices without edges, not part of the graph
 
   // The graph G of the current level over the local indices of its active vertices, ascending in
   // index; G' over those that stay.
-  std::vector<Node> active_, next_active_;
+  Vector<Node> active_, next_active_;
   Graph graph_, next_;
-  std::vector<uint8_t> state_, colour_;
-  std::vector<uint32_t> removed_, target_, renumbered_, visit_, merged_, merged_next_;
-  std::vector<uint32_t> stamp_;  // by local index: the last tick_ that met the vertex
-  std::vector<uint32_t> met_;    // by local index: the last removed vertex that met this one
+  Vector<uint8_t> state_, colour_;
+  Vector<uint32_t> removed_, target_, renumbered_, visit_, merged_, merged_next_;
+  Vector<uint32_t> stamp_;  // by local index: the last tick_ that met the vertex
+  Vector<uint32_t> met_;    // by local index: the last removed vertex that met this one
   uint32_t tick_ = 0;
   Nearest nearest_;
 };
 
 void Contraction::mesh_graph(const uint32_t* triangles, size_t triangle_count) {
   const size_t n = nodes_.size();
-  std::vector<uint32_t>& start = graph_.start;
-  std::vector<uint32_t>& adjacent = graph_.adjacent;
+  Vector<uint32_t>& start = graph_.start;
+  Vector<uint32_t>& adjacent = graph_.adjacent;
   start.assign(n + 1, 0);
   for (size_t i = 0; i < 3 * triangle_count; ++i)
     start[triangles[i]] += 2;
@@ -282,7 +282,7 @@ void Contraction::link_all() {
     isolated_.push_back(v.id);
   std::sort(isolated_.begin(), isolated_.end());
   active_.clear();
-  std::vector<uint64_t> curve;
+  Vector<uint64_t> curve;
   curve.reserve(isolated_.size());
   for (uint32_t i = 0; i < isolated_.size(); ++i) {
     active_.push_back(nodes_[isolated_[i]]);
@@ -293,7 +293,7 @@ void Contraction::link_all() {
   isolated_.clear();
   std::sort(curve.begin(), curve.end());
   const auto n = static_cast<int64_t>(curve.size());
-  std::vector<uint32_t> place(curve.size());
+  Vector<uint32_t> place(curve.size());
   for (size_t i = 0; i < curve.size(); ++i)
     place[curve[i] & 0xffffffff] = static_cast<uint32_t>(i);
   graph_.start.assign(1, 0);
@@ -314,7 +314,7 @@ void Contraction::select_removed() {
   constexpr uint32_t buckets = 32 * 16;
   const auto n = static_cast<uint32_t>(active_.size());
   uint32_t count[buckets + 1] = {};
-  std::vector<uint32_t>& key = renumbered_;
+  Vector<uint32_t>& key = renumbered_;
   key.resize(n);
   visit_.resize(n);
   for (uint32_t v = 0; v < n; ++v) {
@@ -532,7 +532,7 @@ void Contraction::write(VertexOrder* out) const {
     out->order.insert(out->order.end(), removal_.begin() + first, removal_.begin() + level_end_[l]);
     out->level_start.push_back(static_cast<uint32_t>(out->order.size()));
   }
-  std::vector<int32_t> rank(n);
+  Vector<int32_t> rank(n);
   for (size_t r = 0; r < n; ++r)
     rank[out->order[r]] = static_cast<int32_t>(r);
   out->neighbours.resize(n * m);

@@ -6,11 +6,11 @@
 #ifndef ANICODEC_SDK_VERTEX_ORDER_H_
 #define ANICODEC_SDK_VERTEX_ORDER_H_
 
+#include "format/memory.h"
 #include "format/status.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -26,11 +26,10 @@ constexpr int32_t kMaxReferenceCoordinate = 1 << 21;
 /// A coarse-to-fine order of n vertices. The vertices of one level depend on earlier levels only,
 /// so a level can be decoded in any order, in batches or in parallel.
 struct VertexOrder {
-  int neighbour_count = 0;            ///< m
-  std::vector<uint32_t> order;        ///< n: vertex of each rank
-  std::vector<uint32_t> level_start;  ///< levels + 1: first rank of each level, then n
-  std::vector<int32_t>
-      neighbours;  ///< n x m: ranks, nearest first; -1 from where there are no more
+  int neighbour_count = 0;       ///< m
+  Vector<uint32_t> order;        ///< n: vertex of each rank
+  Vector<uint32_t> level_start;  ///< levels + 1: first rank of each level, then n
+  Vector<int32_t> neighbours;    ///< n x m: ranks, nearest first; -1 from where there are no more
 
   size_t vertex_count() const { return order.size(); }
 

@@ -78,14 +78,16 @@ MeshSequence describe_clip(const Clip& clip) {
   const format::ClipRecord& record = clip.record();
   const Topology& topology = clip.meshes()[0].topology;
   MeshSequence sequence;
-  sequence.name = record.name;
-  sequence.polygons.offsets = topology.polygon_offsets;
-  sequence.polygons.corners = topology.polygon_corners;
+  sequence.name.assign(record.name.begin(), record.name.end());
+  sequence.polygons.offsets.assign(topology.polygon_offsets.begin(),
+                                   topology.polygon_offsets.end());
+  sequence.polygons.corners.assign(topology.polygon_corners.begin(),
+                                   topology.polygon_corners.end());
   sequence.vertex_count = clip.vertex_count();
   sequence.frame_count = clip.frame_count();
   sequence.rate = {record.rate_numerator, record.rate_denominator, record.rate_assumed};
   sequence.start_time = record.start_time;
-  sequence.times = record.times;
+  sequence.times.assign(record.times.begin(), record.times.end());
   sequence.up = static_cast<UpAxis>(record.up);
   sequence.metres_per_unit = record.metres_per_unit;
   return sequence;

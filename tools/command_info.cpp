@@ -139,7 +139,8 @@ void print_chunks(const Contents& c) {
 }
 
 /// Unprintable characters as '?': a file may hold any name.
-std::string printable(std::string text) {
+std::string printable(std::string_view name) {
+  std::string text(name);
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
       c = '?';

@@ -10,7 +10,7 @@ namespace {
 constexpr size_t kShownBytes = 32;
 constexpr size_t kShownText = 60;
 
-std::string quoted(const std::string& text) {
+std::string quoted(std::string_view text) {
   std::string out = "\"";
   for (size_t i = 0; i < text.size() && i < kShownText; ++i) {
     auto c = static_cast<unsigned char>(text[i]);
@@ -85,8 +85,8 @@ uint64_t FieldReader::varint(std::string_view name) {
 
 void FieldReader::text(std::string_view name) {
   uint64_t begin = reader_.position();
-  std::string text = reader_.text();
-  line(name, begin, quoted(text));
+  String text = reader_.text();
+  line(name, begin, quoted({text.data(), text.size()}));
 }
 
 void FieldReader::hex(std::string_view name, uint64_t size) {

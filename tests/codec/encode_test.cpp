@@ -33,8 +33,8 @@ EncodeOptions asking(const Target& target, BasisChoice basis) {
 }
 
 /// Polygons of a clip's mesh, each rotated to start at its smallest corner, sorted.
-std::vector<std::vector<uint32_t>> cycles(const std::vector<uint32_t>& offsets,
-                                          const std::vector<uint32_t>& corners) {
+template <class Numbers>
+std::vector<std::vector<uint32_t>> cycles(const Numbers& offsets, const Numbers& corners) {
   std::vector<std::vector<uint32_t>> all;
   for (size_t p = 0; p + 1 < offsets.size(); ++p) {
     std::vector<uint32_t>& f =

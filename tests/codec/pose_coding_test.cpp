@@ -21,14 +21,14 @@ TEST(PoseCodingOfCorpus, EveryClipsFirstFrameComesBack) {
     float largest = 0;
     for (size_t i = 0; i < size_t{3} * s.vertex_count; ++i)
       largest = std::max(largest, std::fabs(s.positions[i]));
-    std::vector<int32_t> pose;
+    Vector<int32_t> pose;
     for (uint32_t v : layout.coded_source) {
       for (size_t i = 0; i < 3; ++i)
         pose.push_back(static_cast<int32_t>(
             std::lround(8191 * s.positions[size_t{3} * v + i] / (largest > 0 ? largest : 1))));
     }
     format::Bytes bytes = encode_pose(layout.topology, pose);
-    std::vector<int32_t> decoded;
+    Vector<int32_t> decoded;
     ASSERT_EQ(decode_pose(bytes, layout.topology, &decoded), Status::kOk);
     EXPECT_EQ(decoded, pose);
   }

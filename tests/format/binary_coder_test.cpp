@@ -17,7 +17,7 @@
 namespace anicodec {
 namespace {
 
-using Bytes = std::vector<uint8_t>;
+using Bytes = Vector<uint8_t>;
 
 // Values with many zeros and a few large ones. No std:: distribution: their results differ by
 // library.

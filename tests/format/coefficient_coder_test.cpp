@@ -14,7 +14,7 @@
 namespace anicodec {
 namespace {
 
-using Bytes = std::vector<uint8_t>;
+using Bytes = Vector<uint8_t>;
 
 struct Basis {
   uint32_t vertices, channels, components, stride;

@@ -3,9 +3,10 @@
 #ifndef ANICODEC_TESTS_FORMAT_RANDOM_H_
 #define ANICODEC_TESTS_FORMAT_RANDOM_H_
 
+#include "format/memory.h"
+
 #include <cstdint>
 #include <random>
-#include <vector>
 
 namespace anicodec {
 
@@ -21,7 +22,7 @@ class Random {
 };
 
 /// FNV-1a, to pin a stream by one number.
-inline uint64_t hash(const std::vector<uint8_t>& bytes) {
+inline uint64_t hash(const Vector<uint8_t>& bytes) {
   uint64_t h = 14695981039346656037u;
   for (const uint8_t b : bytes)
     h = (h ^ b) * 1099511628211u;

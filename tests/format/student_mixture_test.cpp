@@ -25,7 +25,7 @@ void expect_round_trip(const StudentMixture& m, const std::vector<int32_t>& valu
   MixtureWeights to;
   for (int32_t v : values)
     to.code(encoder, m, v);
-  std::vector<uint8_t> bytes = encoder.finish();
+  Vector<uint8_t> bytes = encoder.finish();
   BinaryDecoder decoder(bytes.data(), bytes.size());
   MixtureWeights from;
   for (int32_t v : values)

@@ -15,7 +15,7 @@
 namespace anicodec {
 namespace {
 
-using Bytes = std::vector<uint8_t>;
+using Bytes = Vector<uint8_t>;
 
 constexpr uint32_t kAll = (1u << kWeightPredictors) - 1;
 constexpr double kPi = 3.14159265358979323846;

@@ -19,8 +19,8 @@ void require(bool condition) {
     std::abort();
 }
 
-bool same(const std::vector<uint8_t>& bytes, const uint8_t* data, size_t size) {
-  return bytes == std::vector<uint8_t>(data, data + size);
+bool same(const Vector<uint8_t>& bytes, const uint8_t* data, size_t size) {
+  return bytes == Vector<uint8_t>(data, data + size);
 }
 
 void fuzz_integers(size_t count, const uint8_t* data, size_t size) {

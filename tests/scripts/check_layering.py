@@ -17,7 +17,7 @@ POSIX = ["<fcntl.h>", "<glob.h>", "<sys/stat.h>", "<unistd.h>"]
 # Prefixes of what a module may include beside the standard library.
 ALLOWED = {
     "format": ['"format/', "<zstd.h>", "<xxhash.h>", *SIMD],
-    "sdk": ['"sdk/', '"format/', "<anicodec/", *SIMD],
+    "sdk": ["<stddef.h>", "<stdint.h>", '"sdk/', '"format/', "<anicodec/", *SIMD],
     "codec": ['"codec/', '"sdk/', '"format/', "<Eigen/", "<tbb/", "<embree3/"],
     "corpus": ['"corpus/', '"codec/', "<xxhash.h>"],
     "tools": ['"tools/', '"corpus/', '"codec/', '"sdk/', '"format/', "<anicodec/",
@@ -29,7 +29,9 @@ EXCEPTIONS = {"sdk/draco_mesh.cpp": ["<draco/"], "codec/draco_encode.cpp": ["<dr
               "tools/render/shaded_view.cpp": ["<Eigen/", "<embree3/"],
               "tools/peers/draco_frames.cpp": ["<draco/"],
               "tools/peers/frame_deltas.cpp": ["<meshoptimizer.h>", "<zstd.h>"]}
-# Memory in, memory out; and no exceptions cross the decoder.
+# Memory in, memory out; and no exceptions leave the decoder.
+# One file of the decoder says that there is no memory; whoever calls the library sees a status.
+THROWS = {"format/memory.cpp"}
 NO_STREAMS = {"format", "sdk", "codec"}
 NO_THROW = {"format", "sdk"}
 
@@ -52,7 +54,7 @@ def faults(checkout):
                 streams = module in NO_STREAMS and header in STREAMS
                 if streams or not (STANDARD.match(header) or any(header.startswith(p) for p in allowed)):
                     yield f"{name} must not include {header}"
-            if module in NO_THROW and name not in EXCEPTIONS and THROW.search(text):
+            if module in NO_THROW and name not in THROWS and THROW.search(text):
                 yield f"{name} must not throw"
     if not found_any:
         yield f"{checkout} has no sources"

@@ -12,7 +12,7 @@ namespace {
 
 struct Sample {
   Topology topology;
-  std::vector<int32_t> pose;
+  Vector<int32_t> pose;
 };
 
 /// A bent sheet of (n + 1)^2 vertices.
@@ -47,7 +47,7 @@ Sample random_sample(uint32_t vertices, size_t triangles, int32_t range, unsigne
 
 void expect_round_trip(const Sample& s) {
   format::Bytes bytes = encode_pose(s.topology, s.pose);
-  std::vector<int32_t> decoded;
+  Vector<int32_t> decoded;
   ASSERT_EQ(decode_pose(bytes, s.topology, &decoded), Status::kOk);
   EXPECT_EQ(decoded, s.pose);
 }
@@ -98,7 +98,7 @@ TEST(PoseCoding, AVertexOfVeryManyTrianglesTakesBoundedTime) {
 TEST(PoseCoding, TruncatedStreamsAreRefused) {
   Sample s = sheet(12);
   format::Bytes bytes = encode_pose(s.topology, s.pose);
-  std::vector<int32_t> decoded;
+  Vector<int32_t> decoded;
   for (size_t size = 0; size < bytes.size(); ++size) {
     Status status = decode_pose({bytes.data(), size}, s.topology, &decoded);
     // Without its last bytes it may be the stream of another pose.
@@ -115,7 +115,7 @@ TEST(PoseCoding, TruncatedStreamsAreRefused) {
 TEST(PoseCoding, ArbitraryBytesDoNoHarm) {
   Sample s = sheet(10);
   std::mt19937 random(5);
-  std::vector<int32_t> decoded;
+  Vector<int32_t> decoded;
   for (int round = 0; round < 200; ++round) {
     format::Bytes bytes(random() % 600);
     for (uint8_t& b : bytes)

@@ -207,14 +207,14 @@ struct ReferenceOrder {
   }
 };
 
-using Vector = std::vector<float>;
-using Matrix = std::vector<Vector>;
+using Row = std::vector<float>;
+using Matrix = std::vector<Row>;
 
 /// Section 3.
 class Solver {
  public:
-  Solver(const Matrix& A, float e) : m_(A.size()), L_(m_, Vector(m_)), I_(m_) {
-    Vector D(m_), t(m_);
+  Solver(const Matrix& A, float e) : m_(A.size()), L_(m_, Row(m_)), I_(m_) {
+    Row D(m_), t(m_);
     for (size_t j = 0; j < m_; ++j) {
       for (size_t p = 0; p < j; ++p)
         t[p] = L_[j][p] * D[p];
@@ -232,8 +232,8 @@ class Solver {
     }
   }
 
-  Vector solve(const Vector& b) const {
-    Vector x(m_);
+  Row solve(const Row& b) const {
+    Row x(m_);
     for (size_t i = 0; i < m_; ++i) {
       x[i] = b[i];
       for (size_t p = 0; p < i; ++p)
@@ -250,7 +250,7 @@ class Solver {
  private:
   size_t m_;
   Matrix L_;
-  Vector I_;
+  Row I_;
 };
 
 float limit(float x) {
@@ -298,11 +298,11 @@ Matrix reference_coefficients(const PredictionCase& t, const PredictionClip& cli
     const float w = u * u;
     return (w * w) * (4 * s + 1);
   };
-  Matrix y(n, Vector(K * c));
+  Matrix y(n, Row(K * c));
   for (size_t r = 0; r < n; ++r) {
     const std::vector<int>& nb = order.neighbours[r];
-    Vector valid(m), l(m), b(m);
-    Matrix x(m, Vector(3)), M(m, Vector(m));
+    Row valid(m), l(m), b(m);
+    Matrix x(m, Row(3)), M(m, Row(m));
     const auto P = [&](size_t rank, size_t axis) {
       return static_cast<float>(clip.positions[3 * static_cast<size_t>(order.order[rank]) + axis]);
     };
@@ -331,16 +331,16 @@ Matrix reference_coefficients(const PredictionCase& t, const PredictionClip& cli
       }
       M[a][a] = M[a][a] + (1 - valid[a]);
     }
-    Vector w0 = Solver(M, 0.02f).solve(b);
+    Row w0 = Solver(M, 0.02f).solve(b);
     for (float& e : w0)
       e = finite(e);
-    Vector w = w0, g(m);
-    Matrix A(m, Vector(m));
+    Row w = w0, g(m);
+    Matrix A(m, Row(m));
     for (size_t j = 0; j < K; ++j) {
       const float omega =
           from_bits(quarters[clip.omega[j] % 4]) * std::ldexp(1.0f, clip.omega[j] / 4 - 32);
       for (size_t k = 0; k < c; ++k) {
-        Vector z(m);
+        Row z(m);
         float p = 0, p0 = 0;
         for (size_t a = 0; a < m; ++a) {
           const float value = a < nb.size() ? y[static_cast<size_t>(nb[a])][j * c + k] : 0;
@@ -367,7 +367,7 @@ Matrix reference_coefficients(const PredictionCase& t, const PredictionClip& cli
         float trace = 0;
         for (size_t a = 0; a < m; ++a)
           trace = trace + A[a][a];
-        const Vector change = Solver(A, 0.3f + trace * from_bits(trace_factor.at(m))).solve(g);
+        const Row change = Solver(A, 0.3f + trace * from_bits(trace_factor.at(m))).solve(g);
         for (size_t a = 0; a < m; ++a)
           w[a] = finite(w0[a] + change[a]);
       }
@@ -383,7 +383,7 @@ void expect_reference_order(const PredictionClip& clip, int m, int colours) {
   ASSERT_EQ(make_vertex_order(clip.triangles.data(), clip.triangles.size() / 3,
                               clip.positions.data(), clip.vertex_count(), m, colours, &order),
             Status::kOk);
-  ASSERT_EQ(std::vector<uint32_t>(reference.order.begin(), reference.order.end()), order.order);
+  ASSERT_EQ(Vector<uint32_t>(reference.order.begin(), reference.order.end()), order.order);
   for (size_t r = 0; r < order.order.size(); ++r) {
     std::vector<int> nb = reference.neighbours[r];
     nb.resize(count, -1);
@@ -428,7 +428,7 @@ TEST(PredictionReference, IsWhatTheSpecificationSays) {
     expect_reference_order(clip, t.neighbours, t.colours);
     const ReferenceOrder reference(clip, m, t.colours);
     uint64_t hash = 0xcbf29ce484222325;
-    for (const Vector& row : reference_coefficients(t, clip, reference))
+    for (const Row& row : reference_coefficients(t, clip, reference))
       for (const float value : row) {
         uint32_t bits;
         std::memcpy(&bits, &value, 4);

@@ -11,16 +11,16 @@
 namespace anicodec {
 namespace {
 
-bool is_permutation_of_all(std::vector<uint32_t> order, uint32_t n) {
+bool is_permutation_of_all(Vector<uint32_t> order, uint32_t n) {
   std::sort(order.begin(), order.end());
-  std::vector<uint32_t> all(n);
+  Vector<uint32_t> all(n);
   std::iota(all.begin(), all.end(), 0U);
   return order == all;
 }
 
 /// (n + 1)^2 vertices, row by row.
-std::vector<uint32_t> grid(uint32_t n) {
-  std::vector<uint32_t> triangles;
+Vector<uint32_t> grid(uint32_t n) {
+  Vector<uint32_t> triangles;
   for (uint32_t y = 0; y < n; ++y) {
     for (uint32_t x = 0; x < n; ++x) {
       uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
@@ -31,7 +31,7 @@ std::vector<uint32_t> grid(uint32_t n) {
 }
 
 TEST(SurfaceGrowth, CornersFaceEachOtherAcrossAnEdge) {
-  std::vector<uint32_t> triangles{0, 1, 2, 2, 1, 3};
+  Vector<uint32_t> triangles{0, 1, 2, 2, 1, 3};
   CornerTable table(4, triangles);
   EXPECT_EQ(table.opposite(0), 5U);
   EXPECT_EQ(table.opposite(5), 0U);
@@ -41,16 +41,16 @@ TEST(SurfaceGrowth, CornersFaceEachOtherAcrossAnEdge) {
 }
 
 TEST(SurfaceGrowth, EdgesOfManyTrianglesJoinThemTwoByTwo) {
-  std::vector<uint32_t> triangles{0, 1, 2, 0, 1, 3, 1, 0, 4};
+  Vector<uint32_t> triangles{0, 1, 2, 0, 1, 3, 1, 0, 4};
   CornerTable table(5, triangles);
   EXPECT_EQ(table.opposite(2), 5U);
   EXPECT_EQ(table.opposite(8), CornerTable::kNone);
 }
 
 TEST(SurfaceGrowth, MostVerticesOfAGridComeWithTwoParallelograms) {
-  std::vector<uint32_t> triangles = grid(30);
+  Vector<uint32_t> triangles = grid(30);
   CornerTable table(31 * 31, triangles);
-  std::vector<uint32_t> order = growth_order(table);
+  Vector<uint32_t> order = growth_order(table);
   ASSERT_TRUE(is_permutation_of_all(order, 31 * 31));
   std::vector<bool> done(31 * 31, false);
   size_t several = 0;
@@ -71,14 +71,14 @@ TEST(SurfaceGrowth, MostVerticesOfAGridComeWithTwoParallelograms) {
 TEST(SurfaceGrowth, AnyTrianglesGiveAPermutation) {
   std::mt19937 random(3);
   for (uint32_t n : {1U, 2U, 5U, 40U}) {
-    std::vector<uint32_t> triangles(300);
+    Vector<uint32_t> triangles(300);
     for (uint32_t& v : triangles)
       v = static_cast<uint32_t>(random() % n);
     CornerTable table(n + 3, triangles);
     EXPECT_TRUE(is_permutation_of_all(growth_order(table), n + 3));
   }
   CornerTable empty(4, {});
-  EXPECT_EQ(growth_order(empty), (std::vector<uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(growth_order(empty), (Vector<uint32_t>{0, 1, 2, 3}));
 }
 
 }  // namespace

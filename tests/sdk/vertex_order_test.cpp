@@ -60,7 +60,7 @@ void expect_valid(const Mesh& mesh, const VertexOrder& o) {
   const size_t n = mesh.vertex_count();
   const auto m = static_cast<size_t>(o.neighbour_count);
   ASSERT_EQ(o.order.size(), n);
-  std::vector<uint32_t> sorted = o.order;
+  Vector<uint32_t> sorted = o.order;
   std::sort(sorted.begin(), sorted.end());
   for (uint32_t v = 0; v < n; ++v)
     ASSERT_EQ(sorted[v], v);

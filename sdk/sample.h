@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_SAMPLE_H_
+#define ANICODEC_SDK_SAMPLE_H_
+
+#include "sdk/clip.h"
+#include "sdk/clock.h"
+#include "sdk/combine.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace anicodec {
+
+/// A mesh at one time: the sum over its parts of share * combine(part). One part for each segment
+/// that the frames of the time are in; none when the mesh is not there (spec/10-seeking.md, section
+/// 2).
+struct Sample {
+  static constexpr uint32_t kMaxParts = 4;
+
+  uint32_t count = 0;
+  FrameState parts[kMaxParts];
+  float share[kMaxParts] = {};
+
+  /// Positions of vertices first .. first + count - 1, three floats each, written once and in
+  /// order. Cost: O(count x components) for each part. Allocates nothing.
+  void positions(uint32_t first, uint32_t count, float* out) const;
+};
+
+/// Floats of the interpolated weights of a sample of a mesh.
+size_t sample_buffer_size(const Clip& clip, uint32_t mesh);
+
+/// Combines what depends on time. `buffer` holds sample_buffer_size() floats and must outlive the
+/// sample, as the clip must. Rigid motions turn the shorter way; corrections are there when the mix
+/// is one frame. Frames in which the mesh is missing drop out; without the first one, the sample is
+/// empty. Cost: O(components) per frame. Allocates nothing.
+Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* buffer);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_SAMPLE_H_
