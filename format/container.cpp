@@ -11,6 +11,7 @@
 namespace anicodec::format {
 namespace {
 
+constexpr size_t kCountAt = 12;
 constexpr size_t kChecksumAt = 32;
 constexpr uint64_t kKnownFeatures = 0;
 constexpr uint16_t kRequiredFlag = 1;
@@ -83,9 +84,18 @@ Bytes ContainerWriter::finish() const {
   return std::move(file.bytes());
 }
 
-Failure ContainerReader::open(ByteView file) {
+uint64_t ContainerReader::head_bytes(ByteView bytes) {
+  if (bytes.size < kHeaderBytes)
+    return kHeaderBytes;
+  ByteReader header({bytes.data + kCountAt, 4});
+  return kHeaderBytes + uint64_t{kEntryBytes} * header.u32();
+}
+
+Failure ContainerReader::open(ByteView file, bool prefix) {
   chunks_.clear();
   by_key_.clear();
+  file_ = {};
+  file_size_ = 0;
   auto failure = [](Status status, uint64_t offset, const char* detail, uint32_t type = 0) {
     return Failure{status, offset, type, detail};
   };
@@ -107,7 +117,7 @@ Failure ContainerReader::open(ByteView file) {
     return failure(Status::kTruncated, file.size, "the file ends inside the header");
   if (major != kVersionMajor || minor != kVersionMinor)
     return failure(Status::kVersion, 8, "the file is of another format version");
-  uint64_t table_end = kHeaderBytes + uint64_t{kEntryBytes} * count;
+  uint64_t table_end = head_bytes(file);
   if (table_end > file.size)
     return failure(size > file.size ? Status::kTruncated : Status::kHeader, file.size,
                    "the file ends inside the chunk table");
@@ -119,7 +129,7 @@ Failure ContainerReader::open(ByteView file) {
     return failure(Status::kHeader, 36, "a reserved field is not zero");
   if (features_ & ~kKnownFeatures)
     return failure(Status::kFeature, 16, "the file needs a feature this reader does not have");
-  if (size > file.size)
+  if (size > file.size && !prefix)
     return failure(Status::kTruncated, file.size, "the file is shorter than its header says");
   if (size < file.size)
     return failure(Status::kTrailingBytes, size, "bytes follow the end of the file");
@@ -143,7 +153,7 @@ Failure ContainerReader::open(ByteView file) {
     if (chunk.offset != aligned(at) || chunk.offset > size || chunk.size > size - chunk.offset)
       return failure(Status::kChunkBounds, entry, "a chunk is not where its neighbours leave room",
                      chunk.type);
-    for (uint64_t p = at; p < chunk.offset; ++p) {
+    for (uint64_t p = at; p < std::min<uint64_t>(chunk.offset, file.size); ++p) {
       if (file.data[p] != 0)
         return failure(Status::kPadding, p, "padding is not zero", chunk.type);
     }
@@ -158,6 +168,7 @@ Failure ContainerReader::open(ByteView file) {
     return std::pair(key(chunks_[a]), a) < std::pair(key(chunks_[b]), b);
   });
   file_ = file;
+  file_size_ = size;
   return {};
 }
 
@@ -169,6 +180,8 @@ const Chunk* ContainerReader::find(const char (&type)[5], uint16_t mesh, uint32_
 }
 
 Failure ContainerReader::payload(const Chunk& chunk, ByteView* out) const {
+  if (!has(chunk))
+    return {Status::kTruncated, chunk.offset, chunk.type, "the chunk has not arrived"};
   *out = {file_.data + chunk.offset, static_cast<size_t>(chunk.size)};
   if (low32(xxh64(*out)) != chunk.checksum)
     return {Status::kChunkChecksum, chunk.offset, chunk.type, "the chunk is damaged"};

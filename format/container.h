@@ -74,7 +74,14 @@ class ContainerReader {
   /// Checks magic, version, features, sizes, table, checksums of header and table, order of chunks,
   /// padding, and that the file ends where the header says. Payload checksums are checked by
   /// payload(). Cost: O(chunks log chunks), plus the padding.
-  Failure open(ByteView file);
+  Failure open(ByteView file) { return open(file, false); }
+
+  /// The same for the bytes that have arrived of a file, from the front: all checks but those
+  /// against the number of bytes. kTruncated, with head_bytes(), until header and table are there.
+  Failure open_prefix(ByteView bytes) { return open(bytes, true); }
+
+  /// How many bytes from the front hold header and table, as far as the bytes tell.
+  static uint64_t head_bytes(ByteView bytes);
 
   const Vector<Chunk>& chunks() const { return chunks_; }
 
@@ -86,7 +93,10 @@ class ContainerReader {
   const Chunk* find(const char (&type)[5], uint16_t mesh = kNoMesh,
                     uint32_t segment = kNoSegment) const;
 
-  /// The payload after checking its checksum.
+  /// Whether the payload is there in full.
+  bool has(const Chunk& chunk) const { return chunk.offset + chunk.size <= file_.size; }
+
+  /// The payload after checking its checksum; kTruncated when it is not there.
   Failure payload(const Chunk& chunk, ByteView* out) const;
 
   uint16_t version_major() const { return kVersionMajor; }
@@ -95,10 +105,17 @@ class ContainerReader {
 
   uint64_t features() const { return features_; }
 
-  uint64_t file_size() const { return file_.size; }
+  /// What the header says.
+  uint64_t file_size() const { return file_size_; }
+
+  /// Whether all bytes are there.
+  bool is_complete() const { return file_.size == file_size_; }
 
  private:
+  Failure open(ByteView file, bool prefix);
+
   ByteView file_;
+  uint64_t file_size_ = 0;
   Vector<Chunk> chunks_;
   Vector<uint32_t> by_key_;
   uint64_t features_ = 0;

@@ -45,6 +45,13 @@ void set_segment(const Segment& segment, CombineJob* job) {
     job->origin[c] = static_cast<float>(segment.origin[c]);
 }
 
+void set_output(const VertexOutput& output, CombineJob::Frame* frame) {
+  frame->out = static_cast<unsigned char*>(output.data);
+  frame->stride = output.stride;
+  frame->format = output.format;
+  frame->scale = output_scale(output);
+}
+
 void set_frame(const FrameState& state, const VertexOutput& output, uint32_t first,
                CombineJob::Frame* frame) {
   frame->weights = state.weights;
@@ -53,10 +60,7 @@ void set_frame(const FrameState& state, const VertexOutput& output, uint32_t fir
   frame->corrections_end = state.corrections + state.correction_count;
   frame->correction = std::partition_point(state.corrections, frame->corrections_end,
                                            [&](const auto& c) { return c.vertex < first; });
-  frame->out = static_cast<unsigned char*>(output.data);
-  frame->stride = output.stride;
-  frame->format = output.format;
-  frame->scale = output_scale(output);
+  set_output(output, frame);
 }
 
 }  // namespace
@@ -132,6 +136,18 @@ void combine(const FrameState& state, uint32_t first, uint32_t count, float* out
   VertexOutput output;
   output.data = out;
   combine(&state, 1, first, count, &output);
+}
+
+void store_points(const float* blocks, uint32_t first, uint32_t count, const VertexOutput& output) {
+  const Affine identity;
+  CombineJob job;
+  job.pose = blocks;
+  job.first = first;
+  job.end = first + count;
+  job.frames = 1;
+  job.frame[0].pose_map = identity.m;
+  set_output(output, &job.frame[0]);
+  combine_kernels().combine(job);
 }
 
 }  // namespace anicodec

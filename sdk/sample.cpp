@@ -125,22 +125,26 @@ Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* 
   return sample;
 }
 
-void Sample::positions(uint32_t first, uint32_t vertices, float* out) const {
+void Sample::positions(uint32_t first, uint32_t vertices, const VertexOutput& output) const {
   if (count == 1) {
-    combine(parts[0], first, vertices, out);
+    combine(parts, 1, first, vertices, &output);
     return;
   }
+  VertexOutput rest = output;
   for (uint32_t end = first + vertices; first < end;) {
-    const uint32_t stop = std::min(end, (first / kRange + 1) * kRange);
-    const size_t n = size_t{3} * (stop - first);
-    float sum[3 * kRange], part[3 * kRange];
-    std::fill_n(sum, n, 0.F);
+    const uint32_t base = first / kRange * kRange;
+    const uint32_t stop = std::min(end, base + kRange), n = stop - first;
+    float sum[3 * kRange] = {}, part[3 * kRange];
     for (uint32_t p = 0; p < count; ++p) {
-      combine(parts[p], first, stop - first, part);
-      for (size_t i = 0; i < n; ++i)
-        sum[i] += share[p] * part[i];
+      combine(parts[p], first, n, part);
+      for (uint32_t i = 0; i < n; ++i) {
+        const uint32_t v = first - base + i;
+        for (uint32_t c = 0; c < 3; ++c)
+          sum[(v / kBlock * 3 + c) * kBlock + v % kBlock] += share[p] * part[3 * i + c];
+      }
     }
-    out = std::copy_n(sum, n, out);
+    store_points(sum, first - base, n, rest);
+    rest.data = static_cast<unsigned char*>(rest.data) + rest.stride * n;
     first = stop;
   }
 }

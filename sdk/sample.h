@@ -22,9 +22,9 @@ struct Sample {
   FrameState parts[kMaxParts];
   float share[kMaxParts] = {};
 
-  /// Positions of vertices first .. first + count - 1, three floats each, written once and in
-  /// order. Cost: O(count x components) for each part. Allocates nothing.
-  void positions(uint32_t first, uint32_t count, float* out) const;
+  /// Stores the positions of vertices first .. first + vertices - 1; see combine(). Cost: O(vertices
+  /// x components) for each part. Allocates nothing.
+  void positions(uint32_t first, uint32_t vertices, const VertexOutput& output) const;
 };
 
 /// Floats of the interpolated weights of a sample of a mesh.
