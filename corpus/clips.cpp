@@ -106,6 +106,12 @@ const Clip kClips[] = {
      false,
      kNone,
      "unused vertices, degenerate faces and duplicate faces in a sheet"},
+    {"sliding",
+     sliding,
+     {1600, 48},
+     true,
+     kZ,
+     "skinned limb whose vertices slide over it, otherwise in every frame, as if captured"},
 };
 
 const Clip& find(std::string_view name) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "corpus/build.h"
 #include "corpus/generators.h"
+#include "corpus/sliding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,6 +167,10 @@ MeshSequence limb_soup(ClipSize size) {
   }
   return animate(soup, size.frames, 4,
                  [](uint32_t, const Vec3& rest, double time) { return skinned(rest, time); });
+}
+
+MeshSequence sliding(ClipSize size) {
+  return slide_vertices(limb(size), 0.3, 4.0 / 65536, 21);
 }
 
 }  // namespace anicodec::corpus

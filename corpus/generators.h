@@ -24,6 +24,7 @@ MeshSequence face(ClipSize size);
 MeshSequence helix(ClipSize size);
 MeshSequence noisy(ClipSize size);
 MeshSequence limb_soup(ClipSize size);
+MeshSequence sliding(ClipSize size);
 
 // rigid.cpp: rigid bodies, and where coordinates are large or small
 MeshSequence rigid(ClipSize size);

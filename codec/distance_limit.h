@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_DISTANCE_LIMIT_H_
+#define ANICODEC_CODEC_DISTANCE_LIMIT_H_
+
+#include "codec/surface.h"
+
+namespace anicodec {
+
+/// Draws moved vertices back towards where they were, each by halves and only as far as needed,
+/// until the moved surface and the one before are nowhere further apart than `limit`, both ways, at
+/// the vertices, edge mid-points and triangle centres of either. `before` has an index; `v` has its
+/// connectivity, vertex for vertex. Returns how many vertices it drew back.
+uint32_t limit_distance(const Surface& before, double limit, Positions* v);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_DISTANCE_LIMIT_H_

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/massage.h"
+
+#include "codec/distance_limit.h"
+#include "codec/error.h"
+#include "codec/shape_weights.h"
+#include "codec/surface_fit.h"
+#include "codec/welded_clip.h"
+
+#include <algorithm>
+#include <string>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace anicodec {
+namespace {
+
+constexpr uint32_t kFramesAtOnce = 32;  // between two reports
+
+}  // namespace
+
+MassageResult massage(const MeshSequence& sequence, const MassageOptions& options,
+                      const Progress& progress) {
+  check(sequence);
+  if (options.reference >= sequence.frame_count)
+    throw Error(ErrorKind::kUsage, "the massage is to follow frame " +
+                                       std::to_string(options.reference) + " of " +
+                                       std::to_string(sequence.frame_count));
+  if (!(options.strength > 0 && options.strength < 1))
+    throw Error(ErrorKind::kUsage, "the strength of the massage is between 0 and 1");
+  const WeldedClip clip(sequence);
+  if (clip.topology.triangles.empty())
+    throw Error(ErrorKind::kInput, "there is no surface to massage: no face has three vertices");
+  MassageResult result;
+  result.sequence = sequence;
+  result.frames.resize(sequence.frame_count);
+  const Positions reference = clip.frame(sequence.frame(options.reference));
+  const SlidingSolver slider(clip.topology, reference);
+  const RowMatrix shape = shape_matrix(clip.topology, reference, ShapeWeights::kMeanValue);
+  SlidingOptions sliding;
+  sliding.rounds = options.sliding_rounds;
+  SurfaceFitOptions fitting;
+  fitting.lambda = 1 - options.strength;
+  fitting.rounds = options.fitting_rounds;
+  tbb::enumerable_thread_specific<SurfaceFitter> fitters(
+      [&] { return SurfaceFitter(clip.topology, shape); });
+  auto massage_frame = [&](uint32_t f) {
+    if (f == options.reference)
+      return;
+    Positions v = clip.frame(sequence.frame(f));
+    Surface surface(clip.topology, v);
+    surface.build_index();
+    MassagedFrame& frame = result.frames[f];
+    frame.sliding = slider.run(surface, sliding, &v);
+    frame.fitting = fitters.local().run(surface, fitting, &v).convergence;
+    if (options.tolerance > 0)
+      frame.drawn_back = limit_distance(surface, options.tolerance, &v);
+    clip.store(v, result.sequence.frame(f));
+  };
+  for (uint32_t first = 0; first < sequence.frame_count; first += kFramesAtOnce) {
+    if (progress)
+      progress("massaging", static_cast<double>(first) / sequence.frame_count);
+    const uint32_t end = std::min(sequence.frame_count, first + kFramesAtOnce);
+    tbb::parallel_for(first, end, massage_frame);
+  }
+  return result;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_MASSAGE_QUALITY_H_
+#define ANICODEC_CODEC_MASSAGE_QUALITY_H_
+
+#include "codec/mesh_quality.h"
+#include "codec/mesh_sequence.h"
+
+#include <cstdint>
+
+namespace anicodec {
+
+/// The triangles of a clip, all frames together (thesis figures 3.7 and 3.13).
+struct MassageQuality {
+  Distortion distortion;    ///< from the reference frame: mean of the means, largest of the maxima
+  double radius_ratio = 0;  ///< mean
+  uint64_t turned = 0;      ///< triangles that face against the surface, in all frames
+};
+
+/// Of `sequence` as a clip on the surfaces of `surfaces`, which has the same counts and faces.
+/// Distortion is relative to frame `reference` of `sequence`.
+MassageQuality massage_quality(const MeshSequence& surfaces, const MeshSequence& sequence,
+                               uint32_t reference);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_MASSAGE_QUALITY_H_

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/mesh_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <tbb/parallel_for.h>
+
+namespace anicodec {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector3d;
+
+constexpr double kMostInMean = 20;
+constexpr double kLeastAreaChange = 1e-12;
+
+/// The triangle in its own plane: its sides from the first corner, as columns.
+Matrix2d flat(const Positions& positions, const SurfaceTopology::Triangle& t) {
+  const Vector3d a = row(positions, t[0]);
+  const Vector3d e = row(positions, t[1]) - a, g = row(positions, t[2]) - a;
+  const double length = e.norm();
+  Matrix2d sides = Matrix2d::Zero();
+  if (length > 0)
+    sides << length, e.dot(g) / length, 0, e.cross(g).norm() / length;
+  return sides;
+}
+
+double both_ways(double x) {
+  return (x + 1 / x) / 2;
+}
+
+}  // namespace
+
+RadiusRatio radius_ratio(const SurfaceTopology& topology, const Positions& positions) {
+  RadiusRatio result;
+  if (topology.triangles.empty())
+    return result;
+  result.least = 1;
+  for (const SurfaceTopology::Triangle& t : topology.triangles) {
+    const double a = (row(positions, t[1]) - row(positions, t[2])).norm();
+    const double b = (row(positions, t[2]) - row(positions, t[0])).norm();
+    const double c = (row(positions, t[0]) - row(positions, t[1])).norm();
+    const double product = a * b * c;
+    const double ratio =
+        product > 0 ? std::max(0.0, (b + c - a) * (c + a - b) * (a + b - c) / product) : 0;
+    result.mean += ratio;
+    result.least = std::min(result.least, ratio);
+  }
+  result.mean /= static_cast<double>(topology.triangles.size());
+  return result;
+}
+
+Distortion distortion(const SurfaceTopology& topology, const Positions& before,
+                      const Positions& after) {
+  double area_before = 0, area_after = 0;
+  for (const SurfaceTopology::Triangle& t : topology.triangles) {
+    area_before += area_normal(before, t).norm();
+    area_after += area_normal(after, t).norm();
+  }
+  Distortion result;
+  double conformal = 0, area = 0, total = 0;
+  for (const SurfaceTopology::Triangle& t : topology.triangles) {
+    const Matrix2d from = flat(before, t), to = flat(after, t);
+    const double size = from.determinant();
+    if (!(size > 0) || !(area_after > 0))
+      continue;
+    const double change = std::max(to.determinant() / size, kLeastAreaChange);
+    const double c = std::max(1.0, (to * from.inverse()).squaredNorm() / (2 * change));
+    const double a = both_ways(change * area_before / area_after);
+    result.conformal_max = std::max(result.conformal_max, c);
+    result.area_max = std::max(result.area_max, a);
+    conformal += size * std::min(c, kMostInMean);
+    area += size * std::min(a, kMostInMean);
+    total += size;
+  }
+  if (total > 0) {
+    result.conformal_mean = conformal / total;
+    result.area_mean = area / total;
+  }
+  return result;
+}
+
+std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
+                                       const Surface& surface) {
+  std::vector<uint8_t> turned(topology.triangles.size(), 0);
+  tbb::parallel_for(size_t{0}, turned.size(), [&](size_t t) {
+    const SurfaceTopology::Triangle& k = topology.triangles[t];
+    const Vector3d centre =
+        (row(positions, k[0]) + row(positions, k[1]) + row(positions, k[2])) / 3;
+    const SurfacePoint point = surface.closest(centre);
+    const Vector3d up =
+        area_normal(surface.positions(), surface.topology().triangles[point.triangle]);
+    turned[t] = area_normal(positions, k).dot(up) < 0;
+  });
+  std::vector<uint32_t> list;
+  for (uint32_t t = 0; t < turned.size(); ++t) {
+    if (turned[t])
+      list.push_back(t);
+  }
+  return list;
+}
+
+}  // namespace anicodec

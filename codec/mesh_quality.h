@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_MESH_QUALITY_H_
+#define ANICODEC_CODEC_MESH_QUALITY_H_
+
+#include "codec/surface.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace anicodec {
+
+/// Twice the radius of the inscribed circle over that of the circumscribed one: 1 for equilateral
+/// triangles, 0 for degenerate ones (thesis table 3.3).
+struct RadiusRatio {
+  double mean = 0;  ///< over the triangles
+  double least = 0;
+};
+
+RadiusRatio radius_ratio(const SurfaceTopology& topology, const Positions& positions);
+
+/// How a map that is linear on every triangle changes it, by the singular values s1 >= s2 of its
+/// Jacobian: conformal (s1/s2 + s2/s1)/2, area (a + 1/a)/2 for the change a of its area relative to
+/// that of the whole surface; both 1 at best. Means are weighted by area before the map, and every
+/// triangle counts with at most 20 in them (degenerate ones have no finite value).
+struct Distortion {
+  double conformal_mean = 1, conformal_max = 1;
+  double area_mean = 1, area_max = 1;
+};
+
+/// From positions before to positions after. Triangles without area before are left out.
+Distortion distortion(const SurfaceTopology& topology, const Positions& before,
+                      const Positions& after);
+
+/// Triangles that face against the surface at the point closest to their centre, ascending. The
+/// surface has an index.
+std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
+                                       const Surface& surface);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_MESH_QUALITY_H_

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Small surfaces that the tests of the massage share.
+#ifndef ANICODEC_TESTS_CODEC_MASSAGE_MESHES_H_
+#define ANICODEC_TESTS_CODEC_MASSAGE_MESHES_H_
+
+#include "codec/surface.h"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace anicodec {
+
+struct TestMesh {
+  SurfaceTopology topology;
+  Positions positions;
+};
+
+/// n x n vertices on [0, n - 1]^2, z = height(x, y).
+template <class Height>
+TestMesh height_field(uint32_t n, const Height& height) {
+  std::vector<uint32_t> corners;
+  Positions positions(static_cast<Eigen::Index>(n) * n, 3);
+  for (uint32_t y = 0; y < n; ++y) {
+    for (uint32_t x = 0; x < n; ++x) {
+      positions.row(y * n + x) << x, y, height(x, y);
+      if (x + 1 < n && y + 1 < n) {
+        const uint32_t a = y * n + x, b = a + 1, c = a + n + 1, d = a + n;
+        corners.insert(corners.end(), {a, b, c, a, c, d});
+      }
+    }
+  }
+  return {SurfaceTopology(corners, n * n), std::move(positions)};
+}
+
+inline TestMesh flat_sheet(uint32_t n) {
+  return height_field(n, [](double, double) { return 0.0; });
+}
+
+/// A closed surface: a unit sphere of n x n quads on each side of a cube, cut into triangles.
+inline TestMesh sphere(uint32_t n) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<uint32_t> corners;
+  auto vertex = [&](Eigen::Vector3d p) {
+    p = (p / n * 2 - Eigen::Vector3d::Ones()).normalized();
+    for (uint32_t i = 0; i < points.size(); ++i) {
+      if ((points[i] - p).norm() < 1e-9)
+        return i;
+    }
+    points.push_back(p);
+    return static_cast<uint32_t>(points.size() - 1);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (uint32_t side : {0U, n}) {
+      for (uint32_t i = 0; i < n; ++i) {
+        for (uint32_t j = 0; j < n; ++j) {
+          auto corner = [&](uint32_t u, uint32_t v) {
+            Eigen::Vector3d p;
+            p[axis] = side;
+            p[(axis + 1) % 3] = u;
+            p[(axis + 2) % 3] = v;
+            return vertex(p);
+          };
+          uint32_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                   d = corner(i, j + 1);
+          if (side == 0)
+            std::swap(b, d);
+          corners.insert(corners.end(), {a, b, c, a, c, d});
+        }
+      }
+    }
+  }
+  Positions positions(static_cast<Eigen::Index>(points.size()), 3);
+  for (uint32_t i = 0; i < points.size(); ++i)
+    positions.row(i) = points[i].transpose();
+  return {SurfaceTopology(corners, static_cast<uint32_t>(points.size())), std::move(positions)};
+}
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_TESTS_CODEC_MASSAGE_MESHES_H_

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/error.h"
+#include "codec/hausdorff.h"
+#include "codec/massage.h"
+#include "codec/massage_quality.h"
+#include "tools/command.h"
+#include "tools/io/load_sequence.h"
+#include "tools/io/write_sequence.h"
+#include "tools/output_folder.h"
+#include "tools/progress.h"
+#include "tools/quantity.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Moves the vertices of every frame along its surface until the triangles have the shapes that they have
+in the first frame, or the one of --reference: captured vertices that slide over the body come to
+rest, and the clip codes smaller. Faces and frames stay the same; the surface moves a little, and by
+how much is measured: the Hausdorff distance between each frame and what became of it. OUT is a
+vertex cache or frame files, as for decode.
+
+--json prints one object: file, vertices, faces, frames, hausdorff, hausdorff_percent,
+hausdorff_frame, hausdorff_mean, hausdorff_mean_percent, converged (frames), drawn_back (vertices,
+by --massage-tolerance), before and after: conformal_mean, area_mean, radius_ratio, turned.
+
+Examples:
+  anicodec massage capture.obj capture.pc2 -o massaged.pc2
+  anicodec massage 'frames/*.ply' -o out/frame_%04d.ply --massage-tolerance 0.2%)";
+
+struct MassageCommand {
+  std::vector<std::string> inputs;
+  std::string output, mesh, tolerance;
+  double strength = 0.5;
+  uint32_t reference = 0;
+  bool json = false;
+};
+
+struct Counted {
+  uint32_t converged = 0;
+  uint64_t drawn_back = 0;
+};
+
+Counted count(const MassageResult& result, uint32_t reference) {
+  Counted counted;
+  for (size_t f = 0; f < result.frames.size(); ++f) {
+    const MassagedFrame& frame = result.frames[f];
+    counted.converged += f == reference || frame.sliding.converged || frame.fitting.converged;
+    counted.drawn_back += frame.drawn_back;
+  }
+  return counted;
+}
+
+nlohmann::ordered_json json_of(const MassageQuality& quality) {
+  return {{"conformal_mean", quality.distortion.conformal_mean},
+          {"area_mean", quality.distortion.area_mean},
+          {"radius_ratio", quality.radius_ratio},
+          {"turned", quality.turned}};
+}
+
+void print_row(const char* name, const MassageQuality& q) {
+  fmt::print("{:<10} {:>10.4f} {:>10.4f} {:>13.4f} {:>8}\n", name, q.distortion.conformal_mean,
+             q.distortion.area_mean, q.radius_ratio, q.turned);
+}
+
+void run(const MassageCommand& command, const CommonOptions& common) {
+  MassageOptions options;
+  options.strength = command.strength;
+  options.reference = command.reference;
+  Length tolerance;
+  if (!command.tolerance.empty())
+    tolerance = parse_length(command.tolerance, "--massage-tolerance");
+  ProgressLine line(common.quiet);
+  LoadOptions load_options;
+  load_options.mesh = command.mesh;
+  load_options.progress = line.callback();
+  const MeshSequence sequence = load_sequence(command.inputs, load_options);
+  WriteOptions write_options;
+  write_options.overwrite = common.overwrite;
+  write_options.progress = line.callback();
+  check_sequence_output(command.output, sequence.frame_count, write_options);
+  options.tolerance =
+      tolerance.percent ? tolerance.value / 100 * diagonal(sequence) : tolerance.value;
+  MassageResult result;
+  try {
+    result = massage(sequence, options, line.callback());
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
+  }
+  line.show("measuring", 0);
+  const SurfaceComparison distance = compare_surfaces(sequence, result.sequence);
+  const MassageQuality before = massage_quality(sequence, sequence, options.reference);
+  const MassageQuality after = massage_quality(sequence, result.sequence, options.reference);
+  OutputFolder folder(command.output);
+  write_sequence(command.output, result.sequence, write_options);
+  folder.keep();
+  line.clear();
+
+  const Counted counted = count(result, options.reference);
+  const HausdorffDistance& total = distance.total;
+  if (command.json) {
+    nlohmann::ordered_json json;
+    json["file"] = command.output;
+    json["vertices"] = sequence.vertex_count;
+    json["faces"] = sequence.polygons.size();
+    json["frames"] = sequence.frame_count;
+    json["hausdorff"] = total.max();
+    json["hausdorff_percent"] = distance.percent(total.max());
+    json["hausdorff_frame"] = distance.max_frame;
+    json["hausdorff_mean"] = total.mean();
+    json["hausdorff_mean_percent"] = distance.percent(total.mean());
+    json["converged"] = counted.converged;
+    json["drawn_back"] = counted.drawn_back;
+    json["before"] = json_of(before);
+    json["after"] = json_of(after);
+    fmt::print("{}\n", json.dump(2));
+  } else if (!common.quiet) {
+    fmt::print(
+        "{}: {} frames of {} vertices; the surface moved by {:.3g} % of the diagonal on "
+        "average, {:.3g} % at most (frame {})\n",
+        command.output, sequence.frame_count, sequence.vertex_count, distance.percent(total.mean()),
+        distance.percent(total.max()), distance.max_frame);
+    fmt::print("{:<10} {:>10} {:>10} {:>13} {:>8}\n", "triangles", "conformal", "area",
+               "radius ratio", "turned");
+    print_row("before", before);
+    print_row("after", after);
+    if (counted.converged < sequence.frame_count)
+      fmt::print("{} of {} frames would have gone on: see -v\n",
+                 sequence.frame_count - counted.converged, sequence.frame_count);
+    if (counted.drawn_back > 0)
+      fmt::print("the tolerance drew vertices back {} times\n", grouped(counted.drawn_back));
+    if (common.verbosity > 0) {
+      fmt::print("frame  slid rounds  step   fitted rounds  step   drawn back  mean %     max %\n");
+      for (size_t f = 0; f < result.frames.size(); ++f) {
+        const MassagedFrame& frame = result.frames[f];
+        fmt::print("{:>5} {:>12} {:>6.3f} {:>14} {:>6.3f} {:>11} {:>8.4f} {:>8.4f}\n", f,
+                   frame.sliding.rounds, frame.sliding.step, frame.fitting.rounds,
+                   frame.fitting.step, frame.drawn_back,
+                   distance.percent(distance.frames[f].mean()),
+                   distance.percent(distance.frames[f].max()));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void add_massage(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<MassageCommand>();
+  CLI::App* command =
+      add_command(app, common,
+                  {"massage", "INPUT... -o OUT [options]",
+                   "Move vertices along their surface to even triangle shapes", kFooter},
+                  [c, &common] { run(*c, common); });
+  command->add_option("INPUT", c->inputs, "As for encode")->required();
+  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
+      ->option_text("OUT")
+      ->required();
+  command
+      ->add_option("--mesh", c->mesh, "Mesh of a lone vertex cache (default: same stem beside it)")
+      ->option_text("FILE");
+  command
+      ->add_option("--massage-strength", c->strength,
+                   "Of shape against distance, between 0 and 1 (default 0.5)")
+      ->option_text("X");
+  command
+      ->add_option("--massage-tolerance", c->tolerance,
+                   "How far the surface may move anywhere (default: as far as it needs)")
+      ->option_text("LEN");
+  command->add_option("--reference", c->reference, "Frame whose shapes are followed (default 0)")
+      ->option_text("FRAME");
+  command->add_flag("--json", c->json, "Print one JSON object");
+}
+
+}  // namespace anicodec::tools
