@@ -38,6 +38,7 @@ void add_info(CLI::App& app, CommonOptions& common);
 void add_verify(CLI::App& app, CommonOptions& common);
 void add_compare(CLI::App& app, CommonOptions& common);
 void add_analyze(CLI::App& app, CommonOptions& common);
+void add_interpolate(CLI::App& app, CommonOptions& common);
 void add_massage(CLI::App& app, CommonOptions& common);
 void add_dump(CLI::App& app, CommonOptions& common);
 void add_render(CLI::App& app, CommonOptions& common);

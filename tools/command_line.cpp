@@ -63,7 +63,7 @@ void parse_and_run(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.footer(kFooter);
   for (auto add : {add_encode, add_decode, add_info, add_verify, add_compare, add_analyze,
-                   add_massage, add_dump, add_render, add_corpus})
+                   add_interpolate, add_massage, add_dump, add_render, add_corpus})
     add(app, common);
   try {
     app.parse(argc, argv);

@@ -46,6 +46,17 @@ Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertice
 /// Bytes with each kind of basis and with the choice between them.
 Table run_auto(const BenchOptions& options, double kg);
 
+/// Errors of all ways to interpolate half way between two poses: poses of the corpus, or the two
+/// frames of a clip between which straight lines do worst.
+Table run_poses(const std::vector<std::string>& words);
+
+/// KG error of clips of which every step-th frame is kept and the others are interpolated by time,
+/// by straight lines, tracked deformation gradients and MSGI.
+Table run_between(const std::vector<std::string>& clips, uint32_t step);
+
+/// Multi-scale geometry interpolation of generated meshes in one thread, processor time.
+Table run_msgi_speed(const std::vector<uint32_t>& vertex_counts, int runs);
+
 }  // namespace anicodec::bench
 
 #endif  // ANICODEC_TESTS_BENCH_BENCHES_H_

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/error.h"
+#include "corpus/poses.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
 #include "tools/choice.h"
@@ -11,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -36,6 +38,8 @@ struct Arguments {
   int runs = 5;
   uint32_t vertices = 210000, frames = 100, shapes = 30;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
+  uint32_t step = 8;
+  std::vector<uint32_t> sizes{7000, 42000, 210000};
 
   void print(const std::string& command, const std::vector<Table>& tables) const {
     TableStyle style = csv ? TableStyle::kCsv : TableStyle::kText;
@@ -177,12 +181,48 @@ void add_auto(CLI::App& app, Arguments& a) {
       ->check(CLI::PositiveNumber);
 }
 
+void add_poses(CLI::App& app, Arguments& a) {
+  add(app, a, "poses", "Errors of interpolations half way between two poses", [](Arguments& args) {
+    std::vector<std::string> words = args.clips;
+    words.insert(words.begin(), args.inputs.begin(), args.inputs.end());
+    if (words.empty()) {
+      for (std::string_view name : corpus::pose_names())
+        words.emplace_back(name);
+    }
+    return std::vector{run_poses(words)};
+  });
+}
+
+void add_between(CLI::App& app, Arguments& a) {
+  CLI::App* command =
+      add(app, a, "between", "KG error of interpolated in-betweens", [](Arguments& args) {
+        return std::vector{run_between(clip_words(args.inputs, args.clips), args.step)};
+      });
+  command->add_option("--step", a.step, "Every which frame is kept (default 8)")
+      ->option_text("N")
+      ->check(CLI::Range(2, 1000));
+}
+
+void add_msgi(CLI::App& app, Arguments& a) {
+  CLI::App* command =
+      add(app, a, "msgi", "Time of multi-scale geometry interpolation",
+          [](Arguments& args) { return std::vector{run_msgi_speed(args.sizes, args.runs)}; });
+  command->add_option("--sizes", a.sizes, "Vertices (default 7000,42000,210000)")
+      ->option_text("N,...")
+      ->delimiter(',')
+      ->check(CLI::Range(200, 10000000));
+  command->add_option("--runs", a.runs, "Runs to take the median of (default 5)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1000));
+}
+
 int run(int argc, const char* const* argv) {
   Arguments arguments;
   CLI::App app("Measures anicodec on clips against other ways to store them.", "anicodec_bench");
   app.require_subcommand(1);
   app.footer(kFooter);
-  for (auto add_command : {add_rate, add_near, add_decode, add_play, add_auto})
+  for (auto add_command :
+       {add_rate, add_near, add_decode, add_play, add_auto, add_poses, add_between, add_msgi})
     add_command(app, arguments);
   try {
     app.parse(argc, argv);
