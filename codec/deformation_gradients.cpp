@@ -101,7 +101,7 @@ DeformationGradients::DeformationGradients(const EdgeNetwork& network, const Poi
   double longest = 0;
   for (const FaceGraph::Edge& e : graph_.edges)
     longest = std::max(longest, (reference.col(column(e.a)) - reference.col(column(e.b))).norm());
-  std::vector<SparseLdlt::Edge> edges;
+  Vector<SparseLdlt::Edge> edges;
   for (const FaceGraph::Edge& e : graph_.edges)
     edges.push_back({e.a, e.b, 0});
   double total = 0;
@@ -136,7 +136,7 @@ DeformationGradients::DeformationGradients(const EdgeNetwork& network, const Poi
   for (SparseLdlt::Edge& e : edges)
     e.weight += held;
 
-  std::vector<uint32_t> group = make_patch_hierarchy(graph_, kLeafFaces).vertex_node;
+  Vector<uint32_t> group = make_patch_hierarchy(graph_, kLeafFaces).vertex_node;
   std::vector<char> started(graph_.component_count);
   for (uint32_t v = 0; v < graph_.vertex_count; ++v) {
     const uint32_t part = graph_.vertex_component[v];

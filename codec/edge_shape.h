@@ -27,9 +27,9 @@ struct EdgeNetwork {
   EdgeNetwork(std::span<const uint32_t> triangles, uint32_t vertex_count);
 
   uint32_t vertex_count;
-  std::vector<uint32_t> triangles;  ///< those of FaceGraph
-  std::vector<FaceGraph::Edge> edges;
-  std::vector<uint32_t> triangle_edges;  ///< three per triangle, kNoIndex when of no length
+  Vector<uint32_t> triangles;  ///< those of FaceGraph
+  Vector<FaceGraph::Edge> edges;
+  Vector<uint32_t> triangle_edges;  ///< three per triangle, kNoIndex when of no length
   std::vector<Hinge> hinges;
 };
 

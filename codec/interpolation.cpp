@@ -207,7 +207,7 @@ std::unique_ptr<Interpolation> make_plain(std::span<const uint32_t> triangles,
       Msgi::Options msgi;
       msgi.leaf_faces = leaf > 0 ? leaf : choose_leaf_faces(triangles, vertex_count, inputs);
       msgi.sweeps = options.sweeps;
-      msgi.pins = options.pins;
+      msgi.pins.assign(options.pins.begin(), options.pins.end());
       return std::make_unique<MultiScale>(triangles, vertex_count, inputs, msgi);
     }
     default:

@@ -30,7 +30,7 @@ class Sets {
   }
 
  private:
-  std::vector<uint32_t> parent_;
+  Vector<uint32_t> parent_;
 };
 
 struct HalfEdge {
@@ -39,16 +39,16 @@ struct HalfEdge {
 };
 
 /// Turns counts, in element i + 1, into beginnings.
-void accumulate(std::vector<uint32_t>& counts) {
+void accumulate(Vector<uint32_t>& counts) {
   for (size_t i = 1; i < counts.size(); ++i)
     counts[i] += counts[i - 1];
 }
 
-using Pairs = std::vector<std::pair<uint32_t, uint32_t>>;
+using Pairs = Vector<std::pair<uint32_t, uint32_t>>;
 
 /// Finds the edges and the hinges between their faces.
 Pairs find_edges(FaceGraph& graph) {
-  std::vector<uint32_t> begin(size_t{graph.vertex_count} + 1);
+  Vector<uint32_t> begin(size_t{graph.vertex_count} + 1);
   auto ends = [&](size_t side) {
     uint32_t a = graph.corners[side];
     uint32_t b = graph.corners[side % 3 == 2 ? side - 2 : side + 1];
@@ -60,8 +60,8 @@ Pairs find_edges(FaceGraph& graph) {
     begin[low + 1] += low != high;
   }
   accumulate(begin);
-  std::vector<HalfEdge> half(begin.back());
-  std::vector<uint32_t> at(begin.begin(), begin.end() - 1);
+  Vector<HalfEdge> half(begin.back());
+  Vector<uint32_t> at(begin.begin(), begin.end() - 1);
   for (size_t side = 0; side < sides; ++side) {
     auto [low, high] = ends(side);
     if (low != high)
@@ -87,7 +87,7 @@ Pairs find_edges(FaceGraph& graph) {
 
 /// Joins the sets of faces that share a vertex, one join for each pair of sets.
 Pairs find_joins(const FaceGraph& graph, Sets& sets) {
-  std::vector<uint32_t> last(graph.vertex_count, kNoIndex);
+  Vector<uint32_t> last(graph.vertex_count, kNoIndex);
   Pairs joins;
   for (size_t i = 0; i < graph.corners.size(); ++i) {
     uint32_t& previous = last[graph.corners[i]];
@@ -110,7 +110,7 @@ void list_neighbours(FaceGraph& graph, const Pairs& hinges, const Pairs& joins) 
   }
   accumulate(graph.begin);
   graph.neighbours.resize(graph.begin.back());
-  std::vector<uint32_t> at(graph.begin.begin(), graph.begin.end() - 1);
+  Vector<uint32_t> at(graph.begin.begin(), graph.begin.end() - 1);
   auto list = [&](const Pairs& pairs) {
     for (auto [f, g] : pairs) {
       graph.neighbours[at[f]++] = g;

@@ -3,9 +3,10 @@
 #ifndef ANICODEC_SDK_FACE_GRAPH_H_
 #define ANICODEC_SDK_FACE_GRAPH_H_
 
+#include "format/memory.h"
+
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -22,14 +23,14 @@ struct FaceGraph {
   };
 
   uint32_t vertex_count = 0;
-  std::vector<uint32_t> corners;     ///< three vertices per face
-  std::vector<Edge> edges;           ///< ascending
-  std::vector<uint32_t> face_edges;  ///< three per face, as the corners; kNoIndex when of no length
+  Vector<uint32_t> corners;     ///< three vertices per face
+  Vector<Edge> edges;           ///< ascending
+  Vector<uint32_t> face_edges;  ///< three per face, as the corners; kNoIndex when of no length
   /// Neighbours of face f are neighbours[begin[f]] .. neighbours[begin[f+1]-1], those by a join
   /// from hinge_end[f] on. A pair of faces with several hinges is listed as often.
-  std::vector<uint32_t> begin, hinge_end, neighbours;
-  std::vector<uint32_t> face_component;
-  std::vector<uint32_t> vertex_component;  ///< kNoIndex for vertices without face
+  Vector<uint32_t> begin, hinge_end, neighbours;
+  Vector<uint32_t> face_component;
+  Vector<uint32_t> vertex_component;  ///< kNoIndex for vertices without face
   uint32_t component_count = 0;
 
   size_t face_count() const { return corners.size() / 3; }

@@ -141,7 +141,7 @@ void Msgi::refit(MsgiScratch& scratch, const HostThreads& threads) const {
 /// Turns and moves every component to where the weights put it; vertices without face too.
 void Msgi::place(const double* weights, MsgiScratch& scratch, const HostThreads& threads) const {
   const size_t coordinates = 3 * size_t{vertex_count_}, parts = part_size_.size();
-  std::vector<float>& target = scratch.target;
+  Vector<float>& target = scratch.target;
   for_ranges(threads, coordinates, kVertexGrain, [&](size_t first, size_t last) {
     std::fill(&target[first], &target[first] + (last - first), 0.0F);
     for (size_t i = 0; i < input_count_; ++i) {

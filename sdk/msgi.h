@@ -3,6 +3,7 @@
 #ifndef ANICODEC_SDK_MSGI_H_
 #define ANICODEC_SDK_MSGI_H_
 
+#include "format/memory.h"
 #include "format/status.h"
 #include "sdk/parallel_for.h"
 #include "sdk/patch_hierarchy.h"
@@ -12,21 +13,20 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
 /// What one thread needs to evaluate an Msgi, set up by Msgi::prepare().
 struct MsgiScratch {
-  std::vector<UnitQuaternion> rotations;  ///< per patch
-  std::vector<UnitQuaternion> relative;   ///< per link
-  std::vector<Matrix3> matrices;          ///< per patch
-  std::vector<double> forces;             ///< slots x 3
-  std::vector<double> solution;           ///< of either system
-  std::vector<float> target;              ///< vertices x 3: the inputs blended on straight lines
-  std::vector<double> positions;          ///< vertices x 3
-  std::vector<Matrix3> products;          ///< per component
-  std::vector<Vector3> means;             ///< per component
+  Vector<UnitQuaternion> rotations;  ///< per patch
+  Vector<UnitQuaternion> relative;   ///< per link
+  Vector<Matrix3> matrices;          ///< per patch
+  Vector<double> forces;             ///< slots x 3
+  Vector<double> solution;           ///< of either system
+  Vector<float> target;              ///< vertices x 3: the inputs blended on straight lines
+  Vector<double> positions;          ///< vertices x 3
+  Vector<Matrix3> products;          ///< per component
+  Vector<Vector3> means;             ///< per component
 };
 
 /// Multi-scale geometry interpolation between meshes of one connectivity (thesis section 4.2): any
@@ -50,7 +50,7 @@ class Msgi {
     /// Rounds of refitting the patches' rotations to the positions: for extrapolation and pins.
     uint32_t sweeps = 0;
     /// Vertices whose positions evaluate() is given, each at most once.
-    std::vector<uint32_t> pins;
+    Vector<uint32_t> pins;
     /// kLimit when the factors of the linear systems would take more.
     size_t most_bytes = size_t{4} << 30;
   };
@@ -115,24 +115,24 @@ class Msgi {
   double largest_turn_ = 0;
 
   uint32_t vertex_count_ = 0;
-  std::vector<uint32_t> part_;        ///< component of each vertex, kNoIndex without face
-  std::vector<uint32_t> part_size_;   ///< vertices of each component
-  std::vector<Placement> placement_;  ///< inputs x components
-  std::vector<float> aligned_;  ///< inputs x vertices x 3: turned onto the first, centroid at 0
+  Vector<uint32_t> part_;        ///< component of each vertex, kNoIndex without face
+  Vector<uint32_t> part_size_;   ///< vertices of each component
+  Vector<Placement> placement_;  ///< inputs x components
+  Vector<float> aligned_;        ///< inputs x vertices x 3: turned onto the first, centroid at 0
 
-  std::vector<PatchHierarchy::Node> nodes_;
-  std::vector<PatchHierarchy::Link> links_;
-  std::vector<uint32_t> level_begin_, level_nodes_;
-  std::vector<double> turns_;  ///< inputs x links x 3: logarithms of the relative rotations
-  std::vector<uint32_t> slot_begin_, slot_vertex_, slot_leaf_;
-  std::vector<uint32_t> vertex_slot_begin_, vertex_slots_;
+  Vector<PatchHierarchy::Node> nodes_;
+  Vector<PatchHierarchy::Link> links_;
+  Vector<uint32_t> level_begin_, level_nodes_;
+  Vector<double> turns_;  ///< inputs x links x 3: logarithms of the relative rotations
+  Vector<uint32_t> slot_begin_, slot_vertex_, slot_leaf_;
+  Vector<uint32_t> vertex_slot_begin_, vertex_slots_;
   /// inputs x slots x 3: gradient of the patch's edge energy, in the patch's frame.
-  std::vector<float> forces_;
-  std::vector<float> slot_share_;  ///< of the weights of the patch's edges; they sum to one
+  Vector<float> forces_;
+  Vector<float> slot_share_;  ///< of the weights of the patch's edges; they sum to one
 
   SparseLdlt system_;
-  std::vector<uint32_t> pins_;
-  std::vector<PinEdge> pin_edges_;
+  Vector<uint32_t> pins_;
+  Vector<PinEdge> pin_edges_;
   SparseLdlt pinned_system_;
 };
 

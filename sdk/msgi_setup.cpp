@@ -27,7 +27,7 @@ double square(double x) {
 struct Msgi::Build {
   FaceGraph graph;
   PatchHierarchy hierarchy;
-  std::vector<double> edge_weight;
+  Vector<double> edge_weight;
 };
 
 /// Turns every component of every input onto the first one.
@@ -41,7 +41,7 @@ void Msgi::align_inputs(const FaceGraph& graph, const float* const* inputs) {
   }
   placement_.assign(parts * input_count_, {});
   aligned_.resize(coordinates * input_count_);
-  std::vector<Matrix3> back(parts);
+  Vector<Matrix3> back(parts);
   for (size_t i = 0; i < input_count_; ++i) {
     Placement* placement = placement_.data() + parts * i;
     for (size_t v = 0; v < vertex_count_; ++v) {
@@ -92,8 +92,8 @@ void Msgi::set_up_patches(const Build& build) {
         slot_share_[slot] += static_cast<float>(build.edge_weight[e.edge] / sum);
     }
   }
-  std::vector<double> own(3 * slots), first(3 * slots);
-  std::vector<UnitQuaternion> rotations(leaves);
+  Vector<double> own(3 * slots), first(3 * slots);
+  Vector<UnitQuaternion> rotations(leaves);
   for (size_t i = 0; i < input_count_; ++i) {
     const float* input = aligned_.data() + coordinates * i;
     std::fill(own.begin(), own.end(), 0.0);
@@ -145,15 +145,15 @@ Status Msgi::set_up_systems(const Build& build, const Options& options) {
   const PatchHierarchy& h = build.hierarchy;
   const FaceGraph& graph = build.graph;
   // An edge counts once for every patch it is in.
-  std::vector<SparseLdlt::Edge> edges(graph.edges.size());
+  Vector<SparseLdlt::Edge> edges(graph.edges.size());
   for (size_t e = 0; e < edges.size(); ++e)
     edges[e] = {graph.edges[e].a, graph.edges[e].b, 0};
   for (const PatchHierarchy::PatchEdge& e : h.patch_edges)
     edges[e.edge].weight += build.edge_weight[e.edge];
 
   // The first vertex of each component stays at the origin.
-  std::vector<uint32_t> group = h.vertex_node;
-  std::vector<char> started(part_size_.size());
+  Vector<uint32_t> group = h.vertex_node;
+  Vector<char> started(part_size_.size());
   for (uint32_t v = 0; v < vertex_count_; ++v) {
     if (part_[v] != kNoIndex && !started[part_[v]]) {
       started[part_[v]] = 1;
@@ -166,8 +166,8 @@ Status Msgi::set_up_systems(const Build& build, const Options& options) {
   pins_ = options.pins;
   if (pins_.empty())
     return Status::kOk;
-  std::vector<char> pinned(part_size_.size());
-  std::vector<uint32_t> pin_of(vertex_count_, kNoIndex);
+  Vector<char> pinned(part_size_.size());
+  Vector<uint32_t> pin_of(vertex_count_, kNoIndex);
   for (uint32_t p = 0; p < pins_.size(); ++p) {
     pin_of[pins_[p]] = p;
     if (part_[pins_[p]] != kNoIndex)
@@ -180,7 +180,7 @@ Status Msgi::set_up_systems(const Build& build, const Options& options) {
   }
   if (Status s = pinned_system_.init(group, edges, options.most_bytes); s != Status::kOk)
     return s;
-  std::vector<uint32_t> unknown(vertex_count_, kNoIndex);
+  Vector<uint32_t> unknown(vertex_count_, kNoIndex);
   for (uint32_t i = 0; i < pinned_system_.size(); ++i)
     unknown[pinned_system_.vertices()[i]] = i;
   for (const SparseLdlt::Edge& e : edges) {
@@ -209,7 +209,7 @@ Status Msgi::init(const uint32_t* triangles, size_t triangle_count, uint32_t ver
         return Status::kNonFinite;
     }
   }
-  std::vector<char> is_pin(options.pins.empty() ? 0 : vertex_count);
+  Vector<char> is_pin(options.pins.empty() ? 0 : vertex_count);
   for (uint32_t pin : options.pins) {
     if (pin >= vertex_count || is_pin[pin])
       return Status::kArgument;
@@ -224,8 +224,8 @@ Status Msgi::init(const uint32_t* triangles, size_t triangle_count, uint32_t ver
   align_inputs(build.graph, inputs);
   build.hierarchy = make_patch_hierarchy(build.graph, options.leaf_faces);
 
-  const std::vector<FaceGraph::Edge>& edges = build.graph.edges;
-  std::vector<double>& weight = build.edge_weight;
+  const Vector<FaceGraph::Edge>& edges = build.graph.edges;
+  Vector<double>& weight = build.edge_weight;
   weight.assign(edges.size(), 0);
   double mean = 0;
   for (size_t e = 0; e < edges.size(); ++e) {
@@ -260,7 +260,7 @@ Status Msgi::init(const uint32_t* triangles, size_t triangle_count, uint32_t ver
   for (size_t v = 0; v < vertex_count; ++v)
     vertex_slot_begin_[v + 1] += vertex_slot_begin_[v];
   vertex_slots_.resize(slot_vertex_.size());
-  std::vector<uint32_t> at(vertex_slot_begin_.begin(), vertex_slot_begin_.end() - 1);
+  Vector<uint32_t> at(vertex_slot_begin_.begin(), vertex_slot_begin_.end() - 1);
   for (uint32_t s = 0; s < slot_vertex_.size(); ++s)
     vertex_slots_[at[slot_vertex_[s]]++] = s;
   return Status::kOk;

@@ -53,7 +53,7 @@ class Bisection {
       neighbour = 0;
     }
 
-    std::vector<uint32_t> faces;
+    Vector<uint32_t> faces;
     size_t size = 0, at = 0;
     uint32_t neighbour = 0;
   };
@@ -88,25 +88,25 @@ class Bisection {
   }
 
   const FaceGraph& graph_;
-  std::vector<uint32_t> mark_;
+  Vector<uint32_t> mark_;
   uint32_t stamp_ = 0, inside_ = 0;
   Queue queues_[2];
 };
 
 /// The tree over all faces, and the faces in the order of its leaves.
 struct Tree {
-  std::vector<uint32_t> faces;
-  std::vector<uint32_t> leaf_begin;  ///< into faces
+  Vector<uint32_t> faces;
+  Vector<uint32_t> leaf_begin;  ///< into faces
 };
 
 /// Lists the faces by component, ascending; returns where each component begins.
-std::vector<uint32_t> sort_by_component(const FaceGraph& graph, std::vector<uint32_t>& faces) {
-  std::vector<uint32_t> begin(size_t{graph.component_count} + 1);
+Vector<uint32_t> sort_by_component(const FaceGraph& graph, Vector<uint32_t>& faces) {
+  Vector<uint32_t> begin(size_t{graph.component_count} + 1);
   for (uint32_t c : graph.face_component)
     ++begin[c + 1];
   for (size_t c = 1; c < begin.size(); ++c)
     begin[c] += begin[c - 1];
-  std::vector<uint32_t> at(begin.begin(), begin.end() - 1);
+  Vector<uint32_t> at(begin.begin(), begin.end() - 1);
   faces.resize(graph.face_count());
   for (uint32_t f = 0; f < graph.face_count(); ++f)
     faces[at[graph.face_component[f]]++] = f;
@@ -121,9 +121,9 @@ Tree grow_tree(const FaceGraph& graph, uint32_t leaf_faces, PatchHierarchy& h) {
   };
 
   Tree tree;
-  std::vector<uint32_t> component_begin = sort_by_component(graph, tree.faces);
+  Vector<uint32_t> component_begin = sort_by_component(graph, tree.faces);
   Bisection bisection(graph);
-  std::vector<Task> stack;
+  Vector<Task> stack;
   for (uint32_t c = 0; c < graph.component_count; ++c) {
     stack.push_back({component_begin[c], component_begin[c + 1], 0, kNoIndex, 0});
     while (!stack.empty()) {
@@ -161,10 +161,10 @@ Tree grow_tree(const FaceGraph& graph, uint32_t leaf_faces, PatchHierarchy& h) {
 
 /// Slots and edges of the patches.
 void lay_out_patches(const FaceGraph& graph, const Tree& tree, PatchHierarchy& h) {
-  std::vector<uint32_t> face_mark(graph.face_count(), kNoIndex);
-  std::vector<uint32_t> vertex_slot(graph.vertex_count, kNoIndex);
-  std::vector<uint32_t> edges;
-  std::vector<uint32_t>& patch = h.patch_faces;
+  Vector<uint32_t> face_mark(graph.face_count(), kNoIndex);
+  Vector<uint32_t> vertex_slot(graph.vertex_count, kNoIndex);
+  Vector<uint32_t> edges;
+  Vector<uint32_t>& patch = h.patch_faces;
   h.face_begin.push_back(0);
   h.slot_begin.push_back(0);
   h.edge_begin.push_back(0);
@@ -217,8 +217,7 @@ uint32_t meeting_node(const PatchHierarchy& h, uint32_t p, uint32_t q) {
   return node;
 }
 
-void link_patches(const FaceGraph& graph, const std::vector<uint32_t>& face_leaf,
-                  PatchHierarchy& h) {
+void link_patches(const FaceGraph& graph, const Vector<uint32_t>& face_leaf, PatchHierarchy& h) {
   struct Found {
     uint32_t node, p, q;
 
@@ -229,7 +228,7 @@ void link_patches(const FaceGraph& graph, const std::vector<uint32_t>& face_leaf
     bool operator==(const Found& other) const { return p == other.p && q == other.q; }
   };
 
-  std::vector<Found> found;
+  Vector<Found> found;
   for (uint32_t f = 0; f < graph.face_count(); ++f) {
     for (uint32_t k = graph.begin[f]; k < graph.begin[f + 1]; ++k) {
       uint32_t p = face_leaf[f], q = face_leaf[graph.neighbours[k]];
@@ -252,7 +251,7 @@ void link_patches(const FaceGraph& graph, const std::vector<uint32_t>& face_leaf
 }
 
 void list_levels(PatchHierarchy& h) {
-  std::vector<uint32_t> height(h.nodes.size());
+  Vector<uint32_t> height(h.nodes.size());
   uint32_t heights = 0;
   for (size_t n = 0; n < h.nodes.size(); ++n) {
     const PatchHierarchy::Node& node = h.nodes[n];
@@ -265,16 +264,15 @@ void list_levels(PatchHierarchy& h) {
     ++h.level_begin[x + 1];
   for (size_t i = 1; i < h.level_begin.size(); ++i)
     h.level_begin[i] += h.level_begin[i - 1];
-  std::vector<uint32_t> at(h.level_begin.begin(), h.level_begin.end() - 1);
+  Vector<uint32_t> at(h.level_begin.begin(), h.level_begin.end() - 1);
   h.level_nodes.resize(h.nodes.size());
   for (uint32_t n = 0; n < h.nodes.size(); ++n)
     h.level_nodes[at[height[n]]++] = n;
 }
 
 /// Finds the node of every vertex from the first and the last leaf that has a face of it.
-void place_vertices(const FaceGraph& graph, const std::vector<uint32_t>& face_leaf,
-                    PatchHierarchy& h) {
-  std::vector<uint32_t> lowest(graph.vertex_count, kNoIndex), highest(graph.vertex_count, 0);
+void place_vertices(const FaceGraph& graph, const Vector<uint32_t>& face_leaf, PatchHierarchy& h) {
+  Vector<uint32_t> lowest(graph.vertex_count, kNoIndex), highest(graph.vertex_count, 0);
   for (size_t i = 0; i < graph.corners.size(); ++i) {
     uint32_t v = graph.corners[i], leaf = face_leaf[i / 3];
     lowest[v] = std::min(lowest[v], leaf);
@@ -293,7 +291,7 @@ PatchHierarchy make_patch_hierarchy(const FaceGraph& graph, uint32_t leaf_faces)
   PatchHierarchy h;
   Tree tree = grow_tree(graph, leaf_faces, h);
   lay_out_patches(graph, tree, h);
-  std::vector<uint32_t> face_leaf(graph.face_count());
+  Vector<uint32_t> face_leaf(graph.face_count());
   for (uint32_t leaf = 0; leaf < h.leaf_count(); ++leaf) {
     for (uint32_t i = tree.leaf_begin[leaf]; i < tree.leaf_begin[leaf + 1]; ++i)
       face_leaf[tree.faces[i]] = leaf;

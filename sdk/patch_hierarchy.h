@@ -3,11 +3,11 @@
 #ifndef ANICODEC_SDK_PATCH_HIERARCHY_H_
 #define ANICODEC_SDK_PATCH_HIERARCHY_H_
 
+#include "format/memory.h"
 #include "sdk/face_graph.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -35,21 +35,21 @@ struct PatchHierarchy {
     uint32_t slot_a, slot_b;
   };
 
-  std::vector<Node> nodes;          ///< children before parents, left before right
-  std::vector<uint32_t> leaf_node;  ///< of each leaf
+  Vector<Node> nodes;          ///< children before parents, left before right
+  Vector<uint32_t> leaf_node;  ///< of each leaf
   /// Faces of leaf l are patch_faces[face_begin[l]] .. patch_faces[face_begin[l+1]-1], its own ones
   /// up to own_end[l], the ring after them.
-  std::vector<uint32_t> face_begin, own_end, patch_faces;
+  Vector<uint32_t> face_begin, own_end, patch_faces;
   /// Slots of leaf l are slot_begin[l] .. slot_begin[l+1]-1: the vertices of its patch.
-  std::vector<uint32_t> slot_begin, slot_vertex;
-  std::vector<uint32_t> edge_begin;  ///< per leaf, into patch_edges
-  std::vector<PatchEdge> patch_edges;
-  std::vector<Link> links;
+  Vector<uint32_t> slot_begin, slot_vertex;
+  Vector<uint32_t> edge_begin;  ///< per leaf, into patch_edges
+  Vector<PatchEdge> patch_edges;
+  Vector<Link> links;
   /// Nodes by height: level h holds level_nodes[level_begin[h]] .. level_nodes[level_begin[h+1]-1],
   /// the leaves being level 0.
-  std::vector<uint32_t> level_begin, level_nodes;
+  Vector<uint32_t> level_begin, level_nodes;
   /// The lowest node below which all faces of a vertex are; kNoIndex for vertices without face.
-  std::vector<uint32_t> vertex_node;
+  Vector<uint32_t> vertex_node;
 
   size_t leaf_count() const { return leaf_node.size(); }
 };

@@ -63,12 +63,12 @@ bool eliminate(double* panel, size_t columns, double* rest, size_t size, double*
 }  // namespace
 
 struct SparseLdlt::Graph {
-  std::vector<uint32_t> begin, neighbours;  ///< of each unknown: other unknowns
-  std::vector<double> weights;
-  std::vector<double> diagonal;
+  Vector<uint32_t> begin, neighbours;  ///< of each unknown: other unknowns
+  Vector<double> weights;
+  Vector<double> diagonal;
 };
 
-void SparseLdlt::number(const std::vector<uint32_t>& vertex_group) {
+void SparseLdlt::number(const Vector<uint32_t>& vertex_group) {
   vertices_.clear();
   for (uint32_t v = 0; v < vertex_group.size(); ++v) {
     if (vertex_group[v] != kFixed)
@@ -86,9 +86,8 @@ void SparseLdlt::number(const std::vector<uint32_t>& vertex_group) {
   }
 }
 
-SparseLdlt::Graph SparseLdlt::make_graph(const std::vector<Edge>& edges,
-                                         size_t vertex_count) const {
-  std::vector<uint32_t> unknown(vertex_count, kFixed);
+SparseLdlt::Graph SparseLdlt::make_graph(const Vector<Edge>& edges, size_t vertex_count) const {
+  Vector<uint32_t> unknown(vertex_count, kFixed);
   for (uint32_t i = 0; i < size(); ++i)
     unknown[vertices_[i]] = i;
   Graph graph;
@@ -108,7 +107,7 @@ SparseLdlt::Graph SparseLdlt::make_graph(const std::vector<Edge>& edges,
   std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
   graph.neighbours.resize(graph.begin.back());
   graph.weights.resize(graph.begin.back());
-  std::vector<uint32_t> at(graph.begin.begin(), graph.begin.end() - 1);
+  Vector<uint32_t> at(graph.begin.begin(), graph.begin.end() - 1);
   for (const Edge& e : edges) {
     uint32_t a = unknown[e.a], b = unknown[e.b];
     if (a == kFixed || b == kFixed)
@@ -124,8 +123,8 @@ SparseLdlt::Graph SparseLdlt::make_graph(const std::vector<Edge>& edges,
 Status SparseLdlt::analyse(const Graph& graph, size_t most_bytes) {
   // The rows of a block: neighbours of its columns and the rows of the blocks whose first row it
   // holds, as far as they come later.
-  std::vector<uint32_t> block_of(size()), mark(size(), kFixed);
-  std::vector<uint32_t> first_child(blocks_.size(), kFixed), sibling(blocks_.size(), kFixed);
+  Vector<uint32_t> block_of(size()), mark(size(), kFixed);
+  Vector<uint32_t> first_child(blocks_.size(), kFixed), sibling(blocks_.size(), kFixed);
   for (uint32_t b = 0; b < blocks_.size(); ++b) {
     std::fill_n(block_of.begin() + blocks_[b].first_column, blocks_[b].columns, b);
   }
@@ -170,10 +169,10 @@ Status SparseLdlt::analyse(const Graph& graph, size_t most_bytes) {
 }
 
 Status SparseLdlt::factor(const Graph& graph) {
-  std::vector<std::vector<double>> rests(blocks_.size());
-  std::vector<uint32_t> first_child(blocks_.size(), kFixed), sibling(blocks_.size(), kFixed);
-  std::vector<uint32_t> place(size());  // of an unknown in the front
-  std::vector<double> panel, scaled;
+  Vector<Vector<double>> rests(blocks_.size());
+  Vector<uint32_t> first_child(blocks_.size(), kFixed), sibling(blocks_.size(), kFixed);
+  Vector<uint32_t> place(size());  // of an unknown in the front
+  Vector<double> panel, scaled;
   inverse_diagonal_.resize(size());
   for (uint32_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];
@@ -184,7 +183,7 @@ Status SparseLdlt::factor(const Graph& graph) {
     for (uint32_t r = 0; r < rows; ++r)
       place[row[r]] = block.columns + r;
     panel.assign(columns * front, 0);
-    std::vector<double>& rest = rests[b];
+    Vector<double>& rest = rests[b];
     rest.assign(rows * rows, 0);
     for (size_t c = 0; c < columns; ++c) {
       uint32_t unknown = block.first_column + static_cast<uint32_t>(c);
@@ -208,7 +207,7 @@ Status SparseLdlt::factor(const Graph& graph) {
             rest[(pi - columns) * rows + pj - columns] += from[j];
         }
       }
-      std::vector<double>().swap(rests[child]);
+      Vector<double>().swap(rests[child]);
     }
     scaled.resize(columns * rows);
     if (!eliminate(panel.data(), columns, rest.data(), front, scaled.data()))
@@ -230,7 +229,7 @@ Status SparseLdlt::factor(const Graph& graph) {
 
 /// Cuts the tree of blocks into subtrees of about equal cost and the blocks above them.
 void SparseLdlt::split() {
-  std::vector<size_t> cost(blocks_.size());
+  Vector<size_t> cost(blocks_.size());
   size_t total = 0;
   for (size_t b = 0; b < blocks_.size(); ++b) {
     size_t own = size_t{blocks_[b].columns} * (blocks_[b].columns + blocks_[b].rows);
@@ -239,7 +238,7 @@ void SparseLdlt::split() {
     if (blocks_[b].parent != kFixed)
       cost[blocks_[b].parent] += cost[b];
   }
-  std::vector<uint32_t> subtree(blocks_.size(), kFixed);
+  Vector<uint32_t> subtree(blocks_.size(), kFixed);
   subtrees_.clear();
   top_.clear();
   // Small trees that nothing stands above, those of small components, share a subtree.
@@ -290,7 +289,7 @@ void SparseLdlt::split() {
   }
 }
 
-Status SparseLdlt::init(const std::vector<uint32_t>& vertex_group, const std::vector<Edge>& edges,
+Status SparseLdlt::init(const Vector<uint32_t>& vertex_group, const Vector<Edge>& edges,
                         size_t most_bytes) {
   number(vertex_group);
   Graph graph = make_graph(edges, vertex_group.size());
@@ -377,7 +376,7 @@ void SparseLdlt::solve(double* x, const HostThreads& threads) const {
     backward(blocks_[top_[i]], x);
   for_ranges(threads, subtrees_.size(), 1, [&](size_t first, size_t last) {
     for (size_t s = first; s < last; ++s) {
-      const std::vector<uint32_t>& blocks = subtrees_[s].blocks;
+      const Vector<uint32_t>& blocks = subtrees_[s].blocks;
       for (size_t i = blocks.size(); i-- > 0;)
         backward(blocks_[blocks[i]], x);
     }

@@ -3,12 +3,12 @@
 #ifndef ANICODEC_SDK_SPARSE_LDLT_H_
 #define ANICODEC_SDK_SPARSE_LDLT_H_
 
+#include "format/memory.h"
 #include "format/status.h"
 #include "sdk/parallel_for.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace anicodec {
 
@@ -31,14 +31,13 @@ class SparseLdlt {
   /// vertex that is fixed. Errors: kLimit when factor or fronts would take more than most_bytes,
   /// found before any of it is allocated; kNonFinite when a pivot is not above 0. Cost: that of the
   /// factor, about n log n numbers and n^1.5 multiplications for a surface of n vertices.
-  Status init(const std::vector<uint32_t>& vertex_group, const std::vector<Edge>& edges,
-              size_t most_bytes);
+  Status init(const Vector<uint32_t>& vertex_group, const Vector<Edge>& edges, size_t most_bytes);
 
   /// Number of unknowns.
   uint32_t size() const { return static_cast<uint32_t>(vertices_.size()); }
 
   /// Unknown i is vertex vertices()[i].
-  const std::vector<uint32_t>& vertices() const { return vertices_; }
+  const Vector<uint32_t>& vertices() const { return vertices_; }
 
   /// Numbers in L below the diagonal.
   size_t factor_size() const { return values_.size(); }
@@ -71,26 +70,25 @@ class SparseLdlt {
   struct Subtree {
     uint32_t first_spill = 0, spill_rows = 0;  ///< place in the scratch array
     uint32_t root = 0;
-    std::vector<uint32_t> blocks;
+    Vector<uint32_t> blocks;
   };
 
-  void number(const std::vector<uint32_t>& vertex_group);
-  Graph make_graph(const std::vector<Edge>& edges, size_t vertex_count) const;
+  void number(const Vector<uint32_t>& vertex_group);
+  Graph make_graph(const Vector<Edge>& edges, size_t vertex_count) const;
   Status analyse(const Graph& graph, size_t most_bytes);
   Status factor(const Graph& graph);
   void split();
   void forward(const Block& block, double* x) const;
   void backward(const Block& block, double* x) const;
 
-  std::vector<uint32_t> vertices_;
-  std::vector<Block> blocks_;           ///< in order of elimination
-  std::vector<uint32_t> rows_;          ///< unknowns
-  std::vector<uint32_t> forward_rows_;  ///< the same, or places where a subtree keeps them apart
-  std::vector<double>
-      values_;  ///< per block: rows of the unit triangle without diagonal, then rows_
-  std::vector<double> inverse_diagonal_;
-  std::vector<Subtree> subtrees_;
-  std::vector<uint32_t> top_;  ///< blocks above all subtrees
+  Vector<uint32_t> vertices_;
+  Vector<Block> blocks_;           ///< in order of elimination
+  Vector<uint32_t> rows_;          ///< unknowns
+  Vector<uint32_t> forward_rows_;  ///< the same, or places where a subtree keeps them apart
+  Vector<double> values_;  ///< per block: rows of the unit triangle without diagonal, then rows_
+  Vector<double> inverse_diagonal_;
+  Vector<Subtree> subtrees_;
+  Vector<uint32_t> top_;  ///< blocks above all subtrees
   uint32_t scratch_rows_ = 0;
 };
 

@@ -16,8 +16,8 @@ namespace anicodec {
 namespace {
 
 struct System {
-  std::vector<uint32_t> group;
-  std::vector<SparseLdlt::Edge> edges;
+  Vector<uint32_t> group;
+  Vector<SparseLdlt::Edge> edges;
 };
 
 /// The edges of a mesh with random weights, the first vertex of every component fixed.
