@@ -80,6 +80,9 @@ class ContainerReader {
   /// against the number of bytes. kTruncated, with head_bytes(), until header and table are there.
   Failure open_prefix(ByteView bytes) { return open(bytes, true); }
 
+  /// After open_prefix(): more of the same bytes are there, in another place perhaps.
+  void extend(ByteView bytes) { file_ = bytes; }
+
   /// How many bytes from the front hold header and table, as far as the bytes tell.
   static uint64_t head_bytes(ByteView bytes);
 

@@ -113,13 +113,34 @@ Failure required(const format::ContainerReader& file, const char (&type)[5], uin
   return file.payload(**chunk, out);
 }
 
+Failure read_pose(const format::ContainerReader& file, const Chunk& chunk, const Topology& topology,
+                  const DracoMesh& draco, PoseGrid* out) {
+  ByteView payload;
+  if (Failure f = file.payload(chunk, &payload); !f.ok())
+    return f;
+  format::PoseRecord record;
+  Status s = format::PoseRecord::read(payload, &record);
+  if (s == Status::kOk)
+    s = open_pose(record, topology, draco, out);
+  return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
+}
+
+/// Whether what a segment cannot do without is there: its record, its pose, and a layer if it has
+/// any.
+bool has_arrived(const format::ContainerReader& file, const format::Limits::Segment& sizes,
+                 uint32_t number, const Vector<const Chunk*>& layers) {
+  const Chunk* record = file.find("SEGM", sizes.mesh, number);
+  const Chunk* pose = file.find("POSE", sizes.mesh, number);
+  if (!pose)
+    pose = file.find("POSE", sizes.mesh);
+  return !(record && !file.has(*record)) && !(pose && !file.has(*pose)) &&
+         !(!layers.empty() && !file.has(*layers[0]));
+}
+
 }  // namespace
 
-Failure Clip::open(ByteView bytes, const OpenOptions& options) {
-  *this = Clip();
-  format::ContainerReader file;
-  if (Failure failure = file.open(bytes); !failure.ok())
-    return failure;
+Failure read_limits(const format::ContainerReader& file, const OpenOptions& options,
+                    format::Limits* out) {
   if (Failure failure = check_chunks(file); !failure.ok())
     return failure;
 
@@ -128,32 +149,43 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   if (Failure f = required(file, "LIMI", format::kNoMesh, format::kNoSegment, &chunk, &payload);
       !f.ok())
     return f;
-  if (Status s = format::Limits::read(payload, &limits_); s != Status::kOk)
+  if (Status s = format::Limits::read(payload, out); s != Status::kOk)
     return at(*chunk, s, "the limits are malformed");
   // Even a mesh that is all alike takes some thousandth of a bit per vertex.
-  uint64_t plausible = uint64_t{bytes.size} << 16;
-  for (const auto& mesh : limits_.meshes) {
+  const uint64_t plausible = std::min(file.file_size(), UINT64_MAX >> 22) << 16;
+  for (const auto& mesh : out->meshes) {
     if (mesh.source_vertices > options.limits.vertices)
       return at(*chunk, Status::kLimit, "more vertices than allowed");
     if (mesh.source_vertices > plausible || mesh.corners > plausible ||
         mesh.triangles > plausible || mesh.polygons > plausible || mesh.points > plausible ||
-        mesh.draco_bytes > bytes.size)
+        mesh.draco_bytes > file.file_size())
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
   }
-  if (limits_.frames > options.limits.frames)
+  if (out->frames > options.limits.frames)
     return at(*chunk, Status::kLimit, "more frames than allowed");
-  for (const auto& s : limits_.segments) {
+  for (const auto& s : out->segments) {
     if (s.components > options.limits.components)
       return at(*chunk, Status::kLimit, "more components than allowed");
     uint64_t channels = s.kind == format::BasisKind::kEigentrajectories ? 1 : 3;
-    uint64_t coefficients = channels * s.components * limits_.meshes[s.mesh].coded_vertices;
+    uint64_t coefficients = channels * s.components * out->meshes[s.mesh].coded_vertices;
     uint64_t weights = uint64_t{4} * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
   }
-  if (estimate_memory(limits_).opening > options.limits.resident_bytes)
+  if (estimate_memory(*out, options.quality).opening > options.limits.resident_bytes)
     return at(*chunk, Status::kLimit, "more memory than allowed");
+  return {};
+}
 
+Failure Clip::open(ByteView bytes, const OpenOptions& options) {
+  *this = Clip();
+  format::ContainerReader file;
+  if (Failure failure = options.prefix ? file.open_prefix(bytes) : file.open(bytes); !failure.ok())
+    return failure;
+  if (Failure failure = read_limits(file, options, &limits_); !failure.ok())
+    return failure;
+  const Chunk* chunk;
+  ByteView payload;
   if (Failure f = required(file, "CLIP", format::kNoMesh, format::kNoSegment, &chunk, &payload);
       !f.ok())
     return f;
@@ -169,8 +201,11 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
     failure = open_mesh(file, static_cast<uint16_t>(m));
   if (failure.ok())
     failure = open_segments(file, options);
-  draco_.clear();
-  draco_.shrink_to_fit();
+  draco_ = Vector<DracoMesh>();
+  for (Mesh& mesh : meshes_) {
+    mesh.topology.triangles = Vector<uint32_t>();
+    mesh.topology.point_vertex = Vector<uint32_t>();
+  }
   if (!failure.ok())
     *this = Clip();
   return failure;
@@ -236,67 +271,77 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
     if (chunk.type == chunk_type("BASI") && chunk.segment < layers.size())
       layers[chunk.segment].push_back(&chunk);
   }
-  auto read_pose = [&](const format::ContainerReader& from, const Chunk& chunk, PoseGrid* out) {
-    ByteView payload;
-    if (Failure f = from.payload(chunk, &payload); !f.ok())
-      return f;
-    format::PoseRecord record;
-    Status s = format::PoseRecord::read(payload, &record);
-    if (s == Status::kOk)
-      s = open_pose(record, meshes_[chunk.mesh].topology, draco_[chunk.mesh], out);
-    return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
-  };
   Vector<PoseGrid> poses(meshes_.size());
   for (size_t m = 0; m < meshes_.size(); ++m) {
-    if (const Chunk* chunk = file.find("POSE", static_cast<uint16_t>(m))) {
-      if (Failure f = read_pose(file, *chunk, &poses[m]); !f.ok())
-        return f;
-    }
+    const Chunk* chunk = file.find("POSE", static_cast<uint16_t>(m));
+    if (!chunk || (options.prefix && !file.has(*chunk)))
+      continue;
+    if (Failure f = read_pose(file, *chunk, meshes_[m].topology, draco_[m], &poses[m]); !f.ok())
+      return f;
   }
   for (uint32_t i = 0; i < segments_.size(); ++i) {
-    const format::Limits::Segment& sizes = limits_.segments[i];
-    const Chunk* chunk;
-    ByteView payload;
-    if (Failure f = required(file, "SEGM", sizes.mesh, i, &chunk, &payload); !f.ok())
+    if (options.prefix && !has_arrived(file, limits_.segments[i], i, layers[i])) {
+      segments_[i].mesh = limits_.segments[i].mesh;
+      segments_[i].first_frame = limits_.segments[i].first_frame;
+      partial_ = true;
+      continue;
+    }
+    if (Failure f = open_segment(file, i, layers[i], poses, options); !f.ok())
       return f;
-    format::SegmentRecord record;
-    Status s = format::SegmentRecord::read(payload, &record);
-    if (s == Status::kOk && record.kind != sizes.kind)
-      s = Status::kSegment;
-    if (s != Status::kOk)
-      return at(*chunk, s, "the segment record is malformed");
-    SegmentContext context;
-    context.sizes = &sizes;
-    context.mesh_sizes = &limits_.meshes[sizes.mesh];
-    context.topology = &meshes_[sizes.mesh].topology;
-    context.vertex_coded = &context.topology->vertex_coded;
-    context.draco = &draco_[sizes.mesh];
-    PoseGrid own;
-    context.pose = &poses[sizes.mesh];
-    if (const Chunk* chunk_of_pose = file.find("POSE", sizes.mesh, i)) {
-      if (Failure f = read_pose(file, *chunk_of_pose, &own); !f.ok())
-        return f;
-      context.pose = &own;
-    }
-    if (context.pose->points.empty())
-      context.pose = nullptr;
-    context.quality = options.quality;
-    for (const Chunk* layer : layers[i]) {
-      ByteView bytes;
-      if (Failure f = file.payload(*layer, &bytes); !f.ok())
-        return f;
-      context.layers.push_back(bytes);
-    }
-    if (const Chunk* corrections = file.find("CORR", sizes.mesh, i)) {
-      if (Failure f = file.payload(*corrections, &context.corrections); !f.ok())
-        return f;
-    }
-    Segment& segment = segments_[i];
-    s = open_segment(record, context, &segment);
-    if (s != Status::kOk)
-      return at(*chunk, s, "the segment cannot be opened");
   }
   return {};
+}
+
+Failure Clip::open_segment(const format::ContainerReader& file, uint32_t number,
+                           const Vector<const Chunk*>& layers, const Vector<PoseGrid>& poses,
+                           const OpenOptions& options) {
+  const format::Limits::Segment& sizes = limits_.segments[number];
+  const Chunk* chunk;
+  ByteView payload;
+  if (Failure f = required(file, "SEGM", sizes.mesh, number, &chunk, &payload); !f.ok())
+    return f;
+  format::SegmentRecord record;
+  Status s = format::SegmentRecord::read(payload, &record);
+  if (s == Status::kOk && record.kind != sizes.kind)
+    s = Status::kSegment;
+  if (s != Status::kOk)
+    return at(*chunk, s, "the segment record is malformed");
+  SegmentContext context;
+  context.sizes = &sizes;
+  context.mesh_sizes = &limits_.meshes[sizes.mesh];
+  context.topology = &meshes_[sizes.mesh].topology;
+  context.vertex_coded = &context.topology->vertex_coded;
+  context.draco = &draco_[sizes.mesh];
+  PoseGrid own;
+  context.pose = &poses[sizes.mesh];
+  if (const Chunk* of_pose = file.find("POSE", sizes.mesh, number)) {
+    if (Failure f = read_pose(file, *of_pose, *context.topology, *context.draco, &own); !f.ok())
+      return f;
+    context.pose = &own;
+  }
+  if (context.pose->points.empty())
+    context.pose = nullptr;
+  context.quality = options.quality;
+  for (const Chunk* layer : layers) {
+    if (options.prefix && !file.has(*layer)) {
+      context.partial = true;
+      break;
+    }
+    ByteView bytes;
+    if (Failure f = file.payload(*layer, &bytes); !f.ok())
+      return f;
+    context.layers.push_back(bytes);
+  }
+  const Chunk* corrections = file.find("CORR", sizes.mesh, number);
+  if (corrections && options.prefix && !file.has(*corrections)) {
+    context.partial = true;
+  } else if (corrections) {
+    if (Failure f = file.payload(*corrections, &context.corrections); !f.ok())
+      return f;
+  }
+  partial_ |= context.partial;
+  s = anicodec::open_segment(record, context, &segments_[number]);
+  return s == Status::kOk ? Failure{} : at(*chunk, s, "the segment cannot be opened");
 }
 
 const Segment* Clip::segment_at(uint32_t mesh, uint32_t frame) const {
@@ -314,8 +359,7 @@ const Segment* Clip::segment_at(uint32_t mesh, uint32_t frame) const {
 size_t Clip::resident_bytes() const {
   size_t total = 0;
   for (const Mesh& m : meshes_)
-    total += 4 * (m.topology.triangles.size() + m.topology.point_vertex.size() +
-                  m.topology.vertex_coded.size() + m.topology.polygon_offsets.size() +
+    total += 4 * (m.topology.vertex_coded.size() + m.topology.polygon_offsets.size() +
                   m.topology.polygon_corners.size());
   for (const Segment& s : segments_)
     total += s.resident_bytes();

@@ -26,20 +26,31 @@ struct OpenOptions {
   HostLimits limits;
   /// Share of the components to open, by number, in (0, 1]: fewer give a coarser clip.
   double quality = 1;
+  /// Whether the bytes may be the first ones of a file: what has arrived is opened, with as many
+  /// components as are there (spec/05-file-layout.md, section 7).
+  bool prefix = false;
 };
 
-/// One mesh of a clip.
+/// Checks the chunks of a file, reads its limits and checks them against the host's and against
+/// what a file of its size can hold. The first step of opening it. Cost: O(chunks + meshes +
+/// segments).
+Failure read_limits(const format::ContainerReader& file, const OpenOptions& options,
+                    format::Limits* out);
+
+/// One mesh of a clip. Its topology keeps what a player needs: polygons, and the coded vertex of
+/// each vertex.
 struct Mesh {
   String name;
   Topology topology;
 };
 
 /// An opened file: immutable, so any number of threads may play it. Owns all it needs; the file's
-/// bytes may go after open().
+/// bytes may go after open(). Make and open it in the same MemoryScope.
 class Clip {
  public:
-  /// Opens a whole file in memory. On failure the clip is empty and the failure says where.
-  /// Cost: entropy decoding of all coefficients once; afterwards every frame costs the same.
+  /// Opens a file in memory. On failure the clip is empty and the failure says where; kTruncated
+  /// for a prefix of which too little is there. Throws std::bad_alloc. Cost: entropy decoding of
+  /// all coefficients once; afterwards every frame costs the same.
   Failure open(format::ByteView file, const OpenOptions& options = {});
 
   const format::Limits& limits() const { return limits_; }
@@ -63,6 +74,10 @@ class Clip {
   /// components), the same for every frame. Allocates nothing.
   Status positions(uint32_t mesh, uint32_t frame, float* out) const;
 
+  /// Whether something had not arrived: segments have no frames, fewer components than options
+  /// asked for, or no corrections.
+  bool is_partial() const { return partial_; }
+
   /// Bytes that stay allocated while the clip is open.
   size_t resident_bytes() const;
 
@@ -73,12 +88,16 @@ class Clip {
  private:
   Failure open_mesh(const format::ContainerReader& file, uint16_t mesh);
   Failure open_segments(const format::ContainerReader& file, const OpenOptions& options);
+  Failure open_segment(const format::ContainerReader& file, uint32_t number,
+                       const Vector<const format::Chunk*>& layers, const Vector<PoseGrid>& poses,
+                       const OpenOptions& options);
 
   format::Limits limits_;
   format::ClipRecord record_;
   Vector<Mesh> meshes_;
   Vector<DracoMesh> draco_;  ///< while opening
   Vector<Segment> segments_;
+  bool partial_ = false;
   Vector<uint32_t> by_frame_;  ///< segments, ascending by mesh and first frame
 };
 

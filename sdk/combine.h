@@ -39,8 +39,8 @@ void combine(const FrameState* states, uint32_t frames, uint32_t first, uint32_t
 /// One frame, three floats for each vertex, without gaps.
 void combine(const FrameState& state, uint32_t first, uint32_t count, float* out);
 
-/// Stores points made otherwise, as combine() does: points first .. first + count - 1 of `blocks`, in
-/// the layout of Segment::pose.
+/// Stores points made otherwise, as combine() does: points first .. first + count - 1 of `blocks`,
+/// in the layout of Segment::pose.
 void store_points(const float* blocks, uint32_t first, uint32_t count, const VertexOutput& output);
 
 /// What combine() runs on this machine: "avx512", "avx2", "portable" (the instruction set of the

@@ -144,8 +144,11 @@ class DetailsCoding {
 
   /// Joins triangles into polygons: from each triangle not yet used, across border edges.
   Status polygons() {
-    t_.polygon_offsets.assign(1, 0);
+    t_.polygon_offsets.clear();
+    t_.polygon_offsets.reserve(size_t{sizes_.polygons} + 1);
+    t_.polygon_offsets.push_back(0);
     t_.polygon_corners.clear();
+    t_.polygon_corners.reserve(sizes_.corners);
     auto count = static_cast<uint32_t>(triangles_.size() / 3);
     if (!coder_.bit(flag_[1], source_.has_polygons())) {
       for (uint32_t t = 0; t < count; ++t) {

@@ -66,6 +66,14 @@ Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
+/// Components in layers; no more than there can be.
+uint32_t components_in(const Vector<format::ByteView>& layers, uint32_t components) {
+  uint32_t count = 0;
+  for (format::ByteView layer : layers)
+    count += format::ByteReader(layer).varint32(components - count);
+  return count;
+}
+
 /// Residuals of the components in the layers, components x channels x vertices in decoding order;
 /// stops after `wanted` components.
 Status read_residuals(const Vector<format::ByteView>& layers, const VertexOrder& order,
@@ -103,8 +111,8 @@ Status read_residuals(const Vector<format::ByteView>& layers, const VertexOrder&
 }
 
 /// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample.
-Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ranks,
-                                     size_t samples, format::IntegerHash& hash) {
+Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ranks, size_t samples,
+                                format::IntegerHash& hash) {
   Vector<int32_t> exact(samples);
   Vector<float> largest(samples, 0.F);
   for (size_t i = 0; i < ranks; ++i) {
@@ -252,8 +260,9 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   if (Status s = read_weights(record.weights, parameters, pose, &hash, out, &weights);
       s != Status::kOk)
     return s;
-  auto wanted = static_cast<uint32_t>(std::ceil(context.quality * components));
-  wanted = std::min(wanted, components);
+  uint32_t wanted = wanted_components(context.quality, components);
+  if (context.partial)
+    wanted = std::min(wanted, components_in(context.layers, components));
   out->components = wanted;
   out->wide_components = std::min(out->wide_components, wanted);
   ResidentWriter writer(context.vertex_coded, out);

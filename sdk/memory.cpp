@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/memory.h"
 
+#include "sdk/segment.h"
+
 #include <algorithm>
 
 namespace anicodec {
@@ -12,6 +14,7 @@ using format::Limits;
 
 constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
 constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
+constexpr uint64_t kStructure = 512;             // of a mesh or segment
 constexpr uint64_t kMatrix = 48;                 // bytes of a pose map or motion
 
 /// A sum that stays at its end instead of wrapping.
@@ -26,8 +29,21 @@ class Sum {
 };
 
 uint64_t resident(const Limits::Mesh& m) {
-  return 4 * (uint64_t{3} * m.triangles + m.points + m.source_vertices + m.polygons + 1 +
-              uint64_t{m.corners});
+  return kStructure + 4 * (uint64_t{m.source_vertices} + m.polygons + 1 + uint64_t{m.corners});
+}
+
+/// What a mesh needs until the segments are open: its triangles, coded ones and Draco's, and poses.
+uint64_t held(const Limits::Mesh& m) {
+  return uint64_t{24} * m.triangles + uint64_t{4} * m.points * (1 + uint64_t{m.draco_components}) +
+         uint64_t{12} * m.coded_vertices;
+}
+
+/// A segment whose components are those wanted.
+Limits::Segment coarser(Limits::Segment s, double quality) {
+  if (s.kind != BasisKind::kKeyframes)
+    s.components = wanted_components(quality, s.components);
+  s.wide_components = std::min(s.wide_components, s.components);
+  return s;
 }
 
 // The factors of a product have at most 31 + 21 bits, its constant 6: each term fits 64 bits.
@@ -35,21 +51,30 @@ uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
   const uint64_t n = (uint64_t{mesh.source_vertices} + 15) / 16 * 16;
   const uint64_t frames = s.frames, components = s.components;
   const uint64_t integers = components + s.wide_components;  // in units of 16 bits
-  uint64_t bytes = kMatrix * frames;
+  uint64_t bytes = kStructure;
   switch (s.kind) {
     case BasisKind::kKeyframes:
-      bytes += 6 * n * integers + 4 * frames * components;
+      bytes += kMatrix * frames + 6 * n * integers + 4 * frames * components;
       break;
     case BasisKind::kEigenshapes:
-      bytes += 12 * n + 6 * n * integers + 4 * frames * components;
+      bytes += kMatrix * frames + 12 * n + 6 * n * integers + 4 * frames * components;
       break;
     case BasisKind::kEigentrajectories:
-      bytes += 12 * n + 2 * n * integers + 12 * frames * components;
+      bytes += kMatrix * frames + 12 * n + 2 * n * integers + 12 * frames * components;
       break;
   }
   if (s.corrections > 0)
     bytes += uint64_t{16} * s.corrections + 4 * (frames + 1);
   return bytes;
+}
+
+/// Draco's decoder keeps values twice, and a connectivity for each attribute.
+uint64_t draco(const Limits::Mesh& m) {
+  if (m.draco_components == 0)
+    return 0;
+  const uint64_t attributes = std::clamp(m.draco_components / 3, 2U, 64U);
+  return uint64_t{8} * m.points * m.draco_components + uint64_t{100} * m.triangles +
+         attributes * (uint64_t{20} * m.triangles + uint64_t{24} * m.points);
 }
 
 uint64_t opening(const Limits::Mesh& m) {
@@ -58,14 +83,7 @@ uint64_t opening(const Limits::Mesh& m) {
   const uint64_t maps =
       uint64_t{20} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{4} * m.corners;
   const uint64_t pose = uint64_t{340} * m.coded_vertices + uint64_t{72} * m.triangles;
-  // Draco's decoder keeps values twice, and a connectivity for each attribute.
-  uint64_t draco = 0;
-  if (m.draco_components > 0) {
-    const uint64_t attributes = std::clamp(m.draco_components / 3, 2U, 64U);
-    draco = uint64_t{8} * m.points * m.draco_components + uint64_t{100} * m.triangles +
-            attributes * (uint64_t{20} * m.triangles + uint64_t{24} * m.points);
-  }
-  return std::max({details, maps, pose, draco});
+  return std::max({details, maps, pose, draco(m)});
 }
 
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
@@ -80,23 +98,26 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
 
 }  // namespace
 
-MemoryEstimate estimate_memory(const Limits& limits) {
-  Sum open, held;  // held: until the segments are open
+MemoryEstimate estimate_memory(const Limits& limits, double quality) {
+  MemoryEstimate estimate;
+  Sum open, until_open;
   uint64_t largest = 0;
   for (const Limits::Mesh& m : limits.meshes) {
     open.add(resident(m));
-    held.add(uint64_t{12} * m.triangles + uint64_t{4} * m.points * m.draco_components);
-    held.add(uint64_t{12} * m.coded_vertices);  // the reference pose
+    until_open.add(held(m));
     largest = std::max(largest, opening(m));
+    estimate.draco = std::max(estimate.draco, draco(m));
   }
   for (const Limits::Segment& s : limits.segments) {
     const Limits::Mesh& mesh = limits.meshes[s.mesh];
-    open.add(resident(s, mesh));
-    largest = std::max(largest, opening(s, mesh));
+    const Limits::Segment wanted = coarser(s, quality);
+    open.add(resident(wanted, mesh));
+    largest = std::max(largest, opening(wanted, mesh));
+    // The weights of all components are read in any case.
+    until_open.add(uint64_t{12} * s.frames * (s.components - wanted.components));
   }
-  MemoryEstimate estimate;
   estimate.resident = open.total();
-  open.add(held.total());
+  open.add(until_open.total());
   open.add(largest);
   estimate.opening = open.total();
   return estimate;

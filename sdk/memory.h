@@ -14,10 +14,11 @@ namespace anicodec {
 struct MemoryEstimate {
   uint64_t resident = 0;  ///< bytes while a clip is open
   uint64_t opening = 0;   ///< bytes at most while it opens, the resident ones included
+  uint64_t draco = 0;     ///< of those, at most, what Draco takes by itself
 };
 
-/// O(meshes + segments).
-MemoryEstimate estimate_memory(const format::Limits& limits);
+/// `quality` as in OpenOptions. O(meshes + segments).
+MemoryEstimate estimate_memory(const format::Limits& limits, double quality = 1);
 
 }  // namespace anicodec
 

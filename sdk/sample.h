@@ -22,8 +22,8 @@ struct Sample {
   FrameState parts[kMaxParts];
   float share[kMaxParts] = {};
 
-  /// Stores the positions of vertices first .. first + vertices - 1; see combine(). Cost: O(vertices
-  /// x components) for each part. Allocates nothing.
+  /// Stores the positions of vertices first .. first + vertices - 1; see combine(). Cost:
+  /// O(vertices x components) for each part. Allocates nothing.
   void positions(uint32_t first, uint32_t vertices, const VertexOutput& output) const;
 };
 

@@ -101,7 +101,7 @@ struct Copies {
 Status read_corrections(const SegmentContext& context, format::IntegerHash& hash, Segment* out) {
   const uint32_t total = context.sizes->corrections;
   if (context.corrections.size == 0)
-    return total == 0 ? Status::kOk : Status::kChunkMissing;
+    return total == 0 || context.partial ? Status::kOk : Status::kChunkMissing;
   format::ByteReader reader(context.corrections);
   double step = reader.f64();
   if (!reader.ok() || !std::isfinite(step) || step <= 0)
@@ -113,7 +113,9 @@ Status read_corrections(const SegmentContext& context, format::IntegerHash& hash
   CorrectionCoding coding(coded_vertices);
   Vector<IntegerCorrection> frame;
   uint64_t corrected = 0;  // vertices, over the frames
-  out->correction_begin.assign(1, 0);
+  out->corrections.reserve(total);
+  out->correction_begin.reserve(size_t{out->frames} + 1);
+  out->correction_begin.push_back(0);
   for (uint32_t f = 0; f < out->frames; ++f) {
     if (!coding.code_frame(decoder, total - corrected, &frame))
       return Status::kEntropy;
@@ -145,6 +147,10 @@ Status read_corrections(const SegmentContext& context, format::IntegerHash& hash
 }
 
 }  // namespace
+
+uint32_t wanted_components(double quality, uint32_t components) {
+  return std::min(static_cast<uint32_t>(std::ceil(quality * components)), components);
+}
 
 Status open_segment(const format::SegmentRecord& record, const SegmentContext& context,
                     Segment* out) {

@@ -87,8 +87,13 @@ struct SegmentContext {
   const DracoMesh* draco = nullptr;  ///< null when the connectivity is plain
   Vector<format::ByteView> layers;   ///< chunks BASI in file order
   format::ByteView corrections;      ///< chunk CORR, empty when there is none
-  double quality = 1;                ///< share of the components wanted
+  double quality = 1;               ///< share of the components wanted
+  /// Layers or corrections are still to come: as many components as are there are opened.
+  bool partial = false;
 };
+
+/// How many of its components are opened at a quality in (0, 1].
+uint32_t wanted_components(double quality, uint32_t components);
 
 /// Opens a segment of any kind. The counts in `context` have been checked against the host's
 /// limits.

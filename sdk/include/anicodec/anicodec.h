@@ -137,8 +137,8 @@ typedef struct anic_allocator {
  * Makes an allocator that serves from one block of the host's and from nowhere else.
  *
  * The block belongs to the allocator until everything made with it is destroyed; then the block may simply
- * be dropped. Its bookkeeping lies inside it: 64 bytes and 16 bytes per allocation. Best fit, neighbours
- * joined when released; O(number of free pieces). One thread at a time.
+ * be dropped. Best fit, neighbours joined when released; sizes are rounded up to 16 bytes; O(free pieces) for
+ * each allocation. One thread at a time.
  *
  * Errors  ANIC_E_ARGUMENT: a pointer is NULL; ANIC_E_BUFFER_SIZE: less than 256 bytes.
  */
@@ -473,23 +473,23 @@ ANIC_API anic_status anic_clip_bounds(const anic_asset* asset, uint32_t mesh, an
 typedef struct anic_normals anic_normals;
 
 typedef struct anic_normal_options {
-  /** Corners at a vertex share a normal if their polygons meet at an angle of at most this, in degrees, in
-   *  the reference frame. 0 means 180: all share one; a small one, such as 0.001, shades flat. */
-  double crease_angle;
-  uint32_t reference_frame; /**< the frame in which the angles are looked at */
+  double crease_angle;      /**< degrees; edges whose polygons' normals are further apart are hard. 0: none is;
+                                 a small one, such as 0.001, shades flat what is not coplanar */
+  uint32_t reference_frame; /**< the frame in which the angles are looked at, for all frames */
   uint8_t per_corner;       /**< normals for each corner (anic_polygons) instead of each vertex */
 } anic_normal_options;
 
 /**
- * Prepares normals: corners around each vertex, across its copies, so that seams of the source stay
- * invisible unless they are creases. The file does not hold normals; these are recomputed.
+ * Prepares normals. The file does not hold any; these are recomputed from positions. They are smooth across
+ * copies of a vertex (anic_mesh_copies()), so that seams of the source do not show unless they are creases.
  *
- * A normal is the sum of the cross products of the edges at the corners it is averaged over, that is,
- * weighted by area, of length one; (0, 0, 1) where that sum is 0. With per_corner = 0 a vertex takes the
- * corners of all its polygons and what is smooth with them.
+ * A normal is the sum of the cross products of the edges at the corners it is averaged over, so that larger
+ * faces count more, of length one; (0, 0, 1) where that sum is 0. With per_corner = 0, all corners of a vertex
+ * share one, hard edges between them or not.
  *
  * Params   options may be NULL; allocator may be NULL: the asset's
- * Memory   4 bytes for each element, 8 for each corner it is averaged over. Does not refer to the asset.
+ * Memory   4 bytes for each element and 8 to 20 for each corner; 40 more while it is made. Does not refer to
+ *          the asset.
  * Errors   ANIC_E_ARGUMENT, ANIC_E_FRAME_RANGE, ANIC_E_SEGMENT, ANIC_E_MEMORY
  */
 ANIC_API anic_status anic_normals_create(const anic_asset* asset, uint32_t mesh,

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/clip.h"
+#include "tests/api/opened.h"
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <malloc.h>
+
+namespace anicodec {
+namespace {
+
+using testing::ElementsAreArray;
+
+TEST(Statuses, HaveTheNumbersOfTheFormat) {
+  const std::pair<anic_status, Status> pairs[] = {{ANIC_OK, Status::kOk},
+                                                  {ANIC_E_ARGUMENT, Status::kArgument},
+                                                  {ANIC_E_STATE, Status::kState},
+                                                  {ANIC_E_BUFFER_SIZE, Status::kBufferSize},
+                                                  {ANIC_E_FRAME_RANGE, Status::kFrameRange},
+                                                  {ANIC_E_MAGIC, Status::kMagic},
+                                                  {ANIC_E_VERSION, Status::kVersion},
+                                                  {ANIC_E_FEATURE, Status::kFeature},
+                                                  {ANIC_E_CODER, Status::kCoder},
+                                                  {ANIC_E_TRUNCATED, Status::kTruncated},
+                                                  {ANIC_E_HEADER, Status::kHeader},
+                                                  {ANIC_E_HEADER_CHECKSUM, Status::kHeaderChecksum},
+                                                  {ANIC_E_CHUNK_BOUNDS, Status::kChunkBounds},
+                                                  {ANIC_E_CHUNK_CHECKSUM, Status::kChunkChecksum},
+                                                  {ANIC_E_CHUNK_DUPLICATE, Status::kChunkDuplicate},
+                                                  {ANIC_E_CHUNK_MISSING, Status::kChunkMissing},
+                                                  {ANIC_E_CHUNK_UNKNOWN, Status::kChunkUnknown},
+                                                  {ANIC_E_PADDING, Status::kPadding},
+                                                  {ANIC_E_TRAILING_BYTES, Status::kTrailingBytes},
+                                                  {ANIC_E_FILE_SIZE, Status::kFileSize},
+                                                  {ANIC_E_RECORD, Status::kRecord},
+                                                  {ANIC_E_ENTROPY, Status::kEntropy},
+                                                  {ANIC_E_ZSTD, Status::kZstd},
+                                                  {ANIC_E_TOPOLOGY, Status::kTopology},
+                                                  {ANIC_E_INDEX_RANGE, Status::kIndexRange},
+                                                  {ANIC_E_QUANTIZER, Status::kQuantizer},
+                                                  {ANIC_E_NON_FINITE, Status::kNonFinite},
+                                                  {ANIC_E_DRACO, Status::kDraco},
+                                                  {ANIC_E_SEGMENT, Status::kSegment},
+                                                  {ANIC_E_HASH, Status::kHash},
+                                                  {ANIC_E_LIMIT, Status::kLimit},
+                                                  {ANIC_E_MEMORY, Status::kMemory},
+                                                  {ANIC_E_READ, Status::kRead},
+                                                  {ANIC_E_INTERNAL, Status::kInternal}};
+  for (const auto& [c, status] : pairs) {
+    EXPECT_EQ(static_cast<int>(c), static_cast<int>(status));
+    EXPECT_STREQ(anic_status_string(c), status_string(status));
+    EXPECT_STRNE(anic_status_string(c), "unknown status");
+  }
+  EXPECT_STREQ(anic_status_string(static_cast<anic_status>(12345)), "unknown status");
+  EXPECT_EQ(anic_version(), 0x000100U);
+}
+
+TEST(AnicAsset, TellsWhatIsInIt) {
+  const MeshSequence source = corpus::make_clip("polygons");
+  const Asset asset = open(encoded_clip("polygons", BasisChoice::kKeyframes));
+  const anic_info info = info_of(asset);
+  EXPECT_EQ(info.mesh_count, 1U);
+  EXPECT_EQ(info.frame_count, source.frame_count);
+  EXPECT_EQ(info.rate_numerator, 24U);
+  EXPECT_EQ(info.start_time, 0);
+  EXPECT_DOUBLE_EQ(info.end_time, (source.frame_count - 1) / 24.0);
+  EXPECT_FALSE(info.partial);
+  EXPECT_EQ(anic_asset_verify(asset.get()), ANIC_OK);
+
+  anic_mesh_info mesh;
+  ASSERT_EQ(anic_mesh(asset.get(), 0, &mesh), ANIC_OK);
+  EXPECT_EQ(mesh.vertex_count, source.vertex_count);
+  EXPECT_EQ(mesh.polygon_count, source.polygons.size());
+  EXPECT_EQ(mesh.corner_count, source.polygons.corners.size());
+  EXPECT_EQ(mesh.triangle_count, mesh.corner_count - 2 * mesh.polygon_count);
+  EXPECT_EQ(anic_mesh(asset.get(), 1, &mesh), ANIC_E_ARGUMENT);
+}
+
+TEST(AnicAsset, CutsPolygonsIntoFans) {
+  const Asset asset = open(encoded_clip("polygons", BasisChoice::kKeyframes));
+  anic_mesh_info mesh;
+  anic_polygons polygons;
+  ASSERT_EQ(anic_mesh(asset.get(), 0, &mesh), ANIC_OK);
+  ASSERT_EQ(anic_mesh_polygons(asset.get(), 0, &polygons), ANIC_OK);
+  std::vector<uint32_t> expected;
+  for (uint32_t p = 0; p < polygons.polygon_count; ++p) {
+    for (uint32_t c = polygons.offsets[p] + 2; c < polygons.offsets[p + 1]; ++c)
+      expected.insert(expected.end(), {polygons.corners[polygons.offsets[p]],
+                                       polygons.corners[c - 1], polygons.corners[c]});
+  }
+  ASSERT_EQ(expected.size(), size_t{3} * mesh.triangle_count);
+  std::vector<uint32_t> wide(expected.size());
+  std::vector<uint16_t> narrow(expected.size());
+  EXPECT_EQ(anic_triangles(asset.get(), 0, 4, wide.data(), 4 * wide.size()), ANIC_OK);
+  EXPECT_EQ(anic_triangles(asset.get(), 0, 2, narrow.data(), 2 * narrow.size()), ANIC_OK);
+  EXPECT_EQ(wide, expected);
+  EXPECT_THAT(narrow, ElementsAreArray(expected));
+  EXPECT_EQ(anic_triangles(asset.get(), 0, 4, wide.data(), 4 * wide.size() - 1),
+            ANIC_E_BUFFER_SIZE);
+  EXPECT_EQ(anic_triangles(asset.get(), 0, 3, wide.data(), 4 * wide.size()), ANIC_E_ARGUMENT);
+}
+
+TEST(AnicAsset, TellsWhichVerticesMoveTogether) {
+  const Asset asset = open(encoded_clip("soup", BasisChoice::kAuto));
+  anic_mesh_info mesh;
+  const uint32_t* coded = nullptr;
+  ASSERT_EQ(anic_mesh(asset.get(), 0, &mesh), ANIC_OK);
+  ASSERT_EQ(anic_mesh_copies(asset.get(), 0, &coded), ANIC_OK);
+  ASSERT_LT(mesh.coded_vertex_count, mesh.vertex_count);
+  const std::vector<float> p = frame(asset, 3);
+  std::vector<uint32_t> first(mesh.coded_vertex_count, UINT32_MAX);
+  for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+    ASSERT_LT(coded[v], mesh.coded_vertex_count);
+    uint32_t& one = first[coded[v]];
+    one = std::min(one, v);
+    EXPECT_TRUE(std::equal(&p[size_t{3} * v], &p[size_t{3} * v] + 3, &p[size_t{3} * one]));
+  }
+}
+
+TEST(AnicAsset, SaysWhereAFileIsDamaged) {
+  format::Bytes file = encoded_clip("cloth", BasisChoice::kEigenshapes);
+  format::ContainerReader reader;
+  ASSERT_TRUE(reader.open(file).ok());
+  const format::Chunk chunk = *reader.find("SEGM", 0, 0);
+  file[chunk.offset + 5] ^= 1;
+  anic_asset* asset = nullptr;
+  anic_failure failure;
+  EXPECT_EQ(anic_asset_open(file.data(), file.size(), nullptr, &asset, &failure),
+            ANIC_E_CHUNK_CHECKSUM);
+  EXPECT_EQ(asset, nullptr);
+  EXPECT_EQ(failure.status, ANIC_E_CHUNK_CHECKSUM);
+  EXPECT_EQ(failure.offset, chunk.offset);
+  EXPECT_STREQ(failure.chunk, "SEGM");
+  EXPECT_STRNE(failure.detail, "");
+  // Without a place for the failure, and with a file that is none.
+  EXPECT_EQ(anic_asset_open(file.data(), 0, nullptr, &asset, nullptr), ANIC_E_MAGIC);
+  EXPECT_EQ(anic_asset_open("no such file", 12, nullptr, &asset, &failure), ANIC_E_MAGIC);
+  EXPECT_STREQ(failure.chunk, "");
+}
+
+TEST(AnicAsset, RefusesWhatTheHostDoesNotAllow) {
+  const format::Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
+  anic_requirements r;
+  ASSERT_EQ(anic_query(file.data(), file.size(), nullptr, &r), ANIC_OK);
+  auto status = [&](auto set) {
+    CountingMemory memory;
+    anic_options options = {};
+    options.allocator = memory.allocator();
+    set(options.limits);
+    anic_asset* asset = nullptr;
+    const anic_status result = anic_asset_open(file.data(), file.size(), &options, &asset, nullptr);
+    anic_asset_close(asset);
+    EXPECT_EQ(memory.held, 0U);
+    if (result == ANIC_E_LIMIT) {
+      EXPECT_LT(memory.peak, 4096U);  // header, table and limits only
+    }
+    return result;
+  };
+  EXPECT_EQ(status([&](anic_limits& l) { l.vertices = r.max_vertices; }), ANIC_OK);
+  EXPECT_EQ(status([&](anic_limits& l) { l.vertices = r.max_vertices - 1; }), ANIC_E_LIMIT);
+  EXPECT_EQ(status([&](anic_limits& l) { l.frames = r.frame_count - 1; }), ANIC_E_LIMIT);
+  EXPECT_EQ(status([&](anic_limits& l) { l.components = r.max_components - 1; }), ANIC_E_LIMIT);
+  EXPECT_EQ(status([&](anic_limits& l) { l.bytes = r.opening_bytes; }), ANIC_OK);
+  EXPECT_EQ(status([&](anic_limits& l) { l.bytes = r.resident_bytes; }), ANIC_E_LIMIT);
+}
+
+TEST(AnicAsset, IsCoarserAndSmallerAtLowerQuality) {
+  const format::Bytes& file = encoded_clip("limb", BasisChoice::kEigentrajectories);
+  const Asset whole = open(file);
+  anic_options options = {};
+  options.quality = 0.4;
+  const Asset coarse = open(file, &options);
+  EXPECT_LT(info_of(coarse).resident_bytes, info_of(whole).resident_bytes);
+  const double difference = largest_difference(frame(whole, 5), frame(coarse, 5));
+  EXPECT_GT(difference, 0);
+  EXPECT_LT(difference, 0.2 * info_of(whole).diagonal);
+  EXPECT_EQ(anic_asset_verify(coarse.get()), ANIC_E_STATE);
+  anic_requirements r;
+  ASSERT_EQ(anic_query(file.data(), file.size(), &options, &r), ANIC_OK);
+  EXPECT_NEAR(static_cast<double>(info_of(coarse).resident_bytes),
+              static_cast<double>(r.resident_bytes),
+              0.05 * static_cast<double>(r.resident_bytes) + 4096);
+  options.quality = 1.5;
+  anic_asset* none = nullptr;
+  EXPECT_EQ(anic_asset_open(file.data(), file.size(), &options, &none, nullptr), ANIC_E_ARGUMENT);
+}
+
+TEST(AnicQuery, SaysHowManyBytesItNeeds) {
+  const format::Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
+  size_t given = 0;
+  anic_requirements r;
+  for (int calls = 0; anic_query(file.data(), given, nullptr, &r) == ANIC_E_TRUNCATED; ++calls) {
+    ASSERT_GT(r.head_bytes, given);
+    ASSERT_LE(r.head_bytes, file.size());
+    ASSERT_LT(calls, 4);
+    given = r.head_bytes;
+  }
+  EXPECT_LT(given, 1000U);
+  EXPECT_EQ(r.head_bytes, given);
+  EXPECT_EQ(r.file_bytes, file.size());
+  EXPECT_EQ(r.frame_count, corpus::make_clip("cloth").frame_count);
+  EXPECT_EQ(anic_query("nothing of the kind", 19, nullptr, &r), ANIC_E_MAGIC);
+}
+
+// The tolerance is what the interface promises.
+TEST(AnicQuery, KnowsTheMemoryInAdvance) {
+  for (const auto& [clip, basis] : cases()) {
+    SCOPED_TRACE(clip);
+    const format::Bytes& file = encoded_clip(clip, basis);
+    for (uint32_t flags : {0U, uint32_t{ANIC_OPEN_BOUNDS}}) {
+      CountingMemory memory;
+      anic_options options = {};
+      options.allocator = memory.allocator();
+      options.flags = flags;
+      anic_requirements r;
+      ASSERT_EQ(anic_query(file.data(), file.size(), &options, &r), ANIC_OK);
+      EXPECT_EQ(memory.held, 0U);
+      const Asset asset = open(file, &options);
+      const auto held = static_cast<double>(memory.held);
+      EXPECT_NEAR(static_cast<double>(r.resident_bytes), held, std::max(0.05 * held, 4096.0));
+      EXPECT_LE(memory.peak, r.opening_bytes);
+      EXPECT_EQ(info_of(asset).resident_bytes, memory.held);
+      const Context context = context_of(asset);
+      EXPECT_EQ(static_cast<double>(memory.held) - held, static_cast<double>(r.context_bytes));
+      EXPECT_EQ(info_of(asset).context_bytes, r.context_bytes);
+    }
+  }
+}
+
+TEST(AnicMemory, AllComesFromTheHostAndGoesBack) {
+  for (const auto& [clip, basis] : cases()) {
+    SCOPED_TRACE(clip);
+    const format::Bytes& file = encoded_clip(clip, basis);
+    CountingMemory memory;
+    anic_options options = {};
+    options.allocator = memory.allocator();
+    {
+      const Asset asset = open(file, &options);
+      const Context context = context_of(asset);
+      anic_normals* normals = nullptr;
+      EXPECT_EQ(anic_normals_create(asset.get(), 0, nullptr, nullptr, &normals), ANIC_OK);
+      EXPECT_GT(memory.held, 0U);
+      anic_normals_destroy(normals);
+    }
+    EXPECT_EQ(memory.held, 0U);
+    EXPECT_EQ(memory.small, 0U);
+  }
+}
+
+TEST(AnicMemory, NothingIsAllocatedAfterOpening) {
+  for (const auto& [clip, basis] : cases()) {
+    SCOPED_TRACE(clip);
+    CountingMemory memory;
+    anic_options options = {};
+    options.allocator = memory.allocator();
+    const Asset asset = open(encoded_clip(clip, basis), &options);
+    const Context context = context_of(asset);
+    const uint32_t n = vertices_of(asset), frames = info_of(asset).frame_count;
+    std::vector<float> out(size_t{3} * n);
+    const anic_output output = floats(out);
+    anic_part parts[ANIC_MAX_PARTS];
+    anic_box box;
+    uint32_t count;
+    const size_t calls = memory.calls;
+    const size_t heap = mallinfo2().uordblks;
+    for (uint32_t f = 0; f < frames; ++f) {
+      anic_seek_frame(context.get(), f);
+      anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output);
+      anic_seek_time(context.get(), 0.37 * f, ANIC_CUBIC, ANIC_LOOP);
+      anic_positions(context.get(), 0, ANIC_PREVIOUS, 0, n, &output);
+      anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output);
+      anic_bounds(context.get(), 0, ANIC_CURRENT, &box);
+      anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count);
+      anic_forget_previous(context.get());
+      anic_frames(asset.get(), 0, &f, 1, 0, n, &output);
+    }
+    EXPECT_EQ(memory.calls, calls);
+    EXPECT_EQ(mallinfo2().uordblks, heap);
+  }
+}
+
+TEST(AnicMemory, FailsWithoutALeakWhicheverAllocationFails) {
+  for (const auto& [clip, basis] : {cases()[0], cases()[2], cases()[4]}) {
+    SCOPED_TRACE(clip);
+    const format::Bytes& file = encoded_clip(clip, basis);
+    anic_status status = ANIC_E_MEMORY;
+    size_t n = 0;
+    for (; status != ANIC_OK; n += n < 200 ? 1 : n / 20) {
+      CountingMemory memory;
+      memory.fail_at = n;
+      anic_options options = {};
+      options.allocator = memory.allocator();
+      options.flags = ANIC_OPEN_BOUNDS;
+      anic_asset* asset = nullptr;
+      anic_context* context = nullptr;
+      anic_failure failure;
+      status = anic_asset_open(file.data(), file.size(), &options, &asset, &failure);
+      if (status == ANIC_OK)
+        status = anic_context_create(asset, nullptr, &context);
+      ASSERT_TRUE(status == ANIC_OK || status == ANIC_E_MEMORY) << status;
+      anic_context_destroy(context);
+      anic_asset_close(asset);
+      ASSERT_EQ(memory.held, 0U) << n;
+      ASSERT_LT(n, 10000000U);
+    }
+    EXPECT_GT(n, 20U);
+  }
+}
+
+TEST(AnicMemory, FitsABlockOfTheHost) {
+  for (const auto& [clip, basis] : cases()) {
+    SCOPED_TRACE(clip);
+    const format::Bytes& file = encoded_clip(clip, basis);
+    anic_requirements r;
+    ASSERT_EQ(anic_query(file.data(), file.size(), nullptr, &r), ANIC_OK);
+    std::vector<unsigned char> block(r.block_bytes + r.context_bytes);
+    anic_options options = {};
+    ASSERT_EQ(anic_block_allocator(block.data() + 3, block.size() - 3, &options.allocator),
+              ANIC_OK);
+    const Asset asset = open(file, &options);
+    ASSERT_TRUE(asset);
+    const Context context = context_of(asset);
+    ASSERT_EQ(anic_seek_frame(context.get(), 2), ANIC_OK);
+    EXPECT_EQ(positions(asset, context), frame(open(file), 2));
+  }
+  unsigned char small[255];
+  anic_allocator allocator;
+  EXPECT_EQ(anic_block_allocator(small, sizeof small, &allocator), ANIC_E_BUFFER_SIZE);
+}
+
+TEST(BlockAllocator, GivesEachPieceToOneAndAllBackInTheEnd) {
+  std::vector<unsigned char> block(100000);
+  anic_allocator a;
+  ASSERT_EQ(anic_block_allocator(block.data(), block.size(), &a), ANIC_OK);
+  std::mt19937 random(1);
+  std::vector<std::pair<unsigned char*, size_t>> held;
+  for (int i = 0; i < 20000; ++i) {
+    if (random() % 2 && !held.empty()) {
+      const size_t k = random() % held.size();
+      for (size_t b = 0; b < held[k].second; ++b)
+        ASSERT_EQ(held[k].first[b], static_cast<unsigned char>(held[k].second));
+      a.release(a.user, held[k].first, held[k].second);
+      held[k] = held.back();
+      held.pop_back();
+      continue;
+    }
+    const size_t size = 1 + random() % (random() % 8 ? 200 : 9000);
+    auto* memory = static_cast<unsigned char*>(a.allocate(a.user, size, 16));
+    if (!memory)
+      continue;
+    ASSERT_EQ(reinterpret_cast<uintptr_t>(memory) % 16, 0U);
+    ASSERT_GE(memory, block.data());
+    ASSERT_LE(memory + size, block.data() + block.size());
+    std::memset(memory, static_cast<int>(size), size);
+    held.emplace_back(memory, size);
+  }
+  for (const auto& [memory, size] : held)
+    a.release(a.user, memory, size);
+  EXPECT_NE(a.allocate(a.user, block.size() - 64, 16), nullptr);
+  EXPECT_EQ(a.allocate(a.user, 64, 16), nullptr);
+}
+
+}  // namespace
+}  // namespace anicodec

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tests/api/opened.h"
+
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+struct NormalsDestroyer {
+  void operator()(anic_normals* normals) const { anic_normals_destroy(normals); }
+};
+
+using Normals = std::unique_ptr<anic_normals, NormalsDestroyer>;
+
+Normals plan(const Asset& asset, double crease, bool per_corner) {
+  anic_normal_options options = {};
+  options.crease_angle = crease;
+  options.per_corner = per_corner;
+  anic_normals* normals = nullptr;
+  EXPECT_EQ(anic_normals_create(asset.get(), 0, &options, nullptr, &normals), ANIC_OK);
+  return Normals(normals);
+}
+
+std::vector<float> compute(const Normals& normals, const std::vector<float>& positions) {
+  const uint32_t n = anic_normals_count(normals.get());
+  std::vector<float> out(size_t{3} * n);
+  const anic_output output = floats(out);
+  EXPECT_EQ(anic_normals_compute(normals.get(), positions.data(), 0, 0, n, &output), ANIC_OK);
+  return out;
+}
+
+/// A clip of one frame twice, kept exactly enough.
+Asset still(MeshSequence clip) {
+  EncodeOptions options;
+  options.target = {format::ErrorMetric::kMaxError, 1e-3, true};
+  options.basis = BasisChoice::kKeyframes;
+  options.effort = 1;
+  return open(encode(clip, options).file);
+}
+
+/// A cube of quads; every quad with corners of its own if `apart`.
+MeshSequence cube(bool apart) {
+  MeshSequence clip;
+  const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  auto add_vertex = [&](int v) {
+    for (int c = 0; c < 3; ++c)
+      clip.positions.push_back((v >> c & 1) ? 1.0F : -1.0F);
+    return clip.vertex_count++;
+  };
+  if (!apart) {
+    for (int v = 0; v < 8; ++v)
+      add_vertex(v);
+  }
+  for (const auto& quad : quads) {
+    uint32_t corners[4];
+    for (int i = 0; i < 4; ++i)
+      corners[i] = apart ? add_vertex(quad[i]) : static_cast<uint32_t>(quad[i]);
+    clip.polygons.add(corners);
+  }
+  clip.frame_count = 2;
+  const std::vector<float> once = clip.positions;
+  clip.positions.insert(clip.positions.end(), once.begin(), once.end());
+  return clip;
+}
+
+double length(const float* v) {
+  return std::hypot(static_cast<double>(v[0]), static_cast<double>(v[1]),
+                    static_cast<double>(v[2]));
+}
+
+TEST(AnicNormals, ACubeIsSmoothOrHard) {
+  for (bool apart : {false, true}) {
+    const Asset asset = still(cube(apart));
+    const std::vector<float> p = frame(asset, 0);
+    // Smooth: the diagonals, across the seams.
+    std::vector<float> n = compute(plan(asset, 0, false), p);
+    ASSERT_EQ(n.size(), p.size());
+    for (size_t i = 0; i < n.size(); ++i)
+      EXPECT_NEAR(n[i], p[i] / std::sqrt(3.0F), 2e-3);
+    // Hard: along the axes, away from the middle, one of each corner's three.
+    n = compute(plan(asset, 30, true), p);
+    anic_polygons polygons;
+    ASSERT_EQ(anic_mesh_polygons(asset.get(), 0, &polygons), ANIC_OK);
+    ASSERT_EQ(n.size(), 72U);
+    for (uint32_t q = 0; q < 6; ++q) {
+      for (uint32_t c = polygons.offsets[q]; c < polygons.offsets[q + 1]; ++c) {
+        const float* normal = &n[size_t{3} * c];
+        const float* point = &p[size_t{3} * polygons.corners[c]];
+        double along = 0;
+        for (size_t i = 0; i < 3; ++i) {
+          along += static_cast<double>(normal[i] * point[i]);
+          EXPECT_NEAR(std::abs(normal[i]) * (1 - std::abs(normal[i])), 0, 2e-3);
+          EXPECT_NEAR(normal[i], n[size_t{3} * polygons.offsets[q] + i], 2e-3);
+        }
+        EXPECT_NEAR(along, 1, 2e-3);
+      }
+    }
+    // Each vertex one: hard ones where the source has its seams, smooth where it has none.
+    n = compute(plan(asset, 30, false), p);
+    for (size_t v = 0; v < n.size() / 3; ++v) {
+      EXPECT_NEAR(length(&n[3 * v]), 1, 1e-6);
+      const float most =
+          std::max({std::abs(n[3 * v]), std::abs(n[3 * v + 1]), std::abs(n[3 * v + 2])});
+      EXPECT_NEAR(most, apart ? 1 : 1 / std::sqrt(3.0F), 2e-3);
+    }
+  }
+}
+
+TEST(AnicNormals, RangesFormatsAndStridesAgree) {
+  const Asset asset = open(encoded_clip("cloth", BasisChoice::kEigenshapes));
+  const Normals normals = plan(asset, 60, false);
+  const std::vector<float> p = frame(asset, 9);
+  const std::vector<float> whole = compute(normals, p);
+  std::vector<float> spread(p.size() / 3 * 5, 1e9F);
+  for (size_t v = 0; v < p.size() / 3; ++v)
+    std::copy_n(&p[3 * v], 3, &spread[5 * v]);
+  const uint32_t n = anic_normals_count(normals.get());
+  for (uint32_t first : {0U, 5U, 300U}) {
+    std::vector<int16_t> out(size_t{4} * (n - first));
+    anic_output output = {};
+    output.data = out.data();
+    output.size = 2 * out.size();
+    output.format = ANIC_SNORM16X4;
+    ASSERT_EQ(anic_normals_compute(normals.get(), spread.data(), 20, first, n - first, &output),
+              ANIC_OK);
+    for (size_t i = 0; i < out.size(); ++i) {
+      if (i % 4 < 3) {
+        EXPECT_NEAR(out[i] / 32767.0, static_cast<double>(whole[3 * (first + i / 4) + i % 4]),
+                    1.0 / 32767);
+      }
+    }
+  }
+  const anic_output output = {};
+  EXPECT_EQ(anic_normals_compute(normals.get(), p.data(), 6, 0, 1, &output), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_normals_compute(normals.get(), p.data(), 0, n, 1, &output), ANIC_E_ARGUMENT);
+}
+
+TEST(AnicNormals, AreUnitVectorsForAnyMesh) {
+  for (const auto& [name, basis] : cases()) {
+    SCOPED_TRACE(name);
+    const Asset asset = open(encoded_clip(name, basis));
+    for (double crease : {0.0, 0.001, 45.0}) {
+      for (bool per_corner : {false, true}) {
+        const std::vector<float> n = compute(plan(asset, crease, per_corner), frame(asset, 1));
+        for (size_t i = 0; i + 2 < n.size(); i += 3)
+          ASSERT_NEAR(length(&n[i]), 1, 1e-6);
+      }
+    }
+  }
+  // No face: nothing to average.
+  const Asset points = open(encoded_clip("points", BasisChoice::kEigenshapes));
+  const std::vector<float> n = compute(plan(points, 0, false), frame(points, 1));
+  EXPECT_EQ(n[0], 0);
+  EXPECT_EQ(n[2], 1);
+  anic_normal_options options = {};
+  options.reference_frame = 30;
+  anic_normals* none = nullptr;
+  EXPECT_EQ(anic_normals_create(points.get(), 0, &options, nullptr, &none), ANIC_E_FRAME_RANGE);
+}
+
+TEST(AnicNormals, FailWithoutALeakWhenThereIsNoMemory) {
+  const Asset asset = open(encoded_clip("polygons", BasisChoice::kKeyframes));
+  anic_status status = ANIC_E_MEMORY;
+  for (size_t n = 0; status != ANIC_OK; ++n) {
+    CountingMemory memory;
+    memory.fail_at = n;
+    const anic_allocator allocator = memory.allocator();
+    anic_normals* normals = nullptr;
+    status = anic_normals_create(asset.get(), 0, nullptr, &allocator, &normals);
+    ASSERT_TRUE(status == ANIC_OK || status == ANIC_E_MEMORY);
+    anic_normals_destroy(normals);
+    ASSERT_EQ(memory.held, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace anicodec

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TESTS_API_OPENED_H_
+#define ANICODEC_TESTS_API_OPENED_H_
+
+#include "codec/encode.h"
+#include "corpus/clips.h"
+
+#include <anicodec/anicodec.h>
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+
+/// A corpus clip as a file, encoded once per run of the tests.
+inline const format::Bytes& encoded_clip(const std::string& clip, BasisChoice basis,
+                                         uint32_t frames = 0) {
+  static std::map<std::tuple<std::string, BasisChoice, uint32_t>, format::Bytes> files;
+  format::Bytes& file = files[{clip, basis, frames}];
+  if (file.empty()) {
+    EncodeOptions options;
+    options.target = {format::ErrorMetric::kMaxError, 1, true};
+    options.basis = basis;
+    options.effort = 1;
+    file = encode(frames > 0 ? corpus::make_scaled(clip, 300, frames) : corpus::make_clip(clip),
+                  options)
+               .file;
+  }
+  return file;
+}
+
+/// Memory of a host that counts, and that can be made to fail.
+struct CountingMemory {
+  size_t held = 0, peak = 0;
+  size_t calls = 0;
+  size_t fail_at = SIZE_MAX;  ///< number of the call that fails
+  size_t small = 0;           ///< calls with another size than they were given back with
+
+  anic_allocator allocator() {
+    anic_allocator a = {};
+    a.user = this;
+    a.allocate = [](void* user, size_t size, size_t alignment) -> void* {
+      auto* self = static_cast<CountingMemory*>(user);
+      if (self->calls++ == self->fail_at)
+        return nullptr;
+      self->held += size;
+      self->peak = std::max(self->peak, self->held);
+      auto* memory = static_cast<size_t*>(
+          std::aligned_alloc(std::max<size_t>(alignment, 16), (size + 16 + 15) / 16 * 16));
+      memory[0] = size;
+      return memory + 2;
+    };
+    a.release = [](void* user, void* memory, size_t size) {
+      auto* self = static_cast<CountingMemory*>(user);
+      auto* head = static_cast<size_t*>(memory) - 2;
+      self->small += head[0] != size;
+      self->held -= size;
+      std::free(head);
+    };
+    return a;
+  }
+};
+
+struct AssetCloser {
+  void operator()(anic_asset* asset) const { anic_asset_close(asset); }
+};
+
+using Asset = std::unique_ptr<anic_asset, AssetCloser>;
+
+struct ContextDestroyer {
+  void operator()(anic_context* context) const { anic_context_destroy(context); }
+};
+
+using Context = std::unique_ptr<anic_context, ContextDestroyer>;
+
+inline Asset open(const format::Bytes& file, const anic_options* options = nullptr) {
+  anic_asset* asset = nullptr;
+  anic_failure failure;
+  EXPECT_EQ(anic_asset_open(file.data(), file.size(), options, &asset, &failure), ANIC_OK)
+      << failure.detail << " at " << failure.offset << " in " << failure.chunk;
+  return Asset(asset);
+}
+
+inline Context context_of(const Asset& asset) {
+  anic_context* context = nullptr;
+  EXPECT_EQ(anic_context_create(asset.get(), nullptr, &context), ANIC_OK);
+  return Context(context);
+}
+
+inline anic_info info_of(const Asset& asset) {
+  anic_info info;
+  anic_asset_info(asset.get(), &info);
+  return info;
+}
+
+inline uint32_t vertices_of(const Asset& asset, uint32_t mesh = 0) {
+  anic_mesh_info info;
+  EXPECT_EQ(anic_mesh(asset.get(), mesh, &info), ANIC_OK);
+  return info.vertex_count;
+}
+
+inline anic_output floats(std::vector<float>& to) {
+  anic_output output = {};
+  output.data = to.data();
+  output.size = to.size() * sizeof(float);
+  return output;
+}
+
+/// Positions of all vertices of mesh 0 in what a context shows.
+inline std::vector<float> positions(const Asset& asset, const Context& context,
+                                    anic_when when = ANIC_CURRENT) {
+  std::vector<float> out(size_t{3} * vertices_of(asset));
+  const anic_output output = floats(out);
+  EXPECT_EQ(anic_positions(context.get(), 0, when, 0, vertices_of(asset), &output), ANIC_OK);
+  return out;
+}
+
+inline std::vector<float> frame(const Asset& asset, uint32_t f) {
+  std::vector<float> out(size_t{3} * vertices_of(asset));
+  const anic_output output = floats(out);
+  EXPECT_EQ(anic_frames(asset.get(), 0, &f, 1, 0, vertices_of(asset), &output), ANIC_OK);
+  return out;
+}
+
+inline double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double largest = 0;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+  return largest;
+}
+
+/// Clips and bases that the tests go over.
+inline const std::vector<std::pair<std::string, BasisChoice>>& cases() {
+  static const std::vector<std::pair<std::string, BasisChoice>> all = {
+      {"limb", BasisChoice::kEigentrajectories},
+      {"cloth", BasisChoice::kEigenshapes},
+      {"rigid", BasisChoice::kKeyframes},
+      {"nonmanifold", BasisChoice::kEigenshapes},
+      {"polygons", BasisChoice::kKeyframes},
+      {"one_triangle", BasisChoice::kEigentrajectories},
+      {"points", BasisChoice::kEigenshapes},
+      {"uneven", BasisChoice::kEigenshapes},
+      {"soup", BasisChoice::kAuto},
+      {"cuts", BasisChoice::kAuto}};
+  return all;
+}
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_TESTS_API_OPENED_H_
