@@ -23,7 +23,9 @@ constexpr int kDracoBits = 11;
 
 double median(std::vector<double> x) {
   std::sort(x.begin(), x.end());
-  return x.empty() ? 0 : x[x.size() / 2];
+  if (x.empty())
+    return 0;
+  return (x[(x.size() - 1) / 2] + x[x.size() / 2]) / 2;
 }
 
 /// A segment with narrow components only and a moving base, and somewhere to play four frames to.
