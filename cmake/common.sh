@@ -12,7 +12,7 @@ packages=(
   libcli11-dev libfmt-dev nlohmann-json3-dev   # tools
   libpng-dev libgif-dev                        # tools: pictures
   libgtest-dev libgmock-dev python3            # tests
-  libmeshoptimizer-dev                         # bench
+  libmeshoptimizer-dev liblzma-dev             # other codecs to compare with
 )
 
 say() { printf '\n== %s\n' "$*"; }

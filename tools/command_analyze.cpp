@@ -10,6 +10,7 @@
 #include "tools/report/report.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +31,8 @@ With -o, or --json, more is measured, which takes a minute or so: sizes at sever
 key-frames alone and with other codecs, where bytes and errors are, and pictures. The page needs
 nothing but a browser; --json prints its numbers: name, vertices, faces, frames, frame_rate,
 diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), shown_kg, shown_bytes, shares,
-frame_errors (rmse, max_error), basis_errors (method, k, kg, rmse).
+frame_errors (rmse, max_error), basis_errors (method, k, kg, rmse). With -o x.svg the curves of size
+against KG error alone.
 
 Examples:
   anicodec analyze dance.obj dance.pc2
@@ -90,7 +92,9 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
   if (output || command.json) {
     Report report = make_report(sequence, {command.effort, counts, options.progress});
     if (output) {
-      output->write(report_page(report));
+      output->write(std::filesystem::path(command.output).extension() == ".svg"
+                        ? rate_figure(report)
+                        : report_page(report));
       output->commit();
     }
     line.clear();
@@ -128,7 +132,7 @@ void add_analyze(CLI::App& app, CommonOptions& common) {
   command->add_option("--counts", c->counts, "Numbers of components to try")
       ->option_text("K,K,...");
   command->add_option("-o,--output", c->output, "Write a report with charts and pictures")
-      ->option_text("REPORT.html");
+      ->option_text("REPORT.html|x.svg");
   command->add_option("--effort", c->effort, "Of the report's encodings, 1 to 9 (default 3)")
       ->option_text("N")
       ->check(CLI::Range(1, 9));

@@ -8,6 +8,7 @@
 #include "tools/peers/cubic_grid.h"
 #include "tools/peers/draco_frames.h"
 #include "tools/peers/frame_deltas.h"
+#include "tools/peers/raw_cache.h"
 
 #include <cmath>
 
@@ -76,10 +77,15 @@ Table run_rate(const BenchOptions& options, const std::vector<double>& targets) 
                                    {"draco_grid_bytes", "Draco bytes", ""},
                                    {"draco_grid_ratio", "ratio", "{:.1f}"},
                                    {"deltas_bytes", "deltas bytes", ""},
-                                   {"deltas_ratio", "ratio", "{:.1f}"}}));
+                                   {"deltas_ratio", "ratio", "{:.1f}"},
+                                   {"zstd_bytes", "float32 zstd", ""},
+                                   {"zstd_ratio", "ratio", "{:.0f}"},
+                                   {"xz_bytes", "float32 xz", ""},
+                                   {"xz_ratio", "ratio", "{:.0f}"}}));
   for (const std::string& clip : options.clips) {
     MeshSequence sequence = load_clip(clip);
     std::vector<uint32_t> triangles = fan_triangles(sequence.polygons);
+    const RawCacheSize cache = raw_cache_size(sequence);
     for (double kg : targets) {
       Target target{format::ErrorMetric::kKg, kg, false};
       TimedEncode timed =
@@ -94,6 +100,10 @@ Table run_rate(const BenchOptions& options, const std::vector<double>& targets) 
       row["deltas_bytes"] = deltas.bytes;
       row["deltas_variant"] = deltas.variant;
       row["deltas_ratio"] = ratio(deltas.bytes, bytes);
+      row["zstd_bytes"] = cache.zstd;
+      row["zstd_ratio"] = ratio(cache.zstd, bytes);
+      row["xz_bytes"] = cache.xz;
+      row["xz_ratio"] = ratio(cache.xz, bytes);
       if (!triangles.empty()) {
         DracoFrames draco = draco_at_kg(sequence, triangles, kg);
         DracoFrames draco_grid = draco_on_grid(sequence, triangles, grid);

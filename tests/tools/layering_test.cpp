@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Modules include only what stands below them.
+// Modules include only what stands below them; pages point to what exists.
 #include "tests/tools/command_testing.h"
 
 #include <string>
@@ -37,6 +37,12 @@ TEST(Layering, FindsWhatPointsUpwards) {
         "codec/c.cpp must not include \"tools/version.h\""})
     EXPECT_THAT(outcome.out, HasSubstr(fault));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("draco_mesh")));
+}
+
+TEST(Documents, PointToWhatExists) {
+  Outcome outcome = run_program(
+      {"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_links.py", ANICODEC_SOURCE_DIR});
+  EXPECT_EQ(outcome.status, 0) << outcome;
 }
 
 }  // namespace

@@ -36,6 +36,14 @@ TEST(Chart, LeavesOutWhatALogarithmCannotShow) {
   EXPECT_THAT(svg_of(chart), HasSubstr("<circle"));
 }
 
+TEST(Chart, IsAFileWithItsLegendInside) {
+  Chart chart;
+  chart.series = {{"a", {{0, 0}, {10, 100}}, false}, {"b&c", {{5, 50}}, true}};
+  const std::string svg = svg_file(chart);
+  EXPECT_EQ(svg.rfind("<svg xmlns=", 0), 0U);
+  EXPECT_THAT(svg, HasSubstr(">b&amp;c</text>"));
+}
+
 TEST(Report, NeedsNothingButABrowser) {
   TemporaryFolder folder;
   write_sequence(folder / "limb.pc2", corpus::make_clip("limb"));

@@ -11,6 +11,7 @@
 namespace anicodec::tools {
 namespace {
 
+constexpr double kLegendLine = 20;
 constexpr double kWidth = 640, kHeight = 360, kLeft = 62, kRight = 14, kTop = 12, kBottom = 44;
 
 /// One direction of a chart: from values to positions, with ticks at round values.
@@ -69,7 +70,23 @@ std::string label_of(double value) {
   return fmt::format("{:.4g}", value);
 }
 
+std::string classes(const Series& series, size_t number) {
+  return fmt::format("s{}{}", number % 8, series.dashed ? " dashed" : "");
+}
+
 }  // namespace
+
+const char* const kChartStyle = R"(
+:root{color-scheme:light dark;--page:#fff;--quiet:#5a6675;--rule:#e1e5ea;
+--c0:#1f6feb;--c1:#d1660a;--c2:#1a7f4b;--c3:#b02a5b;--c4:#6f42c1;--c5:#00788a;--c6:#8a6d00;--c7:#6b7280}
+@media(prefers-color-scheme:dark){:root{--page:#12161c;--quiet:#9aa6b5;--rule:#2b333d;
+--c0:#6ea8ff;--c1:#ffa657;--c2:#56d39b;--c3:#ff7eb0;--c4:#b99aff;--c5:#4fd1e5;--c6:#e3c34c;--c7:#aab4c0}}
+svg text{fill:var(--quiet);font:12px system-ui,sans-serif}.grid{stroke:var(--rule);fill:none}.page{fill:var(--page)}
+.line{fill:none;stroke:currentColor;stroke-width:2}circle{fill:currentColor}
+.dashed .line{stroke-dasharray:5 4}
+.s0{color:var(--c0)}.s1{color:var(--c1)}.s2{color:var(--c2)}.s3{color:var(--c3)}
+.s4{color:var(--c4)}.s5{color:var(--c5)}.s6{color:var(--c6)}.s7{color:var(--c7)}
+)";
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -94,7 +111,10 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string svg_of(const Chart& chart) {
+namespace {
+
+/// What is inside the SVG element but the legend; empty if there is nothing to draw.
+std::string plot(const Chart& chart) {
   double low[2], high[2];
   std::fill_n(low, 2, std::numeric_limits<double>::infinity());
   std::fill_n(high, 2, -std::numeric_limits<double>::infinity());
@@ -114,13 +134,12 @@ std::string svg_of(const Chart& chart) {
     }
   }
   if (!(low[0] <= high[0]))
-    return "<p>Nothing to draw.</p>";
+    return {};
   const Axis x(low[0], high[0], chart.log_x), y(low[1], high[1], chart.log_y);
   auto px = [&](double v) { return kLeft + x.share(v) * (kWidth - kLeft - kRight); };
   auto py = [&](double v) { return kHeight - kBottom - y.share(v) * (kHeight - kTop - kBottom); };
 
-  std::string out =
-      fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\">", kWidth, kHeight);
+  std::string out;
   for (double tick : x.ticks())
     out += fmt::format(
         "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
@@ -136,7 +155,6 @@ std::string svg_of(const Chart& chart) {
   out += fmt::format(
       "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
       (kTop + kHeight - kBottom) / 2, escaped(chart.y_label));
-  std::string legend;
   for (size_t s = 0; s < chart.series.size(); ++s) {
     const Series& series = chart.series[s];
     std::string path, dots;
@@ -150,15 +168,45 @@ std::string svg_of(const Chart& chart) {
             "{:.4g}</title></circle>",
             px(p.first), py(p.second), escaped(series.name), p.first, p.second);
     }
-    out += fmt::format("<g class=\"s{}{}\"><path class=\"line\" d=\"{}\"/>{}</g>", s % 8,
-                       series.dashed ? " dashed" : "", path, dots);
-    legend += fmt::format("<span class=\"s{}{}\"><i></i>{}</span> ", s % 8,
-                          series.dashed ? " dashed" : "", escaped(series.name));
+    out += fmt::format("<g class=\"{}\"><path class=\"line\" d=\"{}\"/>{}</g>", classes(series, s),
+                       path, dots);
   }
-  out += "</svg>";
-  if (chart.series.size() > 1)
-    out += "<figcaption class=\"legend\">" + legend + "</figcaption>";
+  return out;
+}
+
+}  // namespace
+
+std::string svg_of(const Chart& chart) {
+  const std::string inside = plot(chart);
+  if (inside.empty())
+    return "<p>Nothing to draw.</p>";
+  std::string out = fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\">{}</svg>", kWidth,
+                                kHeight, inside);
+  if (chart.series.size() > 1) {
+    out += "<figcaption class=\"legend\">";
+    for (size_t s = 0; s < chart.series.size(); ++s)
+      out += fmt::format("<span class=\"{}\"><i></i>{}</span> ", classes(chart.series[s], s),
+                         escaped(chart.series[s].name));
+    out += "</figcaption>";
+  }
   return out + "</figure>";
+}
+
+std::string svg_file(const Chart& chart) {
+  const double height = kHeight + kLegendLine * static_cast<double>(chart.series.size());
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
+      "height=\"{1}\" role=\"img\"><style>{2}</style><rect class=\"page\" width=\"{0}\" "
+      "height=\"{1}\"/>{3}",
+      kWidth, height, kChartStyle, plot(chart));
+  for (size_t s = 0; s < chart.series.size(); ++s) {
+    const double y = kHeight + kLegendLine * (static_cast<double>(s) + 0.3);
+    out += fmt::format(
+        "<g class=\"{0}\"><path class=\"line\" d=\"M{1} {2}h24\"/></g><text x=\"{3}\" "
+        "y=\"{4}\">{5}</text>",
+        classes(chart.series[s], s), kLeft, y, kLeft + 32, y + 4, escaped(chart.series[s].name));
+  }
+  return out + "</svg>\n";
 }
 
 }  // namespace anicodec::tools

@@ -27,6 +27,12 @@ struct Chart {
 /// page, so that they follow its theme; every point has a title with its values.
 std::string svg_of(const Chart& chart);
 
+/// The chart as a file of its own, with its legend inside.
+std::string svg_file(const Chart& chart);
+
+/// Colours and lines of charts, in a light and in a dark surrounding: CSS.
+extern const char* const kChartStyle;
+
 /// Text as it may stand in HTML.
 std::string escaped(const std::string& text);
 

@@ -11,6 +11,7 @@
 #include "tools/names.h"
 #include "tools/peers/cubic_grid.h"
 #include "tools/peers/draco_frames.h"
+#include "tools/peers/raw_cache.h"
 #include "tools/render/shaded_view.h"
 #include "tools/report/report.h"
 #include "tools/version.h"
@@ -54,6 +55,7 @@ class ReportMaker {
       add_encoding("anicodec, key-frames", BasisChoice::kKeyframes, kg);
     for (double kg : kPeerTargets)
       add_peers(kg);
+    add_raw_cache();
     // Curves want their points in order.
     std::ranges::stable_sort(report_.rates, [](const RatePoint& a, const RatePoint& b) {
       const bool own = is_own(a.codec);
@@ -71,7 +73,7 @@ class ReportMaker {
  private:
   void begin(const char* stage) {
     constexpr double kStages =
-        std::size(kLinearTargets) + std::size(kKeyframeTargets) + std::size(kPeerTargets) + 1;
+        std::size(kLinearTargets) + std::size(kKeyframeTargets) + std::size(kPeerTargets) + 2;
     if (options_.progress)
       options_.progress(stage, stage_ / kStages);
     ++stage_;
@@ -175,6 +177,15 @@ class ReportMaker {
         peers::frame_delta_size(grid, sequence_.vertex_count, triangles);
     report_.rates.push_back(point("frame deltas, meshoptimizer, zstd", deltas.bytes, comparison));
 #endif
+  }
+
+  void add_raw_cache() {
+    begin("other codecs");
+    const peers::RawCacheSize size = peers::raw_cache_size(sequence_);
+    for (const auto& [codec, bytes] :
+         {std::pair("float32 cache", size.raw), std::pair("float32 cache, zstd", size.zstd),
+          std::pair("float32 cache, xz", size.xz)})
+      report_.rates.push_back({codec, bytes, bpfv(bytes)});
   }
 
   bool can_draw() const {

@@ -14,10 +14,8 @@ namespace anicodec::tools {
 namespace {
 
 constexpr const char* kStyle = R"(
-:root{color-scheme:light dark;--page:#fff;--text:#1c2430;--quiet:#5a6675;--rule:#e1e5ea;--card:#f6f8fa;
---c0:#1f6feb;--c1:#d1660a;--c2:#1a7f4b;--c3:#b02a5b;--c4:#6f42c1;--c5:#00788a;--c6:#8a6d00;--c7:#6b7280}
-@media(prefers-color-scheme:dark){:root{--page:#12161c;--text:#e6eaf0;--quiet:#9aa6b5;--rule:#2b333d;
---card:#1a2028;--c0:#6ea8ff;--c1:#ffa657;--c2:#56d39b;--c3:#ff7eb0;--c4:#b99aff;--c5:#4fd1e5;--c6:#e3c34c;--c7:#aab4c0}}
+:root{--text:#1c2430;--card:#f6f8fa}
+@media(prefers-color-scheme:dark){:root{--text:#e6eaf0;--card:#1a2028}}
 *{box-sizing:border-box}
 body{margin:0;background:var(--page);color:var(--text);font:16px/1.5 system-ui,sans-serif}
 main{max-width:1080px;margin:0 auto;padding:24px 16px 64px}
@@ -28,11 +26,6 @@ p{max-width:46em}.quiet{color:var(--quiet)}
 .tiles b{display:block;font-size:1.35rem;font-variant-numeric:tabular-nums}
 .charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(420px,100%),1fr));gap:16px}
 figure{margin:0;min-width:0}svg{width:100%;height:auto;display:block}
-svg text{fill:var(--quiet);font:12px system-ui,sans-serif}.grid{stroke:var(--rule);fill:none}
-.line{fill:none;stroke:currentColor;stroke-width:2}circle{fill:currentColor}
-.dashed .line{stroke-dasharray:5 4}
-.s0{color:var(--c0)}.s1{color:var(--c1)}.s2{color:var(--c2)}.s3{color:var(--c3)}
-.s4{color:var(--c4)}.s5{color:var(--c5)}.s6{color:var(--c6)}.s7{color:var(--c7)}
 .legend{font-size:.85rem;line-height:1.9}.legend span{white-space:nowrap;margin-right:12px}
 .legend i{display:inline-block;width:18px;border-top:3px solid;margin-right:5px;vertical-align:middle}
 .legend .dashed i{border-top-style:dashed}
@@ -79,6 +72,8 @@ Chart rate_chart(const Report& report, const char* label, Value value) {
   chart.y_label = label;
   chart.log_x = chart.log_y = true;
   for (const RatePoint& p : report.rates) {
+    if (value(p) <= 0)
+      continue;  // a lossless one is in the table alone
     if (chart.series.empty() || chart.series.back().name != p.codec)
       chart.series.push_back({p.codec, {}, !is_own(p.codec)});
     chart.series.back().points.emplace_back(p.bpfv, value(p));
@@ -147,18 +142,26 @@ bool starts_with(const std::string& text, const char* prefix) {
   return text.rfind(prefix, 0) == 0;
 }
 
+Chart kg_chart(const Report& report) {
+  return rate_chart(report, "KG error in %", [](const RatePoint& p) { return p.kg; });
+}
+
 }  // namespace
+
+std::string rate_figure(const Report& report) {
+  return svg_file(kg_chart(report));
+}
 
 std::string report_page(const Report& report) {
   const std::string name = escaped(report.name.empty() ? "clip" : report.name);
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
-      "<title>{0} – anicodec</title><style>{1}</style></head><body><main><h1>{0}</h1>"
+      "<title>{0} – anicodec</title><style>{7}{1}</style></head><body><main><h1>{0}</h1>"
       "<p class=\"quiet\">{2} vertices, {3} faces, {4} frames at {5:.4g} per second. Made by "
       "anicodec {6}.</p>",
       name, kStyle, grouped(report.vertices), grouped(report.faces), report.frames,
-      report.frame_rate, version());
+      report.frame_rate, version(), kChartStyle);
   const double raw = 12.0 * report.vertices * report.frames;
   if (report.shown_bytes > 0) {
     const auto bytes = static_cast<double>(report.shown_bytes);
@@ -176,7 +179,7 @@ std::string report_page(const Report& report) {
       "<h2>Size against error</h2><p>Whole files. Lower and further left is better. Other codecs "
       "are dashed: they store the positions of a cubic grid whose step gives the error.</p>"
       "<div class=\"charts\">";
-  out += svg_of(rate_chart(report, "KG error in %", [](const RatePoint& p) { return p.kg; }));
+  out += svg_of(kg_chart(report));
   out += svg_of(rate_chart(report, "largest error, % of the diagonal",
                            [](const RatePoint& p) { return p.max_error_percent; }));
   out += svg_of(rate_chart(report, "STED", [](const RatePoint& p) { return p.sted; }));

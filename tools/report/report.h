@@ -74,6 +74,9 @@ nlohmann::ordered_json report_json(const Report& report);
 /// A page that needs nothing else: style, charts as SVG, pictures inside.
 std::string report_page(const Report& report);
 
+/// The rate-error curves alone, against the KG error: an SVG file.
+std::string rate_figure(const Report& report);
+
 }  // namespace anicodec::tools
 
 #endif  // ANICODEC_TOOLS_REPORT_REPORT_H_

@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Checks that what the project's Markdown pages point to exists: relative links, and source files in backquotes.
+
+usage: check_links.py FOLDER      prints a line for each that is missing; exit status 1 if there is one
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
+SOURCE = re.compile(r"`((?:[a-z0-9_.-]+/)+[a-z0-9_.-]+\.(?:h|hpp|cpp|c|py|md))`")
+
+
+def missing(root, page):
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.S)
+    for link in LINK.findall(text):
+        if not (page.parent / link).exists():
+            yield link
+    for source in SOURCE.findall(text):
+        if not (root / source).exists() and not (page.parent / source).exists():
+            yield source
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    pages = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=root,
+                           capture_output=True, text=True, check=False).stdout.split()
+    pages = pages or [str(p.relative_to(root)) for p in root.rglob("*.md") if "build" not in p.parts]
+    faults = [f"{page}: {target} does not exist" for page in pages for target in missing(root, root / page)]
+    print("\n".join(faults) or f"{len(pages)} pages, all links lead somewhere")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
