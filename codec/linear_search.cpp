@@ -25,11 +25,17 @@ constexpr size_t kMostComponents = 2000;
 LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis,
                          format::BasisKind kind, int effort, uint32_t layers)
     : input_(input), analysis_(analysis), kind_(kind), effort_(effort) {
-  bool shapes = kind == format::BasisKind::kEigenshapes;
+  const bool shapes = kind == format::BasisKind::kEigenshapes;
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
-  choice_.settings.slow_pose = effort >= kSlowEffort;
+  const bool slow = effort >= kSlowEffort;
+  choice_.settings.slow_pose = slow;
+  if (!shapes && !slow) {
+    // Trajectories are many: half the time that prediction takes, for two bytes in a hundred.
+    choice_.settings.neighbours = 12;
+    choice_.settings.schedule = RefitSchedule::kMedium;
+  }
 }
 
 void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {

@@ -64,6 +64,7 @@ const PredictionKernels& prediction_kernels();
 extern const PredictionKernels kPredictionKernelsPortable;
 #if defined(ANICODEC_PREDICTION_AVX2)
 extern const PredictionKernels kPredictionKernelsAvx2;
+extern const PredictionKernels kPredictionKernelsAvx512;
 #endif
 
 }  // namespace anicodec

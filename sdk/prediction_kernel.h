@@ -27,6 +27,10 @@ namespace {
 
 template <typename V>
 ANICODEC_INLINE V square_root(V x) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(V) == 64)
+    return reinterpret_cast<V>(_mm512_maskz_sqrt_ps(0xFFFF, reinterpret_cast<__m512>(x)));
+#endif
 #if defined(__AVX__)
   if constexpr (sizeof(V) == 32)
     return reinterpret_cast<V>(_mm256_sqrt_ps(reinterpret_cast<__m256>(x)));
@@ -40,7 +44,7 @@ ANICODEC_INLINE V square_root(V x) {
   return x;
 }
 
-/// Rows of 4 or 8 lanes become columns.
+/// Rows of 4 or 8 lanes become columns; one lane stays what it is.
 template <typename V>
 ANICODEC_INLINE void transpose(V* r) {
 #define ANICODEC_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
@@ -192,30 +196,36 @@ struct WeightSolver {
 
   static Float finite(Float x) { return x - x == Float{} ? x : Float{}; }
 
-  // A + ridge I = L D L', left-looking, without pivoting.
+  // A + ridge I = L D L', left-looking, without pivoting. The diagonal is one of the eight chains
+  // of a block, so that no sum waits for another.
   void factor(Float ridge) {
     for (size_t j = 0; j < M; ++j) {
-      Float s = A[j][j] + ridge;
-      for (size_t p = 0; p < j; ++p) {
+      for (size_t p = 0; p < j; ++p)
         row[p] = L[j][p] * D[p];
-        s -= L[j][p] * row[p];
-      }
-      D[j] = s;
-      inverse[j] = 1.0f / s;
-      size_t i = j + 1;
-      for (; i + 4 <= M; i += 4) {
-        Float u[4] = {A[i][j], A[i + 1][j], A[i + 2][j], A[i + 3][j]};
-        for (size_t p = 0; p < j; ++p)
-          ANICODEC_UNROLL for (size_t e = 0; e < 4; ++e) u[e] -= L[i + e][p] * row[p];
-        ANICODEC_UNROLL for (size_t e = 0; e < 4; ++e) L[i + e][j] = u[e] * inverse[j];
-      }
-      for (; i < M; ++i) {
-        Float u = A[i][j];
-        for (size_t p = 0; p < j; ++p)
-          u -= L[i][p] * row[p];
-        L[i][j] = u * inverse[j];
-      }
+      size_t i = j;
+      for (; i + 8 <= M; i += 8)
+        eliminate<8>(i, j, ridge);
+      for (; i + 4 <= M; i += 4)
+        eliminate<4>(i, j, ridge);
+      for (; i < M; ++i)
+        eliminate<1>(i, j, ridge);
+      D[j] = L[j][j];
+      inverse[j] = 1.0f / D[j];
+      for (i = j + 1; i < M; ++i)
+        L[i][j] *= inverse[j];
     }
+  }
+
+  // Rows i .. i + N - 1 of column j, before the division by D[j].
+  template <size_t N>
+  ANICODEC_INLINE void eliminate(size_t i, size_t j, Float ridge) {
+    Float u[N];
+    ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) u[e] = A[i + e][j];
+    if (i == j)
+      u[0] += ridge;
+    for (size_t p = 0; p < j; ++p)
+      ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) u[e] -= L[i + e][p] * row[p];
+    ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) L[i + e][j] = u[e];
   }
 
   void solve(const Float* right, Float* x) const {
@@ -270,7 +280,6 @@ class BatchDecoder {
 
  private:
   using Float = typename LaneTypes<W>::Float;
-  using Unaligned = typename LaneTypes<W>::Unaligned;
   static constexpr size_t kWindow = WeightSolver<W, M>::kMaxSamples;
 
   const float* row(size_t lane, size_t a) const {
@@ -279,35 +288,45 @@ class BatchDecoder {
     return job_.y + (b < 0 ? job_.vertices : static_cast<size_t>(b)) * job_.stride;
   }
 
+  // W vertices by kTile samples are transposed as tiles of kTile by kTile.
+  static constexpr size_t kTile = W < 8 ? W : 8;
+  using Tile = typename LaneTypes<kTile>::Float;
+  using UnalignedTile = typename LaneTypes<kTile>::Unaligned;
+
+  static char* part_of(Float& lanes, size_t first) {
+    return reinterpret_cast<char*>(&lanes) + first * sizeof(float);
+  }
+
   void gather(size_t begin, size_t end) {
     for (size_t a = 0; a < M; ++a) {
-      const float* rows[W];
-      for (size_t l = 0; l < W; ++l)
-        rows[l] = row(l, a) + begin;
-      if constexpr (W == 1) {
-        for (size_t s = 0; s < end - begin; ++s)
-          x_[s][a][0] = rows[0][s];
-      } else {
-        for (size_t s = 0; s < end - begin; s += W) {  // rows are padded
-          Float tile[W];
-          ANICODEC_UNROLL for (size_t l = 0; l < W; ++l) tile[l] =
-              *reinterpret_cast<const Unaligned*>(rows[l] + s);
+      for (size_t part = 0; part < W; part += kTile) {
+        const float* rows[kTile];
+        for (size_t l = 0; l < kTile; ++l)
+          rows[l] = row(part + l, a) + begin;
+        for (size_t s = 0; s < end - begin; s += kTile) {  // rows are padded
+          Tile tile[kTile];
+          ANICODEC_UNROLL for (size_t l = 0; l < kTile; ++l) tile[l] =
+              *reinterpret_cast<const UnalignedTile*>(rows[l] + s);
           transpose(tile);
-          ANICODEC_UNROLL for (size_t e = 0; e < W; ++e) x_[s + e][a] = tile[e];
+          ANICODEC_UNROLL for (size_t e = 0; e < kTile; ++e)
+              __builtin_memcpy(part_of(x_[s + e][a], part), &tile[e], sizeof(Tile));
         }
       }
     }
   }
 
   void scatter(size_t begin, size_t end) {
-    for (size_t s = 0; s < end - begin; s += W) {
-      Float tile[W];
-      ANICODEC_UNROLL for (size_t e = 0; e < W; ++e) tile[e] =
-          s + e < end - begin ? y_[s + e] : Float{};
-      if constexpr (W > 1)
+    for (size_t part = 0; part < count_; part += kTile) {
+      const size_t rows = count_ - part < kTile ? count_ - part : kTile;
+      for (size_t s = 0; s < end - begin; s += kTile) {
+        Tile tile[kTile] = {};
+        for (size_t e = 0; e < kTile && s + e < end - begin; ++e)
+          __builtin_memcpy(&tile[e], part_of(y_[s + e], part), sizeof(Tile));
         transpose(tile);
-      for (size_t l = 0; l < count_; ++l)
-        *reinterpret_cast<Unaligned*>(job_.y + (first_ + l) * job_.stride + begin + s) = tile[l];
+        for (size_t l = 0; l < rows; ++l)
+          *reinterpret_cast<UnalignedTile*>(job_.y + (first_ + part + l) * job_.stride + begin +
+                                            s) = tile[l];
+      }
     }
   }
 

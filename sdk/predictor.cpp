@@ -54,7 +54,10 @@ uint8_t omega_byte(double energy) {
 const PredictionKernels& prediction_kernels() {
 #if defined(ANICODEC_PREDICTION_AVX2)
   static const PredictionKernels& best =
-      __builtin_cpu_supports("avx2") ? kPredictionKernelsAvx2 : kPredictionKernelsPortable;
+      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+          ? kPredictionKernelsAvx512
+      : __builtin_cpu_supports("avx2") ? kPredictionKernelsAvx2
+                                       : kPredictionKernelsPortable;
   return best;
 #else
   return kPredictionKernelsPortable;
