@@ -41,7 +41,7 @@ Affine mean_map(const Group& group, const Map& maps) {
 }
 
 Affine mean_motion(const Group& group, const Vector<Affine>& motions) {
-  Quaternion rotations[4];
+  UnitQuaternion rotations[4];
   double translation[3] = {0, 0, 0};
   for (int t = 0; t < group.count; ++t) {
     const Affine& motion = motions[group.frames[t]];
