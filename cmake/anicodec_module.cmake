@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The anicodec authors
 #
 # anicodec_module(NAME STANDARD): a static library anicodec_NAME (alias anicodec::NAME) of every
-# source in the current folder. Headers are included as "module/file.h" from the top of the tree.
+# source in the current folder, folders with a CMakeLists.txt of their own excepted. Headers are included as "module/file.h" from the top of the tree.
 
 add_library(anicodec_flags INTERFACE)
 target_compile_options(anicodec_flags INTERFACE
@@ -16,6 +16,11 @@ target_include_directories(anicodec_flags INTERFACE "${PROJECT_SOURCE_DIR}")
 
 function(anicodec_module name standard)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp *.h)
+  file(GLOB folders CONFIGURE_DEPENDS */CMakeLists.txt)
+  foreach(folder IN LISTS folders)
+    cmake_path(GET folder PARENT_PATH folder)
+    list(FILTER sources EXCLUDE REGEX "^${folder}/")
+  endforeach()
   add_library(anicodec_${name} STATIC ${sources})
   add_library(anicodec::${name} ALIAS anicodec_${name})
   target_compile_features(anicodec_${name} PUBLIC cxx_std_${standard})

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * SPDX-FileCopyrightText: The anicodec authors */
+#include <anicodec/anicodec.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static int read_file(void* user, uint64_t offset, void* to, size_t size) {
+  return fseek(user, (long)offset, SEEK_SET) != 0 || fread(to, 1, size, user) != size;
+}
+
+int main(int argc, char** argv) {
+  FILE* file = argc > 1 ? fopen(argv[1], "rb") : NULL;
+  if (file == NULL || fseek(file, 0, SEEK_END) != 0)
+    return fprintf(stderr, "usage: frame_to_obj CLIP.anic > FRAME.obj\n"), 1;
+  anic_reader reader = {file, read_file};
+  anic_asset* clip;
+  anic_context* player;
+  anic_failure why;
+  if (anic_asset_open_reader(&reader, (uint64_t)ftell(file), NULL, &clip, &why) != ANIC_OK)
+    return fprintf(stderr, "%s: %s\n", anic_status_string(why.status), why.detail), 1;
+  anic_mesh_info mesh;
+  anic_polygons faces;
+  anic_mesh(clip, 0, &mesh);
+  anic_mesh_polygons(clip, 0, &faces);
+  float* p = malloc(mesh.vertex_count * 3 * sizeof(float) + 1);
+  anic_output out = {p, mesh.vertex_count * 3 * sizeof(float), 0, ANIC_FLOAT32X3, {0}, {0}};
+  if (p == NULL || anic_context_create(clip, NULL, &player) != ANIC_OK ||
+      anic_seek_frame(player, 10) != ANIC_OK ||
+      anic_positions(player, 0, ANIC_CURRENT, 0, mesh.vertex_count, &out) != ANIC_OK)
+    return fprintf(stderr, "this clip has no frame 10\n"), 1;
+  for (uint32_t v = 0; v < mesh.vertex_count; ++v)
+    printf("v %.9g %.9g %.9g\n", p[3 * v], p[3 * v + 1], p[3 * v + 2]);
+  for (uint32_t f = 0; f < faces.polygon_count; ++f) {
+    printf("f");
+    for (uint32_t c = faces.offsets[f]; c < faces.offsets[f + 1]; ++c)
+      printf(" %u", (unsigned)(faces.corners[c] + 1));
+    printf("\n");
+  }
+  anic_context_destroy(player);
+  anic_asset_close(clip);
+  return free(p), 0;
+}

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * SPDX-FileCopyrightText: The anicodec authors
+ *
+ * What a vertex shader does, done here: the basis of a segment lies in buffers, a frame is a
+ * handful of weights. The result is compared with what the library itself makes of the frame.
+ *
+ *   // GLSL; basis in 16 bits, two to a uint; an instance's weights and matrices in a buffer of
+ * their own vec3 x = (pose_map * vec4(pose(v), 1.0)).xyz; for (uint j = 0u; j < components; ++j) x
+ * += weights[j] * basis(j, v);          // channels 1: vec3 weights times one number x = (motion *
+ * vec4(x + origin, 1.0)).xyz;
+ */
+#include <anicodec/anicodec.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void transform(const float* map, const float* in, float* out) {
+  for (int r = 0; r < 3; ++r)
+    out[r] = map[4 * r] * in[0] + map[4 * r + 1] * in[1] + map[4 * r + 2] * in[2] + map[4 * r + 3];
+}
+
+/* The vertex shader. */
+static void shade(const anic_basis* basis, const anic_part* part, uint32_t v, float* x) {
+  const size_t b = v / ANIC_BLOCK, i = v % ANIC_BLOCK;
+  const uint32_t wide = basis->wide_components, narrow = basis->components - wide;
+  x[0] = x[1] = x[2] = 0;
+  if (basis->pose != NULL) {
+    float pose[3];
+    for (size_t c = 0; c < 3; ++c)
+      pose[c] = basis->pose[(b * 3 + c) * ANIC_BLOCK + i];
+    transform(part->pose_map, pose, x);
+  }
+  for (uint32_t j = 0; j < basis->components; ++j) {
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t channel = basis->channels == 3 ? c : 0;
+      const size_t weight = basis->weight_channels == 3 ? 3 * (size_t)j + c : j;
+      const float value =
+          j < wide
+              ? (float)basis->wide[((b * wide + j) * basis->channels + channel) * ANIC_BLOCK + i]
+              : (float)basis
+                    ->narrow[((b * narrow + j - wide) * basis->channels + channel) * ANIC_BLOCK +
+                             i];
+      x[c] += part->weights[weight] * value;
+    }
+  }
+  float still[3];
+  for (int c = 0; c < 3; ++c)
+    still[c] = x[c] + basis->origin[c];
+  transform(part->motion, still, x);
+}
+
+int main(int argc, char** argv) {
+  FILE* file = argc == 2 ? fopen(argv[1], "rb") : NULL;
+  if (file == NULL) {
+    fprintf(stderr, "usage: gpu CLIP.anic\n");
+    return 1;
+  }
+  fseek(file, 0, SEEK_END);
+  const size_t size = (size_t)ftell(file);
+  unsigned char* bytes = malloc(size);
+  rewind(file);
+  anic_asset* asset = NULL;
+  anic_context* context = NULL;
+  if (bytes == NULL || fread(bytes, 1, size, file) != size ||
+      anic_asset_open(bytes, size, NULL, &asset, NULL) != ANIC_OK ||
+      anic_context_create(asset, NULL, &context) != ANIC_OK)
+    return 1;
+  fclose(file);
+  free(bytes);
+
+  anic_info info;
+  anic_mesh_info mesh;
+  anic_asset_info(asset, &info);
+  anic_mesh(asset, 0, &mesh);
+  anic_output out = {0};
+  out.size = 3 * sizeof(float) * mesh.vertex_count;
+  float* expected = out.data = malloc(out.size);
+  float* made = malloc(out.size);
+  double worst = 0;
+  for (double t = info.start_time; t <= info.end_time; t += 0.05) {
+    anic_part parts[ANIC_MAX_PARTS];
+    uint32_t count = 0;
+    if (anic_seek_time(context, t, ANIC_LINEAR, ANIC_CLAMP) != ANIC_OK ||
+        anic_positions(context, 0, ANIC_CURRENT, 0, mesh.vertex_count, &out) != ANIC_OK ||
+        anic_parts(context, 0, ANIC_CURRENT, parts, &count) != ANIC_OK)
+      return 1;
+    for (uint32_t v = 0; v < 3 * mesh.vertex_count; ++v)
+      made[v] = 0;
+    for (uint32_t p = 0; p < count; ++p) {
+      anic_basis basis;
+      if (anic_segment_basis(asset, parts[p].segment, &basis) != ANIC_OK)
+        return 1;
+      for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        float x[3];
+        shade(&basis, &parts[p], v, x);
+        for (int c = 0; c < 3; ++c)
+          made[3 * v + c] += parts[p].share * x[c];
+      }
+      for (uint32_t k = 0; k < parts[p].correction_count; ++k) { /* few: a second, small buffer */
+        for (int c = 0; c < 3; ++c)
+          made[3 * parts[p].corrections[k].vertex + c] +=
+              parts[p].share * parts[p].corrections[k].delta[c];
+      }
+    }
+    for (uint32_t v = 0; v < 3 * mesh.vertex_count; ++v)
+      worst = fmax(worst, fabs((double)made[v] - (double)expected[v]));
+  }
+  printf("largest difference %.3g, %.3g of the diagonal\n", worst, worst / info.diagonal);
+  free(expected);
+  free(made);
+  anic_context_destroy(context);
+  anic_asset_close(asset);
+  return worst <= 1e-4 * info.diagonal ? 0 : 1;
+}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * SPDX-FileCopyrightText: The anicodec authors
+ *
+ * Plays a clip while it arrives: coarsely first. Every time a layer has come, the asset is replaced
+ * by a finer one.
+ */
+#include <anicodec/anicodec.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* The middle of the clip, as it looks so far. */
+static anic_status show(const anic_asset* asset, const anic_stream_info* arrived) {
+  anic_context* context;
+  anic_info info;
+  anic_box box;
+  anic_asset_info(asset, &info);
+  anic_status status = anic_context_create(asset, NULL, &context);
+  if (status == ANIC_OK)
+    status = anic_seek_time(context, (info.start_time + info.end_time) / 2, ANIC_STEP, ANIC_CLAMP);
+  if (status == ANIC_OK)
+    status = anic_bounds(context, 0, ANIC_CURRENT, &box);
+  printf("%llu of %llu bytes, %u of %u layers: ", (unsigned long long)arrived->received_bytes,
+         (unsigned long long)arrived->file_bytes, (unsigned)arrived->arrived_layers,
+         (unsigned)arrived->layers);
+  if (status == ANIC_OK)
+    printf("%s, from %.6g %.6g %.6g to %.6g %.6g %.6g\n", info.partial ? "coarse" : "whole",
+           box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]);
+  else
+    printf("%s\n", status == ANIC_E_SEGMENT ? "not there yet" : anic_status_string(status));
+  anic_context_destroy(context);
+  return status == ANIC_E_SEGMENT ? ANIC_OK : status;
+}
+
+int main(int argc, char** argv) {
+  FILE* file = argc == 2 ? fopen(argv[1], "rb") : NULL;
+  if (file == NULL) {
+    fprintf(stderr, "usage: stream CLIP.anic\n");
+    return 1;
+  }
+  anic_stream* stream;
+  anic_asset* asset = NULL;
+  anic_stream_info info;
+  anic_status status = anic_stream_create(NULL, &stream);
+  uint32_t shown = 0;
+  unsigned char packet[64];
+  size_t size;
+  while (status == ANIC_OK && (size = fread(packet, 1, sizeof packet, file)) > 0) {
+    if ((status = anic_stream_push(stream, packet, size)) != ANIC_OK)
+      break;
+    anic_stream_info_get(stream, &info);
+    if (!info.playable || (asset != NULL && info.arrived_layers == shown && !info.complete))
+      continue;
+    anic_asset_close(asset); /* contexts of the old one are gone by now */
+    shown = info.arrived_layers;
+    status = anic_stream_open(stream, &asset, NULL);
+    if (status == ANIC_OK)
+      status = show(asset, &info);
+  }
+  fclose(file);
+  if (status != ANIC_OK)
+    fprintf(stderr, "%s: %s\n", argv[1], anic_status_string(status));
+  else
+    anic_stream_info_get(stream, &info);
+  anic_stream_destroy(stream);
+  anic_asset_close(asset);
+  return status == ANIC_OK && info.complete ? 0 : 1;
+}

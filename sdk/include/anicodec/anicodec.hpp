@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// C++17 over anicodec.h: handles that clean up behind themselves, ranges instead of pointers and
+// sizes. Header only; throws nothing and allocates nothing of its own. What the functions do is
+// said in anicodec.h.
+#ifndef ANICODEC_ANICODEC_HPP_
+#define ANICODEC_ANICODEC_HPP_
+
+#include <anicodec/anicodec.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace anic {
+
+/// A status that may not be overlooked. True when all went well.
+class [[nodiscard]] Status {
+ public:
+  constexpr Status(anic_status code = ANIC_OK) : code_(code) {}  // NOLINT: implicit by design
+
+  constexpr explicit operator bool() const { return code_ == ANIC_OK; }
+
+  constexpr anic_status code() const { return code_; }
+
+  const char* text() const { return anic_status_string(code_); }
+
+  friend constexpr bool operator==(Status a, Status b) { return a.code_ == b.code_; }
+
+  friend constexpr bool operator!=(Status a, Status b) { return a.code_ != b.code_; }
+
+ private:
+  anic_status code_;
+};
+
+/// A range of elements that belong to someone else; made of anything that has data() and size().
+template <class T>
+class Span {
+ public:
+  constexpr Span() = default;
+
+  constexpr Span(T* data, size_t size) : data_(data), size_(size) {}
+
+  template <class Container,
+            class Element = std::remove_pointer_t<decltype(std::declval<Container&>().data())>,
+            class = std::enable_if_t<std::is_convertible_v<Element (*)[], T (*)[]>>>
+  constexpr Span(Container&& container)  // NOLINT: implicit by design
+      : data_(container.data()), size_(container.size()) {}
+
+  constexpr T* data() const { return data_; }
+
+  constexpr size_t size() const { return size_; }
+
+  constexpr size_t size_bytes() const { return size_ * sizeof(T); }
+
+  constexpr T& operator[](size_t i) const { return data_[i]; }
+
+  constexpr T* begin() const { return data_; }
+
+  constexpr T* end() const { return data_ + size_; }
+
+ private:
+  T* data_ = nullptr;
+  size_t size_ = 0;
+};
+
+/// An output of packed float32 points.
+inline anic_output output(Span<float> points) {
+  anic_output out = {};
+  out.data = points.data();
+  out.size = points.size_bytes();
+  return out;
+}
+
+/// An output of any format, from `data` on.
+inline anic_output output(void* data, size_t size, anic_format format, size_t stride = 0) {
+  anic_output out = {};
+  out.data = data;
+  out.size = size;
+  out.format = format;
+  out.stride = stride;
+  return out;
+}
+
+/// Offset and scale of a 16-bit output for positions in a box.
+inline anic_output within(anic_output out, const anic_box& box) {
+  for (int c = 0; c < 3; ++c) {
+    const bool centred = out.format == ANIC_SNORM16X3 || out.format == ANIC_SNORM16X4;
+    const float size = box.max[c] - box.min[c];
+    out.offset[c] = centred ? box.min[c] + size / 2 : box.min[c];
+    out.scale[c] = centred ? size / 2 : size;
+  }
+  return out;
+}
+
+namespace detail {
+
+template <class T, void (*Release)(T*)>
+struct Releaser {
+  void operator()(T* handle) const { Release(handle); }
+};
+
+template <class T, void (*Release)(T*)>
+using Handle = std::unique_ptr<T, Releaser<T, Release>>;
+
+/// Passes the place of a raw handle to `make`, and keeps what it put there.
+template <class T, class H, class Make>
+Status receive(H* handle, Make make) {
+  T* raw = nullptr;
+  const Status status = make(&raw);
+  handle->reset(raw);
+  return status;
+}
+
+}  // namespace detail
+
+inline Status query(Span<const uint8_t> head, anic_requirements* out,
+                    const anic_options* options = nullptr) {
+  return anic_query(head.data(), head.size(), options, out);
+}
+
+/// A file that arrives piece by piece.
+class Stream {
+ public:
+  Status create(const anic_options* options = nullptr) {
+    return detail::receive<anic_stream>(
+        &handle_, [&](anic_stream** out) { return anic_stream_create(options, out); });
+  }
+
+  explicit operator bool() const { return handle_ != nullptr; }
+
+  anic_stream* get() const { return handle_.get(); }
+
+  Status push(Span<const uint8_t> bytes) {
+    return anic_stream_push(get(), bytes.data(), bytes.size());
+  }
+
+  anic_stream_info info() const {
+    anic_stream_info info = {};
+    anic_stream_info_get(get(), &info);
+    return info;
+  }
+
+  anic_failure failure() const {
+    anic_failure failure = {};
+    failure.detail = "";
+    anic_stream_failure(get(), &failure);
+    return failure;
+  }
+
+ private:
+  detail::Handle<anic_stream, anic_stream_destroy> handle_;
+};
+
+/// An opened file. Empty until open() succeeds.
+class Asset {
+ public:
+  Status open(Span<const uint8_t> file, const anic_options* options = nullptr,
+              anic_failure* failure = nullptr) {
+    return detail::receive<anic_asset>(&handle_, [&](anic_asset** out) {
+      return anic_asset_open(file.data(), file.size(), options, out, failure);
+    });
+  }
+
+  /// Read is called as bool(uint64_t offset, void* to, size_t size).
+  template <class Read>
+  Status open(uint64_t file_size, Read&& read, const anic_options* options = nullptr,
+              anic_failure* failure = nullptr) {
+    using Function = std::remove_reference_t<Read>;
+    Function* function = &read;
+    const anic_reader reader = {&function, [](void* user, uint64_t offset, void* to, size_t size) {
+                                  return (**static_cast<Function**>(user))(offset, to, size) ? 0
+                                                                                             : 1;
+                                }};
+    return detail::receive<anic_asset>(&handle_, [&](anic_asset** out) {
+      return anic_asset_open_reader(&reader, file_size, options, out, failure);
+    });
+  }
+
+  /// What has arrived of a stream.
+  Status open(const Stream& stream, anic_failure* failure = nullptr) {
+    return detail::receive<anic_asset>(
+        &handle_, [&](anic_asset** out) { return anic_stream_open(stream.get(), out, failure); });
+  }
+
+  void close() { handle_.reset(); }
+
+  explicit operator bool() const { return handle_ != nullptr; }
+
+  anic_asset* get() const { return handle_.get(); }
+
+  anic_info info() const {
+    anic_info info = {};
+    anic_asset_info(get(), &info);
+    return info;
+  }
+
+  anic_mesh_info mesh(uint32_t mesh = 0) const {
+    anic_mesh_info info = {};
+    if (anic_mesh(get(), mesh, &info) != ANIC_OK)
+      info = {};
+    return info;
+  }
+
+  anic_polygons polygons(uint32_t mesh = 0) const {
+    anic_polygons polygons = {};
+    if (anic_mesh_polygons(get(), mesh, &polygons) != ANIC_OK)
+      polygons = {};
+    return polygons;
+  }
+
+  /// Which vertices move together.
+  Span<const uint32_t> copies(uint32_t mesh = 0) const {
+    const uint32_t* first = nullptr;
+    return anic_mesh_copies(get(), mesh, &first) == ANIC_OK
+               ? Span<const uint32_t>(first, this->mesh(mesh).vertex_count)
+               : Span<const uint32_t>();
+  }
+
+  /// Index is uint16_t or uint32_t.
+  template <class Index>
+  Status triangles(Span<Index> out, uint32_t mesh = 0) const {
+    static_assert(sizeof(Index) == 2 || sizeof(Index) == 4);
+    return anic_triangles(get(), mesh, sizeof(Index), out.data(), out.size_bytes());
+  }
+
+  double time(uint32_t frame) const { return anic_frame_time(get(), frame); }
+
+  Status verify() const { return anic_asset_verify(get()); }
+
+  /// Whole frames, without a context; as many outputs as frames.
+  Status frames(Span<const uint32_t> frames, Span<const anic_output> outputs, uint32_t first,
+                uint32_t count, uint32_t mesh = 0) const {
+    if (frames.size() != outputs.size() || frames.size() > ANIC_MAX_FRAMES)
+      return ANIC_E_ARGUMENT;
+    return anic_frames(get(), mesh, frames.data(), static_cast<uint32_t>(frames.size()), first,
+                       count, outputs.data());
+  }
+
+  Status bounds(anic_box* out, uint32_t mesh = 0) const {
+    return anic_clip_bounds(get(), mesh, out);
+  }
+
+  Status frame_bounds(uint32_t frame, anic_box* out, uint32_t mesh = 0) const {
+    return anic_frame_bounds(get(), mesh, frame, out);
+  }
+
+  Status basis(uint32_t segment, anic_basis* out) const {
+    return anic_segment_basis(get(), segment, out);
+  }
+
+ private:
+  detail::Handle<anic_asset, anic_asset_close> handle_;
+};
+
+/// An instance of an asset, which must outlive it.
+class Context {
+ public:
+  Status create(const Asset& asset, const anic_allocator* allocator = nullptr) {
+    return detail::receive<anic_context>(&handle_, [&](anic_context** out) {
+      return anic_context_create(asset.get(), allocator, out);
+    });
+  }
+
+  explicit operator bool() const { return handle_ != nullptr; }
+
+  anic_context* get() const { return handle_.get(); }
+
+  Status seek_frame(uint32_t frame) { return anic_seek_frame(get(), frame); }
+
+  Status seek(double seconds, anic_interpolation interpolation = ANIC_LINEAR,
+              anic_wrap wrap = ANIC_CLAMP) {
+    return anic_seek_time(get(), seconds, interpolation, wrap);
+  }
+
+  Status forget_previous() { return anic_forget_previous(get()); }
+
+  Status positions(const anic_output& out, uint32_t first, uint32_t count,
+                   anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
+    return anic_positions(get(), mesh, when, first, count, &out);
+  }
+
+  Status bounds(anic_box* out, anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
+    return anic_bounds(get(), mesh, when, out);
+  }
+
+  /// At most ANIC_MAX_PARTS.
+  Status parts(Span<anic_part> out, uint32_t* count, anic_when when = ANIC_CURRENT,
+               uint32_t mesh = 0) const {
+    return out.size() < ANIC_MAX_PARTS ? Status(ANIC_E_BUFFER_SIZE)
+                                       : anic_parts(get(), mesh, when, out.data(), count);
+  }
+
+ private:
+  detail::Handle<anic_context, anic_context_destroy> handle_;
+};
+
+/// How to make normals of a mesh; independent of the asset once made.
+class Normals {
+ public:
+  Status create(const Asset& asset, const anic_normal_options& options = {}, uint32_t mesh = 0,
+                const anic_allocator* allocator = nullptr) {
+    return detail::receive<anic_normals>(&handle_, [&](anic_normals** out) {
+      return anic_normals_create(asset.get(), mesh, &options, allocator, out);
+    });
+  }
+
+  explicit operator bool() const { return handle_ != nullptr; }
+
+  anic_normals* get() const { return handle_.get(); }
+
+  uint32_t size() const { return anic_normals_count(get()); }
+
+  Status compute(const float* positions, const anic_output& out, uint32_t first, uint32_t count,
+                 size_t stride = 0) const {
+    return anic_normals_compute(get(), positions, stride, first, count, &out);
+  }
+
+ private:
+  detail::Handle<anic_normals, anic_normals_destroy> handle_;
+};
+
+}  // namespace anic
+
+#endif  // ANICODEC_ANICODEC_HPP_
