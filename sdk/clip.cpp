@@ -227,7 +227,9 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh) {
     Status s = decode_draco_mesh(record.connectivity, sizes.points, sizes.triangles,
                                  sizes.draco_components, &draco);
     if (s != Status::kOk)
-      return at(*chunk, s, "the Draco bitstream is damaged");
+      return at(
+          *chunk, s,
+          s == Status::kCoder ? "this build is without Draco" : "the Draco bitstream is damaged");
   } else {
     if (sizes.draco_components != 0 || sizes.draco_bytes != 0)
       return at(*chunk, Status::kRecord, "counts of a Draco bitstream without one");

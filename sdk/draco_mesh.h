@@ -22,8 +22,8 @@ struct DracoMesh {
 /// Decodes a Draco mesh bitstream (version 2.2) of int32 attributes: first POSITION with three
 /// components, then GENERIC ones (a lone pose is followed by one stand-in component); their
 /// components are concatenated. The counts must be the ones
-/// the caller knows from the limits, else kDraco. Never throws: Draco's exceptions are caught here.
-/// Only this file of the decoder calls Draco.
+/// the caller knows from the limits, else kDraco; kCoder in a build without Draco. Never throws:
+/// Draco's exceptions are caught here. Only this file of the decoder calls Draco.
 Status decode_draco_mesh(format::ByteView bytes, uint32_t points, uint32_t triangles,
                          uint32_t components, DracoMesh* out);
 
