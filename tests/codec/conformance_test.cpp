@@ -52,17 +52,19 @@ TEST_P(Conformance, DecodesAsTheFileSays) {
   EXPECT_NEAR(largest, clip.record().max_error, 1e-4 * clip.record().max_error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, Conformance,
-                         testing::Values(Vector{"triangle.anic", "one_triangle"},
-                                         Vector{"nonmanifold_keyframes.anic", "nonmanifold"},
-                                         Vector{"polygons_all.anic", "polygons"},
-                                         Vector{"quad_box_corrected.anic", "quad_box"},
-                                         Vector{"soup_plain.anic", "soup"},
-                                         Vector{"limb_effort9.anic", "limb"}),
-                         [](const auto& vector) {
-                           return std::string(vector.param.file,
-                                              std::string(vector.param.file).find('.'));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Files, Conformance,
+    testing::Values(Vector{"triangle.anic", "one_triangle"},
+                    Vector{"nonmanifold_keyframes.anic", "nonmanifold"},
+                    Vector{"polygons_all.anic", "polygons"},
+                    Vector{"quad_box_corrected.anic", "quad_box"},
+                    Vector{"soup_plain.anic", "soup"}, Vector{"limb_effort9.anic", "limb"},
+                    Vector{"far_rigid.anic", "far"}, Vector{"uneven_times.anic", "uneven"},
+                    Vector{"leftovers_plain.anic", "leftovers"},
+                    Vector{"one_frame.anic", "one_frame"}, Vector{"one_vertex.anic", "one_vertex"}),
+    [](const auto& vector) {
+      return std::string(vector.param.file, std::string(vector.param.file).find('.'));
+    });
 
 TEST(ConformanceExample, IsTheFileThatTheSpecificationShows) {
   std::ifstream page(kSource + "/spec/A-examples.md");

@@ -3,15 +3,12 @@
 // Any chunks through the opening of a file: checksums and places are repaired first, so that what
 // is inside the chunks gets decoded. What opens, plays, with finite positions, in the memory that
 // the limits announce.
-#include "format/container.h"
 #include "sdk/clip.h"
 #include "sdk/memory.h"
+#include "tests/fuzz/fuzz_file.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <string>
 #include <vector>
 
 using namespace anicodec;
@@ -21,46 +18,6 @@ namespace {
 void require(bool condition) {
   if (!condition)
     std::abort();
-}
-
-/// The same chunks with what the table says of them made right; as it is if there is no table.
-format::Bytes repaired(format::ByteView file) {
-  format::ByteReader r(file);
-  r.raw(12);
-  uint32_t count = r.u32();
-  r.raw(format::kHeaderBytes - 16);
-  if (!r.ok() || count > r.remaining() / format::kEntryBytes)
-    return {file.data, file.data + file.size};
-
-  struct Entry {
-    std::string type;
-    uint16_t flags, mesh;
-    uint32_t segment;
-    uint64_t size;
-  };
-
-  std::vector<Entry> entries;
-  for (uint32_t i = 0; i < count; ++i) {
-    Entry e;
-    e.type = format::chunk_name(r.u32());
-    e.flags = r.u16();
-    e.mesh = r.u16();
-    e.segment = r.u32();
-    r.u32();
-    r.u64();
-    e.size = r.u64();
-    entries.push_back(e);
-  }
-  format::ContainerWriter writer;
-  size_t at = r.position();
-  for (const Entry& e : entries) {
-    at = std::min((at + 7) / 8 * 8, file.size);
-    auto size = static_cast<size_t>(std::min<uint64_t>(e.size, file.size - at));
-    const char type[5] = {e.type[0], e.type[1], e.type[2], e.type[3], 0};
-    writer.add(type, e.flags & 1, e.mesh, e.segment, {file.data + at, file.data + at + size});
-    at += size;
-  }
-  return writer.finish();
 }
 
 }  // namespace

@@ -3,15 +3,24 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Makes tests/conformance/ and the listing of spec/A-examples.md anew, after the format has changed.
 
-usage: update_conformance.py ANICODEC      (the built command, as build/release/tools/anicodec)
+usage: update_conformance.py ANICODEC LIBANICODEC
+  the built command and shared library, as build/release/tools/anicodec build/release/sdk/package/libanicodec.so
 """
+import ctypes
+import hashlib
 import pathlib
 import re
+import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 
+import anic_file
+import clip_output
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "tests" / "conformance"
 VECTORS = [
     ("triangle.anic", "one_triangle", "--kg 0.1 --order free --basis keyframes --mesh-coder plain"),
     ("nonmanifold_keyframes.anic", "nonmanifold", "--kg 0.5 --basis keyframes"),
@@ -19,8 +28,16 @@ VECTORS = [
     ("quad_box_corrected.anic", "quad_box", "--kg 1 --max-error 0.5% --basis eigentrajectories"),
     ("soup_plain.anic", "soup", "--kg 0.5 --mesh-coder plain --basis eigentrajectories"),
     ("limb_effort9.anic", "limb", "--kg 0.2 --effort 9 --basis eigenshapes"),
+    ("far_rigid.anic", "far", "--keyframes 1"),
+    ("uneven_times.anic", "uneven", "--kg 0.5 --basis eigentrajectories"),
+    ("leftovers_plain.anic", "leftovers", "--kg 0.5 --order all --mesh-coder plain --basis keyframes"),
+    ("one_frame.anic", "one_frame", "--kg 0.5"),
+    ("one_vertex.anic", "one_vertex", "--kg 0.5"),
 ]
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
+# Codes that a file can cause, with the names of spec/12-errors.md.
+CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
+POINTS = 24  # of the manifest, for each file
 
 
 def listing(command, path):
@@ -39,20 +56,162 @@ def listing(command, path):
     return "\n".join(lines)
 
 
+class Library:
+    """Tells what the reference decoder makes of a file."""
+
+    class Failure(ctypes.Structure):
+        """anic_failure"""
+        _fields_ = [("status", ctypes.c_int), ("chunk", ctypes.c_char * 8), ("offset", ctypes.c_uint64),
+                    ("detail", ctypes.c_char_p)]
+
+    def __init__(self, path):
+        self.functions = ctypes.CDLL(str(path))
+        self.functions.anic_asset_verify.argtypes = [ctypes.c_void_p]
+        self.functions.anic_asset_close.argtypes = [ctypes.c_void_p]
+
+    def status(self, data):
+        """Status and what it says of the place."""
+        asset, failure = ctypes.c_void_p(), self.Failure()
+        status = self.functions.anic_asset_open(data, ctypes.c_size_t(len(data)), None, ctypes.byref(asset),
+                                                ctypes.byref(failure))
+        if status == 0:
+            status = self.functions.anic_asset_verify(asset)
+            self.functions.anic_asset_close(asset)
+        return status, (failure.detail or b"").decode()
+
+
+def broken_containers(data):
+    """(status, file) for the rules of spec/05, section 5: a good file with one thing changed."""
+    def with_bytes(at, new, checked=True):
+        changed = data[:at] + new + data[at + len(new):]
+        return anic_file.checked_header(changed) if checked else changed
+
+    chunks = anic_file.read_chunks(data)
+    entry = anic_file.HEADER_BYTES + anic_file.ENTRY_BYTES  # of the second chunk
+    offset, size = struct.unpack_from("<QQ", data, entry + 16)
+    payloads = [struct.unpack_from("<QQ", data, 40 + 32 * i + 16) for i in range(len(chunks))]
+    gap = next(o + s for (o, s), (p, _) in zip(payloads, payloads[1:]) if o + s < p)
+    yield 10, with_bytes(1, b"ANJ", False)
+    yield 11, with_bytes(8, struct.pack("<HH", 1, 0))
+    yield 12, with_bytes(16, struct.pack("<Q", 1 << 63))
+    yield 20, data[:-1]
+    yield 21, with_bytes(36, b"\1")
+    yield 22, with_bytes(40, b"X", False)
+    yield 23, with_bytes(entry + 16, struct.pack("<Q", offset + 8))
+    yield 24, with_bytes(offset + size - 1, bytes([data[offset + size - 1] ^ 1]), False)
+    yield 25, anic_file.write_chunks(chunks + [chunks[-1]])
+    yield 26, anic_file.write_chunks(chunks[:-1])
+    yield 27, anic_file.write_chunks(chunks + [anic_file.Chunk("WHAT", 1, 0xFFFF, 0xFFFFFFFF, b"?")])
+    yield 28, with_bytes(gap, b"\1")
+    yield 29, data + b"\0"
+    yield 30, with_bytes(24, struct.pack("<Q", len(data) + 1)) + b"\0"
+
+
+def broken_payloads(files, library, wanted):
+    """(status, file, what) for codes of payloads: the first single byte whose change causes each."""
+    wanted = set(wanted)
+    for name, data in files:
+        chunks = anic_file.read_chunks(data)
+        for chunk in chunks:
+            good = chunk.payload
+            for at, old in enumerate(good):
+                for new in dict.fromkeys((old ^ 1, old ^ 0x80, 0, 0x7F, 0xFF)):
+                    chunk.payload = good[:at] + bytes([new]) + good[at + 1:]
+                    changed = anic_file.write_chunks(chunks)
+                    status, _ = library.status(changed)
+                    if status in wanted:
+                        wanted.discard(status)
+                        yield status, changed, f"{name}: byte {at} of {chunk.type} is {new}, not {old}"
+                    if not wanted:
+                        return
+            chunk.payload = good
+
+
+def greedy_files(data):
+    """(name, file): small ones that announce as much as their fields can say."""
+    chunks = anic_file.read_chunks(data)
+    limits = next(c for c in chunks if c.type == "LIMI")
+    good = limits.payload
+    huge = {
+        "vertices": (4, 1, 1, (2**31 - 1, 2**31 - 1, 3, 1, 1, 3, 0, 0), (0, 0, 0, 4, 2, 0, 0)),
+        "frames": (2**24 - 1, 1, 1, (3, 3, 3, 1, 1, 3, 0, 0), (0, 0, 0, 2**24 - 1, 2**20, 0, 0)),
+        "components": (4, 1, 1, (2**20, 2**20, 3, 1, 1, 3, 0, 0), (0, 2, 0, 4, 2**20, 2**20, 0)),
+        "triangles": (4, 1, 1, (3, 3, 3, (2**32 - 1) // 3, 1, 3, 0, 0), (0, 0, 0, 4, 2, 0, 0)),
+        "corners": (4, 1, 1, (3, 3, 3, 1, 2**31 - 1, 2**32 - 1, 0, 0), (0, 0, 0, 4, 2, 0, 0)),
+        "draco": (4, 1, 1, (3, 3, 3, 1, 1, 3, 16320, 2**32 - 1), (0, 0, 0, 4, 2, 0, 0)),
+        "corrections": (4, 1, 1, (3, 3, 3, 1, 1, 3, 0, 0), (0, 0, 0, 4, 2, 0, 2**32 - 1)),
+    }
+    for name, (frames, meshes, segments, mesh, segment) in huge.items():
+        limits.payload = anic_file.varints((frames, meshes, segments) + mesh + segment)
+        yield name, anic_file.write_chunks(chunks)
+    limits.payload = good
+
+
+def point_lines(name, clip, faces):
+    """Lines of the manifest for a file that decodes: sizes, hash of its faces, some of its positions."""
+    largest = max(abs(x) for frame in clip.frames for x in frame)
+    yield (f"sizes {name} {clip.vertices} {len(clip.frames)} {len(faces)} {clip_output.faces_hash(faces)} "
+           f"{2e-5 * largest:.3g}")
+    state = 1
+    for _ in range(POINTS):
+        state = state * 1103515245 + 12345 & 0x7FFFFFFF
+        frame, vertex = (state >> 8) % len(clip.frames), (state >> 12) % clip.vertices
+        yield f"point {name} {frame} {vertex} " + " ".join(f"{x:.9g}" for x in clip.position(frame, vertex))
+
+
 def main():
-    command = str(pathlib.Path(sys.argv[1]).resolve())
-    folder = ROOT / "tests" / "conformance"
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    command, library = str(pathlib.Path(sys.argv[1]).resolve()), Library(pathlib.Path(sys.argv[2]).resolve())
+    lines = []
+
+    def add(kind, path, *fields):
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        lines.append(" ".join([kind, path.relative_to(FOLDER).as_posix(), digest, *fields]))
+
     with tempfile.TemporaryDirectory() as name:
         for file, clip, options in VECTORS:
             cache = pathlib.Path(name) / (pathlib.Path(file).stem + ".pc2")
             subprocess.run([command, "corpus", clip, "-q", "-f", "-o", cache], check=True)
             subprocess.run([command, "encode", "-q", "-f", cache.with_suffix(".obj"), cache, "-o",
-                            folder / file] + options.split(), check=True)
+                            FOLDER / file] + options.split(), check=True)
+            subprocess.run([command, "decode", "-q", "-f", FOLDER / file, "-o", cache], check=True)
+            add("valid", FOLDER / file)
+            lines.extend(point_lines(file, clip_output.Clip(cache), clip_output.faces(cache.with_suffix(".obj"))))
+
+    for folder in ("invalid", "limits"):
+        shutil.rmtree(FOLDER / folder, ignore_errors=True)
+        (FOLDER / folder).mkdir()
+    files = [(file, (FOLDER / file).read_bytes()) for file, _, _ in VECTORS]
+    broken = {}
+    for status, data in broken_containers(files[0][1]):
+        broken[status] = (data, "")
+    rest = {int(code) for code in CODES if 10 <= int(code) < 60} - set(broken)
+    for status, data, what in broken_payloads(sorted(files, key=lambda f: len(f[1])), library, rest):
+        broken[status] = (data, what)
+        rest.discard(status)
+    for status, (data, what) in sorted(broken.items()):
+        seen, detail = library.status(data)
+        if seen != status:
+            sys.exit(f"{CODES[str(status)]} is answered with {seen}: {detail}")
+        path = FOLDER / "invalid" / f"{status}_{CODES[str(status)].lower()}.anic"
+        path.write_bytes(data)
+        add("invalid", path, str(status), CODES[str(status)], what or detail)
+    for what, data in greedy_files(files[0][1]):
+        path = FOLDER / "limits" / f"{what}.anic"
+        path.write_bytes(data)
+        status, detail = library.status(data)
+        add("limit", path, str(status), CODES[str(status)], detail)
+    if rest:
+        print("no single byte causes " + ", ".join(CODES[str(code)] for code in sorted(rest)))
+    (FOLDER / "MANIFEST").write_text("\n".join(lines) + "\n")
+
     page = ROOT / "spec" / "A-examples.md"
     text = page.read_text()
     begin = text.index("```\n0000  ") + 4
     end = text.index("\n```", begin)
-    page.write_text(text[:begin] + listing(command, folder / "triangle.anic") + text[end:])
+    page.write_text(text[:begin] + listing(command, FOLDER / "triangle.anic") + text[end:])
 
 
-main()
+if __name__ == "__main__":
+    main()

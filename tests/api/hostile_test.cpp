@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Damaged and greedy files: those of tests/conformance, every prefix of them, every byte changed.
+#include "format/container.h"
+#include "tests/api/opened.h"
+#include "tests/codec/edited_file.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace anicodec {
+namespace {
+
+struct Entry {
+  std::string file;
+  int status = 0;
+  format::Bytes bytes;
+};
+
+/// What tests/conformance/MANIFEST lists: "valid", "invalid" or "limit".
+std::vector<Entry> listed(const std::string& wanted) {
+  const std::string folder = std::string(ANICODEC_SOURCE_DIR) + "/tests/conformance/";
+  std::ifstream manifest(folder + "MANIFEST");
+  std::vector<Entry> result;
+  for (std::string line; std::getline(manifest, line);) {
+    std::istringstream words(line);
+    std::string kind, digest;
+    Entry entry;
+    words >> kind >> entry.file >> digest >> entry.status;
+    if (kind != wanted)
+      continue;
+    std::ifstream file(folder + entry.file, std::ios::binary);
+    entry.bytes.assign(std::istreambuf_iterator<char>(file), {});
+    EXPECT_FALSE(entry.bytes.empty()) << entry.file;
+    result.push_back(std::move(entry));
+  }
+  EXPECT_FALSE(result.empty());
+  return result;
+}
+
+/// Opens and compares hashes; what opens is played. Nothing is kept.
+anic_status tried(const format::Bytes& file, CountingMemory* memory) {
+  anic_options options = {};
+  options.allocator = memory->allocator();
+  options.limits.bytes = 8 << 20;
+  anic_asset* raw = nullptr;
+  anic_failure failure;
+  anic_status status = anic_asset_open(file.data(), file.size(), &options, &raw, &failure);
+  EXPECT_EQ(failure.status, status);
+  {
+    const Asset asset(raw);
+    EXPECT_EQ(asset != nullptr, status == ANIC_OK);
+    if (asset) {
+      status = anic_asset_verify(raw);
+      const Context context = context_of(asset);
+      const uint32_t frames = info_of(asset).frame_count;
+      for (const uint32_t f : {0U, frames / 2, frames - 1}) {
+        anic_box box;
+        EXPECT_EQ(anic_seek_frame(context.get(), f), ANIC_OK);
+        if (anic_bounds(context.get(), 0, ANIC_CURRENT, &box) == ANIC_OK) {
+          for (int c = 0; c < 3; ++c)
+            EXPECT_TRUE(std::isfinite(box.min[c]) && std::isfinite(box.max[c]));
+        }
+      }
+    }
+  }
+  EXPECT_EQ(memory->held, 0U);
+  return status;
+}
+
+anic_status tried(const format::Bytes& file) {
+  CountingMemory memory;
+  return tried(file, &memory);
+}
+
+TEST(Hostile, ConformanceFilesHaveTheirStatus) {
+  for (const Entry& entry : listed("valid"))
+    EXPECT_EQ(tried(entry.bytes), ANIC_OK) << entry.file;
+  std::vector<int> seen;
+  for (const Entry& entry : listed("invalid")) {
+    EXPECT_EQ(tried(entry.bytes), entry.status) << entry.file;
+    seen.push_back(entry.status);
+  }
+  // One for each code that a file can cause.
+  for (int status = ANIC_E_MAGIC; status < ANIC_E_LIMIT; ++status) {
+    const bool exists =
+        std::string(anic_status_string(static_cast<anic_status>(status))) != "unknown status";
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), status), exists ? 1 : 0) << status;
+  }
+}
+
+TEST(Hostile, GreedyFilesTakeNothing) {
+  for (const Entry& entry : listed("limit")) {
+    CountingMemory memory;
+    EXPECT_EQ(tried(entry.bytes, &memory), ANIC_E_LIMIT) << entry.file;
+    EXPECT_LT(memory.peak, 4096U) << entry.file;
+  }
+}
+
+TEST(Hostile, EveryPrefixIsRefused) {
+  for (const Entry& entry : listed("valid")) {
+    for (size_t size = 0; size < entry.bytes.size(); ++size) {
+      const format::Bytes prefix(entry.bytes.begin(), entry.bytes.begin() + size);
+      const anic_status status = tried(prefix);
+      ASSERT_EQ(status, size == 0 ? ANIC_E_MAGIC : ANIC_E_TRUNCATED) << entry.file << " " << size;
+    }
+  }
+}
+
+TEST(Hostile, EveryPrefixOfAStreamPlaysOrWaits) {
+  for (const Entry& entry : listed("valid")) {
+    CountingMemory memory;
+    anic_options options = {};
+    options.allocator = memory.allocator();
+    anic_stream* stream = nullptr;
+    ASSERT_EQ(anic_stream_create(&options, &stream), ANIC_OK);
+    size_t opened = 0;
+    for (size_t i = 0; i < entry.bytes.size(); ++i) {
+      ASSERT_EQ(anic_stream_push(stream, &entry.bytes[i], 1), ANIC_OK) << entry.file << " " << i;
+      anic_stream_info info;
+      anic_stream_info_get(stream, &info);
+      anic_asset* asset = nullptr;
+      if (info.playable && opened++ % 50 != 0 && !info.complete)
+        continue;
+      const anic_status status = anic_stream_open(stream, &asset, nullptr);
+      ASSERT_EQ(status, info.playable ? ANIC_OK : ANIC_E_STATE) << entry.file << " " << i;
+      anic_asset_close(asset);
+    }
+    EXPECT_GT(opened, 0U);
+    anic_stream_destroy(stream);
+    EXPECT_EQ(memory.held, 0U);
+  }
+}
+
+TEST(Hostile, EveryChangedByteIsNoticed) {
+  for (Entry& entry : listed("valid")) {
+    for (uint8_t& byte : entry.bytes) {
+      const uint8_t old = byte;
+      for (const int change : {1, 0x80}) {
+        byte = static_cast<uint8_t>(old ^ change);
+        ASSERT_NE(tried(entry.bytes), ANIC_OK) << entry.file << " " << &byte - entry.bytes.data();
+      }
+      byte = old;
+    }
+  }
+}
+
+// With checksums that fit, so that what is inside is decoded.
+TEST(SlowHostile, EveryChangedByteOfAChunkIsSurvived) {
+  size_t refused = 0, all = 0;
+  for (const Entry& entry : listed("valid")) {
+    EditedFile file(entry.bytes);
+    for (EditedFile::Part& part : file.parts) {
+      for (uint8_t& byte : part.payload) {
+        const uint8_t old = byte;
+        for (const int value : {old ^ 1, old ^ 0x80, 0xFF}) {
+          byte = static_cast<uint8_t>(value);
+          const anic_status status = tried(file.bytes());
+          ASSERT_NE(status, ANIC_E_INTERNAL);
+          ASSERT_NE(status, ANIC_E_MEMORY);
+          refused += status != ANIC_OK;
+          ++all;
+        }
+        byte = old;
+      }
+    }
+  }
+  EXPECT_GT(refused, all / 2);
+}
+
+}  // namespace
+}  // namespace anicodec

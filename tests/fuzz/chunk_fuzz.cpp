@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+// Any bytes as the payload of one chunk in a file that is otherwise good: the first byte picks a
+// file of tests/conformance, the second one of its chunks.
+#include "tests/fuzz/fuzz_asset.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+using namespace anicodec;
+
+namespace {
+
+struct Part {
+  format::Chunk chunk;
+  format::Bytes payload;
+};
+
+/// A file for each kind of chunk and coder.
+const std::vector<std::vector<Part>>& files() {
+  static const std::vector<std::vector<Part>> all = [] {
+    std::vector<std::vector<Part>> result;
+    for (const char* name : {"triangle", "nonmanifold_keyframes", "polygons_all",
+                             "quad_box_corrected", "soup_plain", "limb_effort9"}) {
+      std::ifstream in(std::string(ANICODEC_CONFORMANCE) + "/" + name + ".anic", std::ios::binary);
+      const format::Bytes file(std::istreambuf_iterator<char>(in), {});
+      format::ContainerReader reader;
+      require(reader.open(file).ok());
+      std::vector<Part>& parts = result.emplace_back();
+      for (const format::Chunk& chunk : reader.chunks()) {
+        format::ByteView view;
+        require(reader.payload(chunk, &view).ok());
+        parts.push_back({chunk, {view.data, view.data + view.size}});
+      }
+    }
+    return result;
+  }();
+  return all;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  if (size < 2)
+    return 0;
+  const std::vector<Part>& parts = files()[data[0] % files().size()];
+  format::ContainerWriter writer;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const format::Chunk& chunk = parts[i].chunk;
+    const std::string type = format::chunk_name(chunk.type);
+    const char name[5] = {type[0], type[1], type[2], type[3], 0};
+    writer.add(
+        name, chunk.required, chunk.mesh, chunk.segment,
+        i == data[1] % parts.size() ? format::Bytes(data + 2, data + size) : parts[i].payload);
+  }
+  const format::Bytes file = writer.finish();
+  CappedMemory memory;
+  const anic_options options = memory.options();
+  anic_asset* asset = nullptr;
+  const anic_status status = anic_asset_open(file.data(), file.size(), &options, &asset, nullptr);
+  require(status != ANIC_E_INTERNAL && status != ANIC_E_MEMORY);
+  if (asset) {
+    const Script script = script_of(data, size);
+    sample(asset, &memory, script);
+    look(asset, script);
+  }
+  anic_asset_close(asset);
+  require(memory.held == 0);
+  return 0;
+}

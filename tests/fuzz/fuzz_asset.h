@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TESTS_FUZZ_FUZZ_ASSET_H_
+#define ANICODEC_TESTS_FUZZ_FUZZ_ASSET_H_
+
+#include "tests/fuzz/fuzz_file.h"
+
+#include <anicodec/anicodec.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+namespace anicodec {
+
+inline void require(bool condition) {
+  if (!condition)
+    std::abort();
+}
+
+/// Memory of a host that has only so much of it.
+struct CappedMemory {
+  static constexpr size_t kHead = 16;
+
+  size_t cap = size_t{64} << 20;
+  size_t held = 0, peak = 0, calls = 0;
+
+  anic_allocator allocator() {
+    anic_allocator a = {};
+    a.user = this;
+    a.allocate = [](void* user, size_t size, size_t alignment) -> void* {
+      auto* self = static_cast<CappedMemory*>(user);
+      require(size > 0 && alignment <= 16);
+      ++self->calls;
+      if (size > self->cap - self->held)
+        return nullptr;
+      self->held += size;
+      self->peak = std::max(self->peak, self->held);
+      auto* head = static_cast<unsigned char*>(std::malloc(size + kHead));
+      std::memcpy(head, &size, sizeof size);
+      return head + kHead;
+    };
+    a.release = [](void* user, void* memory, size_t size) {
+      auto* self = static_cast<CappedMemory*>(user);
+      auto* head = static_cast<unsigned char*>(memory) - kHead;
+      size_t asked;
+      std::memcpy(&asked, head, sizeof asked);
+      require(asked == size);
+      self->held -= size;
+      std::free(head);
+    };
+    return a;
+  }
+
+  anic_options options() {
+    anic_options o = {};
+    o.limits.vertices = 20000;
+    o.limits.frames = 5000;
+    o.limits.components = 4096;
+    o.limits.bytes = cap / 2;
+    o.allocator = allocator();
+    return o;
+  }
+};
+
+/// Room for elements of any format, with bytes around it that must stay what they are.
+class GuardedOutput {
+ public:
+  GuardedOutput(uint32_t count, Script* script) {
+    constexpr size_t kSizes[] = {12, 16, 6, 8, 6, 8, 6, 8};
+    const uint32_t format = script->byte() % 8;
+    const size_t gap = script->byte() % 5;
+    element_ = kSizes[format];
+    out_.format = static_cast<anic_format>(format);
+    out_.stride = gap == 0 ? 0 : element_ + gap;
+    const size_t stride = element_ + gap;
+    size_ = count == 0 ? 0 : stride * (count - 1) + element_;
+    bytes_.assign(size_ + 2 * kGuard, 0xA5);
+    out_.data = bytes_.data() + kGuard;
+    out_.size = size_;
+    for (int c = 0; c < 3; ++c) {
+      out_.offset[c] = static_cast<float>(script->byte()) - 128;
+      out_.scale[c] = static_cast<float>(script->byte());
+    }
+  }
+
+  const anic_output* out() const { return &out_; }
+
+  void check() const {
+    for (size_t i = 0; i < kGuard; ++i)
+      require(bytes_[i] == 0xA5 && bytes_[bytes_.size() - 1 - i] == 0xA5);
+    if (out_.format > ANIC_FLOAT32X4 || size_ == 0)
+      return;
+    const size_t stride = out_.stride == 0 ? element_ : out_.stride;
+    for (size_t at = 0; at < size_; at += stride) {
+      float x[3];
+      std::memcpy(x, bytes_.data() + kGuard + at, sizeof x);
+      require(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]));
+    }
+  }
+
+ private:
+  static constexpr size_t kGuard = 32;
+  std::vector<unsigned char> bytes_;
+  anic_output out_ = {};
+  size_t element_ = 0, size_ = 0;
+};
+
+/// What a host does with an asset, some of it wrong; nothing of it allocates.
+inline void sample(const anic_asset* asset, CappedMemory* memory, Script script) {
+  anic_info info;
+  anic_asset_info(asset, &info);
+  require(info.mesh_count > 0 && info.frame_count > 0);
+  anic_context* context = nullptr;
+  if (anic_context_create(asset, nullptr, &context) != ANIC_OK)
+    return;
+  const size_t calls = memory->calls;
+  for (int step = 0; step < 6; ++step) {
+    const uint32_t mesh = script.below(info.mesh_count);
+    anic_mesh_info sizes;
+    require(anic_mesh(asset, mesh, &sizes) == ANIC_OK);
+    if (script.byte() % 2) {
+      const anic_status status = anic_seek_frame(context, script.below(info.frame_count + 1));
+      require(status == ANIC_OK || status == ANIC_E_FRAME_RANGE);
+    } else {
+      const double span = info.end_time - info.start_time + 1;
+      const double time = info.start_time + span * (script.below(1000) / 300.0 - 1);
+      const auto interpolation = static_cast<anic_interpolation>(script.byte() % 4);
+      const auto wrap = static_cast<anic_wrap>(script.byte() % 4);
+      anic_seek_time(context, time, interpolation, wrap);
+    }
+    const auto when = static_cast<anic_when>(script.byte() % 2);
+    const uint32_t first = script.below(sizes.vertex_count + 1);
+    const uint32_t count = script.below(sizes.vertex_count - first + 1);
+    const GuardedOutput points(count, &script);
+    if (anic_positions(context, mesh, when, first, count, points.out()) == ANIC_OK)
+      points.check();
+    const uint32_t frames[2] = {script.below(info.frame_count), script.below(info.frame_count)};
+    const GuardedOutput one(count, &script), two(count, &script);
+    const anic_output outs[2] = {*one.out(), *two.out()};
+    if (anic_frames(asset, mesh, frames, 2, first, count, outs) == ANIC_OK) {
+      one.check();
+      two.check();
+    }
+    anic_box box;
+    if (anic_bounds(context, mesh, when, &box) == ANIC_OK && sizes.vertex_count > 0)
+      require(box.min[0] <= box.max[0] && std::isfinite(box.min[2]));
+    anic_part parts[ANIC_MAX_PARTS];
+    uint32_t part_count = 0;
+    if (anic_parts(context, mesh, when, parts, &part_count) == ANIC_OK) {
+      for (uint32_t p = 0; p < part_count; ++p) {
+        anic_basis basis;
+        require(anic_segment_basis(asset, parts[p].segment, &basis) == ANIC_OK);
+        require(basis.vertex_count == sizes.vertex_count);
+        for (uint32_t k = 0; k < parts[p].correction_count; ++k)
+          require(parts[p].corrections[k].vertex < sizes.vertex_count);
+        for (uint32_t j = 0; j < basis.components * basis.weight_channels; ++j)
+          require(std::isfinite(parts[p].weights[j]));
+      }
+    }
+    anic_forget_previous(context);
+  }
+  require(memory->calls == calls);
+  anic_context_destroy(context);
+}
+
+/// The parts of an asset that do not move.
+inline void look(const anic_asset* asset, Script script) {
+  anic_info info;
+  anic_asset_info(asset, &info);
+  for (uint32_t m = 0; m < info.mesh_count; ++m) {
+    anic_mesh_info sizes;
+    anic_polygons polygons;
+    const uint32_t* copies = nullptr;
+    require(anic_mesh(asset, m, &sizes) == ANIC_OK);
+    require(anic_mesh_polygons(asset, m, &polygons) == ANIC_OK);
+    require(anic_mesh_copies(asset, m, &copies) == ANIC_OK);
+    for (uint32_t v = 0; v < sizes.vertex_count; ++v)
+      require(copies[v] < sizes.coded_vertex_count);
+    for (uint32_t p = 0; p < polygons.polygon_count; ++p)
+      require(polygons.offsets[p] <= polygons.offsets[p + 1]);
+    require(polygons.offsets[polygons.polygon_count] == sizes.corner_count);
+    for (uint32_t c = 0; c < sizes.corner_count; ++c)
+      require(polygons.corners[c] < sizes.vertex_count);
+    std::vector<uint32_t> indices(size_t{3} * sizes.triangle_count);
+    require(anic_triangles(asset, m, 4, indices.data(), 4 * indices.size()) == ANIC_OK);
+    for (const uint32_t v : indices)
+      require(v < sizes.vertex_count);
+
+    anic_normal_options wanted = {};
+    wanted.crease_angle = script.byte() % 3 * 30;
+    wanted.per_corner = script.byte() % 2;
+    wanted.reference_frame = script.below(info.frame_count);
+    anic_normals* normals = nullptr;
+    if (anic_normals_create(asset, m, &wanted, nullptr, &normals) != ANIC_OK)
+      continue;
+    const std::vector<float> points(size_t{3} * sizes.vertex_count, 1.0F);
+    const GuardedOutput out(anic_normals_count(normals), &script);
+    require(anic_normals_compute(normals, points.data(), 0, 0, anic_normals_count(normals),
+                                 out.out()) == ANIC_OK);
+    out.check();
+    anic_normals_destroy(normals);
+  }
+}
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_TESTS_FUZZ_FUZZ_ASSET_H_

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TESTS_FUZZ_FUZZ_FILE_H_
+#define ANICODEC_TESTS_FUZZ_FUZZ_FILE_H_
+
+#include "format/container.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace anicodec {
+
+/// The same chunks with what the table says of them made right, so that what is inside them gets
+/// decoded; as it is if there is no table.
+inline format::Bytes repaired(format::ByteView file) {
+  format::ByteReader r(file);
+  r.raw(12);
+  uint32_t count = r.u32();
+  r.raw(format::kHeaderBytes - 16);
+  if (!r.ok() || count > r.remaining() / format::kEntryBytes)
+    return {file.data, file.data + file.size};
+
+  struct Entry {
+    std::string type;
+    uint16_t flags, mesh;
+    uint32_t segment;
+    uint64_t size;
+  };
+
+  std::vector<Entry> entries;
+  for (uint32_t i = 0; i < count; ++i) {
+    Entry e;
+    e.type = format::chunk_name(r.u32());
+    e.flags = r.u16();
+    e.mesh = r.u16();
+    e.segment = r.u32();
+    r.u32();
+    r.u64();
+    e.size = r.u64();
+    entries.push_back(e);
+  }
+  format::ContainerWriter writer;
+  size_t at = r.position();
+  for (const Entry& e : entries) {
+    at = std::min((at + 7) / 8 * 8, file.size);
+    auto size = static_cast<size_t>(std::min<uint64_t>(e.size, file.size - at));
+    const char type[5] = {e.type[0], e.type[1], e.type[2], e.type[3], 0};
+    writer.add(type, e.flags & 1, e.mesh, e.segment, {file.data + at, file.data + at + size});
+    at += size;
+  }
+  return writer.finish();
+}
+
+/// Decisions, taken from bytes one after another; from zeros when they are used up.
+class Script {
+ public:
+  Script(const uint8_t* data, size_t size) : data_(data), size_(size) {}
+
+  bool empty() const { return at_ >= size_; }
+
+  uint32_t byte() { return at_ < size_ ? data_[at_++] : 0; }
+
+  /// In 0 .. limit - 1; 0 if there is none.
+  uint32_t below(uint32_t limit) {
+    const uint32_t high = byte();
+    return limit == 0 ? 0 : (high << 8 | byte()) % limit;
+  }
+
+ private:
+  const uint8_t* data_;
+  size_t size_, at_ = 0;
+};
+
+/// The last bytes of an input, which decide what is done with it.
+inline Script script_of(const uint8_t* data, size_t size) {
+  const size_t length = std::min<size_t>(size, 24);
+  return {data + size - length, length};
+}
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_TESTS_FUZZ_FUZZ_FILE_H_
