@@ -21,6 +21,7 @@ import sys
 import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent
+sys.dont_write_bytecode = True
 sys.path.insert(0, str(FOLDER.parent / "scripts"))
 import clip_output  # pylint: disable=wrong-import-position
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Makes tests/conformance/ and the listing of spec/A-examples.md anew, after the format has changed.
+"""Makes tests/conformance/, seeds of tests/fuzz/ and the listing of spec/A-examples.md anew, after the format has changed.
 
 usage: update_conformance.py ANICODEC LIBANICODEC
   the built command and shared library, as build/release/tools/anicodec build/release/sdk/package/libanicodec.so
@@ -147,6 +147,22 @@ def greedy_files(data):
     limits.payload = good
 
 
+def write_seeds(folder):
+    """Inputs to start the fuzz targets from: each chunk by itself, files with bytes that decide what is done."""
+    for name in ("chunk", "api", "stream"):
+        (folder / name).mkdir(exist_ok=True)
+        for old in (folder / name).glob("seed_*"):
+            old.unlink()
+    for number, (file, _, _) in enumerate(VECTORS[:6]):
+        data = (FOLDER / file).read_bytes()
+        for i, chunk in enumerate(anic_file.read_chunks(data)):
+            path = folder / "chunk" / f"seed_{pathlib.Path(file).stem}_{i}_{chunk.type.lower()}"
+            path.write_bytes(bytes([number, i]) + chunk.payload)
+        script = hashlib.sha256(data).digest()[:24]
+        for name, mode in (("api", number), ("stream", 0)):
+            (folder / name / f"seed_{file}").write_bytes(data + bytes([mode]) + script[1:])
+
+
 def point_lines(name, clip, faces):
     """Lines of the manifest for a file that decodes: sizes, hash of its faces, some of its positions."""
     largest = max(abs(x) for frame in clip.frames for x in frame)
@@ -206,6 +222,7 @@ def main():
         print("no single byte causes " + ", ".join(CODES[str(code)] for code in sorted(rest)))
     (FOLDER / "MANIFEST").write_text("\n".join(lines) + "\n")
 
+    write_seeds(ROOT / "tests" / "fuzz" / "seeds")
     page = ROOT / "spec" / "A-examples.md"
     text = page.read_text()
     begin = text.index("```\n0000  ") + 4
