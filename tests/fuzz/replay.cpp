@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-// Runs a fuzz target once on each file of the folders named on the command line.
+// Runs a fuzz target once on each file in the folders named on the command line.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 int main(int argc, char** argv) {
   std::vector<std::filesystem::path> paths;
   for (int i = 1; i < argc; ++i) {
-    for (const auto& entry : std::filesystem::directory_iterator(argv[i]))
-      paths.push_back(entry.path());
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(argv[i])) {
+      if (entry.is_regular_file())
+        paths.push_back(entry.path());
+    }
   }
   std::sort(paths.begin(), paths.end());
   for (const auto& path : paths) {
