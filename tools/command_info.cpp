@@ -8,6 +8,8 @@
 #include "tools/names.h"
 #include "tools/quantity.h"
 
+#include <anicodec/anicodec.h>
+
 #include <memory>
 #include <string>
 
@@ -19,7 +21,8 @@ namespace {
 
 constexpr const char* kFooter =
     R"(--json prints one object: file, bytes, ratio (float32 positions against the file), bpfv,
-resident_bytes, format, encoder, name, vertices, coded_vertices, faces, frames, fps, fps_assumed,
+resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
+for each instance), format, encoder, name, vertices, coded_vertices, faces, frames, fps, fps_assumed,
 start_time, loop, closed (the last frame repeats the first), up, metres_per_unit, order, diagonal,
 asked (metric, value), max_error, max_error_percent, rmse, kg, massaged, surface_error, segments
 (basis, first_frame, frames, components, corrections), chunks (type, offset, size, required, mesh,
@@ -32,6 +35,7 @@ struct InfoCommand {
 
 struct Contents {
   uint64_t bytes = 0;
+  anic_requirements memory = {};  ///< as the SDK announces it
   format::ContainerReader container;
   Clip clip;
 };
@@ -52,7 +56,9 @@ void print_json(const std::string& path, const Contents& c) {
   json["bytes"] = c.bytes;
   json["ratio"] = 12 * positions(c.clip) / static_cast<double>(c.bytes);
   json["bpfv"] = 8 * static_cast<double>(c.bytes) / positions(c.clip);
-  json["resident_bytes"] = c.clip.resident_bytes();
+  json["resident_bytes"] = c.memory.resident_bytes;
+  json["opening_bytes"] = c.memory.opening_bytes;
+  json["context_bytes"] = c.memory.context_bytes;
   json["format"] = fmt::format("{}.{}", c.container.version_major(), c.container.version_minor());
   json["encoder"] = record.encoder;
   json["name"] = record.name;
@@ -168,10 +174,13 @@ void print_text(const std::string& path, const Contents& c) {
   traits += record.closed ? ", the last frame repeats the first" : "";
   row("", traits);
   row("order", name_of(record.order));
-  row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv; {} in memory", grouped(c.bytes),
+  row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv", grouped(c.bytes),
                           12 * positions(c.clip) / static_cast<double>(c.bytes),
-                          8 * static_cast<double>(c.bytes) / positions(c.clip),
-                          readable_bytes(c.clip.resident_bytes())));
+                          8 * static_cast<double>(c.bytes) / positions(c.clip)));
+  row("memory",
+      fmt::format("{} open, {} at most while opening, {} for each instance",
+                  readable_bytes(c.memory.resident_bytes), readable_bytes(c.memory.opening_bytes),
+                  readable_bytes(c.memory.context_bytes)));
   row("asked", asked_text(record));
   row("measured",
       fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %",
@@ -192,6 +201,9 @@ void run(const InfoCommand& command) {
   open_clip(command.input, bytes, {}, contents.clip);
   if (Failure failure = contents.container.open(view_of(bytes)); !failure.ok())
     fail_clip(command.input, failure);
+  anic_options options = {};
+  options.limits.bytes = UINT64_MAX;
+  anic_query(bytes.data(), bytes.size(), &options, &contents.memory);  // it is open: nothing fails
   if (command.json)
     print_json(command.input, contents);
   else

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip.h"
-#include "tests/api/opened.h"
+#include "tests/api/all_files.h"
 
 #include <algorithm>
 #include <cstring>
@@ -208,9 +208,8 @@ TEST(AnicQuery, SaysHowManyBytesItNeeds) {
 
 // The tolerance is what the interface promises.
 TEST(AnicQuery, KnowsTheMemoryInAdvance) {
-  for (const auto& [clip, basis] : cases()) {
-    SCOPED_TRACE(clip);
-    const format::Bytes& file = encoded_clip(clip, basis);
+  for (const auto& [name, file] : all_files()) {
+    SCOPED_TRACE(name);
     for (uint32_t flags : {0U, uint32_t{ANIC_OPEN_BOUNDS}}) {
       CountingMemory memory;
       anic_options options = {};
@@ -232,9 +231,8 @@ TEST(AnicQuery, KnowsTheMemoryInAdvance) {
 }
 
 TEST(AnicMemory, AllComesFromTheHostAndGoesBack) {
-  for (const auto& [clip, basis] : cases()) {
-    SCOPED_TRACE(clip);
-    const format::Bytes& file = encoded_clip(clip, basis);
+  for (const auto& [name, file] : all_files()) {
+    SCOPED_TRACE(name);
     CountingMemory memory;
     anic_options options = {};
     options.allocator = memory.allocator();
@@ -251,35 +249,52 @@ TEST(AnicMemory, AllComesFromTheHostAndGoesBack) {
   }
 }
 
+/// Uses an asset in every way that takes a context, counting allocations meanwhile.
+void expect_no_allocation(const Asset& asset, const CountingMemory& memory) {
+  const Context context = context_of(asset);
+  const uint32_t n = vertices_of(asset), frames = info_of(asset).frame_count;
+  std::vector<float> out(size_t{3} * n);
+  const anic_output output = floats(out);
+  anic_part parts[ANIC_MAX_PARTS];
+  anic_box box;
+  uint32_t count;
+  const size_t calls = memory.calls;
+  const size_t heap = mallinfo2().uordblks;
+  for (uint32_t f = 0; f < frames; ++f) {
+    anic_seek_frame(context.get(), f);
+    anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output);
+    anic_seek_time(context.get(), 0.37 * f, ANIC_CUBIC, ANIC_LOOP);
+    anic_positions(context.get(), 0, ANIC_PREVIOUS, 0, n, &output);
+    anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output);
+    anic_bounds(context.get(), 0, ANIC_CURRENT, &box);
+    anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count);
+    anic_forget_previous(context.get());
+    anic_frames(asset.get(), 0, &f, 1, 0, n, &output);
+  }
+  EXPECT_EQ(memory.calls, calls);
+  EXPECT_EQ(mallinfo2().uordblks, heap);
+}
+
 TEST(AnicMemory, NothingIsAllocatedAfterOpening) {
-  for (const auto& [clip, basis] : cases()) {
-    SCOPED_TRACE(clip);
+  for (const auto& [name, file] : all_files()) {
+    SCOPED_TRACE(name);
     CountingMemory memory;
     anic_options options = {};
     options.allocator = memory.allocator();
-    const Asset asset = open(encoded_clip(clip, basis), &options);
-    const Context context = context_of(asset);
-    const uint32_t n = vertices_of(asset), frames = info_of(asset).frame_count;
-    std::vector<float> out(size_t{3} * n);
-    const anic_output output = floats(out);
-    anic_part parts[ANIC_MAX_PARTS];
-    anic_box box;
-    uint32_t count;
-    const size_t calls = memory.calls;
-    const size_t heap = mallinfo2().uordblks;
-    for (uint32_t f = 0; f < frames; ++f) {
-      anic_seek_frame(context.get(), f);
-      anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output);
-      anic_seek_time(context.get(), 0.37 * f, ANIC_CUBIC, ANIC_LOOP);
-      anic_positions(context.get(), 0, ANIC_PREVIOUS, 0, n, &output);
-      anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output);
-      anic_bounds(context.get(), 0, ANIC_CURRENT, &box);
-      anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count);
-      anic_forget_previous(context.get());
-      anic_frames(asset.get(), 0, &f, 1, 0, n, &output);
+    expect_no_allocation(open(file, &options), memory);
+
+    // Of a stream, when it becomes playable.
+    anic_stream* stream = nullptr;
+    ASSERT_EQ(anic_stream_create(&options, &stream), ANIC_OK);
+    anic_stream_info info = {};
+    for (size_t i = 0; i < file.size() && !info.playable; ++i) {
+      ASSERT_EQ(anic_stream_push(stream, &file[i], 1), ANIC_OK);
+      anic_stream_info_get(stream, &info);
     }
-    EXPECT_EQ(memory.calls, calls);
-    EXPECT_EQ(mallinfo2().uordblks, heap);
+    anic_asset* asset = nullptr;
+    ASSERT_EQ(anic_stream_open(stream, &asset, nullptr), ANIC_OK);
+    expect_no_allocation(Asset(asset), memory);
+    anic_stream_destroy(stream);
   }
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/clip_file.h"
-#include "codec/time_segmentation.h"
 #include "sdk/clip.h"
-#include "tests/api/opened.h"
+#include "tests/api/all_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,30 +18,6 @@ namespace {
 void seek(const Context& context, double seconds, anic_interpolation interpolation,
           anic_wrap wrap = ANIC_CLAMP) {
   ASSERT_EQ(anic_seek_time(context.get(), seconds, interpolation, wrap), ANIC_OK);
-}
-
-/// A clip in two segments.
-format::Bytes two_segments(const MeshSequence& clip) {
-  EncoderInput input(clip, format::CoderId::kDraco);
-  LinearAnalysis analysis(input.frames());
-  LinearCoder whole(input, analysis, format::BasisKind::kEigenshapes, 1, 1);
-  const double rmse = 0.0005 * diagonal(clip);
-  std::optional<Part> one = whole.at_rmse(rmse);
-  TimeSegmentation segmentation(input, whole, one->encoded.reference, rmse);
-  const uint32_t half = clip.frame_count / 2;
-  std::vector<Part> parts;
-  for (uint32_t first : {0U, half}) {
-    std::optional<Part> part =
-        segmentation.coded({first, first == 0 ? half : clip.frame_count - half});
-    part->encoded.sizes.first_frame = first;
-    parts.push_back(std::move(*part));
-  }
-  return clip_file(format::ClipRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
-}
-
-const format::Bytes& cut_clip() {
-  static const format::Bytes file = two_segments(corpus::make_scaled("limb", 300, 48));
-  return file;
 }
 
 TEST(AnicSampling, GivesThePositionsOfTheClip) {

@@ -53,6 +53,8 @@ TEST_F(InspectCommand, InfoAccountsForTheWholeFile) {
   EXPECT_EQ(info["faces"], clip.polygons.size());
   EXPECT_EQ(info["order"], "vertices");
   EXPECT_GT(info["resident_bytes"], 0);
+  EXPECT_GT(info["opening_bytes"], info["resident_bytes"]);
+  EXPECT_GT(info["context_bytes"], 0);
   EXPECT_EQ(info["segments"][0]["basis"], "keyframes");
   size_t end = 40 + 32 * info["chunks"].size();
   for (const nlohmann::json& chunk : info["chunks"]) {
