@@ -22,11 +22,11 @@ namespace {
 constexpr const char* kFooter =
     R"(--json prints one object: file, bytes, ratio (float32 positions against the file), bpfv,
 resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
-for each instance), format, encoder, name, vertices, coded_vertices, faces, frames, fps, fps_assumed,
-start_time, loop, closed (the last frame repeats the first), up, metres_per_unit, order, diagonal,
-asked (metric, value), max_error, max_error_percent, rmse, kg, massaged, surface_error, segments
-(basis, first_frame, frames, components, corrections), chunks (type, offset, size, required, mesh,
-segment). Lengths are in scene units, errors those the encoder measured.)";
+for each instance), format, encoder, name, vertices, coded_vertices, faces, frames, fps,
+fps_assumed, start_time, loop, closed (the last frame repeats the first), up, metres_per_unit,
+order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg, massaged,
+surface_error, segments (basis, first_frame, frames, components, corrections), chunks (type,
+offset, size, required, mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
 
 struct InfoCommand {
   std::string input;
