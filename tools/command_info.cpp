@@ -26,7 +26,8 @@ for each instance), format, encoder, name, vertices, coded_vertices, faces, fram
 fps_assumed, start_time, loop, closed (the last frame repeats the first), up, metres_per_unit,
 order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg, massaged,
 surface_error, segments (basis, first_frame, frames, components, corrections), chunks (type,
-offset, size, required, mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
+offset, size, required, mesh, segment). Lengths are in scene units, errors those the encoder
+measured.)";
 
 struct InfoCommand {
   std::string input;
