@@ -22,8 +22,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 
 #include <fmt/format.h>
+#include <tbb/task_group.h>
 
 namespace anicodec::tools {
 namespace {
@@ -49,13 +51,15 @@ class ReportMaker {
     report_.frames = sequence_.frame_count;
     report_.frame_rate = sequence_.rate.value();
     report_.diagonal = diagonal(sequence_);
+    tbb::task_group stages;
     for (double kg : kLinearTargets)
-      add_encoding("anicodec", BasisChoice::kAuto, kg);
+      stages.run([=, this] { add_encoding("anicodec", BasisChoice::kAuto, kg); });
     for (double kg : kKeyframeTargets)
-      add_encoding("anicodec, key-frames", BasisChoice::kKeyframes, kg);
+      stages.run([=, this] { add_encoding("anicodec, key-frames", BasisChoice::kKeyframes, kg); });
     for (double kg : kPeerTargets)
-      add_peers(kg);
-    add_raw_cache();
+      stages.run([=, this] { add_peers(kg); });
+    stages.run([this] { add_raw_cache(); });
+    stages.wait();
     // Curves want their points in order.
     std::ranges::stable_sort(report_.rates, [](const RatePoint& a, const RatePoint& b) {
       const bool own = is_own(a.codec);
@@ -74,9 +78,15 @@ class ReportMaker {
   void begin(const char* stage) {
     constexpr double kStages =
         std::size(kLinearTargets) + std::size(kKeyframeTargets) + std::size(kPeerTargets) + 2;
+    const std::lock_guard<std::mutex> lock(mutex_);
     if (options_.progress)
       options_.progress(stage, stage_ / kStages);
     ++stage_;
+  }
+
+  void add(RatePoint point) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report_.rates.push_back(std::move(point));
   }
 
   double bpfv(uint64_t bytes) const {
@@ -113,7 +123,7 @@ class ReportMaker {
       fail_clip("the encoded clip", failure);
     FrameSource frames = play("the encoded clip", clip);
     const Comparison comparison = compared(frames);
-    report_.rates.push_back(point(codec, result.file.size(), comparison));
+    add(point(codec, result.file.size(), comparison));
     if (basis == BasisChoice::kAuto && kg == kShownKg) {
       report_.shown_kg = kg;
       report_.shown_bytes = result.file.size();
@@ -169,13 +179,13 @@ class ReportMaker {
       return;
     try {
       const peers::DracoFrames draco = peers::draco_on_grid(sequence_, triangles, grid);
-      report_.rates.push_back(point("Draco, every frame", draco.bytes(), comparison));
+      add(point("Draco, every frame", draco.bytes(), comparison));
     } catch (const Error&) {  // a mesh that Draco does not take
     }
 #if defined(ANICODEC_MESHOPTIMIZER)
     const peers::FrameDeltaSize deltas =
         peers::frame_delta_size(grid, sequence_.vertex_count, triangles);
-    report_.rates.push_back(point("frame deltas, meshoptimizer, zstd", deltas.bytes, comparison));
+    add(point("frame deltas, meshoptimizer, zstd", deltas.bytes, comparison));
 #endif
   }
 
@@ -185,7 +195,7 @@ class ReportMaker {
     for (const auto& [codec, bytes] :
          {std::pair("float32 cache", size.raw), std::pair("float32 cache, zstd", size.zstd),
           std::pair("float32 cache, xz", size.xz)})
-      report_.rates.push_back({codec, bytes, bpfv(bytes)});
+      add({codec, bytes, bpfv(bytes)});
   }
 
   bool can_draw() const {
@@ -253,7 +263,8 @@ class ReportMaker {
 
   const MeshSequence& sequence_;
   const ReportOptions& options_;
-  Report report_;
+  std::mutex mutex_;
+  Report report_;  ///< of what runs side by side, only `rates` is written by more than one
   double stage_ = 0;
 };
 
