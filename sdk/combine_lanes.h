@@ -108,11 +108,15 @@ struct LaneKernel {
     }
   }
 
-  /// s += the components of a block, `count` of them.
+  /// s += the components of a block from its vertex h on, `count` of them; `block` may be null when
+  /// there are none.
   template <uint32_t Channels, uint32_t F, size_t N, class Int>
-  static ANICODEC_INLINE void add(const Int* q, uint32_t count, const float* const* weights,
-                                  Float (&s)[F][3][N]) {
+  static ANICODEC_INLINE void add(const Int* block, size_t h, uint32_t count,
+                                  const float* const* weights, Float (&s)[F][3][N]) {
     constexpr size_t kWeights = Channels == 1 ? 3 : 1;
+    if (count == 0)
+      return;
+    const Int* q = block + h;
     const float* w[F];
     ANICODEC_UNROLL for (uint32_t f = 0; f < F; ++f) w[f] = weights[f];
     for (uint32_t j = 0; j < count; ++j) {
@@ -161,8 +165,8 @@ struct LaneKernel {
             ANICODEC_UNROLL for (size_t c = 0; c < 3; ++c)
                 ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) s[f][c][n] = Float{};
       }
-      add<Channels>(wide + h, job.wide_components, weights, s);
-      add<Channels>(narrow + h, job.narrow_components, narrow_weights, s);
+      add<Channels>(wide, h, job.wide_components, weights, s);
+      add<Channels>(narrow, h, job.narrow_components, narrow_weights, s);
       if (!job.pose) {  // last, as it may be large
         ANICODEC_UNROLL for (uint32_t f = 0; f < F; ++f)
             ANICODEC_UNROLL for (size_t c = 0; c < 3; ++c)

@@ -21,6 +21,7 @@ const std::string kSource = ANICODEC_SOURCE_DIR;
 struct Vector {
   const char* file;
   const char* clip;
+  uint32_t vertices = 0, frames = 0;  ///< when it is scaled
 };
 
 format::Bytes read(const std::string& path) {
@@ -35,7 +36,10 @@ TEST_P(Conformance, DecodesAsTheFileSays) {
   Failure failure = clip.open(read(kSource + "/tests/conformance/" + GetParam().file));
   ASSERT_TRUE(failure.ok()) << status_string(failure.status) << ": " << failure.detail;
   EXPECT_TRUE(clip.check_hashes().ok());
-  const MeshSequence source = corpus::make_clip(GetParam().clip);
+  const MeshSequence source =
+      GetParam().frames == 0
+          ? corpus::make_clip(GetParam().clip)
+          : corpus::make_scaled(GetParam().clip, GetParam().vertices, GetParam().frames);
   ASSERT_EQ(clip.vertex_count(), source.vertex_count);
   ASSERT_EQ(clip.frame_count(), source.frame_count);
   std::vector<float> played(size_t{3} * source.vertex_count);

@@ -22,8 +22,9 @@ struct Part {
 const std::vector<std::vector<Part>>& files() {
   static const std::vector<std::vector<Part>> all = [] {
     std::vector<std::vector<Part>> result;
-    for (const char* name : {"triangle", "nonmanifold_keyframes", "polygons_all",
-                             "quad_box_corrected", "soup_plain", "limb_effort9"}) {
+    for (const char* name :
+         {"triangle", "nonmanifold_keyframes", "polygons_all", "quad_box_corrected", "soup_plain",
+          "limb_small", "far_rigid", "uneven_times"}) {
       std::ifstream in(std::string(ANICODEC_CONFORMANCE) + "/" + name + ".anic", std::ios::binary);
       const format::Bytes file(std::istreambuf_iterator<char>(in), {});
       format::ContainerReader reader;
