@@ -63,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Vector{"polygons_all.anic", "polygons"},
                     Vector{"quad_box_corrected.anic", "quad_box"},
                     Vector{"soup_plain.anic", "soup"}, Vector{"limb_effort9.anic", "limb"},
-                    Vector{"far_rigid.anic", "far"}, Vector{"uneven_times.anic", "uneven"},
+                    Vector{"limb_small.anic", "limb", 100, 8}, Vector{"far_rigid.anic", "far"},
+                    Vector{"uneven_times.anic", "uneven"},
                     Vector{"leftovers_plain.anic", "leftovers"},
                     Vector{"one_frame.anic", "one_frame"}, Vector{"one_vertex.anic", "one_vertex"}),
     [](const auto& vector) {
