@@ -72,7 +72,7 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
       file.add("POSE", true, kMesh, i, pose_record(*s.reference));
     format::SegmentRecord segment;
     segment.kind = s.sizes.kind;
-    segment.reconstruction = s.reconstruction;
+    segment.reconstruction = s.sizes.reconstruction;
     segment.hash = s.hash;
     segment.parameters = s.parameters;
     segment.pose = s.pose;

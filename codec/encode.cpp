@@ -96,6 +96,9 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   Target target = in_scene_units(options.target, clip_diagonal);
   if (target.metric == format::ErrorMetric::kNone && !options.keyframes)
     throw Error(ErrorKind::kUsage, "an error, a size, or a number of key-frames must be asked for");
+  if (options.interpolation != InterpolationChoice::kLinear && !options.keyframes &&
+      options.basis != BasisChoice::kKeyframes)
+    throw Error(ErrorKind::kUsage, "an interpolation can be chosen between key-frames only");
 
   format::ClipRecord record = describe(sequence, options, target, clip_diagonal);
   EncoderInput input(std::move(sequence), options.mesh_coder);

@@ -17,6 +17,10 @@ namespace anicodec {
 
 enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajectories };
 
+/// How frames are made from key-frames: on straight lines, by multi-scale geometry interpolation,
+/// or by whichever does better.
+enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
+
 /// What the file must keep to.
 struct Target {
   format::ErrorMetric metric = format::ErrorMetric::kNone;
@@ -30,6 +34,7 @@ struct EncodeOptions {
   BasisChoice basis = BasisChoice::kAuto;
   std::optional<uint32_t> keyframes;  ///< exact number of key-frames
   KeyframeMethod select = KeyframeMethod::kPivot;
+  InterpolationChoice interpolation = InterpolationChoice::kLinear;  ///< only with key-frames alone
   format::OrderMode order = format::OrderMode::kVertices;
   format::CoderId mesh_coder = format::CoderId::kDraco;
   std::string encoder;  ///< name and version to store in the file

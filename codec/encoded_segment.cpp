@@ -23,8 +23,11 @@ void for_each_frame(const Segment& segment, Visit visit) {
   uint32_t tasks = (segment.frames + kFrames - 1) / kFrames;
   tbb::parallel_for(uint32_t{0}, tasks, [&](uint32_t task) {
     std::vector<float> decoded(size_t{3} * segment.vertices);
+    std::vector<float> shape(shape_size(segment)), scratch(shape_scratch_size(segment));
     for (uint32_t f = task * kFrames; f < std::min(segment.frames, (task + 1) * kFrames); ++f) {
-      combine(frame_state(segment, f), 0, segment.vertices, decoded.data());
+      FrameState state = frame_state(segment, f);
+      make_shape(&state, shape.data(), scratch.data());
+      combine(state, 0, segment.vertices, decoded.data());
       visit(f, decoded.data());
     }
   });
@@ -67,11 +70,14 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   }
   format::SegmentRecord record;
   record.kind = encoded.sizes.kind;
-  record.reconstruction = encoded.reconstruction;
+  record.reconstruction = encoded.sizes.reconstruction;
   record.parameters = encoded.parameters;
   record.pose = encoded.pose;
   record.motion = encoded.motion;
   record.weights = encoded.weights;
+  const bool msgi = encoded.sizes.reconstruction == format::Reconstruction::kMsgi;
+  if (msgi)
+    encoded.sizes.msgi_bytes = encoded.sizes.msgi_frame_bytes = uint64_t{1} << 48;
   SegmentContext context;
   context.sizes = &encoded.sizes;
   context.mesh_sizes = &layout.sizes;
@@ -87,6 +93,10 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   if (status != Status::kOk)
     throw Error(ErrorKind::kInternal,
                 std::string("the encoded segment cannot be opened: ") + status_string(status));
+  if (msgi) {
+    encoded.sizes.msgi_bytes = segment.msgi[0].resident_bytes();
+    encoded.sizes.msgi_frame_bytes = segment.msgi[0].scratch_bytes();
+  }
   encoded.hash = segment.stored_hash = segment.decoded_hash;
   return segment;
 }

@@ -25,12 +25,11 @@ struct EncodedPose {
 /// The streams of one segment, ready for the file.
 struct EncodedSegment {
   format::Limits::Segment sizes;
-  format::Reconstruction reconstruction = format::Reconstruction::kLinear;
   format::Bytes parameters, pose, motion, weights;
-  std::vector<format::Bytes> layers;              ///< chunks BASI
-  format::Bytes corrections;                      ///< chunk CORR
-  std::vector<Vector<int32_t>> draco_poses;  ///< to be carried by the mesh's Draco bitstream
-  std::shared_ptr<const EncodedPose> reference;   ///< of linear bases; segments may share it
+  std::vector<format::Bytes> layers;             ///< chunks BASI
+  format::Bytes corrections;                     ///< chunk CORR
+  std::vector<Vector<int32_t>> draco_poses;      ///< to be carried by the mesh's Draco bitstream
+  std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
   uint64_t hash = 0;
 
   /// Bytes in the file but for what Draco and the reference pose take.

@@ -126,14 +126,14 @@ class MultiScale : public Interpolation {
     if (status != Status::kOk)
       throw Error(ErrorKind::kInput,
                   std::string("the meshes cannot be interpolated: ") + status_string(status));
-    msgi_.prepare(&scratch_);
+    scratch_.resize((msgi_.scratch_bytes() + 7) / 8);
   }
 
   std::span<const float> evaluate(std::span<const double> weights,
                                   std::span<const float> pins) override {
     check_weights(weights, msgi_.input_count());
     const Status status = msgi_.evaluate(weights.data(), pins.empty() ? nullptr : pins.data(),
-                                         &scratch_, out_.data(), task_threads());
+                                         scratch_.data(), out_.data(), task_threads());
     if (status != Status::kOk)
       throw Error(ErrorKind::kUsage, status_string(status));
     return out_;
@@ -141,7 +141,7 @@ class MultiScale : public Interpolation {
 
  private:
   Msgi msgi_;
-  MsgiScratch scratch_;
+  std::vector<double> scratch_;
   std::vector<float> out_;
 };
 

@@ -3,9 +3,11 @@
 #ifndef ANICODEC_CODEC_KEYFRAME_SEARCH_H_
 #define ANICODEC_CODEC_KEYFRAME_SEARCH_H_
 
-#include "codec/keyframe_fit.h"
+#include "codec/msgi_weights.h"
 #include "codec/segment_coder.h"
 
+#include <cstddef>
+#include <map>
 #include <optional>
 
 namespace anicodec {
@@ -14,8 +16,11 @@ namespace anicodec {
 /// and how finely to round them.
 class KeyframeCoder : public SegmentCoder {
  public:
-  /// `count`: the exact number of key-frames, or as many as the error needs.
-  KeyframeCoder(const EncoderInput& input, KeyframeMethod method, std::optional<uint32_t> count);
+  /// `count`: the exact number of key-frames, or as many as the error needs. `reconstruction`: how
+  /// frames are made from them; MSGI takes weights that sum to one and a rigid motion per frame,
+  /// and tries key-frames spread evenly from the first frame to the last, too.
+  KeyframeCoder(const EncoderInput& input, KeyframeMethod method, std::optional<uint32_t> count,
+                format::Reconstruction reconstruction);
 
   std::optional<Part> at_rmse(double rmse) override;
 
@@ -24,14 +29,19 @@ class KeyframeCoder : public SegmentCoder {
   Part at_count();
 
  private:
-  KeyframeFit fit(double rmse);
-  Part coded(const KeyframeFit& fit, double rounding_rms);
+  /// So many key-frames, or as many as the error needs, with what is needed to code them.
+  const MsgiFit& fit(double rmse);
+  const MsgiFit& interpolated(size_t count);
+  Part coded(const MsgiFit& fit, double rounding_rms);
 
   const EncoderInput& input_;
   KeyframeFitter fitter_;
   KeyframeMethod method_;
   std::optional<uint32_t> count_;
+  format::Reconstruction reconstruction_;
   KeyframeWeights weights_ = KeyframeWeights::kLinear;
+  MsgiFit fit_;                             ///< the last one by straight lines, leaf_faces 0
+  std::map<size_t, MsgiFit> interpolated_;  ///< by number of key-frames: they take long
 };
 
 }  // namespace anicodec

@@ -123,12 +123,13 @@ double step_for_rounding_error(const KeyframeFit& fit, double rms) {
 
 EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, KeyframeWeights kind,
                                 const Eigen::Vector3d& mean_position, double step,
-                                const MeshLayout& layout) {
+                                const MeshLayout& layout, uint32_t leaf_faces) {
   size_t k = fit.keyframes.size();
   KeyframeParameters parameters;
   parameters.sum_to_one = kind != KeyframeWeights::kLinear;
   parameters.rigid = kind == KeyframeWeights::kRigid;
   parameters.coder = layout.coder;
+  parameters.leaf_faces = static_cast<uint8_t>(leaf_faces);
   parameters.step = step;
   parameters.frames.assign(fit.keyframes.begin(), fit.keyframes.end());
   Eigen::Vector3d origin = parameters.rigid ? Eigen::Vector3d::Zero().eval() : mean_position;
@@ -158,6 +159,8 @@ EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, K
 
   EncodedSegment encoded;
   encoded.sizes.kind = format::BasisKind::kKeyframes;
+  if (leaf_faces > 0)
+    encoded.sizes.reconstruction = format::Reconstruction::kMsgi;
   encoded.sizes.frames = static_cast<uint32_t>(clip.frame_count);
   encoded.sizes.components = static_cast<uint32_t>(k);
   int32_t largest = 0;

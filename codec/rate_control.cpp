@@ -197,15 +197,27 @@ Solution RateControl::solve() {
       best = std::move(solution);
   };
   if (keyframes_alone) {
-    KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
-    if (target_.metric == ErrorMetric::kNone) {
+    std::vector<std::unique_ptr<KeyframeCoder>> ways;
+    if (options_.interpolation != InterpolationChoice::kMsgi)
+      ways.push_back(std::make_unique<KeyframeCoder>(input_, options_.select, options_.keyframes,
+                                                     format::Reconstruction::kLinear));
+    if (options_.interpolation != InterpolationChoice::kLinear)
+      ways.push_back(std::make_unique<KeyframeCoder>(input_, options_.select, options_.keyframes,
+                                                     format::Reconstruction::kMsgi));
+    for (std::unique_ptr<KeyframeCoder>& keyframes : ways) {
+      if (target_.metric != ErrorMetric::kNone) {
+        offer(*keyframes);
+        continue;
+      }
+      // As many bytes but for a few: what counts is the error.
       std::vector<Part> parts;
-      parts.push_back(keyframes.at_count());
-      return finished(std::move(parts));
+      parts.push_back(keyframes->at_count());
+      Solution solution = finished(std::move(parts));
+      if (!best || solution.squared_error() < best->squared_error())
+        best = std::move(solution);
     }
-    offer(keyframes);
     if (!best)
-      fail(keyframes);
+      fail(*ways[0]);
     return std::move(*best);
   }
   LinearAnalysis analysis(input_.frames());
@@ -238,7 +250,8 @@ Solution RateControl::solve() {
     }
   }
   if (options_.basis == BasisChoice::kAuto && !(best && beats_keyframes(*best))) {
-    KeyframeCoder keyframes(input_, options_.select, options_.keyframes);
+    KeyframeCoder keyframes(input_, options_.select, options_.keyframes,
+                            format::Reconstruction::kLinear);
     offer(keyframes);
   }
   if (!best)

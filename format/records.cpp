@@ -12,6 +12,10 @@ namespace {
 
 constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 16;
 
+/// In the limits: key-frames, the frames between them by MSGI.
+constexpr uint8_t kMsgiKind = 16;
+constexpr uint64_t kMaxMsgiBytes = uint64_t{1} << 48;
+
 bool is_length(double x) {
   return std::isfinite(x) && x >= 0;
 }
@@ -34,9 +38,14 @@ Bytes Limits::write() const {
   }
   for (const Segment& s : segments) {
     w.varint(s.mesh);
-    w.u8(static_cast<uint8_t>(s.kind));
+    const bool msgi = s.reconstruction == Reconstruction::kMsgi;
+    w.u8(static_cast<uint8_t>(static_cast<uint8_t>(s.kind) | (msgi ? kMsgiKind : 0)));
     for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
       w.varint(x);
+    if (msgi) {
+      w.varint(s.msgi_bytes);
+      w.varint(s.msgi_frame_bytes);
+    }
   }
   return std::move(w.bytes());
 }
@@ -67,14 +76,21 @@ Status Limits::read(ByteView view, Limits* out) {
   for (Segment& s : out->segments) {
     s.mesh = static_cast<uint16_t>(r.varint32(mesh_count - 1));
     uint8_t kind = r.u8();
-    if (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories))
+    if (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) && kind != kMsgiKind)
       return r.ok() ? Status::kFeature : Status::kRecord;
-    s.kind = static_cast<BasisKind>(kind);
+    if (kind == kMsgiKind)
+      s.reconstruction = Reconstruction::kMsgi;
+    else
+      s.kind = static_cast<BasisKind>(kind);
     s.first_frame = r.varint32(kMaxFrames);
     s.frames = r.varint32(kMaxFrames);
     s.components = r.varint32(kMaxComponents);
     s.wide_components = r.varint32(s.components);
     s.corrections = r.varint32();
+    if (s.reconstruction == Reconstruction::kMsgi) {
+      s.msgi_bytes = r.varint(kMaxMsgiBytes);
+      s.msgi_frame_bytes = r.varint(kMaxMsgiBytes);
+    }
     if (s.frames == 0 || s.first_frame >= out->frames || s.frames > out->frames - s.first_frame)
       return Status::kRecord;
   }
@@ -225,8 +241,10 @@ Status SegmentRecord::read(ByteView view, SegmentRecord* out) {
   ByteReader r(view);
   uint8_t kind = r.u8(), reconstruction = r.u8();
   if (r.ok() && (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) ||
-                 reconstruction != static_cast<uint8_t>(Reconstruction::kLinear)))
+                 reconstruction > static_cast<uint8_t>(Reconstruction::kMsgi)))
     return Status::kFeature;
+  if (reconstruction != 0 && kind != static_cast<uint8_t>(BasisKind::kKeyframes))
+    return Status::kRecord;
   out->kind = static_cast<BasisKind>(kind);
   out->reconstruction = static_cast<Reconstruction>(reconstruction);
   out->hash = r.u64();

@@ -25,7 +25,8 @@ enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentraject
 /// How connectivity or integer positions are coded.
 enum class CoderId : uint8_t { kPlain = 0, kDraco = 1, kPredictive = 2 };
 
-/// How a frame between key-frames is rebuilt. kMsgi is reserved: readers of this version refuse it.
+/// How a frame is made from key-frames: on straight lines, or by multi-scale geometry
+/// interpolation.
 enum class Reconstruction : uint8_t { kLinear = 0, kMsgi = 1 };
 
 /// Chunk LIMI: all that a host needs to know how much memory opening and playing will take.
@@ -49,6 +50,9 @@ struct Limits {
     uint32_t components = 0;
     uint32_t wide_components = 0;  ///< of those, resident as 32-bit integers; the others as 16-bit
     uint32_t corrections = 0;      ///< of vertices, copies included, over all frames
+    Reconstruction reconstruction = Reconstruction::kLinear;
+    uint64_t msgi_bytes = 0;        ///< kMsgi: what it keeps beside the coefficients, at most
+    uint64_t msgi_frame_bytes = 0;  ///< kMsgi: memory that a frame is made in
   };
 
   uint32_t frames = 0;

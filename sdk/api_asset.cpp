@@ -51,16 +51,25 @@ uint64_t box_bytes(const format::Limits& limits) {
 /// Of the meshes and segments of limits, as context_extra() finds it for an open clip.
 uint64_t context_bytes(const format::Limits& limits, double quality) {
   Vector<uint64_t> largest(limits.meshes.size(), 0), segments(limits.meshes.size(), 0);
+  Vector<uint64_t> interpolated(limits.meshes.size(), 0);
+  uint64_t scratch = 0;
   for (const auto& s : limits.segments) {
     const bool keyframes = s.kind == format::BasisKind::kKeyframes;
     const uint64_t components = keyframes ? s.components : wanted_components(quality, s.components);
     const uint64_t channels = s.kind == format::BasisKind::kEigentrajectories ? 3 : 1;
     largest[s.mesh] = std::max(largest[s.mesh], channels * components);
     ++segments[s.mesh];
+    if (s.reconstruction == format::Reconstruction::kMsgi) {
+      ++interpolated[s.mesh];
+      scratch = std::max(scratch, shape_scratch_bytes(s.components, s.msgi_frame_bytes));
+    }
   }
-  uint64_t bytes = object_bytes<anic_context>();
-  for (size_t m = 0; m < largest.size(); ++m)
-    bytes += 2 * (sizeof(Sample) + sizeof(float) * largest[m] * std::min<uint64_t>(segments[m], 2));
+  uint64_t bytes = object_bytes<anic_context>() + scratch;
+  for (size_t m = 0; m < largest.size(); ++m) {
+    const uint64_t shapes = std::min<uint64_t>(interpolated[m], Sample::kMaxParts);
+    bytes += 2 * (sizeof(Sample) + sizeof(float) * largest[m] * std::min<uint64_t>(segments[m], 2) +
+                  shapes * 3 * sizeof(float) * limits.meshes[m].coded_vertices);
+  }
   return bytes;
 }
 
@@ -353,6 +362,8 @@ anic_status anic_segment_basis(const anic_asset* asset, uint32_t segment, anic_b
   out->pose_count = s.pose.size();
   out->wide_count = s.wide.size();
   out->narrow_count = s.narrow.size();
+  out->vertex_shape = s.vertex_coded.empty() ? nullptr : s.vertex_coded.data();
+  out->reconstruction = s.msgi.empty() ? ANIC_COMBINED : ANIC_INTERPOLATED;
   for (size_t i = 0; i < 3; ++i)
     out->origin[i] = static_cast<float>(s.origin[i]);
   return ANIC_OK;

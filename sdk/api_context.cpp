@@ -63,7 +63,7 @@ void choose(anic_context* context, const FrameMix& mix) {
   std::swap(context->states[ANIC_CURRENT], context->states[ANIC_PREVIOUS]);
   float* weights = context->states[ANIC_CURRENT].weights;
   for (uint32_t m = 0; m < clip.meshes().size(); ++m) {
-    context->states[ANIC_CURRENT].samples[m] = make_sample(clip, m, mix, weights);
+    context->states[ANIC_CURRENT].samples[m] = make_sample(clip, m, mix, weights, context->scratch);
     weights += sample_buffer_size(clip, m);
   }
 }
@@ -93,10 +93,12 @@ Status check_output(const anic_output* out, uint32_t count, VertexOutput* result
 }
 
 size_t context_extra(const Clip& clip) {
-  size_t bytes = 0;
-  for (uint32_t m = 0; m < clip.meshes().size(); ++m)
+  size_t bytes = 0, scratch = 0;
+  for (uint32_t m = 0; m < clip.meshes().size(); ++m) {
     bytes += sizeof(Sample) + sizeof(float) * sample_buffer_size(clip, m);
-  return 2 * bytes;
+    scratch = std::max(scratch, sample_scratch_size(clip, m));
+  }
+  return 2 * bytes + sizeof(float) * scratch;
 }
 
 void bounding_boxes(const FrameState* states, uint32_t frames, anic_box* out) {
@@ -125,11 +127,14 @@ void compute_boxes(anic_asset* asset) {
   asset->boxes.assign(row * clip.meshes().size(), kNothing);
   for (const Segment& s : clip.segments()) {
     anic_box* boxes = asset->boxes.data() + row * s.mesh;
+    Vector<float> shapes(4 * shape_size(s)), scratch(shape_scratch_size(s));
     for (uint32_t f = 0; f < s.frames;) {
       FrameState states[4];
       const uint32_t count = std::min(s.frames - f, 4U);
       for (uint32_t i = 0; i < count; ++i)
         states[i] = frame_state(s, f + i);
+      for (uint32_t i = 0; i < count; ++i)
+        make_shape(&states[i], shapes.data() + i * shape_size(s), scratch.data());
       bounding_boxes(states, count, boxes + s.first_frame + f);
       f += count;
     }
@@ -166,8 +171,10 @@ anic_status anic_context_create(const anic_asset* asset, const anic_allocator* a
     }
     for (anic_context::State& state : context->states) {
       state.weights = reinterpret_cast<float*>(behind);
-      behind += extra / 2 - meshes * sizeof(Sample);
+      for (uint32_t m = 0; m < meshes; ++m)
+        behind += sizeof(float) * sample_buffer_size(clip, m);
     }
+    context->scratch = reinterpret_cast<float*>(behind);
     *out = context;
     return {};
   };
@@ -223,11 +230,13 @@ anic_status anic_forget_previous(anic_context* context) {
     const size_t count = sample_buffer_size(clip, m);
     std::copy_n(from.weights + begin, count, to.weights + begin);
     to.samples[m] = from.samples[m];
-    // Weights that are the segment's stay where they are; interpolated ones move along.
+    // Weights that are the segment's stay where they are; interpolated ones and shapes move along.
     for (uint32_t p = 0; p < to.samples[m].count; ++p) {
-      const float*& weights = to.samples[m].parts[p].weights;
-      if (weights >= from.weights + begin && weights < from.weights + begin + count)
-        weights = to.weights + (weights - from.weights);
+      FrameState& part = to.samples[m].parts[p];
+      for (const float** own : {&part.weights, &part.shape}) {
+        if (*own >= from.weights + begin && *own < from.weights + begin + count)
+          *own = to.weights + (*own - from.weights);
+      }
     }
     begin += count;
   }
@@ -263,6 +272,8 @@ anic_status anic_frames(const anic_asset* asset, uint32_t mesh, const uint32_t* 
     const Segment* segment = asset->clip.segment_at(mesh, frames[f]);
     if (!segment)
       return ANIC_E_SEGMENT;
+    if (!segment->msgi.empty())
+      return ANIC_E_STATE;
     states[f] = frame_state(*segment, frames[f] - segment->first_frame);
     if (Status status = check_output(&outputs[f], count, &to[f]); status != Status::kOk)
       return c_status(status);
@@ -331,6 +342,7 @@ anic_status anic_parts(const anic_context* context, uint32_t mesh, anic_when whe
     out[p].segment = static_cast<uint32_t>(state.segment - segments);
     out[p].share = sample->share[p];
     out[p].weights = state.weights;
+    out[p].shape = state.shape;
     std::copy_n(state.pose_map.m, 12, out[p].pose_map);
     std::copy_n(state.motion.m, 12, out[p].motion);
     out[p].corrections = reinterpret_cast<const anic_correction*>(state.corrections);

@@ -114,18 +114,19 @@ struct anic_asset {
 struct anic_context {
   struct State {
     anicodec::Sample* samples;  ///< by mesh
-    float* weights;             ///< those of the meshes one after another
+    float* weights;             ///< sample_buffer_size() of the meshes one after another
   };
 
   const anic_asset* asset;
   size_t extra;  ///< bytes behind this object
   bool chosen = false;
   State states[2];  ///< by anic_when
+  float* scratch;   ///< of make_sample()
 };
 
 namespace anicodec {
 
-/// Bytes behind a context: samples and weights, twice.
+/// Bytes behind a context: samples and weights, twice, and what samples are made in.
 size_t context_extra(const Clip& clip);
 
 /// The box of positions in states, which are of one mesh; as many as combine() likes.

@@ -382,7 +382,10 @@ Status Clip::positions(uint32_t mesh, uint32_t frame, float* out) const {
   const Segment* segment = segment_at(mesh, frame);
   if (!segment)
     return Status::kSegment;
-  combine(frame_state(*segment, frame - segment->first_frame), 0, segment->vertices, out);
+  FrameState state = frame_state(*segment, frame - segment->first_frame);
+  Vector<float> shape(shape_size(*segment)), scratch(shape_scratch_size(*segment));
+  make_shape(&state, shape.data(), scratch.data());
+  combine(state, 0, segment->vertices, out);
   return Status::kOk;
 }
 

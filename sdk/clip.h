@@ -71,7 +71,8 @@ class Clip {
 
   /// Positions of all vertices of a mesh in one frame, in the order of the clip, three floats each.
   /// Errors: kFrameRange; kSegment when no segment of the mesh holds the frame. Cost: O(vertices x
-  /// components), the same for every frame. Allocates nothing.
+  /// components), the same for every frame. Allocates nothing, but in a segment of MSGI; where
+  /// frames are played one after the other, make_sample() allocates nothing there either.
   Status positions(uint32_t mesh, uint32_t frame, float* out) const;
 
   /// Whether something had not arrived: segments have no frames, fewer components than options

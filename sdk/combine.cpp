@@ -63,7 +63,81 @@ void set_frame(const FrameState& state, const VertexOutput& output, uint32_t fir
   set_output(output, frame);
 }
 
+/// Vertices of a shape that are moved at a time.
+constexpr uint32_t kRange = 16 * kBlock;
+
+/// Moves and corrects the vertices of a shape, and stores them.
+void combine_shape(const FrameState& state, uint32_t first, uint32_t count, VertexOutput output) {
+  const Segment& segment = *state.segment;
+  const Affine identity;
+  const float* m = segment.motions.empty() ? identity.m : state.motion.m;
+  const Segment::Correction* end = state.corrections + state.correction_count;
+  const Segment::Correction* correction =
+      std::partition_point(state.corrections, end, [&](const auto& c) { return c.vertex < first; });
+  float blocks[3 * kRange];
+  for (const uint32_t stop = first + count; first < stop;) {
+    const uint32_t base = first / kRange * kRange, last = std::min(stop, base + kRange);
+    for (uint32_t v = first; v < last; ++v) {
+      const float* p =
+          state.shape + size_t{3} * (segment.vertex_coded.empty() ? v : segment.vertex_coded[v]);
+      const bool corrected = correction != end && correction->vertex == v;
+      for (uint32_t c = 0; c < 3; ++c) {
+        const float* row = m + size_t{4} * c;
+        float x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+        if (corrected)
+          x += correction->delta[c];
+        blocks[((v - base) / kBlock * 3 + c) * kBlock + (v - base) % kBlock] = x;
+      }
+      correction += corrected;
+    }
+    store_points(blocks, first - base, last - first, output);
+    output.data = static_cast<unsigned char*>(output.data) + output.stride * (last - first);
+    first = last;
+  }
+}
+
+/// The next multiple of 8.
+double* aligned(float* p) {
+  const auto address = reinterpret_cast<uintptr_t>(p);
+  return reinterpret_cast<double*>((address + 7) / 8 * 8);
+}
+
 }  // namespace
+
+size_t shape_size(const Segment& segment) {
+  return segment.msgi.empty() ? 0 : size_t{3} * segment.msgi[0].vertex_count();
+}
+
+size_t shape_scratch_size(const Segment& segment) {
+  if (segment.msgi.empty())
+    return 0;
+  return static_cast<size_t>(
+             shape_scratch_bytes(segment.components, segment.msgi[0].scratch_bytes())) /
+         sizeof(float);
+}
+
+uint64_t shape_scratch_bytes(uint64_t components, uint64_t msgi_frame_bytes) {
+  // Weights in double, and room to align them.
+  return (msgi_frame_bytes + 7) / 8 * 8 + sizeof(double) * (components + 1);
+}
+
+void make_shape(FrameState* state, float* shape, float* scratch) {
+  const Segment& segment = *state->segment;
+  if (segment.msgi.empty())
+    return;
+  double* weights = aligned(scratch);
+  weights[0] = 1;
+  for (uint32_t j = 1; j < segment.components; ++j) {
+    weights[j] = double{state->weights[j]} / segment.weight_scale;
+    weights[0] -= weights[j];
+  }
+  const Status status =
+      segment.msgi[0].evaluate(weights, nullptr, weights + segment.components, shape);
+  // Weights that no encoder writes.
+  if (status != Status::kOk)
+    std::fill_n(shape, shape_size(segment), 0.0F);
+  state->shape = shape;
+}
 
 FrameState frame_state(const Segment& segment, uint32_t frame) {
   FrameState state;
@@ -113,6 +187,11 @@ const char* combine_kernels_name() {
 void combine_with(const CombineKernels& kernels, const FrameState* states, uint32_t frames,
                   uint32_t first, uint32_t count, const VertexOutput* outputs) {
   for (uint32_t f = 0; f < frames;) {
+    if (states[f].shape) {
+      combine_shape(states[f], first, count, outputs[f]);
+      ++f;
+      continue;
+    }
     CombineJob job;
     set_segment(*states[f].segment, &job);
     job.first = first;

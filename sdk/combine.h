@@ -19,14 +19,30 @@ struct FrameState {
   Affine motion;                                     ///< M_f, where the segment has motions
   const Segment::Correction* corrections = nullptr;  ///< ascending by vertex
   uint32_t correction_count = 0;
+  const float* shape = nullptr;  ///< segments of MSGI: coded vertices x 3, before the motion
 };
 
-/// A whole frame, 0 .. frames - 1 of the segment. O(1).
+/// A whole frame, 0 .. frames - 1 of the segment. O(1). In a segment of MSGI, where it lacks what
+/// make_shape() computes.
 FrameState frame_state(const Segment& segment, uint32_t frame);
+
+/// Floats that make_shape() fills, and floats that it works in, which states may share; 0 for
+/// segments that are not of MSGI.
+size_t shape_size(const Segment& segment);
+size_t shape_scratch_size(const Segment& segment);
+
+/// Bytes of those floats, by what the limits say of the segment.
+uint64_t shape_scratch_bytes(uint64_t components, uint64_t msgi_frame_bytes);
+
+/// In a segment of MSGI, computes the mesh that the state's weights ask for and keeps it in
+/// `shape`, which the state then points to. Nothing to do in others. Cost: that of
+/// Msgi::evaluate().
+void make_shape(FrameState* state, float* shape, float* scratch);
 
 /// Stores the positions of the vertices first .. first + count - 1 of the segment in `count`
 /// frames: that of vertex `first` in frame i goes to outputs[i].data. Each output is written once
-/// and in order, and not read; the outputs must not overlap, and must be valid (is_valid()).
+/// and in order, and not read; the outputs must not overlap, and must be valid (is_valid()). States
+/// of a segment of MSGI must have a shape.
 ///
 /// A position is within the tolerance of spec/09a-segments.md, section 7, and on one machine it has
 /// the same bits whatever the range and whatever other frames are made with it. Allocates nothing;

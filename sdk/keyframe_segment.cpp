@@ -13,7 +13,7 @@
 namespace anicodec {
 namespace {
 
-constexpr uint8_t kSumToOne = 1, kRigid = 2;
+constexpr uint8_t kSumToOne = 1, kRigid = 2, kPatches = 4;
 
 /// Rotation matrix and translation of a quaternion (x, y, z, w) of any length. False when an entry
 /// is too large.
@@ -96,11 +96,44 @@ Status read_motions(format::ByteView bytes, const KeyframeParameters& parameters
   return Status::kOk;
 }
 
+/// Interpolation between the decoded key-frames.
+Status set_up_msgi(const KeyframeParameters& parameters, const Vector<Vector<int32_t>>& poses,
+                   const SegmentContext& context, Segment* out) {
+  const size_t coordinates = 3 * size_t{context.topology->coded_vertices};
+  Vector<Vector<float>> points;
+  Vector<const float*> inputs;
+  for (const Vector<int32_t>& pose : poses) {
+    Vector<float>& x = points.emplace_back(coordinates);
+    for (size_t i = 0; i < coordinates; ++i) {
+      if (!to_float(parameters.origin[i % 3] + parameters.step * pose[i], &x[i]))
+        return Status::kNonFinite;
+    }
+  }
+  for (const Vector<float>& x : points)
+    inputs.push_back(x.data());
+  Msgi::Options options;
+  options.leaf_faces = parameters.leaf_faces;
+  options.most_bytes = static_cast<size_t>(context.sizes->msgi_bytes);
+  const Vector<uint32_t>& triangles = context.topology->triangles;
+  out->msgi.resize(1);
+  Status s =
+      out->msgi[0].init(triangles.data(), triangles.size() / 3, context.topology->coded_vertices,
+                        inputs.data(), inputs.size(), options);
+  if (s == Status::kOk && out->msgi[0].scratch_bytes() > context.sizes->msgi_frame_bytes)
+    s = Status::kLimit;
+  out->weight_scale = parameters.step;
+  if (context.vertex_coded)
+    out->vertex_coded = *context.vertex_coded;
+  // More than the file's limits say is a fault of the file.
+  return s == Status::kLimit ? Status::kRecord : s;
+}
+
 }  // namespace
 
 format::Bytes KeyframeParameters::write() const {
   format::ByteWriter w;
-  w.u8(static_cast<uint8_t>((sum_to_one ? kSumToOne : 0) | (rigid ? kRigid : 0)));
+  w.u8(static_cast<uint8_t>((sum_to_one ? kSumToOne : 0) | (rigid ? kRigid : 0) |
+                            (leaf_faces > 0 ? kPatches : 0)));
   w.u8(static_cast<uint8_t>(coder));
   for (double x : origin)
     w.f64(x);
@@ -110,6 +143,8 @@ format::Bytes KeyframeParameters::write() const {
     w.u8(rotation_bits);
     w.f64(translation_step);
   }
+  if (leaf_faces > 0)
+    w.u8(leaf_faces);
   uint32_t before = 0;
   for (uint32_t f : frames) {
     w.varint(f - before);
@@ -138,7 +173,8 @@ Status KeyframeParameters::read(format::ByteView bytes, uint32_t components,
     rotation_bits = r.u8();
     translation_step = r.f64();
   }
-  if (!r.ok() || components > r.remaining())
+  leaf_faces = flags & kPatches ? r.u8() : uint8_t{0};
+  if (!r.ok() || ((flags & kPatches) && leaf_faces == 0) || components > r.remaining())
     return Status::kRecord;
   uint64_t before = 0;
   frames.resize(components);
@@ -151,7 +187,7 @@ Status KeyframeParameters::read(format::ByteView bytes, uint32_t components,
   parents.resize(components);
   for (uint32_t j = 0; j < components; ++j)
     parents[j] = r.varint32(j);
-  if (!r.finished() || (flags & ~(kSumToOne | kRigid)))
+  if (!r.finished() || (flags & ~(kSumToOne | kRigid | kPatches)))
     return Status::kRecord;
   if (id > static_cast<uint8_t>(format::CoderId::kDraco))
     return Status::kCoder;
@@ -169,6 +205,11 @@ Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentC
     return Status::kSegment;
   if (Status s = parameters.read(record.parameters, k, out->frames); s != Status::kOk)
     return s;
+  const bool msgi = out->reconstruction == format::Reconstruction::kMsgi;
+  if (out->reconstruction != context.sizes->reconstruction)
+    return Status::kSegment;
+  if (msgi != (parameters.leaf_faces > 0) || (msgi && !parameters.sum_to_one))
+    return Status::kSegment;
   Vector<Vector<int32_t>> poses;
   if (Status s = read_poses(record, context, parameters, &poses); s != Status::kOk)
     return s;
@@ -219,6 +260,10 @@ Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentC
     out->origin[i] = parameters.origin[i];
   }
   out->keyframe_frames = parameters.frames;
+  if (msgi) {
+    if (Status s = set_up_msgi(parameters, poses, context, out); s != Status::kOk)
+      return s;
+  }
   ResidentWriter writer(context.vertex_coded, out);
   for (uint32_t j = 0; j < k; ++j) {
     if (!writer.vectors(j, poses[j].data()))

@@ -23,6 +23,7 @@ struct KeyframeParameters {
   double origin[3] = {0, 0, 0};
   double step = 1;
   uint8_t weight_bits = 12;
+  uint8_t leaf_faces = 0;      ///< of a patch, when frames are rebuilt by MSGI; 0: they are not
   uint8_t rotation_bits = 16;  ///< quaternions are integers in units of 2^-rotation_bits
   double translation_step = 1;
   Vector<uint32_t> frames;   ///< of each key-frame in the segment, ascending

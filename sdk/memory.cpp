@@ -63,6 +63,8 @@ uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
       bytes += kMatrix * frames + 12 * n + 2 * n * integers + 12 * frames * components;
       break;
   }
+  if (s.reconstruction == format::Reconstruction::kMsgi)
+    bytes += s.msgi_bytes + uint64_t{4} * mesh.source_vertices;
   if (s.corrections > 0)
     bytes += uint64_t{16} * s.corrections + 4 * (frames + 1);
   return bytes;
@@ -89,8 +91,12 @@ uint64_t opening(const Limits::Mesh& m) {
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
   // Kinds with a prediction: residuals and coefficients, weights, the order of the vertices.
   const uint64_t n = mesh.coded_vertices, frames = s.frames, components = s.components;
+  // Key-frames as floats, faces and patches, and the fronts of the factorisation.
+  uint64_t msgi = 0;
+  if (s.reconstruction == format::Reconstruction::kMsgi)
+    msgi = 12 * n * components + uint64_t{1000} * mesh.triangles + 2 * s.msgi_bytes;
   if (s.kind == BasisKind::kKeyframes)
-    return 36 * n * components + 4 * frames * components + 28 * frames + kModels;
+    return 36 * n * components + 4 * frames * components + 28 * frames + kModels + msgi;
   const uint64_t channels = s.kind == BasisKind::kEigenshapes ? 3 : 1;
   return 8 * channels * (n + 1) * (components + 8) + 12 * frames * components + 80 * frames +
          (8 * kNeighbours + 256) * n + uint64_t{48} * mesh.triangles + kModels;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 namespace anicodec {
 namespace {
@@ -19,16 +21,72 @@ Vector3 vector_at(const double* p) {
   return {{p[0], p[1], p[2]}};
 }
 
+/// Takes arrays from a block of memory one after the other; counts only when there is none.
+class Block {
+ public:
+  explicit Block(void* memory) : memory_(static_cast<unsigned char*>(memory)) {}
+
+  template <class T>
+  T* take(size_t count) {
+    static_assert(alignof(T) <= 8 && std::is_trivially_destructible<T>::value, "plain data");
+    unsigned char* at = memory_ ? memory_ + taken_ : nullptr;
+    taken_ += (count * sizeof(T) + 7) / 8 * 8;
+    return reinterpret_cast<T*>(at);
+  }
+
+  size_t taken() const { return taken_; }
+
+ private:
+  unsigned char* memory_;
+  size_t taken_ = 0;
+};
+
 }  // namespace
+
+/// What a frame is made in.
+struct Msgi::Scratch {
+  UnitQuaternion* rotations;  ///< per patch
+  UnitQuaternion* relative;   ///< per link
+  Matrix3* matrices;          ///< per patch
+  double* forces;             ///< slots x 3
+  double* solution;           ///< of either system
+  double* positions;          ///< vertices x 3
+  Matrix3* products;          ///< per component
+  Vector3* means;             ///< per component
+  float* target;              ///< vertices x 3: the inputs blended on straight lines
+  size_t bytes;
+};
+
+Msgi::Scratch Msgi::lay_out(void* memory) const {
+  const size_t leaves = leaf_count(), coordinates = 3 * size_t{vertex_count_};
+  Block block(memory);
+  Scratch scratch;
+  scratch.rotations = block.take<UnitQuaternion>(leaves);
+  scratch.relative = block.take<UnitQuaternion>(links_.size());
+  scratch.matrices = block.take<Matrix3>(leaves);
+  scratch.forces = block.take<double>(3 * slot_vertex_.size());
+  scratch.solution =
+      block.take<double>(std::max(system_.scratch_size(), pinned_system_.scratch_size()));
+  scratch.positions = block.take<double>(coordinates);
+  scratch.products = block.take<Matrix3>(part_size_.size());
+  scratch.means = block.take<Vector3>(part_size_.size());
+  scratch.target = block.take<float>(coordinates);
+  scratch.bytes = block.taken();
+  return scratch;
+}
+
+size_t Msgi::scratch_bytes() const {
+  return lay_out(nullptr).bytes;
+}
 
 // ---------------------------------------------------------------------------------------------
 // One frame
 
 /// Forces of all patches and rotations of all links, as linear combinations of those of the inputs.
-void Msgi::blend(const double* weights, MsgiScratch& scratch, const HostThreads& threads) const {
+void Msgi::blend(const double* weights, Scratch& scratch, const HostThreads& threads) const {
   const size_t slots = slot_vertex_.size(), links = links_.size();
-  for_ranges(threads, scratch.rotations.size(), kPatchGrain, [&](size_t first, size_t last) {
-    double* forces = scratch.forces.data();
+  for_ranges(threads, leaf_count(), kPatchGrain, [&](size_t first, size_t last) {
+    double* forces = scratch.forces;
     const size_t begin = 3 * size_t{slot_begin_[first]}, end = 3 * size_t{slot_begin_[last]};
     std::fill(forces + begin, forces + end, 0.0);
     for (size_t i = 0; i < input_count_; ++i) {
@@ -65,8 +123,8 @@ void Msgi::blend(const double* weights, MsgiScratch& scratch, const HostThreads&
 
 /// Rotations of all patches of a component against one another: at every node those of the right
 /// half are turned so that the links to the left half agree best.
-void Msgi::merge(MsgiScratch& scratch, const HostThreads& threads) const {
-  std::fill(scratch.rotations.begin(), scratch.rotations.end(), UnitQuaternion{});
+void Msgi::merge(Scratch& scratch, const HostThreads& threads) const {
+  std::fill_n(scratch.rotations, leaf_count(), UnitQuaternion{});
   for (size_t level = 1; level + 1 < level_begin_.size(); ++level) {
     const uint32_t* nodes = level_nodes_.data() + level_begin_[level];
     for_ranges(threads, level_begin_[level + 1] - level_begin_[level], 64,
@@ -90,9 +148,9 @@ void Msgi::merge(MsgiScratch& scratch, const HostThreads& threads) const {
 }
 
 /// The right-hand side: for every unknown the forces of its slots, turned with their patches.
-void Msgi::turn_forces(const SparseLdlt& system, MsgiScratch& scratch,
+void Msgi::turn_forces(const SparseLdlt& system, Scratch& scratch,
                        const HostThreads& threads) const {
-  for_ranges(threads, scratch.rotations.size(), kPatchGrain, [&](size_t first, size_t last) {
+  for_ranges(threads, leaf_count(), kPatchGrain, [&](size_t first, size_t last) {
     for (size_t leaf = first; leaf < last; ++leaf)
       scratch.matrices[leaf] = to_matrix(scratch.rotations[leaf]);
   });
@@ -112,9 +170,9 @@ void Msgi::turn_forces(const SparseLdlt& system, MsgiScratch& scratch,
   });
 }
 
-void Msgi::solve(MsgiScratch& scratch, const HostThreads& threads) const {
+void Msgi::solve(Scratch& scratch, const HostThreads& threads) const {
   turn_forces(system_, scratch, threads);
-  system_.solve(scratch.solution.data(), threads);
+  system_.solve(scratch.solution, threads);
   for (size_t i = 0; i < system_.size(); ++i) {
     const double* x = &scratch.solution[SparseLdlt::kLanes * i];
     std::copy(x, x + 3, &scratch.positions[3 * size_t{system_.vertices()[i]}]);
@@ -122,8 +180,8 @@ void Msgi::solve(MsgiScratch& scratch, const HostThreads& threads) const {
 }
 
 /// Turns every patch onto the positions.
-void Msgi::refit(MsgiScratch& scratch, const HostThreads& threads) const {
-  for_ranges(threads, scratch.rotations.size(), kPatchGrain, [&](size_t first, size_t last) {
+void Msgi::refit(Scratch& scratch, const HostThreads& threads) const {
+  for_ranges(threads, leaf_count(), kPatchGrain, [&](size_t first, size_t last) {
     for (size_t leaf = first; leaf < last; ++leaf) {
       const size_t begin = slot_begin_[leaf], end = slot_begin_[leaf + 1];
       const Vector3 origin = vector_at(&scratch.positions[3 * size_t{slot_vertex_[begin]}]);
@@ -139,9 +197,9 @@ void Msgi::refit(MsgiScratch& scratch, const HostThreads& threads) const {
 }
 
 /// Turns and moves every component to where the weights put it; vertices without face too.
-void Msgi::place(const double* weights, MsgiScratch& scratch, const HostThreads& threads) const {
+void Msgi::place(const double* weights, Scratch& scratch, const HostThreads& threads) const {
   const size_t coordinates = 3 * size_t{vertex_count_}, parts = part_size_.size();
-  Vector<float>& target = scratch.target;
+  float* target = scratch.target;
   for_ranges(threads, coordinates, kVertexGrain, [&](size_t first, size_t last) {
     std::fill(&target[first], &target[first] + (last - first), 0.0F);
     for (size_t i = 0; i < input_count_; ++i) {
@@ -153,8 +211,8 @@ void Msgi::place(const double* weights, MsgiScratch& scratch, const HostThreads&
       }
     }
   });
-  std::fill(scratch.products.begin(), scratch.products.end(), Matrix3{});
-  std::fill(scratch.means.begin(), scratch.means.end(), Vector3{});
+  std::fill_n(scratch.products, parts, Matrix3{});
+  std::fill_n(scratch.means, parts, Vector3{});
   for (size_t v = 0; v < vertex_count_; ++v) {
     if (part_[v] == kNoIndex)
       continue;
@@ -186,7 +244,7 @@ void Msgi::place(const double* weights, MsgiScratch& scratch, const HostThreads&
 }
 
 /// Solves again for the components with pins, from where they lie without.
-void Msgi::solve_pinned(const float* pin_positions, MsgiScratch& scratch,
+void Msgi::solve_pinned(const float* pin_positions, Scratch& scratch,
                         const HostThreads& threads) const {
   for (size_t p = 0; p < pins_.size(); ++p)
     std::copy(pin_positions + 3 * p, pin_positions + 3 * p + 3,
@@ -197,15 +255,15 @@ void Msgi::solve_pinned(const float* pin_positions, MsgiScratch& scratch,
       scratch.solution[SparseLdlt::kLanes * e.unknown + axis] +=
           e.weight * double{pin_positions[3 * size_t{e.pin} + axis]};
   }
-  pinned_system_.solve(scratch.solution.data(), threads);
+  pinned_system_.solve(scratch.solution, threads);
   for (size_t i = 0; i < pinned_system_.size(); ++i) {
     const double* x = &scratch.solution[SparseLdlt::kLanes * i];
     std::copy(x, x + 3, &scratch.positions[3 * size_t{pinned_system_.vertices()[i]}]);
   }
 }
 
-Status Msgi::evaluate(const double* weights, const float* pin_positions, MsgiScratch* scratch,
-                      float* out, const HostThreads& threads) const {
+Status Msgi::evaluate(const double* weights, const float* pin_positions, void* memory, float* out,
+                      const HostThreads& threads) const {
   double sum = 0;
   for (size_t i = 0; i < input_count_; ++i)
     sum += weights[i];
@@ -215,48 +273,44 @@ Status Msgi::evaluate(const double* weights, const float* pin_positions, MsgiScr
     if (!std::isfinite(pin_positions[p]))
       return Status::kArgument;
   }
-  std::fill(scratch->positions.begin(), scratch->positions.end(), 0.0);
-  blend(weights, *scratch, threads);
-  merge(*scratch, threads);
-  solve(*scratch, threads);
+  Scratch scratch = lay_out(memory);
+  const size_t coordinates = 3 * size_t{vertex_count_};
+  std::fill_n(scratch.positions, coordinates, 0.0);
+  blend(weights, scratch, threads);
+  merge(scratch, threads);
+  solve(scratch, threads);
   for (uint32_t k = 0; k < sweeps_; ++k) {
-    refit(*scratch, threads);
-    solve(*scratch, threads);
+    refit(scratch, threads);
+    solve(scratch, threads);
   }
-  place(weights, *scratch, threads);
+  place(weights, scratch, threads);
   if (!pins_.empty()) {
     for (uint32_t k = 0; k < 1 + sweeps_; ++k) {
-      refit(*scratch, threads);
-      solve_pinned(pin_positions, *scratch, threads);
+      refit(scratch, threads);
+      solve_pinned(pin_positions, scratch, threads);
     }
   }
-  for (size_t k = 0; k < scratch->positions.size(); ++k)
-    out[k] = static_cast<float>(scratch->positions[k]);
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  for (size_t k = 0; k < coordinates; ++k)
+    out[k] = static_cast<float>(std::clamp(scratch.positions[k], -kLargest, kLargest));
   return Status::kOk;
 }
 
-void Msgi::prepare(MsgiScratch* scratch) const {
-  const size_t leaves = slot_begin_.size() - 1, coordinates = 3 * size_t{vertex_count_};
-  scratch->rotations.resize(leaves);
-  scratch->relative.resize(links_.size());
-  scratch->matrices.resize(leaves);
-  scratch->forces.resize(3 * slot_vertex_.size());
-  scratch->solution.resize(std::max(system_.scratch_size(), pinned_system_.scratch_size()));
-  scratch->target.resize(coordinates);
-  scratch->positions.resize(coordinates);
-  scratch->products.resize(part_size_.size());
-  scratch->means.resize(part_size_.size());
-}
-
 size_t Msgi::resident_bytes() const {
-  return sizeof(float) * (aligned_.size() + forces_.size() + slot_share_.size()) +
-         sizeof(double) * turns_.size() +
-         sizeof(uint32_t) * (part_.size() + level_nodes_.size() + 2 * slot_vertex_.size() +
-                             vertex_slot_begin_.size() + vertex_slots_.size()) +
+  return blend_bytes(slot_vertex_.size(), links_.size()) +
+         sizeof(uint32_t) * (part_.size() + part_size_.size() + level_begin_.size() +
+                             level_nodes_.size() + slot_begin_.size() + 3 * slot_vertex_.size() +
+                             vertex_slot_begin_.size() + pins_.size()) +
          sizeof(PatchHierarchy::Node) * nodes_.size() +
          sizeof(PatchHierarchy::Link) * links_.size() + sizeof(Placement) * placement_.size() +
          sizeof(PinEdge) * pin_edges_.size() + system_.resident_bytes() +
          pinned_system_.resident_bytes();
+}
+
+/// Of the arrays that grow with the number of inputs.
+size_t Msgi::blend_bytes(size_t slots, size_t links) const {
+  return sizeof(float) * slots +
+         input_count_ * (sizeof(float) * 3 * (slots + vertex_count_) + sizeof(double) * 3 * links);
 }
 
 }  // namespace anicodec

@@ -16,19 +16,6 @@
 
 namespace anicodec {
 
-/// What one thread needs to evaluate an Msgi, set up by Msgi::prepare().
-struct MsgiScratch {
-  Vector<UnitQuaternion> rotations;  ///< per patch
-  Vector<UnitQuaternion> relative;   ///< per link
-  Vector<Matrix3> matrices;          ///< per patch
-  Vector<double> forces;             ///< slots x 3
-  Vector<double> solution;           ///< of either system
-  Vector<float> target;              ///< vertices x 3: the inputs blended on straight lines
-  Vector<double> positions;          ///< vertices x 3
-  Vector<Matrix3> products;          ///< per component
-  Vector<Vector3> means;             ///< per component
-};
-
 /// Multi-scale geometry interpolation between meshes of one connectivity (thesis section 4.2): any
 /// number of inputs, weights that sum to one and may lie outside [0, 1]. Small overlapping patches
 /// are blended each in a frame of its own; the rotations between neighbouring patches are
@@ -42,7 +29,7 @@ struct MsgiScratch {
 /// vertices lie on a line has an open rotation about it, its positions are right. Zero-length edges
 /// count as a thousandth of the mean.
 ///
-/// Immutable once initialised: threads share it, each with an MsgiScratch of its own.
+/// Immutable once initialised: threads share it, each with memory of its own to work in.
 class Msgi {
  public:
   struct Options {
@@ -51,7 +38,7 @@ class Msgi {
     uint32_t sweeps = 0;
     /// Vertices whose positions evaluate() is given, each at most once.
     Vector<uint32_t> pins;
-    /// kLimit when the factors of the linear systems would take more.
+    /// kLimit when the object would take more, by resident_bytes().
     size_t most_bytes = size_t{4} << 30;
   };
 
@@ -72,14 +59,16 @@ class Msgi {
 
   size_t resident_bytes() const;
 
-  void prepare(MsgiScratch* scratch) const;
+  /// Of the memory that evaluate() works in.
+  size_t scratch_bytes() const;
 
   /// The mesh at weights[0 .. inputs-1]: vertex_count x 3 floats. pin_positions: three coordinates
-  /// for each pin, null when there are none. Errors: kArgument when the weights are not finite or
-  /// do not sum to one within 1e-5, or pins are missing. Allocates nothing. Linear in vertices x
-  /// inputs (of a weight other than 0) + factor. The result does not depend on the threads.
-  Status evaluate(const double* weights, const float* pin_positions, MsgiScratch* scratch,
-                  float* out, const HostThreads& threads = {}) const;
+  /// for each pin, null when there are none. scratch: scratch_bytes() bytes at a multiple of 8.
+  /// Errors: kArgument when the weights are not finite or do not sum to one within 1e-5, or pins
+  /// are missing. Allocates nothing. Linear in vertices x inputs (of a weight other than 0) +
+  /// factor. The result does not depend on the threads.
+  Status evaluate(const double* weights, const float* pin_positions, void* scratch, float* out,
+                  const HostThreads& threads = {}) const;
 
  private:
   /// A component in one input: how it lies against the same component of the first.
@@ -95,20 +84,23 @@ class Msgi {
   };
 
   struct Build;
+  struct Scratch;
 
+  size_t leaf_count() const { return slot_begin_.empty() ? 0 : slot_begin_.size() - 1; }
+
+  size_t blend_bytes(size_t slots, size_t links) const;
+  Scratch lay_out(void* memory) const;
   void align_inputs(const FaceGraph& graph, const float* const* inputs);
   void set_up_patches(const Build& build);
   Status set_up_systems(const Build& build, const Options& options);
 
-  void blend(const double* weights, MsgiScratch& scratch, const HostThreads& threads) const;
-  void merge(MsgiScratch& scratch, const HostThreads& threads) const;
-  void turn_forces(const SparseLdlt& system, MsgiScratch& scratch,
-                   const HostThreads& threads) const;
-  void solve(MsgiScratch& scratch, const HostThreads& threads) const;
-  void refit(MsgiScratch& scratch, const HostThreads& threads) const;
-  void place(const double* weights, MsgiScratch& scratch, const HostThreads& threads) const;
-  void solve_pinned(const float* pin_positions, MsgiScratch& scratch,
-                    const HostThreads& threads) const;
+  void blend(const double* weights, Scratch& scratch, const HostThreads& threads) const;
+  void merge(Scratch& scratch, const HostThreads& threads) const;
+  void turn_forces(const SparseLdlt& system, Scratch& scratch, const HostThreads& threads) const;
+  void solve(Scratch& scratch, const HostThreads& threads) const;
+  void refit(Scratch& scratch, const HostThreads& threads) const;
+  void place(const double* weights, Scratch& scratch, const HostThreads& threads) const;
+  void solve_pinned(const float* pin_positions, Scratch& scratch, const HostThreads& threads) const;
 
   size_t input_count_ = 0;
   uint32_t sweeps_ = 0;

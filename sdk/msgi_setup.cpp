@@ -219,10 +219,15 @@ Status Msgi::init(const uint32_t* triangles, size_t triangle_count, uint32_t ver
   input_count_ = input_count;
   sweeps_ = options.sweeps;
 
+  if (blend_bytes(0, 0) > options.most_bytes)
+    return Status::kLimit;
   Build build;
   build.graph = make_face_graph(triangles, triangle_count, vertex_count);
   align_inputs(build.graph, inputs);
   build.hierarchy = make_patch_hierarchy(build.graph, options.leaf_faces);
+  if (blend_bytes(build.hierarchy.slot_vertex.size(), build.hierarchy.links.size()) >
+      options.most_bytes)
+    return Status::kLimit;
 
   const Vector<FaceGraph::Edge>& edges = build.graph.edges;
   Vector<double>& weight = build.edge_weight;
@@ -244,11 +249,15 @@ Status Msgi::init(const uint32_t* triangles, size_t triangle_count, uint32_t ver
 
   PatchHierarchy& h = build.hierarchy;
   nodes_ = std::move(h.nodes);
+  nodes_.shrink_to_fit();
   links_ = std::move(h.links);
+  links_.shrink_to_fit();
   level_begin_ = std::move(h.level_begin);
   level_nodes_ = std::move(h.level_nodes);
   slot_begin_ = std::move(h.slot_begin);
+  slot_begin_.shrink_to_fit();
   slot_vertex_ = std::move(h.slot_vertex);
+  slot_vertex_.shrink_to_fit();
   slot_leaf_.resize(slot_vertex_.size());
   vertex_slot_begin_.assign(size_t{vertex_count} + 1, 0);
   for (size_t leaf = 0; leaf + 1 < slot_begin_.size(); ++leaf) {
@@ -263,7 +272,7 @@ Status Msgi::init(const uint32_t* triangles, size_t triangle_count, uint32_t ver
   Vector<uint32_t> at(vertex_slot_begin_.begin(), vertex_slot_begin_.end() - 1);
   for (uint32_t s = 0; s < slot_vertex_.size(); ++s)
     vertex_slots_[at[slot_vertex_[s]]++] = s;
-  return Status::kOk;
+  return resident_bytes() <= options.most_bytes ? Status::kOk : Status::kLimit;
 }
 
 }  // namespace anicodec

@@ -74,17 +74,30 @@ FrameState mean_state(const Group& group, float* weights) {
 }  // namespace
 
 size_t sample_buffer_size(const Clip& clip, uint32_t mesh) {
-  size_t largest = 0, segments = 0;
+  size_t weights = 0, segments = 0, shape = 0, shapes = 0;
   for (const Segment& s : clip.segments()) {
     if (s.mesh == mesh) {
-      largest = std::max(largest, weight_count(s));
+      weights = std::max(weights, weight_count(s));
       ++segments;
+      shape = std::max(shape, shape_size(s));
+      shapes += !s.msgi.empty();
     }
   }
-  return largest * std::min(segments, kMixedParts);
+  return weights * std::min(segments, kMixedParts) +
+         shape * std::min(shapes, size_t{Sample::kMaxParts});
 }
 
-Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* buffer) {
+size_t sample_scratch_size(const Clip& clip, uint32_t mesh) {
+  size_t largest = 0;
+  for (const Segment& s : clip.segments()) {
+    if (s.mesh == mesh)
+      largest = std::max(largest, shape_scratch_size(s));
+  }
+  return largest;
+}
+
+Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* buffer,
+                   float* scratch) {
   Group groups[Sample::kMaxParts];
   uint32_t count = 0;
   double total = 0;
@@ -120,6 +133,10 @@ Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* 
       group.weights[t] /= group.share;
     sample.parts[g] = mean_state(group, buffer);
     buffer += weight_count(*group.segment);
+  }
+  for (uint32_t g = 0; g < count; ++g) {
+    make_shape(&sample.parts[g], buffer, scratch);
+    buffer += shape_size(*groups[g].segment);
   }
   sample.count = count;
   return sample;

@@ -27,14 +27,19 @@ struct Sample {
   void positions(uint32_t first, uint32_t vertices, const VertexOutput& output) const;
 };
 
-/// Floats of the interpolated weights of a sample of a mesh.
+/// Floats of the interpolated weights of a sample of a mesh, and of the shapes in segments of MSGI.
 size_t sample_buffer_size(const Clip& clip, uint32_t mesh);
 
+/// Floats that make_sample() works in and leaves to others afterwards.
+size_t sample_scratch_size(const Clip& clip, uint32_t mesh);
+
 /// Combines what depends on time. `buffer` holds sample_buffer_size() floats and must outlive the
-/// sample, as the clip must. Rigid motions turn the shorter way; corrections are there when the mix
-/// is one frame. Frames in which the mesh is missing drop out; without the first one, the sample is
-/// empty. Cost: O(components) per frame. Allocates nothing.
-Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* buffer);
+/// sample, as the clip must; `scratch` holds sample_scratch_size(). Rigid motions turn the shorter
+/// way; corrections are there when the mix is one frame. Frames in which the mesh is missing drop
+/// out; without the first one, the sample is empty. Cost: O(components) per frame; in a segment of
+/// MSGI that of one evaluation for each part. Allocates nothing.
+Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* buffer,
+                   float* scratch);
 
 }  // namespace anicodec
 

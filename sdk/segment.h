@@ -7,6 +7,7 @@
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/draco_mesh.h"
+#include "sdk/msgi.h"
 #include "sdk/reference_pose.h"
 #include "sdk/topology.h"
 
@@ -70,6 +71,13 @@ struct Segment {
   Vector<uint32_t> correction_begin;
   Vector<Correction> corrections;
 
+  /// Key-frames rebuilt by multi-scale geometry interpolation: one element, else empty. It makes
+  /// the coded vertices, by the weights over weight_scale; vertex v is coded vertex
+  /// vertex_coded[v], or v when that is empty.
+  Vector<Msgi> msgi;
+  double weight_scale = 1;
+  Vector<uint32_t> vertex_coded;
+
   uint64_t stored_hash = 0;
   uint64_t decoded_hash = 0;
 
@@ -87,7 +95,7 @@ struct SegmentContext {
   const DracoMesh* draco = nullptr;  ///< null when the connectivity is plain
   Vector<format::ByteView> layers;   ///< chunks BASI in file order
   format::ByteView corrections;      ///< chunk CORR, empty when there is none
-  double quality = 1;               ///< share of the components wanted
+  double quality = 1;                ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;
 };

@@ -268,7 +268,7 @@ void SparseLdlt::split() {
   }
   for (uint32_t b = 0; b < blocks_.size(); ++b)
     (subtree[b] == kFixed ? top_ : subtrees_[subtree[b]].blocks).push_back(b);
-  forward_rows_ = rows_;
+  forward_rows_.assign(rows_.begin(), rows_.end());
   scratch_rows_ = size();
   for (Subtree& s : subtrees_) {
     const Block& root = blocks_[s.root];
@@ -298,12 +298,20 @@ Status SparseLdlt::init(const Vector<uint32_t>& vertex_group, const Vector<Edge>
   if (Status s = factor(graph); s != Status::kOk)
     return s;
   split();
+  vertices_.shrink_to_fit();
+  blocks_.shrink_to_fit();
+  rows_.shrink_to_fit();
+  subtrees_.shrink_to_fit();
+  top_.shrink_to_fit();
+  for (Subtree& s : subtrees_)
+    s.blocks.shrink_to_fit();
   return Status::kOk;
 }
 
 size_t SparseLdlt::resident_bytes() const {
   return sizeof(double) * (values_.size() + inverse_diagonal_.size()) +
-         sizeof(uint32_t) * (2 * rows_.size() + vertices_.size()) + sizeof(Block) * blocks_.size();
+         sizeof(uint32_t) * (2 * rows_.size() + vertices_.size() + blocks_.size()) +
+         sizeof(Block) * blocks_.size() + sizeof(Subtree) * subtrees_.size();
 }
 
 void SparseLdlt::forward(const Block& block, double* x) const {

@@ -33,6 +33,10 @@ Give one target; --max-error may stand beside any other as a cap. Without a targ
 --max-error 0.05%: no vertex of any frame is further off. --keyframes alone sets no target: the
 quantisation then adds at most a tenth to the error of that many exact key-frames.
 
+--interpolation msgi rebuilds frames by multi-scale geometry interpolation of the key-frames, which
+keeps lengths and volume where limbs swing far; auto takes what does better. Both need key-frames
+(--basis keyframes or --keyframes), take longer, and the file takes longer to open and to play.
+
 Examples:
   anicodec encode dance.obj dance.pc2 -o dance.anic --fps 30
   anicodec encode 'frames/*.obj' -o clip.anic --kg 0.1
@@ -46,6 +50,7 @@ struct EncodeCommand {
   BasisChoice basis = BasisChoice::kAuto;
   uint32_t keyframes = 0;
   KeyframeMethod select = KeyframeMethod::kPivot;
+  InterpolationChoice interpolation = InterpolationChoice::kLinear;
   format::OrderMode order = format::OrderMode::kVertices;
   format::CoderId mesh_coder = format::CoderId::kDraco;
   int effort = 5;
@@ -95,6 +100,10 @@ EncodeOptions options_of(const EncodeCommand& command) {
     options.basis = BasisChoice::kKeyframes;
   }
   options.select = command.select;
+  if (command.interpolation != InterpolationChoice::kLinear &&
+      options.basis != BasisChoice::kKeyframes)
+    throw Error(ErrorKind::kUsage, "--interpolation goes with --basis keyframes or --keyframes");
+  options.interpolation = command.interpolation;
   options.order = command.order;
   options.mesh_coder = command.mesh_coder;
   options.effort = command.effort;
@@ -242,6 +251,12 @@ void add_encode(CLI::App& app, CommonOptions& common) {
                               {"pivot", KeyframeMethod::kPivot},
                               {"uniform", KeyframeMethod::kUniform}},
                              "How key-frames are chosen (default pivot)")
+      ->group(method);
+  add_choice<InterpolationChoice>(*command, "--interpolation", c->interpolation,
+                                  {{"linear", InterpolationChoice::kLinear},
+                                   {"msgi", InterpolationChoice::kMsgi},
+                                   {"auto", InterpolationChoice::kAuto}},
+                                  "How frames come from key-frames (default linear)")
       ->group(method);
   add_choice<format::OrderMode>(*command, "--order", c->order,
                                 {{"vertices", format::OrderMode::kVertices},

@@ -25,9 +25,9 @@ resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at 
 for each instance), format, encoder, name, vertices, coded_vertices, faces, frames, fps,
 fps_assumed, start_time, loop, closed (the last frame repeats the first), up, metres_per_unit,
 order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg, massaged,
-surface_error, segments (basis, first_frame, frames, components, corrections), chunks (type,
-offset, size, required, mesh, segment). Lengths are in scene units, errors those the encoder
-measured.)";
+surface_error, segments (basis, reconstruction, first_frame, frames, components, corrections),
+chunks (type, offset, size, required, mesh, segment). Lengths are in scene units, errors those the
+encoder measured.)";
 
 struct InfoCommand {
   std::string input;
@@ -88,6 +88,7 @@ void print_json(const std::string& path, const Contents& c) {
   json["segments"] = nlohmann::ordered_json::array();
   for (const format::Limits::Segment& s : limits.segments)
     json["segments"].push_back({{"basis", name_of(s.kind)},
+                                {"reconstruction", name_of(s.reconstruction)},
                                 {"first_frame", s.first_frame},
                                 {"frames", s.frames},
                                 {"components", s.components},
@@ -189,9 +190,10 @@ void print_text(const std::string& path, const Contents& c) {
   if (record.massaged)
     row("massaged", fmt::format("the surface moved by up to {:.4g}", record.surface_error));
   for (const format::Limits::Segment& s : limits.segments)
-    row("segment",
-        fmt::format("frames {}:{}, {} {}, {} corrections", s.first_frame, s.first_frame + s.frames,
-                    s.components, components_of(s.kind), s.corrections));
+    row("segment", fmt::format("frames {}:{}, {} {}{}, {} corrections", s.first_frame,
+                               s.first_frame + s.frames, s.components, components_of(s.kind),
+                               s.reconstruction == format::Reconstruction::kMsgi ? " by msgi" : "",
+                               s.corrections));
   print_chunks(c);
 }
 

@@ -30,10 +30,16 @@ void list_limits(FieldReader& r) {
   }
   for (uint64_t i = 0; i < segments && r.ok(); ++i) {
     r.varint(fmt::format("segment {} mesh", i));
-    r.explain(name_of(static_cast<format::BasisKind>(r.u8(fmt::format("segment {} basis", i)))));
+    constexpr uint8_t kMsgi = 16;
+    const uint8_t kind = r.u8(fmt::format("segment {} basis", i));
+    r.explain(kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<format::BasisKind>(kind)));
     for (const char* name :
          {"first frame", "frames", "components", "wide components", "corrections"})
       r.varint(fmt::format("segment {} {}", i, name));
+    if (kind == kMsgi) {
+      r.varint(fmt::format("segment {} bytes of msgi", i));
+      r.varint(fmt::format("segment {} bytes of msgi for a frame", i));
+    }
   }
 }
 

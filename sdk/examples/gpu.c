@@ -24,6 +24,11 @@ static void transform(const float* map, const float* in, float* out) {
 static void shade(const anic_basis* basis, const anic_part* part, uint32_t v, float* x) {
   const size_t b = v / ANIC_BLOCK, i = v % ANIC_BLOCK;
   const uint32_t wide = basis->wide_components, narrow = basis->components - wide;
+  if (part->shape != NULL) { /* ANIC_INTERPOLATED: a buffer that changes with the frame */
+    const uint32_t point = basis->vertex_shape != NULL ? basis->vertex_shape[v] : v;
+    transform(part->motion, part->shape + 3 * (size_t)point, x);
+    return;
+  }
   x[0] = x[1] = x[2] = 0;
   if (basis->pose != NULL) {
     float pose[3];

@@ -37,9 +37,10 @@ Table run_decode(const BenchOptions& options, double kg, int runs);
 Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames, uint32_t shapes,
                 int runs);
 
-/// Playing one frame, and four per pass, of random bases of so many vertices and components, against
-/// Draco decoding a frame, Eigen's float product, reading the coefficients and the limit of
-/// multiply-adds; one thread. The clips of the options count as vertices too, with their Draco frame.
+/// Playing one frame, and four per pass, of random bases of so many vertices and components,
+/// against Draco decoding a frame, Eigen's float product, reading the coefficients and the limit of
+/// multiply-adds; one thread. The clips of the options count as vertices too, with their Draco
+/// frame.
 Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertices,
                const std::vector<uint32_t>& components, int runs);
 
@@ -54,7 +55,12 @@ Table run_poses(const std::vector<std::string>& words);
 /// by straight lines, tracked deformation gradients and MSGI.
 Table run_between(const std::vector<std::string>& clips, uint32_t step);
 
-/// Multi-scale geometry interpolation of generated meshes in one thread, processor time.
+/// KG error of clips coded by so many key-frames: exact ones with free weights, then files with
+/// each choice of interpolation.
+Table run_keyframes(const BenchOptions& options, const std::vector<uint32_t>& counts);
+
+/// Multi-scale geometry interpolation of generated meshes in one thread, processor time, against
+/// that of tracked deformation gradients in the same run.
 Table run_msgi_speed(const std::vector<uint32_t>& vertex_counts, int runs);
 
 }  // namespace anicodec::bench

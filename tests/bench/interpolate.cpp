@@ -3,12 +3,17 @@
 //
 // The thesis' ways to interpolate: errors half way between two poses, in-betweens of a clip, speed.
 #include "codec/closest_point.h"
+#include "codec/deformation_gradients.h"
 #include "codec/edge_shape.h"
+#include "codec/encode.h"
 #include "codec/interpolation.h"
+#include "codec/keyframe_fit.h"
 #include "codec/metrics.h"
 #include "codec/rigid_motion.h"
 #include "corpus/poses.h"
+#include "sdk/face_graph.h"
 #include "sdk/msgi.h"
+#include "sdk/patch_hierarchy.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/stopwatch.h"
@@ -80,6 +85,12 @@ double reproduction(Interpolation& interpolation, const Inputs& inputs, double d
     largest = std::max(largest, (x - to_points(inputs[i])).colwise().norm().maxCoeff());
   }
   return largest / diagonal;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
 }
 
 }  // namespace
@@ -169,16 +180,58 @@ Table run_between(const std::vector<std::string>& clips, uint32_t step) {
   return table;
 }
 
+Table run_keyframes(const BenchOptions& options, const std::vector<uint32_t>& counts) {
+  Table table({{"clip", "clip", ""},
+               {"keyframes", "key-frames", ""},
+               {"free", "KG % free weights", "{:.3f}"},
+               {"linear", "linear", "{:.3f}"},
+               {"msgi", "msgi", "{:.3f}"},
+               {"auto", "auto", "{:.3f}"},
+               {"linear_bytes", "linear bytes", ""},
+               {"msgi_bytes", "msgi bytes", ""},
+               {"msgi_seconds", "msgi CPU s", "{:.1f}"}});
+  for (const std::string& clip : options.clips) {
+    const MeshSequence sequence = load_clip(clip);
+    KeyframeFitter fitter{FrameView(sequence)};
+    for (uint32_t count : counts) {
+      nlohmann::ordered_json row{{"clip", clip}, {"keyframes", count}};
+      row["free"] = fitter.kg(fitter.fit(count, KeyframeMethod::kPivot, KeyframeWeights::kLinear));
+      for (auto [name, choice] : {std::pair{"linear", InterpolationChoice::kLinear},
+                                  std::pair{"msgi", InterpolationChoice::kMsgi},
+                                  std::pair{"auto", InterpolationChoice::kAuto}}) {
+        EncodeOptions encoding;
+        encoding.basis = BasisChoice::kKeyframes;
+        encoding.keyframes = count;
+        encoding.interpolation = choice;
+        const Stopwatch watch(CLOCK_PROCESS_CPUTIME_ID);
+        const EncodeResult result = encode(sequence, encoding);
+        row[name] = result.kg;
+        row[fmt::format("{}_bytes", name)] = result.file.size();
+        row[fmt::format("{}_seconds", name)] = watch.seconds();
+      }
+      table.add(std::move(row));
+    }
+  }
+  return table;
+}
+
 Table run_msgi_speed(const std::vector<uint32_t>& vertex_counts, int runs) {
   Table table({{"vertices", "vertices", ""},
                {"leaf", "leaf", ""},
+               {"hierarchy_us", "hierarchy us per vertex", "{:.2f}"},
                {"init_ms", "set up ms", "{:.1f}"},
                {"frame_ms", "frame ms", "{:.2f}"},
+               {"gradients_ms", "DG frame ms", "{:.2f}"},
+               {"ratio", "DG : ours", "{:.2f}"},
                {"resident_bytes", "resident bytes", ""}});
   for (uint32_t vertices : vertex_counts) {
     const MeshSequence clip = corpus::make_poses("bend", vertices);
     const std::vector<uint32_t> triangles = fan_triangles(clip.polygons);
     const float* inputs[] = {clip.frame(0).data(), clip.frame(1).data()};
+    const std::vector<Points> points{to_points(std::as_const(clip).frame(0)),
+                                     to_points(std::as_const(clip).frame(1))};
+    const EdgeNetwork network(triangles, clip.vertex_count);
+    const GradientInterpolation gradients(network, points, RotationTracking::kPrioritized);
     for (uint32_t leaf : {8U, 16U}) {
       Msgi msgi;
       Msgi::Options options;
@@ -190,13 +243,24 @@ Table run_msgi_speed(const std::vector<uint32_t>& vertex_counts, int runs) {
                          msgi.init(triangles.data(), triangles.size() / 3, clip.vertex_count,
                                    inputs, 2, options);
                        });
-      MsgiScratch scratch;
-      msgi.prepare(&scratch);
+      std::vector<double> scratch((msgi.scratch_bytes() + 7) / 8);
       std::vector<float> out(3 * size_t{clip.vertex_count});
       const double half[] = {0.5, 0.5};
-      row["frame_ms"] = 1e3 * median_thread_seconds(runs, [&] {
-                          msgi.evaluate(half, nullptr, &scratch, out.data());
-                        });
+      row["hierarchy_us"] =
+          1e6 / clip.vertex_count * median_thread_seconds(1, [&] {
+            make_patch_hierarchy(
+                make_face_graph(triangles.data(), triangles.size() / 3, clip.vertex_count), leaf);
+          });
+      // In turns, so that both meet the same neighbours on the machine.
+      std::vector<double> own, others;
+      for (int run = 0; run < runs; ++run) {
+        own.push_back(median_thread_seconds(
+            1, [&] { msgi.evaluate(half, nullptr, scratch.data(), out.data()); }));
+        others.push_back(median_thread_seconds(1, [&] { gradients.evaluate(half); }));
+      }
+      row["frame_ms"] = 1e3 * median(own);
+      row["gradients_ms"] = 1e3 * median(others);
+      row["ratio"] = median(others) / median(own);
       row["resident_bytes"] = msgi.resident_bytes();
       table.add(std::move(row));
     }

@@ -39,6 +39,7 @@ struct Arguments {
   uint32_t vertices = 210000, frames = 100, shapes = 30;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
   uint32_t step = 8;
+  std::vector<uint32_t> keyframes{4, 8};
   std::vector<uint32_t> sizes{7000, 42000, 210000};
 
   void print(const std::string& command, const std::vector<Table>& tables) const {
@@ -203,6 +204,18 @@ void add_between(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(2, 1000));
 }
 
+void add_keyframes(CLI::App& app, Arguments& a) {
+  CLI::App* command =
+      add(app, a, "keyframes", "KG error of clips coded by a few key-frames", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{run_keyframes(args.bench, args.keyframes)};
+      });
+  command->add_option("--counts", a.keyframes, "Numbers of key-frames (default 4,8)")
+      ->option_text("N,...")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 10000));
+}
+
 void add_msgi(CLI::App& app, Arguments& a) {
   CLI::App* command =
       add(app, a, "msgi", "Time of multi-scale geometry interpolation",
@@ -221,8 +234,8 @@ int run(int argc, const char* const* argv) {
   CLI::App app("Measures anicodec on clips against other ways to store them.", "anicodec_bench");
   app.require_subcommand(1);
   app.footer(kFooter);
-  for (auto add_command :
-       {add_rate, add_near, add_decode, add_play, add_auto, add_poses, add_between, add_msgi})
+  for (auto add_command : {add_rate, add_near, add_decode, add_play, add_auto, add_poses,
+                           add_between, add_keyframes, add_msgi})
     add_command(app, arguments);
   try {
     app.parse(argc, argv);

@@ -66,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Vector{"limb_small.anic", "limb", 100, 8}, Vector{"far_rigid.anic", "far"},
                     Vector{"uneven_times.anic", "uneven"},
                     Vector{"leftovers_plain.anic", "leftovers"},
-                    Vector{"one_frame.anic", "one_frame"}, Vector{"one_vertex.anic", "one_vertex"}),
+                    Vector{"one_frame.anic", "one_frame"}, Vector{"one_vertex.anic", "one_vertex"},
+                    Vector{"nonmanifold_interpolated.anic", "nonmanifold"}),
     [](const auto& vector) {
       return std::string(vector.param.file, std::string(vector.param.file).find('.'));
     });

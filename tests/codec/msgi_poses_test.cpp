@@ -27,20 +27,20 @@ struct Between {
     EXPECT_EQ(msgi.init(triangles.data(), triangles.size() / 3, clip.vertex_count, inputs.data(), 2,
                         options),
               Status::kOk);
-    msgi.prepare(&scratch);
+    scratch.resize((msgi.scratch_bytes() + 7) / 8);
     out.resize(3 * size_t{clip.vertex_count});
   }
 
   std::span<const float> at(double t) {
     const double weights[] = {1 - t, t};
-    EXPECT_EQ(msgi.evaluate(weights, nullptr, &scratch, out.data()), Status::kOk);
+    EXPECT_EQ(msgi.evaluate(weights, nullptr, scratch.data(), out.data()), Status::kOk);
     return out;
   }
 
   std::vector<uint32_t> triangles;
   std::vector<const float*> inputs;
   Msgi msgi;
-  MsgiScratch scratch;
+  std::vector<double> scratch;
   std::vector<float> out;
 };
 

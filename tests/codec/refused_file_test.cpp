@@ -92,12 +92,34 @@ TEST_F(RefusedFile, MoreTrianglesThanCornersCanBeNumbered) {
   EXPECT_EQ(status_of(file), Status::kRecord);
 }
 
-TEST_F(RefusedFile, ReservedReconstruction) {
+TEST_F(RefusedFile, UnknownReconstruction) {
+  EditedFile file(keyframes_);
+  file.change_record<format::SegmentRecord>("SEGM", [](format::SegmentRecord& record) {
+    record.reconstruction = static_cast<format::Reconstruction>(2);
+  });
+  EXPECT_EQ(status_of(file), Status::kFeature);
+}
+
+TEST_F(RefusedFile, ReconstructionThatTheLimitsDoNotTell) {
   EditedFile file(keyframes_);
   file.change_record<format::SegmentRecord>("SEGM", [](format::SegmentRecord& record) {
     record.reconstruction = format::Reconstruction::kMsgi;
   });
-  EXPECT_EQ(status_of(file), Status::kFeature);
+  EXPECT_EQ(status_of(file), Status::kSegment);
+}
+
+TEST_F(RefusedFile, MoreMemoryThanTheLimitsTell) {
+  EncodeOptions options;
+  options.keyframes = 3;
+  options.interpolation = InterpolationChoice::kMsgi;
+  const format::Bytes bytes = encode(corpus::make_clip("nonmanifold"), options).file;
+  for (uint64_t Limits::Segment::*size :
+       {&Limits::Segment::msgi_bytes, &Limits::Segment::msgi_frame_bytes}) {
+    EditedFile file(bytes);
+    ASSERT_EQ(status_of(file), Status::kOk);
+    file.change_limits([&](Limits& limits) { limits.segments[0].*size /= 2; });
+    EXPECT_EQ(status_of(file), Status::kRecord);
+  }
 }
 
 TEST_F(RefusedFile, DracoBytesWithoutDraco) {

@@ -34,6 +34,7 @@ VECTORS = [
     ("leftovers_plain.anic", "leftovers", "--kg 0.5 --order all --mesh-coder plain --basis keyframes"),
     ("one_frame.anic", "one_frame", "--kg 0.5"),
     ("one_vertex.anic", "one_vertex", "--kg 0.5"),
+    ("nonmanifold_interpolated.anic", "nonmanifold", "--keyframes 3 --interpolation msgi --mesh-coder plain"),
 ]
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 # Codes that a file can cause, with the names of spec/12-errors.md.

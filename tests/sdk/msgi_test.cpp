@@ -38,10 +38,9 @@ Status init(Msgi& msgi, const TriangleList& list, const std::vector<Positions>& 
 
 Positions evaluate(const Msgi& msgi, const std::vector<double>& weights,
                    const float* pins = nullptr, const HostThreads& threads = {}) {
-  MsgiScratch scratch;
-  msgi.prepare(&scratch);
+  std::vector<double> scratch((msgi.scratch_bytes() + 7) / 8);
   Positions x(3 * size_t{msgi.vertex_count()});
-  EXPECT_EQ(msgi.evaluate(weights.data(), pins, &scratch, x.data(), threads), Status::kOk);
+  EXPECT_EQ(msgi.evaluate(weights.data(), pins, scratch.data(), x.data(), threads), Status::kOk);
   return x;
 }
 
@@ -241,14 +240,13 @@ TEST(Msgi, RefusesWhatItCannotDo) {
   options = {};
   options.pins = {5};
   ASSERT_EQ(init(msgi, grid, inputs, options), Status::kOk);
-  MsgiScratch scratch;
-  msgi.prepare(&scratch);
+  std::vector<double> scratch((msgi.scratch_bytes() + 7) / 8);
   Positions x(48), pin{0, 0, 0};
   const double wrong_sum[] = {0.5, 0.6}, nan[] = {std::nan(""), 1}, right[] = {0.5, 0.5};
-  EXPECT_EQ(msgi.evaluate(wrong_sum, pin.data(), &scratch, x.data()), Status::kArgument);
-  EXPECT_EQ(msgi.evaluate(nan, pin.data(), &scratch, x.data()), Status::kArgument);
-  EXPECT_EQ(msgi.evaluate(right, nullptr, &scratch, x.data()), Status::kArgument);
-  EXPECT_EQ(msgi.evaluate(right, pin.data(), &scratch, x.data()), Status::kOk);
+  EXPECT_EQ(msgi.evaluate(wrong_sum, pin.data(), scratch.data(), x.data()), Status::kArgument);
+  EXPECT_EQ(msgi.evaluate(nan, pin.data(), scratch.data(), x.data()), Status::kArgument);
+  EXPECT_EQ(msgi.evaluate(right, nullptr, scratch.data(), x.data()), Status::kArgument);
+  EXPECT_EQ(msgi.evaluate(right, pin.data(), scratch.data(), x.data()), Status::kOk);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "tests/tools/command_testing.h"
 #include "tools/io/write_sequence.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -63,6 +64,25 @@ TEST_F(EncodeCommand, UsesTheNumberOfKeyframesAskedFor) {
     EXPECT_EQ(outcome.json()["components"], 7) << select;
     EXPECT_EQ(outcome.json()["basis"], "keyframes");
   }
+}
+
+TEST_F(EncodeCommand, RebuildsFramesAsAskedFor) {
+  auto kg = [&](const std::string& interpolation) {
+    Outcome outcome =
+        encode({"--keyframes", "5", "--interpolation", interpolation, "--json", "-f"});
+    EXPECT_EQ(outcome.status, 0) << outcome;
+    EXPECT_EQ(anicodec({"verify", folder_ / "a.anic"}).status, 0);
+    return outcome.json()["kg"].get<double>();
+  };
+  const double linear = kg("linear"), msgi = kg("msgi");
+  nlohmann::json info = anicodec({"info", folder_ / "a.anic", "--json"}).json();
+  EXPECT_EQ(info["segments"][0]["reconstruction"], "msgi");
+  EXPECT_THAT(anicodec({"info", folder_ / "a.anic"}).out, HasSubstr("by msgi"));
+  EXPECT_THAT(anicodec({"dump", folder_ / "a.anic"}).out, HasSubstr("bytes of msgi for a frame"));
+  EXPECT_LE(kg("auto"), std::min(linear, msgi) * 1.000001);
+  Outcome wrong = encode({"--basis", "eigenshapes", "--interpolation", "msgi", "-f"});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("--interpolation goes with"));
 }
 
 TEST_F(EncodeCommand, UsesTheBasisAskedFor) {

@@ -180,7 +180,7 @@ typedef struct anic_requirements {
   uint64_t opening_bytes;  /**< held at most while it opens, resident ones included, the file excluded */
   uint64_t draco_bytes;    /**< of those, what Draco may take from the global heap at most */
   uint64_t block_bytes;    /**< a block for anic_block_allocator() in which the asset can be opened */
-  uint64_t context_bytes;  /**< of one context */
+  uint64_t context_bytes;  /**< of one context, at most */
   uint32_t mesh_count;
   uint32_t segment_count;
   uint32_t frame_count;
@@ -358,7 +358,8 @@ typedef enum anic_wrap {
  * Chooses a frame. What was chosen before becomes ANIC_PREVIOUS.
  *
  * Errors   ANIC_E_FRAME_RANGE
- * Cost     O(log segments), the same for every frame. Spec: 10
+ * Cost     O(log segments), the same for every frame. Spec: 10. In segments of ANIC_INTERPOLATED the
+ *          shape is made here: O(vertices x log vertices)
  */
 ANIC_API anic_status anic_seek_frame(anic_context* context, uint32_t frame);
 
@@ -371,7 +372,8 @@ ANIC_API anic_status anic_seek_frame(anic_context* context, uint32_t frame);
  * only; a time within 1/1024 of the way from a frame to the next is that frame.
  *
  * Errors   ANIC_E_ARGUMENT: a time that is not finite
- * Cost     O(components + log segments); with a table of times + O(log frames)
+ * Cost     O(components + log segments); with a table of times + O(log frames). In segments of
+ *          ANIC_INTERPOLATED the shape is made here
  */
 ANIC_API anic_status anic_seek_time(anic_context* context, double seconds,
                                     anic_interpolation interpolation, anic_wrap wrap);
@@ -437,7 +439,8 @@ ANIC_API anic_status anic_positions(const anic_context* context, uint32_t mesh, 
  * frames, four and four, take about half the time of one by one, and come out the same.
  *
  * Shapes   frames, outputs: frame_count, at most ANIC_MAX_FRAMES; outputs must not overlap
- * Errors   ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE, ANIC_E_FRAME_RANGE, ANIC_E_SEGMENT
+ * Errors   ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE, ANIC_E_FRAME_RANGE, ANIC_E_SEGMENT; ANIC_E_STATE: a
+ *          segment of ANIC_INTERPOLATED, which needs the memory of a context
  */
 ANIC_API anic_status anic_frames(const anic_asset* asset, uint32_t mesh, const uint32_t* frames,
                                  uint32_t frame_count, uint32_t first, uint32_t count,
@@ -514,6 +517,80 @@ ANIC_API anic_status anic_normals_compute(const anic_normals* normals, const flo
                                           size_t stride, uint32_t first, uint32_t count,
                                           const anic_output* out);
 
+/* ------------------------------------------------------------------------------------------- interpolation */
+
+/**
+ * Interpolates between meshes of one connectivity, without a file: lengths, angles and volume keep where limbs
+ * turn far (multi-scale geometry interpolation; spec: 09d says how). Immutable, shared by threads.
+ */
+typedef struct anic_interpolator anic_interpolator;
+
+/** All zero, or a NULL pointer to it: everything by default. */
+typedef struct anic_interpolator_options {
+  uint32_t leaf_faces; /**< faces of the smallest patches, 1 to 255; 0 means 8 */
+  uint32_t sweeps;     /**< rounds that adapt the patches' rotations to what they are pulled to: none for plain
+                            interpolation; 1 or 2 may help far outside the meshes, 5 to 20 with pins */
+  const uint32_t* pins; /**< vertices whose positions anic_interpolate() is given; each at most once */
+  uint32_t pin_count;
+  uint64_t bytes; /**< ANIC_E_LIMIT when more would be held; 0 means 2^32 */
+} anic_interpolator_options;
+
+/**
+ * Prepares the interpolation. Nothing that is given is kept.
+ *
+ * Any triangles will do: holes, several parts, duplicate and degenerate faces, edges of many faces. Parts that
+ * share no vertex are interpolated apart; vertices of no triangle move on straight lines.
+ *
+ * Shapes   triangles: triangle_count x 3; meshes: mesh_count (2 or more) pointers to vertex_count x 3
+ * Errors   ANIC_E_ARGUMENT; ANIC_E_INDEX_RANGE: a corner is no vertex; ANIC_E_NON_FINITE: a coordinate;
+ *          ANIC_E_LIMIT; ANIC_E_MEMORY; ANIC_E_FEATURE: a build without it
+ * Cost     O(vertices x log vertices + vertices x meshes) and factoring a sparse matrix, O(vertices^1.5)
+ */
+ANIC_API anic_status anic_interpolator_create(const uint32_t* triangles, uint32_t triangle_count,
+                                              uint32_t vertex_count, const float* const* meshes,
+                                              uint32_t mesh_count,
+                                              const anic_interpolator_options* options,
+                                              const anic_allocator* allocator,
+                                              anic_interpolator** out);
+
+/** NULL is allowed. */
+ANIC_API void anic_interpolator_destroy(anic_interpolator* interpolator);
+
+typedef struct anic_interpolator_info {
+  uint32_t vertex_count;
+  uint32_t mesh_count;
+  uint64_t resident_bytes;
+  uint64_t scratch_bytes; /**< that anic_interpolate() works in */
+  double largest_turn;    /**< radians between neighbouring patches, in any mesh against the first: above a
+                               right angle, smaller patches may do better */
+} anic_interpolator_info;
+
+ANIC_API void anic_interpolator_info_get(const anic_interpolator* interpolator,
+                                         anic_interpolator_info* out);
+
+/**
+ * Threads of the host. run() calls body(context, i) once for every i below count, in any order and from any
+ * thread, and returns when all calls have.
+ */
+typedef struct anic_threads {
+  void (*run)(void* host, size_t count, void (*body)(void* context, size_t i), void* context);
+  void* host;
+} anic_threads;
+
+/**
+ * Writes the mesh at some weights, which sum to one; outside [0, 1] they extrapolate. At the weights of one mesh
+ * it is that mesh, to rounding.
+ *
+ * Shapes   weights: mesh_count; pin_positions: pin_count x 3, may be NULL without pins; out: vertex_count x 3;
+ *          scratch: scratch_bytes at a multiple of 8. threads may be NULL; the result does not depend on them
+ * Errors   ANIC_E_ARGUMENT: weights that are not finite or do not sum to one within 1e-5, pins missing;
+ *          ANIC_E_BUFFER_SIZE: scratch too small
+ * Cost     O(vertices x (log vertices + meshes of a weight other than 0)). Allocates nothing.
+ */
+ANIC_API anic_status anic_interpolate(const anic_interpolator* interpolator, const double* weights,
+                                      const float* pin_positions, const anic_threads* threads,
+                                      void* scratch, size_t scratch_size, float* out);
+
 /* ----------------------------------------------------------------------------------------------------- GPU */
 
 typedef enum anic_basis_kind {
@@ -521,6 +598,12 @@ typedef enum anic_basis_kind {
   ANIC_EIGENSHAPES = 1,
   ANIC_EIGENTRAJECTORIES = 2
 } anic_basis_kind;
+
+/** How positions come from a basis. */
+typedef enum anic_reconstruction {
+  ANIC_COMBINED = 0,    /**< a linear combination */
+  ANIC_INTERPOLATED = 1 /**< multi-scale geometry interpolation between key-frames: anic_part.shape. Spec: 09d */
+} anic_reconstruction;
 
 /** Vertices are stored in blocks of this many: one number of all of them lies together. */
 #define ANIC_BLOCK 16
@@ -552,6 +635,8 @@ typedef struct anic_basis {
   size_t wide_count;
   size_t narrow_count;
   float origin[3]; /**< of kind 0: added to every vertex before the motion */
+  anic_reconstruction reconstruction;
+  const uint32_t* vertex_shape; /**< of ANIC_INTERPOLATED: point of the shape that each vertex is; NULL: its own */
 } anic_basis;
 
 /** Errors: ANIC_E_ARGUMENT: no such segment; ANIC_E_SEGMENT: it has not arrived yet. */
@@ -570,12 +655,16 @@ typedef struct anic_correction {
  *       (channels 1: basis(j, v) times each of the three weights)
  *   x = motion * (x + origin, 1)            then the corrections, which are few: ascending by vertex
  *
+ * With ANIC_INTERPOLATED, the first line and the origin are replaced: x = shape(vertex_shape(v)), three floats
+ * for each point, which the seek has made.
+ *
  * Matrices are 3 x 4, row-major. Pointers are good until the next but one seek of the context.
  */
 typedef struct anic_part {
   uint32_t segment;
   float share; /**< the position is the sum of share * x over the parts */
   const float* weights;
+  const float* shape; /**< NULL with ANIC_COMBINED */
   float pose_map[12];
   float motion[12];
   const anic_correction* corrections;
