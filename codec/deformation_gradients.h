@@ -63,6 +63,9 @@ class DeformationGradients {
 
   size_t triangle_count() const { return areas_.size(); }
 
+  /// Of the triangles in the reference; 0 where one is degenerate.
+  const std::vector<double>& areas() const { return areas_; }
+
  private:
   Eigen::Matrix3d frame(const Points& x, size_t triangle) const;
   Eigen::Vector3d normal(const Points& x, size_t triangle) const;
@@ -87,6 +90,11 @@ class GradientInterpolation {
 
   /// The mesh at the weights, one per input, which sum to one.
   Points evaluate(std::span<const double> weights) const;
+
+  /// What is blended of an input.
+  const DeformationGradients::Gradients& measured(size_t input) const { return measured_[input]; }
+
+  const std::vector<double>& areas() const { return gradients_.areas(); }
 
  private:
   DeformationGradients gradients_;

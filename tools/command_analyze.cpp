@@ -27,23 +27,31 @@ constexpr const char* kFooter =
 frame (rigid), and by K principal components (pca). Nothing is quantised. The table holds KG errors
 in per cent; --csv prints method,k,kg,rmse.
 
+--spaces shows principal components of three shape spaces instead: of positions (vertices), of edge
+lengths and dihedral angles, rebuilt by multi-scale geometry interpolation (edges), and of
+deformation gradients (gradients); frames are compared after the best rigid motion. Beside each
+error stand the bytes of mean, components and weights as float32. --csv prints
+space,k,kg,numbers,bytes,residual_percent: numbers of one component, and the per cent of the
+variance in the space itself that the components leave.
+
 With -o, or --json, more is measured, which takes a minute or so: sizes at several errors, also with
 key-frames alone and with other codecs, where bytes and errors are, and pictures. The page needs
 nothing but a browser; --json prints its numbers: name, vertices, faces, frames, frame_rate,
 diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), shown_kg, shown_bytes, shares,
-frame_errors (rmse, max_error), basis_errors (method, k, kg, rmse). With -o x.svg the curves of size
-against KG error alone.
+frame_errors (rmse, max_error), basis_errors (method, k, kg, rmse), shape_spaces (space, k, kg,
+numbers, bytes, residual_percent). With -o x.svg the curves of size against KG error alone.
 
 Examples:
   anicodec analyze dance.obj dance.pc2
   anicodec analyze dance.obj dance.pc2 -o report.html
-  anicodec analyze 'frames/*.obj' --counts 5,10,20,45 --csv > errors.csv)";
+  anicodec analyze 'frames/*.obj' --counts 5,10,20,45 --csv > errors.csv
+  anicodec analyze dance.obj dance.pc2 --spaces)";
 
 struct AnalyzeCommand {
   std::vector<std::string> inputs;
   std::string mesh, output;
   std::string counts = "1,2,5,10,15,20,30,45,60,80,100";
-  bool csv = false, json = false;
+  bool csv = false, json = false, spaces = false;
   int effort = 3;
 };
 
@@ -53,30 +61,61 @@ void print_csv(const std::vector<BasisError>& rows) {
     fmt::print("{},{},{:.6g},{:.6g}\n", row.method, row.k, row.kg, row.rmse);
 }
 
-/// A row for every method, a column for every k.
-void print_table(const std::vector<BasisError>& rows) {
-  std::vector<std::string> methods;
+void print_csv(const std::vector<ShapeSpaceError>& rows) {
+  fmt::print("space,k,kg,numbers,bytes,residual_percent\n");
+  for (const ShapeSpaceError& row : rows)
+    fmt::print("{},{},{:.6g},{},{},{:.6g}\n", row.space, row.k, row.kg, row.numbers, row.bytes,
+               row.residual_percent);
+}
+
+/// A number of something with so many elements.
+struct Cell {
+  std::string row;
+  size_t k;
+  std::string text;
+};
+
+/// A row for every name, a column for every k.
+void print_table(const std::string& title, const std::vector<Cell>& cells) {
+  std::vector<std::string> names;
   std::vector<size_t> counts;
-  for (const BasisError& row : rows) {
-    if (std::find(methods.begin(), methods.end(), row.method) == methods.end())
-      methods.push_back(row.method);
-    if (std::find(counts.begin(), counts.end(), row.k) == counts.end())
-      counts.push_back(row.k);
+  for (const Cell& cell : cells) {
+    if (std::find(names.begin(), names.end(), cell.row) == names.end())
+      names.push_back(cell.row);
+    if (std::find(counts.begin(), counts.end(), cell.k) == counts.end())
+      counts.push_back(cell.k);
   }
   std::sort(counts.begin(), counts.end());
-  fmt::print("{:<20}", "KG error in % at k =");
+  fmt::print("{:<20}", title);
   for (size_t k : counts)
     fmt::print(" {:>8}", k);
   fmt::print("\n");
-  for (const std::string& method : methods) {
-    fmt::print("{:<20}", method);
+  for (const std::string& name : names) {
+    fmt::print("{:<20}", name);
     for (size_t k : counts) {
-      auto row = std::find_if(rows.begin(), rows.end(),
-                              [&](const BasisError& r) { return r.method == method && r.k == k; });
-      fmt::print(" {:>8}", row == rows.end() ? "" : fmt::format("{:#.4g}", row->kg));
+      auto cell = std::find_if(cells.begin(), cells.end(),
+                               [&](const Cell& c) { return c.row == name && c.k == k; });
+      fmt::print(" {:>8}", cell == cells.end() ? "" : cell->text);
     }
     fmt::print("\n");
   }
+}
+
+void print_table(const std::vector<BasisError>& rows) {
+  std::vector<Cell> cells;
+  for (const BasisError& row : rows)
+    cells.push_back({row.method, row.k, fmt::format("{:#.4g}", row.kg)});
+  print_table("KG error in % at k =", cells);
+}
+
+void print_table(const std::vector<ShapeSpaceError>& rows) {
+  std::vector<Cell> errors, sizes;
+  for (const ShapeSpaceError& row : rows) {
+    errors.push_back({row.space, row.k, fmt::format("{:#.4g}", row.kg)});
+    sizes.push_back({row.space, row.k, readable_bytes(row.bytes)});
+  }
+  print_table("KG error in % at k =", errors);
+  print_table("float32 at k =", sizes);
 }
 
 void run(const AnalyzeCommand& command, const CommonOptions& common) {
@@ -100,6 +139,8 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
     line.clear();
     if (command.json)
       fmt::print("{}\n", report_json(report).dump(2));
+    else if (command.csv && command.spaces)
+      print_csv(report.shape_spaces);
     else if (command.csv)
       print_csv(report.basis_errors);
     else if (!common.quiet)
@@ -108,6 +149,16 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
     return;
   }
   line.show("analysing", 0);
+  if (command.spaces) {
+    check(sequence);
+    const std::vector<ShapeSpaceError> rows = shape_space_errors(sequence, counts);
+    line.clear();
+    if (command.csv)
+      print_csv(rows);
+    else
+      print_table(rows);
+    return;
+  }
   KeyframeFitter fitter{FrameView(sequence)};
   std::vector<BasisError> rows = basis_errors(fitter, counts);
   line.clear();
@@ -136,8 +187,8 @@ void add_analyze(CLI::App& app, CommonOptions& common) {
   command->add_option("--effort", c->effort, "Of the report's encodings, 1 to 9 (default 3)")
       ->option_text("N")
       ->check(CLI::Range(1, 9));
-  CLI::Option* csv =
-      command->add_flag("--csv", c->csv, "Print comma-separated values: method,k,kg,rmse");
+  command->add_flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
+  CLI::Option* csv = command->add_flag("--csv", c->csv, "Print comma-separated values");
   command->add_flag("--json", c->json, "Print all numbers of the report")->excludes(csv);
 }
 

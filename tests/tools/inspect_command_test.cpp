@@ -213,6 +213,9 @@ TEST(AnalyzeCommand, ErrorsFallWithTheNumberOfComponents) {
   EXPECT_GT(pca[1], pca[2]);
   Outcome table = anicodec({"analyze", folder / "a.pc2", "--counts", "2,4,8"});
   EXPECT_THAT(table.out, AllOf(HasSubstr("gas"), HasSubstr("pivot"), HasSubstr("uniform")));
+  Outcome spaces = anicodec({"analyze", folder / "a.pc2", "--counts", "2,4", "--csv", "--spaces"});
+  EXPECT_THAT(spaces.out, StartsWith("space,k,kg,numbers,bytes,residual_percent\nvertices,2,"));
+  EXPECT_THAT(spaces.out, AllOf(HasSubstr("\nedges,4,"), HasSubstr("\ngradients,4,")));
 }
 
 }  // namespace

@@ -62,6 +62,10 @@ TEST(Report, NeedsNothingButABrowser) {
     shares += bytes.get<uint64_t>();
   EXPECT_EQ(json["shown_bytes"], shares);
   EXPECT_EQ(json["frame_errors"].size(), 72U);
+  EXPECT_THAT(page, HasSubstr("Shape spaces"));
+  ASSERT_EQ(json["shape_spaces"].size(), 6U);
+  EXPECT_EQ(json["shape_spaces"][3]["space"], "edges");
+  EXPECT_LT(json["shape_spaces"][3]["kg"], json["shape_spaces"][2]["kg"]);
   double before = 0;
   for (const auto& point : json["rates"]) {
     if (point["codec"] != "anicodec")

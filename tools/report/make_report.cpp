@@ -71,13 +71,15 @@ class ReportMaker {
     KeyframeFitter fitter{FrameView(sequence_)};
     report_.basis_errors = basis_errors(fitter, options_.counts);
     draw_keyframes(fitter);
+    begin("shape spaces");
+    report_.shape_spaces = shape_space_errors(sequence_, options_.counts);
     return std::move(report_);
   }
 
  private:
   void begin(const char* stage) {
     constexpr double kStages =
-        std::size(kLinearTargets) + std::size(kKeyframeTargets) + std::size(kPeerTargets) + 2;
+        std::size(kLinearTargets) + std::size(kKeyframeTargets) + std::size(kPeerTargets) + 3;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (options_.progress)
       options_.progress(stage, stage_ / kStages);
@@ -299,6 +301,14 @@ nlohmann::ordered_json report_json(const Report& report) {
   for (const BasisError& e : report.basis_errors)
     json["basis_errors"].push_back(
         {{"method", e.method}, {"k", e.k}, {"kg", e.kg}, {"rmse", e.rmse}});
+  json["shape_spaces"] = nlohmann::ordered_json::array();
+  for (const ShapeSpaceError& e : report.shape_spaces)
+    json["shape_spaces"].push_back({{"space", e.space},
+                                    {"k", e.k},
+                                    {"kg", e.kg},
+                                    {"numbers", e.numbers},
+                                    {"bytes", e.bytes},
+                                    {"residual_percent", e.residual_percent}});
   return json;
 }
 

@@ -138,6 +138,34 @@ Chart frame_chart(const Report& report) {
   return chart;
 }
 
+/// A line for each shape space against what `x` says.
+template <class Value>
+Chart space_chart(const Report& report, const char* label, bool log_x, Value x) {
+  Chart chart;
+  chart.x_label = label;
+  chart.y_label = "KG error in %";
+  chart.log_x = log_x;
+  chart.log_y = true;
+  for (const ShapeSpaceError& e : report.shape_spaces) {
+    if (chart.series.empty() || chart.series.back().name != e.space)
+      chart.series.push_back({e.space, {}, false});
+    chart.series.back().points.emplace_back(x(e), e.kg);
+  }
+  return chart;
+}
+
+std::string space_table(const Report& report) {
+  std::string out =
+      "<div class=\"scroll\"><table><tr><th>space</th><th>components</th><th>KG error %</th>"
+      "<th>numbers in a component</th><th>float32 bytes</th><th>variance left in the space, %</th>"
+      "</tr>";
+  for (const ShapeSpaceError& e : report.shape_spaces)
+    out += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{:.3g}</td><td>{}</td><td>{}</td><td>{:.3g}</td></tr>",
+        escaped(e.space), e.k, e.kg, grouped(e.numbers), grouped(e.bytes), e.residual_percent);
+  return out + "</table></div>";
+}
+
 bool starts_with(const std::string& text, const char* prefix) {
   return text.rfind(prefix, 0) == 0;
 }
@@ -219,6 +247,21 @@ std::string report_page(const Report& report) {
     for (const ReportPicture& p : report.keyframes)
       out += picture(p);
     out += "</div>";
+  }
+  if (!report.shape_spaces.empty()) {
+    out +=
+        "<h2>Shape spaces</h2><p>Principal components of vertex positions (vertices), of edge "
+        "lengths and dihedral angles, rebuilt by multi-scale geometry interpolation (edges), and "
+        "of deformation gradients (gradients); frames are compared after the best rigid motion. "
+        "A component of edges takes about twice the numbers of one of vertices, one of gradients "
+        "six times: at the right, the mean, the components and their weights in float32.</p>"
+        "<div class=\"charts\">";
+    out += svg_of(space_chart(report, "components", false,
+                              [](const ShapeSpaceError& e) { return static_cast<double>(e.k); }));
+    out += svg_of(space_chart(report, "bytes", true, [](const ShapeSpaceError& e) {
+      return static_cast<double>(e.bytes);
+    }));
+    out += "</div>" + space_table(report);
   }
   return out + "</main></body></html>\n";
 }

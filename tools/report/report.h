@@ -7,6 +7,7 @@
 #include "codec/mesh_sequence.h"
 #include "codec/metrics.h"
 #include "codec/progress.h"
+#include "codec/shape_spaces.h"
 #include "tools/render/image.h"
 
 #include <cstdint>
@@ -55,6 +56,7 @@ struct Report {
   std::vector<ByteShare> shares;  ///< where they went
   Comparison shown;               ///< that file against the clip, frame by frame
   std::vector<BasisError> basis_errors;
+  std::vector<ShapeSpaceError> shape_spaces;
   std::vector<ReportPicture> pictures;   ///< original, decoded, error, side by side
   std::vector<ReportPicture> keyframes;  ///< the contact sheet
 };
