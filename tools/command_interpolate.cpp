@@ -43,6 +43,9 @@ Methods (thesis chapter 4):
 --pin VERTICES=FILE (msgi only) holds vertices, such as 0,7,20-29, at the positions of a text file, a
 line of three numbers for each: once for all frames, or for each frame in turn.
 
+--refine takes steps on the lengths and angles themselves, after any method: closer to them, where a
+method comes near, in about a second for each step, frame and 7000 vertices.
+
 --compare prints how far the frames of every method are from the lengths, angles and volume that the
 weights ask for, means over the frames; then -o may be left out.
 
@@ -204,6 +207,11 @@ void add_interpolate(CLI::App& app, CommonOptions& common) {
                    "Rounds of refitting the patches (default 0; 10 with --pin)")
       ->option_text("N")
       ->check(CLI::Range(0, 1000));
+  command
+      ->add_option("--refine", c->refine,
+                   "Gauss-Newton steps on lengths and angles afterwards (default 0)")
+      ->option_text("N")
+      ->check(CLI::Range(0, 100));
   command->add_option("--mesh", c->mesh, "Mesh of a vertex cache (default: same stem beside it)")
       ->option_text("FILE");
   command->add_flag("--compare", c->compare, "Print the errors of all methods");

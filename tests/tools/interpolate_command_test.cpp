@@ -94,6 +94,18 @@ TEST(InterpolateCommand, ComparesAllMethods) {
     EXPECT_THAT(outcome.out, HasSubstr(word));
 }
 
+TEST(InterpolateCommand, RefinesLengthsAndAngles) {
+  TemporaryFolder folder;
+  write_limb(folder);
+  auto length_error = [&](const std::string& steps) {
+    Outcome outcome = anicodec({"interpolate", folder / "limb.pc2@0", folder / "limb.pc2@9",
+                                "--frames", "3", "--compare", "--refine", steps});
+    EXPECT_EQ(outcome.status, 0) << outcome;
+    return std::stod(outcome.out.substr(outcome.out.find("msgi ") + 4));
+  };
+  EXPECT_LT(length_error("2"), 0.9 * length_error("0"));
+}
+
 TEST(InterpolateCommand, SaysWhatIsWrong) {
   TemporaryFolder folder;
   write_limb(folder);
