@@ -5,7 +5,27 @@
 // whether checksums are repaired first.
 #include "tests/fuzz/fuzz_asset.h"
 
+#include <algorithm>
+
 using namespace anicodec;
+
+namespace {
+
+/// Opens through a callback.
+anic_status open_reader(const format::Bytes& file, const anic_options& options, anic_asset** out,
+                        anic_failure* failure) {
+  anic_reader reader = {};
+  reader.user = const_cast<format::Bytes*>(&file);
+  reader.read = [](void* user, uint64_t offset, void* to, size_t size) {
+    const auto& bytes = *static_cast<const format::Bytes*>(user);
+    require(size > 0 && offset <= bytes.size() && size <= bytes.size() - offset);
+    std::copy_n(bytes.data() + offset, size, static_cast<uint8_t*>(to));
+    return 0;
+  };
+  return anic_asset_open_reader(&reader, file.size(), &options, out, failure);
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Script script = script_of(data, size);
@@ -21,16 +41,23 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 
   anic_requirements needs;
   const anic_status query = anic_query(file.data(), file.size(), &options, &needs);
+  anic_requirements of_prefix;
+  const anic_status early = anic_query(
+      file.data(), script.below(static_cast<uint32_t>(file.size()) + 1), &options, &of_prefix);
+  require(early != ANIC_E_INTERNAL);
   require(memory.held == 0);
   memory.peak = 0;
   anic_asset* asset = nullptr;
   anic_failure failure;
-  const anic_status status = anic_asset_open(file.data(), file.size(), &options, &asset, &failure);
+  const bool by_reader = mode % 4 == 3;
+  const anic_status status =
+      by_reader ? open_reader(file, options, &asset, &failure)
+                : anic_asset_open(file.data(), file.size(), &options, &asset, &failure);
   require(failure.status == status && (asset != nullptr) == (status == ANIC_OK));
   require(status != ANIC_E_INTERNAL && status != ANIC_E_MEMORY);
   require(query == ANIC_OK || status != ANIC_OK);
   if (query == ANIC_OK)
-    require(memory.peak <= needs.opening_bytes);
+    require(memory.peak <= needs.opening_bytes + (by_reader ? file.size() : 0));
   if (asset) {
     require(memory.held <= needs.resident_bytes + needs.resident_bytes / 20 + 4096);
     const anic_status verified = anic_asset_verify(asset);
