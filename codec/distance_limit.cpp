@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/distance_limit.h"
 
+#include "codec/mesh_quality.h"
+
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -45,28 +48,42 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
         any = true;
       }
     };
-    const Surface after(topology, *v);
-    std::optional<Surface> indexed;  // only where walking does not settle it
-    for (uint32_t t = 0; t < topology.triangles.size(); ++t) {
-      for_samples([&](const Vector3d& w) {
-        const Vector3d moved = point(*v, topology.triangles[t], w);
-        if (before.walk(moved, t).square_distance > square &&
-            before.closest(moved).square_distance > square)
-          mark(t);
-        const Vector3d old = point(before.positions(), topology.triangles[t], w);
-        if (!(after.walk(old, t).square_distance > square))
-          return;
-        if (!indexed) {
-          indexed.emplace(topology, *v);
-          indexed->build_index();
-        }
-        const SurfacePoint closest = indexed->closest(old);
-        if (closest.square_distance > square) {
-          mark(t);
-          mark(closest.triangle);
-        }
+    auto mark_far = [&] {
+      const Surface after(topology, *v);
+      std::optional<Surface> indexed;  // only where walking does not settle it
+      for (uint32_t t = 0; t < topology.triangles.size(); ++t) {
+        for_samples([&](const Vector3d& w) {
+          const Vector3d moved = point(*v, topology.triangles[t], w);
+          if (before.walk(moved, t).square_distance > square &&
+              before.closest(moved).square_distance > square)
+            mark(t);
+          const Vector3d old = point(before.positions(), topology.triangles[t], w);
+          if (!(after.walk(old, t).square_distance > square))
+            return;
+          if (!indexed) {
+            indexed.emplace(topology, *v);
+            indexed->build_index();
+          }
+          const SurfacePoint closest = indexed->closest(old);
+          if (closest.square_distance > square) {
+            mark(t);
+            mark(closest.triangle);
+          }
+        });
+      }
+    };
+    auto at_rest = [&](const SurfaceTopology::Triangle& t) {
+      return std::all_of(t.begin(), t.end(), [&](uint32_t i) {
+        const auto r = static_cast<Eigen::Index>(i);
+        return v->row(r) == before.positions().row(r);
       });
+    };
+    for (uint32_t t : turned_in_place(*v, before)) {
+      if (!at_rest(topology.triangles[t]))
+        mark(t);
     }
+    if (limit < std::numeric_limits<double>::infinity())
+      mark_far();
     if (!any)
       break;
     for (uint32_t i = 0; i < topology.vertex_count; ++i) {

@@ -4,12 +4,15 @@
 
 #include "codec/distance_limit.h"
 #include "codec/error.h"
+#include "codec/frame_noise.h"
 #include "codec/shape_weights.h"
 #include "codec/surface_fit.h"
 #include "codec/welded_clip.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -44,6 +47,8 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
   SurfaceFitOptions fitting;
   fitting.lambda = 1 - options.strength;
   fitting.rounds = options.fitting_rounds;
+  const double tolerance =
+      options.tolerance > 0 ? options.tolerance : std::numeric_limits<double>::infinity();
   tbb::enumerable_thread_specific<SurfaceFitter> fitters(
       [&] { return SurfaceFitter(clip.topology, shape); });
   auto massage_frame = [&](uint32_t f) {
@@ -55,16 +60,25 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
     MassagedFrame& frame = result.frames[f];
     frame.sliding = slider.run(surface, sliding, &v);
     frame.fitting = fitters.local().run(surface, fitting, &v).convergence;
-    if (options.tolerance > 0)
-      frame.drawn_back = limit_distance(surface, options.tolerance, &v);
     clip.store(v, result.sequence.frame(f));
   };
-  for (uint32_t first = 0; first < sequence.frame_count; first += kFramesAtOnce) {
-    if (progress)
-      progress("massaging", static_cast<double>(first) / sequence.frame_count);
-    const uint32_t end = std::min(sequence.frame_count, first + kFramesAtOnce);
-    tbb::parallel_for(first, end, massage_frame);
-  }
+  auto in_parallel = [&](const char* stage, const auto& work) {
+    for (uint32_t first = 0; first < sequence.frame_count; first += kFramesAtOnce) {
+      if (progress)
+        progress(stage, static_cast<double>(first) / sequence.frame_count);
+      tbb::parallel_for(first, std::min(sequence.frame_count, first + kFramesAtOnce), work);
+    }
+  };
+  in_parallel("massaging", massage_frame);
+  if (options.noise_share > 0)
+    result.noise = remove_frame_noise(sequence, clip, options.noise_share, &result.sequence);
+  in_parallel("settling", [&](uint32_t f) {
+    Surface surface(clip.topology, clip.frame(sequence.frame(f)));
+    surface.build_index();
+    Positions v = clip.frame(std::as_const(result.sequence).frame(f));
+    result.frames[f].drawn_back = limit_distance(surface, tolerance, &v);
+    clip.store(v, result.sequence.frame(f));
+  });
   return result;
 }
 

@@ -6,6 +6,7 @@
 #ifndef ANICODEC_CODEC_MASSAGE_H_
 #define ANICODEC_CODEC_MASSAGE_H_
 
+#include "codec/frame_noise.h"
 #include "codec/mesh_sequence.h"
 #include "codec/progress.h"
 #include "codec/sliding_solve.h"
@@ -16,29 +17,34 @@
 namespace anicodec {
 
 struct MassageOptions {
-  uint32_t reference = 0;  ///< the frame whose shapes the others follow; it stays as it is
+  uint32_t reference = 0;  ///< the frame whose shapes the others follow
   double strength = 0.5;   ///< of shape against distance in the last stage, in (0, 1)
   double tolerance = 0;    ///< how far a surface may move, scene units (limit_distance()); 0: any
+  double noise_share =
+      0.8;  ///< how much is taken for noise of single frames (remove_frame_noise())
   int sliding_rounds = 6;
   int fitting_rounds = 3;
 };
 
 struct MassagedFrame {
   Convergence sliding, fitting;
-  uint32_t drawn_back = 0;  ///< vertices that the tolerance drew back
+  uint32_t drawn_back = 0;  ///< vertices drawn back by the tolerance, or to turn no triangle
 };
 
 struct MassageResult {
   MeshSequence sequence;
   std::vector<MassagedFrame> frames;
+  FrameNoiseReport noise;
 };
 
 /// Massages every frame but the reference: first vertices slide on the surface of their frame
 /// (SlidingSolver), then a few rounds of the combined optimisation (SurfaceFitter) lift the ridges
-/// that sliding cut, and the tolerance draws back what went too far. Vertices with bit-identical
-/// trajectories move together. Frames in parallel; the result does not depend on the number of
-/// threads. Throws Error(kInput) for a sequence without triangles, Error(kUsage) for options out of
-/// range. Stage "massaging".
+/// that sliding cut. Over all frames, the reference included, what is each frame's own is then
+/// taken out (remove_frame_noise()); at last limit_distance() draws back what went further than the
+/// tolerance, and triangles that have turned. Vertices with bit-identical trajectories move
+/// together. Frames in parallel; the result does not depend on the number of threads. Throws
+/// Error(kInput) for a sequence without triangles, Error(kUsage) for options out of range. Stages
+/// "massaging" and "settling".
 MassageResult massage(const MeshSequence& sequence, const MassageOptions& options,
                       const Progress& progress = {});
 

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_MASSAGE_QUALITY_H_
 #define ANICODEC_CODEC_MASSAGE_QUALITY_H_
 
+#include "codec/frame_source.h"
 #include "codec/mesh_quality.h"
 #include "codec/mesh_sequence.h"
 
@@ -21,6 +22,18 @@ struct MassageQuality {
 /// Distortion is relative to frame `reference` of `sequence`.
 MassageQuality massage_quality(const MeshSequence& surfaces, const MeshSequence& sequence,
                                uint32_t reference);
+
+/// The triangles of two clips, frame by frame: means over all frames, largest of all.
+struct TriangleComparison {
+  double radius_ratio_a = 0, radius_ratio_b = 0;
+  bool mapped = false;    ///< the clips have the same faces; if not, there is no distortion
+  Distortion distortion;  ///< of the triangles of a by those of b
+};
+
+/// Frames are asked for once and in order. Throws Error(kInput) for a corner out of range.
+TriangleComparison compare_triangles(const Polygons& a, const FrameSource& a_frames,
+                                     const Polygons& b, const FrameSource& b_frames,
+                                     uint32_t frame_count);
 
 }  // namespace anicodec
 

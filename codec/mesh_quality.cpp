@@ -29,6 +29,26 @@ Matrix2d flat(const Positions& positions, const SurfaceTopology::Triangle& t) {
   return sides;
 }
 
+template <class Below>
+std::vector<uint32_t> turned_against(const SurfaceTopology& topology, const Positions& positions,
+                                     const Surface& surface, const Below& below) {
+  std::vector<uint8_t> turned(topology.triangles.size(), 0);
+  tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(turned.size()), [&](uint32_t t) {
+    const SurfaceTopology::Triangle& k = topology.triangles[t];
+    const Vector3d centre =
+        (row(positions, k[0]) + row(positions, k[1]) + row(positions, k[2])) / 3;
+    const Vector3d up =
+        area_normal(surface.positions(), surface.topology().triangles[below(t, centre)]);
+    turned[t] = area_normal(positions, k).dot(up) < 0;
+  });
+  std::vector<uint32_t> list;
+  for (uint32_t t = 0; t < turned.size(); ++t) {
+    if (turned[t])
+      list.push_back(t);
+  }
+  return list;
+}
+
 double both_ways(double x) {
   return (x + 1 / x) / 2;
 }
@@ -86,22 +106,15 @@ Distortion distortion(const SurfaceTopology& topology, const Positions& before,
 
 std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
                                        const Surface& surface) {
-  std::vector<uint8_t> turned(topology.triangles.size(), 0);
-  tbb::parallel_for(size_t{0}, turned.size(), [&](size_t t) {
-    const SurfaceTopology::Triangle& k = topology.triangles[t];
-    const Vector3d centre =
-        (row(positions, k[0]) + row(positions, k[1]) + row(positions, k[2])) / 3;
-    const SurfacePoint point = surface.closest(centre);
-    const Vector3d up =
-        area_normal(surface.positions(), surface.topology().triangles[point.triangle]);
-    turned[t] = area_normal(positions, k).dot(up) < 0;
+  return turned_against(topology, positions, surface, [&](uint32_t, const Vector3d& centre) {
+    return surface.closest(centre).triangle;
   });
-  std::vector<uint32_t> list;
-  for (uint32_t t = 0; t < turned.size(); ++t) {
-    if (turned[t])
-      list.push_back(t);
-  }
-  return list;
+}
+
+std::vector<uint32_t> turned_in_place(const Positions& positions, const Surface& surface) {
+  return turned_against(
+      surface.topology(), positions, surface,
+      [&](uint32_t t, const Vector3d& centre) { return surface.walk(centre, t).triangle; });
 }
 
 }  // namespace anicodec

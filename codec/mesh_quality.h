@@ -37,6 +37,11 @@ Distortion distortion(const SurfaceTopology& topology, const Positions& before,
 std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
                                        const Surface& surface);
 
+/// The same for positions of the surface's own connectivity, of which each triangle is compared
+/// with where a walk from its own place to its centre ends: a fold nearby is not mistaken for it.
+/// Needs no index.
+std::vector<uint32_t> turned_in_place(const Positions& positions, const Surface& surface);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_MESH_QUALITY_H_

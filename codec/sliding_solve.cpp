@@ -96,7 +96,7 @@ class Slide {
       place.triangle = point.triangle;
       place.normal = surface_.normal(point);
       set_tangents(&place);
-      to = point.position;
+      to = surface_.curved(point);
     } else if (freedom_[i] == 1) {
       to = surface_.walk_boundary(q, &place.triangle, &place.tangent[0]).position;
     }

@@ -17,6 +17,8 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
+constexpr double kSmoothCosine = 0.7;  // between a vertex normal and a triangle's
+
 Vector3d to_vector(const Point3& p) {
   return {p[0], p[1], p[2]};
 }
@@ -94,15 +96,18 @@ Surface::Surface(const SurfaceTopology& topology, Positions positions)
 void Surface::build_index() {
   if (topology_->triangles.empty())
     throw Error(ErrorKind::kInput, "a surface without triangles cannot be massaged");
+  boundary_.clear();
   std::vector<uint32_t> corners, boundary;
   for (uint32_t t = 0; t < topology_->triangles.size(); ++t) {
     const SurfaceTopology::Triangle& corner = topology_->triangles[t];
     corners.insert(corners.end(), corner.begin(), corner.end());
     for (size_t k = 0; k < 3; ++k) {
       // An edge is a triangle without area.
-      if (topology_->across[t][k] == SurfaceTopology::kNone)
-        boundary.insert(boundary.end(),
-                        {corner[(k + 1) % 3], corner[(k + 2) % 3], corner[(k + 2) % 3]});
+      if (topology_->across[t][k] != SurfaceTopology::kNone)
+        continue;
+      const uint32_t a = corner[(k + 1) % 3], b = corner[(k + 2) % 3];
+      boundary_.push_back({a, b});
+      boundary.insert(boundary.end(), {a, b, b});
     }
   }
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> floats = positions_.cast<float>();
@@ -112,8 +117,11 @@ void Surface::build_index() {
     boundary_index_ = std::make_unique<ClosestPointQuery>(boundary, coordinates);
 }
 
-Vector3d Surface::closest_on_boundary(const Vector3d& q) const {
-  return to_vector((*boundary_index_)(to_point(q)).position);
+Vector3d Surface::closest_on_boundary(const Vector3d& q, Vector3d* direction) const {
+  const ClosestPoint found = (*boundary_index_)(to_point(q));
+  const auto [a, b] = boundary_[found.element];
+  *direction = (row(positions_, b) - row(positions_, a)).normalized();
+  return to_vector(found.position);
 }
 
 SurfacePoint Surface::closest(const Vector3d& q) const {
@@ -207,6 +215,41 @@ Vector3d Surface::normal(const SurfacePoint& point) const {
                        point.weights[2] * row(normals_, t[2]);
   const double length = sum.norm();
   return length > 0 ? Vector3d(sum / length) : Vector3d::Zero();
+}
+
+Vector3d Surface::curved(const SurfacePoint& point) const {
+  const SurfaceTopology::Triangle& t = topology_->triangles[point.triangle];
+  Vector3d p[3], n[3];
+  const Vector3d flat = area_normal(positions_, t).normalized();
+  for (size_t k = 0; k < 3; ++k) {
+    p[k] = row(positions_, t[k]);
+    n[k] = row(normals_, t[k]);
+    if (n[k].dot(flat) < kSmoothCosine)
+      return point.position;
+  }
+  // The control points on the sides, each nearer to its first corner, as offsets from the triangle.
+  Vector3d side[3][3];
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      if (i != j) {
+        side[i][j] = -(p[j] - p[i]).dot(n[i]) / 3 * n[i];
+        sum += side[i][j];
+      }
+    }
+  }
+  const Vector3d middle = sum / 4;  // E + (E - V) / 2 of the paper, as an offset
+  const Vector3d& w = point.weights;
+  Vector3d result = point.position + 6 * w[0] * w[1] * w[2] * middle;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      if (i != j) {
+        const double wi = w[static_cast<Index>(i)], wj = w[static_cast<Index>(j)];
+        result += 3 * wi * wi * wj * side[i][j];
+      }
+    }
+  }
+  return result;
 }
 
 bool Surface::on_boundary(const SurfacePoint& point) const {

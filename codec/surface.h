@@ -6,6 +6,7 @@
 #include "codec/closest_point.h"
 #include "codec/surface_topology.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -62,8 +63,9 @@ class Surface {
   /// The closest point of all, by the spatial index.
   SurfacePoint closest(const Eigen::Vector3d& q) const;
 
-  /// The closest point of the boundary, by the spatial index. There is a boundary.
-  Eigen::Vector3d closest_on_boundary(const Eigen::Vector3d& q) const;
+  /// The closest point of the boundary, by the spatial index, and the direction of its edge. There
+  /// is a boundary.
+  Eigen::Vector3d closest_on_boundary(const Eigen::Vector3d& q, Eigen::Vector3d* direction) const;
 
   /// The closest point on one triangle.
   SurfacePoint closest_on(uint32_t triangle, const Eigen::Vector3d& q) const;
@@ -81,6 +83,11 @@ class Surface {
   /// The interpolated vertex normal at a point, of unit length (or zero).
   Eigen::Vector3d normal(const SurfacePoint& point) const;
 
+  /// Where the point lies on the curved PN triangle over its flat one (Vlachos et al., "Curved PN
+  /// triangles", I3D 2001): closer to a smooth surface of which the vertices are samples. Flat
+  /// where a vertex normal is far from the triangle's, at creases.
+  Eigen::Vector3d curved(const SurfacePoint& point) const;
+
   /// Whether a point lies on a boundary edge of its triangle.
   bool on_boundary(const SurfacePoint& point) const;
 
@@ -89,6 +96,7 @@ class Surface {
   Positions positions_;
   Positions normals_;
   std::unique_ptr<ClosestPointQuery> index_, boundary_index_;
+  std::vector<std::array<uint32_t, 2>> boundary_;  ///< edges, in the order of their index
 };
 
 }  // namespace anicodec

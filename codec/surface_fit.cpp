@@ -2,18 +2,19 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/surface_fit.h"
 
+#include "codec/correspondence.h"
 #include "codec/error.h"
 #include "codec/turn_guard.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -22,27 +23,11 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr double kLeastAgreement = 0.3;   // of unit normals
 constexpr int kIndexEvery = 4;            // rounds
 constexpr double kHold = 1e3;             // weight of a held vertex, in those of other rows
 constexpr Index kLargestDirect = 30000;   // vertices
 constexpr double kLeastIterative = 0.5;   // lambda from which few iterations do
 constexpr double kSolveTolerance = 1e-4;  // of the right side
-constexpr double kLeastLawson = 1e-2, kMostLawson = 1e3;
-
-/// A row of B: a point of a triangle of the mesh, or a vertex, and where it is to be.
-struct DistanceRow {
-  SurfaceTopology::Triangle corners{};
-  Vector3d weights = Vector3d::UnitX();
-  Vector3d target = Vector3d::Zero();
-  bool used = false;
-  double importance = 1;  ///< Lawson's weight
-
-  Vector3d point(const Positions& v) const {
-    return weights[0] * row(v, corners[0]) + weights[1] * row(v, corners[1]) +
-           weights[2] * row(v, corners[2]);
-  }
-};
 
 /// The pattern that the system has at all times: A^T A, the diagonal and all edges.
 Matrix square_with_edges(const SurfaceTopology& mesh, const RowMatrix& shape) {
@@ -102,168 +87,55 @@ class SurfaceFitter::Run {
   Run(SurfaceFitter& fitter, const Surface& surface, const SurfaceFitOptions& options, Positions* v)
       : fitter_(fitter),
         mesh_(*fitter.mesh_),
-        target_(surface),
         options_(options),
         v_(*v),
-        to_surface_(mesh_.vertex_count + (options.centres ? mesh_.triangles.size() : 0)),
-        to_mesh_(surface.topology().vertex_count),
-        from_mesh_(to_surface_.size(), SurfaceTopology::kNone),
-        from_surface_(to_mesh_.size(), SurfaceTopology::kNone),
-        up_(Positions::Zero(v->rows(), 3)),
+        correspondences_(mesh_, surface, options.centres),
         matrix_(fitter.square_) {}
 
   SurfaceFitReport run() {
     SurfaceFitReport report;
     const double edge = mean_edge(mesh_, v_);
     const auto count = static_cast<double>(std::max<Index>(1, v_.rows()));
+    const bool lawson = options_.lawson > 0;
     double best_max = std::numeric_limits<double>::infinity();
     Positions best = v_;
     Convergence& c = report.convergence;
     while (c.rounds < options_.rounds && !c.converged) {
-      update_rows(c.rounds % kIndexEvery == 0);
-      measure(&report);
-      if (options_.lawson > 0 && report.max < best_max) {
-        best_max = report.max;
+      correspondences_.update(v_, c.rounds % kIndexEvery == 0);
+      report.residuals = correspondences_.residuals(v_);
+      if (lawson && report.residuals.max < best_max) {
+        best_max = report.residuals.max;
         best = v_;
       }
+      if (lawson)
+        correspondences_.reweight(v_, options_.lawson);
       const Positions old = v_;
       guarded_step(
           mesh_, old, solve(),
           [this](uint32_t i, const Vector3d& q) { v_.row(static_cast<Index>(i)) = q.transpose(); },
-          [this](uint32_t t) -> Vector3d {
-            const SurfaceTopology::Triangle& k = mesh_.triangles[t];
-            return row(up_, k[0]) + row(up_, k[1]) + row(up_, k[2]);
-          },
-          v_);
+          [this](uint32_t t) { return correspondences_.up(t); }, v_);
       const double step = (v_ - old).norm() / std::sqrt(count);
       c.step = edge > 0 ? step / edge : 0;
       ++c.rounds;
       c.converged = c.step < options_.tolerance;
     }
-    if (options_.lawson > 0) {
-      update_rows(true);
-      measure(&report);
-      if (best_max < report.max) {
+    if (lawson) {
+      correspondences_.update(v_, true);
+      report.residuals = correspondences_.residuals(v_);
+      if (best_max < report.residuals.max) {
         v_ = best;
-        report.max = best_max;
+        report.residuals.max = best_max;
       }
     }
     return report;
   }
 
  private:
-  /// Finds the closest points both ways.
-  void update_rows(bool by_index) {
-    const Positions normals = vertex_normals(mesh_, v_);
-    tbb::parallel_for(size_t{0}, to_surface_.size(), [&](size_t r) {
-      if (r < mesh_.vertex_count)
-        draw_vertex(static_cast<uint32_t>(r), normals, by_index);
-      else
-        draw_centre(static_cast<uint32_t>(r - mesh_.vertex_count), r, by_index);
-    });
-    Surface mine(mesh_, v_);
-    if (by_index)
-      mine.build_index();
-    tbb::parallel_for(size_t{0}, to_mesh_.size(), [&](size_t j) {
-      if (!target_.topology().star[j].empty())
-        draw_to_vertex(static_cast<uint32_t>(j), mine, by_index);
-    });
-  }
-
-  SurfacePoint find(const Surface& surface, const Vector3d& q, bool by_index,
-                    uint32_t* start) const {
-    const SurfacePoint point =
-        by_index || *start == SurfaceTopology::kNone ? surface.closest(q) : surface.walk(q, *start);
-    *start = point.triangle;
-    return point;
-  }
-
-  void draw_vertex(uint32_t i, const Positions& normals, bool by_index) {
-    DistanceRow& r = to_surface_[i];
-    r.corners = {i, i, i};
-    if (mesh_.star[i].empty()) {
-      r.used = false;
-      return;
-    }
-    const Vector3d here = row(v_, i);
-    const SurfacePoint point = find(target_, here, by_index, &from_mesh_[i]);
-    const Vector3d normal = target_.normal(point);
-    up_.row(static_cast<Index>(i)) = normal.transpose();
-    r.target = point.position;
-    if (mesh_.kind[i] == VertexKind::kBoundary && target_.topology().has_boundary()) {
-      r.target = target_.closest_on_boundary(here);
-      r.used = true;
-      return;
-    }
-    r.used = row(normals, i).dot(normal) >= kLeastAgreement &&
-             !(mesh_.kind[i] == VertexKind::kInner && target_.on_boundary(point));
-  }
-
-  void draw_centre(uint32_t t, size_t r, bool by_index) {
-    const SurfaceTopology::Triangle& corner = mesh_.triangles[t];
-    to_surface_[r].corners = corner;
-    to_surface_[r].weights = Vector3d::Constant(1.0 / 3);
-    const SurfacePoint point = find(target_, to_surface_[r].point(v_), by_index, &from_mesh_[r]);
-    to_surface_[r].target = point.position;
-    const Vector3d normal = area_normal(v_, corner).normalized();
-    to_surface_[r].used =
-        normal.dot(target_.normal(point)) >= kLeastAgreement && !target_.on_boundary(point);
-  }
-
-  void draw_to_vertex(uint32_t j, const Surface& mine, bool by_index) {
-    DistanceRow& r = to_mesh_[j];
-    const Vector3d there = row(target_.positions(), j);
-    const SurfacePoint point = find(mine, there, by_index, &from_surface_[j]);
-    r.corners = mesh_.triangles[point.triangle];
-    r.weights = point.weights;
-    r.target = there;
-    r.used = mine.normal(point).dot(row(target_.normals(), j)) >= kLeastAgreement &&
-             (target_.topology().kind[j] != VertexKind::kInner || !mine.on_boundary(point));
-  }
-
-  void measure(SurfaceFitReport* report) {
-    double squares = 0, largest = 0;
-    size_t used = 0, rows = 0;
-    auto each = [&](auto&& visit) {
-      for (auto* list : {&to_surface_, &to_mesh_}) {
-        for (DistanceRow& r : *list)
-          visit(r);
-      }
-    };
-    each([&](DistanceRow& r) {
-      ++rows;
-      if (!r.used)
-        return;
-      const double square = (r.point(v_) - r.target).squaredNorm();
-      squares += square;
-      largest = std::max(largest, square);
-      ++used;
-    });
-    report->max = std::sqrt(largest);
-    report->rms = used > 0 ? std::sqrt(squares / static_cast<double>(used)) : 0;
-    report->dropped_share =
-        rows > 0 ? 1 - static_cast<double>(used) / static_cast<double>(rows) : 0;
-    if (!(options_.lawson > 0) || !(report->rms > 0))
-      return;
-    double sum = 0;
-    each([&](DistanceRow& r) {
-      if (!r.used)
-        return;
-      const double distance = (r.point(v_) - r.target).norm();
-      r.importance *= std::pow(distance / report->rms + 1e-3, options_.lawson);
-      sum += r.importance;
-    });
-    each([&](DistanceRow& r) {
-      r.importance =
-          std::clamp(r.importance * static_cast<double>(used) / sum, kLeastLawson, kMostLawson);
-    });
-  }
-
-  void add_rows(const std::vector<DistanceRow>& rows, Positions* right) {
+  void add_rows(const std::vector<Correspondence>& rows, Positions* right) {
     const auto used =
-        std::count_if(rows.begin(), rows.end(), [](const DistanceRow& r) { return r.used; });
+        std::count_if(rows.begin(), rows.end(), [](const Correspondence& r) { return r.used; });
     const double share = options_.lambda / static_cast<double>(std::max<ptrdiff_t>(1, used));
-    for (const DistanceRow& r : rows) {
+    for (const Correspondence& r : rows) {
       if (!r.used)
         continue;
       const double weight = share * r.importance;
@@ -299,8 +171,8 @@ class SurfaceFitter::Run {
     Eigen::Map<Eigen::VectorXd>(matrix_.valuePtr(), matrix_.nonZeros()) =
         share *
         Eigen::Map<const Eigen::VectorXd>(fitter_.square_.valuePtr(), fitter_.square_.nonZeros());
-    add_rows(to_surface_, &right);
-    add_rows(to_mesh_, &right);
+    add_rows(correspondences_.from_mesh(), &right);
+    add_rows(correspondences_.from_surface(), &right);
     // What nothing else holds stays where it is.
     const double hold = kHold / static_cast<double>(mesh_.vertex_count);
     for (uint32_t i = 0; i < mesh_.vertex_count; ++i) {
@@ -316,12 +188,9 @@ class SurfaceFitter::Run {
 
   SurfaceFitter& fitter_;
   const SurfaceTopology& mesh_;
-  const Surface& target_;
   const SurfaceFitOptions& options_;
   Positions& v_;
-  std::vector<DistanceRow> to_surface_, to_mesh_;
-  std::vector<uint32_t> from_mesh_, from_surface_;  ///< where each row's walk starts
-  Positions up_;                                    ///< normals of the surface at the vertices
+  Correspondences correspondences_;
   Matrix matrix_;
 };
 

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_SURFACE_FIT_H_
 #define ANICODEC_CODEC_SURFACE_FIT_H_
 
+#include "codec/correspondence.h"
 #include "codec/shape_weights.h"
 #include "codec/sliding_solve.h"
 #include "codec/surface.h"
@@ -26,22 +27,17 @@ struct SurfaceFitOptions {
 
 struct SurfaceFitReport {
   Convergence convergence;
-  double rms = 0;            ///< of the distance rows before the last round, scene units
-  double max = 0;            ///< the largest of them
-  double dropped_share = 0;  ///< of rows whose normals disagree, in the last round
+  Residuals residuals;  ///< before the last round
 };
 
 /// Mesh Massage's combined optimisation (thesis section 3.1.3): minimises
 ///   (1 - lambda)/m |A v - delta|^2 + lambda mean |B v - c|^2
 /// over the vertices v of a mesh, round by round. A is the shape matrix; delta the part of A v
 /// along the present normals, so that only the tangential part is asked for and the surface does
-/// not shrink. The rows of B are the vertices (and triangle centres) of the mesh, drawn to their
-/// closest points c on the surface, and the vertices of the surface, to which the closest points of
-/// the mesh are drawn; both kinds count alike. Rows whose normals disagree, or of which one side
-/// only lies on the boundary, are left out. Closest points are kept by walking and found anew by a
-/// spatial index in the first and every fourth round. The pattern of the matrix never changes: its
-/// symbolic factorisation is kept for all runs; large systems are solved by conjugate gradients.
-/// Serial.
+/// not shrink. The rows of B are the correspondences, of which both directions count alike; they
+/// are found anew by the spatial index in the first and every fourth round. The pattern of the
+/// matrix never changes: its symbolic factorisation is kept for all runs; where few iterations do,
+/// and for large systems, conjugate gradients solve it.
 class SurfaceFitter {
  public:
   /// All must outlive the fitter. `shape` is that of shape_matrix().

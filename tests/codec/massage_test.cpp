@@ -50,7 +50,7 @@ TEST(SlidingSolver, BringsAFlatSheetBack) {
   EXPECT_LT((v - rest.positions).cwiseAbs().maxCoeff(), 0.01);
 }
 
-TEST(SlidingSolver, KeepsVerticesOnTheSurface) {
+TEST(SlidingSolver, KeepsVerticesOnTheCurvedSurface) {
   const TestMesh rest = sphere(8);
   TestMesh shaken = rest;
   for (uint32_t i = 0; i < rest.topology.vertex_count; ++i)
@@ -68,7 +68,7 @@ TEST(SlidingSolver, KeepsVerticesOnTheSurface) {
   EXPECT_GT(before, 1.02);
   EXPECT_LT(after, 1 + (before - 1) / 5);
   for (uint32_t i = 0; i < rest.topology.vertex_count; ++i)
-    EXPECT_LT(surface.closest(row(v, i)).square_distance, 1e-20);
+    EXPECT_NEAR(row(v, i).norm(), 1, 0.02);
 }
 
 TEST(SlidingSolver, SlidesTheBoundaryAlongItself) {
@@ -146,7 +146,7 @@ TEST(SurfaceFitter, LawsonLowersTheLargestDistance) {
   const SurfaceFitReport a = SurfaceFitter(coarse.topology, shape).run(surface, options, &plain);
   options.lawson = 0.5;
   const SurfaceFitReport b = SurfaceFitter(coarse.topology, shape).run(surface, options, &weighted);
-  EXPECT_LT(b.max, a.max);
+  EXPECT_LT(b.residuals.max, a.residuals.max);
 }
 
 TEST(DistanceLimit, DrawsBackOnlyWhatIsTooFar) {
@@ -185,7 +185,8 @@ TEST(Massage, BringsSlidingVerticesToRest) {
   EXPECT_EQ(after.turned, 0U);
   const SurfaceComparison moved = compare_surfaces(clip, result.sequence);
   EXPECT_LT(moved.percent(moved.total.mean()), 0.1);
-  EXPECT_TRUE(std::ranges::equal(clip.frame(0), result.sequence.frame(0)));
+  EXPECT_GT(result.noise.components, 0);
+  EXPECT_LE(result.noise.moved, result.noise.sagitta);
 }
 
 TEST(Massage, FollowsTheFrameAskedFor) {
@@ -240,7 +241,7 @@ TEST(Massage, MovesCopiesOfAVertexTogether) {
 }
 
 TEST(Massage, IsTheSameForAnyNumberOfThreads) {
-  const MeshSequence clip = short_clip("sliding", 400, 6);
+  const MeshSequence clip = short_clip("sliding", 400, 9);
   const MassageResult many = massage(clip, {});
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(massage(clip, {}).sequence.positions, many.sequence.positions);

@@ -102,8 +102,10 @@ TEST(Surface, FindsTheClosestPointOfTheBoundary) {
   const TestMesh sheet = flat_sheet(6);
   Surface surface(sheet.topology, sheet.positions);
   surface.build_index();
-  EXPECT_NEAR((surface.closest_on_boundary({4.5, 2.25, 0.5}) - Vector3d(5, 2.25, 0)).norm(), 0,
-              1e-6);
+  Vector3d direction;
+  const Vector3d found = surface.closest_on_boundary({4.5, 2.25, 0.5}, &direction);
+  EXPECT_NEAR((found - Vector3d(5, 2.25, 0)).norm(), 0, 1e-6);
+  EXPECT_NEAR(std::abs(direction[1]), 1, 1e-12);
 }
 
 TEST(Surface, WithoutTrianglesHasNoIndex) {
