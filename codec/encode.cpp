@@ -39,6 +39,11 @@ format::ClipRecord describe(const MeshSequence& sequence, const EncodeOptions& o
   record.start_time = sequence.start_time;
   record.metres_per_unit = sequence.metres_per_unit;
   record.times.assign(sequence.times.begin(), sequence.times.end());
+  record.massaged = options.surface_change.has_value();
+  if (record.massaged) {
+    record.surface_error = options.surface_change->max;
+    record.surface_error_mean = options.surface_change->mean;
+  }
   record.asked = target.metric;
   record.asked_value = target.value;
   record.diagonal = clip_diagonal;

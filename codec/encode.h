@@ -21,6 +21,13 @@ enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajec
 /// or by whichever does better.
 enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
 
+/// How far a surface was moved before coding: its Hausdorff distance from the source's, in scene
+/// units.
+struct SurfaceChange {
+  double mean = 0;
+  double max = 0;
+};
+
 /// What the file must keep to.
 struct Target {
   format::ErrorMetric metric = format::ErrorMetric::kNone;
@@ -38,7 +45,9 @@ struct EncodeOptions {
   format::OrderMode order = format::OrderMode::kVertices;
   format::CoderId mesh_coder = format::CoderId::kDraco;
   std::string encoder;  ///< name and version to store in the file
-  int effort = 5;       ///< 1..9: how long to search
+  /// The sequence is not the source itself but one that massage() made of it: to store in the file.
+  std::optional<SurfaceChange> surface_change;
+  int effort = 5;  ///< 1..9: how long to search
 };
 
 /// One encoding that the search tried: for `-v`.

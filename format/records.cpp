@@ -129,8 +129,10 @@ Bytes ClipRecord::write() const {
   w.u8(static_cast<uint8_t>(asked));
   for (double x : {asked_value, max_error, rmse, kg, diagonal})
     w.f64(x);
-  if (massaged)
+  if (massaged) {
     w.f64(surface_error);
+    w.f64(surface_error_mean);
+  }
   return std::move(w.bytes());
 }
 
@@ -168,8 +170,9 @@ Status ClipRecord::read(ByteView view, uint32_t frames, ClipRecord* out) {
   for (double* x : {&out->asked_value, &out->max_error, &out->rmse, &out->kg, &out->diagonal})
     *x = r.f64();
   out->surface_error = out->massaged ? r.f64() : 0;
+  out->surface_error_mean = out->massaged ? r.f64() : 0;
   for (double x : {out->asked_value, out->max_error, out->rmse, out->kg, out->diagonal,
-                   out->surface_error, out->metres_per_unit}) {
+                   out->surface_error, out->surface_error_mean, out->metres_per_unit}) {
     if (!is_length(x))
       return Status::kRecord;
   }

@@ -94,12 +94,13 @@ struct ClipRecord {
   Vector<double> times;        ///< seconds from start_time, one per frame; empty when even
 
   ErrorMetric asked = ErrorMetric::kNone;
-  double asked_value = 0;    ///< KG in per cent, lengths in scene units
-  double max_error = 0;      ///< measured, scene units
-  double rmse = 0;           ///< measured, scene units
-  double kg = 0;             ///< measured, per cent
-  double diagonal = 0;       ///< of the box around all frames
-  double surface_error = 0;  ///< when massaged: how far the surface moved at most
+  double asked_value = 0;         ///< KG in per cent, lengths in scene units
+  double max_error = 0;           ///< measured, scene units
+  double rmse = 0;                ///< measured, scene units
+  double kg = 0;                  ///< measured, per cent
+  double diagonal = 0;            ///< of the box around all frames
+  double surface_error = 0;       ///< when massaged: how far the surface moved at most
+  double surface_error_mean = 0;  ///< and on average
 
   Bytes write() const;
   static Status read(ByteView view, uint32_t frames, ClipRecord* out);

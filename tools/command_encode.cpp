@@ -2,12 +2,14 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
 #include "codec/error.h"
+#include "codec/massage_choice.h"
 #include "tools/choice.h"
 #include "tools/clip_input.h"
 #include "tools/command.h"
 #include "tools/io/atomic_file.h"
 #include "tools/io/frame_rate.h"
 #include "tools/io/load_sequence.h"
+#include "tools/massage_transfer.h"
 #include "tools/names.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
@@ -37,11 +39,18 @@ quantisation then adds at most a tenth to the error of that many exact key-frame
 keeps lengths and volume where limbs swing far; auto takes what does better. Both need key-frames
 (--basis keyframes or --keyframes), take longer, and the file takes longer to open and to play.
 
+--massage on moves the vertices of every frame along its surface before coding (anicodec massage);
+errors are then those against the moved clip, and the file records how far the surface moved. auto
+does so only where the file becomes smaller. transfer takes meshes whose faces differ and gives them
+those of the first one.
+
 Examples:
   anicodec encode dance.obj dance.pc2 -o dance.anic --fps 30
   anicodec encode 'frames/*.obj' -o clip.anic --kg 0.1
   anicodec encode flag.mdd --mesh flag.obj -o flag.anic --size 200k --max-error 1%
   anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45)";
+
+enum class Massage { kOff, kOn, kAuto, kTransfer };
 
 struct EncodeCommand {
   std::vector<std::string> inputs;
@@ -54,6 +63,9 @@ struct EncodeCommand {
   format::OrderMode order = format::OrderMode::kVertices;
   format::CoderId mesh_coder = format::CoderId::kDraco;
   int effort = 5;
+  Massage massage = Massage::kOff;
+  double massage_strength = 0.5;
+  std::string massage_tolerance;
   std::string rate, unit;
   UpAxis up = UpAxis::kUnknown;
   bool loop = false;
@@ -112,13 +124,21 @@ EncodeOptions options_of(const EncodeCommand& command) {
   return options;
 }
 
-MeshSequence load(const EncodeCommand& command, const Progress& progress) {
+MeshSequence load(const EncodeCommand& command, const Progress& progress,
+                  EncodeOptions* encode_options) {
   LoadOptions options;
   options.mesh = command.mesh;
   options.progress = progress;
   if (!command.rate.empty())
     options.rate = parse_frame_rate(command.rate);
-  MeshSequence sequence = load_sequence(command.inputs, options);
+  MeshSequence sequence;
+  if (command.massage == Massage::kTransfer) {
+    sequence = transfer_to_one(command.inputs, progress, &encode_options->surface_change.emplace());
+    if (options.rate)
+      sequence.rate = *options.rate;
+  } else {
+    sequence = load_sequence(command.inputs, options);
+  }
   if (command.up != UpAxis::kUnknown)
     sequence.up = command.up;
   if (!command.unit.empty())
@@ -144,7 +164,24 @@ double percent(double length, double diagonal) {
   return length == 0 ? 0 : 100 * length / diagonal;
 }
 
-void print_json(const EncodeCommand& command, const EncodeResult& result) {
+MassageOptions massage_options_of(const EncodeCommand& command, const MeshSequence& sequence) {
+  MassageOptions options;
+  options.strength = command.massage_strength;
+  if (!command.massage_tolerance.empty()) {
+    const Length length = parse_length(command.massage_tolerance, "--massage-tolerance");
+    options.tolerance = length.percent ? length.value / 100 * diagonal(sequence) : length.value;
+  }
+  return options;
+}
+
+MassageMode mode_of(Massage massage) {
+  return massage == Massage::kOn     ? MassageMode::kOn
+         : massage == Massage::kAuto ? MassageMode::kAuto
+                                     : MassageMode::kOff;
+}
+
+void print_json(const EncodeCommand& command, const EncodeResult& result,
+                const MassageVerdict& massage) {
   Rate rate(result);
   nlohmann::ordered_json json;
   json["file"] = command.output;
@@ -161,15 +198,30 @@ void print_json(const EncodeCommand& command, const EncodeResult& result) {
   json["max_error"] = result.max_error;
   json["max_error_percent"] = percent(result.max_error, result.diagonal);
   json["diagonal"] = result.diagonal;
+  json["massaged"] = massage.change.has_value();
+  json["surface_error"] = massage.change ? massage.change->max : 0;
+  json["surface_error_mean"] = massage.change ? massage.change->mean : 0;
   fmt::print("{}\n", json.dump(2));
 }
 
-void print_text(const EncodeCommand& command, const EncodeResult& result, int verbosity) {
+void print_text(const EncodeCommand& command, const EncodeResult& result,
+                const MassageVerdict& massage, int verbosity) {
   if (verbosity > 0) {
     for (const Trial& trial : result.trials)
       fmt::print("  tried {:<28} {:>12} bytes  RMSE {:<11.4g} max error {:.4g}\n", trial.what,
                  grouped(trial.bytes), trial.rmse, trial.max_error);
   }
+  if (command.massage == Massage::kAuto && verbosity > 0)
+    fmt::print("  massage: sample {} bytes plain, {} massaged; whole clip plain {}\n",
+               grouped(massage.sample_plain_bytes), grouped(massage.sample_massaged_bytes),
+               grouped(massage.plain_bytes));
+  if (massage.change)
+    fmt::print(
+        "massaged: the surface moved by {:.3g} % of the diagonal on average, {:.3g} % at most\n",
+        percent(massage.change->mean, result.diagonal),
+        percent(massage.change->max, result.diagonal));
+  else if (command.massage == Massage::kAuto)
+    fmt::print("not massaged: the clip would not become smaller\n");
   Rate rate(result);
   fmt::print(
       "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {} {}; max error {:.4g} ({:.3g} %), KG {:.3g} %\n",
@@ -187,14 +239,19 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
   AtomicFile output(command.output, common.overwrite);
   ProgressLine line(common.quiet);
   Progress progress = line.callback();
-  MeshSequence sequence = load(command, progress);
+  MeshSequence sequence = load(command, progress, &options);
   if (options.keyframes && *options.keyframes > sequence.frame_count)
     throw Error(ErrorKind::kUsage,
                 fmt::format("--keyframes {}: {} has only {} frames", *options.keyframes,
                             command.inputs[0], sequence.frame_count));
   EncodeResult result;
+  MassageVerdict massage;
   try {
-    result = encode(std::move(sequence), options, progress);
+    const MassageOptions massage_options = massage_options_of(command, sequence);
+    result = encode_massaged(std::move(sequence), mode_of(command.massage), massage_options,
+                             options, &massage, progress);
+    if (command.massage == Massage::kTransfer)
+      massage.change = options.surface_change;
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
   }
@@ -202,9 +259,9 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
   output.commit();
   line.clear();
   if (command.json)
-    print_json(command, result);
+    print_json(command, result, massage);
   else if (!common.quiet)
-    print_text(command, result, common.verbosity);
+    print_text(command, result, massage, common.verbosity);
 }
 
 }  // namespace
@@ -275,6 +332,25 @@ void add_encode(CLI::App& app, CommonOptions& common) {
       ->option_text("N")
       ->check(CLI::Range(1, 9))
       ->group(method);
+
+  const char* massage = "Massage";
+  add_choice<Massage>(*command, "--massage", c->massage,
+                      {{"off", Massage::kOff},
+                       {"on", Massage::kOn},
+                       {"auto", Massage::kAuto},
+                       {"transfer", Massage::kTransfer}},
+                      "Move vertices along their surface first (default off)")
+      ->group(massage);
+  command
+      ->add_option("--massage-strength", c->massage_strength,
+                   "Of shape against distance, between 0 and 1 (default 0.5)")
+      ->option_text("X")
+      ->group(massage);
+  command
+      ->add_option("--massage-tolerance", c->massage_tolerance,
+                   "How far the surface may move anywhere (default: as far as it needs)")
+      ->option_text("LEN")
+      ->group(massage);
 
   const char* metadata = "Metadata (positions stay as they are)";
   command->add_option("--fps", c->rate, "Frames per second (default: as in the input, else 24)")

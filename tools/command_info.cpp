@@ -25,9 +25,9 @@ resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at 
 for each instance), format, encoder, name, vertices, coded_vertices, faces, frames, fps,
 fps_assumed, start_time, loop, closed (the last frame repeats the first), up, metres_per_unit,
 order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg, massaged,
-surface_error, segments (basis, reconstruction, first_frame, frames, components, corrections),
-chunks (type, offset, size, required, mesh, segment). Lengths are in scene units, errors those the
-encoder measured.)";
+surface_error, surface_error_mean, segments (basis, reconstruction, first_frame, frames, components,
+corrections), chunks (type, offset, size, required, mesh, segment). Lengths are in scene units,
+errors those the encoder measured.)";
 
 struct InfoCommand {
   std::string input;
@@ -85,6 +85,7 @@ void print_json(const std::string& path, const Contents& c) {
   json["kg"] = record.kg;
   json["massaged"] = record.massaged;
   json["surface_error"] = record.surface_error;
+  json["surface_error_mean"] = record.surface_error_mean;
   json["segments"] = nlohmann::ordered_json::array();
   for (const format::Limits::Segment& s : limits.segments)
     json["segments"].push_back({{"basis", name_of(s.kind)},
@@ -188,7 +189,8 @@ void print_text(const std::string& path, const Contents& c) {
       fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %",
                   record.max_error, percent(record), record.rmse, record.kg));
   if (record.massaged)
-    row("massaged", fmt::format("the surface moved by up to {:.4g}", record.surface_error));
+    row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
+                                record.surface_error_mean, record.surface_error));
   for (const format::Limits::Segment& s : limits.segments)
     row("segment", fmt::format("frames {}:{}, {} {}{}, {} corrections", s.first_frame,
                                s.first_frame + s.frames, s.components, components_of(s.kind),

@@ -69,8 +69,10 @@ void list_clip(FieldReader& r, uint32_t frames) {
   r.explain(name_of(static_cast<format::ErrorMetric>(r.u8("asked"))));
   for (const char* name : {"asked value", "max error", "RMSE", "KG", "diagonal"})
     r.f64(name);
-  if (flags & kMassaged)
+  if (flags & kMassaged) {
     r.f64("surface error");
+    r.f64("surface error, mean");
+  }
 }
 
 void list_mesh(FieldReader& r) {

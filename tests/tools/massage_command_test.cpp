@@ -4,6 +4,9 @@
 #include "tests/tools/command_testing.h"
 #include "tools/io/write_sequence.h"
 
+#include <string>
+#include <utility>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,6 +36,121 @@ TEST(MassageCommand, KeepsToATolerance) {
   ASSERT_EQ(outcome.status, 0) << outcome;
   EXPECT_LT(outcome.json()["hausdorff_percent"], 0.2002);
   EXPECT_GT(outcome.json()["drawn_back"], 0);
+}
+
+/// Frames of a limb, every other one with vertices in other places.
+void write_scans(const TemporaryFolder& folder, uint32_t frames) {
+  for (uint32_t f = 0; f < frames; ++f) {
+    MeshSequence clip = corpus::make_scaled("limb", f % 2 == 0 ? 1500 : 1900, 64);
+    MeshSequence frame = clip;
+    frame.frame_count = 1;
+    frame.times.clear();
+    frame.positions.assign(clip.frame(f).begin(), clip.frame(f).end());
+    write_sequence(folder / ("scan_" + std::to_string(f) + ".obj"), frame);
+  }
+}
+
+/// A limb whose faces look inwards, which no transfer can follow.
+void write_inside_out(const std::string& path) {
+  MeshSequence limb = corpus::make_scaled("limb", 1500, 2);
+  limb.frame_count = 1;
+  limb.times.clear();
+  limb.positions.resize(size_t{3} * limb.vertex_count);
+  for (size_t i = 0; i < limb.positions.size(); i += 3)
+    std::swap(limb.positions[i], limb.positions[i + 1]);
+  write_sequence(path, limb);
+}
+
+TEST(MassageCommand, TransfersOneConnectivity) {
+  TemporaryFolder folder;
+  write_scans(folder, 4);
+  Outcome outcome = anicodec(
+      {"massage", "--transfer", folder / "scan_*.obj", "-o", folder / "fitted.pc2", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const nlohmann::json json = outcome.json();
+  ASSERT_EQ(json["files"].size(), 1U) << outcome;
+  EXPECT_EQ(json["files"][0]["frames"], 4);
+  EXPECT_LT(json["hausdorff_mean_percent"], 0.3);
+  EXPECT_EQ(anicodec({"compare", folder / "fitted.pc2", folder / "fitted.pc2"}).status, 0);
+}
+
+TEST(MassageCommand, WritesAFileForEverySegment) {
+  TemporaryFolder folder;
+  write_scans(folder, 3);
+  write_inside_out(folder / "scan_3.obj");
+  Outcome outcome = anicodec(
+      {"massage", "--transfer", folder / "scan_*.obj", "-o", folder / "fitted.pc2", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const nlohmann::json json = outcome.json();
+  ASSERT_EQ(json["files"].size(), 2U) << outcome;
+  EXPECT_EQ(json["files"][1]["file"], folder / "fitted_2.pc2");
+  EXPECT_EQ(json["files"][1]["first_frame"], 3);
+  EXPECT_NE(json["frames"][3]["alarms"], "");
+}
+
+TEST(MassageCommand, FitsAMeshToAnother) {
+  TemporaryFolder folder;
+  for (const auto& [name, vertices] : {std::pair("coarse", 300), std::pair("fine", 4000)}) {
+    MeshSequence limb = corpus::make_scaled("limb", static_cast<uint32_t>(vertices), 2);
+    limb.frame_count = 1;
+    limb.positions.resize(size_t{3} * limb.vertex_count);
+    write_sequence(folder / (std::string(name) + ".obj"), limb);
+  }
+  Outcome outcome = anicodec({"massage", "--fit", folder / "coarse.obj", "--to",
+                              folder / "fine.obj", "-o", folder / "fitted.obj", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const nlohmann::json json = outcome.json();
+  EXPECT_TRUE(json["improved"]);
+  EXPECT_LT(json["after"]["hausdorff_mean"], json["before"]["hausdorff_mean"]);
+  EXPECT_EQ(json["after"]["turned"], 0);
+}
+
+TEST(MassageCommand, RefusesModesThatContradict) {
+  TemporaryFolder folder;
+  EXPECT_EQ(anicodec({"massage", "-o", folder / "b.pc2"}).status, 1);
+  EXPECT_EQ(anicodec({"massage", "--fit", "a.obj", "-o", folder / "b.obj"}).status, 1);
+  EXPECT_EQ(
+      anicodec({"massage", "--fit", "a.obj", "--to", "b.obj", "--transfer", "-o", folder / "b.obj"})
+          .status,
+      1);
+}
+
+TEST(EncodeMassage, RecordsWhatItDid) {
+  TemporaryFolder folder;
+  write_sequence(folder / "a.pc2", corpus::make_scaled("sliding", 400, 4));
+  Outcome outcome = anicodec({"encode", folder / "a.pc2", "-o", folder / "a.anic", "--massage",
+                              "on", "--massage-tolerance", "0.5%", "--effort", "1", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_TRUE(outcome.json()["massaged"]);
+  const nlohmann::json info = anicodec({"info", folder / "a.anic", "--json"}).json();
+  EXPECT_TRUE(info["massaged"]);
+  EXPECT_EQ(info["surface_error"], outcome.json()["surface_error"]);
+  EXPECT_EQ(info["surface_error_mean"], outcome.json()["surface_error_mean"]);
+  EXPECT_THAT(anicodec({"info", folder / "a.anic"}).out, HasSubstr("the surface moved by"));
+}
+
+TEST(EncodeMassage, TransfersMeshesOfOtherFaces) {
+  TemporaryFolder folder;
+  write_scans(folder, 3);
+  EXPECT_EQ(
+      anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--effort", "1"}).status,
+      2);
+  Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--massage",
+                              "transfer", "--effort", "1", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_EQ(outcome.json()["frames"], 3);
+  EXPECT_TRUE(outcome.json()["massaged"]);
+}
+
+TEST(EncodeMassage, NamesTheFrameThatCannotBeFollowed) {
+  TemporaryFolder folder;
+  write_scans(folder, 2);
+  write_inside_out(folder / "scan_2.obj");
+  Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--massage",
+                              "transfer", "--effort", "1"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("frame 2 cannot be given the connectivity of frame 0"));
+  EXPECT_THAT(outcome.err, HasSubstr("scan_2.obj: "));
 }
 
 TEST(MassageCommand, RefusesWhatHasNoSurface) {

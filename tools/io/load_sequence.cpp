@@ -253,10 +253,14 @@ bool is_sequence_input(const std::string& path) {
   return kind_of(path) != FileKind::kUnknown;
 }
 
-MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options) {
+std::vector<std::string> sequence_files(std::span<const std::string> inputs) {
   if (inputs.empty())
     fail_usage("no input is given");
-  std::vector<std::string> paths = expand(inputs);
+  return expand(inputs);
+}
+
+MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options) {
+  std::vector<std::string> paths = sequence_files(inputs);
   MeshSequence sequence;
   sequence.name = fs::path(paths[0]).stem().string();
   load(paths, options, sequence);

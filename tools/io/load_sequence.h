@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace anicodec::tools {
 
@@ -32,6 +33,10 @@ struct LoadOptions {
 /// The clip is named by the stem of the first file. Positions are held once. Throws Error(kInput)
 /// naming file and place, Error(kUsage) for inputs that do not make one clip.
 MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options = {});
+
+/// The files behind such inputs, in the order of load_sequence(), patterns expanded. Throws as it
+/// for a pattern without a match, folders and unknown kinds.
+std::vector<std::string> sequence_files(std::span<const std::string> inputs);
 
 /// True for the extensions that load_sequence reads, in any case of letters.
 bool is_sequence_input(const std::string& path);
