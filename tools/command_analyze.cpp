@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,6 +42,14 @@ diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), shown_kg, sho
 frame_errors (rmse, max_error), basis_errors (method, k, kg, rmse), shape_spaces (space, k, kg,
 numbers, bytes, residual_percent). With -o x.svg the curves of size against KG error alone.
 
+--massage measures instead what anicodec massage does to the clip: KG errors in K principal
+components and sizes, of the clip as it is and massaged, how far the surface moved, and the shapes
+of the triangles. With --csv: series,x,original,massaged, where series is pca (x components, KG
+errors) or bytes (x KG error); with --json components (k, original, massaged), sizes (kg, original,
+massaged), hausdorff_mean_percent, hausdorff_rms_percent, hausdorff_percent, before and after
+(conformal_mean, area_mean, radius_ratio, turned). With -o it is a section of the page, and "massage"
+in its JSON.
+
 Examples:
   anicodec analyze dance.obj dance.pc2
   anicodec analyze dance.obj dance.pc2 -o report.html
@@ -51,7 +60,7 @@ struct AnalyzeCommand {
   std::vector<std::string> inputs;
   std::string mesh, output;
   std::string counts = "1,2,5,10,15,20,30,45,60,80,100";
-  bool csv = false, json = false, spaces = false;
+  bool csv = false, json = false, spaces = false, massage = false;
   int effort = 3;
 };
 
@@ -128,8 +137,25 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
   options.mesh = command.mesh;
   options.progress = line.callback();
   MeshSequence sequence = load_sequence(command.inputs, options);
+  std::optional<MassageStudy> massage;
+  if (command.massage) {
+    try {
+      massage = study_massage(sequence, counts, command.effort, options.progress);
+    } catch (const Error& e) {
+      throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
+    }
+  }
+  if (massage && !output) {
+    line.clear();
+    if (command.json)
+      fmt::print("{}\n", massage_json(*massage).dump(2));
+    else
+      fmt::print("{}", command.csv ? massage_csv(*massage) : massage_text(*massage));
+    return;
+  }
   if (output || command.json) {
     Report report = make_report(sequence, {command.effort, counts, options.progress});
+    report.massage = std::move(massage);
     if (output) {
       output->write(std::filesystem::path(command.output).extension() == ".svg"
                         ? rate_figure(report)
@@ -188,6 +214,7 @@ void add_analyze(CLI::App& app, CommonOptions& common) {
       ->option_text("N")
       ->check(CLI::Range(1, 9));
   command->add_flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
+  command->add_flag("--massage", c->massage, "What Mesh Massage does to the clip");
   CLI::Option* csv = command->add_flag("--csv", c->csv, "Print comma-separated values");
   command->add_flag("--json", c->json, "Print all numbers of the report")->excludes(csv);
 }

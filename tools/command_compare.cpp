@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/error.h"
 #include "codec/hausdorff.h"
+#include "codec/massage_quality.h"
 #include "codec/metrics.h"
 #include "tools/command.h"
 #include "tools/compared_clip.h"
@@ -27,12 +28,15 @@ or the one of --mesh.
 Clips of equally many vertices are compared vertex by vertex: KG error and RMSE over all frames, the
 largest error and where it is, PSNR against the diagonal, STED (edges in space and time), and the
 error of the moves from frame to frame. If the vertices differ in number, or in order because an
-.anic file was encoded with --order free, the distance of the surfaces is measured (Hausdorff).
+.anic file was encoded with --order free, or with --surface, the distance of the surfaces is
+measured (Hausdorff) and the shapes of the triangles.
 
 --json prints one object: a, b, vertices, faces, frames, diagonal, bytes, bpfv (of B if it is an
 .anic file), method (vertices or surface), kg, rmse, max_error, max_error_percent, max_frame,
 max_vertex, psnr, sted, sted_spatial, sted_temporal, displacement_error, hausdorff,
-hausdorff_percent, hausdorff_frame, hausdorff_mean, hausdorff_rms, note. What was not measured is
+hausdorff_percent, hausdorff_frame, hausdorff_mean, hausdorff_rms, radius_ratio_a, radius_ratio_b
+(of the triangles, 1 if equilateral), conformal_mean, conformal_max, area_mean, area_max (how much B
+changes the triangles of A, 1 if not; for equal faces), note. What was not measured is
 null, and so is an infinite PSNR.
 
 Examples:
@@ -49,6 +53,7 @@ struct Measured {
   double diagonal = 0;
   std::optional<Comparison> vertices;
   std::optional<SurfaceComparison> surface;
+  std::optional<TriangleComparison> triangles;
   std::string note;
 };
 
@@ -90,6 +95,7 @@ Measured measure(const ComparedClip& a, const ComparedClip& b, const CompareComm
     m.surface = compare_surfaces(p.polygons, watched(a.frames(), frames, line), q.polygons,
                                  b.frames(), frames);
     m.diagonal = m.surface->diagonal;
+    m.triangles = compare_triangles(p.polygons, a.frames(), q.polygons, b.frames(), frames);
   }
   return m;
 }
@@ -115,10 +121,28 @@ void print_json(const ComparedClip& a, const ComparedClip& b, const Measured& m)
     json["bpfv"] = bpfv_of(b);
   }
   json["method"] = m.vertices ? "vertices" : "surface";
-  for (const char* key :
-       {"kg", "rmse", "max_error", "max_error_percent", "max_frame", "max_vertex", "psnr", "sted",
-        "sted_spatial", "sted_temporal", "displacement_error", "hausdorff", "hausdorff_percent",
-        "hausdorff_frame", "hausdorff_mean", "hausdorff_rms"})
+  for (const char* key : {"kg",
+                          "rmse",
+                          "max_error",
+                          "max_error_percent",
+                          "max_frame",
+                          "max_vertex",
+                          "psnr",
+                          "sted",
+                          "sted_spatial",
+                          "sted_temporal",
+                          "displacement_error",
+                          "hausdorff",
+                          "hausdorff_percent",
+                          "hausdorff_frame",
+                          "hausdorff_mean",
+                          "hausdorff_rms",
+                          "radius_ratio_a",
+                          "radius_ratio_b",
+                          "conformal_mean",
+                          "conformal_max",
+                          "area_mean",
+                          "area_max"})
     json[key] = nullptr;
   if (const auto& c = m.vertices) {
     json["kg"] = c->kg;
@@ -141,6 +165,16 @@ void print_json(const ComparedClip& a, const ComparedClip& b, const Measured& m)
     json["hausdorff_frame"] = s->max_frame;
     json["hausdorff_mean"] = s->total.mean();
     json["hausdorff_rms"] = s->total.rms();
+  }
+  if (const auto& t = m.triangles) {
+    json["radius_ratio_a"] = t->radius_ratio_a;
+    json["radius_ratio_b"] = t->radius_ratio_b;
+    if (t->mapped) {
+      json["conformal_mean"] = t->distortion.conformal_mean;
+      json["conformal_max"] = t->distortion.conformal_max;
+      json["area_mean"] = t->distortion.area_mean;
+      json["area_max"] = t->distortion.area_max;
+    }
   }
   json["note"] = m.note;
   fmt::print("{}\n", json.dump(2));
@@ -170,6 +204,13 @@ void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
     row("Hausdorff distance", fmt::format("{:.4g} ({:.3g} %) at frame {}", s->total.max(),
                                           s->percent(s->total.max()), s->max_frame));
     row("surface RMS, mean", fmt::format("{:.4g}, {:.4g}", s->total.rms(), s->total.mean()));
+  }
+  if (const auto& t = m.triangles) {
+    row("radius ratio", fmt::format("{:.4f}, of A {:.4f}", t->radius_ratio_b, t->radius_ratio_a));
+    if (t->mapped)
+      row("distortion", fmt::format("conformal {:.4f} (at most {:.4g}), area {:.4f} ({:.4g})",
+                                    t->distortion.conformal_mean, t->distortion.conformal_max,
+                                    t->distortion.area_mean, t->distortion.area_max));
   }
   if (verbosity > 0 && m.vertices) {
     fmt::print("frame        RMSE   max error  at vertex\n");

@@ -309,6 +309,8 @@ nlohmann::ordered_json report_json(const Report& report) {
                                     {"numbers", e.numbers},
                                     {"bytes", e.bytes},
                                     {"residual_percent", e.residual_percent}});
+  if (report.massage)
+    json["massage"] = massage_json(*report.massage);
   return json;
 }
 

@@ -263,6 +263,8 @@ std::string report_page(const Report& report) {
     }));
     out += "</div>" + space_table(report);
   }
+  if (report.massage)
+    out += massage_section(*report.massage);
   return out + "</main></body></html>\n";
 }
 

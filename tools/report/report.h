@@ -9,8 +9,10 @@
 #include "codec/progress.h"
 #include "codec/shape_spaces.h"
 #include "tools/render/image.h"
+#include "tools/report/massage_study.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,6 +61,7 @@ struct Report {
   std::vector<ShapeSpaceError> shape_spaces;
   std::vector<ReportPicture> pictures;   ///< original, decoded, error, side by side
   std::vector<ReportPicture> keyframes;  ///< the contact sheet
+  std::optional<MassageStudy> massage;   ///< where it was asked for
 };
 
 struct ReportOptions {
