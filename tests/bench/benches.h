@@ -63,6 +63,19 @@ Table run_keyframes(const BenchOptions& options, const std::vector<uint32_t>& co
 /// that of tracked deformation gradients in the same run.
 Table run_msgi_speed(const std::vector<uint32_t>& vertex_counts, int runs);
 
+/// Clips whose vertices slide by noise of so many mean edges, and massaged: size at a KG error and
+/// surface distance against the clean clip. Of the first `frames` frames; 0: all.
+Table run_massage_sliding(const BenchOptions& options, double kg, double edges, uint32_t frames);
+
+/// What the automatic choice of the massage does with clips as they are.
+Table run_massage_auto(const BenchOptions& options, double kg);
+
+/// Frame 0 decimated to a quarter of its triangles by quadrics and fitted to itself.
+Table run_massage_fit(const BenchOptions& options);
+
+/// Clips of which every frame is decimated differently, given one connectivity again.
+Table run_massage_transfer(const BenchOptions& options, uint32_t frames);
+
 }  // namespace anicodec::bench
 
 #endif  // ANICODEC_TESTS_BENCH_BENCHES_H_

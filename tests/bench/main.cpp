@@ -41,6 +41,9 @@ struct Arguments {
   uint32_t step = 8;
   std::vector<uint32_t> keyframes{4, 8};
   std::vector<uint32_t> sizes{7000, 42000, 210000};
+  std::vector<std::string> parts{"sliding", "auto", "fit", "transfer"};
+  double edges = 0.3;
+  uint32_t first_frames = 0;
 
   void print(const std::string& command, const std::vector<Table>& tables) const {
     TableStyle style = csv ? TableStyle::kCsv : TableStyle::kText;
@@ -229,13 +232,44 @@ void add_msgi(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(1, 1000));
 }
 
+void add_massage(CLI::App& app, Arguments& a) {
+  CLI::App* command = add(app, a, "massage", "What the massage does to clips", [](Arguments& args) {
+    args.bench.clips = clip_words(args.inputs, args.clips);
+    std::vector<Table> tables;
+    for (const std::string& part : args.parts) {
+      if (part == "sliding")
+        tables.push_back(
+            run_massage_sliding(args.bench, args.one_kg, args.edges, args.first_frames));
+      else if (part == "auto")
+        tables.push_back(run_massage_auto(args.bench, args.one_kg));
+      else if (part == "fit")
+        tables.push_back(run_massage_fit(args.bench));
+      else
+        tables.push_back(run_massage_transfer(args.bench, args.first_frames));
+    }
+    return tables;
+  });
+  command->add_option("--parts", a.parts, "sliding, auto, fit, transfer (default all)")
+      ->option_text("PART,...")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"sliding", "auto", "fit", "transfer"}));
+  command->add_option("--kg", a.one_kg, "KG error in per cent (default 0.1)")
+      ->option_text("PCT")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--edges", a.edges, "Noise of sliding vertices in edges (default 0.3)")
+      ->option_text("X")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--first-frames", a.first_frames, "Use only so many frames (default all)")
+      ->option_text("N");
+}
+
 int run(int argc, const char* const* argv) {
   Arguments arguments;
   CLI::App app("Measures anicodec on clips against other ways to store them.", "anicodec_bench");
   app.require_subcommand(1);
   app.footer(kFooter);
   for (auto add_command : {add_rate, add_near, add_decode, add_play, add_auto, add_poses,
-                           add_between, add_keyframes, add_msgi})
+                           add_between, add_keyframes, add_msgi, add_massage})
     add_command(app, arguments);
   try {
     app.parse(argc, argv);

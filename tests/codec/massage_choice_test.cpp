@@ -37,7 +37,7 @@ TEST(EncodeMassaged, RecordsThatAndHowFarTheSurfaceMoved) {
   EXPECT_LT(record.surface_error_mean, record.surface_error);
 }
 
-TEST(EncodeMassaged, AutoTakesASlidingClip) {
+TEST(SlowEncodeMassaged, AutoTakesASlidingClip) {
   const MeshSequence clip = corpus::make_scaled("sliding", 400, 16);
   MassageVerdict verdict;
   const EncodeResult result = encode_massaged(clip, MassageMode::kAuto, {}, at_kg(0.1), &verdict);
