@@ -47,8 +47,8 @@ components and sizes, of the clip as it is and massaged, how far the surface mov
 of the triangles. With --csv: series,x,original,massaged, where series is pca (x components, KG
 errors) or bytes (x KG error); with --json components (k, original, massaged), sizes (kg, original,
 massaged), hausdorff_mean_percent, hausdorff_rms_percent, hausdorff_percent, before and after
-(conformal_mean, area_mean, radius_ratio, turned). With -o it is a section of the page, and "massage"
-in its JSON.
+(conformal_mean, area_mean, radius_ratio, turned). With -o it is a section of the page, and
+"massage" in its JSON.
 
 Examples:
   anicodec analyze dance.obj dance.pc2

@@ -27,9 +27,9 @@ namespace anicodec::tools {
 namespace {
 
 constexpr const char* kFooter =
-    R"(Moves the vertices of every frame along its surface until the triangles have the shapes that they have
-in the first frame, or the one of --reference, and takes out what single frames have of their own:
-captured vertices that slide over the body come to rest, and the clip codes smaller. Faces and
+    R"(Moves the vertices of every frame along its surface until the triangles have the shapes that they
+have in the first frame, or the one of --reference, and takes out what single frames have of their
+own: captured vertices that slide over the body come to rest, and the clip codes smaller. Faces and
 frames stay the same; the surface moves a little, and by how much is measured: the Hausdorff
 distance between each frame and what became of it. OUT is a vertex cache or frame files, as for
 decode.
