@@ -3,6 +3,7 @@
 #include "codec/coded_mesh.h"
 
 #include "sdk/details_coding.h"
+#include "sdk/disjoint_sets.h"
 
 #include <algorithm>
 #include <cstring>
@@ -15,28 +16,6 @@ uint64_t mixed(uint64_t h, uint32_t x) {
   h = (h ^ x) * 0x9E3779B97F4A7C15ULL;
   return h ^ (h >> 29);
 }
-
-/// Disjoint sets with path halving; the root of a set is its smallest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-
-  uint32_t find(uint32_t x) {
-    while (parent_[x] != x)
-      x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-
-  void join(uint32_t a, uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 /// A directed edge of a triangle, sortable so that both directions of an edge are neighbours.
 struct HalfEdge {

@@ -72,23 +72,23 @@ Positions slid(const Surface& surface, double edges, SplitMix64& random) {
       step.row(i) *= most / length;
   }
   Positions after = before;
-  std::vector<uint32_t> todo(topology.vertex_count);
-  std::iota(todo.begin(), todo.end(), 0U);
-  for (int attempt = 0; attempt <= kHalvings && !todo.empty(); ++attempt) {
-    for (uint32_t i : todo) {
+  std::vector<uint32_t> pending(topology.vertex_count);
+  std::iota(pending.begin(), pending.end(), 0U);
+  for (int attempt = 0; attempt <= kHalvings && !pending.empty(); ++attempt) {
+    for (uint32_t i : pending) {
       if (!topology.star[i].empty())
         after.row(i) =
             surface.walk(row(before, i) + row(step, i), topology.star[i][0]).position.transpose();
     }
-    todo.clear();
+    pending.clear();
     for (const SurfaceTopology::Triangle& t : topology.triangles) {
       const Vector3d a = area_normal(before, t), b = area_normal(after, t);
       if (a.dot(b) < kLeastCosine * a.norm() * b.norm() || b.norm() < kLeastArea * a.norm())
-        todo.insert(todo.end(), t.begin(), t.end());
+        pending.insert(pending.end(), t.begin(), t.end());
     }
-    std::sort(todo.begin(), todo.end());
-    todo.erase(std::unique(todo.begin(), todo.end()), todo.end());
-    for (uint32_t i : todo)
+    std::sort(pending.begin(), pending.end());
+    pending.erase(std::unique(pending.begin(), pending.end()), pending.end());
+    for (uint32_t i : pending)
       step.row(i) *= attempt + 1 < kHalvings ? 0.5 : 0.0;
   }
   return after;

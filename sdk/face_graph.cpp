@@ -2,36 +2,13 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/face_graph.h"
 
+#include "sdk/disjoint_sets.h"
+
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace anicodec {
 namespace {
-
-/// Disjoint sets of faces; the representative is the lowest face.
-class Sets {
- public:
-  explicit Sets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  uint32_t find(uint32_t i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  bool unite(uint32_t i, uint32_t j) {
-    i = find(i);
-    j = find(j);
-    if (i == j)
-      return false;
-    parent_[std::max(i, j)] = std::min(i, j);
-    return true;
-  }
-
- private:
-  Vector<uint32_t> parent_;
-};
 
 struct HalfEdge {
   uint32_t to;    ///< the larger vertex
@@ -86,13 +63,13 @@ Pairs find_edges(FaceGraph& graph) {
 }
 
 /// Joins the sets of faces that share a vertex, one join for each pair of sets.
-Pairs find_joins(const FaceGraph& graph, Sets& sets) {
+Pairs find_joins(const FaceGraph& graph, DisjointSets& sets) {
   Vector<uint32_t> last(graph.vertex_count, kNoIndex);
   Pairs joins;
   for (size_t i = 0; i < graph.corners.size(); ++i) {
     uint32_t& previous = last[graph.corners[i]];
     auto face = static_cast<uint32_t>(i / 3);
-    if (previous != kNoIndex && sets.unite(previous, face))
+    if (previous != kNoIndex && sets.join(previous, face))
       joins.emplace_back(previous, face);
     previous = face;
   }
@@ -134,9 +111,9 @@ FaceGraph make_face_graph(const uint32_t* triangles, size_t triangle_count, uint
       graph.corners.insert(graph.corners.end(), c, c + 3);
   }
   Pairs hinges = find_edges(graph);
-  Sets sets(graph.face_count());
+  DisjointSets sets(graph.face_count());
   for (auto [f, g] : hinges)
-    sets.unite(f, g);
+    sets.join(f, g);
   Pairs joins = find_joins(graph, sets);
   list_neighbours(graph, hinges, joins);
 

@@ -3,6 +3,7 @@
 #include "sdk/normals.h"
 
 #include "sdk/combine.h"
+#include "sdk/disjoint_sets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,31 +47,6 @@ struct Direction {
   }
 
   bool is_zero() const { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
-};
-
-/// Disjoint sets of corners (Tarjan 1975).
-class Sets {
- public:
-  explicit Sets(uint32_t count) : parent_(count) {
-    for (uint32_t i = 0; i < count; ++i)
-      parent_[i] = i;
-  }
-
-  uint32_t find(uint32_t i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  /// The smaller number stands for both.
-  void join(uint32_t a, uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  Vector<uint32_t> parent_;
 };
 
 /// Polygons by their corners.
@@ -128,7 +104,7 @@ Vector<Direction> polygon_normals(const Topology& t, const float* pose) {
 /// Joins the corners at both ends of every edge that is no crease. Of the polygons at an edge, each
 /// is compared with the next one.
 void join_across_edges(const Topology& topology, const Corners& corners, const float* pose,
-                       double crease_cosine, Sets* sets) {
+                       double crease_cosine, DisjointSets* sets) {
   struct Edge {
     uint32_t low, high, corner;  // coded vertices, and the corner at which it starts
   };
@@ -160,7 +136,7 @@ void join_across_edges(const Topology& topology, const Corners& corners, const f
 
 /// Joins the corners that have the same key, below `keys`.
 template <class Key>
-void join_equal(const Corners& corners, uint32_t keys, Key key, Sets* sets) {
+void join_equal(const Corners& corners, uint32_t keys, Key key, DisjointSets* sets) {
   constexpr uint32_t kNone = UINT32_MAX;
   Vector<uint32_t> first(keys, kNone);
   for (uint32_t c = 0; c < corners.count(); ++c) {
@@ -178,7 +154,7 @@ NormalPlan plan_normals(const Topology& topology, const float* pose, double crea
                         bool per_corner) {
   const Corners corners(topology);
   const auto vertices = static_cast<uint32_t>(topology.vertex_coded.size());
-  Sets sets(corners.count());
+  DisjointSets sets(corners.count());
   if (crease_cosine <= -1)
     join_equal(
         corners, topology.coded_vertices, [&](uint32_t c) { return corners.coded(c); }, &sets);

@@ -4,7 +4,6 @@
 #include "corpus/clips.h"
 #include "tools/command.h"
 #include "tools/io/write_sequence.h"
-#include "tools/output_folder.h"
 #include "tools/progress.h"
 
 #include <memory>
@@ -44,9 +43,7 @@ void run(const CorpusCommand& command, const CommonOptions& common) {
   options.overwrite = common.overwrite;
   options.progress = line.callback();
   check_sequence_output(command.output, clip.frame_count, options);
-  OutputFolder folder(command.output);
   write_sequence(command.output, clip, options);
-  folder.keep();
   line.clear();
   if (!common.quiet)
     fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output, clip.frame_count,

@@ -5,7 +5,6 @@
 #include "tools/clip_input.h"
 #include "tools/command.h"
 #include "tools/io/write_sequence.h"
-#include "tools/output_folder.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
 
@@ -77,11 +76,9 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
   options.progress = line.callback();
   check_sequence_output(command.output, range.size(), options);
   FrameSource all = play(command.input, clip);
-  OutputFolder folder(command.output);
   write_sequence(
       command.output, description,
       [&all, range](uint32_t f) { return all(range.first + f * range.step); }, options);
-  folder.keep();
   line.clear();
   if (!common.quiet)
     fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output,

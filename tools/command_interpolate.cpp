@@ -8,7 +8,6 @@
 #include "tools/command.h"
 #include "tools/interpolation_input.h"
 #include "tools/io/write_sequence.h"
-#include "tools/output_folder.h"
 #include "tools/progress.h"
 
 #include <algorithm>
@@ -162,7 +161,6 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
   check_sequence_output(command.output, clip.frame_count, write);
   line.show("setting up", 0);
   auto interpolation = make_interpolation(triangles, poses.vertex_count, inputs, options);
-  OutputFolder folder(command.output);
   write_sequence(
       command.output, clip,
       [&](uint32_t f) {
@@ -170,7 +168,6 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
             rows[f], pins.vertices.empty() ? std::span<const float>() : pins.at(f));
       },
       write);
-  folder.keep();
   line.clear();
   if (!common.quiet)
     fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output, clip.frame_count,

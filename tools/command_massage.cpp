@@ -9,7 +9,6 @@
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 #include "tools/massage_transfer.h"
-#include "tools/output_folder.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
 
@@ -130,9 +129,7 @@ void run_fit(const MassageCommand& command, const CommonOptions& common) {
   result.vertex_count = static_cast<uint32_t>(mesh.positions.size() / 3);
   result.frame_count = 1;
   result.positions = fit.positions;
-  OutputFolder folder(command.output);
   write_sequence(command.output, result, write_options);
-  folder.keep();
   line.clear();
   if (command.json) {
     nlohmann::ordered_json json;
@@ -178,10 +175,8 @@ void run_transfer(const MassageCommand& command, const CommonOptions& common) {
     check_sequence_output(names[s], segments[s].sequence.frame_count, write_options);
   }
   for (size_t s = 0; s < segments.size(); ++s) {
-    OutputFolder folder(names[s]);
     write_options.first_number = segments[s].first_frame;
     write_sequence(names[s], segments[s].sequence, write_options);
-    folder.keep();
   }
   line.clear();
   const SurfaceChange change = input.change();
@@ -264,9 +259,7 @@ void run(const MassageCommand& command, const CommonOptions& common) {
   const SurfaceComparison distance = compare_surfaces(sequence, result.sequence);
   const MassageQuality before = massage_quality(sequence, sequence, options.reference);
   const MassageQuality after = massage_quality(sequence, result.sequence, options.reference);
-  OutputFolder folder(command.output);
   write_sequence(command.output, result.sequence, write_options);
-  folder.keep();
   line.clear();
 
   const Counted counted = count(result, options.reference);

@@ -5,7 +5,7 @@
 #include "tools/compared_clip.h"
 #include "tools/io/atomic_file.h"
 #include "tools/io/name_pattern.h"
-#include "tools/output_folder.h"
+#include "tools/io/output_folder.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
 #include "tools/render/image.h"

@@ -88,6 +88,33 @@ inline Asset open(const format::Bytes& file, const anic_options* options = nullp
   return Asset(asset);
 }
 
+/// Opens a file and makes a context again and again, each time with another allocation that fails,
+/// until none does: no memory may stay behind. Returns about how many allocations there are.
+inline size_t expect_no_leak_whichever_allocation_fails(const format::Bytes& file) {
+  anic_status status = ANIC_E_MEMORY;
+  size_t n = 0;
+  for (; status != ANIC_OK && n < 10000000; n += n < 200 ? 1 : n / 20) {
+    CountingMemory memory;
+    memory.fail_at = n;
+    anic_options options = {};
+    options.allocator = memory.allocator();
+    options.flags = ANIC_OPEN_BOUNDS;
+    anic_asset* asset = nullptr;
+    anic_context* context = nullptr;
+    status = anic_asset_open(file.data(), file.size(), &options, &asset, nullptr);
+    if (status == ANIC_OK)
+      status = anic_context_create(asset, nullptr, &context);
+    EXPECT_TRUE(status == ANIC_OK || status == ANIC_E_MEMORY) << status << " at " << n;
+    anic_context_destroy(context);
+    anic_asset_close(asset);
+    EXPECT_EQ(memory.held, 0U) << n;
+    if (testing::Test::HasFailure())
+      break;
+  }
+  EXPECT_EQ(status, ANIC_OK);
+  return n;
+}
+
 inline Context context_of(const Asset& asset) {
   anic_context* context = nullptr;
   EXPECT_EQ(anic_context_create(asset.get(), nullptr, &context), ANIC_OK);

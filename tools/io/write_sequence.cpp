@@ -9,6 +9,7 @@
 #include "tools/io/name_pattern.h"
 #include "tools/io/obj.h"
 #include "tools/io/off.h"
+#include "tools/io/output_folder.h"
 #include "tools/io/ply.h"
 #include "tools/io/stl.h"
 #include "tools/io/vertex_cache.h"
@@ -151,12 +152,14 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
   check_sequence_output(path, clip.frame_count, options);
   if (clip.frame_count == 0)
     throw Error(ErrorKind::kInput, "the sequence has no frame");
+  OutputFolder folder(path);
   Frames frames(clip, source, options.progress);
   FileKind kind = kind_of(path);
   if (is_cache(kind))
     write_cache(path, clip, frames, options.overwrite);
   else
     write_frames(parse_name_pattern(path), kind, clip, frames, options);
+  folder.keep();
   if (options.progress)
     options.progress("writing", 1);
 }

@@ -3,19 +3,14 @@
 #ifndef ANICODEC_TOOLS_IO_WRITE_SEQUENCE_H_
 #define ANICODEC_TOOLS_IO_WRITE_SEQUENCE_H_
 
+#include "codec/frame_source.h"
 #include "codec/mesh_sequence.h"
 #include "codec/progress.h"
 
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <string>
 
 namespace anicodec::tools {
-
-/// Gives the positions of a frame, vertices x 3, valid until the next call. Called once for each
-/// frame in order; may throw.
-using FrameSource = std::function<std::span<const float>(uint32_t frame)>;
 
 struct WriteOptions {
   bool overwrite = false;     ///< replace existing outputs instead of refusing
@@ -30,9 +25,9 @@ struct WriteOptions {
 ///   first_number.
 /// A single frame may have a plain name. PC2 carries no rate; MDD has the time of each frame. STL
 /// loses polygons and unused vertices. Counts, polygons and timing come from `clip`, whose
-/// positions are not read. All outputs appear together at the end or, on any exception, not at all.
-/// Throws Error(kUsage) for a bad name or an existing output, Error(kInternal) when the disk is
-/// full.
+/// positions are not read; frames are asked for once and in order. Folders that are missing are
+/// made. All outputs appear together at the end or, on any exception, not at all. Throws
+/// Error(kUsage) for a bad name or an existing output, Error(kInternal) when the disk is full.
 void write_sequence(const std::string& path, const MeshSequence& clip, const FrameSource& frames,
                     const WriteOptions& options);
 

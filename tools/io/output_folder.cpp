@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/output_folder.h"
+#include "tools/io/output_folder.h"
 
 #include "codec/error.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_TOOLS_OUTPUT_FOLDER_H_
-#define ANICODEC_TOOLS_OUTPUT_FOLDER_H_
+#ifndef ANICODEC_TOOLS_IO_OUTPUT_FOLDER_H_
+#define ANICODEC_TOOLS_IO_OUTPUT_FOLDER_H_
 
 #include <filesystem>
 #include <string>
@@ -29,4 +29,4 @@ class OutputFolder {
 
 }  // namespace anicodec::tools
 
-#endif  // ANICODEC_TOOLS_OUTPUT_FOLDER_H_
+#endif  // ANICODEC_TOOLS_IO_OUTPUT_FOLDER_H_
