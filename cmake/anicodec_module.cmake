@@ -12,8 +12,6 @@ target_compile_options(anicodec_flags INTERFACE
   -ffp-contract=off
   -Wall -Wextra -Wpedantic -Wshadow -Wundef
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast>
-  # GCC 12 finds both in joined strings where there are none (GCC bugs 105329 and 105651).
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds -Wno-restrict>
   $<$<BOOL:${ANICODEC_WERROR}>:-Werror>)
 target_include_directories(anicodec_flags INTERFACE "${PROJECT_SOURCE_DIR}")
 
