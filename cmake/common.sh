@@ -11,6 +11,7 @@ packages=(
   libeigen3-dev libtbb-dev libembree-dev       # codec
   libcli11-dev libfmt-dev nlohmann-json3-dev   # tools
   libpng-dev libgif-dev                        # tools: pictures
+  libassimp-dev                                # tools: FBX, Collada, MD2 ...
   libgtest-dev libgmock-dev python3            # tests
   libmeshoptimizer-dev liblzma-dev             # other codecs to compare with
 )

@@ -5,6 +5,7 @@
 #include "codec/clip_file.h"
 #include "codec/error.h"
 #include "codec/keyframe_search.h"
+#include "codec/linear_segment_encode.h"
 #include "codec/metrics.h"
 #include "codec/rate_control.h"
 #include "codec/search_progress.h"
@@ -33,7 +34,6 @@ format::ClipRecord describe(const MeshSequence& sequence, const EncodeOptions& o
   record.rate_denominator = sequence.rate.denominator;
   record.rate_assumed = sequence.rate.assumed;
   record.loop = sequence.loop;
-  record.closed = is_closed(sequence);
   record.up = static_cast<uint8_t>(sequence.up);
   record.order = options.order;
   record.start_time = sequence.start_time;
@@ -48,6 +48,50 @@ format::ClipRecord describe(const MeshSequence& sequence, const EncodeOptions& o
   record.asked_value = target.value;
   record.diagonal = clip_diagonal;
   return record;
+}
+
+void check_part(const PartFrames& part, const MeshSequence& sequence,
+                const EncodeOptions& options) {
+  if (part.count == 0 || part.first >= sequence.frame_count ||
+      part.count > sequence.frame_count - part.first)
+    throw Error(ErrorKind::kUsage, "the sequence does not have all frames of the part");
+  if (options.keyframes || options.basis == BasisChoice::kKeyframes)
+    throw Error(ErrorKind::kUsage,
+                "parts are coded by eigenshapes or eigentrajectories, not by key-frames");
+}
+
+/// The timing of a part; its positions stay.
+void cut_timing(const PartFrames& part, MeshSequence& sequence) {
+  if (sequence.times.empty()) {
+    sequence.start_time += part.first / sequence.rate.value();
+    return;
+  }
+  const double start = sequence.times[part.first];
+  sequence.start_time += start;
+  std::vector<double> times;
+  for (uint32_t f = part.first; f < part.first + part.count; ++f)
+    times.push_back(sequence.times[f] - start);
+  sequence.times = std::move(times);
+}
+
+/// Frame 0 of the whole clip, the same in all parts: on a grid as fine as the error asked for.
+std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, const Target& target,
+                                                 double clip_diagonal, bool slow) {
+  constexpr double kTypical = 1e-4;  // of the diagonal
+  double step = kTypical * clip_diagonal;
+  if (target.metric == format::ErrorMetric::kMaxError)
+    step = target.value / 4;
+  else if (target.metric == format::ErrorMetric::kRmse)
+    step = target.value;
+  const auto rows = static_cast<Eigen::Index>(input.first_pose.size() / 3);
+  Eigen::MatrixXd pose(rows, 3);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index c = 0; c < 3; ++c)
+      pose(i, c) = static_cast<double>(input.first_pose[static_cast<size_t>(3 * i + c)]);
+  }
+  const Eigen::Vector3d origin = pose.colwise().mean();
+  pose.rowwise() -= origin.transpose();
+  return encode_reference_pose(pose, origin, step, slow, input.layout);
 }
 
 /// Plays a file and compares it with the source, in the source's vertex order whatever the file's.
@@ -105,8 +149,18 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
       options.basis != BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage, "an interpolation can be chosen between key-frames only");
 
+  bool closed = is_closed(sequence);
+  if (options.part) {
+    check_part(*options.part, sequence, options);
+    cut_timing(*options.part, sequence);
+    closed = false;
+  }
   format::ClipRecord record = describe(sequence, options, target, clip_diagonal);
-  EncoderInput input(std::move(sequence), options.mesh_coder);
+  record.closed = closed;
+  EncoderInput input(std::move(sequence), options.mesh_coder, options.part);
+  constexpr int kSlowEffort = 7;
+  if (options.part)
+    input.pose = pose_of_parts(input, target, clip_diagonal, options.effort >= kSlowEffort);
   RateControl control(input, options, target, clip_diagonal);
   SearchProgress search(progress, control.expected_trials());
   input.on_trial = [&search] { search.trial(); };

@@ -35,6 +35,12 @@ struct Target {
   bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames
 };
 
+/// Some of a clip's frames.
+struct PartFrames {
+  uint32_t first = 0;
+  uint32_t count = 0;
+};
+
 struct EncodeOptions {
   Target target;              ///< kNone: only with `keyframes`
   std::optional<Target> cap;  ///< a maximum error beside another target
@@ -44,6 +50,9 @@ struct EncodeOptions {
   InterpolationChoice interpolation = InterpolationChoice::kLinear;  ///< only with key-frames alone
   format::OrderMode order = format::OrderMode::kVertices;
   format::CoderId mesh_coder = format::CoderId::kDraco;
+  /// Encodes these frames alone, as a part for join_clips(): mesh, reference pose and diagonal are
+  /// those of the whole sequence, and the same in all parts. Not with key-frames.
+  std::optional<PartFrames> part;
   std::string encoder;  ///< name and version to store in the file
   /// The sequence is not the source itself but one that massage() made of it: to store in the file.
   std::optional<SurfaceChange> surface_change;

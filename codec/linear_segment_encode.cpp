@@ -31,38 +31,6 @@ constexpr double kBitsPerUnit = 65536;  // of BitCounter
   throw TooFine();
 }
 
-/// The pose of a basis on a grid of at least this step.
-std::shared_ptr<const EncodedPose> reference_pose(const LinearBasis& basis, double step, bool slow,
-                                                  const MeshLayout& layout) {
-  auto encoded = std::make_shared<EncodedPose>();
-  PoseGrid& grid = encoded->grid;
-  const MatrixXd& pose = basis.pose;
-  double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
-  grid.step = std::max({step, largest / (kMaxReferenceCoordinate - 1), 1e-37});
-  std::copy_n(basis.origin.data(), 3, grid.origin);
-  grid.points.reserve(static_cast<size_t>(pose.size()));
-  for (Index v = 0; v < pose.rows(); ++v) {
-    for (Index c = 0; c < 3; ++c)
-      grid.points.push_back(static_cast<int32_t>(std::lround(pose(v, c) / grid.step)));
-  }
-  encoded->coder = layout.coder;
-  size_t held =
-      layout.coder == format::CoderId::kDraco ? vertices_in_triangles(layout.topology) : 0;
-  encoded->stream = encode_plain_integers(
-      {grid.points.begin() + static_cast<ptrdiff_t>(3 * held), grid.points.end()}, 3);
-  if (!slow)
-    return encoded;
-  size_t bytes = encoded->stream.size();
-  if (encoded->coder == format::CoderId::kDraco)
-    bytes += encode_with_poses(layout, {&grid.points, 1}).size() - layout.connectivity.size();
-  format::Bytes predicted = encode_pose(layout.topology, grid.points);
-  if (predicted.size() < bytes) {
-    encoded->coder = format::CoderId::kPredictive;
-    encoded->stream = std::move(predicted);
-  }
-  return encoded;
-}
-
 /// Values of the affine functions of a pose: vertices x 4.
 MatrixXd function_values(const Vector<int32_t>& pose) {
   AffineFunctions functions = AffineFunctions::of(pose.data(), pose.size() / 3);
@@ -189,6 +157,37 @@ size_t component_count(const LinearBasis& basis, const LinearSettings& settings,
   return static_cast<size_t>((basis.energies.array() > smallest).count());
 }
 
+std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
+                                                         const Eigen::Vector3d& origin, double step,
+                                                         bool slow, const MeshLayout& layout) {
+  auto encoded = std::make_shared<EncodedPose>();
+  PoseGrid& grid = encoded->grid;
+  double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
+  grid.step = std::max({step, largest / (kMaxReferenceCoordinate - 1), 1e-37});
+  std::copy_n(origin.data(), 3, grid.origin);
+  grid.points.reserve(static_cast<size_t>(pose.size()));
+  for (Index v = 0; v < pose.rows(); ++v) {
+    for (Index c = 0; c < 3; ++c)
+      grid.points.push_back(static_cast<int32_t>(std::lround(pose(v, c) / grid.step)));
+  }
+  encoded->coder = layout.coder;
+  size_t held =
+      layout.coder == format::CoderId::kDraco ? vertices_in_triangles(layout.topology) : 0;
+  encoded->stream = encode_plain_integers(
+      {grid.points.begin() + static_cast<ptrdiff_t>(3 * held), grid.points.end()}, 3);
+  if (!slow)
+    return encoded;
+  size_t bytes = encoded->stream.size();
+  if (encoded->coder == format::CoderId::kDraco)
+    bytes += encode_with_poses(layout, {&grid.points, 1}).size() - layout.connectivity.size();
+  format::Bytes predicted = encode_pose(layout.topology, grid.points);
+  if (predicted.size() < bytes) {
+    encoded->coder = format::CoderId::kPredictive;
+    encoded->stream = std::move(predicted);
+  }
+  return encoded;
+}
+
 EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
                              const LinearSettings& settings, const MeshLayout& layout,
                              std::shared_ptr<const EncodedPose> shared) {
@@ -211,8 +210,9 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
   encoded.sizes.frames = static_cast<uint32_t>(frames);
   encoded.sizes.components = static_cast<uint32_t>(k);
   double pose_step = settings.pose_factor * settings.step / std::sqrt(static_cast<double>(frames));
-  encoded.reference =
-      shared ? std::move(shared) : reference_pose(basis, pose_step, settings.slow_pose, layout);
+  encoded.reference = shared ? std::move(shared)
+                             : encode_reference_pose(basis.pose, basis.origin, pose_step,
+                                                     settings.slow_pose, layout);
   const Vector<int32_t>& pose = encoded.reference->grid.points;
   const Eigen::Vector3d origin(encoded.reference->grid.origin);
 

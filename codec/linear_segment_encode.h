@@ -37,6 +37,12 @@ struct LinearSettings {
 size_t component_count(const LinearBasis& basis, const LinearSettings& settings, size_t vertices,
                        size_t frames);
 
+/// A pose (coded vertices x 3, relative to `origin`) on a grid of at least this step, ready for the
+/// file. `slow`: see LinearSettings.
+std::shared_ptr<const EncodedPose> encode_reference_pose(const Eigen::MatrixXd& pose,
+                                                         const Eigen::Vector3d& origin, double step,
+                                                         bool slow, const MeshLayout& layout);
+
 /// Quantises and codes a basis as a segment: pose, time weights, the basis refitted to the decoded
 /// weights (closed loop), its coefficients predicted and rounded with their cost in mind.
 /// `shared`: a pose that the file has already, from which the basis was made; null: the basis' own.

@@ -229,6 +229,10 @@ Solution RateControl::solve() {
       coders.push_back(
           std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort, kLayers));
   }
+  for (std::unique_ptr<LinearCoder>& coder : coders) {
+    if (input_.pose)
+      coder->share_pose(input_.pose);
+  }
   if (coders.size() == 2) {
     // A kind that one trial shows to be far behind is not searched.
     double rmse = typical_rmse();
@@ -249,7 +253,7 @@ Solution RateControl::solve() {
       break;
     }
   }
-  if (options_.basis == BasisChoice::kAuto && !(best && beats_keyframes(*best))) {
+  if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
     KeyframeCoder keyframes(input_, options_.select, options_.keyframes,
                             format::Reconstruction::kLinear);
     offer(keyframes);

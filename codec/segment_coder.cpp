@@ -8,15 +8,21 @@
 
 namespace anicodec {
 
-EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder)
+EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder,
+                           const std::optional<PartFrames>& part)
     : sequence(std::move(source)), layout(lay_out_mesh(sequence, mesh_coder)) {
   const size_t n = layout.sizes.coded_vertices;
   copies.assign(n, 0);
   for (uint32_t c : layout.source_coded)
     ++copies[c];
+  for (uint32_t v : layout.coded_source) {
+    const float* position = sequence.positions.data() + size_t{3} * v;
+    first_pose.insert(first_pose.end(), position, position + 3);
+  }
+  const PartFrames kept = part.value_or(PartFrames{0, sequence.frame_count});
   std::vector<float> frame(size_t{3} * sequence.vertex_count);
   float* to = sequence.positions.data();  // never ahead of what is yet to be read
-  for (size_t f = 0; f < sequence.frame_count; ++f) {
+  for (size_t f = kept.first; f < size_t{kept.first} + kept.count; ++f) {
     std::ranges::copy(sequence.frame(f), frame.begin());
     double mean[3] = {0, 0, 0}, squares = 0;
     for (size_t v = 0; v < sequence.vertex_count; ++v) {
@@ -34,6 +40,7 @@ EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder)
     for (uint32_t v : layout.coded_source)
       to = std::copy_n(frame.begin() + ptrdiff_t{3} * v, 3, to);
   }
+  sequence.frame_count = kept.count;
   coded = std::move(sequence.positions);
   coded.resize(3 * n * sequence.frame_count);
   sequence.positions.clear();

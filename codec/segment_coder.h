@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_SEGMENT_CODER_H_
 #define ANICODEC_CODEC_SEGMENT_CODER_H_
 
+#include "codec/encode.h"
 #include "codec/encoded_segment.h"
 #include "codec/frame_view.h"
 #include "codec/mesh_layout.h"
@@ -10,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +20,10 @@ namespace anicodec {
 
 /// What all ways of coding share: the clip by coded vertices, and how it leads back to the source.
 struct EncoderInput {
-  /// Takes the positions over: they are put into coded order in place.
-  EncoderInput(MeshSequence source, format::CoderId mesh_coder);
+  /// Takes the positions over: they are put into coded order in place. Of a part, only its frames
+  /// remain, of a mesh that serves all parts.
+  EncoderInput(MeshSequence source, format::CoderId mesh_coder,
+               const std::optional<PartFrames>& part = {});
 
   FrameView frames(size_t first, size_t count) const { return frames().frames(first, count); }
 
@@ -38,6 +42,8 @@ struct EncoderInput {
   std::vector<uint32_t> copies;   ///< source vertices of each coded one
   double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0
   double largest_coordinate = 0;  ///< in magnitude
+  std::vector<float> first_pose;  ///< coded vertices x 3: frame 0 of the source, before any cut
+  std::shared_ptr<const EncodedPose> pose;  ///< what a part must refer to, else null
 
   /// Called by coders before every trial, which is what takes time; may be empty.
   std::function<void()> on_trial;

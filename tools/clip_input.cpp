@@ -60,6 +60,10 @@ void fail_clip(const std::string& path, const Failure& failure) {
 
 std::string read_bytes(const std::string& path) {
   std::string bytes;
+  if (path == "-") {
+    read_standard_input(bytes);
+    return bytes;
+  }
   read_file(path, bytes);
   return bytes;
 }

@@ -25,7 +25,7 @@ ErrorKind error_kind(Status status);
 /// Throws the Error of a failure: "clip.anic: offset 0x1f40, chunk SEGM: reason (detail)".
 [[noreturn]] void fail_clip(const std::string& path, const Failure& failure);
 
-/// The bytes of a file. Throws Error(kInput).
+/// The bytes of a file, or of the standard input if the path is "-". Throws Error(kInput).
 std::string read_bytes(const std::string& path);
 
 inline format::ByteView view_of(const std::string& bytes) {

@@ -34,6 +34,7 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const CommandHelp& h
 
 void add_encode(CLI::App& app, CommonOptions& common);
 void add_decode(CLI::App& app, CommonOptions& common);
+void add_join(CLI::App& app, CommonOptions& common);
 void add_info(CLI::App& app, CommonOptions& common);
 void add_verify(CLI::App& app, CommonOptions& common);
 void add_compare(CLI::App& app, CommonOptions& common);

@@ -6,13 +6,19 @@
 #include "codec/metrics.h"
 #include "tools/command.h"
 #include "tools/compared_clip.h"
+#include "tools/io/file_kind.h"
+#include "tools/io/frame_rate.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,8 +28,12 @@ namespace {
 
 constexpr const char* kFooter =
     R"(A is the original, B what is compared with it. Each is one argument: an .anic file, a quoted pattern
-of frames ('frames/*.obj'), or a vertex cache (.pc2, .mdd) with the mesh of the same stem beside it
-or the one of --mesh.
+of frames ('frames/*.obj'), a vertex cache (.pc2, .mdd) with the mesh of the same stem beside it or
+the one of --mesh, or a scene (.gltf, .glb), which is baked at the rate of the other side.
+
+--frames-a and --frames-b take a part of a side's frames (A:B is A to B - 1, counted from 0).
+--axes-b x,z,-y takes (x, z, -y) of B for its positions. Without it B is turned to the axes of A
+where the files of both say which axis points up.
 
 Clips of equally many vertices are compared vertex by vertex: KG error and RMSE over all frames, the
 largest error and where it is, PSNR against the diagonal, STED (edges in space and time), and the
@@ -41,10 +51,12 @@ null, and so is an infinite PSNR.
 
 Examples:
   anicodec compare dance.pc2 dance.anic
-  anicodec compare 'frames/*.obj' 'decoded/*.ply' --json)";
+  anicodec compare 'frames/*.obj' 'decoded/*.ply' --json
+  anicodec compare man.mdd man.glb --axes-b x,-z,y --frames-b 1:)";
 
 struct CompareCommand {
-  std::string a, b, mesh;
+  std::string a, b, mesh, rate, axes;
+  ComparedPart part_a, part_b;
   bool json = false, surface = false, no_sted = false;
 };
 
@@ -62,6 +74,59 @@ FrameSource watched(FrameSource frames, uint32_t count, ProgressLine& line) {
   return [frames = std::move(frames), count, &line](uint32_t f) {
     line.show("comparing", static_cast<double>(f) / count);
     return frames(f);
+  };
+}
+
+/// A coordinate of a turned position: which one it was, and its sign.
+struct SignedAxis {
+  size_t axis = 0;
+  float sign = 1;
+};
+
+using SignedAxes = std::array<SignedAxis, 3>;
+
+/// "x,z,-y": each axis once.
+SignedAxes parse_axes(const std::string& text) {
+  SignedAxes axes;
+  bool used[3] = {false, false, false};
+  size_t at = 0;
+  auto accept = [&](char c) {
+    const bool found = at < text.size() && text[at] == c;
+    at += found ? 1 : 0;
+    return found;
+  };
+  bool ok = true;
+  for (size_t i = 0; i < 3 && ok; ++i) {
+    ok = i == 0 || accept(',');
+    axes[i].sign = accept('-') ? -1.0F : 1.0F;
+    for (axes[i].axis = 0; axes[i].axis < 3 && !accept("xyz"[axes[i].axis]);)
+      ++axes[i].axis;
+    ok = ok && axes[i].axis < 3 && !std::exchange(used[axes[i].axis], true);
+  }
+  if (!ok || at != text.size())
+    throw Error(ErrorKind::kUsage, "--axes-b: '" + text + "' is not like x,z,-y");
+  return axes;
+}
+
+/// What turns B to the axes of A.
+std::optional<SignedAxes> axes_of(const CompareCommand& command, UpAxis a, UpAxis b) {
+  if (!command.axes.empty())
+    return parse_axes(command.axes);
+  if (a == b || a == UpAxis::kUnknown || b == UpAxis::kUnknown)
+    return std::nullopt;
+  return parse_axes(b == UpAxis::kZ ? "x,z,-y" : "x,-z,y");
+}
+
+FrameSource turned(FrameSource frames, const SignedAxes& axes) {
+  auto positions = std::make_shared<std::vector<float>>();
+  return [frames = std::move(frames), axes, positions](uint32_t f) -> std::span<const float> {
+    const std::span<const float> source = frames(f);
+    positions->resize(source.size());
+    for (size_t i = 0; i + 2 < source.size(); i += 3) {
+      for (size_t k = 0; k < 3; ++k)
+        (*positions)[i + k] = axes[k].sign * source[i + axes[k].axis];
+    }
+    return *positions;
   };
 }
 
@@ -84,16 +149,18 @@ Measured measure(const ComparedClip& a, const ComparedClip& b, const CompareComm
     m.note = "the faces differ: the vertices are compared by their number";
 
   uint32_t frames = p.frame_count;
+  const std::optional<SignedAxes> axes = axes_of(command, p.up, q.up);
+  auto frames_of_b = [&] { return axes ? turned(b.frames(), *axes) : b.frames(); };
   if (by_vertex) {
     CompareOptions options;
     options.sted = !command.no_sted;
     m.vertices = compare(p.polygons, p.vertex_count, frames, watched(a.frames(), frames, line),
-                         b.frames(), options);
+                         frames_of_b(), options);
     m.diagonal = m.vertices->diagonal;
   }
   if (!by_vertex || command.surface) {
     m.surface = compare_surfaces(p.polygons, watched(a.frames(), frames, line), q.polygons,
-                                 b.frames(), frames);
+                                 frames_of_b(), frames);
     m.diagonal = m.surface->diagonal;
     m.triangles = compare_triangles(p.polygons, a.frames(), q.polygons, b.frames(), frames);
   }
@@ -223,8 +290,24 @@ void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
 
 void run(const CompareCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
-  ComparedClip a(command.a, command.mesh, line.callback());
-  ComparedClip b(command.b, command.mesh, line.callback());
+  ComparedPart parts[] = {command.part_a, command.part_b};
+  const std::string* paths[] = {&command.a, &command.b};
+  std::optional<ComparedClip> clips[2];
+  if (!command.rate.empty()) {
+    for (int side : {0, 1}) {
+      if (is_scene(kind_of(*paths[side])))
+        parts[side].rate = parse_frame_rate(command.rate);
+    }
+  }
+  // A scene has no frames of its own: it is read last, and takes the rate of the other side.
+  const int first = is_scene(kind_of(command.a)) ? 1 : 0;
+  for (int side : {first, 1 - first}) {
+    clips[side].emplace(*paths[side], command.mesh, line.callback(), parts[side]);
+    ComparedPart& other = parts[1 - side];
+    if (is_scene(kind_of(*paths[1 - side])) && !other.rate)
+      other.rate = clips[side]->sequence().rate;
+  }
+  const ComparedClip &a = *clips[0], &b = *clips[1];
   Measured measured = measure(a, b, command, line);
   line.clear();
   if (command.json)
@@ -244,6 +327,16 @@ void add_compare(CLI::App& app, CommonOptions& common) {
   command->add_option("B", c->b, "What is compared with it")->required();
   command->add_option("--mesh", c->mesh, "Mesh of a vertex cache (default: same stem beside it)")
       ->option_text("FILE");
+  command->add_option("--fps", c->rate, "Frames per second of a scene (default: of the other side)")
+      ->option_text("N[/D]");
+  command->add_option("--clip-a", c->part_a.clip, "Animation of scene A")->option_text("NAME");
+  command->add_option("--clip-b", c->part_b.clip, "Animation of scene B")->option_text("NAME");
+  command->add_option("--frames-a", c->part_a.frames, "Part of the frames of A")
+      ->option_text("A:B[:STEP]");
+  command->add_option("--frames-b", c->part_b.frames, "Part of the frames of B")
+      ->option_text("A:B[:STEP]");
+  command->add_option("--axes-b", c->axes, "How positions of B are turned, such as x,z,-y")
+      ->option_text("AXES");
   command->add_flag("--surface", c->surface, "Measure the distance of the surfaces as well");
   command->add_flag("--no-sted", c->no_sted, "Leave out STED, which takes most of the time");
   command->add_flag("--json", c->json, "Print one JSON object");

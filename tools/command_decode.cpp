@@ -19,21 +19,24 @@ namespace anicodec::tools {
 namespace {
 
 constexpr const char* kFooter =
-    R"(OUT is a vertex cache (clip.pc2, clip.mdd; the mesh is written beside it as clip.obj) or a file per
-frame (dir/frame_%04d.obj, .ply, .off, .stl). Polygons come back as polygons. Frames are counted
+    R"(OUT is a vertex cache (clip.pc2, clip.mdd; the mesh is written beside it as clip.obj), a file per
+frame (dir/frame_%04d.obj, .ply, .off, .stl), or a scene (clip.glb) with a morph target for each
+frame and an animation of their weights. Polygons come back as polygons, but for STL and GLB, which
+have triangles; GLB is turned to Y up and scaled to metres where the clip says. Frames are counted
 from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate that STEP divides
 is divided; PC2 carries no rate.
 
 Examples:
   anicodec decode clip.anic -o clip.pc2
   anicodec decode clip.anic -o frames/frame_%04d.ply --frames 0:100:2
+  anicodec decode clip.anic -o clip.glb
   anicodec decode clip.anic -o first.obj --frames 0)";
 
 struct DecodeCommand {
   std::string input, output, frames;
   double quality = 1;
   uint32_t start = 0;
-  bool ascii = false;
+  bool ascii = false, step = false;
 };
 
 /// Timing of every step-th frame of a clip.
@@ -72,6 +75,7 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
   WriteOptions options;
   options.overwrite = common.overwrite;
   options.ascii = command.ascii;
+  options.step = command.step;
   options.first_number = command.start;
   options.progress = line.callback();
   check_sequence_output(command.output, range.size(), options);
@@ -101,6 +105,7 @@ void add_decode(CLI::App& app, CommonOptions& common) {
       ->option_text("A:B[:STEP]");
   command->add_option("--start", c->start, "Number of the first file (default 0)")
       ->option_text("N");
+  command->add_flag("--step", c->step, "GLB: frames stand until the next, without in-betweens");
   command->add_flag("--ascii", c->ascii, "PLY and STL as text");
   command->add_option("--quality", c->quality, "Share of the components to use, above 0 to 1")
       ->option_text("Q")

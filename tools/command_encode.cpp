@@ -3,6 +3,7 @@
 #include "codec/encode.h"
 #include "codec/error.h"
 #include "codec/massage_choice.h"
+#include "tools/batch.h"
 #include "tools/choice.h"
 #include "tools/clip_input.h"
 #include "tools/command.h"
@@ -15,20 +16,41 @@
 #include "tools/quantity.h"
 #include "tools/version.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace anicodec::tools {
 namespace {
 
 constexpr const char* kFooter =
     R"(INPUT is a mesh and its vertex cache (mesh.obj cache.pc2), a vertex cache with the mesh beside it or
-given by --mesh, a quoted pattern ('frames/*.obj', in natural order), or a list of frames of equal
-connectivity. Meshes: .obj .ply .off .stl; caches: .pc2 .mdd.
+given by --mesh, a quoted pattern ('frames/*.obj', in natural order), a list of frames of equal
+connectivity, or a scene. Meshes: .obj .ply .off .stl; caches: .pc2 .mdd; scenes: .gltf .glb, and
+in builds with assimp .fbx .dae .md2 .md3 .3ds and others.
+
+INPUT - is a scene in one file or a mesh from the standard input; -o - writes the .anic file to the
+standard output, and nothing else; decode, info and verify read one from -.
+
+A scene is baked: skins, morph targets and moving nodes become vertices that move, all its meshes
+(or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. --clip names
+or numbers the clip; without it the first one that moves anything is taken, --clip none takes none.
+
+--frames A:B encodes some frames of a long clip, on one of several machines perhaps; every machine
+reads the whole clip, and join makes one file of the parts.
+
+--batch encodes many clips to the folder -o, -j of them side by side: of a folder every scene, every
+vertex cache with its mesh, and every run of numbered frames, of a list a clip per line, its inputs
+separated by tabs. Clips that are done already, by the content of what goes in and comes out, are
+left alone; one that fails does not stop the others.
 
 A LEN is in scene units (0.02), or in per cent of the diagonal of the box around all frames (0.05%).
 Give one target; --max-error may stand beside any other as a cap. Without a target it is
@@ -47,14 +69,16 @@ those of the first one.
 Examples:
   anicodec encode dance.obj dance.pc2 -o dance.anic --fps 30
   anicodec encode 'frames/*.obj' -o clip.anic --kg 0.1
+  anicodec encode fox.glb --clip Run --fps 60 -o run.anic
   anicodec encode flag.mdd --mesh flag.obj -o flag.anic --size 200k --max-error 1%
-  anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45)";
+  anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45
+  anicodec encode --batch clips -o encoded -j 4)";
 
 enum class Massage { kOff, kOn, kAuto, kTransfer };
 
 struct EncodeCommand {
   std::vector<std::string> inputs;
-  std::string output, mesh;
+  std::string output, mesh, clip, batch, memory, frames;
   std::string kg, max_error, rmse, size, bpfv;
   BasisChoice basis = BasisChoice::kAuto;
   uint32_t keyframes = 0;
@@ -128,6 +152,7 @@ MeshSequence load(const EncodeCommand& command, const Progress& progress,
                   EncodeOptions* encode_options) {
   LoadOptions options;
   options.mesh = command.mesh;
+  options.clip = command.clip;
   options.progress = progress;
   if (!command.rate.empty())
     options.rate = parse_frame_rate(command.rate);
@@ -180,6 +205,14 @@ MassageMode mode_of(Massage massage) {
                                      : MassageMode::kOff;
 }
 
+EncodeResult encode_as_asked(const EncodeCommand& command, MeshSequence sequence,
+                             const EncodeOptions& options, MassageVerdict* massage,
+                             const Progress& progress) {
+  const MassageOptions massage_options = massage_options_of(command, sequence);
+  return encode_massaged(std::move(sequence), mode_of(command.massage), massage_options, options,
+                         massage, progress);
+}
+
 void print_json(const EncodeCommand& command, const EncodeResult& result,
                 const MassageVerdict& massage) {
   Rate rate(result);
@@ -230,13 +263,70 @@ void print_text(const EncodeCommand& command, const EncodeResult& result,
       result.kg);
 }
 
+/// All that an output depends on beside its clip.
+std::string settings_of(const EncodeCommand& c, const EncodeOptions& options) {
+  nlohmann::ordered_json settings{c.kg,   c.max_error, c.rmse,   c.size,
+                                  c.bpfv, c.keyframes, c.effort, options.encoder};
+  for (int choice : {static_cast<int>(c.basis), static_cast<int>(c.select),
+                     static_cast<int>(c.order), static_cast<int>(c.mesh_coder),
+                     static_cast<int>(c.interpolation), static_cast<int>(c.massage)})
+    settings.push_back(choice);
+  settings.push_back(c.massage_strength);
+  settings.push_back(c.massage_tolerance);
+  return settings.dump();
+}
+
+/// Half of what the machine has.
+uint64_t default_memory() {
+  const auto pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
+  return static_cast<uint64_t>(pages) * static_cast<uint64_t>(size) / 2;
+}
+
+void encode_batch(const EncodeCommand& command, const CommonOptions& common) {
+  if (!command.frames.empty())
+    throw Error(ErrorKind::kUsage, "--frames takes a part of one clip, --batch has many");
+  if (!command.inputs.empty())
+    throw Error(ErrorKind::kUsage, command.inputs[0] + ": --batch takes its inputs from " +
+                                       command.batch + ", no others");
+  if (command.massage == Massage::kTransfer)
+    throw Error(ErrorKind::kUsage,
+                "--massage transfer takes the frames of one clip, --batch has many");
+  EncodeOptions options = options_of(command);
+  BatchOptions batch;
+  batch.folder = command.output;
+  batch.jobs = common.threads > 0 ? static_cast<unsigned>(common.threads)
+                                  : std::max(1U, std::thread::hardware_concurrency());
+  batch.memory = command.memory.empty() ? default_memory() : parse_size(command.memory, "--memory");
+  batch.overwrite = common.overwrite;
+  batch.quiet = common.quiet;
+  batch.settings = settings_of(command, options);
+  run_batch(
+      find_clips(command.batch), batch,
+      [&](const BatchClip& clip) {
+        EncodeCommand one = command;
+        one.inputs = clip.inputs;
+        return load(one, {}, &options);
+      },
+      [&](MeshSequence sequence) {
+        MassageVerdict massage;
+        return encode_as_asked(command, std::move(sequence), options, &massage, {});
+      });
+}
+
 void run(const EncodeCommand& command, const CommonOptions& common) {
+  if (!command.batch.empty())
+    return encode_batch(command, common);
+  if (command.inputs.empty())
+    throw Error(ErrorKind::kUsage, "encode: INPUT is required, or --batch");
   EncodeOptions options = options_of(command);
   if (is_sequence_input(command.output))
     throw Error(
         ErrorKind::kUsage,
         command.output + ": the output of encode is an .anic file (for other formats: decode)");
-  AtomicFile output(command.output, common.overwrite);
+  const bool to_standard_output = command.output == "-";
+  std::optional<AtomicFile> output;
+  if (!to_standard_output)
+    output.emplace(command.output, common.overwrite);
   ProgressLine line(common.quiet);
   Progress progress = line.callback();
   MeshSequence sequence = load(command, progress, &options);
@@ -244,20 +334,30 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
     throw Error(ErrorKind::kUsage,
                 fmt::format("--keyframes {}: {} has only {} frames", *options.keyframes,
                             command.inputs[0], sequence.frame_count));
+  if (!command.frames.empty()) {
+    const FrameRange range = parse_frames(command.frames, "--frames", sequence.frame_count);
+    if (range.step != 1)
+      throw Error(ErrorKind::kUsage,
+                  "--frames: a part has all frames from A to B - 1, without step");
+    options.part = PartFrames{range.first, range.size()};
+  }
   EncodeResult result;
   MassageVerdict massage;
   try {
-    const MassageOptions massage_options = massage_options_of(command, sequence);
-    result = encode_massaged(std::move(sequence), mode_of(command.massage), massage_options,
-                             options, &massage, progress);
+    result = encode_as_asked(command, std::move(sequence), options, &massage, progress);
     if (command.massage == Massage::kTransfer)
       massage.change = options.surface_change;
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
   }
-  output.write({reinterpret_cast<const char*>(result.file.data()), result.file.size()});
-  output.commit();
   line.clear();
+  if (to_standard_output) {
+    if (std::fwrite(result.file.data(), 1, result.file.size(), stdout) != result.file.size())
+      throw Error(ErrorKind::kInternal, "the standard output cannot be written");
+    return;
+  }
+  output->write({reinterpret_cast<const char*>(result.file.data()), result.file.size()});
+  output->commit();
   if (command.json)
     print_json(command, result, massage);
   else if (!common.quiet)
@@ -269,16 +369,29 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
 void add_encode(CLI::App& app, CommonOptions& common) {
   auto c = std::make_shared<EncodeCommand>();
   CLI::App* command = add_command(app, common,
-                                  {"encode", "INPUT... -o FILE.anic [target] [options]",
+                                  {"encode", "INPUT...|--batch DIR -o OUT [target] [options]",
                                    "Encode a mesh sequence to an .anic file", kFooter},
                                   [c, &common] { run(*c, common); });
-  command->add_option("INPUT", c->inputs, "Mesh and vertex cache, or frames")->required();
-  command->add_option("-o,--output", c->output, "The .anic file to write")
+  command->add_option("INPUT", c->inputs, "Mesh and vertex cache, frames, or a scene");
+  command->add_option("-o,--output", c->output, "The .anic file to write; of --batch: the folder")
       ->option_text("FILE")
       ->required();
   command
-      ->add_option("--mesh", c->mesh, "Mesh of a lone vertex cache (default: same stem beside it)")
-      ->option_text("FILE");
+      ->add_option("--mesh", c->mesh,
+                   "Mesh of a lone vertex cache (default: same stem beside it),\n"
+                   "or the name of one in a scene (default: all)")
+      ->option_text("FILE|NAME");
+  command->add_option("--clip", c->clip, "Animation of a scene, or none")
+      ->option_text("NAME|INDEX");
+
+  command->add_option("--frames", c->frames, "Encode a part, A to B - 1, to be joined with others")
+      ->option_text("A:B");
+  command
+      ->add_option("--batch", c->batch,
+                   "Encode all clips in a folder, or in a list with a clip per line")
+      ->option_text("DIR|LIST");
+  command->add_option("--memory", c->memory, "Of --batch: for clips side by side (default: half)")
+      ->option_text("BYTES");
 
   auto target = [command](const char* name, std::string& value, const char* text,
                           const char* description) {
@@ -353,7 +466,10 @@ void add_encode(CLI::App& app, CommonOptions& common) {
       ->group(massage);
 
   const char* metadata = "Metadata (positions stay as they are)";
-  command->add_option("--fps", c->rate, "Frames per second (default: as in the input, else 24)")
+  command
+      ->add_option("--fps", c->rate,
+                   "Frames per second (default: as in the input, else 24;\n"
+                   "of a scene: the rate of its keys, at least 30)")
       ->option_text("N[/D]")
       ->group(metadata);
   add_choice<UpAxis>(*command, "--up", c->up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},

@@ -62,7 +62,7 @@ void parse_and_run(int argc, const char* const* argv) {
   add_version(app);
   app.require_subcommand(1);
   app.footer(kFooter);
-  for (auto add : {add_encode, add_decode, add_info, add_verify, add_compare, add_analyze,
+  for (auto add : {add_encode, add_decode, add_join, add_info, add_verify, add_compare, add_analyze,
                    add_interpolate, add_massage, add_dump, add_render, add_corpus})
     add(app, common);
   try {

@@ -32,7 +32,7 @@ std::vector<std::vector<uint32_t>> canonical(const Polygons& polygons) {
 }  // namespace
 
 ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
-                           const Progress& progress)
+                           const Progress& progress, const ComparedPart& part)
     : path_(path) {
   if (is_anic(path)) {
     std::string bytes = read_bytes(path);
@@ -40,13 +40,20 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
     clip_ = std::make_unique<Clip>();
     open_clip(path, bytes, {}, *clip_);
     sequence_ = describe_clip(*clip_);
-    return;
+  } else {
+    LoadOptions options;
+    options.progress = progress;
+    options.rate = part.rate;
+    if (is_cache(kind_of(path)))
+      options.mesh = mesh;
+    if (is_scene(kind_of(path)))
+      options.clip = part.clip;
+    sequence_ = load_sequence(std::vector<std::string>{path}, options);
   }
-  LoadOptions options;
-  options.progress = progress;
-  if (is_cache(kind_of(path)))
-    options.mesh = mesh;
-  sequence_ = load_sequence(std::vector<std::string>{path}, options);
+  range_ = {0, sequence_.frame_count, 1};
+  if (!part.frames.empty())
+    range_ = parse_frames(part.frames, path, sequence_.frame_count);
+  sequence_.frame_count = range_.size();
 }
 
 bool ComparedClip::has_free_order() const {
@@ -54,7 +61,10 @@ bool ComparedClip::has_free_order() const {
 }
 
 FrameSource ComparedClip::frames() const {
-  return clip_ ? play(path_, *clip_) : frames_of(sequence_);
+  FrameSource all = clip_ ? play(path_, *clip_) : frames_of(sequence_);
+  return [all = std::move(all), range = range_](uint32_t f) {
+    return all(range.first + f * range.step);
+  };
 }
 
 bool same_faces(const Polygons& a, const Polygons& b) {

@@ -7,19 +7,29 @@
 #include "codec/mesh_sequence.h"
 #include "codec/progress.h"
 #include "sdk/clip.h"
+#include "tools/quantity.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace anicodec::tools {
 
-/// One side of a comparison: an .anic file, frame files by a pattern, or a vertex cache with its
-/// mesh. An .anic file is played, frame by frame.
+/// What of an input is compared, and how it is read.
+struct ComparedPart {
+  std::string frames = {};             ///< "A:B:STEP" of parse_frames, empty: all
+  std::string clip = {};               ///< animation of a scene
+  std::optional<FrameRate> rate = {};  ///< at which a scene is baked
+};
+
+/// One side of a comparison: an .anic file, frame files by a pattern, a vertex cache with its mesh,
+/// or a scene. An .anic file is played, frame by frame.
 class ComparedClip {
  public:
   /// `mesh` is that of a vertex cache, empty: same stem. Throws Error.
-  ComparedClip(const std::string& path, const std::string& mesh, const Progress& progress);
+  ComparedClip(const std::string& path, const std::string& mesh, const Progress& progress,
+               const ComparedPart& part = {});
 
   const std::string& path() const { return path_; }
 
@@ -38,6 +48,7 @@ class ComparedClip {
  private:
   std::string path_;
   uint64_t bytes_ = 0;
+  FrameRange range_;
   std::unique_ptr<Clip> clip_;
   MeshSequence sequence_;
 };

@@ -27,6 +27,11 @@ ALLOWED = {
 EXCEPTIONS = {"sdk/draco_mesh.cpp": ["<draco/"], "codec/draco_encode.cpp": ["<draco/"],
               "tools/render/image.cpp": ["<png.h>", "<gif_lib.h>"],
               "tools/render/shaded_view.cpp": ["<Eigen/", "<embree3/"],
+              "tools/io/assimp_scene.cpp": ["<assimp/"],
+              "tools/io/gltf_animation.cpp": ["<Eigen/"],
+              "tools/io/gltf_bake.cpp": ["<Eigen/"],
+              "tools/io/gltf_draco.cpp": ["<draco/"],
+              "tools/io/gltf_meshopt.cpp": ["<meshoptimizer.h>"],
               "tools/peers/draco_frames.cpp": ["<draco/"],
               "tools/peers/frame_deltas.cpp": ["<meshoptimizer.h>", "<zstd.h>"],
               "tools/peers/raw_cache.cpp": ["<lzma.h>", "<zstd.h>"]}

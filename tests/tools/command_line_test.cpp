@@ -17,7 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::vector<std::string> kCommands = {"encode",  "decode",  "info", "verify",
+const std::vector<std::string> kCommands = {"encode",  "decode",  "join", "info",   "verify",
                                             "compare", "analyze", "dump", "render", "corpus"};
 
 /// Exit status 1 and one line on stderr that starts with the command's name.

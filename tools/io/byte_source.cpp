@@ -89,4 +89,20 @@ void read_file(const std::string& path, std::string& bytes) {
   file.read(path, 0, bytes);
 }
 
+void read_standard_input(std::string& bytes) {
+  constexpr size_t kPiece = size_t{1} << 20;
+  bytes.clear();
+  for (size_t done = 0;;) {
+    bytes.resize(done + kPiece);
+    const ssize_t n = ::read(STDIN_FILENO, bytes.data() + done, kPiece);
+    if (n < 0 && errno != EINTR)
+      fail_input("-", std::strerror(errno));
+    if (n == 0) {
+      bytes.resize(done);
+      return;
+    }
+    done += n > 0 ? static_cast<size_t>(n) : 0;
+  }
+}
+
 }  // namespace anicodec::tools

@@ -29,6 +29,9 @@ ByteSource file_source(const std::string& path);
 /// Error(kInput).
 void read_file(const std::string& path, std::string& bytes);
 
+/// Replaces `bytes` by all that the standard input has. Throws Error(kInput).
+void read_standard_input(std::string& bytes);
+
 }  // namespace anicodec::tools
 
 #endif  // ANICODEC_TOOLS_IO_BYTE_SOURCE_H_

@@ -7,13 +7,18 @@
 
 namespace anicodec::tools {
 
-enum class FileKind { kUnknown, kObj, kPly, kOff, kStl, kPc2, kMdd };
+enum class FileKind { kUnknown, kObj, kPly, kOff, kStl, kPc2, kMdd, kGltf, kGlb, kAssimp };
 
 /// Kind by extension, in any case of letters.
 FileKind kind_of(const std::string& path);
 
 inline bool is_cache(FileKind kind) {
   return kind == FileKind::kPc2 || kind == FileKind::kMdd;
+}
+
+/// True for scenes, of which one file is a whole clip.
+inline bool is_scene(FileKind kind) {
+  return kind == FileKind::kGltf || kind == FileKind::kGlb || kind == FileKind::kAssimp;
 }
 
 }  // namespace anicodec::tools

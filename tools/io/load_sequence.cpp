@@ -3,9 +3,11 @@
 #include "tools/io/load_sequence.h"
 
 #include "codec/error.h"
+#include "tools/io/assimp_scene.h"
 #include "tools/io/byte_source.h"
 #include "tools/io/file_kind.h"
 #include "tools/io/frame_rate.h"
+#include "tools/io/gltf.h"
 #include "tools/io/mesh.h"
 #include "tools/io/natural_order.h"
 #include "tools/io/obj.h"
@@ -26,6 +28,9 @@ namespace anicodec::tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kReadableKinds =
+    ".obj, .ply, .off, .stl, .pc2, .mdd, .gltf, .glb and scenes of assimp";
 
 [[noreturn]] void fail_usage(const std::string& text) {
   throw Error(ErrorKind::kUsage, text);
@@ -67,7 +72,7 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
       fail_input(path, "is a directory; name its frames with a pattern such as '" +
                            (fs::path(path) / "*.obj").string() + "'");
     if (kind_of(path) == FileKind::kUnknown)
-      fail_input(path, "is of unknown kind; .obj, .ply, .off, .stl, .pc2 and .mdd are read");
+      fail_input(path, "is of unknown kind; " + std::string(kReadableKinds) + " are read");
   }
   return paths;
 }
@@ -215,8 +220,61 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
   }
 }
 
+void load_scene(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
+  GltfOptions scene{.rate = options.rate, .mesh = options.mesh, .clip = options.clip};
+  scene.progress = options.progress;
+  const std::string stem = sequence.name;
+  std::string bytes;
+  read_file(path, bytes);
+  auto resolve = [&path](const std::string& name) {
+    std::string file;
+    read_file((fs::path(path).parent_path() / name).string(), file);
+    return file;
+  };
+  sequence = kind_of(path) == FileKind::kAssimp ? load_assimp(path, scene)
+                                                : parse_gltf(bytes, path, resolve, scene);
+  sequence.name = sequence.name.empty() ? stem : stem + " " + sequence.name;
+}
+
+/// A scene or one mesh from the standard input, told apart by how it begins.
+void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
+  std::string bytes;
+  read_standard_input(bytes);
+  const size_t begin = bytes.find_first_not_of(" \t\r\n");
+  if (bytes.starts_with("glTF") || (begin != std::string::npos && bytes[begin] == '{')) {
+    GltfOptions scene{.rate = options.rate, .mesh = options.mesh, .clip = options.clip};
+    sequence = parse_gltf(
+        bytes, "-",
+        [](const std::string& name) -> std::string {
+          fail_input(name, "a scene from the standard input has no other files");
+        },
+        scene);
+    return;
+  }
+  Mesh mesh;
+  if (bytes.starts_with("ply"))
+    parse_ply(bytes, "-", mesh);
+  else if (std::string_view(bytes).substr(0, 16).find("OFF") != std::string_view::npos)
+    parse_off(bytes, "-", mesh);
+  else
+    parse_obj(bytes, "-", mesh);
+  sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
+  sequence.frame_count = 1;
+  sequence.polygons = std::move(mesh.polygons);
+  sequence.positions = std::move(mesh.positions);
+}
+
 void load(const std::vector<std::string>& paths, const LoadOptions& options,
           MeshSequence& sequence) {
+  for (const std::string& path : paths) {
+    if (is_scene(kind_of(path)) && paths.size() > 1)
+      fail_usage(path + ": a scene is a whole clip, but " + std::to_string(paths.size()) +
+                 " inputs are given");
+  }
+  if (is_scene(kind_of(paths[0])))
+    return load_scene(paths[0], options, sequence);
+  if (!options.clip.empty())
+    fail_usage("--clip " + options.clip + ": " + paths[0] + " is no scene with clips");
   std::vector<std::string> caches, meshes;
   for (const std::string& path : paths)
     (is_cache(kind_of(path)) ? caches : meshes).push_back(path);
@@ -260,10 +318,16 @@ std::vector<std::string> sequence_files(std::span<const std::string> inputs) {
 }
 
 MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options) {
-  std::vector<std::string> paths = sequence_files(inputs);
+  if (inputs.empty())
+    fail_usage("no input is given");
   MeshSequence sequence;
-  sequence.name = fs::path(paths[0]).stem().string();
-  load(paths, options, sequence);
+  if (inputs.size() == 1 && inputs[0] == "-") {
+    load_standard_input(options, sequence);
+  } else {
+    std::vector<std::string> paths = expand(inputs);
+    sequence.name = fs::path(paths[0]).stem().string();
+    load(paths, options, sequence);
+  }
   if (options.rate) {
     sequence.rate = *options.rate;
     sequence.rate.assumed = false;

@@ -14,10 +14,13 @@
 namespace anicodec::tools {
 
 struct LoadOptions {
-  /// Overrides what the input says, an uneven table of times included.
+  /// Overrides what the input says, an uneven table of times included; a scene is sampled at it.
   std::optional<FrameRate> rate = {};
-  /// Mesh of a lone vertex cache; empty: same stem .obj, .ply or .off beside it.
+  /// Mesh of a lone vertex cache; empty: same stem .obj, .ply or .off beside it. Of a scene: the
+  /// name of a mesh or node; empty: all of them.
   std::string mesh = {};
+  /// Animation of a scene, see GltfOptions.
+  std::string clip = {};
   /// See StlWeld.
   bool weld_stl = true;
   /// Stage "reading".
@@ -28,8 +31,10 @@ struct LoadOptions {
 ///   - a mesh (.obj .ply .off .stl) and a vertex cache (.pc2 .mdd), in either order,
 ///   - a vertex cache alone, with options.mesh or a mesh beside it,
 ///   - frames of one format: meshes of equal connectivity in the order given,
+///   - a scene (.gltf .glb), baked,
 ///   - a pattern of glob(3) for any of these, its results in natural order,
-///   - one mesh: a single frame.
+///   - one mesh: a single frame,
+///   - "-": a scene in one file or a mesh (.obj .ply .off) from the standard input.
 /// The clip is named by the stem of the first file. Positions are held once. Throws Error(kInput)
 /// naming file and place, Error(kUsage) for inputs that do not make one clip.
 MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options = {});

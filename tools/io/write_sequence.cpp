@@ -6,6 +6,7 @@
 #include "tools/io/atomic_file.h"
 #include "tools/io/byte_order.h"
 #include "tools/io/file_kind.h"
+#include "tools/io/glb_output.h"
 #include "tools/io/name_pattern.h"
 #include "tools/io/obj.h"
 #include "tools/io/off.h"
@@ -112,6 +113,16 @@ void write_cache(const std::string& path, const MeshSequence& clip, const Frames
   commit_all(files);
 }
 
+void write_glb(const std::string& path, const MeshSequence& clip, const Frames& frames,
+               const WriteOptions& options) {
+  AtomicFile file(path, options.overwrite);
+  GlbOutput glb(clip, options.step);
+  for (uint32_t f = 0; f < clip.frame_count; ++f)
+    glb.add_frame(frames(f));
+  file.write(glb.finish(times_of(clip)));
+  file.commit();
+}
+
 void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence& clip,
                   const Frames& frames, const WriteOptions& options) {
   std::vector<AtomicFile> files;
@@ -133,7 +144,12 @@ void check_sequence_output(const std::string& path, uint32_t frame_count,
                            const WriteOptions& options) {
   FileKind kind = kind_of(path);
   if (kind == FileKind::kUnknown)
-    fail_usage(path, "is of unknown kind; .obj, .ply, .off, .stl, .pc2 and .mdd can be written");
+    fail_usage(path,
+               "is of unknown kind; .obj, .ply, .off, .stl, .pc2, .mdd and .glb can be written");
+  if (kind == FileKind::kGltf)
+    fail_usage(path, "glTF is written in one file; name it .glb");
+  if (kind == FileKind::kGlb)
+    return check_output(path, options.overwrite);
   if (is_cache(kind)) {
     check_output(path, options.overwrite);
     check_output(mesh_beside(path), options.overwrite);
@@ -157,6 +173,8 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
   FileKind kind = kind_of(path);
   if (is_cache(kind))
     write_cache(path, clip, frames, options.overwrite);
+  else if (kind == FileKind::kGlb)
+    write_glb(path, clip, frames, options);
   else
     write_frames(parse_name_pattern(path), kind, clip, frames, options);
   folder.keep();

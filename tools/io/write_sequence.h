@@ -15,12 +15,14 @@ namespace anicodec::tools {
 struct WriteOptions {
   bool overwrite = false;     ///< replace existing outputs instead of refusing
   bool ascii = false;         ///< PLY and STL as text
+  bool step = false;          ///< GLB: frames stand until the next instead of moving to it
   uint32_t first_number = 0;  ///< of frame files
   Progress progress = {};     ///< stage "writing"
 };
 
 /// Writes a clip, one frame in memory at a time:
 ///   - clip.pc2, clip.mdd: a vertex cache, with the mesh of frame 0 beside it as clip.obj,
+///   - clip.glb: a mesh with a morph target per frame and its animation, see GlbOutput,
 ///   - frame_%04d.obj, .ply, .off, .stl: a file per frame, its %d or %0Nd counting from
 ///   first_number.
 /// A single frame may have a plain name. PC2 carries no rate; MDD has the time of each frame. STL

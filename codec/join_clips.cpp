@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/join_clips.h"
+
+#include "codec/error.h"
+#include "format/container.h"
+#include "format/records.h"
+#include "sdk/clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace anicodec {
+namespace {
+
+using format::Chunk;
+using format::ContainerReader;
+
+[[noreturn]] void fail(const ClipPart& part, ErrorKind kind, const std::string& text) {
+  throw Error(kind, part.name + ": " + text);
+}
+
+/// A part, opened.
+struct OpenPart {
+  explicit OpenPart(const ClipPart& source) : part(source) {
+    check(reader.open(part.file));
+    check(format::Limits::read(payload(required("LIMI")), &limits));
+    check(format::ClipRecord::read(payload(required("CLIP")), limits.frames, &record));
+    if (limits.meshes.size() != 1)
+      fail(part, ErrorKind::kUnsupported, "clips of several meshes are not joined");
+  }
+
+  void check(const Failure& failure) const {
+    if (!failure.ok())
+      fail(part, ErrorKind::kCorrupt, status_string(failure.status));
+  }
+
+  void check(Status status) const {
+    if (status != Status::kOk)
+      fail(part, ErrorKind::kCorrupt, status_string(status));
+  }
+
+  const Chunk& required(const char (&type)[5]) const {
+    const Chunk* chunk = reader.find(type);
+    if (!chunk)
+      fail(part, ErrorKind::kCorrupt, std::string("has no chunk ") + type);
+    return *chunk;
+  }
+
+  format::ByteView payload(const Chunk& chunk) const {
+    format::ByteView view;
+    check(reader.payload(chunk, &view));
+    return view;
+  }
+
+  /// Payload of a chunk of the mesh, empty when there is none.
+  format::ByteView of_mesh(const char (&type)[5]) const {
+    const Chunk* chunk = reader.find(type, 0);
+    return chunk ? payload(*chunk) : format::ByteView();
+  }
+
+  ClipPart part;
+  ContainerReader reader;
+  format::Limits limits;
+  format::ClipRecord record;
+};
+
+bool equal(format::ByteView a, format::ByteView b) {
+  return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
+}
+
+format::Bytes copy(format::ByteView view) {
+  return format::Bytes(view.data, view.data + view.size);
+}
+
+void check_same_mesh(const OpenPart& first, const OpenPart& next) {
+  const format::Limits::Mesh &a = first.limits.meshes[0], &b = next.limits.meshes[0];
+  auto counts = [](const format::Limits::Mesh& m) {
+    return std::to_string(m.source_vertices) + " vertices and " + std::to_string(m.polygons) +
+           " faces";
+  };
+  if (a.source_vertices != b.source_vertices || a.polygons != b.polygons || a.corners != b.corners)
+    fail(next.part, ErrorKind::kInput,
+         "has " + counts(b) + ", but " + first.part.name + " has " + counts(a));
+  if (first.record.order != next.record.order)
+    fail(next.part, ErrorKind::kInput, "keeps another order of vertices than " + first.part.name);
+  for (const char(*type)[5] : {&"MESH", &"VMAP", &"FMAP", &"POSE"}) {
+    if (!equal(first.of_mesh(*type), next.of_mesh(*type)))
+      fail(next.part, ErrorKind::kInput,
+           "does not have the connectivity, welds and reference pose of " + first.part.name +
+               "; parts are encoded from the whole clip, with --frames and the same target");
+  }
+}
+
+double duration(const OpenPart& part) {
+  return part.limits.frames * double{1} * part.record.rate_denominator / part.record.rate_numerator;
+}
+
+void check_follows(const OpenPart& before, const OpenPart& next) {
+  const format::ClipRecord &a = before.record, &b = next.record;
+  if (a.rate_numerator != b.rate_numerator || a.rate_denominator != b.rate_denominator ||
+      a.up != b.up || a.metres_per_unit != b.metres_per_unit || a.times.empty() != b.times.empty())
+    fail(next.part, ErrorKind::kInput,
+         "has another frame rate, up axis or unit than " + before.part.name);
+  const double frame = double{1} * a.rate_denominator / a.rate_numerator;
+  const double gap = b.start_time - a.start_time;
+  const bool follows =
+      a.times.empty() ? std::abs(gap - duration(before)) < 0.01 * frame : gap > a.times.back();
+  if (!follows)
+    fail(next.part, ErrorKind::kInput,
+         "starts at " + std::to_string(b.start_time) + " s and does not follow " +
+             before.part.name + ", which starts at " + std::to_string(a.start_time) +
+             " s and has " + std::to_string(before.limits.frames) + " frames");
+}
+
+format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
+  format::ClipRecord record = parts[0].record;
+  double squared = 0, reference = 0, frames = 0;
+  record.times = {};
+  for (const OpenPart& part : parts) {
+    const format::ClipRecord& r = part.record;
+    const double of_part = r.rmse * r.rmse * part.limits.frames;
+    squared += of_part;
+    if (r.kg > 0)
+      reference += of_part / (r.kg * r.kg / 1e4);
+    frames += part.limits.frames;
+    record.max_error = std::max(record.max_error, r.max_error);
+    record.diagonal = std::max(record.diagonal, r.diagonal);
+    record.surface_error = std::max(record.surface_error, r.surface_error);
+    record.massaged |= r.massaged;
+    if (r.asked != record.asked || r.asked_value != record.asked_value)
+      record.asked = format::ErrorMetric::kNone;
+    for (double t : r.times)
+      record.times.push_back(r.start_time - record.start_time + t);
+  }
+  if (record.asked == format::ErrorMetric::kSize || record.asked == format::ErrorMetric::kNone) {
+    record.asked = format::ErrorMetric::kNone;
+    record.asked_value = 0;
+  }
+  record.closed = false;
+  record.rmse = std::sqrt(squared / frames);
+  record.kg = reference > 0 ? 100 * std::sqrt(squared / reference) : 0;
+  return record;
+}
+
+/// Adds a chunk of a segment under its new number.
+void add_chunk(const OpenPart& part, const Chunk& chunk, uint32_t segment,
+               format::ContainerWriter& file) {
+  for (const char(*type)[5] : {&"POSE", &"SEGM", &"BASI", &"CORR"}) {
+    if (chunk.type == format::chunk_type(*type))
+      return file.add(*type, chunk.required, chunk.mesh, segment, copy(part.payload(chunk)));
+  }
+  if (chunk.required)
+    fail(part.part, ErrorKind::kUnsupported,
+         "a chunk " + format::chunk_name(chunk.type) + " cannot be joined");
+}
+
+void verify(const format::Bytes& file) {
+  Clip clip;
+  Failure failure = clip.open(file);
+  if (failure.ok())
+    failure = clip.check_hashes();
+  if (!failure.ok())
+    throw Error(ErrorKind::kInternal,
+                std::string("the joined file is not valid: ") + status_string(failure.status));
+}
+
+}  // namespace
+
+format::Bytes join_clips(const std::vector<ClipPart>& sources) {
+  if (sources.empty())
+    throw Error(ErrorKind::kUsage, "there is no part to join");
+  std::vector<OpenPart> parts;
+  parts.reserve(sources.size());
+  format::Limits limits;
+  for (const ClipPart& source : sources) {
+    const OpenPart& part = parts.emplace_back(source);
+    if (parts.size() > 1) {
+      check_same_mesh(parts[0], part);
+      check_follows(parts[parts.size() - 2], part);
+    }
+    if (part.limits.frames > format::kMaxFrames - limits.frames)
+      fail(source, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
+    for (format::Limits::Segment segment : part.limits.segments) {
+      segment.first_frame += limits.frames;
+      limits.segments.push_back(segment);
+    }
+    limits.frames += part.limits.frames;
+  }
+  limits.meshes = parts[0].limits.meshes;
+
+  format::ContainerWriter file;
+  file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
+  file.add("CLIP", true, format::kNoMesh, format::kNoSegment, joined_record(parts).write());
+  for (const char(*type)[5] : {&"MESH", &"VMAP", &"FMAP", &"POSE"}) {
+    if (const Chunk* chunk = parts[0].reader.find(*type, 0))
+      file.add(*type, chunk->required, 0, format::kNoSegment, copy(parts[0].payload(*chunk)));
+  }
+  uint32_t first_segment = 0;
+  for (const OpenPart& part : parts) {
+    for (const Chunk& chunk : part.reader.chunks()) {
+      if (chunk.segment != format::kNoSegment)
+        add_chunk(part, chunk, first_segment + chunk.segment, file);
+    }
+    first_segment += static_cast<uint32_t>(part.limits.segments.size());
+  }
+  format::Bytes bytes = file.finish();
+  verify(bytes);
+  return bytes;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/io/glb_output.h"
+
+#include "codec/error.h"
+#include "tools/io/byte_order.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace anicodec::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
+constexpr int kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
+constexpr int kPoints = 0, kTriangles = 4;
+
+template <typename Number>
+std::string bytes_of(std::span<const Number> numbers) {
+  std::string out;
+  out.reserve(numbers.size_bytes());
+  for (Number x : numbers)
+    append(x, std::endian::little, out);
+  return out;
+}
+
+const char* type_name(size_t components) {
+  constexpr const char* kNames[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+  return kNames[components - 1];
+}
+
+/// Indices in the smallest type that has no value to spare as a restart.
+struct PackedIndices {
+  PackedIndices(std::span<const uint32_t> indices, uint32_t count)
+      : type(count < UINT16_MAX ? kUint16 : kUint32) {
+    if (type == kUint32) {
+      bytes = bytes_of(indices);
+      return;
+    }
+    const std::vector<uint16_t> small(indices.begin(), indices.end());
+    bytes = bytes_of(std::span<const uint16_t>(small));
+  }
+
+  int type;
+  std::string bytes;
+};
+
+/// Binary data with the views and accessors that describe them.
+class Buffer {
+ public:
+  size_t add_indices(std::span<const uint32_t> indices, uint32_t vertices) {
+    const PackedIndices packed(indices, vertices);
+    const size_t view = add_view(packed.bytes, kIndexTarget);
+    return add_accessor({{"bufferView", view},
+                         {"componentType", packed.type},
+                         {"count", indices.size()},
+                         {"type", "SCALAR"}});
+  }
+
+  /// `target` says what the buffer view is for, 0: an animation.
+  size_t add_floats(std::span<const float> values, size_t components, int target, bool bounds) {
+    Json accessor = describe(values, components, bounds);
+    accessor["bufferView"] = add_view(bytes_of(values), target);
+    return add_accessor(std::move(accessor));
+  }
+
+  /// The same, elements of zeros left out where that is smaller.
+  size_t add_differences(std::span<const float> values, size_t components) {
+    std::vector<uint32_t> elements;
+    for (uint32_t i = 0; i < values.size() / components; ++i) {
+      auto element = values.subspan(i * components, components);
+      if (std::any_of(element.begin(), element.end(), [](float x) { return x != 0; }))
+        elements.push_back(i);
+    }
+    if (!is_sparse_smaller(elements.size(), values.size() / components, components))
+      return add_floats(values, components, kVertexTarget, true);
+    std::vector<float> kept;
+    kept.reserve(elements.size() * components);
+    for (uint32_t i : elements) {
+      auto element = values.subspan(i * components, components);
+      kept.insert(kept.end(), element.begin(), element.end());
+    }
+    return add_sparse(describe(values, components, true), elements, kept);
+  }
+
+  /// An accessor of zeros but for these elements, in ascending order.
+  size_t add_sparse(Json accessor, std::span<const uint32_t> elements,
+                    std::span<const float> values) {
+    if (!elements.empty()) {
+      const PackedIndices packed(elements, accessor["count"].get<uint32_t>());
+      const size_t index_view = add_view(packed.bytes, 0);
+      const size_t value_view = add_view(bytes_of(values), 0);
+      accessor["sparse"] = {
+          {"count", elements.size()},
+          {"indices", {{"bufferView", index_view}, {"componentType", packed.type}}},
+          {"values", {{"bufferView", value_view}}}};
+    }
+    return add_accessor(std::move(accessor));
+  }
+
+  static Json describe(std::span<const float> values, size_t components, bool bounds) {
+    Json accessor{{"componentType", kFloat},
+                  {"count", values.size() / components},
+                  {"type", type_name(components)}};
+    if (!bounds)
+      return accessor;
+    std::vector<float> low(components, std::numeric_limits<float>::infinity());
+    std::vector<float> high(components, -std::numeric_limits<float>::infinity());
+    for (size_t i = 0; i < values.size(); ++i) {
+      low[i % components] = std::min(low[i % components], values[i]);
+      high[i % components] = std::max(high[i % components], values[i]);
+    }
+    // As double, which prints all digits.
+    accessor["min"] = std::vector<double>(low.begin(), low.end());
+    accessor["max"] = std::vector<double>(high.begin(), high.end());
+    return accessor;
+  }
+
+  const std::string& bytes() const { return bytes_; }
+
+  void describe_in(Json& document) const {
+    document["accessors"] = accessors_;
+    document["bufferViews"] = views_;
+    document["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
+  }
+
+  /// Throws when a GLB of this and `more` bytes would be larger than can be.
+  void check_size(uint64_t more) const {
+    if (bytes_.size() + more > UINT32_MAX)
+      throw Error(ErrorKind::kInput, "the GLB would be larger than the 4 GiB that are possible");
+  }
+
+ private:
+  size_t add_view(std::string_view bytes, int target) {
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    check_size(bytes.size());
+    Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
+    if (target != 0)
+      view["target"] = target;
+    bytes_ += bytes;
+    views_.push_back(std::move(view));
+    return views_.size() - 1;
+  }
+
+  size_t add_accessor(Json accessor) {
+    accessors_.push_back(std::move(accessor));
+    return accessors_.size() - 1;
+  }
+
+  static bool is_sparse_smaller(size_t elements, size_t count, size_t components) {
+    constexpr size_t kDescription = 160;  // of the second view and the object, in JSON
+    const size_t index = count < UINT16_MAX ? 2 : 4;
+    const size_t sparse = elements == 0 ? 0 : elements * (index + 4 * components) + kDescription;
+    return sparse < 4 * components * count;
+  }
+
+  std::string bytes_;
+  Json views_ = Json::array(), accessors_ = Json::array();
+};
+
+/// Corners of the triangles of each material, in order of their first polygon.
+std::vector<std::pair<uint32_t, std::vector<uint32_t>>> triangles_of(const MeshSequence& clip) {
+  std::vector<std::pair<uint32_t, std::vector<uint32_t>>> groups;
+  std::map<uint32_t, size_t> group_of;
+  for (size_t p = 0; p < clip.polygons.size(); ++p) {
+    const uint32_t material =
+        clip.polygon_materials.empty() ? kNoMaterial : clip.polygon_materials[p];
+    auto [found, is_new] = group_of.try_emplace(material, groups.size());
+    if (is_new)
+      groups.push_back({material, {}});
+    std::vector<uint32_t>& corners = groups[found->second].second;
+    const std::span<const uint32_t> polygon = clip.polygons[p];
+    for (size_t i = 2; i < polygon.size(); ++i)
+      corners.insert(corners.end(), {polygon[0], polygon[i - 1], polygon[i]});
+  }
+  return groups;
+}
+
+}  // namespace
+
+class GlbOutput::Writer {
+ public:
+  Writer(const MeshSequence& clip, bool step) : clip_(clip), step_(step) {
+    if (clip.frame_count > UINT16_MAX)
+      throw Error(ErrorKind::kInput,
+                  "a GLB of " + std::to_string(clip.frame_count) +
+                      " frames; at most 65535 are possible, whose weights are a table of 2^32");
+  }
+
+  void add_frame(std::span<const float> positions) {
+    if (first_.empty()) {
+      first_.assign(positions.begin(), positions.end());
+      attributes_["POSITION"] = buffer_.add_floats(positions, 3, kVertexTarget, true);
+      if (clip_.frame_count == 1)
+        return;
+    }
+    difference_.resize(positions.size());
+    for (size_t i = 0; i < positions.size(); ++i)
+      difference_[i] = positions[i] - first_[i];
+    targets_.push_back({{"POSITION", buffer_.add_differences(difference_, 3)}});
+  }
+
+  std::string finish(std::span<const float> times) {
+    Json document;
+    document["asset"] = {{"version", "2.0"}, {"generator", "anicodec"}};
+    document["scene"] = 0;
+    document["scenes"] = Json::array({{{"nodes", {0}}}});
+    document["nodes"] = Json::array({node()});
+    document["meshes"] = Json::array({mesh()});
+    if (!clip_.materials.empty() && !clip_.polygon_materials.empty()) {
+      for (const std::string& name : clip_.materials)
+        document["materials"].push_back({{"name", name}});
+    }
+    if (clip_.frame_count > 1)
+      document["animations"] = Json::array({animation(times)});
+    buffer_.describe_in(document);
+    return packed(document);
+  }
+
+ private:
+  Json node() const {
+    Json node{{"name", clip_.name}, {"mesh", 0}};
+    if (clip_.up == UpAxis::kZ)  // the axes of glTF: Y up
+      node["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
+    if (const double unit = clip_.metres_per_unit; unit > 0 && unit != 1)
+      node["scale"] = {unit, unit, unit};
+    return node;
+  }
+
+  Json mesh() {
+    std::map<AttributeKind, int> sets;
+    for (const Attribute& attribute : clip_.attributes) {
+      const bool is_uv = attribute.kind == AttributeKind::kUv;
+      if (attribute.per_corner || (!is_uv && attribute.kind != AttributeKind::kColour))
+        continue;
+      const std::span<const float> values(attribute.values.data(),
+                                          size_t{clip_.vertex_count} * attribute.components);
+      const std::string name =
+          (is_uv ? "TEXCOORD_" : "COLOR_") + std::to_string(sets[attribute.kind]++);
+      attributes_[name] = buffer_.add_floats(values, attribute.components, kVertexTarget, false);
+    }
+    Json mesh{{"name", clip_.name}, {"primitives", Json::array()}};
+    for (const auto& [material, corners] : triangles_of(clip_)) {
+      Json& primitive = mesh["primitives"].emplace_back(Json::object());
+      primitive["mode"] = kTriangles;
+      primitive["indices"] = buffer_.add_indices(corners, clip_.vertex_count);
+      if (material != kNoMaterial)
+        primitive["material"] = material;
+    }
+    if (mesh["primitives"].empty())
+      mesh["primitives"].push_back({{"mode", kPoints}});
+    for (Json& primitive : mesh["primitives"]) {
+      primitive["attributes"] = attributes_;
+      if (!targets_.empty())
+        primitive["targets"] = targets_;
+    }
+    return mesh;
+  }
+
+  /// The weight of a frame is 1 at its time and 0 at those of all others.
+  Json animation(std::span<const float> times) {
+    const uint32_t frames = clip_.frame_count;
+    std::vector<float> input(times.begin(), times.end());
+    for (float& t : input)
+      t -= std::min(times[0], 0.0F);
+    std::vector<uint32_t> elements;
+    for (uint32_t f = 0; f < frames; ++f)
+      elements.push_back(f * frames + f);
+    const std::vector<float> ones(frames, 1.0F);
+    const Json weights{
+        {"componentType", kFloat}, {"count", uint64_t{frames} * frames}, {"type", "SCALAR"}};
+    Json sampler{{"input", buffer_.add_floats(input, 1, 0, true)},
+                 {"interpolation", step_ ? "STEP" : "LINEAR"},
+                 {"output", buffer_.add_sparse(weights, elements, ones)}};
+    Json animation{{"name", clip_.name}};
+    animation["samplers"] = Json::array({std::move(sampler)});
+    animation["channels"] =
+        Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}});
+    if (clip_.times.empty())
+      animation["extras"]["anicodec"]["rate"] =
+          std::to_string(clip_.rate.numerator) + "/" + std::to_string(clip_.rate.denominator);
+    return animation;
+  }
+
+  std::string packed(const Json& document) const {
+    std::string json = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    constexpr uint32_t kHeader = 12, kChunkHeader = 8;
+    const size_t binary = (buffer_.bytes().size() + 3) / 4 * 4;
+    buffer_.check_size(json.size() + kHeader + 2 * kChunkHeader + 3);
+    std::string out = "glTF";
+    auto add = [&out](size_t x) { append(static_cast<uint32_t>(x), std::endian::little, out); };
+    add(2);
+    add(kHeader + kChunkHeader + json.size() + kChunkHeader + binary);
+    add(json.size());
+    out += "JSON" + json;
+    add(binary);
+    out += std::string_view("BIN\0", 4);
+    out += buffer_.bytes();
+    out.resize(out.size() + binary - buffer_.bytes().size());
+    return out;
+  }
+
+  const MeshSequence& clip_;
+  const bool step_;
+  Buffer buffer_;
+  std::vector<float> first_, difference_;
+  Json attributes_, targets_ = Json::array();
+};
+
+GlbOutput::GlbOutput(const MeshSequence& clip, bool step)
+    : writer_(std::make_unique<Writer>(clip, step)) {}
+
+GlbOutput::~GlbOutput() = default;
+
+void GlbOutput::add_frame(std::span<const float> positions) {
+  writer_->add_frame(positions);
+}
+
+std::string GlbOutput::finish(std::span<const float> times) {
+  return writer_->finish(times);
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_IO_GLB_OUTPUT_H_
+#define ANICODEC_TOOLS_IO_GLB_OUTPUT_H_
+
+#include "codec/mesh_sequence.h"
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace anicodec::tools {
+
+/// Makes a GLB of a clip, frame by frame. The mesh is the first frame; each frame is a morph
+/// target, stored sparsely where that is smaller, and an animation gives each its turn at its time.
+/// A single frame is a mesh alone. Polygons become fans of triangles, a primitive for each
+/// material; UV sets and colours of vertices are written, those of corners are not. Clips whose up
+/// axis is Z are turned, and units scaled, by the node. Positions read back within a rounding of
+/// float32.
+class GlbOutput {
+ public:
+  /// `step`: each frame stands until the next, instead of moving to it. Takes counts, polygons,
+  /// attributes and timing from `clip`, which must outlive it; not its positions.
+  GlbOutput(const MeshSequence& clip, bool step);
+  GlbOutput(const GlbOutput&) = delete;
+  GlbOutput& operator=(const GlbOutput&) = delete;
+  ~GlbOutput();
+
+  /// The frames in order, vertices x 3 each.
+  void add_frame(std::span<const float> positions);
+
+  /// The bytes of the file, after the last frame. `times`: seconds of each frame; where the first
+  /// is negative, all are moved to start at 0. Throws Error(kInput) beyond 4 GiB, the most a GLB
+  /// can be.
+  std::string finish(std::span<const float> times);
+
+ private:
+  class Writer;
+  std::unique_ptr<Writer> writer_;
+};
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_GLB_OUTPUT_H_
