@@ -13,7 +13,7 @@ packages=(
   libpng-dev libgif-dev                        # tools: pictures
   libassimp-dev                                # tools: FBX, Collada, MD2 ...
   libgtest-dev libgmock-dev python3            # tests
-  libmeshoptimizer-dev liblzma-dev             # other codecs to compare with
+  libmeshoptimizer-dev gltfpack liblzma-dev    # other codecs to compare with
 )
 
 say() { printf '\n== %s\n' "$*"; }

@@ -38,9 +38,10 @@ variance in the space itself that the components leave.
 With -o, or --json, more is measured, which takes a minute or so: sizes at several errors, also with
 key-frames alone and with other codecs, where bytes and errors are, and pictures. The page needs
 nothing but a browser; --json prints its numbers: name, vertices, faces, frames, frame_rate,
-diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), shown_kg, shown_bytes, shares,
-frame_errors (rmse, max_error), basis_errors (method, k, kg, rmse), shape_spaces (space, k, kg,
-numbers, bytes, residual_percent). With -o x.svg the curves of size against KG error alone.
+diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), missing (other codecs that are
+not installed), shown_kg, shown_bytes, shares, frame_errors (rmse, max_error), basis_errors (method,
+k, kg, rmse), shape_spaces (space, k, kg, numbers, bytes, residual_percent). With -o x.svg the
+curves of size against KG error alone.
 
 --massage measures instead what anicodec massage does to the clip: KG errors in K principal
 components and sizes, of the clip as it is and massaged, how far the surface moved, and the shapes

@@ -65,11 +65,11 @@ ByteShares byte_shares(format::ByteView file, const MeshSequence& sequence,
 }
 
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
-                         bool verbose) {
+                         bool verbose, format::OrderMode order) {
   EncodeOptions options;
   options.target = target;
   options.basis = basis;
-  options.order = format::OrderMode::kFree;
+  options.order = order;
   options.effort = effort;
   options.encoder = fmt::format("anicodec {}", tools::version());
 

@@ -35,10 +35,10 @@ struct TimedEncode {
       nlohmann::ordered_json::object();  ///< processor seconds by stage, in the order of first use
 };
 
-/// Encodes with `--order free` and the program's other defaults; with `verbose` the trials and
-/// stages go to stderr.
+/// Encodes with the program's defaults but for these; with `verbose` the trials and stages go to
+/// stderr.
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
-                         bool verbose);
+                         bool verbose, format::OrderMode order = format::OrderMode::kFree);
 
 /// Bits per frame and vertex.
 double bpfv(uint64_t bytes, const MeshSequence& sequence);

@@ -7,6 +7,7 @@
 #include "tests/bench/table.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct BenchOptions {
 
 /// Bytes at KG errors in per cent, and Draco and frame deltas at no larger error.
 Table run_rate(const BenchOptions& options, const std::vector<double>& targets);
+
+/// Bytes of glTF files' clips at a KG error, order kept, against gltfpack -cc at no larger error
+/// and against what the file itself spends on the clip. A word is FILE or FILE@ANIMATION.
+Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate);
 
 /// Bytes at a maximum error in per cent of the diagonal, and frame deltas at the same.
 Table run_near(const BenchOptions& options, double max_error_percent);

@@ -5,6 +5,7 @@
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
 #include "tools/choice.h"
+#include "tools/io/frame_rate.h"
 
 #include <cstdio>
 #include <exception>
@@ -35,6 +36,7 @@ struct Arguments {
   std::vector<double> kg{0.1, 0.02};
   double one_kg = 0.1;
   double max_error = 0.002;
+  std::string fps;
   int runs = 5;
   uint32_t vertices = 210000, frames = 100, shapes = 30;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
@@ -109,6 +111,26 @@ void add_rate(CLI::App& app, Arguments& a) {
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   add_basis(*command, a);
+}
+
+void add_gltf(CLI::App& app, Arguments& a) {
+  CLI::App* command =
+      add(app, a, "gltf", "Bytes of glTF files' clips, against gltfpack", [](Arguments& args) {
+        args.bench.clips = args.clips;
+        args.bench.clips.insert(args.bench.clips.begin(), args.inputs.begin(), args.inputs.end());
+        std::optional<FrameRate> rate;
+        if (!args.fps.empty())
+          rate = tools::parse_frame_rate(args.fps);
+        return std::vector{run_gltf(args.bench, args.one_kg, rate)};
+      });
+  command->footer(
+      "\nINPUT and CLIP are .gltf and .glb files, FILE@ANIMATION for other than the first "
+      "animation\nthat moves something.");
+  command->add_option("--kg", a.one_kg, "KG error in per cent (default 0.1)")
+      ->option_text("PCT")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--fps", a.fps, "Frames per second (default: the rate of the keys)")
+      ->option_text("N[/D]");
 }
 
 void add_near(CLI::App& app, Arguments& a) {
@@ -268,7 +290,7 @@ int run(int argc, const char* const* argv) {
   CLI::App app("Measures anicodec on clips against other ways to store them.", "anicodec_bench");
   app.require_subcommand(1);
   app.footer(kFooter);
-  for (auto add_command : {add_rate, add_near, add_decode, add_play, add_auto, add_poses,
+  for (auto add_command : {add_rate, add_gltf, add_near, add_decode, add_play, add_auto, add_poses,
                            add_between, add_keyframes, add_msgi, add_massage})
     add_command(app, arguments);
   try {

@@ -11,12 +11,19 @@
 namespace anicodec::bench {
 namespace {
 
+/// Of Markdown, where a bar would end the cell.
+std::string escaped(std::string text) {
+  for (size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '\\');
+  return text;
+}
+
 std::string cell(const nlohmann::ordered_json& row, const Table::Column& column) {
   auto value = row.find(column.key);
   if (value == row.end() || value->is_null())
     return "-";
   if (value->is_string())
-    return value->get<std::string>();
+    return escaped(value->get<std::string>());
   if (!value->is_number())
     return value->dump();
   if (!column.format.empty())

@@ -12,7 +12,7 @@ import sys
 # Vectors of the machine.
 SIMD = ["<immintrin.h>", "<xmmintrin.h>", "<emmintrin.h>", "<arm_neon.h>", "<wasm_simd128.h>", "<cpuid.h>"]
 STREAMS = {"<iostream>", "<fstream>", "<sstream>", "<filesystem>", "<istream>", "<ostream>", "<streambuf>"}
-POSIX = ["<fcntl.h>", "<glob.h>", "<sys/stat.h>", "<unistd.h>"]
+POSIX = ["<fcntl.h>", "<glob.h>", "<spawn.h>", "<sys/stat.h>", "<sys/wait.h>", "<unistd.h>"]
 
 # Prefixes of what a module may include beside the standard library.
 ALLOWED = {

@@ -3,42 +3,23 @@
 #include "tools/render/video.h"
 
 #include "codec/error.h"
+#include "tools/io/private_folder.h"
 
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
 
 namespace anicodec::tools {
-namespace {
-
-/// A folder of its own, gone with the object.
-struct TemporaryFolder {
-  std::string path = (std::filesystem::temp_directory_path() / "anicodec_XXXXXX").string();
-
-  TemporaryFolder() {
-    if (mkdtemp(path.data()) == nullptr)
-      throw Error(ErrorKind::kInternal, path + ": cannot be created");
-  }
-
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
-
-}  // namespace
-
 std::string mp4_bytes(const std::vector<Image>& images, double frames_per_second) {
   if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0)
     throw Error(ErrorKind::kUnsupported,
                 ".mp4 needs the ffmpeg command, which is not there; .gif and .png do not");
-  TemporaryFolder folder;
-  const std::string output = folder.path + "/clip.mp4";
+  const PrivateFolder folder;
+  const std::string output = folder / "clip.mp4";
   // H.264 wants even sizes.
   const std::string command = fmt::format(
       "ffmpeg -loglevel error -f rawvideo -pixel_format rgb24 -video_size {}x{} -framerate {:.6f} "

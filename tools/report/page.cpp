@@ -107,7 +107,10 @@ std::string rate_table(const Report& report) {
         "<tr><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td></"
         "tr>",
         escaped(p.codec), grouped(p.bytes), p.bpfv, p.kg, p.max_error_percent, p.sted);
-  return out + "</table></div>";
+  out += "</table></div>";
+  for (const std::string& command : report.missing)
+    out += fmt::format("<p>Left out, because it is not installed: {}.</p>", escaped(command));
+  return out;
 }
 
 std::string share_bar(const Report& report) {
@@ -205,7 +208,9 @@ std::string report_page(const Report& report) {
   }
   out +=
       "<h2>Size against error</h2><p>Whole files. Lower and further left is better. Other codecs "
-      "are dashed: they store the positions of a cubic grid whose step gives the error.</p>"
+      "are dashed: they store the positions of a cubic grid whose step gives the error, gltfpack "
+      "those "
+      "of the fewest bits that keep to it.</p>"
       "<div class=\"charts\">";
   out += svg_of(kg_chart(report));
   out += svg_of(rate_chart(report, "largest error, % of the diagonal",

@@ -53,10 +53,11 @@ struct Report {
   uint32_t vertices = 0, faces = 0, frames = 0;
   double diagonal = 0, frame_rate = 0;
   std::vector<RatePoint> rates;
-  double shown_kg = 0;            ///< KG error asked for in all that follows
-  uint64_t shown_bytes = 0;       ///< of that file
-  std::vector<ByteShare> shares;  ///< where they went
-  Comparison shown;               ///< that file against the clip, frame by frame
+  std::vector<std::string> missing;  ///< commands of other codecs that are not installed
+  double shown_kg = 0;               ///< KG error asked for in all that follows
+  uint64_t shown_bytes = 0;          ///< of that file
+  std::vector<ByteShare> shares;     ///< where they went
+  Comparison shown;                  ///< that file against the clip, frame by frame
   std::vector<BasisError> basis_errors;
   std::vector<ShapeSpaceError> shape_spaces;
   std::vector<ReportPicture> pictures;   ///< original, decoded, error, side by side
