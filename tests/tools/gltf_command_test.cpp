@@ -259,10 +259,35 @@ TEST_F(RealDataCesium, AgreesWithItsExports) {
   }
   // Its vertices are split at seams: the surfaces are compared. The first key is the rest pose, the
   // last repeats the first.
-  auto morph =
-      compared(obj, "exported/cesium_morph.glb", {"--frames-b", "1:49", "--axes-b", "x,-z,y"});
-  EXPECT_EQ(morph["method"], "surface");
-  EXPECT_LT(morph["hausdorff_percent"], 1e-3);
+  const std::string morph = "exported/cesium_morph.glb";
+  for (const auto& [other, options] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {obj, {"--axes-b", "x,-z,y"}},
+           {scene, {"--fps", "24", "--frames-a", "1:", "--axes-b", "x,-z,y"}},
+           {"exported/cesium.pc2", {"--axes-b", "x,-y,-z"}},
+           {"exported/cesium.mdd", {"--axes-b", "x,-y,-z"}}}) {
+    std::vector<std::string> all = options;
+    all.insert(all.end(), {"--frames-b", "1:49"});
+    auto surfaces = compared(other, morph, all);
+    EXPECT_EQ(surfaces["method"], "surface") << other;
+    EXPECT_LT(surfaces["hausdorff_percent"], 1e-3) << other;
+  }
+}
+
+// Formats that assimp reads: frames of a model, and a mesh whose file has neither skin nor
+// animation.
+TEST_F(RealDataGltf, TakesOtherScenes) {
+  for (const auto& [file, frames] :
+       {std::pair("other/faerie.md2", 198), {"exported/cesium.fbx", 1}}) {
+    TemporaryFolder folder;
+    const std::string source = data_folder() + "/" + file;
+    Outcome encoded = anicodec(
+        {"encode", source, "-o", folder / "a.anic", "--kg", "1", "--effort", "1", "--json"});
+    if (encoded.status != 0 && encoded.err.find("without assimp") != std::string::npos)
+      GTEST_SKIP() << "this build is without assimp";
+    ASSERT_EQ(encoded.status, 0) << encoded;
+    EXPECT_EQ(encoded.json()["frames"], frames) << file;
+    EXPECT_LE(encoded.json()["kg"], 1.0) << file;
+  }
 }
 
 }  // namespace
