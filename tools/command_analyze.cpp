@@ -4,6 +4,7 @@
 #include "codec/error.h"
 #include "tools/command.h"
 #include "tools/io/atomic_file.h"
+#include "tools/io/frame_rate.h"
 #include "tools/io/load_sequence.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
@@ -59,7 +60,7 @@ Examples:
 
 struct AnalyzeCommand {
   std::vector<std::string> inputs;
-  std::string mesh, output;
+  std::string mesh, clip, rate, output;
   std::string counts = "1,2,5,10,15,20,30,45,60,80,100";
   bool csv = false, json = false, spaces = false, massage = false;
   int effort = 3;
@@ -136,7 +137,10 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   LoadOptions options;
   options.mesh = command.mesh;
+  options.clip = command.clip;
   options.progress = line.callback();
+  if (!command.rate.empty())
+    options.rate = parse_frame_rate(command.rate);
   MeshSequence sequence = load_sequence(command.inputs, options);
   std::optional<MassageStudy> massage;
   if (command.massage) {
@@ -205,8 +209,14 @@ void add_analyze(CLI::App& app, CommonOptions& common) {
                                   [c, &common] { run(*c, common); });
   command->add_option("INPUT", c->inputs, "As for encode")->required();
   command
-      ->add_option("--mesh", c->mesh, "Mesh of a lone vertex cache (default: same stem beside it)")
-      ->option_text("FILE");
+      ->add_option("--mesh", c->mesh,
+                   "Mesh of a lone vertex cache (default: same stem beside it),\n"
+                   "or the name of one in a scene (default: all)")
+      ->option_text("FILE|NAME");
+  command->add_option("--clip", c->clip, "Animation of a scene, or none")
+      ->option_text("NAME|INDEX");
+  command->add_option("--fps", c->rate, "Frames per second (default: as for encode)")
+      ->option_text("N[/D]");
   command->add_option("--counts", c->counts, "Numbers of components to try")
       ->option_text("K,K,...");
   command->add_option("-o,--output", c->output, "Write a report with charts and pictures")

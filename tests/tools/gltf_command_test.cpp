@@ -126,6 +126,20 @@ TEST(GltfCommand, EncodesAndDecodesScenes) {
   EXPECT_EQ(anicodec({"decode", folder / "a.anic", "-o", folder / "b.gltf"}).status, 1);
 }
 
+TEST(GltfCommand, AnalyzesAnAnimationAtARate) {
+  TemporaryFolder folder;
+  GltfScene scene = triangle_scene();
+  scene.animate(0, "translation", {0, 1}, scene.vectors({0, 0, 0, 5, 0, 0}), "LINEAR", "short");
+  scene.animate(0, "translation", {0, 2}, scene.vectors({0, 0, 0, 0, 5, 0}), "LINEAR", "long");
+  folder.write("a.glb", scene.glb());
+  Outcome outcome = anicodec({"analyze", folder / "a.glb", "--clip", "long", "--fps", "10",
+                              "--counts", "1", "--effort", "1", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_EQ(outcome.json()["frames"], 21);
+  EXPECT_EQ(outcome.json()["frame_rate"], 10);
+  EXPECT_EQ(outcome.json()["name"], "a long");
+}
+
 TEST(GltfCommand, NamesThePlaceOfAFault) {
   TemporaryFolder folder;
   GltfScene scene = triangle_scene();
