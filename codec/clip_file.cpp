@@ -63,6 +63,8 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
     file.add("VMAP", true, kMesh, format::kNoSegment, layout.vertex_map);
   if (record.order == format::OrderMode::kAll)
     file.add("FMAP", true, kMesh, format::kNoSegment, layout.face_map);
+  if (!layout.attributes.empty())
+    file.add("ATTR", false, kMesh, format::kNoSegment, layout.attributes);
   const EncodedPose* of_mesh = segments[0]->reference.get();
   if (of_mesh)
     file.add("POSE", true, kMesh, format::kNoSegment, pose_record(*of_mesh));

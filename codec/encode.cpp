@@ -158,6 +158,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   format::ClipRecord record = describe(sequence, options, target, clip_diagonal);
   record.closed = closed;
   EncoderInput input(std::move(sequence), options.mesh_coder, options.part);
+  encode_attributes(input.sequence, options.attributes, &input.layout);
   constexpr int kSlowEffort = 7;
   if (options.part)
     input.pose = pose_of_parts(input, target, clip_diagonal, options.effort >= kSlowEffort);

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_ENCODE_H_
 #define ANICODEC_CODEC_ENCODE_H_
 
+#include "codec/attribute_encode.h"
 #include "codec/frame_selection.h"
 #include "codec/mesh_sequence.h"
 #include "codec/progress.h"
@@ -56,6 +57,7 @@ struct EncodeOptions {
   std::string encoder;  ///< name and version to store in the file
   /// The sequence is not the source itself but one that massage() made of it: to store in the file.
   std::optional<SurfaceChange> surface_change;
+  AttributeOptions attributes;
   int effort = 5;  ///< 1..9: how long to search
 };
 

@@ -85,7 +85,7 @@ void check_same_mesh(const OpenPart& first, const OpenPart& next) {
          "has " + counts(b) + ", but " + first.part.name + " has " + counts(a));
   if (first.record.order != next.record.order)
     fail(next.part, ErrorKind::kInput, "keeps another order of vertices than " + first.part.name);
-  for (const char(*type)[5] : {&"MESH", &"VMAP", &"FMAP", &"POSE"}) {
+  for (const char(*type)[5] : {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"}) {
     if (!equal(first.of_mesh(*type), next.of_mesh(*type)))
       fail(next.part, ErrorKind::kInput,
            "does not have the connectivity, welds and reference pose of " + first.part.name +
@@ -193,7 +193,7 @@ format::Bytes join_clips(const std::vector<ClipPart>& sources) {
   format::ContainerWriter file;
   file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
   file.add("CLIP", true, format::kNoMesh, format::kNoSegment, joined_record(parts).write());
-  for (const char(*type)[5] : {&"MESH", &"VMAP", &"FMAP", &"POSE"}) {
+  for (const char(*type)[5] : {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"}) {
     if (const Chunk* chunk = parts[0].reader.find(*type, 0))
       file.add(*type, chunk->required, 0, format::kNoSegment, copy(parts[0].payload(*chunk)));
   }

@@ -133,7 +133,7 @@ class Truth {
 
 /// Source polygon of each canonical polygon, in the order in which the details rebuild them.
 Vector<uint32_t> canonical_polygons(const std::vector<uint32_t>& triangle_polygon,
-                                         const std::vector<uint32_t>& apart, size_t count) {
+                                    const std::vector<uint32_t>& apart, size_t count) {
   Vector<uint32_t> order;
   std::vector<bool> seen(count, false);
   for (const auto& list : {triangle_polygon, apart}) {
@@ -221,7 +221,9 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   layout.details = encoder.finish();
   truth.number_the_rest();
 
-  Vector<uint32_t> map(sequence.vertex_count), canonical(sequence.vertex_count);
+  Vector<uint32_t>& map = layout.vertex_source;
+  map.resize(sequence.vertex_count);
+  Vector<uint32_t> canonical(sequence.vertex_count);
   for (uint32_t v = 0; v < sequence.vertex_count; ++v) {
     canonical[v] = truth.canonical(v);
     map[canonical[v]] = v;
@@ -230,9 +232,10 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   code_permutation(map_encoder, sequence.vertex_count, &map);
   layout.vertex_map = map_encoder.finish();
 
-  Vector<uint32_t> place =
-      canonical_polygons(triangle_polygon, manifold.apart, sequence.polygons.size());
-  Vector<uint32_t> first(place.size(), 0);
+  Vector<uint32_t>& place = layout.polygon_source;
+  place = canonical_polygons(triangle_polygon, manifold.apart, sequence.polygons.size());
+  Vector<uint32_t>& first = layout.polygon_first;
+  first.assign(place.size(), 0);
   for (size_t i = 0; i < place.size(); ++i) {
     std::span<const uint32_t> source = sequence.polygons[place[i]];
     uint32_t begin = layout.topology.polygon_offsets[i];
@@ -248,8 +251,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   return layout;
 }
 
-format::Bytes encode_with_poses(const MeshLayout& layout,
-                                std::span<const Vector<int32_t>> poses) {
+format::Bytes encode_with_poses(const MeshLayout& layout, std::span<const Vector<int32_t>> poses) {
   return encode_draco_mesh(layout.sizes.points, layout.draco_triangles, poses, layout.draco_points);
 }
 

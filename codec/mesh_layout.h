@@ -27,6 +27,10 @@ struct MeshLayout {
   format::Bytes details;
   format::Bytes vertex_map;  ///< chunk VMAP
   format::Bytes face_map;    ///< chunk FMAP
+  format::Bytes attributes;  ///< chunk ATTR, empty for none: encode_attributes() puts it there
+  Vector<uint32_t> vertex_source;   ///< source vertex of each canonical vertex
+  Vector<uint32_t> polygon_source;  ///< source polygon of each canonical polygon,
+  Vector<uint32_t> polygon_first;   ///< and which of its corners is the source's first
 };
 
 /// Lays out a mesh. Draco where it can code the connectivity and `coder` allows it, else plain.
@@ -35,8 +39,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder);
 
 /// Encodes the connectivity with `poses` (coded vertices x 3 integers each, in coded order) as its
 /// integer attributes. Empty when Draco could not.
-format::Bytes encode_with_poses(const MeshLayout& layout,
-                                std::span<const Vector<int32_t>> poses);
+format::Bytes encode_with_poses(const MeshLayout& layout, std::span<const Vector<int32_t>> poses);
 
 }  // namespace anicodec
 

@@ -3,6 +3,8 @@
 #ifndef ANICODEC_CODEC_MESH_SEQUENCE_H_
 #define ANICODEC_CODEC_MESH_SEQUENCE_H_
 
+#include "format/attribute_record.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,33 +43,42 @@ struct FrameRate {
 
 enum class UpAxis : uint8_t { kUnknown = 0, kY = 1, kZ = 2 };
 
-enum class AttributeKind : uint8_t { kUv, kNormal, kTangent, kColour };
+using format::AttributeKind;
 
 /// Values that stand beside the positions: of each vertex, or of each corner of the polygons.
 struct Attribute {
   AttributeKind kind = AttributeKind::kUv;
   std::string name;  ///< as in the source, "TEXCOORD_0"
   bool per_corner = false;
-  uint32_t components = 2;    ///< 2 for UV, 3 for normals, 4 for tangents and RGBA
+  uint32_t components = 2;    ///< 2 for UV, 3 for normals, 4 for tangents, 3 or 4 for colours
   uint32_t frames = 1;        ///< 1: static, or as in the first frame; else as many as the sequence
   std::vector<float> values;  ///< frames x elements x components, row-major
 };
 
-/// A mesh of the source within a sequence: a range of its vertices and polygons.
-struct MeshPart {
-  std::string mesh;  ///< name of the mesh, may be empty
-  std::string node;  ///< name of the object or node that shows it, may be empty
-  uint32_t first_vertex = 0;
-  uint32_t vertex_count = 0;
-  uint32_t first_polygon = 0;
-  uint32_t polygon_count = 0;
+inline constexpr uint32_t kNoLabel = UINT32_MAX;
+
+/// Names, each of some polygons.
+struct PolygonLabels {
+  std::vector<std::string> names;
+  std::vector<uint32_t> of_polygon;  ///< a name's number or kNoLabel; empty: none has any
+
+  bool operator==(const PolygonLabels&) const = default;
 };
 
-inline constexpr uint32_t kNoMaterial = UINT32_MAX;
+/// What stands beside the positions of a mesh and does not move.
+struct MeshDetails {
+  std::vector<Attribute> attributes;
+  /// Of each corner of the polygons: those at one place with the same number share a normal,
+  /// whatever it is, so that edges between different ones are hard. Empty: unknown, or told by a
+  /// normal among the attributes.
+  std::vector<uint32_t> shared_normals;
+  PolygonLabels materials;
+  PolygonLabels parts;  ///< meshes or objects of the source
+};
 
 /// An animated mesh: one connectivity, a position per vertex per frame. Positions are kept as
 /// given: nothing is rotated or scaled.
-struct MeshSequence {
+struct MeshSequence : MeshDetails {
   std::string name;  ///< of the clip, never a path
   Polygons polygons;
   uint32_t vertex_count = 0;
@@ -80,11 +91,6 @@ struct MeshSequence {
   UpAxis up = UpAxis::kUnknown;
   double metres_per_unit = 0;  ///< 0: unknown
   bool loop = false;           ///< meant to be repeated
-  std::vector<Attribute> attributes;
-  std::vector<std::string> materials;  ///< names
-  std::vector<uint32_t>
-      polygon_materials;        ///< of each polygon, or kNoMaterial; empty: none has one
-  std::vector<MeshPart> parts;  ///< in order; empty: a single mesh without a name
 
   /// Positions of one frame: vertex_count x 3.
   std::span<const float> frame(size_t f) const {

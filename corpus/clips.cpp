@@ -112,6 +112,12 @@ const Clip kClips[] = {
      true,
      kZ,
      "skinned limb whose vertices slide over it, otherwise in every frame, as if captured"},
+    {"painted_box",
+     painted_box,
+     {98, 24},
+     false,
+     kNone,
+     "box of quads with texture coordinates, colours, hard edges, materials and objects"},
 };
 
 const Clip& find(std::string_view name) {

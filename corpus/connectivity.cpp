@@ -159,6 +159,36 @@ MeshSequence box_of_quads(ClipSize size) {
   return animate_twisted(quad_box(5), size.frames);
 }
 
+MeshSequence painted_box(ClipSize size) {
+  constexpr uint32_t kCells = 4, kSides = 6;  // quads along an edge of the box
+  MeshSequence clip = animate_twisted(quad_box(kCells), size.frames);
+  Attribute uv{AttributeKind::kUv, "atlas", true, 2, 1, {}};
+  Attribute colour{AttributeKind::kColour, "paint", false, 3, 1, {}};
+  clip.materials.names = {"wood", "metal"};
+  clip.parts.names = {"box", "lid"};
+  for (uint32_t p = 0; p < clip.polygons.size(); ++p) {
+    const uint32_t side = p / (kCells * kCells), cell = p % (kCells * kCells);
+    // Each side has a square of the atlas, three by two, and edges of the box are hard.
+    const bool is_far = side % 2 == 1;
+    constexpr uint32_t kAlong[] = {0, 1, 1, 0}, kAcross[] = {0, 0, 1, 1};
+    for (uint32_t k = 0; k < 4; ++k) {
+      const uint32_t u = cell / kCells + (is_far ? kAlong : kAcross)[k];
+      const uint32_t v = cell % kCells + (is_far ? kAcross : kAlong)[k];
+      uv.values.push_back((static_cast<float>(side % 3) + static_cast<float>(u) / kCells) / 4);
+      uv.values.push_back((static_cast<float>(side / 3) + static_cast<float>(v) / kCells) / 2);
+      clip.shared_normals.push_back(clip.polygons[p][k] * kSides + side);
+    }
+    clip.materials.of_polygon.push_back(cell == 0 ? kNoLabel : side / 4);
+    clip.parts.of_polygon.push_back(side == kSides - 1 ? 1 : 0);
+  }
+  for (uint32_t v = 0; v < clip.vertex_count; ++v) {
+    for (uint32_t i = 0; i < 3; ++i)
+      colour.values.push_back(static_cast<float>((v * 5 + i * 80) % 256) / 255);
+  }
+  clip.attributes = {uv, colour};
+  return clip;
+}
+
 MeshSequence leftovers(ClipSize size) {
   const uint32_t side = 12;
   Mesh sheet = grid(side, side);

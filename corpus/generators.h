@@ -48,6 +48,7 @@ MeshSequence moebius(ClipSize size);
 MeshSequence open_pair(ClipSize size);
 MeshSequence polygons(ClipSize size);
 MeshSequence box_of_quads(ClipSize size);
+MeshSequence painted_box(ClipSize size);
 MeshSequence leftovers(ClipSize size);
 
 }  // namespace anicodec::corpus

@@ -15,6 +15,7 @@ constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 
 /// In the limits: key-frames, the frames between them by MSGI.
 constexpr uint8_t kMsgiKind = 16;
 constexpr uint64_t kMaxMsgiBytes = uint64_t{1} << 48;
+constexpr uint64_t kMaxAttributeBytes = uint64_t{1} << 48;
 
 bool is_length(double x) {
   return std::isfinite(x) && x >= 0;
@@ -22,6 +23,11 @@ bool is_length(double x) {
 
 Status finished(const ByteReader& reader) {
   return reader.finished() ? Status::kOk : Status::kRecord;
+}
+
+bool has_attributes(const Vector<Limits::Mesh>& meshes) {
+  return std::any_of(meshes.begin(), meshes.end(),
+                     [](const Limits::Mesh& m) { return m.attribute_bytes > 0; });
 }
 
 }  // namespace
@@ -46,6 +52,10 @@ Bytes Limits::write() const {
       w.varint(s.msgi_bytes);
       w.varint(s.msgi_frame_bytes);
     }
+  }
+  if (has_attributes(meshes)) {
+    for (const Mesh& m : meshes)
+      w.varint(m.attribute_bytes);
   }
   return std::move(w.bytes());
 }
@@ -92,6 +102,12 @@ Status Limits::read(ByteView view, Limits* out) {
       s.msgi_frame_bytes = r.varint(kMaxMsgiBytes);
     }
     if (s.frames == 0 || s.first_frame >= out->frames || s.frames > out->frames - s.first_frame)
+      return Status::kRecord;
+  }
+  if (r.remaining() > 0) {
+    for (Mesh& m : out->meshes)
+      m.attribute_bytes = r.varint(kMaxAttributeBytes);
+    if (!has_attributes(out->meshes))
       return Status::kRecord;
   }
   const Vector<uint32_t> order = out->segments_by_frame();

@@ -40,6 +40,7 @@ struct Limits {
     uint32_t corners = 0;           ///< of those polygons
     uint32_t draco_components = 0;  ///< integer components per point in the Draco bitstream
     uint32_t draco_bytes = 0;       ///< of the Draco bitstream
+    uint64_t attribute_bytes = 0;   ///< that static attributes keep in memory
   };
 
   struct Segment {

@@ -280,6 +280,7 @@ void anic_asset_info(const anic_asset* asset, anic_info* out) {
   out->rmse = record.rmse;
   out->kg = record.kg;
   out->surface_error = record.surface_error;
+  out->surface_error_mean = record.surface_error_mean;
   out->name = record.name.c_str();
   out->encoder = record.encoder.c_str();
   out->resident_bytes = asset->resident_bytes;
@@ -297,7 +298,35 @@ anic_status anic_mesh(const anic_asset* asset, uint32_t mesh, anic_mesh_info* ou
   out->polygon_count = static_cast<uint32_t>(t.polygon_offsets.size() - 1);
   out->corner_count = static_cast<uint32_t>(t.polygon_corners.size());
   out->triangle_count = asset->triangle_counts[mesh];
+  out->attribute_count = static_cast<uint32_t>(m->attributes.size());
   return ANIC_OK;
+}
+
+anic_status anic_mesh_attribute(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
+                                anic_attribute* out) {
+  const Mesh* m = find_mesh(asset, mesh);
+  if (!m || !out || attribute >= m->attributes.size())
+    return ANIC_E_ARGUMENT;
+  const MeshAttribute& a = m->attributes[attribute];
+  *out = {};
+  out->name = a.header.name.c_str();
+  out->kind = static_cast<anic_attribute_kind>(a.header.kind);
+  out->domain = static_cast<anic_domain>(a.header.domain);
+  out->count = a.header.elements(asset->clip.limits().meshes[mesh]);
+  out->components = a.header.components();
+  out->label_count = static_cast<uint32_t>(a.header.labels.size());
+  out->values = out->components > 0 ? a.values.data() : nullptr;
+  out->labels = out->components > 0 ? nullptr : a.labels.data();
+  return ANIC_OK;
+}
+
+const char* anic_attribute_label(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
+                                 uint32_t label) {
+  const Mesh* m = find_mesh(asset, mesh);
+  if (!m || attribute >= m->attributes.size() ||
+      label >= m->attributes[attribute].header.labels.size())
+    return nullptr;
+  return m->attributes[attribute].header.labels[label].c_str();
 }
 
 anic_status anic_mesh_polygons(const anic_asset* asset, uint32_t mesh, anic_polygons* out) {

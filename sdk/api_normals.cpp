@@ -5,6 +5,7 @@
 #include "sdk/api_objects.h"
 #include "sdk/normals.h"
 
+#include <algorithm>
 #include <cmath>
 
 struct anic_normals {
@@ -12,6 +13,19 @@ struct anic_normals {
 };
 
 using namespace anicodec;
+
+namespace {
+
+/// Which corners share a normal in the source; null if the file does not tell.
+const Vector<uint32_t>* source_edges(const Mesh& mesh) {
+  const auto found =
+      std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [](const MeshAttribute& a) {
+        return a.header.kind == format::AttributeKind::kNormal && a.header.components() == 0;
+      });
+  return found == mesh.attributes.end() ? nullptr : &found->labels;
+}
+
+}  // namespace
 
 anic_status anic_normals_create(const anic_asset* asset, uint32_t mesh,
                                 const anic_normal_options* options, const anic_allocator* allocator,
@@ -33,12 +47,17 @@ anic_status anic_normals_create(const anic_asset* asset, uint32_t mesh,
     auto* normals = create<anic_normals>(memory, 0);
     try {
       const MemoryScope scope(&memory_of_object(normals));
-      const double degrees = wanted.crease_angle > 0 ? wanted.crease_angle : 180;
-      const double cosine = degrees < 180 ? std::cos(degrees * 3.14159265358979323846 / 180) : -2;
-      Vector<float> pose(size_t{3} * clip.vertex_count(mesh));
-      clip.positions(mesh, wanted.reference_frame, pose.data());
-      normals->plan =
-          plan_normals(clip.meshes()[mesh].topology, pose.data(), cosine, wanted.per_corner != 0);
+      const Mesh& of = clip.meshes()[mesh];
+      const Vector<uint32_t>* edges = wanted.source_edges ? source_edges(of) : nullptr;
+      if (edges) {
+        normals->plan = plan_normals(of.topology, *edges, wanted.per_corner != 0);
+      } else {
+        const double degrees = wanted.crease_angle > 0 ? wanted.crease_angle : 180;
+        const double cosine = degrees < 180 ? std::cos(degrees * 3.14159265358979323846 / 180) : -2;
+        Vector<float> pose(size_t{3} * clip.vertex_count(mesh));
+        clip.positions(mesh, wanted.reference_frame, pose.data());
+        normals->plan = plan_normals(of.topology, pose.data(), cosine, wanted.per_corner != 0);
+      }
     } catch (...) {
       destroy(normals);
       throw;

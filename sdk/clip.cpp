@@ -26,6 +26,7 @@ enum class Owner : uint8_t { kClip, kMesh, kSegment, kEither };
 struct KnownChunk {
   uint32_t type;
   Owner owner;
+  bool required = true;  ///< must be marked so
 };
 
 constexpr KnownChunk kKnownChunks[] = {
@@ -33,7 +34,7 @@ constexpr KnownChunk kKnownChunks[] = {
     {chunk_type("MESH"), Owner::kMesh},    {chunk_type("VMAP"), Owner::kMesh},
     {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
     {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
-    {chunk_type("CORR"), Owner::kSegment}};
+    {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false}};
 
 const KnownChunk* known(const Chunk& chunk) {
   const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
@@ -66,6 +67,8 @@ Failure check_places(const format::ContainerReader& file, const format::Limits& 
     if (chunk.mesh >= limits.meshes.size() || (owner == Owner::kMesh && of_segment) ||
         (owner == Owner::kSegment && !of_segment))
       return false;
+    if (chunk.type == chunk_type("ATTR"))
+      return limits.meshes[chunk.mesh].attribute_bytes > 0;
     if (!of_segment)
       return (chunk.type != chunk_type("VMAP") || order != format::OrderMode::kFree) &&
              (chunk.type != chunk_type("FMAP") || order == format::OrderMode::kAll);
@@ -80,7 +83,7 @@ Failure check_places(const format::ContainerReader& file, const format::Limits& 
   };
   for (const Chunk& chunk : file.chunks()) {
     const KnownChunk* k = known(chunk);
-    if (k && !(chunk.required && fits(chunk, k->owner)))
+    if (k && !(chunk.required == k->required && fits(chunk, k->owner)))
       return at(chunk, Status::kIndexRange, "a chunk belongs to nothing in the file");
   }
   return {};
@@ -198,7 +201,7 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   draco_.resize(limits_.meshes.size());
   Failure failure;
   for (size_t m = 0; m < meshes_.size() && failure.ok(); ++m)
-    failure = open_mesh(file, static_cast<uint16_t>(m));
+    failure = open_mesh(file, static_cast<uint16_t>(m), options);
   if (failure.ok())
     failure = open_segments(file, options);
   draco_ = Vector<DracoMesh>();
@@ -211,7 +214,8 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   return failure;
 }
 
-Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh) {
+Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh,
+                        const OpenOptions& options) {
   const format::Limits::Mesh& sizes = limits_.meshes[mesh];
   const Chunk* chunk;
   ByteView payload;
@@ -245,6 +249,8 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh) {
 
   if (!agree(draco, out.topology.point_vertex))
     return at(*chunk, Status::kDraco, "points of one vertex have different values");
+  if (Failure f = open_attributes(file, mesh, options); !f.ok())
+    return f;
   if (record_.order == format::OrderMode::kFree)
     return {};
   if (Failure f = required(file, "VMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
@@ -258,10 +264,32 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh) {
     Vector<uint32_t> place, first;
     if (Status s = decode_face_map(payload, out.topology, &place, &first); s != Status::kOk)
       return at(*chunk, s, "the face map is damaged");
+    apply_face_map(place, first, out.topology, &out.attributes);
     apply_face_map(place, first, &out.topology);
   }
   apply_vertex_map(map, &out.topology);
+  apply_vertex_map(map, &out.attributes);
   return {};
+}
+
+Failure Clip::open_attributes(const format::ContainerReader& file, uint16_t mesh,
+                              const OpenOptions& options) {
+  if (limits_.meshes[mesh].attribute_bytes == 0)
+    return {};
+  const Chunk* chunk = file.find("ATTR", mesh);
+  if (options.prefix && chunk && !file.has(*chunk)) {
+    partial_ = true;
+    return {};
+  }
+  ByteView payload;
+  if (Failure f = required(file, "ATTR", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+    return f;
+  format::AttributeRecord record;
+  Status s = format::AttributeRecord::read(payload, &record);
+  if (s == Status::kOk)
+    s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology,
+                          &meshes_[mesh].attributes);
+  return s == Status::kOk ? Failure{} : at(*chunk, s, "the attributes are damaged");
 }
 
 Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptions& options) {
@@ -363,6 +391,8 @@ size_t Clip::resident_bytes() const {
   for (const Mesh& m : meshes_)
     total += 4 * (m.topology.vertex_coded.size() + m.topology.polygon_offsets.size() +
                   m.topology.polygon_corners.size());
+  for (const auto& m : limits_.meshes)
+    total += m.attribute_bytes;
   for (const Segment& s : segments_)
     total += s.resident_bytes();
   return total;

@@ -7,6 +7,7 @@
 #include "format/memory.h"
 #include "format/records.h"
 #include "format/status.h"
+#include "sdk/attributes.h"
 #include "sdk/segment.h"
 #include "sdk/topology.h"
 
@@ -42,6 +43,7 @@ Failure read_limits(const format::ContainerReader& file, const OpenOptions& opti
 struct Mesh {
   String name;
   Topology topology;
+  Vector<MeshAttribute> attributes;
 };
 
 /// An opened file: immutable, so any number of threads may play it. Owns all it needs; the file's
@@ -87,7 +89,9 @@ class Clip {
   Failure check_hashes() const;
 
  private:
-  Failure open_mesh(const format::ContainerReader& file, uint16_t mesh);
+  Failure open_mesh(const format::ContainerReader& file, uint16_t mesh, const OpenOptions& options);
+  Failure open_attributes(const format::ContainerReader& file, uint16_t mesh,
+                          const OpenOptions& options);
   Failure open_segments(const format::ContainerReader& file, const OpenOptions& options);
   Failure open_segment(const format::ContainerReader& file, uint32_t number,
                        const Vector<const format::Chunk*>& layers, const Vector<PoseGrid>& poses,

@@ -29,7 +29,8 @@ class Sum {
 };
 
 uint64_t resident(const Limits::Mesh& m) {
-  return kStructure + 4 * (uint64_t{m.source_vertices} + m.polygons + 1 + uint64_t{m.corners});
+  return kStructure + 4 * (uint64_t{m.source_vertices} + m.polygons + 1 + uint64_t{m.corners}) +
+         m.attribute_bytes;
 }
 
 /// What a mesh needs until the segments are open: its triangles, coded ones and Draco's, and poses.
@@ -85,7 +86,12 @@ uint64_t opening(const Limits::Mesh& m) {
   const uint64_t maps =
       uint64_t{20} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{4} * m.corners;
   const uint64_t pose = uint64_t{340} * m.coded_vertices + uint64_t{72} * m.triangles;
-  return std::max({details, maps, pose, draco(m)});
+  // Edges, entries and their numbers; or a permutation and a copy.
+  const uint64_t attributes = m.attribute_bytes == 0
+                                  ? 0
+                                  : uint64_t{64} * m.corners + uint64_t{16} * m.source_vertices +
+                                        2 * m.attribute_bytes + 65536;
+  return std::max({details, maps + attributes, pose, draco(m)});
 }
 
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {

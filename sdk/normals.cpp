@@ -148,18 +148,10 @@ void join_equal(const Corners& corners, uint32_t keys, Key key, DisjointSets* se
   }
 }
 
-}  // namespace
-
-NormalPlan plan_normals(const Topology& topology, const float* pose, double crease_cosine,
-                        bool per_corner) {
-  const Corners corners(topology);
+/// The plan of corners whose sets are given.
+NormalPlan plan_of(const Topology& topology, const Corners& corners, bool per_corner,
+                   DisjointSets& sets) {
   const auto vertices = static_cast<uint32_t>(topology.vertex_coded.size());
-  DisjointSets sets(corners.count());
-  if (crease_cosine <= -1)
-    join_equal(
-        corners, topology.coded_vertices, [&](uint32_t c) { return corners.coded(c); }, &sets);
-  else
-    join_across_edges(topology, corners, pose, crease_cosine, &sets);
   if (!per_corner)
     join_equal(
         corners, vertices, [&](uint32_t c) { return corners.vertex(c); }, &sets);
@@ -193,6 +185,28 @@ NormalPlan plan_normals(const Topology& topology, const float* pose, double crea
       plan.group[corners.vertex(c)] = group_of[c];
   }
   return plan;
+}
+
+}  // namespace
+
+NormalPlan plan_normals(const Topology& topology, const float* pose, double crease_cosine,
+                        bool per_corner) {
+  const Corners corners(topology);
+  DisjointSets sets(corners.count());
+  if (crease_cosine <= -1)
+    join_equal(
+        corners, topology.coded_vertices, [&](uint32_t c) { return corners.coded(c); }, &sets);
+  else
+    join_across_edges(topology, corners, pose, crease_cosine, &sets);
+  return plan_of(topology, corners, per_corner, sets);
+}
+
+NormalPlan plan_normals(const Topology& topology, const Vector<uint32_t>& shared, bool per_corner) {
+  const Corners corners(topology);
+  DisjointSets sets(corners.count());
+  join_equal(
+      corners, corners.count(), [&](uint32_t c) { return shared[c]; }, &sets);
+  return plan_of(topology, corners, per_corner, sets);
 }
 
 void compute_normals(const NormalPlan& plan, const float* pose, size_t stride, uint32_t first,

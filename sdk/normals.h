@@ -36,6 +36,10 @@ struct NormalPlan {
 NormalPlan plan_normals(const Topology& topology, const float* pose, double crease_cosine,
                         bool per_corner);
 
+/// The same from the source's hard edges: corners with one of `shared`, below the number of
+/// corners, are in one group.
+NormalPlan plan_normals(const Topology& topology, const Vector<uint32_t>& shared, bool per_corner);
+
 /// Stores normals first .. first + count - 1 of a pose whose vertices are stride bytes apart;
 /// (0, 0, 1) where areas cancel. Allocates nothing.
 void compute_normals(const NormalPlan& plan, const float* pose, size_t stride, uint32_t first,

@@ -51,21 +51,31 @@ void apply_vertex_map(const Vector<uint32_t>& source, Topology* topology) {
     v = source[v];
 }
 
+Vector<uint32_t> corner_order(const Vector<uint32_t>& canonical, const Vector<uint32_t>& first,
+                              const Vector<uint32_t>& offsets) {
+  Vector<uint32_t> order;
+  order.reserve(offsets.back());
+  for (uint32_t i : canonical) {
+    const uint32_t begin = offsets[i], n = offsets[i + 1] - begin;
+    for (uint32_t k = 0; k < n; ++k)
+      order.push_back(begin + (first[i] + k) % n);
+  }
+  return order;
+}
+
 void apply_face_map(const Vector<uint32_t>& place, const Vector<uint32_t>& first,
                     Topology* topology) {
-  size_t count = place.size();
-  Vector<uint32_t> canonical(count);  // of each source polygon
-  for (size_t i = 0; i < count; ++i)
-    canonical[place[i]] = static_cast<uint32_t>(i);
-  Vector<uint32_t> offsets{0}, corners;
-  corners.reserve(topology->polygon_corners.size());
-  for (uint32_t i : canonical) {
-    uint32_t begin = topology->polygon_offsets[i];
-    uint32_t n = topology->polygon_offsets[i + 1] - begin;
-    for (uint32_t k = 0; k < n; ++k)
-      corners.push_back(topology->polygon_corners[begin + (first[i] + k) % n]);
-    offsets.push_back(static_cast<uint32_t>(corners.size()));
-  }
+  Vector<uint32_t> canonical(place.size());  // of each source polygon
+  for (uint32_t i = 0; i < place.size(); ++i)
+    canonical[place[i]] = i;
+  Vector<uint32_t> corners = corner_order(canonical, first, topology->polygon_offsets);
+  for (uint32_t& c : corners)
+    c = topology->polygon_corners[c];
+  Vector<uint32_t> offsets{0};
+  offsets.reserve(topology->polygon_offsets.size());
+  for (uint32_t i : canonical)
+    offsets.push_back(offsets.back() + topology->polygon_offsets[i + 1] -
+                      topology->polygon_offsets[i]);
   topology->polygon_offsets.swap(offsets);
   topology->polygon_corners.swap(corners);
 }

@@ -46,6 +46,11 @@ Status decode_face_map(format::ByteView bytes, const Topology& topology, Vector<
 /// Renumbers vertices into the source's order.
 void apply_vertex_map(const Vector<uint32_t>& source, Topology* topology);
 
+/// Which canonical corner comes at each place once polygons are reordered, canonical[i] to place i,
+/// and rotated to begin with corner first[canonical[i]].
+Vector<uint32_t> corner_order(const Vector<uint32_t>& canonical, const Vector<uint32_t>& first,
+                              const Vector<uint32_t>& offsets);
+
 /// Reorders polygons and rotates their corners into the source's order.
 void apply_face_map(const Vector<uint32_t>& place, const Vector<uint32_t>& first,
                     Topology* topology);

@@ -292,14 +292,11 @@ uint64_t content_hash(const MeshSequence& sequence) {
     hash.add_value(attribute.components);
     hash.add(attribute.values);
   }
-  for (const std::string& material : sequence.materials)
-    hash.add(material);
-  hash.add(sequence.polygon_materials);
-  for (const MeshPart& part : sequence.parts) {
-    hash.add(part.mesh);
-    hash.add(part.node);
-    hash.add_value(part.first_vertex);
-    hash.add_value(part.first_polygon);
+  hash.add(sequence.shared_normals);
+  for (const PolygonLabels* labels : {&sequence.materials, &sequence.parts}) {
+    for (const std::string& name : labels->names)
+      hash.add(name);
+    hash.add(labels->of_polygon);
   }
   return hash.digest();
 }

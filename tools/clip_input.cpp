@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/clip_input.h"
 
+#include "codec/attribute_encode.h"
 #include "format/container.h"
 #include "tools/io/byte_source.h"
 
@@ -94,6 +95,7 @@ MeshSequence describe_clip(const Clip& clip) {
   sequence.times.assign(record.times.begin(), record.times.end());
   sequence.up = static_cast<UpAxis>(record.up);
   sequence.metres_per_unit = record.metres_per_unit;
+  restore_attributes(clip.meshes()[0].attributes, &sequence);
   return sequence;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/error.h"
+#include "codec/frame_normals.h"
 #include "codec/hausdorff.h"
 #include "codec/massage_quality.h"
 #include "codec/metrics.h"
@@ -36,18 +37,19 @@ the one of --mesh, or a scene (.gltf, .glb), which is baked at the rate of the o
 where the files of both say which axis points up.
 
 Clips of equally many vertices are compared vertex by vertex: KG error and RMSE over all frames, the
-largest error and where it is, PSNR against the diagonal, STED (edges in space and time), and the
-error of the moves from frame to frame. If the vertices differ in number, or in order because an
-.anic file was encoded with --order free, or with --surface, the distance of the surfaces is
+largest error and where it is, PSNR against the diagonal, STED (edges in space and time), the error
+of the moves from frame to frame, and for equal faces how far normals turn (with the hard edges
+of A, where they are known). If the vertices differ in number, or in order because an .anic file was
+encoded with --order free, or with --surface, the distance of the surfaces is
 measured (Hausdorff) and the shapes of the triangles.
 
 --json prints one object: a, b, vertices, faces, frames, diagonal, bytes, bpfv (of B if it is an
 .anic file), method (vertices or surface), kg, rmse, max_error, max_error_percent, max_frame,
-max_vertex, psnr, sted, sted_spatial, sted_temporal, displacement_error, hausdorff,
-hausdorff_percent, hausdorff_frame, hausdorff_mean, hausdorff_rms, radius_ratio_a, radius_ratio_b
-(of the triangles, 1 if equilateral), conformal_mean, conformal_max, area_mean, area_max (how much B
-changes the triangles of A, 1 if not; for equal faces), note. What was not measured is
-null, and so is an infinite PSNR.
+max_vertex, psnr, sted, sted_spatial, sted_temporal, displacement_error, normal_error_mean,
+normal_error_max (degrees), hausdorff, hausdorff_percent, hausdorff_frame, hausdorff_mean,
+hausdorff_rms, radius_ratio_a, radius_ratio_b (of the triangles, 1 if equilateral), conformal_mean,
+conformal_max, area_mean, area_max (how much B changes the triangles of A, 1 if not; for equal
+faces), note. What was not measured is null, and so is an infinite PSNR.
 
 Examples:
   anicodec compare dance.pc2 dance.anic
@@ -66,6 +68,7 @@ struct Measured {
   std::optional<Comparison> vertices;
   std::optional<SurfaceComparison> surface;
   std::optional<TriangleComparison> triangles;
+  std::optional<NormalError> normals;
   std::string note;
 };
 
@@ -157,6 +160,8 @@ Measured measure(const ComparedClip& a, const ComparedClip& b, const CompareComm
     m.vertices = compare(p.polygons, p.vertex_count, frames, watched(a.frames(), frames, line),
                          frames_of_b(), options);
     m.diagonal = m.vertices->diagonal;
+    if (m.note.empty())  // the same faces
+      m.normals = normal_error(p, a.frames(), frames_of_b());
   }
   if (!by_vertex || command.surface) {
     m.surface = compare_surfaces(p.polygons, watched(a.frames(), frames, line), q.polygons,
@@ -199,6 +204,8 @@ void print_json(const ComparedClip& a, const ComparedClip& b, const Measured& m)
                           "sted_spatial",
                           "sted_temporal",
                           "displacement_error",
+                          "normal_error_mean",
+                          "normal_error_max",
                           "hausdorff",
                           "hausdorff_percent",
                           "hausdorff_frame",
@@ -225,6 +232,10 @@ void print_json(const ComparedClip& a, const ComparedClip& b, const Measured& m)
       json["sted_temporal"] = c->sted.temporal;
     }
     json["displacement_error"] = c->displacement_error;
+  }
+  if (const auto& n = m.normals) {
+    json["normal_error_mean"] = n->mean;
+    json["normal_error_max"] = n->max;
   }
   if (const auto& s = m.surface) {
     json["hausdorff"] = s->total.max();
@@ -267,6 +278,8 @@ void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
       row("STED", fmt::format("{:.4g}", c->sted.sted));
     row("displacement error", fmt::format("{:.4g}", c->displacement_error));
   }
+  if (const auto& n = m.normals)
+    row("normal error", fmt::format("{:.3g} degrees on average, {:.3g} at most", n->mean, n->max));
   if (const auto& s = m.surface) {
     row("Hausdorff distance", fmt::format("{:.4g} ({:.3g} %) at frame {}", s->total.max(),
                                           s->percent(s->total.max()), s->max_frame));

@@ -52,6 +52,9 @@ vertex cache with its mesh, and every run of numbered frames, of a list a clip p
 separated by tabs. Clips that are done already, by the content of what goes in and comes out, are
 left alone; one that fails does not stop the others.
 
+Texture coordinates, colours, materials and objects are kept, as they are in the first frame. Of
+normals the hard edges are: normals come from the positions of a frame.
+
 A LEN is in scene units (0.02), or in per cent of the diagonal of the box around all frames (0.05%).
 Give one target; --max-error may stand beside any other as a cap. Without a target it is
 --max-error 0.05%: no vertex of any frame is further off. --keyframes alone sets no target: the
@@ -93,6 +96,8 @@ struct EncodeCommand {
   std::string rate, unit;
   UpAxis up = UpAxis::kUnknown;
   bool loop = false;
+  bool no_attributes = false;
+  AttributeOptions attributes;
   bool json = false;
 };
 
@@ -142,6 +147,8 @@ EncodeOptions options_of(const EncodeCommand& command) {
   options.interpolation = command.interpolation;
   options.order = command.order;
   options.mesh_coder = command.mesh_coder;
+  options.attributes = command.attributes;
+  options.attributes.keep = !command.no_attributes;
   options.effort = command.effort;
   options.encoder = fmt::format("anicodec {}", version());
   set_target(command, options);
@@ -273,6 +280,9 @@ std::string settings_of(const EncodeCommand& c, const EncodeOptions& options) {
     settings.push_back(choice);
   settings.push_back(c.massage_strength);
   settings.push_back(c.massage_tolerance);
+  for (uint32_t number : {uint32_t{options.attributes.keep}, options.attributes.uv_bits,
+                          options.attributes.colour_bits, uint32_t{options.attributes.normals}})
+    settings.push_back(number);
   return settings.dump();
 }
 
@@ -464,6 +474,26 @@ void add_encode(CLI::App& app, CommonOptions& common) {
                    "How far the surface may move anywhere (default: as far as it needs)")
       ->option_text("LEN")
       ->group(massage);
+
+  const char* attributes = "Attributes";
+  command->add_flag("--no-attributes", c->no_attributes, "Positions and faces alone")
+      ->group(attributes);
+  command
+      ->add_option("--uv-bits", c->attributes.uv_bits,
+                   "Texture coordinates in steps of 2^-N (default 12)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 24))
+      ->group(attributes);
+  command
+      ->add_option("--colour-bits", c->attributes.colour_bits,
+                   "Of a component of a colour (default 8)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 16))
+      ->group(attributes);
+  command
+      ->add_flag("--store-normals", c->attributes.normals,
+                 "Normals of the first frame as numbers, not only the hard edges")
+      ->group(attributes);
 
   const char* metadata = "Metadata (positions stay as they are)";
   command

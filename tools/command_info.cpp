@@ -25,9 +25,9 @@ resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at 
 for each instance), format, encoder, name, vertices, coded_vertices, faces, frames, fps,
 fps_assumed, start_time, loop, closed (the last frame repeats the first), up, metres_per_unit,
 order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg, massaged,
-surface_error, surface_error_mean, segments (basis, reconstruction, first_frame, frames, components,
-corrections), chunks (type, offset, size, required, mesh, segment). Lengths are in scene units,
-errors those the encoder measured.)";
+surface_error, surface_error_mean, attributes (kind, of, name, components, labels), segments (basis,
+reconstruction, first_frame, frames, components, corrections), chunks (type, offset, size, required,
+mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
 
 struct InfoCommand {
   std::string input;
@@ -86,6 +86,13 @@ void print_json(const std::string& path, const Contents& c) {
   json["massaged"] = record.massaged;
   json["surface_error"] = record.surface_error;
   json["surface_error_mean"] = record.surface_error_mean;
+  json["attributes"] = nlohmann::ordered_json::array();
+  for (const MeshAttribute& a : c.clip.meshes()[0].attributes)
+    json["attributes"].push_back({{"kind", name_of(a.header.kind)},
+                                  {"of", name_of(a.header.domain)},
+                                  {"name", a.header.name},
+                                  {"components", a.header.components()},
+                                  {"labels", a.header.labels}});
   json["segments"] = nlohmann::ordered_json::array();
   for (const format::Limits::Segment& s : limits.segments)
     json["segments"].push_back({{"basis", name_of(s.kind)},
@@ -157,6 +164,18 @@ std::string printable(std::string_view name) {
   return text;
 }
 
+std::string attribute_text(const format::AttributeHeader& a) {
+  std::string text = fmt::format("{} of {}", name_of(a.kind), name_of(a.domain));
+  if (!a.name.empty())
+    text += fmt::format(" \"{}\"", printable(a.name));
+  if (a.domain == format::AttributeDomain::kPolygon)
+    return text + fmt::format(", {} names", a.labels.size());
+  if (a.components() == 0)
+    return text + ": hard edges";
+  return text +
+         fmt::format(", {} components in steps of {:.3g}", a.components(), 1 / a.grids[0].scale);
+}
+
 void print_text(const std::string& path, const Contents& c) {
   const format::ClipRecord& record = c.clip.record();
   const format::Limits& limits = c.clip.limits();
@@ -191,6 +210,8 @@ void print_text(const std::string& path, const Contents& c) {
   if (record.massaged)
     row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
                                 record.surface_error_mean, record.surface_error));
+  for (const MeshAttribute& a : c.clip.meshes()[0].attributes)
+    row("attribute", attribute_text(a.header));
   for (const format::Limits::Segment& s : limits.segments)
     row("segment", fmt::format("frames {}:{}, {} {}{}, {} corrections", s.first_frame,
                                s.first_frame + s.frames, s.components, components_of(s.kind),

@@ -150,6 +150,7 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
   options.pins = pins.vertices;
   MeshSequence clip;
   clip.name = poses.name;
+  static_cast<MeshDetails&>(clip) = poses;
   clip.polygons = poses.polygons;
   clip.vertex_count = poses.vertex_count;
   clip.frame_count = static_cast<uint32_t>(rows.size());

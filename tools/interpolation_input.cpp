@@ -114,6 +114,7 @@ MeshSequence load_poses(std::span<const std::string> arguments, const std::strin
                                                  *frame, sequence.frame_count - 1));
     if (poses.frame_count == 0) {
       poses.name = sequence.name;
+      static_cast<MeshDetails&>(poses) = sequence;
       poses.polygons = sequence.polygons;
       poses.vertex_count = sequence.vertex_count;
       poses.up = sequence.up;

@@ -41,6 +41,8 @@ void list_limits(FieldReader& r) {
       r.varint(fmt::format("segment {} bytes of msgi for a frame", i));
     }
   }
+  for (uint64_t i = 0; i < meshes && r.ok() && r.remaining() > 0; ++i)
+    r.varint(fmt::format("mesh {} attribute bytes", i));
 }
 
 /// The number of frames is in another chunk: the table of times, when there is one, is what is left
@@ -97,6 +99,28 @@ void list_segment(FieldReader& r) {
     r.block(name);
 }
 
+void list_attributes(FieldReader& r) {
+  const uint64_t count = r.varint("attributes");
+  for (uint64_t i = 0; i < count && r.ok(); ++i) {
+    auto name = [i](std::string_view field) { return fmt::format("attribute {} {}", i, field); };
+    r.explain(name_of(static_cast<format::AttributeKind>(r.u8(name("kind")))));
+    const auto domain = static_cast<format::AttributeDomain>(r.u8(name("domain")));
+    r.explain(name_of(domain));
+    r.text(name("name"));
+    const bool has_labels = domain == format::AttributeDomain::kPolygon;
+    const uint64_t entries = r.varint(name(has_labels ? "labels" : "components"));
+    for (uint64_t k = 0; k < entries && r.ok(); ++k) {
+      if (has_labels) {
+        r.text(name(fmt::format("label {}", k)));
+      } else {
+        r.f64(name(fmt::format("origin {}", k)));
+        r.f64(name(fmt::format("scale {}", k)));
+      }
+    }
+  }
+  r.bytes("values", r.remaining());
+}
+
 void list_payload(const Chunk& chunk, ByteView payload, uint32_t frames,
                   std::vector<ListedField>& out) {
   FieldReader r(payload, chunk.offset, out);
@@ -110,6 +134,8 @@ void list_payload(const Chunk& chunk, ByteView payload, uint32_t frames,
     list_pose(r);
   else if (chunk.type == chunk_type("SEGM"))
     list_segment(r);
+  else if (chunk.type == chunk_type("ATTR"))
+    list_attributes(r);
   else
     return r.rest("data");
   r.rest(kUnread);

@@ -5,6 +5,7 @@
 #ifndef ANICODEC_TOOLS_NAMES_H_
 #define ANICODEC_TOOLS_NAMES_H_
 
+#include "format/attribute_record.h"
 #include "format/records.h"
 
 #include <cstdint>
@@ -70,6 +71,38 @@ inline const char* name_of(format::ErrorMetric metric) {
       return "size";
     case format::ErrorMetric::kBpfv:
       return "bpfv";
+  }
+  return "unknown";
+}
+
+inline const char* name_of(format::AttributeKind kind) {
+  switch (kind) {
+    case format::AttributeKind::kUv:
+      return "uv";
+    case format::AttributeKind::kNormal:
+      return "normal";
+    case format::AttributeKind::kTangent:
+      return "tangent";
+    case format::AttributeKind::kColour:
+      return "colour";
+    case format::AttributeKind::kCustom:
+      return "custom";
+    case format::AttributeKind::kMaterial:
+      return "material";
+    case format::AttributeKind::kPart:
+      return "part";
+  }
+  return "unknown";
+}
+
+inline const char* name_of(format::AttributeDomain domain) {
+  switch (domain) {
+    case format::AttributeDomain::kVertex:
+      return "vertices";
+    case format::AttributeDomain::kCorner:
+      return "corners";
+    case format::AttributeDomain::kPolygon:
+      return "faces";
   }
   return "unknown";
 }

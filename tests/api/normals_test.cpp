@@ -140,6 +140,28 @@ TEST(AnicNormals, RangesFormatsAndStridesAgree) {
   EXPECT_EQ(anic_normals_compute(normals.get(), p.data(), 0, n, 1, &output), ANIC_E_ARGUMENT);
 }
 
+TEST(AnicNormals, AreHardWhereTheSourceWas) {
+  const Asset asset = open(encoded_clip("painted_box", BasisChoice::kKeyframes));
+  anic_normal_options options = {};
+  options.per_corner = 1;
+  auto distinct = [&] {
+    anic_normals* made = nullptr;
+    EXPECT_EQ(anic_normals_create(asset.get(), 0, &options, nullptr, &made), ANIC_OK);
+    const Normals normals(made);
+    const std::vector<float> n = compute(normals, frame(asset, 0));
+    anic_polygons polygons;
+    EXPECT_EQ(anic_mesh_polygons(asset.get(), 0, &polygons), ANIC_OK);
+    std::set<std::vector<float>> of_vertex;
+    for (uint32_t c = 0; c < anic_normals_count(normals.get()); ++c)
+      of_vertex.insert({static_cast<float>(polygons.corners[c]), n[size_t{3} * c],
+                        n[size_t{3} * c + 1], n[size_t{3} * c + 2]});
+    return of_vertex.size();
+  };
+  EXPECT_EQ(distinct(), 98U);  // smooth: a normal for each vertex
+  options.source_edges = 1;
+  EXPECT_EQ(distinct(), 6U * 25);  // every side of the box for itself
+}
+
 TEST(AnicNormals, AreUnitVectorsForAnyMesh) {
   for (const auto& [name, basis] : cases()) {
     SCOPED_TRACE(name);

@@ -176,6 +176,7 @@ inline const std::vector<std::pair<std::string, BasisChoice>>& cases() {
       {"points", BasisChoice::kEigenshapes},
       {"uneven", BasisChoice::kEigenshapes},
       {"soup", BasisChoice::kAuto},
+      {"painted_box", BasisChoice::kKeyframes},
       {"cuts", BasisChoice::kAuto}};
   return all;
 }

@@ -123,10 +123,7 @@ ordered_json measure(const std::string& word, const BenchOptions& options, doubl
   MeshSequence sequence = bake_gltf(document, {.rate = rate, .clip = animation});
   const uint64_t raw = raw_bytes(document, sequence.name);
   // Neither side stores anything but positions and faces.
-  sequence.attributes.clear();
-  sequence.parts.clear();
-  sequence.materials.clear();
-  sequence.polygon_materials.clear();
+  static_cast<MeshDetails&>(sequence) = {};
   const TimedEncode timed =
       encode_timed(sequence, {format::ErrorMetric::kKg, kg, false}, options.basis, options.effort,
                    options.verbose, format::OrderMode::kVertices);

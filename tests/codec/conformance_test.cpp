@@ -67,7 +67,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Vector{"uneven_times.anic", "uneven"},
                     Vector{"leftovers_plain.anic", "leftovers"},
                     Vector{"one_frame.anic", "one_frame"}, Vector{"one_vertex.anic", "one_vertex"},
-                    Vector{"nonmanifold_interpolated.anic", "nonmanifold"}),
+                    Vector{"nonmanifold_interpolated.anic", "nonmanifold"},
+                    Vector{"painted_box.anic", "painted_box"}),
     [](const auto& vector) {
       return std::string(vector.param.file, std::string(vector.param.file).find('.'));
     });

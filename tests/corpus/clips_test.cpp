@@ -341,6 +341,18 @@ TEST(Clips, PolygonsMixTrianglesQuadsAndPentagons) {
   EXPECT_EQ(box.vertex_count, 152U);
 }
 
+TEST(Clips, ThePaintedBoxHasAttributesOfEveryDomain) {
+  MeshSequence s = make_clip("painted_box");
+  ASSERT_EQ(s.attributes.size(), 2U);
+  EXPECT_EQ(s.attributes[0].values.size(), 2 * s.polygons.corners.size());
+  EXPECT_EQ(s.attributes[1].values.size(), 3 * size_t{s.vertex_count});
+  EXPECT_EQ(s.shared_normals.size(), s.polygons.corners.size());
+  // Every side has its vertices for itself.
+  EXPECT_EQ(std::set<uint32_t>(s.shared_normals.begin(), s.shared_normals.end()).size(), 6U * 25);
+  EXPECT_EQ(s.materials.of_polygon.size(), s.polygons.size());
+  EXPECT_EQ(s.parts.of_polygon.size(), s.polygons.size());
+}
+
 TEST(Clips, SoupWeldsToASixthOfItsVertices) {
   MeshSequence s = make_clip("soup");
   EXPECT_EQ(s.vertex_count, 3 * s.polygons.size());

@@ -178,6 +178,17 @@ inline void look(const anic_asset* asset, Script script) {
     require(anic_mesh_copies(asset, m, &copies) == ANIC_OK);
     for (uint32_t v = 0; v < sizes.vertex_count; ++v)
       require(copies[v] < sizes.coded_vertex_count);
+    for (uint32_t i = 0; i < sizes.attribute_count; ++i) {
+      anic_attribute a;
+      require(anic_mesh_attribute(asset, m, i, &a) == ANIC_OK);
+      require(a.components > 0 ? a.values != nullptr : a.labels != nullptr || a.count == 0);
+      for (uint32_t k = 0; k < a.label_count; ++k)
+        require(anic_attribute_label(asset, m, i, k) != nullptr);
+      for (uint64_t k = 0; k < uint64_t{a.count} * a.components; ++k)
+        require(std::isfinite(a.values[k]));
+      for (uint32_t k = 0; k < a.count && a.domain == ANIC_POLYGONS; ++k)
+        require(a.labels[k] <= a.label_count);
+    }
     for (uint32_t p = 0; p < polygons.polygon_count; ++p)
       require(polygons.offsets[p] <= polygons.offsets[p + 1]);
     require(polygons.offsets[polygons.polygon_count] == sizes.corner_count);

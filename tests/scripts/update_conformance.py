@@ -35,6 +35,7 @@ VECTORS = [
     ("one_frame.anic", "one_frame", "--kg 0.5"),
     ("one_vertex.anic", "one_vertex", "--kg 0.5"),
     ("nonmanifold_interpolated.anic", "nonmanifold", "--keyframes 3 --interpolation msgi --mesh-coder plain"),
+    ("painted_box.anic", "painted_box", "--kg 0.5 --order all --basis keyframes"),
 ]
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 # Codes that a file can cause, with the names of spec/12-errors.md.
@@ -42,7 +43,7 @@ CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-error
 POINTS = 24  # of the manifest, for each file
 # Files whose chunks tests/fuzz/chunk_fuzz.cpp changes, in its order: one for each kind of chunk, quickly decoded.
 FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "quad_box_corrected.anic",
-          "soup_plain.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic"]
+          "soup_plain.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic"]
 
 
 def listing(command, path):

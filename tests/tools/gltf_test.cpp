@@ -63,9 +63,8 @@ TEST(Gltf, TakesASceneWithoutAnimationAsOneFrame) {
   EXPECT_THAT(s.positions, ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0));
   EXPECT_THAT(s.polygons.corners, ElementsAre(0, 1, 2));
   EXPECT_EQ(s.up, UpAxis::kY);
-  ASSERT_THAT(s.parts, SizeIs(1));
-  EXPECT_EQ(s.parts[0].mesh, "triangle");
-  EXPECT_EQ(s.parts[0].node, "object");
+  EXPECT_THAT(s.parts.names, ElementsAre("object"));
+  EXPECT_THAT(s.parts.of_polygon, ElementsAre(0U));
 }
 
 TEST(Gltf, InterpolatesTranslationsLinearly) {
@@ -218,8 +217,8 @@ TEST(Gltf, SharesVerticesOfPrimitivesWithTheSameAccessors) {
   MeshSequence s = parse(scene);
   EXPECT_EQ(s.vertex_count, 3U);
   EXPECT_THAT(s.polygons.corners, ElementsAre(0, 1, 2, 2, 1, 0));
-  EXPECT_THAT(s.materials, ElementsAre("red", "blue"));
-  EXPECT_THAT(s.polygon_materials, ElementsAre(1U, kNoMaterial));
+  EXPECT_THAT(s.materials.names, ElementsAre("red", "blue"));
+  EXPECT_THAT(s.materials.of_polygon, ElementsAre(1U, kNoLabel));
 }
 
 TEST(Gltf, KeepsAttributesAndTurnsNormalsWithTheFirstFrame) {
@@ -234,7 +233,7 @@ TEST(Gltf, KeepsAttributesAndTurnsNormalsWithTheFirstFrame) {
   ASSERT_THAT(s.attributes, SizeIs(3));
   EXPECT_EQ(s.attributes[0].name, "COLOR_0");
   EXPECT_THAT(s.attributes[0].values, ElementsAre(1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1));
-  EXPECT_THAT(s.attributes[1].values, ElementsAre(0, 0, 1, 0, 0, 1));
+  EXPECT_THAT(s.attributes[1].values, ElementsAre(0, 1, 1, 1, 0, 0));  // v upwards
   EXPECT_EQ(s.attributes[2].kind, AttributeKind::kNormal);
   EXPECT_NEAR(s.attributes[2].values[1], -1, 1e-6);
 }
@@ -252,9 +251,8 @@ TEST(Gltf, JoinsTheMeshesOfASceneOrTakesTheOneNamed) {
   GltfScene scene = two_meshes();
   MeshSequence s = parse(scene);
   EXPECT_THAT(s.polygons.corners, ElementsAre(0, 1, 2, 3, 4, 5));
-  ASSERT_THAT(s.parts, SizeIs(2));
-  EXPECT_EQ(s.parts[1].first_vertex, 3U);
-  EXPECT_EQ(s.parts[1].first_polygon, 1U);
+  EXPECT_THAT(s.parts.names, ElementsAre("object", "second"));
+  EXPECT_THAT(s.parts.of_polygon, ElementsAre(0U, 1U));
   GltfOptions options;
   options.mesh = "second";
   EXPECT_THAT(vertex(parse(scene, options), 0, 0), ElementsAre(9, 0, 0));

@@ -96,9 +96,12 @@ class Converter {
     primitive.attributes["POSITION"] = vectors(source.mVertices, n);
     if (source.HasNormals())
       primitive.attributes["NORMAL"] = vectors(source.mNormals, n);
-    for (unsigned set = 0; source.HasTextureCoords(set); ++set)
+    for (unsigned set = 0; source.HasTextureCoords(set); ++set) {
+      for (unsigned v = 0; v < n; ++v)  // glTF's v points down
+        source.mTextureCoords[set][v].y = 1 - source.mTextureCoords[set][v].y;
       primitive.attributes["TEXCOORD_" + std::to_string(set)] =
           vectors(source.mTextureCoords[set], n, 2);
+    }
     for (unsigned set = 0; source.HasVertexColors(set); ++set) {
       std::vector<float> colours;
       for (unsigned v = 0; v < n; ++v) {

@@ -3,6 +3,7 @@
 #include "tools/io/glb_output.h"
 
 #include "codec/error.h"
+#include "codec/frame_normals.h"
 #include "tools/io/byte_order.h"
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -168,19 +171,93 @@ class Buffer {
   Json views_ = Json::array(), accessors_ = Json::array();
 };
 
+/// The vertices of the GLB: those of the clip, where corners at one have different attributes or
+/// normals more than once.
+struct GlbVertices {
+  explicit GlbVertices(const MeshSequence& clip) : of_corner(clip.polygons.corners.size()) {
+    std::vector<std::span<const float>> of_corners;
+    for (const Attribute& a : clip.attributes) {
+      if (a.per_corner && is_written(a))
+        of_corners.emplace_back(a.values);
+    }
+    source.resize(clip.vertex_count);
+    std::iota(source.begin(), source.end(), 0U);
+    corner.assign(clip.vertex_count, kNoCorner);
+    std::vector<std::vector<uint32_t>> at(clip.vertex_count);  // copies of each vertex
+    for (uint32_t c = 0; c < of_corner.size(); ++c) {
+      const uint32_t v = clip.polygons.corners[c];
+      auto same = [&](uint32_t copy) {
+        const uint32_t d = corner[copy];
+        if (!clip.shared_normals.empty() && clip.shared_normals[c] != clip.shared_normals[d])
+          return false;
+        return std::ranges::all_of(of_corners, [&](std::span<const float> values) {
+          const size_t n = values.size() / of_corner.size();
+          return std::ranges::equal(values.subspan(n * c, n), values.subspan(n * d, n));
+        });
+      };
+      const auto found = std::ranges::find_if(at[v], same);
+      if (found != at[v].end()) {
+        of_corner[c] = *found;
+        continue;
+      }
+      of_corner[c] = at[v].empty() ? v : static_cast<uint32_t>(source.size());
+      if (!at[v].empty()) {
+        source.push_back(v);
+        corner.push_back(c);
+      }
+      corner[of_corner[c]] = c;
+      at[v].push_back(of_corner[c]);
+    }
+  }
+
+  static bool is_written(const Attribute& a) {
+    return (a.kind == AttributeKind::kUv && a.components == 2) ||
+           (a.kind == AttributeKind::kColour && (a.components == 3 || a.components == 4));
+  }
+
+  uint32_t count() const { return static_cast<uint32_t>(source.size()); }
+
+  /// Values of the clip's vertices at those of the GLB.
+  std::vector<float> of_vertices(std::span<const float> values, size_t components) const {
+    std::vector<float> out;
+    out.reserve(components * source.size());
+    for (uint32_t v : source)
+      out.insert(out.end(), values.begin() + static_cast<ptrdiff_t>(components * v),
+                 values.begin() + static_cast<ptrdiff_t>(components * (v + size_t{1})));
+    return out;
+  }
+
+  /// Values of corners at the vertices of the GLB; 0 where there is no corner.
+  std::vector<float> of_corners(std::span<const float> values, size_t components) const {
+    std::vector<float> out;
+    out.reserve(components * source.size());
+    for (uint32_t c : corner) {
+      for (size_t i = 0; i < components; ++i)
+        out.push_back(c == kNoCorner ? 0 : values[components * c + i]);
+    }
+    return out;
+  }
+
+  static constexpr uint32_t kNoCorner = UINT32_MAX;
+  std::vector<uint32_t> source;     ///< vertex of the clip
+  std::vector<uint32_t> corner;     ///< a corner of the clip, or kNoCorner
+  std::vector<uint32_t> of_corner;  ///< vertex of the GLB at each corner of the clip
+};
+
 /// Corners of the triangles of each material, in order of their first polygon.
-std::vector<std::pair<uint32_t, std::vector<uint32_t>>> triangles_of(const MeshSequence& clip) {
+std::vector<std::pair<uint32_t, std::vector<uint32_t>>> triangles_of(const MeshSequence& clip,
+                                                                     const GlbVertices& vertices) {
   std::vector<std::pair<uint32_t, std::vector<uint32_t>>> groups;
   std::map<uint32_t, size_t> group_of;
+  const std::vector<uint32_t>& materials = clip.materials.of_polygon;
   for (size_t p = 0; p < clip.polygons.size(); ++p) {
-    const uint32_t material =
-        clip.polygon_materials.empty() ? kNoMaterial : clip.polygon_materials[p];
+    const uint32_t material = materials.empty() ? kNoLabel : materials[p];
     auto [found, is_new] = group_of.try_emplace(material, groups.size());
     if (is_new)
       groups.push_back({material, {}});
     std::vector<uint32_t>& corners = groups[found->second].second;
-    const std::span<const uint32_t> polygon = clip.polygons[p];
-    for (size_t i = 2; i < polygon.size(); ++i)
+    const uint32_t* polygon = vertices.of_corner.data() + clip.polygons.offsets[p];
+    for (size_t i = 2; i < clip.polygons[p].size(); ++i)
       corners.insert(corners.end(), {polygon[0], polygon[i - 1], polygon[i]});
   }
   return groups;
@@ -190,24 +267,31 @@ std::vector<std::pair<uint32_t, std::vector<uint32_t>>> triangles_of(const MeshS
 
 class GlbOutput::Writer {
  public:
-  Writer(const MeshSequence& clip, bool step) : clip_(clip), step_(step) {
+  Writer(const MeshSequence& clip, bool step) : clip_(clip), vertices_(clip), step_(step) {
+    if (!clip.shared_normals.empty())
+      normals_.emplace(clip);
     if (clip.frame_count > UINT16_MAX)
       throw Error(ErrorKind::kInput,
                   "a GLB of " + std::to_string(clip.frame_count) +
                       " frames; at most 65535 are possible, whose weights are a table of 2^32");
   }
 
-  void add_frame(std::span<const float> positions) {
-    if (first_.empty()) {
-      first_.assign(positions.begin(), positions.end());
+  void add_frame(std::span<const float> of_clip) {
+    std::vector<float> positions = vertices_.of_vertices(of_clip, 3);
+    std::vector<float> normals = normals_of(of_clip);
+    if (first_positions_.empty()) {
       attributes_["POSITION"] = buffer_.add_floats(positions, 3, kVertexTarget, true);
+      if (!normals.empty())
+        attributes_["NORMAL"] = buffer_.add_floats(normals, 3, kVertexTarget, false);
+      first_positions_ = positions;
+      first_normals_ = normals;
       if (clip_.frame_count == 1)
         return;
     }
-    difference_.resize(positions.size());
-    for (size_t i = 0; i < positions.size(); ++i)
-      difference_[i] = positions[i] - first_[i];
-    targets_.push_back({{"POSITION", buffer_.add_differences(difference_, 3)}});
+    Json target{{"POSITION", add_differences(std::move(positions), first_positions_)}};
+    if (!normals.empty())
+      target["NORMAL"] = add_differences(std::move(normals), first_normals_);
+    targets_.push_back(std::move(target));
   }
 
   std::string finish(std::span<const float> times) {
@@ -217,8 +301,8 @@ class GlbOutput::Writer {
     document["scenes"] = Json::array({{{"nodes", {0}}}});
     document["nodes"] = Json::array({node()});
     document["meshes"] = Json::array({mesh()});
-    if (!clip_.materials.empty() && !clip_.polygon_materials.empty()) {
-      for (const std::string& name : clip_.materials)
+    if (!clip_.materials.of_polygon.empty()) {
+      for (const std::string& name : clip_.materials.names)
         document["materials"].push_back({{"name", name}});
     }
     if (clip_.frame_count > 1)
@@ -228,6 +312,30 @@ class GlbOutput::Writer {
   }
 
  private:
+  size_t add_differences(std::vector<float> values, const std::vector<float>& from) {
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] -= from[i];
+    return buffer_.add_differences(values, 3);
+  }
+
+  /// Normals of the GLB's vertices, none where the clip does not know its hard edges.
+  std::vector<float> normals_of(std::span<const float> of_clip) const {
+    std::vector<float> out;
+    if (!normals_)
+      return out;
+    const std::vector<float> normals = normals_->compute(of_clip);
+    out.reserve(3 * vertices_.corner.size());
+    for (uint32_t c : vertices_.corner) {
+      if (c == GlbVertices::kNoCorner) {
+        out.insert(out.end(), {0, 0, 1});
+        continue;
+      }
+      const float* normal = normals.data() + size_t{3} * normals_->of_corner(c);
+      out.insert(out.end(), normal, normal + 3);
+    }
+    return out;
+  }
+
   Json node() const {
     Json node{{"name", clip_.name}, {"mesh", 0}};
     if (clip_.up == UpAxis::kZ)  // the axes of glTF: Y up
@@ -240,21 +348,25 @@ class GlbOutput::Writer {
   Json mesh() {
     std::map<AttributeKind, int> sets;
     for (const Attribute& attribute : clip_.attributes) {
-      const bool is_uv = attribute.kind == AttributeKind::kUv;
-      if (attribute.per_corner || (!is_uv && attribute.kind != AttributeKind::kColour))
+      if (!GlbVertices::is_written(attribute))
         continue;
-      const std::span<const float> values(attribute.values.data(),
-                                          size_t{clip_.vertex_count} * attribute.components);
-      const std::string name =
-          (is_uv ? "TEXCOORD_" : "COLOR_") + std::to_string(sets[attribute.kind]++);
-      attributes_[name] = buffer_.add_floats(values, attribute.components, kVertexTarget, false);
+      const size_t n = attribute.components;
+      const std::string name = (attribute.kind == AttributeKind::kUv ? "TEXCOORD_" : "COLOR_") +
+                               std::to_string(sets[attribute.kind]++);
+      std::vector<float> values = attribute.per_corner ? vertices_.of_corners(attribute.values, n)
+                                                       : vertices_.of_vertices(attribute.values, n);
+      if (attribute.kind == AttributeKind::kUv) {  // glTF's v points down
+        for (size_t i = 1; i < values.size(); i += 2)
+          values[i] = 1 - values[i];
+      }
+      attributes_[name] = buffer_.add_floats(values, n, kVertexTarget, false);
     }
     Json mesh{{"name", clip_.name}, {"primitives", Json::array()}};
-    for (const auto& [material, corners] : triangles_of(clip_)) {
+    for (const auto& [material, corners] : triangles_of(clip_, vertices_)) {
       Json& primitive = mesh["primitives"].emplace_back(Json::object());
       primitive["mode"] = kTriangles;
-      primitive["indices"] = buffer_.add_indices(corners, clip_.vertex_count);
-      if (material != kNoMaterial)
+      primitive["indices"] = buffer_.add_indices(corners, vertices_.count());
+      if (material != kNoLabel)
         primitive["material"] = material;
     }
     if (mesh["primitives"].empty())
@@ -312,9 +424,11 @@ class GlbOutput::Writer {
   }
 
   const MeshSequence& clip_;
+  const GlbVertices vertices_;
+  std::optional<FrameNormals> normals_;  ///< of clips that know their hard edges
   const bool step_;
   Buffer buffer_;
-  std::vector<float> first_, difference_;
+  std::vector<float> first_positions_, first_normals_;
   Json attributes_, targets_ = Json::array();
 };
 

@@ -14,9 +14,10 @@ namespace anicodec::tools {
 /// Makes a GLB of a clip, frame by frame. The mesh is the first frame; each frame is a morph
 /// target, stored sparsely where that is smaller, and an animation gives each its turn at its time.
 /// A single frame is a mesh alone. Polygons become fans of triangles, a primitive for each
-/// material; UV sets and colours of vertices are written, those of corners are not. Clips whose up
-/// axis is Z are turned, and units scaled, by the node. Positions read back within a rounding of
-/// float32.
+/// material; vertices whose corners differ in UV, colours or hard edges come once for each. Clips
+/// whose up axis is Z are turned, and units scaled, by the node. Normals of every frame come along
+/// where the clip knows its hard edges. Positions read back within a
+/// rounding of float32.
 class GlbOutput {
  public:
   /// `step`: each frame stands until the next, instead of moving to it. Takes counts, polygons,

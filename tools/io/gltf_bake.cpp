@@ -134,10 +134,7 @@ GltfBake::GltfBake(const GltfDocument& document, const std::string& mesh) : docu
 void GltfBake::add_node(uint32_t n) {
   const GltfNode& node = document_.nodes[n];
   const GltfMesh& mesh = document_.meshes[node.mesh];
-  MeshPart part{
-      .mesh = mesh.name, .node = node.name, .first_vertex = static_cast<uint32_t>(vertex_count_)};
-  if (!parts_.empty())
-    part.first_polygon = parts_.back().first_polygon + parts_.back().polygon_count;
+  size_t polygons = 0;
   const size_t first_piece = pieces_.size();
   for (size_t p = 0; p < mesh.primitives.size(); ++p) {
     const GltfPrimitive& primitive = mesh.primitives[p];
@@ -162,12 +159,16 @@ void GltfBake::add_node(uint32_t n) {
     }
     if (piece.owns_vertices)
       vertex_count_ += piece.geometry->vertices.count;
-    part.polygon_count += static_cast<uint32_t>(piece.geometry->triangles.size() / 3);
+    polygons += piece.geometry->triangles.size() / 3;
     pieces_.push_back(std::move(piece));
   }
-  part.vertex_count = static_cast<uint32_t>(vertex_count_) - part.first_vertex;
-  if (pieces_.size() > first_piece)
-    parts_.push_back(std::move(part));
+  if (pieces_.size() == first_piece)
+    return;
+  const std::string& name = node.name.empty() ? mesh.name : node.name;
+  const auto label = static_cast<uint32_t>(parts_.names.size());
+  parts_.of_polygon.insert(parts_.of_polygon.end(), polygons, name.empty() ? kNoLabel : label);
+  if (!name.empty())
+    parts_.names.push_back(name);
 }
 
 bool GltfBake::is_skinned(const Piece& piece) const {
@@ -199,9 +200,9 @@ MeshSequence GltfBake::still() const {
   out.up = UpAxis::kY;
   out.metres_per_unit = 1;
   out.parts = parts_;
-  if (out.parts.size() == 1 && out.parts[0].mesh.empty() && out.parts[0].node.empty())
-    out.parts.clear();
-  out.materials = document_.materials;
+  if (out.parts.names.empty())
+    out.parts.of_polygon.clear();
+  out.materials.names = document_.materials;
 
   std::map<std::string, Attribute> attributes;
   for (const Piece& piece : pieces_) {
@@ -213,9 +214,10 @@ MeshSequence GltfBake::still() const {
                                   triangles[i + 2] + piece.first_vertex};
       out.polygons.add(corners);
     }
-    static_assert(kNoMaterial == kGltfNone);
-    out.polygon_materials.insert(out.polygon_materials.end(), triangles.size() / 3,
-                                 document_.meshes[piece.mesh].primitives[piece.primitive].material);
+    static_assert(kNoLabel == kGltfNone);
+    std::vector<uint32_t>& materials = out.materials.of_polygon;
+    materials.insert(materials.end(), triangles.size() / 3,
+                     document_.meshes[piece.mesh].primitives[piece.primitive].material);
     auto add = [&](const auto& sets, AttributeKind kind, uint32_t components) {
       for (const auto& [name, values] : sets) {
         Attribute& attribute = attributes[name];
@@ -227,6 +229,12 @@ MeshSequence GltfBake::still() const {
         std::copy(values.begin(), values.end(),
                   attribute.values.begin() +
                       static_cast<std::ptrdiff_t>(size_t{piece.first_vertex} * components));
+        if (kind == AttributeKind::kUv) {  // glTF's v points down
+          for (size_t v = 0; v < vertices.count; ++v) {
+            float& value = attribute.values[2 * (piece.first_vertex + v) + 1];
+            value = 1 - value;
+          }
+        }
       }
     };
     add(vertices.uvs, AttributeKind::kUv, 2);
@@ -234,8 +242,8 @@ MeshSequence GltfBake::still() const {
   }
   for (auto& [name, attribute] : attributes)
     out.attributes.push_back(std::move(attribute));
-  if (out.materials.empty())
-    out.polygon_materials.clear();
+  if (out.materials.names.empty())
+    out.materials.of_polygon.clear();
   return out;
 }
 

@@ -52,7 +52,7 @@ class GltfBake {
   std::vector<uint32_t> order_;  ///< nodes, parents first
   std::vector<Piece> pieces_;
   std::vector<std::vector<float>> inverse_binds_;  ///< of each skin, joints x 16
-  std::vector<MeshPart> parts_;
+  PolygonLabels parts_;
   uint64_t vertex_count_ = 0;
 };
 

@@ -80,11 +80,12 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
 /// Parses one mesh after the other with the same memory.
 class MeshReader {
  public:
-  const Mesh& read(const std::string& path) {
+  /// `details`, where given, receives what stands beside the positions.
+  const Mesh& read(const std::string& path, MeshDetails* details = nullptr) {
     read_file(path, bytes_);
     switch (kind_of(path)) {
       case FileKind::kObj:
-        parse_obj(bytes_, path, mesh_);
+        parse_obj(bytes_, path, mesh_, details);
         break;
       case FileKind::kPly:
         parse_ply(bytes_, path, mesh_);
@@ -148,7 +149,7 @@ void load_frames(const std::vector<std::string>& paths, const LoadOptions& optio
                  MeshSequence& sequence) {
   MeshReader reader;
   for (size_t f = 0; f < paths.size(); ++f) {
-    const Mesh& mesh = reader.read(paths[f]);
+    const Mesh& mesh = reader.read(paths[f], f == 0 ? &sequence : nullptr);
     if (f == 0) {
       sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
       sequence.polygons = mesh.polygons;
@@ -202,7 +203,7 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
   VertexCache cache = kind_of(cache_path) == FileKind::kPc2 ? open_pc2(source) : open_mdd(source);
   {
     MeshReader reader;
-    const Mesh& mesh = reader.read(mesh_path);
+    const Mesh& mesh = reader.read(mesh_path, &sequence);
     if (mesh.vertex_count() != cache.vertex_count)
       fail_input(cache_path, std::to_string(cache.vertex_count) + " vertices, but the mesh " +
                                  mesh_path + " has " + std::to_string(mesh.vertex_count()));
@@ -257,7 +258,7 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
   else if (std::string_view(bytes).substr(0, 16).find("OFF") != std::string_view::npos)
     parse_off(bytes, "-", mesh);
   else
-    parse_obj(bytes, "-", mesh);
+    parse_obj(bytes, "-", mesh, &sequence);
   sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
   sequence.frame_count = 1;
   sequence.polygons = std::move(mesh.polygons);

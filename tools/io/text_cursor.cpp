@@ -45,6 +45,17 @@ void TextCursor::skip_line() {
   }
 }
 
+std::string_view TextCursor::rest_of_line() {
+  if (at_line_end())
+    return {};
+  const char *first = next_, *last = next_;
+  for (; next_ != end_ && *next_ != '\n' && *next_ != '\r' && !is_comment(*next_); ++next_) {
+    if (*next_ != ' ' && *next_ != '\t')
+      last = next_ + 1;
+  }
+  return {first, static_cast<size_t>(last - first)};
+}
+
 std::string_view TextCursor::word(const char* what) {
   if (at_line_end())
     fail_missing(what);

@@ -47,6 +47,9 @@ class TextCursor {
   /// Passes over the rest of this line, continuations included.
   void skip_line();
 
+  /// The rest of this line without blanks around it, up to a comment. Joins no other line.
+  std::string_view rest_of_line();
+
   /// The next word of this line; throws where there is none. `what` names it in the message.
   std::string_view word(const char* what);
 

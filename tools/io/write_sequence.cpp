@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <bit>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace anicodec::tools {
@@ -28,7 +29,7 @@ namespace {
 }
 
 void append_mesh(FileKind kind, const Polygons& polygons, std::span<const float> positions,
-                 bool ascii, std::string& out) {
+                 bool ascii, const ObjDetails* details, std::string& out) {
   switch (kind) {
     case FileKind::kPly:
       return append_ply(polygons, positions, ascii, out);
@@ -37,7 +38,7 @@ void append_mesh(FileKind kind, const Polygons& polygons, std::span<const float>
     case FileKind::kStl:
       return append_stl(polygons, positions, ascii, out);
     default:
-      return append_obj(polygons, positions, out);
+      return append_obj(polygons, positions, out, details);
   }
 }
 
@@ -104,7 +105,8 @@ void write_cache(const std::string& path, const MeshSequence& clip, const Frames
     files[0].write(bytes);
     bytes.clear();
     if (f == 0) {
-      append_obj(clip.polygons, positions, bytes);
+      const ObjDetails details(clip);
+      append_obj(clip.polygons, positions, bytes, &details);
       files[1].write(bytes);
       files[1].close();
       bytes.clear();
@@ -127,10 +129,14 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
                   const Frames& frames, const WriteOptions& options) {
   std::vector<AtomicFile> files;
   std::string bytes;
+  std::optional<ObjDetails> details;
+  if (kind == FileKind::kObj)
+    details.emplace(clip);
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
     AtomicFile& file =
         files.emplace_back(pattern.name(uint64_t{options.first_number} + f), options.overwrite);
-    append_mesh(kind, clip.polygons, frames(f), options.ascii, bytes);
+    append_mesh(kind, clip.polygons, frames(f), options.ascii, details ? &*details : nullptr,
+                bytes);
     file.write(bytes);
     file.close();
     bytes.clear();

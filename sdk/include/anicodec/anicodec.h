@@ -277,6 +277,7 @@ typedef struct anic_info {
   double rmse;
   double kg; /**< per cent */
   double surface_error;
+  double surface_error_mean;
   const char* name;
   const char* encoder;
   uint64_t resident_bytes; /**< held by this asset */
@@ -292,6 +293,7 @@ typedef struct anic_mesh_info {
   uint32_t polygon_count;
   uint32_t corner_count;   /**< of all polygons */
   uint32_t triangle_count; /**< when polygons are cut into fans: anic_triangles() */
+  uint32_t attribute_count; /**< anic_mesh_attribute() */
 } anic_mesh_info;
 
 /** Errors: ANIC_E_ARGUMENT, no such mesh. */
@@ -321,6 +323,41 @@ ANIC_API anic_status anic_triangles(const anic_asset* asset, uint32_t mesh, uint
  * every frame. vertex_count numbers below coded_vertex_count, in *out; they belong to the asset. Spec: 07.
  */
 ANIC_API anic_status anic_mesh_copies(const anic_asset* asset, uint32_t mesh, const uint32_t** out);
+
+/** What an attribute means. Numbers are fixed. Spec: 06, section 10. */
+typedef enum anic_attribute_kind {
+  ANIC_UV = 0, /**< v upwards: (0, 0) is the lower left corner of an image; some APIs want 1 - v */
+  ANIC_NORMAL = 1, /**< of the first frame; without components: which corners share one, that is, hard edges */
+  ANIC_TANGENT = 2,
+  ANIC_COLOUR = 3, /**< RGB or RGBA, 0 to 1 */
+  ANIC_CUSTOM = 4,
+  ANIC_MATERIAL = 5, /**< of polygons: names of materials */
+  ANIC_PART = 6      /**< of polygons: names of the meshes or objects of the source */
+} anic_attribute_kind;
+
+/** What has a value each: vertices, corners or polygons, as anic_mesh_polygons() numbers them. */
+typedef enum anic_domain { ANIC_VERTICES = 0, ANIC_CORNERS = 1, ANIC_POLYGONS = 2 } anic_domain;
+
+/** An attribute that does not move. Strings and arrays belong to the asset. */
+typedef struct anic_attribute {
+  const char* name; /**< as in the source, may be empty */
+  anic_attribute_kind kind;
+  anic_domain domain;
+  uint32_t count;         /**< elements: vertices, corners or polygons */
+  uint32_t components;    /**< numbers of an element; 0: it has `labels` */
+  uint32_t label_count;   /**< ANIC_POLYGONS: names, anic_attribute_label() */
+  const float* values;    /**< count x components; NULL without components */
+  const uint32_t* labels; /**< count; of polygons 0 for none, else one more than the number of a name; of corners,
+                               those at a vertex with the same number share a value. NULL with components */
+} anic_attribute;
+
+/** Errors: ANIC_E_ARGUMENT, no such mesh or attribute. O(1). */
+ANIC_API anic_status anic_mesh_attribute(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
+                                         anic_attribute* out);
+
+/** Name of a label, 0 .. label_count - 1; NULL if there is none. It belongs to the asset. */
+ANIC_API const char* anic_attribute_label(const anic_asset* asset, uint32_t mesh,
+                                          uint32_t attribute, uint32_t label);
 
 /** Time of a frame in seconds; frames behind the last count as the last. Spec: 04, section 2. */
 ANIC_API double anic_frame_time(const anic_asset* asset, uint32_t frame);
@@ -480,6 +517,8 @@ typedef struct anic_normal_options {
                                  a small one, such as 0.001, shades flat what is not coplanar */
   uint32_t reference_frame; /**< the frame in which the angles are looked at, for all frames */
   uint8_t per_corner;       /**< normals for each corner (anic_polygons) instead of each vertex */
+  uint8_t source_edges;     /**< edges are hard where they are in the source, whatever the angle, if the file tells
+                                 (ANIC_NORMAL without components); else by crease_angle */
 } anic_normal_options;
 
 /**

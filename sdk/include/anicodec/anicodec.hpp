@@ -212,6 +212,19 @@ class Asset {
     return polygons;
   }
 
+  /// Texture coordinates, colours, materials and the like; mesh().attribute_count of them.
+  anic_attribute attribute(uint32_t number, uint32_t mesh = 0) const {
+    anic_attribute attribute = {};
+    if (anic_mesh_attribute(get(), mesh, number, &attribute) != ANIC_OK)
+      attribute = {};
+    return attribute;
+  }
+
+  /// Null if there is no such label.
+  const char* attribute_label(uint32_t attribute, uint32_t label, uint32_t mesh = 0) const {
+    return anic_attribute_label(get(), mesh, attribute, label);
+  }
+
   /// Which vertices move together.
   Span<const uint32_t> copies(uint32_t mesh = 0) const {
     const uint32_t* first = nullptr;

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/attribute_record.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anicodec::format {
+namespace {
+
+constexpr uint64_t kTextBytes = 64;
+
+}  // namespace
+
+uint32_t AttributeHeader::elements(const Limits::Mesh& mesh) const {
+  switch (domain) {
+    case AttributeDomain::kVertex:
+      return mesh.source_vertices;
+    case AttributeDomain::kCorner:
+      return mesh.corners;
+    case AttributeDomain::kPolygon:
+      break;
+  }
+  return mesh.polygons;
+}
+
+uint64_t attribute_bytes(const Vector<AttributeHeader>& attributes, const Limits::Mesh& mesh) {
+  uint64_t bytes = 0;
+  for (const AttributeHeader& a : attributes) {
+    bytes += uint64_t{4} * a.elements(mesh) * std::max(a.components(), 1U);
+    bytes += kTextBytes + a.name.size();
+    for (const String& label : a.labels)
+      bytes += kTextBytes + label.size();
+  }
+  return bytes;
+}
+
+Bytes AttributeRecord::write() const {
+  ByteWriter w;
+  w.varint(attributes.size());
+  for (const AttributeHeader& a : attributes) {
+    w.u8(static_cast<uint8_t>(a.kind));
+    w.u8(static_cast<uint8_t>(a.domain));
+    w.text(a.name);
+    if (a.domain == AttributeDomain::kPolygon) {
+      w.varint(a.labels.size());
+      for (const String& label : a.labels)
+        w.text(label);
+      continue;
+    }
+    w.varint(a.grids.size());
+    for (const AttributeHeader::Grid& grid : a.grids) {
+      w.f64(grid.origin);
+      w.f64(grid.scale);
+    }
+  }
+  w.raw(stream);
+  return std::move(w.bytes());
+}
+
+Status AttributeRecord::read(ByteView view, AttributeRecord* out) {
+  ByteReader r(view);
+  const uint32_t count = r.varint32(kMaxAttributes);
+  if (!r.ok() || count == 0)
+    return Status::kRecord;
+  out->attributes.assign(count, {});
+  for (AttributeHeader& a : out->attributes) {
+    const uint8_t kind = r.u8(), domain = r.u8();
+    if (kind > static_cast<uint8_t>(AttributeKind::kPart) ||
+        domain > static_cast<uint8_t>(AttributeDomain::kPolygon))
+      return r.ok() ? Status::kFeature : Status::kRecord;
+    a.kind = static_cast<AttributeKind>(kind);
+    a.domain = static_cast<AttributeDomain>(domain);
+    a.name = r.text();
+    if ((a.kind >= AttributeKind::kMaterial) != (a.domain == AttributeDomain::kPolygon))
+      return Status::kRecord;
+    if (a.domain == AttributeDomain::kPolygon) {
+      const uint64_t labels = r.varint();
+      if (!r.ok() || labels > r.remaining())
+        return Status::kRecord;
+      a.labels.resize(static_cast<size_t>(labels));
+      for (String& label : a.labels)
+        label = r.text();
+      continue;
+    }
+    const uint32_t components = r.varint32(kMaxAttributeComponents);
+    if (!r.ok() || (components == 0 && a.domain != AttributeDomain::kCorner))
+      return Status::kRecord;
+    a.grids.resize(components);
+    for (AttributeHeader::Grid& grid : a.grids) {
+      grid.origin = r.f64();
+      grid.scale = r.f64();
+      if (r.ok() && !(std::isfinite(grid.origin) && std::isfinite(grid.scale) && grid.scale > 0))
+        return Status::kQuantizer;
+    }
+  }
+  out->stream = r.raw(r.remaining());
+  return r.ok() ? Status::kOk : Status::kRecord;
+}
+
+}  // namespace anicodec::format

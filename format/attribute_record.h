@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Chunk ATTR: what stands beside the positions of a mesh and does not move (spec/06-chunks.md,
+// section 10).
+#ifndef ANICODEC_FORMAT_ATTRIBUTE_RECORD_H_
+#define ANICODEC_FORMAT_ATTRIBUTE_RECORD_H_
+
+#include "format/bytes.h"
+#include "format/memory.h"
+#include "format/records.h"
+#include "format/status.h"
+
+#include <cstdint>
+
+namespace anicodec::format {
+
+enum class AttributeKind : uint8_t {
+  kUv = 0,
+  kNormal = 1,
+  kTangent = 2,
+  kColour = 3,
+  kCustom = 4,
+  kMaterial = 5,
+  kPart = 6
+};
+
+/// What has a value each.
+enum class AttributeDomain : uint8_t { kVertex = 0, kCorner = 1, kPolygon = 2 };
+
+inline constexpr uint32_t kMaxAttributes = 256;
+inline constexpr uint32_t kMaxAttributeComponents = 16;
+
+/// One attribute. Of vertices and corners: numbers on a grid, or with no component only which
+/// corners share a value. Of polygons: one of the labels, or none.
+struct AttributeHeader {
+  /// A component of an integer n is origin + n / scale.
+  struct Grid {
+    double origin = 0;
+    double scale = 1;
+  };
+
+  AttributeKind kind = AttributeKind::kUv;
+  AttributeDomain domain = AttributeDomain::kVertex;
+  String name;
+  Vector<Grid> grids;     ///< one for each component, empty for polygons
+  Vector<String> labels;  ///< only for polygons
+
+  uint32_t components() const { return static_cast<uint32_t>(grids.size()); }
+
+  /// How many elements a mesh has in the domain.
+  uint32_t elements(const Limits::Mesh& mesh) const;
+};
+
+/// What the attributes of a mesh keep in memory, for Limits::Mesh::attribute_bytes: 4 for each
+/// number, label or shared value of an element, 64 and its length for each text.
+uint64_t attribute_bytes(const Vector<AttributeHeader>& attributes, const Limits::Mesh& mesh);
+
+struct AttributeRecord {
+  Vector<AttributeHeader> attributes;
+  ByteView stream;  ///< entropy-coded values of all, one after the other
+
+  Bytes write() const;
+  static Status read(ByteView view, AttributeRecord* out);
+};
+
+}  // namespace anicodec::format
+
+#endif  // ANICODEC_FORMAT_ATTRIBUTE_RECORD_H_

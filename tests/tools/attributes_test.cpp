@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// What stands beside the positions, from file to file by the command.
+#include "corpus/clips.h"
+#include "tests/tools/command_testing.h"
+#include "tools/io/load_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::HasSubstr;
+
+const Attribute* find(const MeshSequence& clip, AttributeKind kind) {
+  const auto found = std::ranges::find(clip.attributes, kind, &Attribute::kind);
+  return found == clip.attributes.end() ? nullptr : &*found;
+}
+
+MeshSequence load(const std::string& path) {
+  return load_sequence(std::vector<std::string>{path});
+}
+
+class AttributesOfFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(anicodec({"corpus", "painted_box", "-o", folder_ / "a.pc2"}).status, 0);
+    ASSERT_EQ(
+        anicodec({"encode", folder_ / "a.pc2", "-o", folder_ / "a.anic", "--order", "all"}).status,
+        0);
+  }
+
+  TemporaryFolder folder_;
+  MeshSequence source_ = corpus::make_clip("painted_box");
+};
+
+TEST_F(AttributesOfFiles, AreSaidByInfo) {
+  const nlohmann::json list = anicodec({"info", folder_ / "a.anic", "--json"}).json()["attributes"];
+  ASSERT_EQ(list.size(), 5U);
+  EXPECT_EQ(list[0]["kind"], "uv");
+  EXPECT_EQ(list[0]["of"], "corners");
+  EXPECT_EQ(list[1]["kind"], "normal");
+  EXPECT_EQ(list[1]["components"], 0);
+  EXPECT_EQ(list[2]["kind"], "colour");
+  EXPECT_EQ(list[3]["labels"], (nlohmann::json{"wood", "metal"}));
+  EXPECT_EQ(list[4]["kind"], "part");
+  EXPECT_THAT(anicodec({"info", folder_ / "a.anic"}).out,
+              HasSubstr("normal of corners: hard edges"));
+  EXPECT_THAT(anicodec({"dump", folder_ / "a.anic"}).out, HasSubstr("ATTR attribute 3 label 1"));
+}
+
+TEST_F(AttributesOfFiles, ComeBackAsObj) {
+  ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b_%03d.obj"}).status, 0);
+  const MeshSequence back = load(folder_ / "b_*.obj");
+  ASSERT_EQ(back.polygons, source_.polygons);
+  EXPECT_EQ(back.materials, source_.materials);
+  EXPECT_EQ(back.parts, source_.parts);
+  const Attribute *uv = find(back, AttributeKind::kUv),
+                  *colour = find(back, AttributeKind::kColour);
+  ASSERT_TRUE(uv && colour);
+  EXPECT_EQ(uv->values, source_.attributes[0].values);  // multiples of the step
+  EXPECT_EQ(colour->values, source_.attributes[1].values);
+  // Normals of one side of the box differ from those of the others.
+  const Attribute* normals = find(back, AttributeKind::kNormal);
+  ASSERT_TRUE(normals);
+  std::set<std::vector<float>> distinct;
+  for (size_t i = 0; i < normals->values.size(); i += 3)
+    distinct.insert({normals->values.begin() + static_cast<ptrdiff_t>(i),
+                     normals->values.begin() + static_cast<ptrdiff_t>(i + 3)});
+  EXPECT_GT(distinct.size(), 6U);
+  // And what was read from them is the same hard edges again.
+  ASSERT_EQ(
+      anicodec({"encode", folder_ / "b_*.obj", "-o", folder_ / "c.anic", "--order", "all"}).status,
+      0);
+  EXPECT_EQ(anicodec({"info", folder_ / "c.anic", "--json"}).json()["attributes"].size(), 5U);
+}
+
+TEST_F(AttributesOfFiles, ComeBackAsGlb) {
+  ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b.glb"}).status, 0);
+  const MeshSequence back = load(folder_ / "b.glb");
+  EXPECT_EQ(back.frame_count, source_.frame_count);
+  EXPECT_EQ(back.vertex_count, 6U * 25);  // every side for itself
+  const Attribute *uv = find(back, AttributeKind::kUv),
+                  *normals = find(back, AttributeKind::kNormal);
+  ASSERT_TRUE(uv && normals && find(back, AttributeKind::kColour));
+  std::set<std::pair<float, float>> here, there;
+  for (size_t i = 0; i < uv->values.size(); i += 2)
+    here.insert({uv->values[i], uv->values[i + 1]});
+  const std::vector<float>& source = source_.attributes[0].values;
+  for (size_t i = 0; i < source.size(); i += 2)
+    there.insert({source[i], source[i + 1]});
+  EXPECT_EQ(here, there);
+  EXPECT_EQ(back.materials.names, source_.materials.names);
+}
+
+TEST_F(AttributesOfFiles, AreLeftOutWhereAsked) {
+  ASSERT_EQ(
+      anicodec({"encode", folder_ / "a.pc2", "-o", folder_ / "b.anic", "--no-attributes"}).status,
+      0);
+  EXPECT_TRUE(anicodec({"info", folder_ / "b.anic", "--json"}).json()["attributes"].empty());
+}
+
+TEST_F(AttributesOfFiles, FollowPartsThatAreJoined) {
+  for (const char* range : {"0:10", "10:24"})
+    ASSERT_EQ(anicodec({"encode", folder_ / "a.pc2", "-o",
+                        folder_ / (std::string(range, 2) + ".anic"), "--frames", range})
+                  .status,
+              0);
+  ASSERT_EQ(
+      anicodec({"join", folder_ / "0:.anic", folder_ / "10.anic", "-o", folder_ / "j.anic"}).status,
+      0);
+  EXPECT_EQ(anicodec({"info", folder_ / "j.anic", "--json"}).json()["attributes"].size(), 5U);
+}
+
+TEST(ObjAttributes, WithoutTheirNumbersAreRefused) {
+  TemporaryFolder folder;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n";
+  auto fails = [&](const std::string& face, const std::string& reason) {
+    folder.write("a.obj", mesh + face);
+    const Outcome outcome = anicodec({"encode", folder / "a.obj", "-o", folder / "a.anic"});
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_THAT(outcome.err, HasSubstr(reason));
+  };
+  fails("f 1/1 2/2 3/3\n", "face 0 uses uv 3, but there are 2");
+  fails("f 1/1 2/2 3/-3\n", "uv -3 is out of range");
+  fails("vn 0 1\nf 1 2 3\n", "normal of 2 numbers");
+}
+
+}  // namespace
+}  // namespace anicodec::tools
