@@ -16,7 +16,8 @@ FileKind kind_of(const std::string& path) {
       {".gltf", FileKind::kGltf},  {".glb", FileKind::kGlb},    {".fbx", FileKind::kAssimp},
       {".dae", FileKind::kAssimp}, {".md2", FileKind::kAssimp}, {".md3", FileKind::kAssimp},
       {".3ds", FileKind::kAssimp}, {".b3d", FileKind::kAssimp}, {".ms3d", FileKind::kAssimp},
-      {".smd", FileKind::kAssimp}, {".x", FileKind::kAssimp},   {".lwo", FileKind::kAssimp}};
+      {".smd", FileKind::kAssimp}, {".x", FileKind::kAssimp},   {".lwo", FileKind::kAssimp},
+      {".abc", FileKind::kAlembic}};
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

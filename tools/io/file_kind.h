@@ -7,10 +7,28 @@
 
 namespace anicodec::tools {
 
-enum class FileKind { kUnknown, kObj, kPly, kOff, kStl, kPc2, kMdd, kGltf, kGlb, kAssimp };
+enum class FileKind {
+  kUnknown,
+  kObj,
+  kPly,
+  kOff,
+  kStl,
+  kPc2,
+  kMdd,
+  kGltf,
+  kGlb,
+  kAssimp,
+  kAlembic
+};
 
 /// Kind by extension, in any case of letters.
 FileKind kind_of(const std::string& path);
+
+/// True for what can be written.
+inline bool is_output(FileKind kind) {
+  return kind != FileKind::kUnknown && kind != FileKind::kGltf && kind != FileKind::kAssimp &&
+         kind != FileKind::kAlembic;
+}
 
 inline bool is_cache(FileKind kind) {
   return kind == FileKind::kPc2 || kind == FileKind::kMdd;

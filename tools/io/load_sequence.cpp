@@ -71,6 +71,11 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
     if (fs::is_directory(path, error))
       fail_input(path, "is a directory; name its frames with a pattern such as '" +
                            (fs::path(path) / "*.obj").string() + "'");
+    if (kind_of(path) == FileKind::kAlembic)
+      throw Error(ErrorKind::kUnsupported,
+                  path +
+                      ": Alembic is not read; export the clip as glTF, or as OBJ with PC2 or MDD, "
+                      "from the program that made it");
     if (kind_of(path) == FileKind::kUnknown)
       fail_input(path, "is of unknown kind; " + std::string(kReadableKinds) + " are read");
   }
@@ -309,7 +314,7 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
 }  // namespace
 
 bool is_sequence_input(const std::string& path) {
-  return kind_of(path) != FileKind::kUnknown;
+  return kind_of(path) != FileKind::kUnknown && kind_of(path) != FileKind::kAlembic;
 }
 
 std::vector<std::string> sequence_files(std::span<const std::string> inputs) {

@@ -149,11 +149,12 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
 void check_sequence_output(const std::string& path, uint32_t frame_count,
                            const WriteOptions& options) {
   FileKind kind = kind_of(path);
-  if (kind == FileKind::kUnknown)
-    fail_usage(path,
-               "is of unknown kind; .obj, .ply, .off, .stl, .pc2, .mdd and .glb can be written");
   if (kind == FileKind::kGltf)
     fail_usage(path, "glTF is written in one file; name it .glb");
+  if (!is_output(kind))
+    fail_usage(path, std::string(kind == FileKind::kUnknown ? "is of unknown kind"
+                                                            : "is of a kind that is not written") +
+                         "; .obj, .ply, .off, .stl, .pc2, .mdd and .glb can be written");
   if (kind == FileKind::kGlb)
     return check_output(path, options.overwrite);
   if (is_cache(kind)) {
