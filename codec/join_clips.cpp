@@ -74,6 +74,8 @@ format::Bytes copy(format::ByteView view) {
   return format::Bytes(view.data, view.data + view.size);
 }
 
+constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
+
 void check_same_mesh(const OpenPart& first, const OpenPart& next) {
   const format::Limits::Mesh &a = first.limits.meshes[0], &b = next.limits.meshes[0];
   auto counts = [](const format::Limits::Mesh& m) {
@@ -85,7 +87,7 @@ void check_same_mesh(const OpenPart& first, const OpenPart& next) {
          "has " + counts(b) + ", but " + first.part.name + " has " + counts(a));
   if (first.record.order != next.record.order)
     fail(next.part, ErrorKind::kInput, "keeps another order of vertices than " + first.part.name);
-  for (const char(*type)[5] : {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"}) {
+  for (const char(*type)[5] : kMeshChunks) {
     if (!equal(first.of_mesh(*type), next.of_mesh(*type)))
       fail(next.part, ErrorKind::kInput,
            "does not have the connectivity, welds and reference pose of " + first.part.name +
@@ -144,12 +146,12 @@ format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
   return record;
 }
 
-/// Adds a chunk of a segment under its new number.
-void add_chunk(const OpenPart& part, const Chunk& chunk, uint32_t segment,
+/// Adds a chunk of a segment under its new number, to a mesh.
+void add_chunk(const OpenPart& part, const Chunk& chunk, uint16_t mesh, uint32_t segment,
                format::ContainerWriter& file) {
   for (const char(*type)[5] : {&"POSE", &"SEGM", &"BASI", &"CORR"}) {
     if (chunk.type == format::chunk_type(*type))
-      return file.add(*type, chunk.required, chunk.mesh, segment, copy(part.payload(chunk)));
+      return file.add(*type, chunk.required, mesh, segment, copy(part.payload(chunk)));
   }
   if (chunk.required)
     fail(part.part, ErrorKind::kUnsupported,
@@ -166,48 +168,74 @@ void verify(const format::Bytes& file) {
                 std::string("the joined file is not valid: ") + status_string(failure.status));
 }
 
-}  // namespace
-
-format::Bytes join_clips(const std::vector<ClipPart>& sources) {
+/// Opens parts that follow one another. Of one topology, all have the same mesh.
+std::vector<OpenPart> open_parts(const std::vector<ClipPart>& sources, bool one_topology) {
   if (sources.empty())
     throw Error(ErrorKind::kUsage, "there is no part to join");
   std::vector<OpenPart> parts;
   parts.reserve(sources.size());
-  format::Limits limits;
   for (const ClipPart& source : sources) {
     const OpenPart& part = parts.emplace_back(source);
-    if (parts.size() > 1) {
+    if (parts.size() == 1)
+      continue;
+    if (one_topology)
       check_same_mesh(parts[0], part);
-      check_follows(parts[parts.size() - 2], part);
-    }
-    if (part.limits.frames > format::kMaxFrames - limits.frames)
-      fail(source, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
-    for (format::Limits::Segment segment : part.limits.segments) {
+    else if (parts[0].record.order != part.record.order)
+      fail(source, ErrorKind::kInput, "keeps another order of vertices than " + sources[0].name);
+    check_follows(parts[parts.size() - 2], part);
+  }
+  return parts;
+}
+
+/// One file of parts: their segments under new numbers, of mesh 0 or each of a mesh of its own.
+format::Bytes join(const std::vector<OpenPart>& parts, bool one_topology) {
+  if (!one_topology && parts.size() > format::kMaxMeshes)
+    throw Error(ErrorKind::kInput, "more than 65535 topologies");
+  auto mesh_of = [&](size_t i) { return one_topology ? uint16_t{0} : static_cast<uint16_t>(i); };
+  format::Limits limits;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].limits.frames > format::kMaxFrames - limits.frames)
+      fail(parts[i].part, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
+    for (format::Limits::Segment segment : parts[i].limits.segments) {
       segment.first_frame += limits.frames;
+      segment.mesh = mesh_of(i);
       limits.segments.push_back(segment);
     }
-    limits.frames += part.limits.frames;
+    limits.frames += parts[i].limits.frames;
+    if (i == 0 || !one_topology)
+      limits.meshes.push_back(parts[i].limits.meshes[0]);
   }
-  limits.meshes = parts[0].limits.meshes;
-
   format::ContainerWriter file;
   file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
   file.add("CLIP", true, format::kNoMesh, format::kNoSegment, joined_record(parts).write());
-  for (const char(*type)[5] : {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"}) {
-    if (const Chunk* chunk = parts[0].reader.find(*type, 0))
-      file.add(*type, chunk->required, 0, format::kNoSegment, copy(parts[0].payload(*chunk)));
+  for (size_t i = 0; i < limits.meshes.size(); ++i) {
+    for (const char(*type)[5] : kMeshChunks) {
+      if (const Chunk* chunk = parts[i].reader.find(*type, 0))
+        file.add(*type, chunk->required, mesh_of(i), format::kNoSegment,
+                 copy(parts[i].payload(*chunk)));
+    }
   }
   uint32_t first_segment = 0;
-  for (const OpenPart& part : parts) {
-    for (const Chunk& chunk : part.reader.chunks()) {
+  for (size_t i = 0; i < parts.size(); ++i) {
+    for (const Chunk& chunk : parts[i].reader.chunks()) {
       if (chunk.segment != format::kNoSegment)
-        add_chunk(part, chunk, first_segment + chunk.segment, file);
+        add_chunk(parts[i], chunk, mesh_of(i), first_segment + chunk.segment, file);
     }
-    first_segment += static_cast<uint32_t>(part.limits.segments.size());
+    first_segment += static_cast<uint32_t>(parts[i].limits.segments.size());
   }
   format::Bytes bytes = file.finish();
   verify(bytes);
   return bytes;
+}
+
+}  // namespace
+
+format::Bytes join_clips(const std::vector<ClipPart>& parts) {
+  return join(open_parts(parts, true), true);
+}
+
+format::Bytes join_topologies(const std::vector<ClipPart>& parts) {
+  return join(open_parts(parts, false), false);
 }
 
 }  // namespace anicodec

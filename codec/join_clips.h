@@ -23,6 +23,10 @@ struct ClipPart {
 /// kCorrupt for a damaged part, kInput naming the first part that does not fit.
 format::Bytes join_clips(const std::vector<ClipPart>& parts);
 
+/// Makes one file of clips of one mesh each, in the order of time, whose meshes need not be alike:
+/// each is there in its frames alone. Errors, promise and checks as of join_clips().
+format::Bytes join_topologies(const std::vector<ClipPart>& parts);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_JOIN_CLIPS_H_

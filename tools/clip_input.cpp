@@ -70,39 +70,50 @@ std::string read_bytes(const std::string& path) {
 }
 
 void open_clip(const std::string& path, const std::string& bytes, const OpenOptions& options,
-               Clip& clip) {
+               Clip& clip, Topologies allowed) {
   if (Failure failure = clip.open(view_of(bytes), options); !failure.ok())
     fail_clip(path, failure);
-  if (clip.meshes().size() != 1)
+  if (allowed == Topologies::kOne && clip.meshes().size() != 1)
     throw Error(ErrorKind::kUnsupported,
-                fmt::format("{}: {} meshes; this version plays clips of one mesh", path,
-                            clip.meshes().size()));
+                fmt::format("{}: {} meshes, where one is wanted; decode makes files of the frames",
+                            path, clip.meshes().size()));
 }
 
-MeshSequence describe_clip(const Clip& clip) {
+MeshFrames frames_of_mesh(const Clip& clip, uint32_t mesh) {
+  MeshFrames frames{UINT32_MAX, 0};
+  for (const format::Limits::Segment& s : clip.limits().segments) {
+    if (s.mesh != mesh)
+      continue;
+    frames.first = std::min(frames.first, s.first_frame);
+    frames.end = std::max(frames.end, s.first_frame + s.frames);
+  }
+  return frames;
+}
+
+MeshSequence describe_clip(const Clip& clip, uint32_t mesh) {
   const format::ClipRecord& record = clip.record();
-  const Topology& topology = clip.meshes()[0].topology;
+  const Topology& topology = clip.meshes()[mesh].topology;
   MeshSequence sequence;
   sequence.name.assign(record.name.begin(), record.name.end());
   sequence.polygons.offsets.assign(topology.polygon_offsets.begin(),
                                    topology.polygon_offsets.end());
   sequence.polygons.corners.assign(topology.polygon_corners.begin(),
                                    topology.polygon_corners.end());
-  sequence.vertex_count = clip.vertex_count();
+  sequence.vertex_count = clip.vertex_count(mesh);
   sequence.frame_count = clip.frame_count();
   sequence.rate = {record.rate_numerator, record.rate_denominator, record.rate_assumed};
   sequence.start_time = record.start_time;
   sequence.times.assign(record.times.begin(), record.times.end());
   sequence.up = static_cast<UpAxis>(record.up);
   sequence.metres_per_unit = record.metres_per_unit;
-  restore_attributes(clip.meshes()[0].attributes, &sequence);
+  restore_attributes(clip.meshes()[mesh].attributes, &sequence);
   return sequence;
 }
 
-FrameSource play(const std::string& path, const Clip& clip) {
-  auto positions = std::make_shared<std::vector<float>>(size_t{3} * clip.vertex_count());
-  return [path, &clip, positions](uint32_t frame) -> std::span<const float> {
-    Status status = clip.positions(0, frame, positions->data());
+FrameSource play(const std::string& path, const Clip& clip, uint32_t mesh) {
+  auto positions = std::make_shared<std::vector<float>>(size_t{3} * clip.vertex_count(mesh));
+  return [path, &clip, mesh, positions](uint32_t frame) -> std::span<const float> {
+    Status status = clip.positions(mesh, frame, positions->data());
     if (status != Status::kOk)
       throw Error(error_kind(status),
                   fmt::format("{}: frame {}: {}", path, frame, status_string(status)));

@@ -32,16 +32,28 @@ inline format::ByteView view_of(const std::string& bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
-/// Opens a clip of one mesh. Throws as fail_clip(); Error(kUnsupported) for several meshes.
+/// Which clips a command can work on.
+enum class Topologies { kOne, kAny };
+
+/// Opens a clip. Throws as fail_clip(); Error(kUnsupported) for several meshes where there must be
+/// one.
 void open_clip(const std::string& path, const std::string& bytes, const OpenOptions& options,
-               Clip& clip);
+               Clip& clip, Topologies allowed = Topologies::kOne);
 
-/// The clip without its positions: counts, polygons, timing and metadata.
-MeshSequence describe_clip(const Clip& clip);
+/// The frames that have a mesh, from the first to one past the last.
+struct MeshFrames {
+  uint32_t first = 0, end = 0;
+};
 
-/// Plays the clip, which must outlive the source. Frames are given in any order. Throws
+MeshFrames frames_of_mesh(const Clip& clip, uint32_t mesh);
+
+/// The clip as one of a mesh, without its positions: counts, polygons, metadata, and the timing of
+/// all frames.
+MeshSequence describe_clip(const Clip& clip, uint32_t mesh = 0);
+
+/// Plays a mesh of the clip, which must outlive the source. Frames are given in any order. Throws
 /// Error(kCorrupt) naming the path.
-FrameSource play(const std::string& path, const Clip& clip);
+FrameSource play(const std::string& path, const Clip& clip, uint32_t mesh = 0);
 
 }  // namespace anicodec::tools
 

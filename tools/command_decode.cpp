@@ -4,6 +4,7 @@
 #include "sdk/clip.h"
 #include "tools/clip_input.h"
 #include "tools/command.h"
+#include "tools/io/file_kind.h"
 #include "tools/io/write_sequence.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
@@ -24,7 +25,7 @@ frame (dir/frame_%04d.obj, .ply, .off, .stl), or a scene (clip.glb) with a morph
 frame and an animation of their weights. Polygons come back as polygons, but for STL and GLB, which
 have triangles; GLB is turned to Y up and scaled to metres where the clip says. Frames are counted
 from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate that STEP divides
-is divided; PC2 carries no rate.
+is divided; PC2 carries no rate. A clip whose topology changes needs a file per frame.
 
 Examples:
   anicodec decode clip.anic -o clip.pc2
@@ -55,23 +56,34 @@ void take_frames(const FrameRange& range, MeshSequence& clip) {
   clip.frame_count = range.size();
 }
 
+bool is_written_by_frame(const std::string& path) {
+  const FileKind kind = kind_of(path);
+  return !is_cache(kind) && kind != FileKind::kGlb && kind != FileKind::kGltf;
+}
+
+/// Those of some frames that a mesh is there in.
+FrameRange range_within(const FrameRange& range, const MeshFrames& frames) {
+  FrameRange own{range.first, range.first, range.step};
+  if (own.first < frames.first)
+    own.first += (frames.first - own.first + range.step - 1) / range.step * range.step;
+  own.end = std::max(own.first, std::min(range.end, frames.end));
+  return own;
+}
+
 void run(const DecodeCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   std::string bytes = read_bytes(command.input);
   OpenOptions open_options;
   open_options.quality = command.quality;
   Clip clip;
-  open_clip(command.input, bytes, open_options, clip);
+  open_clip(command.input, bytes, open_options, clip, Topologies::kAny);
   if (Failure failure = clip.check_hashes(); command.quality == 1 && !failure.ok())
     fail_clip(command.input, failure);
   bytes = {};
 
-  MeshSequence description = describe_clip(clip);
   FrameRange range{0, clip.frame_count(), 1};
-  if (!command.frames.empty()) {
+  if (!command.frames.empty())
     range = parse_frames(command.frames, "--frames", clip.frame_count());
-    take_frames(range, description);
-  }
   WriteOptions options;
   options.overwrite = common.overwrite;
   options.ascii = command.ascii;
@@ -79,14 +91,34 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
   options.first_number = command.start;
   options.progress = line.callback();
   check_sequence_output(command.output, range.size(), options);
-  FrameSource all = play(command.input, clip);
-  write_sequence(
-      command.output, description,
-      [&all, range](uint32_t f) { return all(range.first + f * range.step); }, options);
+  const auto meshes = static_cast<uint32_t>(clip.meshes().size());
+  if (meshes > 1 && !is_written_by_frame(command.output))
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{}: has one mesh, but {} has {}; write a file per frame, as in "
+                            "frame_%04d.obj",
+                            command.output, command.input, meshes));
+  std::vector<std::string> written;
+  for (uint32_t mesh = 0; mesh < meshes; ++mesh) {
+    const FrameRange own = range_within(range, frames_of_mesh(clip, mesh));
+    if (own.size() == 0)
+      continue;
+    MeshSequence description = describe_clip(clip, mesh);
+    if (own.size() < clip.frame_count())
+      take_frames(own, description);
+    options.first_number = command.start + (own.first - range.first) / range.step;
+    FrameSource all = play(command.input, clip, mesh);
+    write_sequence(
+        command.output, description,
+        [&all, own](uint32_t f) { return all(own.first + f * own.step); }, options);
+    written.push_back(fmt::format("{}: {} frames of {} vertices and {} faces", command.output,
+                                  description.frame_count, description.vertex_count,
+                                  description.polygons.size()));
+  }
   line.clear();
-  if (!common.quiet)
-    fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output,
-               description.frame_count, description.vertex_count, description.polygons.size());
+  for (const std::string& text : written) {
+    if (!common.quiet)
+      fmt::print("{}\n", text);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
 #include "codec/error.h"
+#include "codec/join_clips.h"
 #include "codec/massage_choice.h"
 #include "tools/batch.h"
 #include "tools/choice.h"
@@ -77,6 +78,9 @@ Examples:
   anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45
   anicodec encode --batch clips -o encoded -j 4)";
 
+/// What frames of another connectivity are: a mistake, or segments of their own.
+enum class Topology { kOne, kSegments };
+
 enum class Massage { kOff, kOn, kAuto, kTransfer };
 
 struct EncodeCommand {
@@ -90,6 +94,7 @@ struct EncodeCommand {
   format::OrderMode order = format::OrderMode::kVertices;
   format::CoderId mesh_coder = format::CoderId::kDraco;
   int effort = 5;
+  Topology topology = Topology::kOne;
   Massage massage = Massage::kOff;
   double massage_strength = 0.5;
   std::string massage_tolerance;
@@ -295,6 +300,8 @@ uint64_t default_memory() {
 void encode_batch(const EncodeCommand& command, const CommonOptions& common) {
   if (!command.frames.empty())
     throw Error(ErrorKind::kUsage, "--frames takes a part of one clip, --batch has many");
+  if (command.topology == Topology::kSegments)
+    throw Error(ErrorKind::kUsage, "--topology segments goes with one clip, --batch has many");
   if (!command.inputs.empty())
     throw Error(ErrorKind::kUsage, command.inputs[0] + ": --batch takes its inputs from " +
                                        command.batch + ", no others");
@@ -323,6 +330,99 @@ void encode_batch(const EncodeCommand& command, const CommonOptions& common) {
       });
 }
 
+/// Length of the diagonal of the box around all frames.
+double diagonal_of(const std::vector<MeshSequence>& runs) {
+  MeshSequence corners;  // two vertices: of the box around each
+  for (const MeshSequence& run : runs) {
+    float low[3] = {run.positions[0], run.positions[1], run.positions[2]};
+    float high[3] = {low[0], low[1], low[2]};
+    for (size_t i = 0; i < run.positions.size(); ++i) {
+      low[i % 3] = std::min(low[i % 3], run.positions[i]);
+      high[i % 3] = std::max(high[i % 3], run.positions[i]);
+    }
+    corners.positions.insert(corners.positions.end(), low, low + 3);
+    corners.positions.insert(corners.positions.end(), high, high + 3);
+  }
+  return diagonal(corners);
+}
+
+/// Encodes frames whose connectivity changes, each run of one apart, to one file.
+EncodeResult encode_topologies(const EncodeCommand& command, EncodeOptions options,
+                               const Progress& progress) {
+  if (!command.frames.empty() || command.massage != Massage::kOff)
+    throw Error(ErrorKind::kUsage, "--topology segments goes without --frames and --massage");
+  using format::ErrorMetric;
+  if (options.target.metric == ErrorMetric::kSize)
+    throw Error(ErrorKind::kUsage, "--size cannot be shared out among topologies");
+  LoadOptions load_options;
+  load_options.progress = progress;
+  if (!command.rate.empty())
+    load_options.rate = parse_frame_rate(command.rate);
+  std::vector<MeshSequence> runs = load_topologies(command.inputs, load_options);
+  const double length = diagonal_of(runs);
+  for (Target* target : {&options.target, options.cap ? &*options.cap : nullptr}) {
+    if (target && target->percent)
+      *target = {target->metric, target->value / 100 * length, false};
+  }
+  EncodeResult all;
+  std::vector<EncodeResult> results;
+  for (MeshSequence& run : runs) {
+    if (command.up != UpAxis::kUnknown)
+      run.up = command.up;
+    if (!command.unit.empty())
+      run.metres_per_unit = parse_unit(command.unit, "--unit");
+    run.loop = command.loop;
+    const uint32_t first = all.frames;
+    all.frames += run.frame_count;
+    try {
+      results.push_back(encode(std::move(run), options, progress));
+    } catch (const Error& e) {
+      throw Error(e.kind(), fmt::format("{}: frames {}:{}: {}", command.inputs[0], first,
+                                        all.frames, e.what()));
+    }
+  }
+  std::vector<ClipPart> parts;
+  for (const EncodeResult& result : results) {
+    parts.push_back({command.inputs[0], result.file});
+    all.vertices = std::max(all.vertices, result.vertices);
+    all.faces = std::max(all.faces, result.faces);
+    all.kind = result.kind;
+    all.components = std::max(all.components, result.components);
+    all.max_error = std::max(all.max_error, result.max_error);
+    all.kg = std::max(all.kg, result.kg);
+    all.rmse = std::max(all.rmse, result.rmse);
+    all.trials.insert(all.trials.end(), result.trials.begin(), result.trials.end());
+  }
+  all.diagonal = length;
+  all.file = join_topologies(parts);
+  return all;
+}
+
+/// Encodes frames of one connectivity.
+EncodeResult encode_clip(const EncodeCommand& command, EncodeOptions options,
+                         MassageVerdict* massage, const Progress& progress) {
+  MeshSequence sequence = load(command, progress, &options);
+  if (options.keyframes && *options.keyframes > sequence.frame_count)
+    throw Error(ErrorKind::kUsage,
+                fmt::format("--keyframes {}: {} has only {} frames", *options.keyframes,
+                            command.inputs[0], sequence.frame_count));
+  if (!command.frames.empty()) {
+    const FrameRange range = parse_frames(command.frames, "--frames", sequence.frame_count);
+    if (range.step != 1)
+      throw Error(ErrorKind::kUsage,
+                  "--frames: a part has all frames from A to B - 1, without step");
+    options.part = PartFrames{range.first, range.size()};
+  }
+  try {
+    EncodeResult result = encode_as_asked(command, std::move(sequence), options, massage, progress);
+    if (command.massage == Massage::kTransfer)
+      massage->change = options.surface_change;
+    return result;
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
+  }
+}
+
 void run(const EncodeCommand& command, const CommonOptions& common) {
   if (!command.batch.empty())
     return encode_batch(command, common);
@@ -339,27 +439,10 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
     output.emplace(command.output, common.overwrite);
   ProgressLine line(common.quiet);
   Progress progress = line.callback();
-  MeshSequence sequence = load(command, progress, &options);
-  if (options.keyframes && *options.keyframes > sequence.frame_count)
-    throw Error(ErrorKind::kUsage,
-                fmt::format("--keyframes {}: {} has only {} frames", *options.keyframes,
-                            command.inputs[0], sequence.frame_count));
-  if (!command.frames.empty()) {
-    const FrameRange range = parse_frames(command.frames, "--frames", sequence.frame_count);
-    if (range.step != 1)
-      throw Error(ErrorKind::kUsage,
-                  "--frames: a part has all frames from A to B - 1, without step");
-    options.part = PartFrames{range.first, range.size()};
-  }
-  EncodeResult result;
   MassageVerdict massage;
-  try {
-    result = encode_as_asked(command, std::move(sequence), options, &massage, progress);
-    if (command.massage == Massage::kTransfer)
-      massage.change = options.surface_change;
-  } catch (const Error& e) {
-    throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
-  }
+  EncodeResult result = command.topology == Topology::kSegments
+                            ? encode_topologies(command, options, progress)
+                            : encode_clip(command, options, &massage, progress);
   line.clear();
   if (to_standard_output) {
     if (std::fwrite(result.file.data(), 1, result.file.size(), stdout) != result.file.size())
@@ -443,6 +526,11 @@ void add_encode(CLI::App& app, CommonOptions& common) {
                                  {"free", format::OrderMode::kFree},
                                  {"all", format::OrderMode::kAll}},
                                 "Source order kept: vertices (default), none, faces too")
+      ->group(method);
+  add_choice<Topology>(*command, "--topology", c->topology,
+                       {{"one", Topology::kOne}, {"segments", Topology::kSegments}},
+                       "Frames of another connectivity: an error (default one), or segments\n"
+                       "of the file with meshes of their own")
       ->group(method);
   add_choice<format::CoderId>(
       *command, "--mesh-coder", c->mesh_coder,

@@ -22,10 +22,11 @@ namespace {
 constexpr const char* kFooter =
     R"(--json prints one object: file, bytes, ratio (float32 positions against the file), bpfv,
 resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
-for each instance), format, encoder, name, vertices, coded_vertices, faces, frames, fps,
-fps_assumed, start_time, loop, closed (the last frame repeats the first), up, metres_per_unit,
-order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg, massaged,
-surface_error, surface_error_mean, attributes (kind, of, name, components, labels), segments (basis,
+for each instance), format, encoder, name, vertices, coded_vertices, faces (of the first mesh),
+meshes (vertices, coded_vertices, faces, first_frame, end_frame), frames, fps, fps_assumed,
+start_time, loop, closed (the last frame repeats the first), up, metres_per_unit, order, diagonal,
+asked (metric, value), max_error, max_error_percent, rmse, kg, massaged, surface_error,
+surface_error_mean, attributes (kind, of, name, components, labels), segments (basis,
 reconstruction, first_frame, frames, components, corrections), chunks (type, offset, size, required,
 mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
 
@@ -46,7 +47,10 @@ double percent(const format::ClipRecord& record) {
 }
 
 double positions(const Clip& clip) {
-  return static_cast<double>(clip.vertex_count()) * clip.frame_count();
+  double count = 0;
+  for (const format::Limits::Segment& s : clip.limits().segments)
+    count += static_cast<double>(clip.vertex_count(s.mesh)) * s.frames;
+  return count;
 }
 
 void print_json(const std::string& path, const Contents& c) {
@@ -66,6 +70,15 @@ void print_json(const std::string& path, const Contents& c) {
   json["vertices"] = limits.meshes[0].source_vertices;
   json["coded_vertices"] = limits.meshes[0].coded_vertices;
   json["faces"] = limits.meshes[0].polygons;
+  json["meshes"] = nlohmann::ordered_json::array();
+  for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
+    const MeshFrames frames = frames_of_mesh(c.clip, m);
+    json["meshes"].push_back({{"vertices", limits.meshes[m].source_vertices},
+                              {"coded_vertices", limits.meshes[m].coded_vertices},
+                              {"faces", limits.meshes[m].polygons},
+                              {"first_frame", frames.first},
+                              {"end_frame", frames.end}});
+  }
   json["frames"] = limits.frames;
   json["fps"] = {record.rate_numerator, record.rate_denominator};
   json["fps_assumed"] = record.rate_assumed;
@@ -195,6 +208,12 @@ void print_text(const std::string& path, const Contents& c) {
   traits += record.loop ? ", loops" : "";
   traits += record.closed ? ", the last frame repeats the first" : "";
   row("", traits);
+  for (uint32_t m = 1; m < limits.meshes.size(); ++m) {
+    const MeshFrames frames = frames_of_mesh(c.clip, m);
+    row("topology", fmt::format("from frame {} to {}: {} vertices ({} coded), {} faces",
+                                frames.first, frames.end - 1, limits.meshes[m].source_vertices,
+                                limits.meshes[m].coded_vertices, limits.meshes[m].polygons));
+  }
   row("order", name_of(record.order));
   row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv", grouped(c.bytes),
                           12 * positions(c.clip) / static_cast<double>(c.bytes),
@@ -224,7 +243,7 @@ void run(const InfoCommand& command) {
   std::string bytes = read_bytes(command.input);
   Contents contents;
   contents.bytes = bytes.size();
-  open_clip(command.input, bytes, {}, contents.clip);
+  open_clip(command.input, bytes, {}, contents.clip, Topologies::kAny);
   if (Failure failure = contents.container.open(view_of(bytes)); !failure.ok())
     fail_clip(command.input, failure);
   anic_options options = {};

@@ -36,14 +36,18 @@ size_t check_chunks(const std::string& path, const std::string& bytes) {
 }
 
 void check_frames(const std::string& path, const Clip& clip, ProgressLine& line) {
-  FrameSource frames = play(path, clip);
-  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-    line.show("playing", static_cast<double>(f) / clip.frame_count());
-    std::span<const float> positions = frames(f);
-    for (size_t i = 0; i < positions.size(); ++i) {
-      if (!std::isfinite(positions[i]))
-        throw Error(ErrorKind::kCorrupt,
-                    fmt::format("{}: frame {}: vertex {} is not finite", path, f, i / 3));
+  for (uint32_t mesh = 0; mesh < clip.meshes().size(); ++mesh) {
+    FrameSource frames = play(path, clip, mesh);
+    for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+      if (!clip.segment_at(mesh, f))
+        continue;
+      line.show("playing", static_cast<double>(f) / clip.frame_count());
+      std::span<const float> positions = frames(f);
+      for (size_t i = 0; i < positions.size(); ++i) {
+        if (!std::isfinite(positions[i]))
+          throw Error(ErrorKind::kCorrupt,
+                      fmt::format("{}: frame {}: vertex {} is not finite", path, f, i / 3));
+      }
     }
   }
 }
@@ -53,14 +57,16 @@ void run(const std::string& path, const CommonOptions& common) {
   std::string bytes = read_bytes(path);
   size_t chunks = check_chunks(path, bytes);
   Clip clip;
-  open_clip(path, bytes, {}, clip);
+  open_clip(path, bytes, {}, clip, Topologies::kAny);
   if (Failure failure = clip.check_hashes(); !failure.ok())
     fail_clip(path, failure);
   check_frames(path, clip, line);
   line.clear();
   if (!common.quiet)
-    fmt::print("{}: ok ({} bytes, {} chunks, {} frames of {} vertices)\n", path,
-               grouped(bytes.size()), chunks, clip.frame_count(), clip.vertex_count());
+    fmt::print("{}: ok ({} bytes, {} chunks, {} frames of {})\n", path, grouped(bytes.size()),
+               chunks, clip.frame_count(),
+               clip.meshes().size() == 1 ? fmt::format("{} vertices", clip.vertex_count())
+                                         : fmt::format("{} meshes", clip.meshes().size()));
 }
 
 }  // namespace

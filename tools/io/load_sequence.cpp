@@ -341,4 +341,39 @@ MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOption
   return sequence;
 }
 
+std::vector<MeshSequence> load_topologies(std::span<const std::string> inputs,
+                                          const LoadOptions& options) {
+  if (inputs.empty())
+    fail_usage("no input is given");
+  const std::vector<std::string> paths = expand(inputs);
+  const FileKind kind = kind_of(paths[0]);
+  if (paths.size() > kMaxFrames)
+    fail_usage(std::to_string(paths.size()) + " frames; at most 2^24 - 1 are possible");
+  MeshReader reader;
+  std::vector<MeshSequence> runs;
+  for (size_t f = 0; f < paths.size(); ++f) {
+    if (kind_of(paths[f]) != kind)
+      fail_usage(paths[f] + ": frames are of one format, but " + paths[0] + " is of another");
+    const Mesh* mesh = &reader.read(paths[f]);
+    if (runs.empty() || mesh->vertex_count() != runs.back().vertex_count ||
+        mesh->polygons != runs.back().polygons) {
+      MeshSequence& run = runs.emplace_back();
+      mesh = &reader.read(paths[f], &run);
+      run.name = fs::path(paths[0]).stem().string();
+      run.vertex_count = static_cast<uint32_t>(mesh->vertex_count());
+      run.polygons = mesh->polygons;
+      if (options.rate) {
+        run.rate = *options.rate;
+        run.rate.assumed = false;
+      }
+      run.start_time = static_cast<double>(f) / run.rate.value();
+    }
+    MeshSequence& run = runs.back();
+    run.positions.insert(run.positions.end(), mesh->positions.begin(), mesh->positions.end());
+    ++run.frame_count;
+    report(options.progress, f + 1, paths.size());
+  }
+  return runs;
+}
+
 }  // namespace anicodec::tools
