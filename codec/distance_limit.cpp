@@ -91,7 +91,8 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
         continue;
       const Vector3d start = row(before.positions(), i);
       const double share = pass < kMostPasses ? 0.5 : 0;
-      v->row(static_cast<Eigen::Index>(i)) = (start + share * (row(*v, i) - start)).transpose();
+      v->row(static_cast<Eigen::Index>(i)) =
+          (start + share * (row(*v, i) - start)).cast<float>().cast<double>().transpose();
     }
   }
   return static_cast<uint32_t>(std::count(drawn.begin(), drawn.end(), true));

@@ -2,11 +2,15 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/frame_noise.h"
 
+#include "codec/frame_view.h"
+#include "codec/height_fit.h"
+#include "codec/patch_filter.h"
 #include "codec/sequence_filter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,8 +24,11 @@ using Eigen::Vector3d;
 
 constexpr uint32_t kFewestFrames = 8, kMostFrames = 512;
 constexpr uint32_t kSamples = 8;
-constexpr int kHalvings = 12;        // of the interval of levels
-constexpr double kLeastLevel = 0.1;  // of the smallest variance
+constexpr int kHalvings = 4;           // of the level
+constexpr int kIntervalHalvings = 8;   // of that of levels of the filter of whole frames
+constexpr double kLeastLevel = 0.001;  // of the smallest variance
+constexpr double kFurther = 1.05;      // distance that it may leave, in that before
+constexpr int kHeightRounds = 2;
 
 /// The mean height of the smooth surface over the centres of the triangles.
 double sagitta(const Surface& surface) {
@@ -40,99 +47,166 @@ double sagitta(const Surface& surface) {
   return total > 0 ? sum / total : 0;
 }
 
-/// A frame on which the filter is judged.
-class Sample {
- public:
-  Sample(const WeldedClip& clip, std::span<const float> source, std::span<const float> massaged)
-      : surface_(clip.topology, clip.frame(source)),
-        start_(clip.topology.vertex_count, SurfaceTopology::kNone) {
-    surface_.build_index();
-    const Positions v = clip.frame(massaged);
-    for (uint32_t i = 0; i < start_.size(); ++i) {
-      if (!clip.topology.star[i].empty())
-        start_[i] = surface_.closest(row(v, i)).triangle;
-    }
+/// The mean distance of the vertices from the smooth surface.
+double mean_distance(const Surface& surface, const Positions& v) {
+  double sum = 0;
+  size_t count = 0;
+  for (uint32_t i = 0; i < surface.topology().vertex_count; ++i) {
+    const auto star = surface.topology().star[i];
+    if (star.empty())
+      continue;
+    const SurfacePoint point = surface.walk(row(v, i), star[0]);
+    sum += std::abs(surface.normal(point).dot(row(v, i) - surface.curved(point)));
+    ++count;
   }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
 
-  double height() const { return sagitta(surface_); }
+/// Frames that are settled together.
+class Run {
+ public:
+  Run(const MeshSequence& source, const WeldedClip& clip, const std::vector<uint8_t>& freedom,
+      uint32_t first, uint32_t count, MeshSequence* massaged)
+      : source_(source),
+        clip_(clip),
+        freedom_(freedom),
+        first_(first),
+        count_(count),
+        massaged_(*massaged) {}
 
-  /// Of the vertices from the smooth surface.
-  double distance(const Positions& v) const {
-    double sum = 0;
-    size_t count = 0;
-    for (uint32_t i = 0; i < start_.size(); ++i) {
-      if (start_[i] == SurfaceTopology::kNone)
-        continue;
-      const SurfacePoint point = surface_.walk(row(v, i), start_[i]);
-      sum += std::abs(surface_.normal(point).dot(row(v, i) - surface_.curved(point)));
-      ++count;
+  FrameNoiseReport settle(const PatchFilter& filter, const FrameNoiseOptions& options) {
+    FrameNoiseReport report;
+    auto filtered = [&](double level) {
+      return filter.run(level, clip_.weld.representative, first_, count_, &massaged_);
+    };
+    for (int round = 0; round < options.rounds; ++round) {
+      filtered(options.slide_level);
+      for_frames([&](const Surface& surface, Positions* v) {
+        put_on(surface, true, v);
+        if (round + 1 == options.rounds)
+          fit_heights(surface, kHeightRounds, v);
+      });
     }
-    return count > 0 ? sum / static_cast<double>(count) : 0;
+    const FrameView fitted = FrameView(massaged_).frames(first_, count_);
+    const std::vector<float> before(fitted.positions,
+                                    fitted.positions + fitted.frame_count * fitted.frame_stride);
+    double level = options.last_level;
+    for (int halving = 0;; ++halving, level /= 2) {
+      report.components = filtered(level);
+      for_frames([&](const Surface& surface, Positions* v) { put_on(surface, false, v); });
+      measure(&report);
+      if (halving == kHalvings || report.moved <= options.share * report.sagitta)
+        break;
+      std::copy(before.begin(), before.end(), massaged_.frame(first_).begin());
+    }
+    filter_whole(&report);
+    return report;
   }
 
  private:
-  Surface surface_;
-  std::vector<uint32_t> start_;  ///< where walks start
-};
-
-FrameNoiseReport filter_run(const MeshSequence& source, const WeldedClip& clip, double share,
-                            const FrameView& run, uint32_t first, MeshSequence* massaged) {
-  FrameNoiseReport report;
-  const auto frames = static_cast<uint32_t>(run.frame_count);
-  const SequenceFilter filter(run);
-  const Eigen::VectorXd& variances = filter.variances();
-  if (variances.size() == 0)
-    return report;
-  std::vector<uint32_t> sampled;
-  for (uint32_t k = 0; k < kSamples; ++k)
-    sampled.push_back((2 * k + 1) * frames / (2 * kSamples));
-  std::vector<Sample> samples;
-  for (uint32_t f : sampled) {
-    samples.emplace_back(clip, source.frame(first + f), std::as_const(*massaged).frame(first + f));
-    report.sagitta += samples.back().height() / kSamples;
-  }
-  auto distance = [&](double level) {
-    const Eigen::MatrixXd weights = filter.weights(level);
-    std::vector<double> distances(kSamples);
-    tbb::parallel_for(size_t{0}, samples.size(), [&](size_t k) {
-      const std::vector<float> x = combination(run, weights.row(static_cast<Index>(sampled[k])));
-      distances[k] = samples[k].distance(clip.frame(x));
+  /// Calls with the surface of every frame and its vertices as they are now.
+  template <class Visit>
+  void for_frames(const Visit& visit) {
+    tbb::parallel_for(first_, first_ + count_, [&](uint32_t f) {
+      const Surface surface(clip_.topology, clip_.frame(source_.frame(f)));
+      Positions v = clip_.frame(std::as_const(massaged_).frame(f));
+      visit(surface, &v);
+      clip_.store(v, massaged_.frame(f));
     });
-    double sum = 0;
-    for (double d : distances)
-      sum += d / kSamples;
-    return sum;
-  };
-  double low = std::log(kLeastLevel * variances[variances.size() - 1]);
-  double high = std::log(variances[0]);
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = (low + high) / 2;
-    (distance(std::exp(middle)) <= share * report.sagitta ? low : high) = middle;
   }
-  const Eigen::MatrixXd weights = filter.weights(std::exp(low));
-  report.moved = distance(std::exp(low));
-  report.components = weights.squaredNorm() - 1;
-  combine_frames(weights, first, massaged);
-  return report;
-}
+
+  /// Puts vertices on the surface, or those alone that are not free on it.
+  void put_on(const Surface& surface, bool free_ones, Positions* v) const {
+    for (uint32_t i = 0; i < clip_.topology.vertex_count; ++i) {
+      const Vector3d q = row(*v, i);
+      Vector3d to = q;
+      if (freedom_[i] == 0) {
+        to = row(surface.positions(), i);
+      } else if (freedom_[i] == 1) {
+        uint32_t start = i;
+        Vector3d direction;
+        to = surface.walk_boundary(q, &start, &direction).position;
+      } else if (free_ones) {
+        to = surface.curved(surface.walk(q, clip_.topology.star[i][0]));
+      }
+      v->row(static_cast<Index>(i)) = to.transpose();
+    }
+  }
+
+  uint32_t sampled(uint32_t k) const { return (2 * k + 1) * count_ / (2 * kSamples); }
+
+  /// Filters whole frames as strongly as leaves the vertices about as close to their surfaces.
+  void filter_whole(FrameNoiseReport* report) {
+    const FrameView run = FrameView(massaged_).frames(first_, count_);
+    const SequenceFilter filter(run);
+    const Eigen::VectorXd& variances = filter.variances();
+    if (variances.size() == 0)
+      return;
+    const double most = kFurther * report->moved;
+    double low = std::log(kLeastLevel * variances[variances.size() - 1]);
+    double high = std::log(variances[0]);
+    bool within = false;
+    for (int k = 0; k < kIntervalHalvings; ++k) {
+      const double middle = (low + high) / 2;
+      const Eigen::MatrixXd weights = filter.weights(std::exp(middle));
+      double distances[kSamples];
+      tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t s) {
+        const std::vector<float> x = combination(run, weights.row(Index{sampled(s)}));
+        const Surface surface(clip_.topology, clip_.frame(source_.frame(first_ + sampled(s))));
+        distances[s] = mean_distance(surface, clip_.frame(x));
+      });
+      const double distance = std::accumulate(distances, distances + kSamples, 0.0) / kSamples;
+      (distance <= most ? low : high) = middle;
+      within = within || distance <= most;
+    }
+    if (!within)
+      return;
+    combine_frames(filter.weights(std::exp(low)), first_, &massaged_);
+    for_frames([&](const Surface& surface, Positions* v) { put_on(surface, false, v); });
+    measure(report);
+  }
+
+  void measure(FrameNoiseReport* report) const {
+    double heights[kSamples], distances[kSamples];
+    tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) {
+      const uint32_t f = first_ + sampled(k);
+      const Surface surface(clip_.topology, clip_.frame(source_.frame(f)));
+      heights[k] = sagitta(surface);
+      distances[k] = mean_distance(surface, clip_.frame(std::as_const(massaged_).frame(f)));
+    });
+    report->sagitta = std::accumulate(heights, heights + kSamples, 0.0) / kSamples;
+    report->moved = std::accumulate(distances, distances + kSamples, 0.0) / kSamples;
+  }
+
+  const MeshSequence& source_;
+  const WeldedClip& clip_;
+  const std::vector<uint8_t>& freedom_;
+  uint32_t first_, count_;
+  MeshSequence& massaged_;
+};
 
 }  // namespace
 
+bool can_remove_frame_noise(const MeshSequence& sequence) {
+  return sequence.frame_count >= kFewestFrames;
+}
+
 FrameNoiseReport remove_frame_noise(const MeshSequence& source, const WeldedClip& clip,
-                                    double share, MeshSequence* massaged) {
+                                    const std::vector<uint8_t>& freedom,
+                                    const FrameNoiseOptions& options, MeshSequence* massaged) {
   FrameNoiseReport report;
-  const uint32_t count = source.frame_count;
-  if (count < kFewestFrames)
+  if (!can_remove_frame_noise(source))
     return report;
-  const uint32_t runs = (count + kMostFrames - 1) / kMostFrames;
+  const PatchFilter filter(clip.topology);
+  const uint32_t count = source.frame_count, runs = (count + kMostFrames - 1) / kMostFrames;
   for (uint32_t r = 0; r < runs; ++r) {
     const auto first = static_cast<uint32_t>(uint64_t{count} * r / runs);
     const auto end = static_cast<uint32_t>(uint64_t{count} * (r + 1) / runs);
-    const FrameNoiseReport one = filter_run(
-        source, clip, share, FrameView(*massaged).frames(first, end - first), first, massaged);
+    const FrameNoiseReport one =
+        Run(source, clip, freedom, first, end - first, massaged).settle(filter, options);
     report.sagitta += one.sagitta / runs;
     report.moved += one.moved / runs;
-    report.components += one.components;
+    report.components += one.components / runs;
   }
   return report;
 }

@@ -6,22 +6,41 @@
 #include "codec/mesh_sequence.h"
 #include "codec/welded_clip.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace anicodec {
+
+struct FrameNoiseOptions {
+  double slide_level = 3;   ///< of PatchFilter, for where vertices slide to
+  double last_level = 1.2;  ///< the same for positions, at last
+  double share = 0.8;       ///< how far from the surface the last filter may take the vertices
+  int rounds = 3;
+};
 
 struct FrameNoiseReport {
   double sagitta = 0;     ///< mean height of the smooth surface over the triangles, scene units
   double moved = 0;       ///< mean distance of the vertices from it afterwards
-  double components = 0;  ///< how many principal components' worth of motion is left; 0: untouched
+  double components = 0;  ///< of the motion of a patch that are left, in the mean; 0: untouched
 };
 
+/// Whether there are enough frames to tell noise from motion.
+bool can_remove_frame_noise(const MeshSequence& sequence);
+
 /// Takes out of a massaged sequence what every frame has of its own: where its vertices slid to,
-/// and that its polygons show a smooth surface from other samples. Filters all frames as strongly
-/// (SequenceFilter) as keeps the vertices, in the mean over eight sample frames, within `share`
-/// sagittas of the curved surfaces of `source`: so far the polygons themselves do not know their
-/// surface. Leaves fewer than eight frames alone, they do not tell noise from motion. Cost: that of
-/// SequenceFilter. Works on runs of at most 512 frames.
+/// and that its polygons show a smooth surface from other samples. First where they are along the
+/// surface: round by round all frames are filtered strongly (PatchFilter) and put back on the
+/// curved surfaces of `source`, so that the vertices take the places that they share. Then heights
+/// are fitted (fit_heights()) and the frames filtered once more, as strongly as asked and as keeps
+/// the vertices, in the mean over eight sample frames, within `share` sagittas of those surfaces:
+/// so far the polygons themselves do not know their surface. Whole frames are filtered at last
+/// (SequenceFilter), as strongly as leaves that distance about as it is. Vertices of the boundary
+/// stay on it, those that `freedom` (sliding_freedom()) pins stay in place. Leaves fewer than eight
+/// frames alone. Cost: that of PatchFilter and about 20 queries a vertex. Works on runs of at most
+/// 512 frames.
 FrameNoiseReport remove_frame_noise(const MeshSequence& source, const WeldedClip& clip,
-                                    double share, MeshSequence* massaged);
+                                    const std::vector<uint8_t>& freedom,
+                                    const FrameNoiseOptions& options, MeshSequence* massaged);
 
 }  // namespace anicodec
 

@@ -7,6 +7,7 @@
 #include "codec/frame_noise.h"
 #include "codec/shape_weights.h"
 #include "codec/surface_fit.h"
+#include "codec/untangle.h"
 #include "codec/welded_clip.h"
 
 #include <algorithm>
@@ -51,15 +52,18 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
       options.tolerance > 0 ? options.tolerance : std::numeric_limits<double>::infinity();
   tbb::enumerable_thread_specific<SurfaceFitter> fitters(
       [&] { return SurfaceFitter(clip.topology, shape); });
+  const bool settles = options.noise_share > 0 && can_remove_frame_noise(sequence);
   auto massage_frame = [&](uint32_t f) {
     if (f == options.reference)
       return;
     Positions v = clip.frame(sequence.frame(f));
     Surface surface(clip.topology, v);
-    surface.build_index();
     MassagedFrame& frame = result.frames[f];
     frame.sliding = slider.run(surface, sliding, &v);
-    frame.fitting = fitters.local().run(surface, fitting, &v).convergence;
+    if (!settles) {
+      surface.build_index();
+      frame.fitting = fitters.local().run(surface, fitting, &v).convergence;
+    }
     clip.store(v, result.sequence.frame(f));
   };
   auto in_parallel = [&](const char* stage, const auto& work) {
@@ -70,12 +74,17 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
     }
   };
   in_parallel("massaging", massage_frame);
-  if (options.noise_share > 0)
-    result.noise = remove_frame_noise(sequence, clip, options.noise_share, &result.sequence);
+  if (settles) {
+    FrameNoiseOptions noise;
+    noise.last_level *= options.strength / (1 - options.strength);
+    noise.share = options.noise_share;
+    result.noise = remove_frame_noise(sequence, clip, slider.freedom(), noise, &result.sequence);
+  }
   in_parallel("settling", [&](uint32_t f) {
     Surface surface(clip.topology, clip.frame(sequence.frame(f)));
     surface.build_index();
     Positions v = clip.frame(std::as_const(result.sequence).frame(f));
+    untangle(surface, &v);
     result.frames[f].drawn_back = limit_distance(surface, tolerance, &v);
     clip.store(v, result.sequence.frame(f));
   });

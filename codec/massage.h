@@ -18,10 +18,10 @@ namespace anicodec {
 
 struct MassageOptions {
   uint32_t reference = 0;  ///< the frame whose shapes the others follow
-  double strength = 0.5;   ///< of shape against distance in the last stage, in (0, 1)
+  double strength = 0.5;   ///< of shape, or of what frames share, against distance, in (0, 1)
   double tolerance = 0;    ///< how far a surface may move, scene units (limit_distance()); 0: any
   double noise_share =
-      0.8;  ///< how much is taken for noise of single frames (remove_frame_noise())
+      1.5;  ///< how much is taken for noise of single frames (remove_frame_noise())
   int sliding_rounds = 6;
   int fitting_rounds = 3;
 };
@@ -37,14 +37,15 @@ struct MassageResult {
   FrameNoiseReport noise;
 };
 
-/// Massages every frame but the reference: first vertices slide on the surface of their frame
-/// (SlidingSolver), then a few rounds of the combined optimisation (SurfaceFitter) lift the ridges
-/// that sliding cut. Over all frames, the reference included, what is each frame's own is then
-/// taken out (remove_frame_noise()); at last limit_distance() draws back what went further than the
-/// tolerance, and triangles that have turned. Vertices with bit-identical trajectories move
-/// together. Frames in parallel; the result does not depend on the number of threads. Throws
-/// Error(kInput) for a sequence without triangles, Error(kUsage) for options out of range. Stages
-/// "massaging" and "settling".
+/// Massages every frame but the reference: vertices slide on the surface of their frame
+/// (SlidingSolver). Over all frames, the reference included, what is each frame's own is then
+/// taken out (remove_frame_noise()); where there are too few frames for it, or it is not asked for,
+/// a few rounds of the combined optimisation (SurfaceFitter) lift the ridges that sliding cut.
+/// Triangles that turned are turned again (untangle()); at last limit_distance() draws back what
+/// went further than the tolerance, and triangles that are turned still. Vertices with
+/// bit-identical trajectories move together. Frames in parallel; the result does not depend on the
+/// number of threads. Throws Error(kInput) for a sequence without triangles, Error(kUsage) for
+/// options out of range. Stages "massaging" and "settling".
 MassageResult massage(const MeshSequence& sequence, const MassageOptions& options,
                       const Progress& progress = {});
 

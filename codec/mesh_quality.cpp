@@ -29,18 +29,22 @@ Matrix2d flat(const Positions& positions, const SurfaceTopology::Triangle& t) {
   return sides;
 }
 
-template <class Below>
-std::vector<uint32_t> turned_against(const SurfaceTopology& topology, const Positions& positions,
-                                     const Surface& surface, const Below& below) {
+Vector3d centre(const Positions& positions, const SurfaceTopology::Triangle& t) {
+  return (row(positions, t[0]) + row(positions, t[1]) + row(positions, t[2])) / 3;
+}
+
+bool faces_against(const Positions& positions, const SurfaceTopology::Triangle& t,
+                   const Surface& surface, uint32_t below) {
+  const Vector3d up = area_normal(surface.positions(), surface.topology().triangles[below]);
+  return area_normal(positions, t).dot(up) < 0;
+}
+
+/// Of all triangles those for which `turned(t)`, ascending.
+template <class Turned>
+std::vector<uint32_t> all_turned(const SurfaceTopology& topology, const Turned& is_turned) {
   std::vector<uint8_t> turned(topology.triangles.size(), 0);
-  tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(turned.size()), [&](uint32_t t) {
-    const SurfaceTopology::Triangle& k = topology.triangles[t];
-    const Vector3d centre =
-        (row(positions, k[0]) + row(positions, k[1]) + row(positions, k[2])) / 3;
-    const Vector3d up =
-        area_normal(surface.positions(), surface.topology().triangles[below(t, centre)]);
-    turned[t] = area_normal(positions, k).dot(up) < 0;
-  });
+  tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(turned.size()),
+                    [&](uint32_t t) { turned[t] = is_turned(t); });
   std::vector<uint32_t> list;
   for (uint32_t t = 0; t < turned.size(); ++t) {
     if (turned[t])
@@ -106,15 +110,24 @@ Distortion distortion(const SurfaceTopology& topology, const Positions& before,
 
 std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
                                        const Surface& surface) {
-  return turned_against(topology, positions, surface, [&](uint32_t, const Vector3d& centre) {
-    return surface.closest(centre).triangle;
+  return all_turned(topology, [&](uint32_t t) {
+    const SurfaceTopology::Triangle& k = topology.triangles[t];
+    return faces_against(positions, k, surface, surface.closest(centre(positions, k)).triangle);
   });
 }
 
+uint32_t place_below(const Positions& positions, uint32_t triangle, const Surface& surface) {
+  return surface.walk(centre(positions, surface.topology().triangles[triangle]), triangle).triangle;
+}
+
+bool is_turned_in_place(const Positions& positions, uint32_t triangle, const Surface& surface) {
+  return faces_against(positions, surface.topology().triangles[triangle], surface,
+                       place_below(positions, triangle, surface));
+}
+
 std::vector<uint32_t> turned_in_place(const Positions& positions, const Surface& surface) {
-  return turned_against(
-      surface.topology(), positions, surface,
-      [&](uint32_t t, const Vector3d& centre) { return surface.walk(centre, t).triangle; });
+  return all_turned(surface.topology(),
+                    [&](uint32_t t) { return is_turned_in_place(positions, t, surface); });
 }
 
 }  // namespace anicodec

@@ -42,6 +42,12 @@ std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Po
 /// Needs no index.
 std::vector<uint32_t> turned_in_place(const Positions& positions, const Surface& surface);
 
+/// The same for one triangle.
+bool is_turned_in_place(const Positions& positions, uint32_t triangle, const Surface& surface);
+
+/// The triangle of the surface that such a triangle is compared with.
+uint32_t place_below(const Positions& positions, uint32_t triangle, const Surface& surface);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_MESH_QUALITY_H_

@@ -2,9 +2,6 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence_filter.h"
 
-#include "codec/frame_noise.h"
-#include "corpus/clips.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -55,24 +52,6 @@ TEST(SequenceFilter, CombinesFramesAsOneByOne) {
   const std::vector<float> one = combination(FrameView(clip), weights.row(7));
   combine_frames(weights, 0, &clip);
   EXPECT_TRUE(std::equal(one.begin(), one.end(), clip.frame(7).begin()));
-}
-
-TEST(FrameNoise, LeavesFewFramesAlone) {
-  MeshSequence clip = corpus::make_scaled("sliding", 300, 4);
-  const MeshSequence before = clip;
-  const WeldedClip welded(clip);
-  EXPECT_EQ(remove_frame_noise(before, welded, 1, &clip).components, 0);
-  EXPECT_EQ(clip.positions, before.positions);
-}
-
-TEST(FrameNoise, StaysWithinItsShareOfTheSagitta) {
-  MeshSequence clip = corpus::make_scaled("sliding", 400, 24);
-  const MeshSequence before = clip;
-  const WeldedClip welded(clip);
-  const FrameNoiseReport report = remove_frame_noise(before, welded, 1, &clip);
-  EXPECT_GT(report.components, 0);
-  EXPECT_LT(report.components, 24);
-  EXPECT_LE(report.moved, report.sagitta);
 }
 
 }  // namespace

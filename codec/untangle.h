@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_UNTANGLE_H_
+#define ANICODEC_CODEC_UNTANGLE_H_
+
+#include "codec/surface.h"
+
+#include <cstdint>
+
+namespace anicodec {
+
+/// Turns triangles of a mesh that face against a surface of the same connectivity
+/// (turned_in_place()) the right way again, each by the least move of its corners that does it, and
+/// over again for those that this turns, up to 40 times. Positions become those of floats. Moves
+/// inner vertices alone. What is still turned then is left to limit_distance(). Returns the number
+/// of triangles it turned. Cost: that of turned_in_place() and little more.
+uint32_t untangle(const Surface& surface, Positions* v);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_UNTANGLE_H_
