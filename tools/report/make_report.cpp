@@ -120,6 +120,7 @@ class ReportMaker {
     options.target = {format::ErrorMetric::kKg, kg, false};
     options.basis = basis;
     options.effort = options_.effort;
+    options.attributes.keep = false;  // the other codecs have positions and faces alone, too
     options.encoder = std::string("anicodec ") + version();
     EncodeResult result;
     try {

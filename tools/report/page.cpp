@@ -207,7 +207,8 @@ std::string report_page(const Report& report) {
            "</div>";
   }
   out +=
-      "<h2>Size against error</h2><p>Whole files. Lower and further left is better. Other codecs "
+      "<h2>Size against error</h2><p>Whole files, of positions and faces. Lower and further left "
+      "is better. Other codecs "
       "are dashed: they store the positions of a cubic grid whose step gives the error, gltfpack "
       "those "
       "of the fewest bits that keep to it.</p>"
