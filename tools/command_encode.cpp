@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
 #include "codec/error.h"
-#include "codec/join_clips.h"
 #include "codec/massage_choice.h"
 #include "tools/batch.h"
 #include "tools/choice.h"
@@ -15,6 +14,7 @@
 #include "tools/names.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
+#include "tools/topologies.h"
 #include "tools/version.h"
 
 #include <algorithm>
@@ -160,14 +160,27 @@ EncodeOptions options_of(const EncodeCommand& command) {
   return options;
 }
 
-MeshSequence load(const EncodeCommand& command, const Progress& progress,
-                  EncodeOptions* encode_options) {
+LoadOptions load_options_of(const EncodeCommand& command, const Progress& progress) {
   LoadOptions options;
   options.mesh = command.mesh;
   options.clip = command.clip;
   options.progress = progress;
   if (!command.rate.empty())
     options.rate = parse_frame_rate(command.rate);
+  return options;
+}
+
+void set_metadata(const EncodeCommand& command, MeshSequence& sequence) {
+  if (command.up != UpAxis::kUnknown)
+    sequence.up = command.up;
+  if (!command.unit.empty())
+    sequence.metres_per_unit = parse_unit(command.unit, "--unit");
+  sequence.loop = command.loop;
+}
+
+MeshSequence load(const EncodeCommand& command, const Progress& progress,
+                  EncodeOptions* encode_options) {
+  const LoadOptions options = load_options_of(command, progress);
   MeshSequence sequence;
   if (command.massage == Massage::kTransfer) {
     sequence = transfer_to_one(command.inputs, progress, &encode_options->surface_change.emplace());
@@ -176,11 +189,7 @@ MeshSequence load(const EncodeCommand& command, const Progress& progress,
   } else {
     sequence = load_sequence(command.inputs, options);
   }
-  if (command.up != UpAxis::kUnknown)
-    sequence.up = command.up;
-  if (!command.unit.empty())
-    sequence.metres_per_unit = parse_unit(command.unit, "--unit");
-  sequence.loop = command.loop;
+  set_metadata(command, sequence);
   return sequence;
 }
 
@@ -330,72 +339,16 @@ void encode_batch(const EncodeCommand& command, const CommonOptions& common) {
       });
 }
 
-/// Length of the diagonal of the box around all frames.
-double diagonal_of(const std::vector<MeshSequence>& runs) {
-  MeshSequence corners;  // two vertices: of the box around each
-  for (const MeshSequence& run : runs) {
-    float low[3] = {run.positions[0], run.positions[1], run.positions[2]};
-    float high[3] = {low[0], low[1], low[2]};
-    for (size_t i = 0; i < run.positions.size(); ++i) {
-      low[i % 3] = std::min(low[i % 3], run.positions[i]);
-      high[i % 3] = std::max(high[i % 3], run.positions[i]);
-    }
-    corners.positions.insert(corners.positions.end(), low, low + 3);
-    corners.positions.insert(corners.positions.end(), high, high + 3);
-  }
-  return diagonal(corners);
-}
-
-/// Encodes frames whose connectivity changes, each run of one apart, to one file.
-EncodeResult encode_topologies(const EncodeCommand& command, EncodeOptions options,
-                               const Progress& progress) {
+/// Encodes frames whose connectivity changes.
+EncodeResult encode_segments(const EncodeCommand& command, const EncodeOptions& options,
+                             const Progress& progress) {
   if (!command.frames.empty() || command.massage != Massage::kOff)
     throw Error(ErrorKind::kUsage, "--topology segments goes without --frames and --massage");
-  using format::ErrorMetric;
-  if (options.target.metric == ErrorMetric::kSize)
-    throw Error(ErrorKind::kUsage, "--size cannot be shared out among topologies");
-  LoadOptions load_options;
-  load_options.progress = progress;
-  if (!command.rate.empty())
-    load_options.rate = parse_frame_rate(command.rate);
-  std::vector<MeshSequence> runs = load_topologies(command.inputs, load_options);
-  const double length = diagonal_of(runs);
-  for (Target* target : {&options.target, options.cap ? &*options.cap : nullptr}) {
-    if (target && target->percent)
-      *target = {target->metric, target->value / 100 * length, false};
-  }
-  EncodeResult all;
-  std::vector<EncodeResult> results;
-  for (MeshSequence& run : runs) {
-    if (command.up != UpAxis::kUnknown)
-      run.up = command.up;
-    if (!command.unit.empty())
-      run.metres_per_unit = parse_unit(command.unit, "--unit");
-    run.loop = command.loop;
-    const uint32_t first = all.frames;
-    all.frames += run.frame_count;
-    try {
-      results.push_back(encode(std::move(run), options, progress));
-    } catch (const Error& e) {
-      throw Error(e.kind(), fmt::format("{}: frames {}:{}: {}", command.inputs[0], first,
-                                        all.frames, e.what()));
-    }
-  }
-  std::vector<ClipPart> parts;
-  for (const EncodeResult& result : results) {
-    parts.push_back({command.inputs[0], result.file});
-    all.vertices = std::max(all.vertices, result.vertices);
-    all.faces = std::max(all.faces, result.faces);
-    all.kind = result.kind;
-    all.components = std::max(all.components, result.components);
-    all.max_error = std::max(all.max_error, result.max_error);
-    all.kg = std::max(all.kg, result.kg);
-    all.rmse = std::max(all.rmse, result.rmse);
-    all.trials.insert(all.trials.end(), result.trials.begin(), result.trials.end());
-  }
-  all.diagonal = length;
-  all.file = join_topologies(parts);
-  return all;
+  std::vector<MeshSequence> runs =
+      load_topologies(command.inputs, load_options_of(command, progress));
+  for (MeshSequence& run : runs)
+    set_metadata(command, run);
+  return encode_topologies(std::move(runs), options, command.inputs[0], progress);
 }
 
 /// Encodes frames of one connectivity.
@@ -441,7 +394,7 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
   Progress progress = line.callback();
   MassageVerdict massage;
   EncodeResult result = command.topology == Topology::kSegments
-                            ? encode_topologies(command, options, progress)
+                            ? encode_segments(command, options, progress)
                             : encode_clip(command, options, &massage, progress);
   line.clear();
   if (to_standard_output) {
