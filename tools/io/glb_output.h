@@ -16,8 +16,7 @@ namespace anicodec::tools {
 /// A single frame is a mesh alone. Polygons become fans of triangles, a primitive for each
 /// material; vertices whose corners differ in UV, colours or hard edges come once for each. Clips
 /// whose up axis is Z are turned, and units scaled, by the node. Normals of every frame come along
-/// where the clip knows its hard edges. Positions read back within a
-/// rounding of float32.
+/// where the clip knows its hard edges. Positions read back within a rounding of float32.
 class GlbOutput {
  public:
   /// `step`: each frame stands until the next, instead of moving to it. Takes counts, polygons,
