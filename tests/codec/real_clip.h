@@ -4,9 +4,9 @@
 #define ANICODEC_TESTS_CODEC_REAL_CLIP_H_
 
 #include "codec/frame_view.h"
+#include "tests/real_data.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -22,12 +22,6 @@ struct RealClip {
 
   FrameView view() const { return {positions.data(), frame_count, vertex_count}; }
 };
-
-/// The folder of real clips: $ANICODEC_DATA, else shared/data beside the checkout.
-inline std::string real_data_folder() {
-  const char* set = std::getenv("ANICODEC_DATA");
-  return set != nullptr ? set : std::string(ANICODEC_SOURCE_DIR) + "/../shared/data";
-}
 
 inline RealClip read_real_clip(const std::string& name) {
   std::ifstream file(real_data_folder() + "/" + name, std::ios::binary);

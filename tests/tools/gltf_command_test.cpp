@@ -3,6 +3,7 @@
 //
 // Scenes through the command: GLB in, out, and what the Khronos validator says about it.
 #include "corpus/clips.h"
+#include "tests/real_data.h"
 #include "tests/tools/command_testing.h"
 #include "tests/tools/gltf_testing.h"
 #include "tools/io/glb_output.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -204,23 +204,18 @@ TEST(GltfValidator, FindsNothingWrong) {
   EXPECT_EQ(outcome.status, 0) << outcome;
 }
 
-std::string data_folder() {
-  const char* folder = std::getenv("ANICODEC_DATA");
-  return folder ? folder : ANICODEC_SOURCE_DIR "/../shared/data";
-}
-
 class RealDataGltf : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    if (!std::filesystem::is_directory(data_folder() + "/gltf"))
-      GTEST_SKIP() << data_folder()
+    if (!std::filesystem::is_directory(real_data_folder() + "/gltf"))
+      GTEST_SKIP() << real_data_folder()
                    << "/gltf is absent; ANICODEC_DATA names the folder of real clips";
   }
 };
 
 TEST_P(RealDataGltf, ImportsAndKeepsItsPromise) {
   TemporaryFolder folder;
-  const std::string source = data_folder() + "/" + GetParam();
+  const std::string source = real_data_folder() + "/" + GetParam();
   Outcome encoded = anicodec(
       {"encode", source, "-o", folder / "a.anic", "--kg", "1", "--effort", "1", "--fps", "10"});
   ASSERT_EQ(encoded.status, 0) << encoded;
@@ -248,8 +243,8 @@ class RealDataCesium : public RealDataGltf {
   nlohmann::json compared(const std::string& a, const std::string& b,
                           std::vector<std::string> options) {
     options.insert(options.begin(),
-                   {"compare", data_folder() + "/" + a, data_folder() + "/" + b, "--json",
-                    "--no-sted", "--mesh", data_folder() + "/exported/obj/cesium1.obj"});
+                   {"compare", real_data_folder() + "/" + a, real_data_folder() + "/" + b, "--json",
+                    "--no-sted", "--mesh", real_data_folder() + "/exported/obj/cesium1.obj"});
     Outcome outcome = anicodec(options);
     EXPECT_EQ(outcome.status, 0) << outcome;
     return outcome.json();
@@ -291,7 +286,7 @@ TEST_F(RealDataGltf, TakesOtherScenes) {
   for (const auto& [file, frames] :
        {std::pair("other/faerie.md2", 198), {"exported/cesium.fbx", 1}}) {
     TemporaryFolder folder;
-    const std::string source = data_folder() + "/" + file;
+    const std::string source = real_data_folder() + "/" + file;
     Outcome encoded = anicodec(
         {"encode", source, "-o", folder / "a.anic", "--kg", "1", "--effort", "1", "--json"});
     if (encoded.status != 0 && encoded.err.find("without assimp") != std::string::npos)

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/load_sequence.h"
 
+#include "tests/real_data.h"
 #include "tests/tools/io_testing.h"
 #include "tools/io/byte_order.h"
 #include "tools/io/frame_rate.h"
@@ -9,7 +10,6 @@
 #include "tools/io/vertex_cache.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -203,8 +203,7 @@ TEST(LoadSequence, ReportsProgressAndCanBeCancelled) {
 class RealDataLoadSequence : public testing::Test {
  protected:
   void SetUp() override {
-    const char* folder = std::getenv("ANICODEC_DATA");
-    data_ = folder ? folder : std::string(ANICODEC_SOURCE_DIR) + "/../shared/data";
+    data_ = real_data_folder();
     if (!std::filesystem::exists(data_ / "classic"))
       GTEST_SKIP() << "no real clips: set ANICODEC_DATA to their folder";
   }

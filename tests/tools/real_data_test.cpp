@@ -3,9 +3,10 @@
 //
 // Clips that the project may not distribute, in the folder named by ANICODEC_DATA (default:
 // shared/data beside the checkout).
+#include "tests/real_data.h"
+
 #include "tests/tools/command_testing.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,22 +17,18 @@
 namespace anicodec::tools {
 namespace {
 
-std::string data_folder() {
-  const char* folder = std::getenv("ANICODEC_DATA");
-  return folder ? folder : ANICODEC_SOURCE_DIR "/../shared/data";
-}
-
 class RealDataEncode : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    if (!std::filesystem::is_directory(data_folder()))
-      GTEST_SKIP() << data_folder() << " is absent; ANICODEC_DATA names the folder of real clips";
+    if (!std::filesystem::is_directory(real_data_folder()))
+      GTEST_SKIP() << real_data_folder()
+                   << " is absent; ANICODEC_DATA names the folder of real clips";
   }
 };
 
 TEST_P(RealDataEncode, KeepsItsPromise) {
   TemporaryFolder folder;
-  std::string source = data_folder() + "/" + GetParam();
+  std::string source = real_data_folder() + "/" + GetParam();
   Outcome encoded = anicodec({"encode", source, "-o", folder / "a.anic", "--max-error", "0.1%"});
   ASSERT_EQ(encoded.status, 0) << encoded;
   EXPECT_EQ(anicodec({"verify", folder / "a.anic"}).status, 0);
@@ -55,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(, RealDataEncode,
 class RealDataDance : public testing::Test {};
 
 TEST_F(RealDataDance, FortyFiveKeyframesStayBelowOnePerCent) {
-  std::string dance = data_folder() + "/classic/dance";
+  std::string dance = real_data_folder() + "/classic/dance";
   if (!std::filesystem::exists(dance + ".pc2"))
     GTEST_SKIP() << dance << ".pc2 is absent; ANICODEC_DATA names the folder of real clips";
   TemporaryFolder folder;
