@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kMostInMean = 20;
 constexpr double kLeastAreaChange = 1e-12;
+constexpr double kReach = 0.1;  // of a triangle's longest side
 
 /// The triangle in its own plane: its sides from the first corner, as columns.
 Matrix2d flat(const Positions& positions, const SurfaceTopology::Triangle& t) {
@@ -31,6 +32,12 @@ Matrix2d flat(const Positions& positions, const SurfaceTopology::Triangle& t) {
 
 Vector3d centre(const Positions& positions, const SurfaceTopology::Triangle& t) {
   return (row(positions, t[0]) + row(positions, t[1]) + row(positions, t[2])) / 3;
+}
+
+double longest_side(const Positions& positions, const SurfaceTopology::Triangle& t) {
+  return std::max({(row(positions, t[0]) - row(positions, t[1])).norm(),
+                   (row(positions, t[1]) - row(positions, t[2])).norm(),
+                   (row(positions, t[2]) - row(positions, t[0])).norm()});
 }
 
 bool faces_against(const Positions& positions, const SurfaceTopology::Triangle& t,
@@ -108,26 +115,59 @@ Distortion distortion(const SurfaceTopology& topology, const Positions& before,
   return result;
 }
 
+std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Positions& positions,
+                                      const Surface& surface) {
+  const auto count = static_cast<uint32_t>(topology.triangles.size());
+  std::vector<uint32_t> below(count);
+  tbb::parallel_for(uint32_t{0}, count, [&](uint32_t t) {
+    below[t] = surface.closest(centre(positions, topology.triangles[t])).triangle;
+  });
+  std::vector<bool> against(count);
+  for (uint32_t t = 0; t < count; ++t)
+    against[t] = faces_against(positions, topology.triangles[t], surface, below[t]);
+  auto find_other_side = [&](uint32_t t) {
+    const SurfaceTopology::Triangle& corners = topology.triangles[t];
+    const double reach = kReach * longest_side(positions, corners);
+    for (uint32_t beside : topology.across[t]) {
+      if (beside == SurfaceTopology::kNone || against[beside])
+        continue;
+      const SurfacePoint point = surface.walk(centre(positions, corners), below[beside]);
+      if (point.square_distance > reach * reach ||
+          faces_against(positions, corners, surface, point.triangle))
+        continue;
+      below[t] = point.triangle;
+      against[t] = false;
+      return true;
+    }
+    return false;
+  };
+  for (bool found = true; found;) {
+    found = false;
+    for (uint32_t t = 0; t < count; ++t)
+      found = (against[t] && find_other_side(t)) || found;
+  }
+  return below;
+}
+
+bool is_turned(const SurfaceTopology& topology, const Positions& positions, uint32_t triangle,
+               const Surface& surface, uint32_t start) {
+  const SurfaceTopology::Triangle& corners = topology.triangles[triangle];
+  return faces_against(positions, corners, surface,
+                       surface.walk(centre(positions, corners), start).triangle);
+}
+
 std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
                                        const Surface& surface) {
+  const std::vector<uint32_t> below = triangles_below(topology, positions, surface);
   return all_turned(topology, [&](uint32_t t) {
-    const SurfaceTopology::Triangle& k = topology.triangles[t];
-    return faces_against(positions, k, surface, surface.closest(centre(positions, k)).triangle);
+    return faces_against(positions, topology.triangles[t], surface, below[t]);
   });
 }
 
-uint32_t place_below(const Positions& positions, uint32_t triangle, const Surface& surface) {
-  return surface.walk(centre(positions, surface.topology().triangles[triangle]), triangle).triangle;
-}
-
-bool is_turned_in_place(const Positions& positions, uint32_t triangle, const Surface& surface) {
-  return faces_against(positions, surface.topology().triangles[triangle], surface,
-                       place_below(positions, triangle, surface));
-}
-
 std::vector<uint32_t> turned_in_place(const Positions& positions, const Surface& surface) {
-  return all_turned(surface.topology(),
-                    [&](uint32_t t) { return is_turned_in_place(positions, t, surface); });
+  return all_turned(surface.topology(), [&](uint32_t t) {
+    return is_turned(surface.topology(), positions, t, surface, t);
+  });
 }
 
 }  // namespace anicodec

@@ -32,8 +32,20 @@ struct Distortion {
 Distortion distortion(const SurfaceTopology& topology, const Positions& before,
                       const Positions& after);
 
-/// Triangles that face against the surface at the point closest to their centre, ascending. The
-/// surface has an index.
+/// The triangle of the surface below each triangle of a mesh of any connectivity: the one closest
+/// to its centre, by the index. Where that faces the other way, but walking from what is below a
+/// neighbour ends at one that does not, less than a tenth of its longest side away, that one: so
+/// the far side of a thin part is not mistaken for the near one.
+std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Positions& positions,
+                                      const Surface& surface);
+
+/// Whether a triangle of a mesh faces against the surface where a walk from `start`, a triangle of
+/// the surface, to its centre ends.
+bool is_turned(const SurfaceTopology& topology, const Positions& positions, uint32_t triangle,
+               const Surface& surface, uint32_t start);
+
+/// Triangles that face against what is below them (triangles_below()), ascending. The surface has
+/// an index.
 std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
                                        const Surface& surface);
 
@@ -41,12 +53,6 @@ std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Po
 /// with where a walk from its own place to its centre ends: a fold nearby is not mistaken for it.
 /// Needs no index.
 std::vector<uint32_t> turned_in_place(const Positions& positions, const Surface& surface);
-
-/// The same for one triangle.
-bool is_turned_in_place(const Positions& positions, uint32_t triangle, const Surface& surface);
-
-/// The triangle of the surface that such a triangle is compared with.
-uint32_t place_below(const Positions& positions, uint32_t triangle, const Surface& surface);
 
 }  // namespace anicodec
 

@@ -16,6 +16,10 @@ namespace anicodec {
 /// of triangles it turned. Cost: that of turned_in_place() and little more.
 uint32_t untangle(const Surface& surface, Positions* v);
 
+/// The same for a mesh of another connectivity than the surface, which has an index, and what
+/// turned_triangles() finds.
+uint32_t untangle(const SurfaceTopology& mesh, const Surface& surface, Positions* v);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_UNTANGLE_H_

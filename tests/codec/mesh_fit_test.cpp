@@ -26,10 +26,24 @@ SurfaceFrame frame_of(const TestMesh& mesh, const Eigen::Vector3d& by = Eigen::V
 TEST(MeshFit, BringsACoarseBallCloserToAFineOne) {
   const MeshFit fit = fit_mesh(frame_of(sphere(5)), frame_of(sphere(20)));
   EXPECT_TRUE(fit.improved);
-  EXPECT_LT(fit.after.mean(), 0.6 * fit.before.mean());
-  EXPECT_LT(fit.after.max(), 0.8 * fit.before.max());
+  EXPECT_LT(fit.after.mean(), 0.55 * fit.before.mean());
+  EXPECT_LT(fit.after.max(), 0.6 * fit.before.max());
   EXPECT_EQ(fit.turned_after, 0U);
   EXPECT_EQ(fit.positions.size(), frame_of(sphere(5)).positions.size());
+}
+
+TEST(MeshFit, TurnsTrianglesThatWereTurned) {
+  TestMesh ball = sphere(6);
+  // A vertex beyond the far side of its ring.
+  const uint32_t end = ball.topology.ring[40][0];
+  ball.positions.row(40) =
+      (row(ball.positions, 40) + 1.6 * (row(ball.positions, end) - row(ball.positions, 40)))
+          .normalized()
+          .transpose();
+  const MeshFit fit = fit_mesh(frame_of(ball), frame_of(sphere(20)));
+  EXPECT_GT(fit.turned_before, 0U);
+  EXPECT_TRUE(fit.improved);
+  EXPECT_EQ(fit.turned_after, 0U);
 }
 
 TEST(MeshFit, LeavesAMeshThatIsTheSurface) {
