@@ -9,6 +9,7 @@
 #include "sdk/draco_mesh.h"
 #include "sdk/map_coding.h"
 #include "sdk/plain_coding.h"
+#include "sdk/vertex_walk.h"
 
 #include <algorithm>
 #include <array>
@@ -229,7 +230,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
     map[canonical[v]] = v;
   }
   BinaryEncoder map_encoder;
-  code_permutation(map_encoder, sequence.vertex_count, &map);
+  VertexWalk(layout.topology).code(map_encoder, &map);
   layout.vertex_map = map_encoder.finish();
 
   Vector<uint32_t>& place = layout.polygon_source;

@@ -256,7 +256,7 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh,
   if (Failure f = required(file, "VMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
     return f;
   Vector<uint32_t> map;
-  if (Status s = decode_vertex_map(payload, sizes.source_vertices, &map); s != Status::kOk)
+  if (Status s = decode_vertex_map(payload, out.topology, &map); s != Status::kOk)
     return at(*chunk, s, "the vertex map is damaged");
   if (record_.order == format::OrderMode::kAll) {
     if (Failure f = required(file, "FMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())

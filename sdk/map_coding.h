@@ -43,53 +43,78 @@ class FreePlaces {
   Vector<uint32_t> up_, down_;
 };
 
-/// Codes a permutation whose neighbouring entries tend to be near each other. Each entry is the
-/// next free place after or before the entry before it, or one of the steps used last, or any step.
-/// False when what was read is no permutation or the stream ran out. O(count) in practice.
-template <class Coder>
-bool code_permutation(Coder& coder, uint32_t count, Vector<uint32_t>* permutation) {
-  constexpr int kRecent = 12;
-  AdaptiveBit hit[kRecent + 2][4];
-  SymbolModel<> step_model;
-  int32_t recent[kRecent] = {};
-  FreePlaces free(count);
-  if constexpr (Coder::kDecodes)
-    permutation->assign(count, 0);
-  uint32_t before = 0;  // one more than the previous entry
-  int context = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    uint32_t wanted = (*permutation)[i];
-    uint32_t up = free.at_or_after(before), down = free.before(before > 0 ? before - 1 : 0);
-    uint32_t value = count;
+/// Codes numbers below a count, each once, that tend to be near each other: the next free one after
+/// or before the one before it, or one of the steps used last, or any step.
+class DistinctNumbers {
+ public:
+  explicit DistinctNumbers(uint32_t count) : count_(count), free_(count) {}
+
+  /// Codes a number and takes it. False when what was read is no number that is free.
+  template <class Coder>
+  bool code(Coder& coder, uint32_t wanted, uint32_t* out) {
+    const uint32_t up = free_.at_or_after(before_),
+                   down = free_.before(before_ > 0 ? before_ - 1 : 0);
+    uint32_t value = count_;
     int kind = 0;
-    if (up < count && coder.bit(hit[0][context], wanted == up)) {
+    if (up < count_ && coder.bit(hit_[0][context_], wanted == up)) {
       value = up;
-    } else if (down > 0 && coder.bit(hit[1][context], wanted == down - 1)) {
+    } else if (down > 0 && coder.bit(hit_[1][context_], wanted == down - 1)) {
       value = down - 1;
       kind = 1;
     } else {
-      int32_t step = static_cast<int32_t>(wanted) - static_cast<int32_t>(before);
+      int32_t step = static_cast<int32_t>(wanted) - static_cast<int32_t>(before_);
       int slot = 0;
       for (; slot < kRecent; ++slot) {
-        if (coder.bit(hit[2 + slot][context], recent[slot] == step))
+        if (coder.bit(hit_[2 + slot][context_], recent_[slot] == step))
           break;
       }
-      step = slot < kRecent ? recent[slot] : step_model.code(coder, step);
+      step = slot < kRecent ? recent_[slot] : step_model_.code(coder, step);
       kind = slot < kRecent ? 2 : 3;
-      std::rotate(recent, recent + std::min(slot, kRecent - 1),
-                  recent + std::min(slot, kRecent - 1) + 1);
-      recent[0] = step;
-      int64_t place = int64_t{before} + step;
-      if (place < 0 || place >= count)
+      std::rotate(recent_, recent_ + std::min(slot, kRecent - 1),
+                  recent_ + std::min(slot, kRecent - 1) + 1);
+      recent_[0] = step;
+      const int64_t place = int64_t{before_} + step;
+      if (place < 0 || place >= count_)
         return false;
       value = static_cast<uint32_t>(place);
     }
-    if (free.at_or_after(value) != value)
+    if (free_.at_or_after(value) != value)
       return false;
-    free.take(value);
-    (*permutation)[i] = value;
-    before = value + 1;
-    context = kind;
+    take(value);
+    context_ = kind;
+    *out = value;
+    return true;
+  }
+
+  /// Takes a free number that was coded by other means.
+  void take(uint32_t value) {
+    free_.take(value);
+    before_ = value + 1;
+    context_ = 0;
+  }
+
+ private:
+  static constexpr int kRecent = 12;
+
+  uint32_t count_;
+  FreePlaces free_;
+  AdaptiveBit hit_[kRecent + 2][4];
+  SymbolModel<> step_model_;
+  int32_t recent_[kRecent] = {};
+  uint32_t before_ = 0;  ///< one more than the number before
+  int context_ = 0;
+};
+
+/// Codes a permutation whose neighbouring entries tend to be near each other. False when what was
+/// read is no permutation or the stream ran out. O(count) in practice.
+template <class Coder>
+bool code_permutation(Coder& coder, uint32_t count, Vector<uint32_t>* permutation) {
+  DistinctNumbers numbers(count);
+  if constexpr (Coder::kDecodes)
+    permutation->assign(count, 0);
+  for (uint32_t& entry : *permutation) {
+    if (!numbers.code(coder, entry, &entry))
+      return false;
     if constexpr (Coder::kDecodes) {
       if (!coder.ok())
         return false;

@@ -84,7 +84,7 @@ uint64_t opening(const Limits::Mesh& m) {
   const uint64_t details =
       uint64_t{28} * 3 * m.triangles + uint64_t{12} * m.coded_vertices + 4 * m.source_vertices;
   const uint64_t maps =
-      uint64_t{20} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{4} * m.corners;
+      uint64_t{32} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{12} * m.corners;
   const uint64_t pose = uint64_t{340} * m.coded_vertices + uint64_t{72} * m.triangles;
   // Edges, entries and their numbers; or a permutation and a copy.
   const uint64_t attributes = m.attribute_bytes == 0

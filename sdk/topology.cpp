@@ -4,6 +4,7 @@
 
 #include "sdk/details_coding.h"
 #include "sdk/map_coding.h"
+#include "sdk/vertex_walk.h"
 
 #include <numeric>
 
@@ -23,9 +24,10 @@ Status decode_details(format::ByteView details, const format::Limits::Mesh& size
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
-Status decode_vertex_map(format::ByteView bytes, uint32_t vertices, Vector<uint32_t>* source) {
+Status decode_vertex_map(format::ByteView bytes, const Topology& topology,
+                         Vector<uint32_t>* source) {
   BinaryDecoder decoder(bytes.data, bytes.size);
-  if (!code_permutation(decoder, vertices, source))
+  if (!VertexWalk(topology).code(decoder, source))
     return decoder.ok() ? Status::kIndexRange : Status::kEntropy;
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }

@@ -35,8 +35,9 @@ Status decode_details(format::ByteView details, const format::Limits::Mesh& size
                       const Vector<uint32_t>& triangles, Topology* out);
 
 /// Decodes a vertex map (chunk VMAP): `source[i]` is the place, in the source's order, of vertex i
-/// of the canonical order; a permutation, else kIndexRange.
-Status decode_vertex_map(format::ByteView bytes, uint32_t vertices, Vector<uint32_t>* source);
+/// of the canonical order, in which `topology` is; a permutation, else kIndexRange.
+Status decode_vertex_map(format::ByteView bytes, const Topology& topology,
+                         Vector<uint32_t>* source);
 
 /// Decodes a face map (chunk FMAP): polygon i of the canonical order is number place[i] of the
 /// source, whose first corner is corner first[i] of it.

@@ -69,17 +69,17 @@ Topology decoded(const MeshLayout& layout, bool vertices, bool faces) {
   }
   Topology topology;
   EXPECT_EQ(decode_details(layout.details, layout.sizes, triangles, &topology), Status::kOk);
+  Vector<uint32_t> map;
+  if (vertices) {
+    EXPECT_EQ(decode_vertex_map(layout.vertex_map, topology, &map), Status::kOk);
+  }
   if (faces) {
     Vector<uint32_t> place, first;
     EXPECT_EQ(decode_face_map(layout.face_map, topology, &place, &first), Status::kOk);
     apply_face_map(place, first, &topology);
   }
-  if (vertices) {
-    Vector<uint32_t> map;
-    EXPECT_EQ(decode_vertex_map(layout.vertex_map, layout.sizes.source_vertices, &map),
-              Status::kOk);
+  if (vertices)
     apply_vertex_map(map, &topology);
-  }
   return topology;
 }
 
