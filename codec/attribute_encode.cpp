@@ -25,6 +25,21 @@ String text(const std::string& s) {
   return String(s.begin(), s.end());
 }
 
+/// Least and largest value of a component over all frames.
+std::pair<double, double> range_of(const Attribute& attribute, uint32_t component) {
+  double low = INFINITY, high = -INFINITY;
+  for (size_t i = component; i < attribute.values.size(); i += attribute.components) {
+    low = std::min(low, static_cast<double>(attribute.values[i]));
+    high = std::max(high, static_cast<double>(attribute.values[i]));
+  }
+  return {low, high};
+}
+
+/// A value as decoders get it.
+double on_grid(double value, const AttributeHeader::Grid& grid) {
+  return grid.origin + std::round((value - grid.origin) * grid.scale) / grid.scale;
+}
+
 /// The corner of the source that each canonical corner is.
 std::vector<uint32_t> corner_sources(const MeshSequence& sequence, const MeshLayout& layout) {
   std::vector<uint32_t> sources(layout.topology.polygon_corners.size());
@@ -50,13 +65,16 @@ class Writer {
 
   void run() {
     bool has_normals = false;
-    for (const Attribute& attribute : sequence_.attributes) {
+    for (uint32_t i = 0; i < sequence_.attributes.size(); ++i) {
+      const Attribute& attribute = sequence_.attributes[i];
       if (attribute.kind == AttributeKind::kNormal && !options_.normals) {
         if (!has_normals)
           add_shared(normals_shared(attribute));
         has_normals = true;
-      } else {
+      } else if (attribute.kind != AttributeKind::kTangent || options_.normals) {
+        const auto number = static_cast<uint32_t>(headers_.size());
         add_numbers(attribute);
+        stored_.push_back({i, number, headers_.back()});
       }
     }
     if (!has_normals && !sequence_.shared_normals.empty()) {
@@ -71,6 +89,8 @@ class Writer {
   }
 
   const Vector<AttributeHeader>& headers() const { return headers_; }
+
+  std::vector<StoredAttribute> stored() && { return std::move(stored_); }
 
   format::Bytes finish() {
     const format::Bytes stream = coder_.finish();
@@ -116,6 +136,8 @@ class Writer {
         attribute.name);
     for (uint32_t i = 0; i < n; ++i)
       header.grids.push_back(grid_of(attribute, i));
+    if (moves(attribute) && !attribute.per_corner)
+      refine(attribute, &header);
     std::vector<int32_t> truth;
     truth.reserve(rows.size() * n);
     for (uint32_t row : rows) {
@@ -131,6 +153,27 @@ class Writer {
       }
     }
     code(header, truth);
+  }
+
+  void refine(const Attribute& attribute, AttributeHeader* header) const {
+    constexpr double kShare = 0.25, kFinest = 1 << 20;  // of the error; steps to the range
+    const double allowed = kShare * error_bound(attribute, options_);
+    const uint32_t n = attribute.components;
+    const size_t count = attribute.values.size() / attribute.frames;
+    for (uint32_t i = 0; i < n; ++i) {
+      const auto [low, high] = range_of(attribute, i);
+      AttributeHeader::Grid& grid = header->grids[i];
+      auto too_coarse = [&] {
+        for (size_t at = i; at < count; at += n) {
+          const auto value = static_cast<double>(attribute.values[at]);
+          if (std::abs(on_grid(value, grid) - value) > allowed)
+            return true;
+        }
+        return false;
+      };
+      while (grid.scale * (high - low) < kFinest && too_coarse())
+        grid.scale *= 2;
+    }
   }
 
   AttributeHeader::Grid grid_of(const Attribute& attribute, uint32_t component) const {
@@ -150,11 +193,7 @@ class Writer {
       default:
         break;
     }
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = component; i < attribute.values.size(); i += attribute.components) {
-      low = std::min(low, static_cast<double>(attribute.values[i]));
-      high = std::max(high, static_cast<double>(attribute.values[i]));
-    }
+    const auto [low, high] = range_of(attribute, component);
     if (std::isfinite(low))
       grid.origin = low;
     if (high > low && std::isfinite(high - low))
@@ -242,21 +281,56 @@ class Writer {
   const CornerGraph graph_;
   const std::vector<uint32_t> corners_;
   Vector<AttributeHeader> headers_;
+  std::vector<StoredAttribute> stored_;
   BinaryEncoder coder_;
 };
 
 }  // namespace
 
-void encode_attributes(const MeshSequence& sequence, const AttributeOptions& options,
-                       MeshLayout* layout) {
+bool moves(const Attribute& attribute) {
+  if (attribute.frames < 2 || attribute.kind == AttributeKind::kNormal ||
+      attribute.kind == AttributeKind::kTangent)
+    return false;
+  const size_t row = attribute.values.size() / attribute.frames;
+  return !std::equal(attribute.values.begin() + static_cast<ptrdiff_t>(row), attribute.values.end(),
+                     attribute.values.begin());
+}
+
+double error_bound(const Attribute& attribute, const AttributeOptions& options) {
+  constexpr double kDefaultPercent = 0.1;
+  if (options.error && !options.error_percent)
+    return *options.error;
+  if (!options.error && attribute.kind == AttributeKind::kColour)
+    return 0.5 / (std::exp2(options.colour_bits) - 1);
+  double range = 0;
+  for (uint32_t i = 0; i < attribute.components; ++i) {
+    const auto [low, high] = range_of(attribute, i);
+    range = std::max(range, high - low);
+  }
+  return options.error.value_or(kDefaultPercent) / 100 * range;
+}
+
+std::vector<float> stored_values(const Attribute& attribute, const StoredAttribute& stored) {
+  const size_t count = attribute.values.size() / attribute.frames;
+  std::vector<float> values(count);
+  for (size_t i = 0; i < count; ++i)
+    values[i] = static_cast<float>(on_grid(static_cast<double>(attribute.values[i]),
+                                           stored.header.grids[i % attribute.components]));
+  return values;
+}
+
+std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
+                                               const AttributeOptions& options,
+                                               MeshLayout* layout) {
   if (!options.keep)
-    return;
+    return {};
   Writer writer(sequence, options, *layout);
   writer.run();
   if (writer.headers().empty())
-    return;
+    return {};
   layout->sizes.attribute_bytes = attribute_bytes(writer.headers(), layout->sizes);
   layout->attributes = writer.finish();
+  return std::move(writer).stored();
 }
 
 void restore_attributes(const Vector<MeshAttribute>& decoded, MeshSequence* sequence) {

@@ -34,7 +34,8 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
   size_t poses = 0;
   const EncodedSegment* carried_of = nullptr;
   for (const EncodedSegment* segment : segments) {
-    limits.frames += segment->sizes.frames;
+    if (segment->sizes.attribute == format::kPositions)
+      limits.frames += segment->sizes.frames;
     limits.segments.push_back(segment->sizes);
     std::span<const Vector<int32_t>> carried = segment->poses_for_draco();
     if (carried.empty())
@@ -65,7 +66,11 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
     file.add("FMAP", true, kMesh, format::kNoSegment, layout.face_map);
   if (!layout.attributes.empty())
     file.add("ATTR", false, kMesh, format::kNoSegment, layout.attributes);
-  const EncodedPose* of_mesh = segments[0]->reference.get();
+  const EncodedPose* of_mesh = nullptr;  // the first one, which most segments share
+  for (const EncodedSegment* segment : segments) {
+    if (!of_mesh)
+      of_mesh = segment->reference.get();
+  }
   if (of_mesh)
     file.add("POSE", true, kMesh, format::kNoSegment, pose_record(*of_mesh));
   for (uint32_t i = 0; i < segments.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "codec/keyframe_search.h"
 #include "codec/linear_segment_encode.h"
 #include "codec/metrics.h"
+#include "codec/moving_attributes.h"
 #include "codec/rate_control.h"
 #include "codec/search_progress.h"
 #include "sdk/clip.h"
@@ -94,14 +95,18 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
   return encode_reference_pose(pose, origin, step, slow, input.layout);
 }
 
-/// Plays a file and compares it with the source, in the source's vertex order whatever the file's.
-Comparison check_file(const format::Bytes& file, const EncoderInput& input) {
+Clip opened(const format::Bytes& file) {
   Clip clip;
   if (Failure failure = clip.open(file); !failure.ok())
     throw Error(ErrorKind::kInternal,
                 std::string("the encoded file cannot be opened: ") + status_string(failure.status));
   if (Failure failure = clip.check_hashes(); !failure.ok())
     throw Error(ErrorKind::kInternal, "the encoded file decodes to other integers");
+  return clip;
+}
+
+/// Plays a file and compares it with the source, in the source's vertex order whatever the file's.
+Comparison check_positions(const Clip& clip, const EncoderInput& input) {
   const MeshLayout& layout = input.layout;
   const uint32_t vertices = input.sequence.vertex_count;
   std::vector<uint32_t> played_of(vertices);  // the played vertex that shows a vertex of the source
@@ -137,6 +142,112 @@ Comparison check_file(const format::Bytes& file, const EncoderInput& input) {
       options);
 }
 
+/// Plays the attributes that move and fills in their errors. Throws Error(kInternal) when one is
+/// above what was asked for.
+void check_attributes(const Clip& clip, const EncoderInput& input,
+                      const std::vector<StoredAttribute>& stored, uint32_t first_frame,
+                      std::vector<AttributeResult>& results) {
+  const bool free = clip.record().order == format::OrderMode::kFree;
+  const uint32_t vertices = input.sequence.vertex_count;
+  for (AttributeResult& result : results) {
+    if (!result.kept)
+      continue;
+    const auto of = std::ranges::find(stored, result.number, &StoredAttribute::number);
+    const Attribute& attribute = input.sequence.attributes[of->source];
+    const uint32_t n = attribute.components;
+    std::vector<float> played(size_t{vertices} * n);
+    double squared = 0;
+    for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+      clip.attribute_values(0, result.number, f, played.data());
+      const float* source = attribute.values.data() + size_t{f + first_frame} * vertices * n;
+      for (uint32_t v = 0; v < vertices; ++v) {
+        const float* own = source + size_t{free ? input.layout.vertex_source[v] : v} * n;
+        for (uint32_t c = 0; c < n; ++c) {
+          const double d =
+              static_cast<double>(own[c]) - static_cast<double>(played[size_t{v} * n + c]);
+          squared += d * d;
+          result.max_error = std::max(result.max_error, std::abs(d));
+        }
+      }
+    }
+    result.rmse = std::sqrt(squared / n / vertices / clip.frame_count());
+    if (result.max_error > result.asked)
+      throw Error(ErrorKind::kInternal, attribute.name + ": the error is above what was asked for");
+  }
+}
+
+/// Segments in the order of the file.
+std::vector<const EncodedSegment*> all_segments(const Solution& solution,
+                                                const MovingAttributes& moving) {
+  std::vector<const EncodedSegment*> list = solution.segments();
+  for (const Part& part : moving.parts)
+    list.push_back(&part.encoded);
+  std::ranges::stable_sort(list, {}, [](const EncodedSegment* s) { return s->sizes.first_frame; });
+  return list;
+}
+
+/// The clip and its moving attributes, coded.
+struct Coded {
+  Solution positions;
+  MovingAttributes attributes;
+  format::Bytes file;
+};
+
+/// What the file says of the errors of attributes that move; 0 until they are measured.
+Vector<format::AttributeError> errors_of(const std::vector<AttributeResult>& attributes) {
+  Vector<format::AttributeError> errors;
+  for (const AttributeResult& a : attributes) {
+    if (a.kept)
+      errors.push_back({0, static_cast<uint16_t>(a.number), a.max_error, a.rmse});
+  }
+  return errors;
+}
+
+/// Bytes of a file of a target that is a size; nothing for others.
+std::optional<double> allowed_bytes(const Target& target, const MeshSequence& sequence) {
+  if (target.metric == format::ErrorMetric::kSize)
+    return target.value;
+  if (target.metric == format::ErrorMetric::kBpfv)
+    return target.value / 8 * sequence.vertex_count * sequence.frame_count;
+  return std::nullopt;
+}
+
+/// Codes the clip. A size that is asked for is that of the file: positions get what the attributes
+/// leave.
+Coded code(RateControl& control, const EncoderInput& input,
+           const std::vector<StoredAttribute>& stored, const EncodeOptions& options,
+           const Target& target, double clip_diagonal, format::ClipRecord record) {
+  constexpr int kRounds = 4;
+  constexpr double kRoom = 0.003;
+  const std::optional<double> allowed = allowed_bytes(target, input.sequence);
+  double positions_bytes = allowed.value_or(0);
+  Coded coded;
+  Target rest = target;
+  for (int round = 0; round < kRounds; ++round) {
+    if (round == 0) {
+      coded.positions = control.solve();
+    } else {
+      RateControl again(input, options, rest, clip_diagonal);
+      coded.positions = again.solve();
+    }
+    for (Part& part : coded.positions.parts) {
+      if (!part.encoded.corrections.empty())  // added after it was opened
+        part.opened = open_encoded(part.encoded, input.layout);
+    }
+    coded.attributes = encode_moving_attributes(input, stored, options,
+                                                coded.positions.parts[0].encoded.reference);
+    record.attribute_errors = errors_of(coded.attributes.results);
+    coded.file = clip_file(record, input.layout, all_segments(coded.positions, coded.attributes));
+    const auto bytes = static_cast<double>(coded.file.size());
+    if (!allowed || bytes <= *allowed || coded.attributes.parts.empty())
+      break;
+    // With another pose the attributes take some bytes more or less: room for them.
+    positions_bytes -= bytes - *allowed + (round + 1) * kRoom * *allowed;
+    rest = {format::ErrorMetric::kSize, std::max(positions_bytes, 1.0), false};
+  }
+  return coded;
+}
+
 }  // namespace
 
 EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
@@ -158,37 +269,39 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   format::ClipRecord record = describe(sequence, options, target, clip_diagonal);
   record.closed = closed;
   EncoderInput input(std::move(sequence), options.mesh_coder, options.part);
-  encode_attributes(input.sequence, options.attributes, &input.layout);
+  const std::vector<StoredAttribute> stored =
+      encode_attributes(input.sequence, options.attributes, &input.layout);
   constexpr int kSlowEffort = 7;
   if (options.part)
     input.pose = pose_of_parts(input, target, clip_diagonal, options.effort >= kSlowEffort);
   RateControl control(input, options, target, clip_diagonal);
   SearchProgress search(progress, control.expected_trials());
   input.on_trial = [&search] { search.trial(); };
-  Solution solution = control.solve();
-  for (Part& part : solution.parts) {
-    if (!part.encoded.corrections.empty())  // added after it was opened
-      part.opened = open_encoded(part.encoded, input.layout);
-  }
+  Coded coded = code(control, input, stored, options, target, clip_diagonal, record);
 
-  format::Bytes file = clip_file(record, input.layout, solution.segments());
-  Comparison measured = check_file(file, input);
-  control.require_kept(measured.kg, measured.rmse, measured.max_error, file.size());
+  const Clip clip = opened(coded.file);
+  Comparison measured = check_positions(clip, input);
+  control.require_kept(measured.kg, measured.rmse, measured.max_error, coded.file.size());
+  std::vector<AttributeResult>& attributes = coded.attributes.results;
+  check_attributes(clip, input, stored, options.part ? options.part->first : 0, attributes);
   record.kg = measured.kg;
   record.rmse = measured.rmse;
   record.max_error = measured.max_error;
 
+  record.attribute_errors = errors_of(attributes);
+
   EncodeResult result;
-  result.file = clip_file(record, input.layout, solution.segments());
+  result.file = clip_file(record, input.layout, all_segments(coded.positions, coded.attributes));
   result.vertices = input.sequence.vertex_count;
   result.faces = static_cast<uint32_t>(input.sequence.polygons.size());
   result.frames = input.sequence.frame_count;
-  result.kind = solution.parts[0].encoded.sizes.kind;
-  result.components = solution.parts[0].encoded.sizes.components;
+  result.kind = coded.positions.parts[0].encoded.sizes.kind;
+  result.components = coded.positions.parts[0].encoded.sizes.components;
   result.kg = measured.kg;
   result.rmse = measured.rmse;
   result.max_error = measured.max_error;
   result.diagonal = clip_diagonal;
+  result.attributes = std::move(attributes);
   result.trials = control.trials();
   return result;
 }

@@ -69,6 +69,20 @@ struct Trial {
   double max_error = 0;
 };
 
+/// How an attribute whose values change came out.
+struct AttributeResult {
+  AttributeKind kind = AttributeKind::kCustom;
+  std::string name;
+  uint32_t number = 0;  ///< in the file
+  bool kept = false;    ///< false: as in the first frame, for the reason in `note`
+  std::string note;
+  uint32_t components = 0;  ///< of its basis; 0: it stays within the error of the first frame
+  size_t bytes = 0;         ///< of its segments
+  double asked = 0;         ///< largest error allowed
+  double max_error = 0;     ///< measured, of a single number
+  double rmse = 0;
+};
+
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
 struct EncodeResult {
   format::Bytes file;
@@ -81,6 +95,7 @@ struct EncodeResult {
   double rmse = 0;       ///< scene units
   double max_error = 0;  ///< scene units
   double diagonal = 0;
+  std::vector<AttributeResult> attributes;  ///< those that change
   std::vector<Trial> trials;
 };
 

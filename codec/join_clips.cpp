@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <utility>
 
 namespace anicodec {
 namespace {
@@ -116,7 +118,35 @@ void check_follows(const OpenPart& before, const OpenPart& next) {
              " s and has " + std::to_string(before.limits.frames) + " frames");
 }
 
-format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
+/// Errors of attributes over all parts, of mesh 0 or of a mesh each.
+Vector<format::AttributeError> joined_errors(const std::vector<OpenPart>& parts,
+                                             bool one_topology) {
+  struct Sum {
+    format::AttributeError error;
+    double squared = 0, frames = 0;
+  };
+
+  std::map<std::pair<size_t, uint16_t>, Sum> sums;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    for (const format::AttributeError& e : parts[i].record.attribute_errors) {
+      const size_t mesh = one_topology ? 0 : i;
+      Sum& sum = sums[{mesh, e.attribute}];
+      sum.error.mesh = static_cast<uint16_t>(mesh);
+      sum.error.attribute = e.attribute;
+      sum.error.max_error = std::max(sum.error.max_error, e.max_error);
+      sum.squared += e.rmse * e.rmse * parts[i].limits.frames;
+      sum.frames += parts[i].limits.frames;
+    }
+  }
+  Vector<format::AttributeError> errors;
+  for (auto& [key, sum] : sums) {
+    sum.error.rmse = std::sqrt(sum.squared / sum.frames);
+    errors.push_back(sum.error);
+  }
+  return errors;
+}
+
+format::ClipRecord joined_record(const std::vector<OpenPart>& parts, bool one_topology) {
   format::ClipRecord record = parts[0].record;
   double squared = 0, reference = 0, frames = 0;
   record.times = {};
@@ -141,6 +171,7 @@ format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
     record.asked_value = 0;
   }
   record.closed = false;
+  record.attribute_errors = joined_errors(parts, one_topology);
   record.rmse = std::sqrt(squared / frames);
   record.kg = reference > 0 ? 100 * std::sqrt(squared / reference) : 0;
   return record;
@@ -207,7 +238,8 @@ format::Bytes join(const std::vector<OpenPart>& parts, bool one_topology) {
   }
   format::ContainerWriter file;
   file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
-  file.add("CLIP", true, format::kNoMesh, format::kNoSegment, joined_record(parts).write());
+  file.add("CLIP", true, format::kNoMesh, format::kNoSegment,
+           joined_record(parts, one_topology).write());
   for (size_t i = 0; i < limits.meshes.size(); ++i) {
     for (const char(*type)[5] : kMeshChunks) {
       if (const Chunk* chunk = parts[i].reader.find(*type, 0))

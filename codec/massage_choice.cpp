@@ -27,6 +27,7 @@ MeshSequence sample_of(const MeshSequence& sequence, uint32_t reference) {
   MeshSequence sample = sequence;
   sample.times.clear();
   sample.positions.clear();
+  std::erase_if(sample.attributes, [](const Attribute& a) { return a.frames > 1; });
   sample.frame_count = std::min(sequence.frame_count, kSampleFrames);
   for (uint32_t k = 0; k < sample.frame_count; ++k) {
     const auto f = static_cast<uint32_t>(

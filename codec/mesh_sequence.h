@@ -65,7 +65,7 @@ struct PolygonLabels {
   bool operator==(const PolygonLabels&) const = default;
 };
 
-/// What stands beside the positions of a mesh and does not move.
+/// What stands beside the positions of a mesh.
 struct MeshDetails {
   std::vector<Attribute> attributes;
   /// Of each corner of the polygons: those at one place with the same number share a normal,

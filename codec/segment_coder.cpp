@@ -48,6 +48,22 @@ EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder,
     kg_reference = 1;
 }
 
+EncoderInput::EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories)
+    : layout(mesh.layout),
+      coded(std::move(trajectories)),
+      copies(mesh.copies),
+      on_trial(mesh.on_trial) {
+  sequence.vertex_count = mesh.sequence.vertex_count;
+  sequence.frame_count = mesh.sequence.frame_count;
+  for (float x : coded) {
+    const auto value = static_cast<double>(x);
+    kg_reference += value * value;
+    largest_coordinate = std::max(largest_coordinate, std::abs(value));
+  }
+  if (kg_reference == 0)
+    kg_reference = 1;
+}
+
 double EncoderInput::rmse(double squared, size_t frames) const {
   return std::sqrt(squared / sequence.vertex_count / static_cast<double>(frames));
 }

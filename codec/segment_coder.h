@@ -25,6 +25,9 @@ struct EncoderInput {
   EncoderInput(MeshSequence source, format::CoderId mesh_coder,
                const std::optional<PartFrames>& part = {});
 
+  /// Other trajectories over the same mesh: as many frames, frames x coded vertices x 3.
+  EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories);
+
   FrameView frames(size_t first, size_t count) const { return frames().frames(first, count); }
 
   FrameView frames() const {

@@ -118,6 +118,12 @@ const Clip kClips[] = {
      false,
      kNone,
      "box of quads with texture coordinates, colours, hard edges, materials and objects"},
+    {"heated",
+     heated,
+     {240, 24},
+     false,
+     kZ,
+     "sheet with a seam whose colours, temperature and texture coordinates move"},
 };
 
 const Clip& find(std::string_view name) {

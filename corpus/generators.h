@@ -51,6 +51,8 @@ MeshSequence box_of_quads(ClipSize size);
 MeshSequence painted_box(ClipSize size);
 MeshSequence leftovers(ClipSize size);
 
+MeshSequence heated(ClipSize size);
+
 }  // namespace anicodec::corpus
 
 #endif  // ANICODEC_CORPUS_GENERATORS_H_

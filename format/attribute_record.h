@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Chunk ATTR: what stands beside the positions of a mesh and does not move (spec/06-chunks.md,
-// section 10).
+// Chunk ATTR: what stands beside the positions of a mesh, as in frame 0 (spec/06-chunks.md, section
+// 10).
 #ifndef ANICODEC_FORMAT_ATTRIBUTE_RECORD_H_
 #define ANICODEC_FORMAT_ATTRIBUTE_RECORD_H_
 
@@ -27,9 +27,6 @@ enum class AttributeKind : uint8_t {
 
 /// What has a value each.
 enum class AttributeDomain : uint8_t { kVertex = 0, kCorner = 1, kPolygon = 2 };
-
-inline constexpr uint32_t kMaxAttributes = 256;
-inline constexpr uint32_t kMaxAttributeComponents = 16;
 
 /// One attribute. Of vertices and corners: numbers on a grid, or with no component only which
 /// corners share a value. Of polygons: one of the labels, or none.

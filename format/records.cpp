@@ -10,10 +10,13 @@
 namespace anicodec::format {
 namespace {
 
-constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 16;
+constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 16,
+                  kAttributeErrors = 32;
 
 /// In the limits: key-frames, the frames between them by MSGI.
 constexpr uint8_t kMsgiKind = 16;
+/// In the limits, added to a kind: the segment is of an attribute.
+constexpr uint8_t kAttributeKind = 32;
 constexpr uint64_t kMaxMsgiBytes = uint64_t{1} << 48;
 constexpr uint64_t kMaxAttributeBytes = uint64_t{1} << 48;
 
@@ -45,12 +48,18 @@ Bytes Limits::write() const {
   for (const Segment& s : segments) {
     w.varint(s.mesh);
     const bool msgi = s.reconstruction == Reconstruction::kMsgi;
-    w.u8(static_cast<uint8_t>(static_cast<uint8_t>(s.kind) | (msgi ? kMsgiKind : 0)));
+    const bool of_attribute = s.attribute != kPositions;
+    w.u8(static_cast<uint8_t>(static_cast<uint8_t>(s.kind) | (msgi ? kMsgiKind : 0) |
+                              (of_attribute ? kAttributeKind : 0)));
     for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
       w.varint(x);
     if (msgi) {
       w.varint(s.msgi_bytes);
       w.varint(s.msgi_frame_bytes);
+    }
+    if (of_attribute) {
+      w.varint(s.attribute);
+      w.varint(s.first_component / 3);
     }
   }
   if (has_attributes(meshes)) {
@@ -86,7 +95,11 @@ Status Limits::read(ByteView view, Limits* out) {
   for (Segment& s : out->segments) {
     s.mesh = static_cast<uint16_t>(r.varint32(mesh_count - 1));
     uint8_t kind = r.u8();
-    if (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) && kind != kMsgiKind)
+    const bool of_attribute = kind & kAttributeKind;
+    if (of_attribute)
+      kind = static_cast<uint8_t>(kind - kAttributeKind);
+    if (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) &&
+        (kind != kMsgiKind || of_attribute))
       return r.ok() ? Status::kFeature : Status::kRecord;
     if (kind == kMsgiKind)
       s.reconstruction = Reconstruction::kMsgi;
@@ -101,6 +114,10 @@ Status Limits::read(ByteView view, Limits* out) {
       s.msgi_bytes = r.varint(kMaxMsgiBytes);
       s.msgi_frame_bytes = r.varint(kMaxMsgiBytes);
     }
+    if (of_attribute) {
+      s.attribute = r.varint32(kMaxAttributes - 1);
+      s.first_component = 3 * r.varint32((kMaxAttributeComponents - 1) / 3);
+    }
     if (s.frames == 0 || s.first_frame >= out->frames || s.frames > out->frames - s.first_frame)
       return Status::kRecord;
   }
@@ -113,7 +130,11 @@ Status Limits::read(ByteView view, Limits* out) {
   const Vector<uint32_t> order = out->segments_by_frame();
   for (size_t i = 1; i < order.size(); ++i) {
     const Segment &a = out->segments[order[i - 1]], &b = out->segments[order[i]];
-    if (a.mesh == b.mesh && b.first_frame - a.first_frame < a.frames)
+    if (a.is_alike(b) && b.first_frame - a.first_frame < a.frames)
+      return Status::kRecord;
+  }
+  for (const Segment& s : out->segments) {
+    if (s.attribute != kPositions && out->meshes[s.mesh].attribute_bytes == 0)
       return Status::kRecord;
   }
   return finished(r);
@@ -122,7 +143,11 @@ Status Limits::read(ByteView view, Limits* out) {
 Vector<uint32_t> Limits::segments_by_frame() const {
   Vector<uint32_t> order(segments.size());
   std::iota(order.begin(), order.end(), 0U);
-  auto at = [&](uint32_t i) { return std::tuple(segments[i].mesh, segments[i].first_frame, i); };
+  auto at = [&](uint32_t i) {
+    const Segment& s = segments[i];
+    return std::tuple(s.attribute != kPositions, s.mesh, s.attribute, s.first_component,
+                      s.first_frame, i);
+  };
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return at(a) < at(b); });
   return order;
 }
@@ -135,7 +160,8 @@ Bytes ClipRecord::write() const {
   w.varint(rate_denominator);
   w.u8(static_cast<uint8_t>((rate_assumed ? kAssumed : 0) | (loop ? kLoop : 0) |
                             (closed ? kClosed : 0) | (massaged ? kMassaged : 0) |
-                            (times.empty() ? 0 : kTimes)));
+                            (times.empty() ? 0 : kTimes) |
+                            (attribute_errors.empty() ? 0 : kAttributeErrors)));
   w.u8(up);
   w.u8(static_cast<uint8_t>(order));
   w.f64(start_time);
@@ -148,6 +174,15 @@ Bytes ClipRecord::write() const {
   if (massaged) {
     w.f64(surface_error);
     w.f64(surface_error_mean);
+  }
+  if (!attribute_errors.empty()) {
+    w.varint(attribute_errors.size());
+    for (const AttributeError& e : attribute_errors) {
+      w.varint(e.mesh);
+      w.varint(e.attribute);
+      w.f64(e.max_error);
+      w.f64(e.rmse);
+    }
   }
   return std::move(w.bytes());
 }
@@ -192,7 +227,26 @@ Status ClipRecord::read(ByteView view, uint32_t frames, ClipRecord* out) {
     if (!is_length(x))
       return Status::kRecord;
   }
-  if (out->rate_numerator == 0 || out->rate_denominator == 0 || (flags & ~0x1F) || out->up > 2 ||
+  out->attribute_errors.clear();
+  if (flags & kAttributeErrors) {
+    constexpr size_t kLeastBytes = 18;
+    const uint64_t count = r.varint(r.remaining() / kLeastBytes);
+    if (!r.ok() || count == 0)
+      return Status::kRecord;
+    out->attribute_errors.resize(static_cast<size_t>(count));
+    uint32_t before = 0;
+    for (AttributeError& e : out->attribute_errors) {
+      e.mesh = static_cast<uint16_t>(r.varint32(kMaxMeshes - 1));
+      e.attribute = static_cast<uint16_t>(r.varint32(kMaxAttributes - 1));
+      e.max_error = r.f64();
+      e.rmse = r.f64();
+      const uint32_t key = e.mesh * kMaxAttributes + e.attribute + 1;
+      if (!is_length(e.max_error) || !is_length(e.rmse) || key <= before)
+        return Status::kRecord;
+      before = key;
+    }
+  }
+  if (out->rate_numerator == 0 || out->rate_denominator == 0 || (flags & ~0x3F) || out->up > 2 ||
       order > static_cast<uint8_t>(OrderMode::kAll) || !std::isfinite(out->start_time) ||
       asked > static_cast<uint8_t>(ErrorMetric::kBpfv))
     return Status::kRecord;

@@ -19,6 +19,11 @@ inline constexpr uint32_t kMaxTriangles = UINT32_MAX / 3;  // corners are number
 inline constexpr uint32_t kMaxFrames = (1U << 24) - 1;
 inline constexpr uint32_t kMaxMeshes = 65535;
 inline constexpr uint32_t kMaxComponents = 1U << 20;
+inline constexpr uint32_t kMaxAttributes = 256;
+inline constexpr uint32_t kMaxAttributeComponents = 16;
+
+/// In place of an attribute's number: the positions.
+inline constexpr uint32_t kPositions = UINT32_MAX;
 
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
 
@@ -54,17 +59,28 @@ struct Limits {
     Reconstruction reconstruction = Reconstruction::kLinear;
     uint64_t msgi_bytes = 0;        ///< kMsgi: what it keeps beside the coefficients, at most
     uint64_t msgi_frame_bytes = 0;  ///< kMsgi: memory that a frame is made in
+    /// What it moves: positions, or three components of an attribute, in number from
+    /// first_component on, a multiple of three.
+    uint32_t attribute = kPositions;
+    uint32_t first_component = 0;
+
+    /// Whether two segments move the same: then they share no frame.
+    bool is_alike(const Segment& other) const {
+      return mesh == other.mesh && attribute == other.attribute &&
+             first_component == other.first_component;
+    }
   };
 
   uint32_t frames = 0;
   Vector<Mesh> meshes;
   Vector<Segment> segments;
 
-  /// Numbers of the segments, ascending by mesh and first frame. O(segments log segments).
+  /// Numbers of the segments, ascending by first frame among those of one mesh, or attribute of it.
+  /// The meshes come first, then the attributes, both ascending. O(segments log segments).
   Vector<uint32_t> segments_by_frame() const;
 
   Bytes write() const;
-  /// Checks that no two segments of a mesh share a frame, too.
+  /// Checks that no two segments that are alike share a frame, too.
   static Status read(ByteView view, Limits* out);
 };
 
@@ -77,6 +93,14 @@ enum class ErrorMetric : uint8_t {
   kBpfv = 5
 };
 enum class OrderMode : uint8_t { kVertices = 0, kFree = 1, kAll = 2 };
+
+/// What the encoder measured of an attribute that moves, in units of its values.
+struct AttributeError {
+  uint16_t mesh = 0;
+  uint16_t attribute = 0;
+  double max_error = 0;  ///< of a single number
+  double rmse = 0;
+};
 
 /// Chunk CLIP: the clock, the coordinate system, and what the encoder promises.
 struct ClipRecord {
@@ -95,13 +119,14 @@ struct ClipRecord {
   Vector<double> times;        ///< seconds from start_time, one per frame; empty when even
 
   ErrorMetric asked = ErrorMetric::kNone;
-  double asked_value = 0;         ///< KG in per cent, lengths in scene units
-  double max_error = 0;           ///< measured, scene units
-  double rmse = 0;                ///< measured, scene units
-  double kg = 0;                  ///< measured, per cent
-  double diagonal = 0;            ///< of the box around all frames
-  double surface_error = 0;       ///< when massaged: how far the surface moved at most
-  double surface_error_mean = 0;  ///< and on average
+  double asked_value = 0;                   ///< KG in per cent, lengths in scene units
+  double max_error = 0;                     ///< measured, scene units
+  double rmse = 0;                          ///< measured, scene units
+  double kg = 0;                            ///< measured, per cent
+  double diagonal = 0;                      ///< of the box around all frames
+  double surface_error = 0;                 ///< when massaged: how far the surface moved at most
+  double surface_error_mean = 0;            ///< and on average
+  Vector<AttributeError> attribute_errors;  ///< ascending by mesh and attribute
 
   Bytes write() const;
   static Status read(ByteView view, uint32_t frames, ClipRecord* out);

@@ -48,29 +48,40 @@ uint64_t box_bytes(const format::Limits& limits) {
   return sizeof(anic_box) * (uint64_t{limits.frames} + 1) * limits.meshes.size();
 }
 
+/// What a context keeps for the segments of one track; `shape`: bytes of one, if any are of MSGI.
+uint64_t track_bytes(uint64_t weights, uint64_t segments, uint64_t interpolated, uint64_t shape) {
+  return 2 * (sizeof(Sample) + sizeof(float) * weights * std::min<uint64_t>(segments, 2) +
+              std::min<uint64_t>(interpolated, Sample::kMaxParts) * shape);
+}
+
 /// Of the meshes and segments of limits, as context_extra() finds it for an open clip.
 uint64_t context_bytes(const format::Limits& limits, double quality) {
-  Vector<uint64_t> largest(limits.meshes.size(), 0), segments(limits.meshes.size(), 0);
-  Vector<uint64_t> interpolated(limits.meshes.size(), 0);
-  uint64_t scratch = 0;
-  for (const auto& s : limits.segments) {
-    const bool keyframes = s.kind == format::BasisKind::kKeyframes;
-    const uint64_t components = keyframes ? s.components : wanted_components(quality, s.components);
-    const uint64_t channels = s.kind == format::BasisKind::kEigentrajectories ? 3 : 1;
-    largest[s.mesh] = std::max(largest[s.mesh], channels * components);
-    ++segments[s.mesh];
-    if (s.reconstruction == format::Reconstruction::kMsgi) {
-      ++interpolated[s.mesh];
-      scratch = std::max(scratch, shape_scratch_bytes(s.components, s.msgi_frame_bytes));
+  const Vector<uint32_t> order = limits.segments_by_frame();
+  Vector<uint8_t> has_track(limits.meshes.size(), 0);
+  uint64_t bytes = object_bytes<anic_context>(), scratch = 0;
+  for (size_t i = 0; i < order.size();) {
+    const format::Limits::Segment& first = limits.segments[order[i]];
+    uint64_t largest = 0, segments = 0, interpolated = 0;
+    for (; i < order.size() && limits.segments[order[i]].is_alike(first); ++i, ++segments) {
+      const format::Limits::Segment& s = limits.segments[order[i]];
+      const bool keyframes = s.kind == format::BasisKind::kKeyframes;
+      const uint64_t components =
+          keyframes ? s.components : wanted_components(quality, s.components);
+      const uint64_t channels = s.kind == format::BasisKind::kEigentrajectories ? 3 : 1;
+      largest = std::max(largest, channels * components);
+      if (s.reconstruction == format::Reconstruction::kMsgi) {
+        ++interpolated;
+        scratch = std::max(scratch, shape_scratch_bytes(s.components, s.msgi_frame_bytes));
+      }
     }
+    if (first.attribute == format::kPositions)
+      has_track[first.mesh] = 1;
+    bytes += track_bytes(largest, segments, interpolated,
+                         3 * sizeof(float) * limits.meshes[first.mesh].coded_vertices);
   }
-  uint64_t bytes = object_bytes<anic_context>() + scratch;
-  for (size_t m = 0; m < largest.size(); ++m) {
-    const uint64_t shapes = std::min<uint64_t>(interpolated[m], Sample::kMaxParts);
-    bytes += 2 * (sizeof(Sample) + sizeof(float) * largest[m] * std::min<uint64_t>(segments[m], 2) +
-                  shapes * 3 * sizeof(float) * limits.meshes[m].coded_vertices);
-  }
-  return bytes;
+  for (uint8_t has : has_track)
+    bytes += has ? 0 : track_bytes(0, 0, 0, 0);
+  return bytes + scratch;
 }
 
 template <class Indices>
@@ -317,6 +328,8 @@ anic_status anic_mesh_attribute(const anic_asset* asset, uint32_t mesh, uint32_t
   out->label_count = static_cast<uint32_t>(a.header.labels.size());
   out->values = out->components > 0 ? a.values.data() : nullptr;
   out->labels = out->components > 0 ? nullptr : a.labels.data();
+  const auto [first, last] = asset->clip.attribute_tracks(mesh, attribute);
+  out->moves = first != last;
   return ANIC_OK;
 }
 
@@ -391,6 +404,8 @@ anic_status anic_segment_basis(const anic_asset* asset, uint32_t segment, anic_b
   out->pose_count = s.pose.size();
   out->wide_count = s.wide.size();
   out->narrow_count = s.narrow.size();
+  out->attribute = s.attribute;
+  out->first_component = s.first_component;
   out->vertex_shape = s.vertex_coded.empty() ? nullptr : s.vertex_coded.data();
   out->reconstruction = s.msgi.empty() ? ANIC_COMBINED : ANIC_INTERPOLATED;
   for (size_t i = 0; i < 3; ++i)

@@ -3,6 +3,8 @@
 //
 // The C interface: contexts, seeking, positions, bounds, and what a GPU needs.
 #include "sdk/api_objects.h"
+#include "sdk/attribute_values.h"
+#include "sdk/value_output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +54,37 @@ anic_status find_sample(const anic_context* context, uint32_t mesh, anic_when wh
   return (*out)->count > 0 ? ANIC_OK : ANIC_E_SEGMENT;
 }
 
+/// The attribute of vertices that a call is about, where the mesh is there.
+anic_status find_attribute(const anic_context* context, uint32_t mesh, uint32_t attribute,
+                           anic_when when, const MeshAttribute** out) {
+  const Sample* sample = nullptr;
+  const anic_status status = find_sample(context, mesh, when, &sample);
+  if (status != ANIC_OK && status != ANIC_E_SEGMENT)
+    return status;
+  const Vector<MeshAttribute>& attributes = context->asset->clip.meshes()[mesh].attributes;
+  if (attribute >= attributes.size() ||
+      attributes[attribute].header.domain != format::AttributeDomain::kVertex)
+    return ANIC_E_ARGUMENT;
+  *out = &attributes[attribute];
+  return status;
+}
+
+/// What a sample consists of.
+uint32_t give_parts(const Clip& clip, const Sample& sample, anic_part* out) {
+  for (uint32_t p = 0; p < sample.count; ++p) {
+    const FrameState& state = sample.parts[p];
+    out[p].segment = static_cast<uint32_t>(state.segment - clip.segments().data());
+    out[p].share = sample.share[p];
+    out[p].weights = state.weights;
+    out[p].shape = state.shape;
+    std::copy_n(state.pose_map.m, 12, out[p].pose_map);
+    std::copy_n(state.motion.m, 12, out[p].motion);
+    out[p].corrections = reinterpret_cast<const anic_correction*>(state.corrections);
+    out[p].correction_count = state.correction_count;
+  }
+  return sample.count;
+}
+
 bool is_range(const Clip& clip, uint32_t mesh, uint32_t first, uint32_t count) {
   const uint32_t vertices = clip.vertex_count(mesh);
   return first <= vertices && count <= vertices - first;
@@ -62,9 +95,9 @@ void choose(anic_context* context, const FrameMix& mix) {
   const Clip& clip = context->asset->clip;
   std::swap(context->states[ANIC_CURRENT], context->states[ANIC_PREVIOUS]);
   float* weights = context->states[ANIC_CURRENT].weights;
-  for (uint32_t m = 0; m < clip.meshes().size(); ++m) {
-    context->states[ANIC_CURRENT].samples[m] = make_sample(clip, m, mix, weights, context->scratch);
-    weights += sample_buffer_size(clip, m);
+  for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
+    context->states[ANIC_CURRENT].samples[t] = make_sample(clip, t, mix, weights, context->scratch);
+    weights += sample_buffer_size(clip, t);
   }
 }
 
@@ -94,9 +127,9 @@ Status check_output(const anic_output* out, uint32_t count, VertexOutput* result
 
 size_t context_extra(const Clip& clip) {
   size_t bytes = 0, scratch = 0;
-  for (uint32_t m = 0; m < clip.meshes().size(); ++m) {
-    bytes += sizeof(Sample) + sizeof(float) * sample_buffer_size(clip, m);
-    scratch = std::max(scratch, sample_scratch_size(clip, m));
+  for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
+    bytes += sizeof(Sample) + sizeof(float) * sample_buffer_size(clip, t);
+    scratch = std::max(scratch, sample_scratch_size(clip, t));
   }
   return 2 * bytes + sizeof(float) * scratch;
 }
@@ -126,6 +159,8 @@ void compute_boxes(anic_asset* asset) {
   const size_t row = size_t{clip.frame_count()} + 1;
   asset->boxes.assign(row * clip.meshes().size(), kNothing);
   for (const Segment& s : clip.segments()) {
+    if (s.attribute != format::kPositions)
+      continue;
     anic_box* boxes = asset->boxes.data() + row * s.mesh;
     Vector<float> shapes(4 * shape_size(s)), scratch(shape_scratch_size(s));
     for (uint32_t f = 0; f < s.frames;) {
@@ -158,21 +193,21 @@ anic_status anic_context_create(const anic_asset* asset, const anic_allocator* a
     Memory memory = allocator ? memory_of(allocator) : memory_of_object(asset);
     memory.held = memory.peak = 0;
     const Clip& clip = asset->clip;
-    const size_t extra = context_extra(clip), meshes = clip.meshes().size();
+    const size_t extra = context_extra(clip), tracks = clip.tracks().size();
     auto* context = create<anic_context>(memory, extra);
     context->asset = asset;
     context->extra = extra;
     auto* behind = reinterpret_cast<unsigned char*>(context + 1);
     for (anic_context::State& state : context->states) {
       state.samples = reinterpret_cast<Sample*>(behind);
-      for (size_t m = 0; m < meshes; ++m)
-        new (state.samples + m) Sample;
-      behind += meshes * sizeof(Sample);
+      for (size_t t = 0; t < tracks; ++t)
+        new (state.samples + t) Sample;
+      behind += tracks * sizeof(Sample);
     }
     for (anic_context::State& state : context->states) {
       state.weights = reinterpret_cast<float*>(behind);
-      for (uint32_t m = 0; m < meshes; ++m)
-        behind += sizeof(float) * sample_buffer_size(clip, m);
+      for (uint32_t t = 0; t < tracks; ++t)
+        behind += sizeof(float) * sample_buffer_size(clip, t);
     }
     context->scratch = reinterpret_cast<float*>(behind);
     *out = context;
@@ -226,13 +261,13 @@ anic_status anic_forget_previous(anic_context* context) {
   const anic_context::State &from = context->states[ANIC_CURRENT],
                             &to = context->states[ANIC_PREVIOUS];
   size_t begin = 0;
-  for (uint32_t m = 0; m < clip.meshes().size(); ++m) {
-    const size_t count = sample_buffer_size(clip, m);
+  for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
+    const size_t count = sample_buffer_size(clip, t);
     std::copy_n(from.weights + begin, count, to.weights + begin);
-    to.samples[m] = from.samples[m];
+    to.samples[t] = from.samples[t];
     // Weights that are the segment's stay where they are; interpolated ones and shapes move along.
-    for (uint32_t p = 0; p < to.samples[m].count; ++p) {
-      FrameState& part = to.samples[m].parts[p];
+    for (uint32_t p = 0; p < to.samples[t].count; ++p) {
+      FrameState& part = to.samples[t].parts[p];
       for (const float** own : {&part.weights, &part.shape}) {
         if (*own >= from.weights + begin && *own < from.weights + begin + count)
           *own = to.weights + (*own - from.weights);
@@ -255,6 +290,32 @@ anic_status anic_positions(const anic_context* context, uint32_t mesh, anic_when
     return c_status(status);
   if (count > 0)
     sample->positions(first, count, output);
+  return ANIC_OK;
+}
+
+anic_status anic_attribute_values(const anic_context* context, uint32_t mesh, uint32_t attribute,
+                                  anic_when when, uint32_t first, uint32_t count,
+                                  const anic_value_output* out) {
+  const MeshAttribute* found = nullptr;
+  if (anic_status status = find_attribute(context, mesh, attribute, when, &found);
+      status != ANIC_OK)
+    return status;
+  const Clip& clip = context->asset->clip;
+  if (!is_range(clip, mesh, first, count))
+    return ANIC_E_ARGUMENT;
+  const uint32_t components = found->header.components();
+  ValueOutput output;
+  if (Status status = ValueOutput::make(out, components, count, &output); status != Status::kOk)
+    return c_status(status);
+  const auto [begin, end] = clip.attribute_tracks(mesh, attribute);
+  float values[kValueRange * format::kMaxAttributeComponents];
+  for (uint32_t v = first; v < first + count; v += kValueRange) {
+    const uint32_t n = std::min(first + count - v, kValueRange);
+    std::copy_n(found->values.data() + size_t{components} * v, size_t{components} * n, values);
+    for (uint32_t t = begin; t < end; ++t)
+      context->states[when].samples[t].add_motion(components, v, n, values);
+    output.store(values, n);
+  }
   return ANIC_OK;
 }
 
@@ -335,18 +396,27 @@ anic_status anic_parts(const anic_context* context, uint32_t mesh, anic_when whe
     return ANIC_E_ARGUMENT;
   if (anic_status status = find_sample(context, mesh, when, &sample); status != ANIC_OK)
     return status;
-  const Segment* segments = context->asset->clip.segments().data();
-  *count = sample->count;
-  for (uint32_t p = 0; p < sample->count; ++p) {
-    const FrameState& state = sample->parts[p];
-    out[p].segment = static_cast<uint32_t>(state.segment - segments);
-    out[p].share = sample->share[p];
-    out[p].weights = state.weights;
-    out[p].shape = state.shape;
-    std::copy_n(state.pose_map.m, 12, out[p].pose_map);
-    std::copy_n(state.motion.m, 12, out[p].motion);
-    out[p].corrections = reinterpret_cast<const anic_correction*>(state.corrections);
-    out[p].correction_count = state.correction_count;
+  *count = give_parts(context->asset->clip, *sample, out);
+  return ANIC_OK;
+}
+
+anic_status anic_attribute_parts(const anic_context* context, uint32_t mesh, uint32_t attribute,
+                                 uint32_t first_component, anic_when when,
+                                 anic_part out[ANIC_MAX_PARTS], uint32_t* count) {
+  const MeshAttribute* found = nullptr;
+  if (!out || !count || first_component % 3 != 0)
+    return ANIC_E_ARGUMENT;
+  if (anic_status status = find_attribute(context, mesh, attribute, when, &found);
+      status != ANIC_OK)
+    return status;
+  if (first_component >= found->header.components())
+    return ANIC_E_ARGUMENT;
+  const Clip& clip = context->asset->clip;
+  *count = 0;
+  const auto [first, last] = clip.attribute_tracks(mesh, attribute);
+  for (uint32_t t = first; t < last; ++t) {
+    if (clip.tracks()[t].first_component == first_component)
+      *count = give_parts(clip, context->states[when].samples[t], out);
   }
   return ANIC_OK;
 }

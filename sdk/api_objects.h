@@ -113,8 +113,8 @@ struct anic_asset {
 
 struct anic_context {
   struct State {
-    anicodec::Sample* samples;  ///< by mesh
-    float* weights;             ///< sample_buffer_size() of the meshes one after another
+    anicodec::Sample* samples;  ///< by track
+    float* weights;             ///< sample_buffer_size() of the tracks one after another
   };
 
   const anic_asset* asset;

@@ -17,7 +17,9 @@ struct anic_stream {
   size_t arrived = 0;  ///< chunks, from the front of the table
   /// Chunks that have not arrived: those that all segments need, those that a segment needs.
   uint32_t common_missing = 0;
-  uint32_t ready = 0;  ///< segments that miss nothing of their own
+  uint32_t ready = 0;            ///< segments that miss nothing of their own
+  uint32_t ready_positions = 0;  ///< of those, the ones of positions
+  anicodec::Vector<uint8_t> of_positions;
   anicodec::Vector<uint32_t> missing;
   anicodec::Vector<uint8_t> layered;  ///< whether the first layer of a segment has been counted
   anicodec::Failure failure;
@@ -86,6 +88,9 @@ Failure read_head(anic_stream* stream) {
   const size_t segments = limits.segments.size(), chunks = file.chunks().size();
   stream->missing.assign(segments, 0);
   stream->layered.assign(segments, 0);
+  stream->of_positions.reserve(segments);
+  for (const format::Limits::Segment& s : limits.segments)
+    stream->of_positions.push_back(s.attribute == format::kPositions);
   each_needed(stream, 0, chunks, [](uint32_t* missing) { ++*missing; });
   stream->layered.assign(segments, 0);
   info.segment_count = static_cast<uint32_t>(segments);
@@ -109,10 +114,13 @@ Failure take_chunks(anic_stream* stream) {
     info.arrived_layers += chunk.type == chunk_type("BASI");
   }
   each_needed(stream, before, stream->arrived, [&](uint32_t* missing) {
-    stream->ready += --*missing == 0 && missing != &stream->common_missing;
+    if (--*missing > 0 || missing == &stream->common_missing)
+      return;
+    ++stream->ready;
+    stream->ready_positions += stream->of_positions[size_t(missing - stream->missing.data())];
   });
   info.playable_segments = stream->common_missing == 0 ? stream->ready : 0;
-  info.playable = info.playable_segments > 0;
+  info.playable = stream->common_missing == 0 && stream->ready_positions > 0;
   return {};
 }
 

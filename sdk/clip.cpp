@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip.h"
 
+#include "sdk/attribute_values.h"
 #include "sdk/combine.h"
 #include "sdk/memory.h"
 #include "sdk/plain_coding.h"
@@ -292,9 +293,33 @@ Failure Clip::open_attributes(const format::ContainerReader& file, uint16_t mesh
   return s == Status::kOk ? Failure{} : at(*chunk, s, "the attributes are damaged");
 }
 
-Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptions& options) {
+void Clip::list_tracks() {
   segments_.resize(limits_.segments.size());
+  for (uint32_t i = 0; i < segments_.size(); ++i) {
+    const format::Limits::Segment& sizes = limits_.segments[i];
+    segments_[i].mesh = sizes.mesh;
+    segments_[i].attribute = sizes.attribute;
+    segments_[i].first_component = sizes.first_component;
+    segments_[i].first_frame = sizes.first_frame;
+  }
   by_frame_ = limits_.segments_by_frame();
+  tracks_.resize(meshes_.size());
+  for (uint32_t m = 0; m < tracks_.size(); ++m)
+    tracks_[m].mesh = m;
+  for (uint32_t i = 0; i < by_frame_.size(); ++i) {
+    const format::Limits::Segment& s = limits_.segments[by_frame_[i]];
+    const bool is_new = i == 0 || !s.is_alike(limits_.segments[by_frame_[i - 1]]);
+    if (is_new && s.attribute != format::kPositions)
+      tracks_.push_back({s.mesh, s.attribute, s.first_component, i, i});
+    Track& track = s.attribute == format::kPositions ? tracks_[s.mesh] : tracks_.back();
+    if (is_new)
+      track.begin = i;
+    track.end = i + 1;
+  }
+}
+
+Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptions& options) {
+  list_tracks();
   // Layers by segment, in file order, in one pass.
   Vector<Vector<const Chunk*>> layers(segments_.size());
   for (const Chunk& chunk : file.chunks()) {
@@ -311,8 +336,6 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
   }
   for (uint32_t i = 0; i < segments_.size(); ++i) {
     if (options.prefix && !has_arrived(file, limits_.segments[i], i, layers[i])) {
-      segments_[i].mesh = limits_.segments[i].mesh;
-      segments_[i].first_frame = limits_.segments[i].first_frame;
       partial_ = true;
       continue;
     }
@@ -336,6 +359,15 @@ Failure Clip::open_segment(const format::ContainerReader& file, uint32_t number,
     s = Status::kSegment;
   if (s != Status::kOk)
     return at(*chunk, s, "the segment record is malformed");
+  if (sizes.attribute != format::kPositions) {
+    const Vector<MeshAttribute>& attributes = meshes_[sizes.mesh].attributes;
+    const bool unknown = attributes.empty() && options.prefix;  // not there yet
+    if (!unknown &&
+        !(sizes.attribute < attributes.size() &&
+          attributes[sizes.attribute].header.domain == format::AttributeDomain::kVertex &&
+          sizes.first_component < attributes[sizes.attribute].header.components()))
+      return at(*chunk, Status::kIndexRange, "the segment is of no attribute of the vertices");
+  }
   SegmentContext context;
   context.sizes = &sizes;
   context.mesh_sizes = &limits_.meshes[sizes.mesh];
@@ -374,16 +406,30 @@ Failure Clip::open_segment(const format::ContainerReader& file, uint32_t number,
   return s == Status::kOk ? Failure{} : at(*chunk, s, "the segment cannot be opened");
 }
 
-const Segment* Clip::segment_at(uint32_t mesh, uint32_t frame) const {
-  // The last segment of the mesh that begins at the frame or before.
-  auto after = std::partition_point(by_frame_.begin(), by_frame_.end(), [&](uint32_t i) {
-    const Segment& s = segments_[i];
-    return s.mesh != mesh ? s.mesh < mesh : s.first_frame <= frame;
+std::pair<uint32_t, uint32_t> Clip::attribute_tracks(uint32_t mesh, uint32_t attribute) const {
+  const std::pair wanted(mesh, attribute);
+  const auto begin = tracks_.begin() + static_cast<ptrdiff_t>(meshes_.size());
+  const auto first = std::partition_point(begin, tracks_.end(), [&](const Track& t) {
+    return std::pair(t.mesh, t.attribute) < wanted;
   });
-  if (after == by_frame_.begin())
+  const auto last = std::partition_point(first, tracks_.end(), [&](const Track& t) {
+    return std::pair(t.mesh, t.attribute) == wanted;
+  });
+  return {static_cast<uint32_t>(first - tracks_.begin()),
+          static_cast<uint32_t>(last - tracks_.begin())};
+}
+
+const Segment* Clip::segment_at(uint32_t track, uint32_t frame) const {
+  // The last segment of the track that begins at the frame or before.
+  const Track& t = tracks_[track];
+  const auto begin = by_frame_.begin() + t.begin;
+  const auto after = std::partition_point(begin, by_frame_.begin() + t.end, [&](uint32_t i) {
+    return segments_[i].first_frame <= frame;
+  });
+  if (after == begin)
     return nullptr;
   const Segment& s = segments_[*(after - 1)];
-  return s.mesh == mesh && frame - s.first_frame < s.frames ? &s : nullptr;
+  return frame - s.first_frame < s.frames ? &s : nullptr;
 }
 
 size_t Clip::resident_bytes() const {
@@ -404,6 +450,23 @@ Failure Clip::check_hashes() const {
       return {Status::kHash, 0, chunk_type("SEGM"), "a segment decodes to other integers"};
   }
   return {};
+}
+
+Status Clip::attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame, float* out) const {
+  if (frame >= frame_count())
+    return Status::kFrameRange;
+  if (mesh >= meshes_.size() || attribute >= meshes_[mesh].attributes.size() ||
+      meshes_[mesh].attributes[attribute].header.domain != format::AttributeDomain::kVertex)
+    return Status::kArgument;
+  const MeshAttribute& still = meshes_[mesh].attributes[attribute];
+  std::copy(still.values.begin(), still.values.end(), out);
+  const auto [first, last] = attribute_tracks(mesh, attribute);
+  for (uint32_t t = first; t < last; ++t) {
+    if (const Segment* segment = segment_at(t, frame))
+      add_motion(frame_state(*segment, frame - segment->first_frame), 1, still.header.components(),
+                 0, segment->vertices, out);
+  }
+  return Status::kOk;
 }
 
 Status Clip::positions(uint32_t mesh, uint32_t frame, float* out) const {

@@ -12,6 +12,7 @@
 #include "sdk/topology.h"
 
 #include <cstdint>
+#include <utility>
 
 namespace anicodec {
 
@@ -46,6 +47,16 @@ struct Mesh {
   Vector<MeshAttribute> attributes;
 };
 
+/// What moves by segments of its own: the positions of a mesh, or three components of an attribute.
+struct Track {
+  uint32_t mesh = 0;
+  uint32_t attribute = format::kPositions;
+  uint32_t first_component = 0;
+  uint32_t begin = 0, end = 0;  ///< its segments in Clip::by_frame()
+
+  bool is_attribute() const { return attribute != format::kPositions; }
+};
+
 /// An opened file: immutable, so any number of threads may play it. Owns all it needs; the file's
 /// bytes may go after open(). Make and open it in the same MemoryScope.
 class Clip {
@@ -67,15 +78,29 @@ class Clip {
 
   uint32_t vertex_count(uint32_t mesh = 0) const { return limits_.meshes[mesh].source_vertices; }
 
-  /// The segment of a mesh that holds a frame; null when the mesh is not there in that frame.
-  /// O(log segments).
-  const Segment* segment_at(uint32_t mesh, uint32_t frame) const;
+  /// Track m is that of the positions of mesh m; then follow those of attributes, ascending by
+  /// mesh, attribute and component.
+  const Vector<Track>& tracks() const { return tracks_; }
+
+  /// Numbers of the segments: those of a track one after the other, ascending by first frame.
+  const Vector<uint32_t>& by_frame() const { return by_frame_; }
+
+  /// The tracks first .. second - 1 move an attribute; none when it does not move. O(log tracks).
+  std::pair<uint32_t, uint32_t> attribute_tracks(uint32_t mesh, uint32_t attribute) const;
+
+  /// The segment of a track (or of a mesh's positions) that holds a frame; null when the mesh is
+  /// not there, or the attribute is as in frame 0. O(log segments).
+  const Segment* segment_at(uint32_t track, uint32_t frame) const;
 
   /// Positions of all vertices of a mesh in one frame, in the order of the clip, three floats each.
   /// Errors: kFrameRange; kSegment when no segment of the mesh holds the frame. Cost: O(vertices x
   /// components), the same for every frame. Allocates nothing, but in a segment of MSGI; where
   /// frames are played one after the other, make_sample() allocates nothing there either.
   Status positions(uint32_t mesh, uint32_t frame, float* out) const;
+
+  /// Values of an attribute of vertices in one frame, vertices x components, moving or not. Errors:
+  /// kFrameRange, kArgument: no such attribute of vertices. Cost: as positions(), for each track.
+  Status attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame, float* out) const;
 
   /// Whether something had not arrived: segments have no frames, fewer components than options
   /// asked for, or no corrections.
@@ -90,6 +115,7 @@ class Clip {
 
  private:
   Failure open_mesh(const format::ContainerReader& file, uint16_t mesh, const OpenOptions& options);
+  void list_tracks();
   Failure open_attributes(const format::ContainerReader& file, uint16_t mesh,
                           const OpenOptions& options);
   Failure open_segments(const format::ContainerReader& file, const OpenOptions& options);
@@ -103,7 +129,8 @@ class Clip {
   Vector<DracoMesh> draco_;  ///< while opening
   Vector<Segment> segments_;
   bool partial_ = false;
-  Vector<uint32_t> by_frame_;  ///< segments, ascending by mesh and first frame
+  Vector<Track> tracks_;
+  Vector<uint32_t> by_frame_;
 };
 
 }  // namespace anicodec

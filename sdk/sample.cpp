@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/sample.h"
 
+#include "sdk/attribute_values.h"
 #include "sdk/rotation.h"
 
 #include <algorithm>
@@ -73,38 +74,37 @@ FrameState mean_state(const Group& group, float* weights) {
 
 }  // namespace
 
-size_t sample_buffer_size(const Clip& clip, uint32_t mesh) {
-  size_t weights = 0, segments = 0, shape = 0, shapes = 0;
-  for (const Segment& s : clip.segments()) {
-    if (s.mesh == mesh) {
-      weights = std::max(weights, weight_count(s));
-      ++segments;
-      shape = std::max(shape, shape_size(s));
-      shapes += !s.msgi.empty();
-    }
+size_t sample_buffer_size(const Clip& clip, uint32_t track) {
+  const Track& t = clip.tracks()[track];
+  size_t weights = 0, shape = 0, shapes = 0;
+  for (uint32_t i = t.begin; i < t.end; ++i) {
+    const Segment& s = clip.segments()[clip.by_frame()[i]];
+    weights = std::max(weights, weight_count(s));
+    shape = std::max(shape, shape_size(s));
+    shapes += !s.msgi.empty();
   }
-  return weights * std::min(segments, kMixedParts) +
+  return weights * std::min(size_t{t.end - t.begin}, kMixedParts) +
          shape * std::min(shapes, size_t{Sample::kMaxParts});
 }
 
-size_t sample_scratch_size(const Clip& clip, uint32_t mesh) {
+size_t sample_scratch_size(const Clip& clip, uint32_t track) {
+  const Track& t = clip.tracks()[track];
   size_t largest = 0;
-  for (const Segment& s : clip.segments()) {
-    if (s.mesh == mesh)
-      largest = std::max(largest, shape_scratch_size(s));
-  }
+  for (uint32_t i = t.begin; i < t.end; ++i)
+    largest = std::max(largest, shape_scratch_size(clip.segments()[clip.by_frame()[i]]));
   return largest;
 }
 
-Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* buffer,
+Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float* buffer,
                    float* scratch) {
+  const bool is_attribute = clip.tracks()[track].is_attribute();
   Group groups[Sample::kMaxParts];
   uint32_t count = 0;
   double total = 0;
   for (uint32_t t = 0; t < mix.count; ++t) {
     const FrameMix::Term& term = mix.terms[t];
-    const Segment* segment = clip.segment_at(mesh, term.frame);
-    if (!segment && t == 0)
+    const Segment* segment = clip.segment_at(track, term.frame);
+    if (!segment && t == 0 && !is_attribute)
       return {};
     if (!segment || term.weight == 0)
       continue;
@@ -119,6 +119,8 @@ Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* 
     group.share += term.weight;
     total += term.weight;
   }
+  if (is_attribute)
+    total = 1;
   Sample sample;
   for (uint32_t g = 0; g < count; ++g) {
     Group& group = groups[g];
@@ -140,6 +142,12 @@ Sample make_sample(const Clip& clip, uint32_t mesh, const FrameMix& mix, float* 
   }
   sample.count = count;
   return sample;
+}
+
+void Sample::add_motion(uint32_t components, uint32_t first, uint32_t vertices,
+                        float* values) const {
+  for (uint32_t p = 0; p < count; ++p)
+    anicodec::add_motion(parts[p], share[p], components, first, vertices, values);
 }
 
 void Sample::positions(uint32_t first, uint32_t vertices, const VertexOutput& output) const {

@@ -39,6 +39,8 @@ struct Segment {
   format::BasisKind kind = format::BasisKind::kKeyframes;
   format::Reconstruction reconstruction = format::Reconstruction::kLinear;
   uint32_t mesh = 0;
+  uint32_t attribute = format::kPositions;  ///< that it moves, else the positions
+  uint32_t first_component = 0;             ///< of the attribute: x(v, f) is added to three of them
   uint32_t first_frame = 0;
   uint32_t frames = 0;
   uint32_t vertices = 0;

@@ -82,7 +82,7 @@ void open_clip(const std::string& path, const std::string& bytes, const OpenOpti
 MeshFrames frames_of_mesh(const Clip& clip, uint32_t mesh) {
   MeshFrames frames{UINT32_MAX, 0};
   for (const format::Limits::Segment& s : clip.limits().segments) {
-    if (s.mesh != mesh)
+    if (s.mesh != mesh || s.attribute != format::kPositions)
       continue;
     frames.first = std::min(frames.first, s.first_frame);
     frames.end = std::max(frames.end, s.first_frame + s.frames);
@@ -108,6 +108,28 @@ MeshSequence describe_clip(const Clip& clip, uint32_t mesh) {
   sequence.metres_per_unit = record.metres_per_unit;
   restore_attributes(clip.meshes()[mesh].attributes, &sequence);
   return sequence;
+}
+
+std::function<std::vector<Attribute>(uint32_t)> play_attributes(const Clip& clip, uint32_t mesh) {
+  const bool moves = std::ranges::any_of(clip.tracks(), [mesh](const Track& track) {
+    return track.mesh == mesh && track.is_attribute();
+  });
+  if (!moves)
+    return {};
+  return [&clip, mesh](uint32_t frame) {
+    const Vector<MeshAttribute>& decoded = clip.meshes()[mesh].attributes;
+    MeshSequence sequence;
+    restore_attributes(decoded, &sequence);
+    size_t restored = 0;
+    for (uint32_t i = 0; i < decoded.size(); ++i) {
+      if (decoded[i].header.components() == 0)
+        continue;
+      Attribute& attribute = sequence.attributes[restored++];
+      if (!attribute.per_corner)
+        clip.attribute_values(mesh, i, frame, attribute.values.data());
+    }
+    return std::move(sequence.attributes);
+  };
 }
 
 FrameSource play(const std::string& path, const Clip& clip, uint32_t mesh) {

@@ -12,7 +12,9 @@
 #include "format/status.h"
 #include "sdk/clip.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace anicodec::tools {
 
@@ -50,6 +52,11 @@ MeshFrames frames_of_mesh(const Clip& clip, uint32_t mesh);
 /// The clip as one of a mesh, without its positions: counts, polygons, metadata, and the timing of
 /// all frames.
 MeshSequence describe_clip(const Clip& clip, uint32_t mesh = 0);
+
+/// Attributes of a frame of a mesh as numbers, moving or not, in the form of those of
+/// describe_clip(); empty when none moves. The clip must outlive it.
+std::function<std::vector<Attribute>(uint32_t frame)> play_attributes(const Clip& clip,
+                                                                      uint32_t mesh = 0);
 
 /// Plays a mesh of the clip, which must outlive the source. Frames are given in any order. Throws
 /// Error(kCorrupt) naming the path.

@@ -9,6 +9,7 @@
 #include "tools/compared_clip.h"
 #include "tools/io/file_kind.h"
 #include "tools/io/frame_rate.h"
+#include "tools/names.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
 
@@ -36,20 +37,21 @@ the one of --mesh, or a scene (.gltf, .glb), which is baked at the rate of the o
 --axes-b x,z,-y takes (x, z, -y) of B for its positions. Without it B is turned to the axes of A
 where the files of both say which axis points up.
 
-Clips of equally many vertices are compared vertex by vertex: KG error and RMSE over all frames, the
-largest error and where it is, PSNR against the diagonal, STED (edges in space and time), the error
-of the moves from frame to frame, and for equal faces how far normals turn (with the hard edges
-of A, where they are known). If the vertices differ in number, or in order because an .anic file was
-encoded with --order free, or with --surface, the distance of the surfaces is
-measured (Hausdorff) and the shapes of the triangles.
+Clips of equally many vertices are compared vertex by vertex: KG error and RMSE over all frames,
+the largest error and where it is, PSNR against the diagonal, STED (edges in space and time), the
+error of the moves from frame to frame, and for equal faces how far normals turn (with the hard
+edges of A, where they are known), and attributes that both have by the same name. If the vertices
+differ in number, or in order because an .anic file was encoded with --order free, or with
+--surface, the distance of the surfaces is measured (Hausdorff) and the shapes of the triangles.
 
 --json prints one object: a, b, vertices, faces, frames, diagonal, bytes, bpfv (of B if it is an
 .anic file), method (vertices or surface), kg, rmse, max_error, max_error_percent, max_frame,
 max_vertex, psnr, sted, sted_spatial, sted_temporal, displacement_error, normal_error_mean,
 normal_error_max (degrees), hausdorff, hausdorff_percent, hausdorff_frame, hausdorff_mean,
-hausdorff_rms, radius_ratio_a, radius_ratio_b (of the triangles, 1 if equilateral), conformal_mean,
-conformal_max, area_mean, area_max (how much B changes the triangles of A, 1 if not; for equal
-faces), note. What was not measured is null, and so is an infinite PSNR.
+hausdorff_rms, radius_ratio_a, radius_ratio_b (of the triangles, 1 if equilateral),
+conformal_mean, conformal_max, area_mean, area_max (how much B changes the triangles of A, 1 if
+not; for equal faces), attributes (kind, name, max_error, rmse of single numbers), note. What was
+not measured is null, and so is an infinite PSNR.
 
 Examples:
   anicodec compare dance.pc2 dance.anic
@@ -69,6 +71,7 @@ struct Measured {
   std::optional<SurfaceComparison> surface;
   std::optional<TriangleComparison> triangles;
   std::optional<NormalError> normals;
+  std::vector<AttributeDifference> attributes;
   std::string note;
 };
 
@@ -162,6 +165,8 @@ Measured measure(const ComparedClip& a, const ComparedClip& b, const CompareComm
     m.diagonal = m.vertices->diagonal;
     if (m.note.empty())  // the same faces
       m.normals = normal_error(p, a.frames(), frames_of_b());
+    m.attributes =
+        attribute_differences(a.attributes(), b.attributes(), frames, p.polygons == q.polygons);
   }
   if (!by_vertex || command.surface) {
     m.surface = compare_surfaces(p.polygons, watched(a.frames(), frames, line), q.polygons,
@@ -254,6 +259,10 @@ void print_json(const ComparedClip& a, const ComparedClip& b, const Measured& m)
       json["area_max"] = t->distortion.area_max;
     }
   }
+  json["attributes"] = nlohmann::ordered_json::array();
+  for (const AttributeDifference& d : m.attributes)
+    json["attributes"].push_back(
+        {{"kind", name_of(d.kind)}, {"name", d.name}, {"max_error", d.max}, {"rmse", d.rmse}});
   json["note"] = m.note;
   fmt::print("{}\n", json.dump(2));
 }
@@ -280,6 +289,9 @@ void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
   }
   if (const auto& n = m.normals)
     row("normal error", fmt::format("{:.3g} degrees on average, {:.3g} at most", n->mean, n->max));
+  for (const AttributeDifference& d : m.attributes)
+    row(name_of(d.kind),
+        fmt::format("max error {:.4g}, RMSE {:.4g} of \"{}\"", d.max, d.rmse, printable(d.name)));
   if (const auto& s = m.surface) {
     row("Hausdorff distance", fmt::format("{:.4g} ({:.3g} %) at frame {}", s->total.max(),
                                           s->percent(s->total.max()), s->max_frame));

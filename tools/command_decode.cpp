@@ -107,6 +107,11 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
       take_frames(own, description);
     options.first_number = command.start + (own.first - range.first) / range.step;
     FrameSource all = play(command.input, clip, mesh);
+    options.attributes = {};
+    if (auto attributes = play_attributes(clip, mesh))
+      options.attributes = [attributes, own](uint32_t f) {
+        return attributes(own.first + f * own.step);
+      };
     write_sequence(
         command.output, description,
         [&all, own](uint32_t f) { return all(own.first + f * own.step); }, options);

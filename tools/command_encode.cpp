@@ -103,6 +103,7 @@ struct EncodeCommand {
   bool loop = false;
   bool no_attributes = false;
   AttributeOptions attributes;
+  std::string attribute_error;
   bool json = false;
 };
 
@@ -154,6 +155,11 @@ EncodeOptions options_of(const EncodeCommand& command) {
   options.mesh_coder = command.mesh_coder;
   options.attributes = command.attributes;
   options.attributes.keep = !command.no_attributes;
+  if (!command.attribute_error.empty()) {
+    const Length error = parse_length(command.attribute_error, "--attribute-error");
+    options.attributes.error = error.value;
+    options.attributes.error_percent = error.percent;
+  }
   options.effort = command.effort;
   options.encoder = fmt::format("anicodec {}", version());
   set_target(command, options);
@@ -255,6 +261,16 @@ void print_json(const EncodeCommand& command, const EncodeResult& result,
   json["massaged"] = massage.change.has_value();
   json["surface_error"] = massage.change ? massage.change->max : 0;
   json["surface_error_mean"] = massage.change ? massage.change->mean : 0;
+  json["moving_attributes"] = nlohmann::ordered_json::array();
+  for (const AttributeResult& a : result.attributes)
+    json["moving_attributes"].push_back({{"kind", name_of(a.kind)},
+                                         {"name", a.name},
+                                         {"kept", a.kept},
+                                         {"note", a.note},
+                                         {"bytes", a.bytes},
+                                         {"asked", a.asked},
+                                         {"max_error", a.max_error},
+                                         {"rmse", a.rmse}});
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -282,6 +298,13 @@ void print_text(const EncodeCommand& command, const EncodeResult& result,
       command.output, grouped(result.file.size()), rate.ratio, rate.bpfv, result.components,
       components_of(result.kind), result.max_error, percent(result.max_error, result.diagonal),
       result.kg);
+  for (const AttributeResult& a : result.attributes) {
+    if (a.kept)
+      fmt::print("  {} \"{}\": {} bytes, max error {:.3g} of {:.3g}\n", name_of(a.kind),
+                 printable(a.name), grouped(a.bytes), a.max_error, a.asked);
+    else
+      fmt::print("  {} \"{}\" {}\n", name_of(a.kind), printable(a.name), a.note);
+  }
 }
 
 /// All that an output depends on beside its clip.
@@ -294,6 +317,7 @@ std::string settings_of(const EncodeCommand& c, const EncodeOptions& options) {
     settings.push_back(choice);
   settings.push_back(c.massage_strength);
   settings.push_back(c.massage_tolerance);
+  settings.push_back(c.attribute_error);
   for (uint32_t number : {uint32_t{options.attributes.keep}, options.attributes.uv_bits,
                           options.attributes.colour_bits, uint32_t{options.attributes.normals}})
     settings.push_back(number);
@@ -532,8 +556,15 @@ void add_encode(CLI::App& app, CommonOptions& common) {
       ->check(CLI::Range(1, 16))
       ->group(attributes);
   command
+      ->add_option("--attribute-error", c->attribute_error,
+                   "Largest error of colours, texture coordinates and other numbers that\n"
+                   "change, in their own units or per cent of their range (default: half\n"
+                   "a step of --colour-bits for colours, 0.1% for others)")
+      ->option_text("X")
+      ->group(attributes);
+  command
       ->add_flag("--store-normals", c->attributes.normals,
-                 "Normals of the first frame as numbers, not only the hard edges")
+                 "Normals and tangents of the first frame as numbers, not only\nthe hard edges")
       ->group(attributes);
 
   const char* metadata = "Metadata (positions stay as they are)";

@@ -26,9 +26,10 @@ for each instance), format, encoder, name, vertices, coded_vertices, faces (of t
 meshes (vertices, coded_vertices, faces, first_frame, end_frame), frames, fps, fps_assumed,
 start_time, loop, closed (the last frame repeats the first), up, metres_per_unit, order, diagonal,
 asked (metric, value), max_error, max_error_percent, rmse, kg, massaged, surface_error,
-surface_error_mean, attributes (kind, of, name, components, labels), segments (basis,
-reconstruction, first_frame, frames, components, corrections), chunks (type, offset, size, required,
-mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
+surface_error_mean, attributes (mesh, kind, of, name, components, labels, moves; of those that move,
+bytes, max_error, rmse in units of their values), segments (basis, of, reconstruction, first_frame,
+frames, components, corrections), chunks (type, offset, size, required, mesh, segment). Lengths are
+in scene units, errors those the encoder measured.)";
 
 struct InfoCommand {
   std::string input;
@@ -48,9 +49,46 @@ double percent(const format::ClipRecord& record) {
 
 double positions(const Clip& clip) {
   double count = 0;
-  for (const format::Limits::Segment& s : clip.limits().segments)
-    count += static_cast<double>(clip.vertex_count(s.mesh)) * s.frames;
+  for (const format::Limits::Segment& s : clip.limits().segments) {
+    if (s.attribute == format::kPositions)
+      count += static_cast<double>(clip.vertex_count(s.mesh)) * s.frames;
+  }
   return count;
+}
+
+/// What a segment moves.
+std::string moved_by(const format::Limits::Segment& s) {
+  return s.attribute == format::kPositions
+             ? std::string("positions")
+             : fmt::format("attribute {} from component {}", s.attribute, s.first_component);
+}
+
+bool moves(const Clip& clip, uint32_t mesh, uint32_t attribute) {
+  const auto [first, last] = clip.attribute_tracks(mesh, attribute);
+  return first != last;
+}
+
+/// Bytes of the segments of an attribute.
+uint64_t moving_bytes(const Contents& c, uint32_t mesh, uint32_t attribute) {
+  uint64_t bytes = 0;
+  for (const format::Chunk& chunk : c.container.chunks()) {
+    if (chunk.segment == format::kNoSegment)
+      continue;
+    const format::Limits::Segment& s = c.clip.limits().segments[chunk.segment];
+    if (s.mesh == mesh && s.attribute == attribute)
+      bytes += chunk.size;
+  }
+  return bytes;
+}
+
+/// What the encoder measured of an attribute that moves, if it did.
+const format::AttributeError* error_of(const format::ClipRecord& record, uint32_t mesh,
+                                       uint32_t attribute) {
+  for (const format::AttributeError& e : record.attribute_errors) {
+    if (e.mesh == mesh && e.attribute == attribute)
+      return &e;
+  }
+  return nullptr;
 }
 
 void print_json(const std::string& path, const Contents& c) {
@@ -100,15 +138,29 @@ void print_json(const std::string& path, const Contents& c) {
   json["surface_error"] = record.surface_error;
   json["surface_error_mean"] = record.surface_error_mean;
   json["attributes"] = nlohmann::ordered_json::array();
-  for (const MeshAttribute& a : c.clip.meshes()[0].attributes)
-    json["attributes"].push_back({{"kind", name_of(a.header.kind)},
-                                  {"of", name_of(a.header.domain)},
-                                  {"name", a.header.name},
-                                  {"components", a.header.components()},
-                                  {"labels", a.header.labels}});
+  for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
+    const Vector<MeshAttribute>& attributes = c.clip.meshes()[m].attributes;
+    for (uint32_t i = 0; i < attributes.size(); ++i) {
+      const MeshAttribute& a = attributes[i];
+      nlohmann::ordered_json entry = {{"mesh", m},
+                                      {"kind", name_of(a.header.kind)},
+                                      {"of", name_of(a.header.domain)},
+                                      {"name", a.header.name},
+                                      {"components", a.header.components()},
+                                      {"labels", a.header.labels},
+                                      {"moves", moves(c.clip, m, i)}};
+      if (const format::AttributeError* error = error_of(record, m, i)) {
+        entry["bytes"] = moving_bytes(c, m, i);
+        entry["max_error"] = error->max_error;
+        entry["rmse"] = error->rmse;
+      }
+      json["attributes"].push_back(entry);
+    }
+  }
   json["segments"] = nlohmann::ordered_json::array();
   for (const format::Limits::Segment& s : limits.segments)
     json["segments"].push_back({{"basis", name_of(s.kind)},
+                                {"of", moved_by(s)},
                                 {"reconstruction", name_of(s.reconstruction)},
                                 {"first_frame", s.first_frame},
                                 {"frames", s.frames},
@@ -167,16 +219,6 @@ void print_chunks(const Contents& c) {
   }
 }
 
-/// Unprintable characters as '?': a file may hold any name.
-std::string printable(std::string_view name) {
-  std::string text(name);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-      c = '?';
-  }
-  return text;
-}
-
 std::string attribute_text(const format::AttributeHeader& a) {
   std::string text = fmt::format("{} of {}", name_of(a.kind), name_of(a.domain));
   if (!a.name.empty())
@@ -229,13 +271,21 @@ void print_text(const std::string& path, const Contents& c) {
   if (record.massaged)
     row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
                                 record.surface_error_mean, record.surface_error));
-  for (const MeshAttribute& a : c.clip.meshes()[0].attributes)
-    row("attribute", attribute_text(a.header));
+  const Vector<MeshAttribute>& attributes = c.clip.meshes()[0].attributes;
+  for (uint32_t i = 0; i < attributes.size(); ++i) {
+    row("attribute", attribute_text(attributes[i].header));
+    if (const format::AttributeError* error = error_of(record, 0, i))
+      row("", fmt::format("{}, {} bytes, max error {:.4g}, RMSE {:.4g}",
+                          moves(c.clip, 0, i) ? "moves" : "as in frame 0",
+                          grouped(moving_bytes(c, 0, i)), error->max_error, error->rmse));
+  }
   for (const format::Limits::Segment& s : limits.segments)
-    row("segment", fmt::format("frames {}:{}, {} {}{}, {} corrections", s.first_frame,
-                               s.first_frame + s.frames, s.components, components_of(s.kind),
-                               s.reconstruction == format::Reconstruction::kMsgi ? " by msgi" : "",
-                               s.corrections));
+    row("segment",
+        fmt::format("{}frames {}:{}, {} {}{}, {} corrections",
+                    s.attribute == format::kPositions ? "" : moved_by(s) + ", ", s.first_frame,
+                    s.first_frame + s.frames, s.components, components_of(s.kind),
+                    s.reconstruction == format::Reconstruction::kMsgi ? " by msgi" : "",
+                    s.corrections));
   print_chunks(c);
 }
 

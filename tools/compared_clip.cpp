@@ -4,6 +4,7 @@
 
 #include "tools/clip_input.h"
 #include "tools/io/file_kind.h"
+#include "tools/io/frame_attributes.h"
 #include "tools/io/load_sequence.h"
 
 #include <algorithm>
@@ -62,6 +63,17 @@ bool ComparedClip::has_free_order() const {
 
 FrameSource ComparedClip::frames() const {
   FrameSource all = clip_ ? play(path_, *clip_) : frames_of(sequence_);
+  return [all = std::move(all), range = range_](uint32_t f) {
+    return all(range.first + f * range.step);
+  };
+}
+
+AttributeSource ComparedClip::attributes() const {
+  AttributeSource all;
+  if (clip_)
+    all = play_attributes(*clip_);
+  if (!all)
+    all = [this](uint32_t f) { return attributes_of_frame(sequence_.attributes, f); };
   return [all = std::move(all), range = range_](uint32_t f) {
     return all(range.first + f * range.step);
   };

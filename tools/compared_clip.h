@@ -7,6 +7,7 @@
 #include "codec/mesh_sequence.h"
 #include "codec/progress.h"
 #include "sdk/clip.h"
+#include "tools/attribute_difference.h"
 #include "tools/quantity.h"
 
 #include <cstdint>
@@ -44,6 +45,9 @@ class ComparedClip {
 
   /// The clip must outlive the source.
   FrameSource frames() const;
+
+  /// Attributes as numbers. The clip must outlive the source.
+  AttributeSource attributes() const;
 
  private:
   std::string path_;

@@ -30,15 +30,21 @@ void list_limits(FieldReader& r) {
   }
   for (uint64_t i = 0; i < segments && r.ok(); ++i) {
     r.varint(fmt::format("segment {} mesh", i));
-    constexpr uint8_t kMsgi = 16;
-    const uint8_t kind = r.u8(fmt::format("segment {} basis", i));
-    r.explain(kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<format::BasisKind>(kind)));
+    constexpr uint8_t kMsgi = 16, kAttribute = 32;
+    const uint8_t code = r.u8(fmt::format("segment {} basis", i));
+    const auto kind = static_cast<uint8_t>(code & ~kAttribute);
+    r.explain((kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<format::BasisKind>(kind))) +
+              std::string(code & kAttribute ? ", of an attribute" : ""));
     for (const char* name :
          {"first frame", "frames", "components", "wide components", "corrections"})
       r.varint(fmt::format("segment {} {}", i, name));
     if (kind == kMsgi) {
       r.varint(fmt::format("segment {} bytes of msgi", i));
       r.varint(fmt::format("segment {} bytes of msgi for a frame", i));
+    }
+    if (code & kAttribute) {
+      r.varint(fmt::format("segment {} attribute", i));
+      r.varint(fmt::format("segment {} three components", i));
     }
   }
   for (uint64_t i = 0; i < meshes && r.ok() && r.remaining() > 0; ++i)
@@ -48,14 +54,15 @@ void list_limits(FieldReader& r) {
 /// The number of frames is in another chunk: the table of times, when there is one, is what is left
 /// before the fields of fixed size at the end.
 void list_clip(FieldReader& r, uint32_t frames) {
-  constexpr uint8_t kMassaged = 8, kTimes = 16;
+  constexpr uint8_t kMassaged = 8, kTimes = 16, kAttributeErrors = 32;
   r.text("name");
   r.text("encoder");
   r.varint("rate numerator");
   r.varint("rate denominator");
   uint8_t flags = r.u8("flags");
   std::string meaning;
-  constexpr const char* kFlags[] = {"rate assumed", "loop", "closed", "massaged", "times"};
+  constexpr const char* kFlags[] = {"rate assumed", "loop",  "closed",
+                                    "massaged",     "times", "attribute errors"};
   for (size_t i = 0; i < std::size(kFlags); ++i) {
     if (flags >> i & 1)
       meaning += (meaning.empty() ? "" : ", ") + std::string(kFlags[i]);
@@ -74,6 +81,13 @@ void list_clip(FieldReader& r, uint32_t frames) {
   if (flags & kMassaged) {
     r.f64("surface error");
     r.f64("surface error, mean");
+  }
+  const uint64_t errors = flags & kAttributeErrors ? r.varint("attributes with an error") : 0;
+  for (uint64_t i = 0; i < errors && r.ok(); ++i) {
+    r.varint(fmt::format("error {} mesh", i));
+    r.varint(fmt::format("error {} attribute", i));
+    r.f64(fmt::format("error {} max error", i));
+    r.f64(fmt::format("error {} RMSE", i));
   }
 }
 

@@ -9,8 +9,20 @@
 #include "format/records.h"
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 namespace anicodec::tools {
+
+/// Unprintable characters as '?': a file may hold any name.
+inline std::string printable(std::string_view name) {
+  std::string text(name);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      c = '?';
+  }
+  return text;
+}
 
 inline const char* name_of(format::BasisKind kind) {
   switch (kind) {

@@ -61,6 +61,7 @@ EncodeResult encode_topologies(std::vector<MeshSequence> runs, EncodeOptions opt
     all.max_error = std::max(all.max_error, result.max_error);
     all.kg = std::max(all.kg, result.kg);
     all.rmse = std::max(all.rmse, result.rmse);
+    all.attributes.insert(all.attributes.end(), result.attributes.begin(), result.attributes.end());
     all.trials.insert(all.trials.end(), result.trials.begin(), result.trials.end());
   }
   all.diagonal = length;

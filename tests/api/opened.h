@@ -177,6 +177,7 @@ inline const std::vector<std::pair<std::string, BasisChoice>>& cases() {
       {"uneven", BasisChoice::kEigenshapes},
       {"soup", BasisChoice::kAuto},
       {"painted_box", BasisChoice::kKeyframes},
+      {"heated", BasisChoice::kEigentrajectories},
       {"cuts", BasisChoice::kAuto}};
   return all;
 }

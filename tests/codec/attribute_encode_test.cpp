@@ -171,6 +171,22 @@ TEST(AttributeEncode, LeavesFilesWithoutAttributesAsTheyWere) {
   EXPECT_EQ(encode(detailed("quad_box"), without).file, plain);
 }
 
+TEST(AttributeEncode, KeepsTangentsWithNormalsOnly) {
+  MeshSequence clip = corpus::make_clip("quad_box");
+  Attribute tangents{AttributeKind::kTangent, "TANGENT", false, 4, 1, {}};
+  for (uint32_t v = 0; v < clip.vertex_count; ++v)
+    tangents.values.insert(tangents.values.end(), {0.6F, 0, 0.8F, v % 2 == 0 ? 1.0F : -1.0F});
+  clip.attributes = {tangents};
+  EncodeOptions options = quick(format::OrderMode::kAll);
+  EXPECT_TRUE(decoded(encode(clip, options).file).attributes.empty());
+  options.attributes.normals = true;
+  const MeshSequence back = decoded(encode(clip, options).file);
+  ASSERT_EQ(back.attributes.size(), 1U);
+  EXPECT_EQ(back.attributes[0].name, "TANGENT");
+  for (size_t i = 0; i < tangents.values.size(); ++i)
+    ASSERT_NEAR(back.attributes[0].values[i], tangents.values[i], 1.0 / 2047);
+}
+
 TEST(AttributeEncode, StoresNormalsWhereAsked) {
   EncodeOptions options = quick(format::OrderMode::kAll);
   options.attributes.normals = true;

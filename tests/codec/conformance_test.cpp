@@ -5,11 +5,13 @@
 #include "corpus/clips.h"
 #include "sdk/clip.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +56,20 @@ TEST_P(Conformance, DecodesAsTheFileSays) {
     }
   }
   EXPECT_NEAR(largest, clip.record().max_error, 1e-4 * clip.record().max_error);
+  for (const format::AttributeError& error : clip.record().attribute_errors) {
+    const MeshAttribute& stored = clip.meshes()[0].attributes[error.attribute];
+    const auto of = std::ranges::find(source.attributes, stored.header.kind, &Attribute::kind);
+    ASSERT_NE(of, source.attributes.end());
+    std::vector<float> values(stored.values.size());
+    double furthest = 0;
+    for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+      ASSERT_EQ(clip.attribute_values(0, error.attribute, f, values.data()), Status::kOk);
+      for (size_t i = 0; i < values.size(); ++i)
+        furthest = std::max(
+            furthest, std::abs(double{values[i]} - double{of->values[f * values.size() + i]}));
+    }
+    EXPECT_NEAR(furthest, error.max_error, 1e-3 * error.max_error);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -68,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Vector{"leftovers_plain.anic", "leftovers"},
                     Vector{"one_frame.anic", "one_frame"}, Vector{"one_vertex.anic", "one_vertex"},
                     Vector{"nonmanifold_interpolated.anic", "nonmanifold"},
-                    Vector{"painted_box.anic", "painted_box"}),
+                    Vector{"painted_box.anic", "painted_box"}, Vector{"heated.anic", "heated"}),
     [](const auto& vector) {
       return std::string(vector.param.file, std::string(vector.param.file).find('.'));
     });

@@ -353,6 +353,20 @@ TEST(Clips, ThePaintedBoxHasAttributesOfEveryDomain) {
   EXPECT_EQ(s.parts.of_polygon.size(), s.polygons.size());
 }
 
+TEST(Clips, HeatedHasValuesInEveryFrameThatMoveAlikeAtTheSeam) {
+  const MeshSequence s = make_clip("heated");
+  EXPECT_EQ(distinct_trajectories(s), 225U);
+  ASSERT_EQ(s.attributes.size(), 3U);
+  for (const Attribute& a : s.attributes) {
+    EXPECT_EQ(a.frames, s.frame_count);
+    ASSERT_EQ(a.values.size(), size_t{a.components} * s.vertex_count * s.frame_count);
+    const size_t row = size_t{a.components} * s.vertex_count;
+    EXPECT_FALSE(std::equal(a.values.begin(), a.values.begin() + static_cast<ptrdiff_t>(row),
+                            a.values.begin() + static_cast<ptrdiff_t>(row)))
+        << a.name;
+  }
+}
+
 TEST(Clips, SoupWeldsToASixthOfItsVertices) {
   MeshSequence s = make_clip("soup");
   EXPECT_EQ(s.vertex_count, 3 * s.polygons.size());

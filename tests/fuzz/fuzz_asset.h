@@ -143,6 +143,12 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
       one.check();
       two.check();
     }
+    const uint32_t attribute = script.below(sizes.attribute_count + 1);
+    std::vector<unsigned char> values(size_t{16} * count * 2);
+    const anic_value_output value_out = {values.data(), values.size(), 0,
+                                         static_cast<anic_value_format>(script.byte() % 5),
+                                         script.below(18)};
+    anic_attribute_values(context, mesh, attribute, when, first, count, &value_out);
     anic_box box;
     if (anic_bounds(context, mesh, when, &box) == ANIC_OK && sizes.vertex_count > 0)
       require(box.min[0] <= box.max[0] && std::isfinite(box.min[2]));
@@ -157,6 +163,14 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
           require(parts[p].corrections[k].vertex < sizes.vertex_count);
         for (uint32_t j = 0; j < basis.components * basis.weight_channels; ++j)
           require(std::isfinite(parts[p].weights[j]));
+      }
+    }
+    if (anic_attribute_parts(context, mesh, attribute, 3 * script.below(6), when, parts,
+                             &part_count) == ANIC_OK) {
+      for (uint32_t p = 0; p < part_count; ++p) {
+        anic_basis basis;
+        require(anic_segment_basis(asset, parts[p].segment, &basis) == ANIC_OK);
+        require(basis.attribute == attribute && basis.mesh == mesh);
       }
     }
     anic_forget_previous(context);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/fuzz/fuzz_mesh.h"
+#include "tools/io/frame_attributes.h"
 #include "tools/io/glb_output.h"
 #include "tools/io/gltf.h"
 
@@ -15,7 +16,7 @@ void round_trip(const MeshSequence& sequence, const GltfResolver& resolve,
   check(sequence);
   GlbOutput output(sequence, false);
   for (uint32_t f = 0; f < sequence.frame_count; ++f)
-    output.add_frame(sequence.frame(f));
+    output.add_frame(sequence.frame(f), attributes_of_frame(sequence.attributes, f));
   std::vector<float> times;
   for (uint32_t f = 0; f < sequence.frame_count; ++f)
     times.push_back(static_cast<float>(f));

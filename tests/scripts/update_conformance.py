@@ -36,14 +36,17 @@ VECTORS = [
     ("one_vertex.anic", "one_vertex", "--kg 0.5"),
     ("nonmanifold_interpolated.anic", "nonmanifold", "--keyframes 3 --interpolation msgi --mesh-coder plain"),
     ("painted_box.anic", "painted_box", "--kg 0.5 --order all --basis keyframes"),
+    ("heated.anic", "heated", "--kg 0.5 --fps 24 --basis eigenshapes --effort 1 --mesh-coder plain"),
 ]
+# Clips whose attributes move: they go by PLY frames.
+MOVING = ["heated"]
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 # Codes that a file can cause, with the names of spec/12-errors.md.
 CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
 POINTS = 24  # of the manifest, for each file
 # Files whose chunks tests/fuzz/chunk_fuzz.cpp changes, in its order: one for each kind of chunk, quickly decoded.
 FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "quad_box_corrected.anic",
-          "soup_plain.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic"]
+          "soup_plain.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic"]
 
 
 def listing(command, path):
@@ -133,6 +136,65 @@ def broken_payloads(files, library, wanted):
             chunk.payload = good
 
 
+def read_varints(data, at, count):
+    """So many varints from a place on, and the place behind them."""
+    numbers = []
+    for _ in range(count):
+        number, shift = 0, 0
+        while True:
+            byte = data[at]
+            at += 1
+            number |= (byte & 0x7F) << shift
+            shift += 7
+            if byte < 0x80:
+                break
+        numbers.append(number)
+    return numbers, at
+
+
+def broken_attributes(data):
+    """(status, name, file, what) for the rules of attributes that move, of spec/06 and 09a."""
+    chunks = anic_file.read_chunks(data)
+    limits = next(c for c in chunks if c.type == "LIMI")
+    good = limits.payload
+    counts, at = read_varints(good, 0, 3)
+    mesh, at = read_varints(good, at, 8)
+    segments = []
+    for _ in range(counts[2]):
+        segment, at = read_varints(good, at, 7)
+        if segment[1] >= 32:
+            more, at = read_varints(good, at, 2)
+            segment += more
+        segments.append(segment)
+    rest, _ = read_varints(good, at, 1)
+
+    def changed(change, bytes_of_attributes=rest):
+        copy = [list(s) for s in segments]
+        change(copy)
+        numbers = counts + mesh + [x for s in copy for x in s] + list(bytes_of_attributes)
+        limits.payload = anic_file.varints(numbers)
+        result = anic_file.write_chunks(chunks)
+        limits.payload = good
+        return result
+
+    moving = next(i for i, s in enumerate(segments) if s[1] >= 32)
+
+    def put(field, value):
+        def change(copy):
+            copy[moving][field] = value
+        return change
+
+    def same(copy):
+        copy[moving + 1][7:] = copy[moving][7:]
+
+    yield 44, "attribute_unknown", changed(put(7, 200)), "a segment of attribute 200"
+    yield 44, "attribute_component", changed(put(8, 5)), "a segment of components 15 to 17"
+    yield 40, "attribute_number", changed(put(7, 256)), "a segment of attribute 256"
+    yield 40, "attribute_twice", changed(same), "two segments of one attribute share frames"
+    yield 40, "attribute_none", changed(lambda copy: None, []), "a segment of an attribute, but none is there"
+    yield 12, "attribute_interpolated", changed(put(1, 48)), "an attribute by geometry interpolation"
+
+
 def greedy_files(data):
     """(name, file): small ones that announce as much as their fields can say."""
     chunks = anic_file.read_chunks(data)
@@ -194,9 +256,15 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         for file, clip, options in VECTORS:
             cache = pathlib.Path(name) / (pathlib.Path(file).stem + ".pc2")
-            subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
-            subprocess.run([command, "encode", "-q", "-f", cache.with_suffix(".obj"), cache, "-o",
-                            FOLDER / file] + options.split(), check=True)
+            inputs = [cache.with_suffix(".obj"), cache]
+            if clip in MOVING:
+                subprocess.run([command, "corpus", clip, "-q", "-f", "-o",
+                                pathlib.Path(name) / (clip + "_%03d.ply")], check=True)
+                inputs = [pathlib.Path(name) / (clip + "_*.ply")]
+            else:
+                subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
+            subprocess.run([command, "encode", "-q", "-f", *inputs, "-o", FOLDER / file] + options.split(),
+                           check=True)
             subprocess.run([command, "decode", "-q", "-f", FOLDER / file, "-o", cache], check=True)
             add("valid", FOLDER / file)
             lines.extend(point_lines(file, clip_output.Clip(cache), clip_output.faces(cache.with_suffix(".obj"))))
@@ -219,6 +287,13 @@ def main():
         path = FOLDER / "invalid" / f"{status}_{CODES[str(status)].lower()}.anic"
         path.write_bytes(data)
         add("invalid", path, str(status), CODES[str(status)], what or detail)
+    for status, what, data, text in broken_attributes(files[-1][1]):
+        seen, detail = library.status(data)
+        if seen != status:
+            sys.exit(f"{what} is answered with {seen}: {detail}")
+        path = FOLDER / "invalid" / f"{status}_{what}.anic"
+        path.write_bytes(data)
+        add("invalid", path, str(status), CODES[str(status)], text)
     for what, data in greedy_files(files[0][1]):
         path = FOLDER / "limits" / f"{what}.anic"
         path.write_bytes(data)

@@ -120,6 +120,136 @@ TEST_F(AttributesOfFiles, FollowPartsThatAreJoined) {
   EXPECT_EQ(anicodec({"info", folder_ / "j.anic", "--json"}).json()["attributes"].size(), 5U);
 }
 
+/// Frames with colours, a temperature and texture coordinates that change.
+class AttributesThatMove : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(anicodec({"corpus", "heated", "-o", folder_ / "a_%03d.ply"}).status, 0);
+    encoded_ = anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "a.anic", "--kg", "0.5",
+                         "--effort", "1", "--fps", "24"});
+    ASSERT_EQ(encoded_.status, 0) << encoded_.err;
+  }
+
+  TemporaryFolder folder_;
+  Outcome encoded_;
+  MeshSequence source_ = corpus::make_clip("heated");
+};
+
+TEST_F(AttributesThatMove, AreReadFromPlyAndSaidByInfoAndEncode) {
+  const MeshSequence read = load(folder_ / "a_*.ply");
+  ASSERT_EQ(read.attributes.size(), 3U);
+  const Attribute *colour = find(read, AttributeKind::kColour),
+                  *heat = find(read, AttributeKind::kCustom), *uv = find(read, AttributeKind::kUv);
+  ASSERT_TRUE(colour && heat && uv);
+  EXPECT_EQ(colour->frames, source_.frame_count);
+  EXPECT_EQ(colour->values, source_.attributes[1].values);
+  EXPECT_EQ(heat->name, "temperature");
+  EXPECT_EQ(heat->values, source_.attributes[2].values);
+  EXPECT_EQ(uv->values, source_.attributes[0].values);
+  EXPECT_THAT(encoded_.out, HasSubstr("custom \"temperature\": "));
+  const nlohmann::json list = anicodec({"info", folder_ / "a.anic", "--json"}).json()["attributes"];
+  ASSERT_EQ(list.size(), 3U);
+  for (const nlohmann::json& a : list) {
+    EXPECT_EQ(a["moves"], true);
+    EXPECT_GT(a["bytes"], 0);
+    EXPECT_GT(a["max_error"], 0);
+  }
+  EXPECT_THAT(anicodec({"info", folder_ / "a.anic"}).out, HasSubstr("moves, "));
+  EXPECT_THAT(anicodec({"dump", folder_ / "a.anic"}).out, HasSubstr("of an attribute"));
+}
+
+TEST_F(AttributesThatMove, ComeBackAsPlyAsciiAndBinary) {
+  for (const char* format : {"--ascii", "--quiet"}) {
+    ASSERT_EQ(
+        anicodec({"decode", folder_ / "a.anic", "-f", "-o", folder_ / "b_%03d.ply", format}).status,
+        0);
+    const MeshSequence back = load(folder_ / "b_*.ply");
+    ASSERT_EQ(back.attributes.size(), 3U);
+    EXPECT_EQ(find(back, AttributeKind::kColour)->values, source_.attributes[1].values);  // bytes
+    const std::vector<float>& heat = find(back, AttributeKind::kCustom)->values;
+    for (size_t i = 0; i < heat.size(); ++i)
+      ASSERT_NEAR(heat[i], source_.attributes[2].values[i], 0.46);
+  }
+}
+
+TEST_F(AttributesThatMove, ComeBackAsObjAndGlb) {
+  ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b_%03d.obj"}).status, 0);
+  const MeshSequence obj = load(folder_ / "b_*.obj");
+  const Attribute* colour = find(obj, AttributeKind::kColour);
+  ASSERT_TRUE(colour);
+  EXPECT_EQ(colour->frames, source_.frame_count);
+  ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b.glb"}).status, 0);
+  const MeshSequence glb = load(folder_ / "b.glb");
+  const std::vector<float>& source = source_.attributes[1].values;
+  ASSERT_EQ(glb.frame_count, source_.frame_count);
+  for (const MeshSequence* back : {&obj, &glb}) {
+    const Attribute* rgb = find(*back, AttributeKind::kColour);
+    ASSERT_TRUE(rgb);
+    ASSERT_EQ(rgb->frames, source_.frame_count);
+    const size_t n = rgb->components, count = rgb->values.size() / n;
+    ASSERT_EQ(count, source.size() / 4);
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t c = 0; c < 3; ++c)
+        ASSERT_NEAR(rgb->values[n * i + c], source[4 * i + c], 0.5 / 255 + 1e-5);
+    }
+  }
+  const Attribute* uv = find(glb, AttributeKind::kUv);
+  ASSERT_TRUE(uv);
+  ASSERT_EQ(uv->values.size(), source_.attributes[0].values.size());
+  for (size_t i = 0; i < uv->values.size(); ++i)
+    ASSERT_NEAR(uv->values[i], source_.attributes[0].values[i], 0.0015);
+}
+
+TEST_F(AttributesThatMove, AreComparedByName) {
+  const nlohmann::json list =
+      anicodec({"compare", folder_ / "a_*.ply", folder_ / "a.anic", "--json", "--no-sted"})
+          .json()["attributes"];
+  ASSERT_EQ(list.size(), 3U);
+  for (const nlohmann::json& a : list) {
+    EXPECT_GT(a["max_error"], 0);
+    EXPECT_LT(a["rmse"], a["max_error"]);
+    EXPECT_LT(a["max_error"], a["name"] == "temperature" ? 0.46 : 0.002);
+  }
+}
+
+TEST_F(AttributesThatMove, HaveTheErrorThatIsAskedFor) {
+  const Outcome outcome = anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "--kg",
+                                    "0.5", "--effort", "1", "--attribute-error", "2%", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const nlohmann::json& a : outcome.json()["moving_attributes"]) {
+    EXPECT_EQ(a["kept"], true);
+    EXPECT_LE(a["max_error"], a["asked"]);
+  }
+  EXPECT_NE(
+      anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "c.anic", "--attribute-error", "-1"})
+          .status,
+      0);
+}
+
+TEST(PlyAttributes, TakeColoursCoordinatesNormalsAndNumbersByTheirNames) {
+  TemporaryFolder folder;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+      "property ushort red\nproperty ushort green\nproperty ushort blue\nproperty float s\n"
+      "property float t\nproperty double quality\nproperty list uchar int rings\n"
+      "property float broken\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "end_header\n";
+  folder.write("a.ply", header +
+                            "0 0 0 0 0 1 65535 0 0 0.25 0.5 7.5 2 1 2 nan\n"
+                            "1 0 0 0 0 1 0 65535 0 0.5 0.5 -1 0 2\n"
+                            "0 1 0 0 0 1 0 0 13107 0.75 0.5 3 1 1 4\n3 0 1 2\n");
+  const MeshSequence clip = load(folder / "a.ply");
+  ASSERT_EQ(clip.attributes.size(), 4U);  // what is not finite is left out
+  EXPECT_EQ(find(clip, AttributeKind::kColour)->values,
+            (std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.2F}));
+  EXPECT_EQ(find(clip, AttributeKind::kUv)->values,
+            (std::vector<float>{0.25F, 0.5F, 0.5F, 0.5F, 0.75F, 0.5F}));
+  EXPECT_EQ(find(clip, AttributeKind::kNormal)->components, 3U);
+  EXPECT_EQ(find(clip, AttributeKind::kCustom)->name, "quality");
+  EXPECT_EQ(find(clip, AttributeKind::kCustom)->values, (std::vector<float>{7.5F, -1, 3}));
+}
+
 TEST(ObjAttributes, WithoutTheirNumbersAreRefused) {
   TemporaryFolder folder;
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n";

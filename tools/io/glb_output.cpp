@@ -276,13 +276,18 @@ class GlbOutput::Writer {
                       " frames; at most 65535 are possible, whose weights are a table of 2^32");
   }
 
-  void add_frame(std::span<const float> of_clip) {
+  void add_frame(std::span<const float> of_clip, std::span<const Attribute> attributes) {
     std::vector<float> positions = vertices_.of_vertices(of_clip, 3);
     std::vector<float> normals = normals_of(of_clip);
     if (first_positions_.empty()) {
       attributes_["POSITION"] = buffer_.add_floats(positions, 3, kVertexTarget, true);
       if (!normals.empty())
         attributes_["NORMAL"] = buffer_.add_floats(normals, 3, kVertexTarget, false);
+      for (WrittenValues& values : written(attributes)) {
+        attributes_[values.name] =
+            buffer_.add_floats(values.values, values.components, kVertexTarget, false);
+        first_values_.push_back(std::move(values));
+      }
       first_positions_ = positions;
       first_normals_ = normals;
       if (clip_.frame_count == 1)
@@ -291,10 +296,20 @@ class GlbOutput::Writer {
     Json target{{"POSITION", add_differences(std::move(positions), first_positions_)}};
     if (!normals.empty())
       target["NORMAL"] = add_differences(std::move(normals), first_normals_);
+    std::vector<WrittenValues> values = written(attributes);
+    for (size_t i = 0; i < values.size(); ++i) {
+      WrittenValues& first = first_values_[i];
+      if (values[i].values == first.values)
+        continue;
+      first.moves = true;
+      target[first.name] =
+          add_differences(std::move(values[i].values), first.values, first.components);
+    }
     targets_.push_back(std::move(target));
   }
 
   std::string finish(std::span<const float> times) {
+    complete_targets();
     Json document;
     document["asset"] = {{"version", "2.0"}, {"generator", "anicodec"}};
     document["scene"] = 0;
@@ -312,10 +327,53 @@ class GlbOutput::Writer {
   }
 
  private:
-  size_t add_differences(std::vector<float> values, const std::vector<float>& from) {
+  /// An attribute at the vertices of the GLB, in one frame.
+  struct WrittenValues {
+    std::string name;
+    size_t components = 0;
+    std::vector<float> values;
+    bool moves = false;
+  };
+
+  std::vector<WrittenValues> written(std::span<const Attribute> attributes) const {
+    std::map<AttributeKind, int> sets;
+    std::vector<WrittenValues> result;
+    for (const Attribute& attribute : attributes) {
+      if (!GlbVertices::is_written(attribute))
+        continue;
+      const size_t n = attribute.components;
+      const std::string name = (attribute.kind == AttributeKind::kUv ? "TEXCOORD_" : "COLOR_") +
+                               std::to_string(sets[attribute.kind]++);
+      std::vector<float> values = attribute.per_corner ? vertices_.of_corners(attribute.values, n)
+                                                       : vertices_.of_vertices(attribute.values, n);
+      if (attribute.kind == AttributeKind::kUv) {  // glTF's v points down
+        for (size_t i = 1; i < values.size(); i += 2)
+          values[i] = 1 - values[i];
+      }
+      result.push_back({name, n, std::move(values)});
+    }
+    return result;
+  }
+
+  size_t add_differences(std::vector<float> values, const std::vector<float>& from,
+                         size_t components = 3) {
     for (size_t i = 0; i < values.size(); ++i)
       values[i] -= from[i];
-    return buffer_.add_differences(values, 3);
+    return buffer_.add_differences(values, components);
+  }
+
+  /// Of an attribute that moves every target has the differences, those that are 0 too.
+  void complete_targets() {
+    for (const WrittenValues& first : first_values_) {
+      if (!first.moves)
+        continue;
+      const std::vector<float> zeros(first.values.size());
+      const size_t none = buffer_.add_differences(zeros, first.components);
+      for (Json& target : targets_) {
+        if (!target.contains(first.name))
+          target[first.name] = none;
+      }
+    }
   }
 
   /// Normals of the GLB's vertices, none where the clip does not know its hard edges.
@@ -346,21 +404,6 @@ class GlbOutput::Writer {
   }
 
   Json mesh() {
-    std::map<AttributeKind, int> sets;
-    for (const Attribute& attribute : clip_.attributes) {
-      if (!GlbVertices::is_written(attribute))
-        continue;
-      const size_t n = attribute.components;
-      const std::string name = (attribute.kind == AttributeKind::kUv ? "TEXCOORD_" : "COLOR_") +
-                               std::to_string(sets[attribute.kind]++);
-      std::vector<float> values = attribute.per_corner ? vertices_.of_corners(attribute.values, n)
-                                                       : vertices_.of_vertices(attribute.values, n);
-      if (attribute.kind == AttributeKind::kUv) {  // glTF's v points down
-        for (size_t i = 1; i < values.size(); i += 2)
-          values[i] = 1 - values[i];
-      }
-      attributes_[name] = buffer_.add_floats(values, n, kVertexTarget, false);
-    }
     Json mesh{{"name", clip_.name}, {"primitives", Json::array()}};
     for (const auto& [material, corners] : triangles_of(clip_, vertices_)) {
       Json& primitive = mesh["primitives"].emplace_back(Json::object());
@@ -429,6 +472,7 @@ class GlbOutput::Writer {
   const bool step_;
   Buffer buffer_;
   std::vector<float> first_positions_, first_normals_;
+  std::vector<WrittenValues> first_values_;
   Json attributes_, targets_ = Json::array();
 };
 
@@ -437,8 +481,8 @@ GlbOutput::GlbOutput(const MeshSequence& clip, bool step)
 
 GlbOutput::~GlbOutput() = default;
 
-void GlbOutput::add_frame(std::span<const float> positions) {
-  writer_->add_frame(positions);
+void GlbOutput::add_frame(std::span<const float> positions, std::span<const Attribute> attributes) {
+  writer_->add_frame(positions, attributes);
 }
 
 std::string GlbOutput::finish(std::span<const float> times) {

@@ -16,7 +16,8 @@ namespace anicodec::tools {
 /// A single frame is a mesh alone. Polygons become fans of triangles, a primitive for each
 /// material; vertices whose corners differ in UV, colours or hard edges come once for each. Clips
 /// whose up axis is Z are turned, and units scaled, by the node. Normals of every frame come along
-/// where the clip knows its hard edges. Positions read back within a rounding of float32.
+/// where the clip knows its hard edges, and colours and texture coordinates of every frame where
+/// they change. Positions read back within a rounding of float32.
 class GlbOutput {
  public:
   /// `step`: each frame stands until the next, instead of moving to it. Takes counts, polygons,
@@ -26,8 +27,9 @@ class GlbOutput {
   GlbOutput& operator=(const GlbOutput&) = delete;
   ~GlbOutput();
 
-  /// The frames in order, vertices x 3 each.
-  void add_frame(std::span<const float> positions);
+  /// The frames in order, vertices x 3 each, with attributes of the frame in the form of those of
+  /// the clip.
+  void add_frame(std::span<const float> positions, std::span<const Attribute> attributes);
 
   /// The bytes of the file, after the last frame. `times`: seconds of each frame; where the first
   /// is negative, all are moved to start at 0. Throws Error(kInput) beyond 4 GiB, the most a GLB

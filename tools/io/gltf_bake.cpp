@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -355,6 +356,43 @@ void GltfBake::add_normals(const GltfPose& pose, const Worlds& worlds, MeshSeque
   }
 }
 
+void GltfBake::move_attributes(uint32_t frames, const std::function<GltfPose(uint32_t)>& pose_of,
+                               MeshSequence& out) const {
+  for (Attribute& attribute : out.attributes) {
+    auto added = [&](const GltfVectors& target) -> const std::vector<float>* {
+      const auto found = target.sets.find(attribute.name);
+      return found == target.sets.end() ? nullptr : &found->second;
+    };
+    const bool moves = std::ranges::any_of(pieces_, [&](const Piece& piece) {
+      return std::ranges::any_of(piece.geometry->vertices.targets, added);
+    });
+    if (!moves)
+      continue;
+    const size_t n = attribute.components, row = attribute.values.size();
+    const std::vector<float> base = attribute.values;
+    attribute.values.resize(row * frames);
+    attribute.frames = frames;
+    for (uint32_t f = 0; f < frames; ++f) {
+      const GltfPose pose = pose_of(f);
+      float* values = attribute.values.data() + row * f;
+      std::ranges::copy(base, values);
+      for (const Piece& piece : pieces_) {
+        const std::vector<GltfVectors>& targets = piece.geometry->vertices.targets;
+        for (size_t t = 0; t < targets.size() && piece.owns_vertices; ++t) {
+          const std::vector<float>* more = added(targets[t]);
+          const double weight = pose.weights[piece.node][t];
+          for (size_t i = 0; more && i < more->size(); ++i) {
+            const bool turned =
+                attribute.kind == AttributeKind::kUv && i % 2 == 1;  // v points down
+            values[n * piece.first_vertex + i] +=
+                static_cast<float>((turned ? -weight : weight) * static_cast<double>((*more)[i]));
+          }
+        }
+      }
+    }
+  }
+}
+
 void GltfBake::add_frames(const GltfClip* clip, uint32_t frames, const GltfOptions& options,
                           MeshSequence& out) const {
   const uint64_t bytes = uint64_t{12} * out.vertex_count * frames;
@@ -391,6 +429,7 @@ void GltfBake::add_frames(const GltfClip* clip, uint32_t frames, const GltfOptio
                                      std::to_string(i / 3 % out.vertex_count) +
                                      ": the position is not finite");
   }
+  move_attributes(frames, pose_of, out);
   const GltfPose pose = pose_of(0);
   add_normals(pose, worlds_of(pose), out);
   if (options.progress)

@@ -9,6 +9,7 @@
 #include "tools/io/gltf_geometry.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,9 +33,10 @@ class GltfBake {
   /// Nodes whose transforms or weights move a vertex.
   std::vector<bool> moving_nodes() const;
 
-  /// Adds the positions of all frames, from the first key of the clip (without one: of the pose at
-  /// rest) at the rate of `out`, and normals and tangents of the first. Throws Error(kInput) when
-  /// they take more memory than is allowed or are not finite.
+  /// Adds the positions, and texture coordinates and colours that targets change, of all frames,
+  /// from the first key of the clip (without one: of the pose at rest) at the rate of `out`, and
+  /// normals and tangents of the first. Throws Error(kInput) when they take more memory than is
+  /// allowed or are not finite.
   void add_frames(const GltfClip* clip, uint32_t frames, const GltfOptions& options,
                   MeshSequence& out) const;
 
@@ -46,6 +48,8 @@ class GltfBake {
   bool is_skinned(const Piece& piece) const;
   Worlds worlds_of(const GltfPose& pose) const;
   void move(const Piece& piece, const GltfPose& pose, const Worlds& worlds, float* positions) const;
+  void move_attributes(uint32_t frames, const std::function<GltfPose(uint32_t)>& pose_of,
+                       MeshSequence& out) const;
   void add_normals(const GltfPose& pose, const Worlds& worlds, MeshSequence& out) const;
 
   const GltfDocument& document_;

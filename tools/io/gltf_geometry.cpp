@@ -76,13 +76,13 @@ class AttributeReader {
   }
 
   /// What the targets add to an attribute; empty for a target that does not change it.
-  std::vector<float> added(size_t target, const std::string& name) const {
+  std::vector<float> added(size_t target, const std::string& name, uint32_t components = 3) const {
     const auto& attributes = primitive_.targets[target];
     auto found = attributes.find(name);
     if (found == attributes.end())
       return {};
     const std::string path = path_ + "/targets/" + std::to_string(target) + "/" + name;
-    check_components(found->second, 3, path);
+    check_components(found->second, components, path);
     return read_floats(document_, found->second, path);
   }
 
@@ -163,12 +163,12 @@ void read_joints(const GltfDocument& document, const AttributeReader& in, GltfVe
     normalize_weights(out.influences, out.weights);
 }
 
-std::vector<float> with_alpha(std::vector<float> colours, uint32_t components) {
+std::vector<float> with_alpha(std::vector<float> colours, uint32_t components, float alpha) {
   if (components == 4)
     return colours;
   std::vector<float> out;
   for (size_t i = 0; i + 2 < colours.size(); i += 3)
-    out.insert(out.end(), {colours[i], colours[i + 1], colours[i + 2], 1.0F});
+    out.insert(out.end(), {colours[i], colours[i + 1], colours[i + 2], alpha});
   return out;
 }
 
@@ -186,10 +186,20 @@ GltfVertices read_vertices(const GltfDocument& document, const AttributeReader& 
       out.uvs[name] = in.floats(name, 2);
     else if (name.starts_with("COLOR_"))
       out.colours[name] =
-          with_alpha(in.floats(name, in.components(name) == 3 ? 3 : 4), in.components(name));
+          with_alpha(in.floats(name, in.components(name) == 3 ? 3 : 4), in.components(name), 1);
   }
-  for (size_t t = 0; t < primitive.targets.size(); ++t)
-    out.targets.push_back({in.added(t, "POSITION"), in.added(t, "NORMAL")});
+  for (size_t t = 0; t < primitive.targets.size(); ++t) {
+    GltfVectors& target = out.targets.emplace_back();
+    target.positions = in.added(t, "POSITION");
+    target.normals = in.added(t, "NORMAL");
+    for (const auto& [name, accessor] : primitive.targets[t]) {
+      if (out.uvs.contains(name))
+        target.sets[name] = in.added(t, name, 2);
+      else if (out.colours.contains(name))
+        target.sets[name] =
+            with_alpha(in.added(t, name, in.components(name)), in.components(name), 0);
+    }
+  }
   read_joints(document, in, out);
   return out;
 }

@@ -6,6 +6,7 @@
 #include "tools/io/assimp_scene.h"
 #include "tools/io/byte_source.h"
 #include "tools/io/file_kind.h"
+#include "tools/io/frame_attributes.h"
 #include "tools/io/frame_rate.h"
 #include "tools/io/gltf.h"
 #include "tools/io/mesh.h"
@@ -93,7 +94,7 @@ class MeshReader {
         parse_obj(bytes_, path, mesh_, details);
         break;
       case FileKind::kPly:
-        parse_ply(bytes_, path, mesh_);
+        parse_ply(bytes_, path, mesh_, details);
         break;
       case FileKind::kOff:
         parse_off(bytes_, path, mesh_);
@@ -153,14 +154,18 @@ void report(const Progress& progress, size_t done, size_t all) {
 void load_frames(const std::vector<std::string>& paths, const LoadOptions& options,
                  MeshSequence& sequence) {
   MeshReader reader;
+  MeshDetails details;
   for (size_t f = 0; f < paths.size(); ++f) {
-    const Mesh& mesh = reader.read(paths[f], f == 0 ? &sequence : nullptr);
+    const bool moving = std::ranges::any_of(sequence.attributes, can_move);
+    const Mesh& mesh = reader.read(paths[f], f == 0 ? &sequence : moving ? &details : nullptr);
     if (f == 0) {
       sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
       sequence.polygons = mesh.polygons;
       reserve(sequence, paths.size(), paths[0]);
     } else {
       check_same_mesh(mesh, paths[f], sequence, paths[0]);
+      if (moving)
+        add_frame(details.attributes, static_cast<uint32_t>(f), sequence.attributes);
     }
     sequence.positions.insert(sequence.positions.end(), mesh.positions.begin(),
                               mesh.positions.end());
@@ -259,7 +264,7 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
   }
   Mesh mesh;
   if (bytes.starts_with("ply"))
-    parse_ply(bytes, "-", mesh);
+    parse_ply(bytes, "-", mesh, &sequence);
   else if (std::string_view(bytes).substr(0, 16).find("OFF") != std::string_view::npos)
     parse_off(bytes, "-", mesh);
   else
@@ -354,11 +359,12 @@ std::vector<MeshSequence> load_topologies(std::span<const std::string> inputs,
   for (size_t f = 0; f < paths.size(); ++f) {
     if (kind_of(paths[f]) != kind)
       fail_usage(paths[f] + ": frames are of one format, but " + paths[0] + " is of another");
-    const Mesh* mesh = &reader.read(paths[f]);
+    MeshDetails details;
+    const Mesh* mesh = &reader.read(paths[f], &details);
     if (runs.empty() || mesh->vertex_count() != runs.back().vertex_count ||
         mesh->polygons != runs.back().polygons) {
       MeshSequence& run = runs.emplace_back();
-      mesh = &reader.read(paths[f], &run);
+      static_cast<MeshDetails&>(run) = std::move(details);
       run.name = fs::path(paths[0]).stem().string();
       run.vertex_count = static_cast<uint32_t>(mesh->vertex_count());
       run.polygons = mesh->polygons;
@@ -367,6 +373,8 @@ std::vector<MeshSequence> load_topologies(std::span<const std::string> inputs,
         run.rate.assumed = false;
       }
       run.start_time = static_cast<double>(f) / run.rate.value();
+    } else {
+      add_frame(details.attributes, runs.back().frame_count, runs.back().attributes);
     }
     MeshSequence& run = runs.back();
     run.positions.insert(run.positions.end(), mesh->positions.begin(), mesh->positions.end());

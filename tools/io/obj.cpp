@@ -275,15 +275,22 @@ void parse_obj(std::string_view text, std::string_view name, Mesh& mesh, MeshDet
 }
 
 ObjDetails::ObjDetails(const MeshSequence& clip)
-    : objects_(names("o", clip.parts)), materials_(names("usemtl", clip.materials)) {
+    : clip_(clip), objects_(names("o", clip.parts)), materials_(names("usemtl", clip.materials)) {
   if (!clip.shared_normals.empty())
     normals_.emplace(clip);
-  const std::vector<uint32_t>& corners = clip.polygons.corners;
-  for (const Attribute& attribute : clip.attributes) {
+  set_attributes(clip.attributes);
+}
+
+void ObjDetails::set_attributes(const std::vector<Attribute>& attributes) {
+  texture_coordinates_.clear();
+  uv_.clear();
+  colours_.clear();
+  const std::vector<uint32_t>& corners = clip_.polygons.corners;
+  for (const Attribute& attribute : attributes) {
     const size_t n = attribute.components;
     if (attribute.kind == AttributeKind::kColour && !attribute.per_corner && n >= 3 &&
         colours_.empty()) {
-      for (size_t v = 0; v < clip.vertex_count; ++v)
+      for (size_t v = 0; v < clip_.vertex_count; ++v)
         colours_.insert(colours_.end(), attribute.values.begin() + static_cast<ptrdiff_t>(n * v),
                         attribute.values.begin() + static_cast<ptrdiff_t>(n * v + 3));
     }

@@ -28,7 +28,11 @@ void parse_obj(std::string_view text, std::string_view name, Mesh& mesh,
 /// colours, materials, objects, and which corners share a normal.
 class ObjDetails {
  public:
+  /// `clip` must outlive it.
   explicit ObjDetails(const MeshSequence& clip);
+
+  /// Takes texture coordinates and colours of a frame of its own.
+  void set_attributes(const std::vector<Attribute>& attributes);
 
  private:
   friend void append_obj(const Polygons&, std::span<const float>, std::string&, const ObjDetails*);
@@ -41,6 +45,7 @@ class ObjDetails {
 
   static Names names(const char* keyword, const PolygonLabels& labels);
 
+  const MeshSequence& clip_;
   std::string texture_coordinates_;      ///< lines of vt
   std::vector<uint32_t> uv_;             ///< of each corner, or empty
   std::vector<float> colours_;           ///< vertices x 3, or empty

@@ -35,6 +35,8 @@ class AsciiBody {
 
   int64_t integer(PlyType, const char* what) { return in_.integer(what); }
 
+  double value(PlyType) { return in_.number("number"); }
+
   void skip(PlyType) { in_.skip_number("number"); }
 
   /// Refuses counts that the rest of the file cannot hold: every value takes at least one byte.
@@ -100,6 +102,12 @@ class BinaryBody {
     }
   }
 
+  double value(PlyType type) {
+    return type == PlyType::kFloat32   ? static_cast<double>(take<float>())
+           : type == PlyType::kFloat64 ? take<double>()
+                                       : static_cast<double>(integer(type, "number"));
+  }
+
   void skip(PlyType type) {
     need(size_of(type));
     offset_ += size_of(type);
@@ -155,7 +163,8 @@ void skip_property(const PlyProperty& property, Body& body) {
 constexpr size_t kNone = std::numeric_limits<size_t>::max();
 
 template <typename Body>
-void read_vertices(const PlyElement& element, std::string_view name, Body& body, Mesh& mesh) {
+void read_vertices(const PlyElement& element, std::string_view name, Body& body, Mesh& mesh,
+                   MeshDetails* details) {
   constexpr std::string_view kAxes[] = {"x", "y", "z"};
   std::vector<size_t> axis_of(element.properties.size(), kNone);
   for (size_t k = 0; k < 3; ++k) {
@@ -173,16 +182,21 @@ void read_vertices(const PlyElement& element, std::string_view name, Body& body,
   }
 
   mesh.positions.resize(element.count * 3);
+  PlyAttributes attributes = details ? PlyAttributes(element) : PlyAttributes();
   for (size_t v = 0; v < element.count; ++v) {
     body.begin_element(element, v);
     for (size_t i = 0; i < axis_of.size(); ++i) {
       if (axis_of[i] != kNone)
         mesh.positions[v * 3 + axis_of[i]] = body.coordinate(element.properties[i].type, v);
+      else if (attributes.takes(i))
+        attributes.add(v, i, body.value(element.properties[i].type));
       else
         skip_property(element.properties[i], body);
     }
     body.end_element();
   }
+  if (details)
+    details->attributes = attributes.finish();
 }
 
 template <typename Body>
@@ -229,10 +243,10 @@ void read_faces(const PlyElement& element, std::string_view name, uint64_t verti
 
 template <typename Body>
 void read_body(const PlyHeader& header, uint64_t vertices, std::string_view name, Body& body,
-               Mesh& mesh) {
+               Mesh& mesh, MeshDetails* details) {
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
-      read_vertices(element, name, body, mesh);
+      read_vertices(element, name, body, mesh, details);
     } else if (element.name == "face") {
       read_faces(element, name, vertices, body, mesh);
     } else if (element.name == "tristrips" && element.count > 0) {
@@ -251,7 +265,7 @@ void read_body(const PlyHeader& header, uint64_t vertices, std::string_view name
 
 }  // namespace
 
-void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh) {
+void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh, MeshDetails* details) {
   mesh.clear();
   PlyHeader header = parse_ply_header(bytes, name);
   uint64_t vertices = 0;
@@ -261,17 +275,17 @@ void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh) {
   }
   if (header.encoding == PlyEncoding::kAscii) {
     AsciiBody body(bytes.substr(header.body), name, header.body_line);
-    read_body(header, vertices, name, body, mesh);
+    read_body(header, vertices, name, body, mesh, details);
   } else {
     bool big = header.encoding == PlyEncoding::kBigEndian;
     BinaryBody body(bytes, name, header.body, big ? std::endian::big : std::endian::little);
-    read_body(header, vertices, name, body, mesh);
+    read_body(header, vertices, name, body, mesh, details);
   }
   check_size(mesh, name);
 }
 
 void append_ply(const Polygons& polygons, std::span<const float> positions, bool ascii,
-                std::string& out) {
+                std::string& out, const PlyProperties* properties) {
   size_t largest = 0;
   for (size_t p = 0; p < polygons.size(); ++p)
     largest = std::max(largest, polygons[p].size());
@@ -279,11 +293,15 @@ void append_ply(const Polygons& polygons, std::span<const float> positions, bool
   out += std::string("ply\nformat ") + (ascii ? "ascii" : "binary_little_endian") + " 1.0\n";
   out += "element vertex " + std::to_string(positions.size() / 3) +
          "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (properties)
+    out += properties->declarations();
   out += "element face " + std::to_string(polygons.size()) + "\nproperty list " +
          (narrow ? "uchar" : "uint") + " int vertex_indices\nend_header\n";
   if (ascii) {
     for (size_t i = 0; i + 2 < positions.size(); i += 3) {
       append_floats(positions.subspan(i, 3), out);
+      if (properties)
+        properties->append(i / 3, ascii, out);
       out += '\n';
     }
     for (size_t p = 0; p < polygons.size(); ++p) {
@@ -296,8 +314,12 @@ void append_ply(const Polygons& polygons, std::span<const float> positions, bool
     }
     return;
   }
-  for (float x : positions)
-    append(x, std::endian::little, out);
+  for (size_t i = 0; i + 2 < positions.size(); i += 3) {
+    for (float x : positions.subspan(i, 3))
+      append(x, std::endian::little, out);
+    if (properties)
+      properties->append(i / 3, ascii, out);
+  }
   for (size_t p = 0; p < polygons.size(); ++p) {
     if (narrow)
       append(static_cast<uint8_t>(polygons[p].size()), std::endian::little, out);

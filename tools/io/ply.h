@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_IO_PLY_H_
 
 #include "tools/io/mesh.h"
+#include "tools/io/ply_attributes.h"
 
 #include <span>
 #include <string>
@@ -13,15 +14,17 @@ namespace anicodec::tools {
 
 /// Reads PLY 1.0: ascii, binary_little_endian and binary_big_endian. Takes x, y, z of element
 /// vertex (any number type) and the list vertex_indices or vertex_index of element face (any
-/// integer types); all other properties and elements are skipped by their declared types. In ascii
+/// integer types); `details`, where given, receives the other numbers of the vertices, see
+/// PlyAttributes. All other properties and elements are skipped by their declared types. In ascii
 /// files each element stands on a line of its own. Throws Error(kInput), for ascii bodies with the
 /// line.
-void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh);
+void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh,
+               MeshDetails* details = nullptr);
 
 /// Appends a PLY of one frame, binary_little_endian or ascii; coordinates read back to the same
-/// floats.
+/// floats. `properties`, where given, are those of the vertices beside their positions.
 void append_ply(const Polygons& polygons, std::span<const float> positions, bool ascii,
-                std::string& out);
+                std::string& out, const PlyProperties* properties = nullptr);
 
 }  // namespace anicodec::tools
 

@@ -65,14 +65,15 @@ std::string_view TextCursor::word(const char* what) {
   return {first, static_cast<size_t>(next_ - first)};
 }
 
-void TextCursor::skip_number(const char* what) {
+double TextCursor::number(const char* what) {
   if (at_line_end())
     fail_missing(what);
-  double x = 0;
+  double x = std::numeric_limits<double>::quiet_NaN();
   auto [last, error] = std::from_chars(after_plus(), end_, x);
   if (error == std::errc::invalid_argument || !is_word_end(last))
     fail_number(what);
   next_ = last;
+  return x;
 }
 
 float TextCursor::difficult_coordinate(size_t vertex) {

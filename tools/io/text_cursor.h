@@ -67,8 +67,11 @@ class TextCursor {
     return difficult_coordinate(vertex);
   }
 
-  /// Passes over a number of any size, "nan" and "inf" included.
-  void skip_number(const char* what);
+  /// A number of any size, "nan" and "inf" included; one that no double holds is not a number.
+  double number(const char* what);
+
+  /// Passes over such a number.
+  void skip_number(const char* what) { number(what); }
 
   /// A whole number that ends the word.
   int64_t integer(const char* what) {

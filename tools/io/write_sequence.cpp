@@ -6,6 +6,7 @@
 #include "tools/io/atomic_file.h"
 #include "tools/io/byte_order.h"
 #include "tools/io/file_kind.h"
+#include "tools/io/frame_attributes.h"
 #include "tools/io/glb_output.h"
 #include "tools/io/name_pattern.h"
 #include "tools/io/obj.h"
@@ -29,10 +30,11 @@ namespace {
 }
 
 void append_mesh(FileKind kind, const Polygons& polygons, std::span<const float> positions,
-                 bool ascii, const ObjDetails* details, std::string& out) {
+                 bool ascii, const ObjDetails* details, const PlyProperties* properties,
+                 std::string& out) {
   switch (kind) {
     case FileKind::kPly:
-      return append_ply(polygons, positions, ascii, out);
+      return append_ply(polygons, positions, ascii, out, properties);
     case FileKind::kOff:
       return append_off(polygons, positions, out);
     case FileKind::kStl:
@@ -119,10 +121,22 @@ void write_glb(const std::string& path, const MeshSequence& clip, const Frames& 
                const WriteOptions& options) {
   AtomicFile file(path, options.overwrite);
   GlbOutput glb(clip, options.step);
-  for (uint32_t f = 0; f < clip.frame_count; ++f)
-    glb.add_frame(frames(f));
+  for (uint32_t f = 0; f < clip.frame_count; ++f) {
+    std::vector<Attribute> attributes;
+    if (options.attributes)
+      attributes = options.attributes(f);
+    else if (f == 0)
+      attributes = clip.attributes;
+    glb.add_frame(frames(f), attributes);
+  }
   file.write(glb.finish(times_of(clip)));
   file.commit();
+}
+
+/// Values of a frame, in place: what refers to the attributes goes on doing so.
+void set_values(std::vector<Attribute> from, std::vector<Attribute>& to) {
+  for (size_t i = 0; i < to.size(); ++i)
+    to[i].values = std::move(from[i].values);
 }
 
 void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence& clip,
@@ -132,11 +146,18 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
   std::optional<ObjDetails> details;
   if (kind == FileKind::kObj)
     details.emplace(clip);
+  std::vector<Attribute> attributes = clip.attributes;
+  const PlyProperties properties(attributes);
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
     AtomicFile& file =
         files.emplace_back(pattern.name(uint64_t{options.first_number} + f), options.overwrite);
+    if (options.attributes) {
+      set_values(options.attributes(f), attributes);
+      if (details)
+        details->set_attributes(attributes);
+    }
     append_mesh(kind, clip.polygons, frames(f), options.ascii, details ? &*details : nullptr,
-                bytes);
+                &properties, bytes);
     file.write(bytes);
     file.close();
     bytes.clear();
@@ -191,8 +212,28 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
 
 void write_sequence(const std::string& path, const MeshSequence& clip,
                     const WriteOptions& options) {
-  write_sequence(
-      path, clip, [&clip](uint32_t f) { return clip.frame(f); }, options);
+  const FrameSource frames = [&clip](uint32_t f) { return clip.frame(f); };
+  if (std::ranges::all_of(clip.attributes, [](const Attribute& a) { return a.frames == 1; }))
+    return write_sequence(path, clip, frames, options);
+  MeshSequence first;  // without positions
+  first.name = clip.name;
+  first.polygons = clip.polygons;
+  first.vertex_count = clip.vertex_count;
+  first.frame_count = clip.frame_count;
+  first.rate = clip.rate;
+  first.start_time = clip.start_time;
+  first.times = clip.times;
+  first.up = clip.up;
+  first.metres_per_unit = clip.metres_per_unit;
+  first.loop = clip.loop;
+  first.attributes = attributes_of_frame(clip.attributes, 0);
+  first.shared_normals = clip.shared_normals;
+  first.materials = clip.materials;
+  first.parts = clip.parts;
+  WriteOptions own = options;
+  if (!own.attributes)
+    own.attributes = [&clip](uint32_t f) { return attributes_of_frame(clip.attributes, f); };
+  write_sequence(path, first, frames, own);
 }
 
 }  // namespace anicodec::tools

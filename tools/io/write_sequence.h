@@ -8,7 +8,9 @@
 #include "codec/progress.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace anicodec::tools {
 
@@ -18,6 +20,8 @@ struct WriteOptions {
   bool step = false;          ///< GLB: frames stand until the next instead of moving to it
   uint32_t first_number = 0;  ///< of frame files
   Progress progress = {};     ///< stage "writing"
+  /// Attributes of a frame, in the form of those of the clip; empty: those of the clip.
+  std::function<std::vector<Attribute>(uint32_t frame)> attributes = {};
 };
 
 /// Writes a clip, one frame in memory at a time:

@@ -64,7 +64,7 @@ std::string morph_glb(const MeshSequence& sequence) {
   tools::GlbOutput glb(bare, false);
   std::vector<float> times;
   for (uint32_t f = 0; f < sequence.frame_count; ++f) {
-    glb.add_frame(sequence.frame(f));
+    glb.add_frame(sequence.frame(f), {});
     times.push_back(static_cast<float>(f / kRate.value()));
   }
   return glb.finish(times);

@@ -338,7 +338,7 @@ typedef enum anic_attribute_kind {
 /** What has a value each: vertices, corners or polygons, as anic_mesh_polygons() numbers them. */
 typedef enum anic_domain { ANIC_VERTICES = 0, ANIC_CORNERS = 1, ANIC_POLYGONS = 2 } anic_domain;
 
-/** An attribute that does not move. Strings and arrays belong to the asset. */
+/** An attribute, as in frame 0. Strings and arrays belong to the asset. */
 typedef struct anic_attribute {
   const char* name; /**< as in the source, may be empty */
   anic_attribute_kind kind;
@@ -349,6 +349,7 @@ typedef struct anic_attribute {
   const float* values;    /**< count x components; NULL without components */
   const uint32_t* labels; /**< count; of polygons 0 for none, else one more than the number of a name; of corners,
                                those at a vertex with the same number share a value. NULL with components */
+  uint8_t moves;          /**< of ANIC_VERTICES: other frames have other values, anic_attribute_values() */
 } anic_attribute;
 
 /** Errors: ANIC_E_ARGUMENT, no such mesh or attribute. O(1). */
@@ -467,6 +468,37 @@ typedef struct anic_output {
  */
 ANIC_API anic_status anic_positions(const anic_context* context, uint32_t mesh, anic_when when,
                                     uint32_t first, uint32_t count, const anic_output* out);
+
+/** How a value of an attribute is stored, in the machine's byte order. */
+typedef enum anic_value_format {
+  ANIC_VALUE_FLOAT32 = 0,
+  ANIC_VALUE_FLOAT16 = 1, /**< IEEE binary16, rounded to nearest */
+  ANIC_VALUE_UNORM8 = 2,  /**< round(255 x), clamped to x = 0 .. 1 */
+  ANIC_VALUE_UNORM16 = 3  /**< round(65535 x), clamped to x = 0 .. 1 */
+} anic_value_format;
+
+/** Where to write values of an attribute; written as anic_output is. */
+typedef struct anic_value_output {
+  void* data;    /**< of the first element asked for; any alignment */
+  size_t size;   /**< bytes that may be written from data on */
+  size_t stride; /**< bytes from an element to the next; 0: packed */
+  anic_value_format format;
+  uint32_t components; /**< to be written of each element, at most 16; 0: as many as the attribute has. Those that
+                            it does not have are 0, the fourth 1 */
+} anic_value_output;
+
+/**
+ * Writes values of an attribute of vertices, moving or not, at the time chosen: of the vertices first .. first +
+ * count - 1 of a mesh. Between frames they are interpolated as the seek said, positions and values alike.
+ *
+ * Errors   ANIC_E_ARGUMENT: no such attribute, or not one of ANIC_VERTICES with components; others as
+ *          anic_positions()
+ * Cost     O(count x components of its segments), the same for every frame
+ * Spec     09a, section 8
+ */
+ANIC_API anic_status anic_attribute_values(const anic_context* context, uint32_t mesh,
+                                           uint32_t attribute, anic_when when, uint32_t first,
+                                           uint32_t count, const anic_value_output* out);
 
 /** Most frames of one call of anic_frames(). */
 #define ANIC_MAX_FRAMES 16
@@ -638,6 +670,9 @@ typedef enum anic_basis_kind {
   ANIC_EIGENTRAJECTORIES = 2
 } anic_basis_kind;
 
+/** In place of the number of an attribute: the positions. */
+#define ANIC_POSITIONS UINT32_MAX
+
 /** How positions come from a basis. */
 typedef enum anic_reconstruction {
   ANIC_COMBINED = 0,    /**< a linear combination */
@@ -676,6 +711,9 @@ typedef struct anic_basis {
   float origin[3]; /**< of kind 0: added to every vertex before the motion */
   anic_reconstruction reconstruction;
   const uint32_t* vertex_shape; /**< of ANIC_INTERPOLATED: point of the shape that each vertex is; NULL: its own */
+  uint32_t attribute; /**< ANIC_POSITIONS, or the attribute of the mesh that it moves: x of anic_part is then to be
+                           added to anic_attribute.values, */
+  uint32_t first_component; /**< three components of it, or as many as there are, from this one on */
 } anic_basis;
 
 /** Errors: ANIC_E_ARGUMENT: no such segment; ANIC_E_SEGMENT: it has not arrived yet. */
@@ -717,6 +755,16 @@ typedef struct anic_part {
 ANIC_API anic_status anic_parts(const anic_context* context, uint32_t mesh, anic_when when,
                                 anic_part out[ANIC_MAX_PARTS], uint32_t* count);
 
+/**
+ * The same for an attribute: the value of components first_component .. first_component + 2 (a multiple of 3) is
+ * that of frame 0 (anic_attribute.values) and the sum of share * x over the parts. No parts: it is as in frame 0.
+ * Errors: as anic_attribute_values().
+ */
+ANIC_API anic_status anic_attribute_parts(const anic_context* context, uint32_t mesh,
+                                          uint32_t attribute, uint32_t first_component,
+                                          anic_when when, anic_part out[ANIC_MAX_PARTS],
+                                          uint32_t* count);
+
 /* ------------------------------------------------------------------------------------------------- streams */
 
 /** A file that arrives from the front, piece by piece. Spec: 05, section 7. */
@@ -735,7 +783,7 @@ typedef struct anic_stream_info {
   uint32_t playable_segments; /**< those that can be opened, coarsely at least */
   uint32_t layers;           /**< of all segments: chunks with components of their bases */
   uint32_t arrived_layers;
-  uint8_t playable; /**< anic_stream_open() gives an asset that plays at least one segment */
+  uint8_t playable; /**< anic_stream_open() gives an asset that plays at least one segment of positions */
   uint8_t complete;
 } anic_stream_info;
 

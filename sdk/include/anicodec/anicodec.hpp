@@ -85,6 +85,14 @@ inline anic_output output(void* data, size_t size, anic_format format, size_t st
   return out;
 }
 
+/// An output of packed float32 values of an attribute.
+inline anic_value_output value_output(Span<float> values) {
+  anic_value_output out = {};
+  out.data = values.data();
+  out.size = values.size_bytes();
+  return out;
+}
+
 /// Offset and scale of a 16-bit output for positions in a box.
 inline anic_output within(anic_output out, const anic_box& box) {
   for (int c = 0; c < 3; ++c) {
@@ -296,6 +304,11 @@ class Context {
     return anic_positions(get(), mesh, when, first, count, &out);
   }
 
+  Status attribute_values(uint32_t attribute, const anic_value_output& out, uint32_t first,
+                          uint32_t count, anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
+    return anic_attribute_values(get(), mesh, attribute, when, first, count, &out);
+  }
+
   Status bounds(anic_box* out, anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
     return anic_bounds(get(), mesh, when, out);
   }
@@ -305,6 +318,15 @@ class Context {
                uint32_t mesh = 0) const {
     return out.size() < ANIC_MAX_PARTS ? Status(ANIC_E_BUFFER_SIZE)
                                        : anic_parts(get(), mesh, when, out.data(), count);
+  }
+
+  /// Of three components of an attribute; at most ANIC_MAX_PARTS.
+  Status attribute_parts(uint32_t attribute, uint32_t first_component, Span<anic_part> out,
+                         uint32_t* count, anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
+    return out.size() < ANIC_MAX_PARTS
+               ? Status(ANIC_E_BUFFER_SIZE)
+               : anic_attribute_parts(get(), mesh, attribute, first_component, when, out.data(),
+                                      count);
   }
 
  private:
