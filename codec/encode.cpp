@@ -95,6 +95,15 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
   return encode_reference_pose(pose, origin, step, slow, input.layout);
 }
 
+void check_frames(const MeshSequence& sequence) {
+  for (const Attribute& attribute : sequence.attributes) {
+    if (attribute.frames != 1 && attribute.frames != sequence.frame_count)
+      throw Error(ErrorKind::kInput, attribute.name + ": has values for " +
+                                         std::to_string(attribute.frames) + " of " +
+                                         std::to_string(sequence.frame_count) + " frames");
+  }
+}
+
 Clip opened(const format::Bytes& file) {
   Clip clip;
   if (Failure failure = clip.open(file); !failure.ok())
@@ -252,6 +261,7 @@ Coded code(RateControl& control, const EncoderInput& input,
 
 EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
   check(sequence);
+  check_frames(sequence);
   double clip_diagonal = diagonal(sequence);
   Target target = in_scene_units(options.target, clip_diagonal);
   if (target.metric == format::ErrorMetric::kNone && !options.keyframes)

@@ -33,11 +33,6 @@ void check(const MeshSequence& sequence) {
              std::to_string(sequence.vertex_count));
     }
   }
-  for (const Attribute& attribute : sequence.attributes) {
-    if (attribute.frames != 1 && attribute.frames != sequence.frame_count)
-      fail(attribute.name + ": has values for " + std::to_string(attribute.frames) + " of " +
-           std::to_string(sequence.frame_count) + " frames");
-  }
   auto bad = std::find_if(sequence.positions.begin(), sequence.positions.end(),
                           [](float x) { return !std::isfinite(x); });
   if (bad != sequence.positions.end()) {
