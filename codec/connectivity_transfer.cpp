@@ -2,12 +2,14 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/connectivity_transfer.h"
 
+#include "codec/distance_fit.h"
 #include "codec/error.h"
+#include "codec/geodesic_landmarks.h"
 #include "codec/hausdorff.h"
 #include "codec/mesh_quality.h"
-#include "codec/surface_fit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -17,8 +19,16 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kPolishLambda = 0.2;
-constexpr int kPolishRounds = 3;
+constexpr double kFirstStiffness = 10, kDrawnStiffness = 0.5;
+constexpr double kFitStiffness = 0.1;
+constexpr int kFitRounds = 14, kFitPasses = 2;  // a pass halves the largest distance at best
+constexpr int kMostAttempts = 4;
+constexpr double kReversed = 50;  // per cent of the correspondences that disagree
+// What is taken for carried to the right place.
+constexpr double kSlow = 1.5;        // of the median move
+constexpr double kNearEdges = 0.25;  // mean edges from the surface
+constexpr double kAgreement = 0.7;   // of unit normals
+constexpr double kStretch = 0.2;     // of an edge
 
 std::vector<float> floats_of(const Positions& v) {
   std::vector<float> result(static_cast<size_t>(v.size()));
@@ -40,8 +50,6 @@ class Carried {
         first_(positions_of(frame.positions)),
         shape_(topology_, first_),
         registration_(topology_, shape_),
-        weights_(shape_matrix(topology_, first_, ShapeWeights::kMeanValue)),
-        fitter_(topology_, weights_),
         last_(first_) {}
 
   const Polygons& polygons() const { return polygons_; }
@@ -50,19 +58,16 @@ class Carried {
 
   const Positions& last() const { return last_; }
 
-  /// Carries the mesh to a surface.
+  /// Carries the mesh to a surface; `landmarks` are drawn to their places first.
   TransferredFrame try_surface(const SurfaceFrame& frame, const Surface& surface,
-                               const TransferOptions& options, int rounds, Positions* v) {
+                               const TransferOptions& options, std::vector<Landmark> landmarks,
+                               Positions* v) {
     TransferredFrame report;
     *v = start(surface);
-    RegistrationOptions registration;
-    registration.rounds = rounds;
-    const RegistrationReport end = registration_.run(surface, registration, v);
-    SurfaceFitOptions polish;
-    polish.lambda = kPolishLambda;
-    polish.rounds = kPolishRounds;
-    fitter_.run(surface, polish, v);
-    report.dropped = 100 * end.residuals.dropped_share;
+    report.dropped = 100 * residuals(surface, *v).dropped_share;
+    // A surface inside out is not followed: the mesh would be turned inside out as well.
+    if (report.dropped <= kReversed)
+      carry(surface, options, std::move(landmarks), v, &report);
     const HausdorffDistance distance =
         hausdorff(polygons_, floats_of(*v), frame.polygons, frame.positions);
     report.mean = distance.mean();
@@ -76,7 +81,9 @@ class Carried {
         report.alarms |= static_cast<uint8_t>(alarm);
     };
     const double size = diagonal_of(surface.positions());
-    raise(TransferAlarm::kDistance, !(100 * distance.max() <= options.distance * size));
+    const double far = std::max(options.distance / 100 * size,
+                                options.edges * mean_edge(surface.topology(), surface.positions()));
+    raise(TransferAlarm::kDistance, !(distance.max() <= far));
     raise(TransferAlarm::kTurned, !(report.turned <= options.turned));
     raise(TransferAlarm::kDistortion, !(report.conformal <= options.conformal));
     raise(TransferAlarm::kDropped, !(report.dropped <= options.dropped));
@@ -88,7 +95,63 @@ class Carried {
     last_ = std::move(v);
   }
 
+  /// Landmarks on a surface that the mesh has been carried to, to `v`, perhaps wrongly in parts.
+  /// Taken for right are those parts that moved no faster than most, lie on the surface and have
+  /// kept their lengths.
+  std::vector<Landmark> landmarks(const Surface& surface, const Positions& v) const {
+    const double near = kNearEdges * mean_edge(topology_, first_);
+    const Positions normals = vertex_normals(topology_, v);
+    const Eigen::VectorXd moved = (v - last_).rowwise().norm();
+    std::vector<double> sorted(moved.data(), moved.data() + moved.size());
+    const auto middle = sorted.begin() + static_cast<ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    std::vector<Anchor> anchors;
+    for (uint32_t i = 0; i < topology_.vertex_count; ++i) {
+      if (topology_.star[i].empty() || moved[static_cast<Index>(i)] > kSlow * *middle ||
+          is_stretched(i, v))
+        continue;
+      const SurfacePoint point = surface.closest(row(v, i));
+      if (point.square_distance > near * near ||
+          surface.normal(point).dot(row(normals, i)) < kAgreement)
+        continue;
+      Index corner = 0;
+      point.weights.maxCoeff(&corner);
+      anchors.push_back(
+          {i, surface.topology().triangles[point.triangle][static_cast<size_t>(corner)]});
+    }
+    return geodesic_landmarks(GeodesicGraph(topology_, first_), anchors,
+                              GeodesicGraph(surface.topology(), surface.positions()), surface);
+  }
+
  private:
+  void carry(const Surface& surface, const TransferOptions& options,
+             std::vector<Landmark> landmarks, Positions* v, TransferredFrame* report) {
+    RegistrationOptions registration;
+    registration.first_stiffness = kFirstStiffness;
+    registration.rounds = options.rounds;
+    registration.trust_near = false;
+    if (!landmarks.empty()) {
+      RegistrationOptions drawn = registration;
+      drawn.last_stiffness = registration.first_stiffness = kDrawnStiffness;
+      drawn.landmarks = std::move(landmarks);
+      registration_.run(surface, drawn, v);
+    }
+    report->dropped = 100 * registration_.run(surface, registration, v).residuals.dropped_share;
+    DistanceFitOptions fit;
+    fit.first_stiffness = fit.last_stiffness = kFitStiffness;
+    fit.rounds = kFitRounds;
+    for (int pass = 0; pass < kFitPasses; ++pass)
+      fit_distance(topology_, shape_, surface, fit, v);
+  }
+
+  bool is_stretched(uint32_t i, const Positions& v) const {
+    const auto ring = topology_.ring[i];
+    return std::any_of(ring.begin(), ring.end(), [&](uint32_t j) {
+      const double was = (row(first_, i) - row(first_, j)).norm();
+      return std::abs((row(v, i) - row(v, j)).norm() - was) > kStretch * was;
+    });
+  }
+
   /// The last frame's positions, or where their last move leads on to if that is closer.
   Positions start(const Surface& surface) const {
     if (!before_)
@@ -97,10 +160,14 @@ class Carried {
     return residual(surface, led) < residual(surface, last_) ? led : last_;
   }
 
-  double residual(const Surface& surface, const Positions& v) const {
+  Residuals residuals(const Surface& surface, const Positions& v) const {
     Correspondences correspondences(topology_, surface, false);
     correspondences.update(v, true);
-    const Residuals r = correspondences.residuals(v);
+    return correspondences.residuals(v);
+  }
+
+  double residual(const Surface& surface, const Positions& v) const {
+    const Residuals r = residuals(surface, v);
     // What disagrees counts as far.
     return r.rms * (1 + 10 * r.dropped_share);
   }
@@ -110,8 +177,6 @@ class Carried {
   Positions first_;
   RigidShape shape_;
   Registration registration_;
-  RowMatrix weights_;
-  SurfaceFitter fitter_;
   std::optional<Positions> before_;
   Positions last_;
 };
@@ -156,11 +221,15 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
     TransferredFrame report;
     Positions v;
     if (carried) {
-      report = carried->try_surface(frame, surface, options, options.rounds, &v);
+      report = carried->try_surface(frame, surface, options, {}, &v);
       report.attempts = 1;
-      if (report.alarms) {
-        report = carried->try_surface(frame, surface, options, 2 * options.rounds, &v);
-        report.attempts = 2;
+      while (report.alarms && report.attempts < kMostAttempts) {
+        std::vector<Landmark> landmarks = carried->landmarks(surface, v);
+        if (landmarks.empty())
+          break;
+        const int attempts = report.attempts + 1;
+        report = carried->try_surface(frame, surface, options, std::move(landmarks), &v);
+        report.attempts = attempts;
       }
     }
     if (!carried || report.alarms) {

@@ -29,11 +29,13 @@ enum class TransferAlarm : uint8_t {
 };
 
 struct TransferOptions {
-  double distance = 0.5;  ///< alarm: largest distance of the surfaces, both ways, % of the diagonal
-  double turned = 0.2;    ///< alarm: per cent of the triangles
+  /// Alarm: largest distance of the surfaces, both ways, in per cent of the diagonal, or in mean
+  /// edges of the frame if that is more: so far a mesh does not know its own surface.
+  double distance = 0.5, edges = 0.65;
+  double turned = 0.2;      ///< alarm: per cent of the triangles
   double conformal = 1.15;  ///< alarm: mean conformal distortion from the segment's first frame
   double dropped = 5;       ///< alarm: per cent of the correspondences
-  int rounds = 14;          ///< of registration; twice as many in the second attempt
+  int rounds = 14;          ///< of registration
 };
 
 struct TransferredFrame {
@@ -61,8 +63,10 @@ struct TransferResult {
 
 /// Carries the connectivity of the first mesh through the others: each is reached from the mesh
 /// before, or from where its last move leads on, by Registration with the segment's first frame as
-/// rigid shape, and polished by SurfaceFitter. A frame that raises an alarm is tried again with
-/// twice the rounds; if it still does, it starts a new segment with its own connectivity. Memory:
+/// rigid shape, and brought close by fit_distance(). A frame that raises an alarm is tried again,
+/// up to twice: what moved slowly and fits is taken for right, and draws the rest to where it
+/// belongs by distances over the surface (geodesic_landmarks()), so that a leg finds itself however
+/// far it went. If it still raises one, it starts a new segment with its own connectivity. Memory:
 /// the result and two meshes. Throws Error(kInput) naming the frame for a mesh without triangles,
 /// and for meshes of which one is open and another closed. Stage "transferring".
 TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame_count,

@@ -92,7 +92,7 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
       const Vector3d start = row(before.positions(), i);
       const double share = pass < kMostPasses ? 0.5 : 0;
       v->row(static_cast<Eigen::Index>(i)) =
-          (start + share * (row(*v, i) - start)).cast<float>().cast<double>().transpose();
+          float_position(start + share * (row(*v, i) - start)).transpose();
     }
   }
   return static_cast<uint32_t>(std::count(drawn.begin(), drawn.end(), true));

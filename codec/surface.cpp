@@ -35,6 +35,16 @@ Positions positions_of(std::span<const float> frame) {
   return floats.cast<double>();
 }
 
+Vector3d float_position(const Vector3d& p) {
+  // Volatile: GCC 12 vectorises a pair of conversions to float and back into none at all.
+  Vector3d result;
+  for (Index k = 0; k < 3; ++k) {
+    const volatile float rounded = static_cast<float>(p[k]);
+    result[k] = double{rounded};
+  }
+  return result;
+}
+
 Vector3d area_normal(const Positions& positions, const SurfaceTopology::Triangle& triangle) {
   const Vector3d a = row(positions, triangle[0]);
   return (row(positions, triangle[1]) - a).cross(row(positions, triangle[2]) - a);

@@ -25,6 +25,9 @@ inline Eigen::Vector3d row(const Positions& positions, uint32_t v) {
   return positions.row(static_cast<Eigen::Index>(v)).transpose();
 }
 
+/// The position that floats hold of p.
+Eigen::Vector3d float_position(const Eigen::Vector3d& p);
+
 /// Normal of a triangle with the length of twice its area.
 Eigen::Vector3d area_normal(const Positions& positions, const SurfaceTopology::Triangle& triangle);
 

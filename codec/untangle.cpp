@@ -45,9 +45,13 @@ void turn(const SurfaceTopology& topology, const SurfaceTopology::Triangle& corn
     const double length = move.norm();
     if (length > longest)
       move *= longest / length;
-    v->row(static_cast<Index>(corners[k])) =
-        (row(*v, corners[k]) + move).cast<float>().cast<double>().transpose();
+    v->row(static_cast<Index>(corners[k])) = float_position(row(*v, corners[k]) + move).transpose();
   }
+}
+
+void to_floats(Positions* v) {
+  for (Eigen::Index i = 0; i < v->rows(); ++i)
+    v->row(i) = float_position(v->row(i).transpose()).transpose();
 }
 
 /// `below`: of every triangle, where a walk to what is below it starts.
@@ -82,14 +86,14 @@ uint32_t untangle_over(const SurfaceTopology& topology, const Surface& surface,
 }  // namespace
 
 uint32_t untangle(const Surface& surface, Positions* v) {
-  *v = v->cast<float>().cast<double>().eval();
+  to_floats(v);
   std::vector<uint32_t> same(surface.topology().triangles.size());
   std::iota(same.begin(), same.end(), 0U);
   return untangle_over(surface.topology(), surface, same, turned_in_place(*v, surface), false, v);
 }
 
 uint32_t untangle(const SurfaceTopology& mesh, const Surface& surface, Positions* v) {
-  *v = v->cast<float>().cast<double>().eval();
+  to_floats(v);
   uint32_t count = 0;
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     const std::vector<uint32_t> turned = turned_triangles(mesh, *v, surface);

@@ -85,10 +85,23 @@ TEST(ConnectivityTransfer, AlarmsWhereTheSurfaceIsNotCovered) {
   const TransferResult result = transfer(frame_of(sphere(9)), both);
   ASSERT_EQ(result.segments.size(), 2U);
   EXPECT_TRUE(result.frames[1].first);
-  EXPECT_EQ(result.frames[1].attempts, 2);
   EXPECT_TRUE(result.frames[1].alarms & static_cast<uint8_t>(TransferAlarm::kDistance));
   EXPECT_EQ(result.segments[1].first_frame, 1U);
   EXPECT_EQ(result.segments[1].sequence.vertex_count, 2 * shift);
+}
+
+TEST(ConnectivityTransfer, AllowsForWhatCoarseMeshesCannotShow) {
+  // Balls of 8 and 18 quads: further apart than half a per cent of the diagonal, being so coarse.
+  TransferOptions strict;
+  strict.edges = 0;
+  strict.distance = 0.1;
+  const SurfaceFrame a = frame_of(sphere(2)), b = frame_of(sphere(3));
+  EXPECT_TRUE(transfer(a, b, strict).frames[1].alarms &
+              static_cast<uint8_t>(TransferAlarm::kDistance));
+  TransferOptions scaled;
+  scaled.distance = 0.1;
+  EXPECT_FALSE(transfer(a, b, scaled).frames[1].alarms &
+               static_cast<uint8_t>(TransferAlarm::kDistance));
 }
 
 TEST(ConnectivityTransfer, AlarmsWhereTrianglesTurn) {

@@ -114,5 +114,16 @@ TEST(Surface, WithoutTrianglesHasNoIndex) {
   EXPECT_THROW(surface.build_index(), Error);
 }
 
+TEST(Surface, RoundsPositionsToFloats) {
+  Positions v = Positions::Random(50, 3);
+  for (uint32_t i = 0; i < 49; ++i) {
+    v.row(i) = float_position(row(v, i + 1) + 0.5 * (row(v, i) - row(v, i + 1))).transpose();
+    std::vector<float> floats(3);
+    for (int k = 0; k < 3; ++k)
+      floats[static_cast<size_t>(k)] = static_cast<float>(v(i, k));
+    EXPECT_EQ(positions_of(floats), v.row(i));
+  }
+}
+
 }  // namespace
 }  // namespace anicodec
