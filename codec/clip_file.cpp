@@ -26,6 +26,7 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
                         const std::vector<const EncodedSegment*>& segments) {
   constexpr uint16_t kMesh = 0;
   format::MeshRecord mesh;
+  mesh.name = layout.name;
   mesh.coder = layout.coder;
   mesh.details = layout.details;
   format::Bytes connectivity = layout.connectivity;

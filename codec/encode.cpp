@@ -3,6 +3,7 @@
 #include "codec/encode.h"
 
 #include "codec/clip_file.h"
+#include "codec/clip_record.h"
 #include "codec/error.h"
 #include "codec/keyframe_search.h"
 #include "codec/linear_segment_encode.h"
@@ -26,33 +27,7 @@ bool is_closed(const MeshSequence& sequence) {
          std::ranges::equal(sequence.frame(0), sequence.frame(sequence.frame_count - 1));
 }
 
-format::ClipRecord describe(const MeshSequence& sequence, const EncodeOptions& options,
-                            const Target& target, double clip_diagonal) {
-  format::ClipRecord record;
-  record.name = sequence.name;
-  record.encoder = options.encoder;
-  record.rate_numerator = sequence.rate.numerator;
-  record.rate_denominator = sequence.rate.denominator;
-  record.rate_assumed = sequence.rate.assumed;
-  record.loop = sequence.loop;
-  record.up = static_cast<uint8_t>(sequence.up);
-  record.order = options.order;
-  record.start_time = sequence.start_time;
-  record.metres_per_unit = sequence.metres_per_unit;
-  record.times.assign(sequence.times.begin(), sequence.times.end());
-  record.massaged = options.surface_change.has_value();
-  if (record.massaged) {
-    record.surface_error = options.surface_change->max;
-    record.surface_error_mean = options.surface_change->mean;
-  }
-  record.asked = target.metric;
-  record.asked_value = target.value;
-  record.diagonal = clip_diagonal;
-  return record;
-}
-
-void check_part(const PartFrames& part, const MeshSequence& sequence,
-                const EncodeOptions& options) {
+void check_part(const FrameRun& part, const MeshSequence& sequence, const EncodeOptions& options) {
   if (part.count == 0 || part.first >= sequence.frame_count ||
       part.count > sequence.frame_count - part.first)
     throw Error(ErrorKind::kUsage, "the sequence does not have all frames of the part");
@@ -62,7 +37,7 @@ void check_part(const PartFrames& part, const MeshSequence& sequence,
 }
 
 /// The timing of a part; its positions stay.
-void cut_timing(const PartFrames& part, MeshSequence& sequence) {
+void cut_timing(const FrameRun& part, MeshSequence& sequence) {
   if (sequence.times.empty()) {
     sequence.start_time += part.first / sequence.rate.value();
     return;
@@ -276,7 +251,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     cut_timing(*options.part, sequence);
     closed = false;
   }
-  format::ClipRecord record = describe(sequence, options, target, clip_diagonal);
+  format::ClipRecord record = clip_record(sequence, options, target, clip_diagonal);
   record.closed = closed;
   EncoderInput input(std::move(sequence), options.mesh_coder, options.part);
   const std::vector<StoredAttribute> stored =
@@ -305,6 +280,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   result.vertices = input.sequence.vertex_count;
   result.faces = static_cast<uint32_t>(input.sequence.polygons.size());
   result.frames = input.sequence.frame_count;
+  result.positions = uint64_t{result.vertices} * result.frames;
   result.kind = coded.positions.parts[0].encoded.sizes.kind;
   result.components = coded.positions.parts[0].encoded.sizes.components;
   result.kg = measured.kg;

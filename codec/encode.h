@@ -36,12 +36,6 @@ struct Target {
   bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames
 };
 
-/// Some of a clip's frames.
-struct PartFrames {
-  uint32_t first = 0;
-  uint32_t count = 0;
-};
-
 struct EncodeOptions {
   Target target;              ///< kNone: only with `keyframes`
   std::optional<Target> cap;  ///< a maximum error beside another target
@@ -53,7 +47,7 @@ struct EncodeOptions {
   format::CoderId mesh_coder = format::CoderId::kDraco;
   /// Encodes these frames alone, as a part for join_clips(): mesh, reference pose and diagonal are
   /// those of the whole sequence, and the same in all parts. Not with key-frames.
-  std::optional<PartFrames> part;
+  std::optional<FrameRun> part;
   std::string encoder;  ///< name and version to store in the file
   /// The sequence is not the source itself but one that massage() made of it: to store in the file.
   std::optional<SurfaceChange> surface_change;
@@ -86,9 +80,10 @@ struct AttributeResult {
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
 struct EncodeResult {
   format::Bytes file;
-  uint32_t vertices = 0;  ///< of the source
+  uint32_t vertices = 0;  ///< of the source; of several meshes, in the frame that shows most
   uint32_t faces = 0;
   uint32_t frames = 0;
+  uint64_t positions = 0;  ///< vertices of all frames together
   format::BasisKind kind = format::BasisKind::kKeyframes;
   uint32_t components = 0;
   double kg = 0;         ///< per cent

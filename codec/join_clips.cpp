@@ -118,35 +118,7 @@ void check_follows(const OpenPart& before, const OpenPart& next) {
              " s and has " + std::to_string(before.limits.frames) + " frames");
 }
 
-/// Errors of attributes over all parts, of mesh 0 or of a mesh each.
-Vector<format::AttributeError> joined_errors(const std::vector<OpenPart>& parts,
-                                             bool one_topology) {
-  struct Sum {
-    format::AttributeError error;
-    double squared = 0, frames = 0;
-  };
-
-  std::map<std::pair<size_t, uint16_t>, Sum> sums;
-  for (size_t i = 0; i < parts.size(); ++i) {
-    for (const format::AttributeError& e : parts[i].record.attribute_errors) {
-      const size_t mesh = one_topology ? 0 : i;
-      Sum& sum = sums[{mesh, e.attribute}];
-      sum.error.mesh = static_cast<uint16_t>(mesh);
-      sum.error.attribute = e.attribute;
-      sum.error.max_error = std::max(sum.error.max_error, e.max_error);
-      sum.squared += e.rmse * e.rmse * parts[i].limits.frames;
-      sum.frames += parts[i].limits.frames;
-    }
-  }
-  Vector<format::AttributeError> errors;
-  for (auto& [key, sum] : sums) {
-    sum.error.rmse = std::sqrt(sum.squared / sum.frames);
-    errors.push_back(sum.error);
-  }
-  return errors;
-}
-
-format::ClipRecord joined_record(const std::vector<OpenPart>& parts, bool one_topology) {
+format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
   format::ClipRecord record = parts[0].record;
   double squared = 0, reference = 0, frames = 0;
   record.times = {};
@@ -171,7 +143,6 @@ format::ClipRecord joined_record(const std::vector<OpenPart>& parts, bool one_to
     record.asked_value = 0;
   }
   record.closed = false;
-  record.attribute_errors = joined_errors(parts, one_topology);
   record.rmse = std::sqrt(squared / frames);
   record.kg = reference > 0 ? 100 * std::sqrt(squared / reference) : 0;
   return record;
@@ -199,61 +170,91 @@ void verify(const format::Bytes& file) {
                 std::string("the joined file is not valid: ") + status_string(failure.status));
 }
 
-/// Opens parts that follow one another. Of one topology, all have the same mesh.
-std::vector<OpenPart> open_parts(const std::vector<ClipPart>& sources, bool one_topology) {
-  if (sources.empty())
-    throw Error(ErrorKind::kUsage, "there is no part to join");
-  std::vector<OpenPart> parts;
-  parts.reserve(sources.size());
-  for (const ClipPart& source : sources) {
-    const OpenPart& part = parts.emplace_back(source);
-    if (parts.size() == 1)
-      continue;
-    if (one_topology)
-      check_same_mesh(parts[0], part);
-    else if (parts[0].record.order != part.record.order)
-      fail(source, ErrorKind::kInput, "keeps another order of vertices than " + sources[0].name);
-    check_follows(parts[parts.size() - 2], part);
+/// An opened part, and where it goes.
+struct Placed {
+  const OpenPart* part;
+  uint16_t mesh;
+  uint32_t first_frame;
+};
+
+/// Errors of attributes over all parts of each mesh.
+Vector<format::AttributeError> joined_errors(const std::vector<Placed>& parts) {
+  struct Sum {
+    format::AttributeError error;
+    double squared = 0, frames = 0;
+  };
+
+  std::map<std::pair<uint16_t, uint16_t>, Sum> sums;
+  for (const Placed& placed : parts) {
+    for (const format::AttributeError& e : placed.part->record.attribute_errors) {
+      Sum& sum = sums[{placed.mesh, e.attribute}];
+      sum.error.mesh = placed.mesh;
+      sum.error.attribute = e.attribute;
+      sum.error.max_error = std::max(sum.error.max_error, e.max_error);
+      sum.squared += e.rmse * e.rmse * placed.part->limits.frames;
+      sum.frames += placed.part->limits.frames;
+    }
   }
-  return parts;
+  Vector<format::AttributeError> errors;
+  for (auto& [key, sum] : sums) {
+    sum.error.rmse = std::sqrt(sum.squared / sum.frames);
+    errors.push_back(sum.error);
+  }
+  return errors;
 }
 
-/// One file of parts: their segments under new numbers, of mesh 0 or each of a mesh of its own.
-format::Bytes join(const std::vector<OpenPart>& parts, bool one_topology) {
-  if (!one_topology && parts.size() > format::kMaxMeshes)
-    throw Error(ErrorKind::kInput, "more than 65535 topologies");
-  auto mesh_of = [&](size_t i) { return one_topology ? uint16_t{0} : static_cast<uint16_t>(i); };
+/// A segment of a part, under its number there.
+struct PlacedSegment {
+  const Placed* placed;
+  uint32_t number;
+  format::Limits::Segment sizes;  ///< with mesh and frames of the joined clip
+};
+
+/// One file of parts: mesh, maps and pose of the first one of each mesh, all segments in the order
+/// of time under new numbers.
+format::Bytes join(const std::vector<Placed>& parts, uint32_t frames, format::ClipRecord record) {
+  record.attribute_errors = joined_errors(parts);
   format::Limits limits;
-  for (size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].limits.frames > format::kMaxFrames - limits.frames)
-      fail(parts[i].part, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
-    for (format::Limits::Segment segment : parts[i].limits.segments) {
-      segment.first_frame += limits.frames;
-      segment.mesh = mesh_of(i);
-      limits.segments.push_back(segment);
+  limits.frames = frames;
+  std::vector<const OpenPart*> meshes;
+  std::vector<PlacedSegment> segments;
+  for (const Placed& placed : parts) {
+    const OpenPart& part = *placed.part;
+    if (placed.mesh == meshes.size()) {
+      meshes.push_back(&part);
+      limits.meshes.push_back(part.limits.meshes[0]);
+    } else {
+      check_same_mesh(*meshes[placed.mesh], part);
     }
-    limits.frames += parts[i].limits.frames;
-    if (i == 0 || !one_topology)
-      limits.meshes.push_back(parts[i].limits.meshes[0]);
+    for (uint32_t s = 0; s < part.limits.segments.size(); ++s) {
+      PlacedSegment& segment = segments.emplace_back(&placed, s, part.limits.segments[s]);
+      segment.sizes.mesh = placed.mesh;
+      segment.sizes.first_frame += placed.first_frame;
+    }
   }
+  std::stable_sort(segments.begin(), segments.end(),
+                   [](const PlacedSegment& a, const PlacedSegment& b) {
+                     return std::pair(a.sizes.first_frame, a.sizes.mesh) <
+                            std::pair(b.sizes.first_frame, b.sizes.mesh);
+                   });
+  for (const PlacedSegment& segment : segments)
+    limits.segments.push_back(segment.sizes);
+
   format::ContainerWriter file;
   file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
-  file.add("CLIP", true, format::kNoMesh, format::kNoSegment,
-           joined_record(parts, one_topology).write());
-  for (size_t i = 0; i < limits.meshes.size(); ++i) {
+  file.add("CLIP", true, format::kNoMesh, format::kNoSegment, record.write());
+  for (uint16_t m = 0; m < meshes.size(); ++m) {
     for (const char(*type)[5] : kMeshChunks) {
-      if (const Chunk* chunk = parts[i].reader.find(*type, 0))
-        file.add(*type, chunk->required, mesh_of(i), format::kNoSegment,
-                 copy(parts[i].payload(*chunk)));
+      if (const Chunk* chunk = meshes[m]->reader.find(*type, 0))
+        file.add(*type, chunk->required, m, format::kNoSegment, copy(meshes[m]->payload(*chunk)));
     }
   }
-  uint32_t first_segment = 0;
-  for (size_t i = 0; i < parts.size(); ++i) {
-    for (const Chunk& chunk : parts[i].reader.chunks()) {
-      if (chunk.segment != format::kNoSegment)
-        add_chunk(parts[i], chunk, mesh_of(i), first_segment + chunk.segment, file);
+  for (uint32_t s = 0; s < segments.size(); ++s) {
+    const Placed& placed = *segments[s].placed;
+    for (const Chunk& chunk : placed.part->reader.chunks()) {
+      if (chunk.segment == segments[s].number)
+        add_chunk(*placed.part, chunk, placed.mesh, s, file);
     }
-    first_segment += static_cast<uint32_t>(parts[i].limits.segments.size());
   }
   format::Bytes bytes = file.finish();
   verify(bytes);
@@ -262,12 +263,35 @@ format::Bytes join(const std::vector<OpenPart>& parts, bool one_topology) {
 
 }  // namespace
 
-format::Bytes join_clips(const std::vector<ClipPart>& parts) {
-  return join(open_parts(parts, true), true);
+format::Bytes join_clips(const std::vector<ClipPart>& sources) {
+  if (sources.empty())
+    throw Error(ErrorKind::kUsage, "there is no part to join");
+  std::vector<OpenPart> parts;
+  std::vector<Placed> placed;
+  parts.reserve(sources.size());
+  uint32_t frames = 0;
+  for (const ClipPart& source : sources) {
+    const OpenPart& part = parts.emplace_back(source);
+    if (parts.size() > 1) {
+      check_same_mesh(parts[0], part);
+      check_follows(parts[parts.size() - 2], part);
+    }
+    if (part.limits.frames > format::kMaxFrames - frames)
+      fail(source, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
+    placed.push_back({&part, 0, frames});
+    frames += part.limits.frames;
+  }
+  return join(placed, frames, joined_record(parts));
 }
 
-format::Bytes join_topologies(const std::vector<ClipPart>& parts) {
-  return join(open_parts(parts, false), false);
+format::Bytes join_meshes(const std::vector<PlacedPart>& sources, uint32_t frames,
+                          const format::ClipRecord& record) {
+  std::vector<OpenPart> parts;
+  std::vector<Placed> placed;
+  parts.reserve(sources.size());
+  for (const PlacedPart& source : sources)
+    placed.push_back({&parts.emplace_back(source.part), source.mesh, source.first_frame});
+  return join(placed, frames, record);
 }
 
 }  // namespace anicodec

@@ -4,7 +4,9 @@
 #define ANICODEC_CODEC_JOIN_CLIPS_H_
 
 #include "format/bytes.h"
+#include "format/records.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,9 +25,18 @@ struct ClipPart {
 /// kCorrupt for a damaged part, kInput naming the first part that does not fit.
 format::Bytes join_clips(const std::vector<ClipPart>& parts);
 
-/// Makes one file of clips of one mesh each, in the order of time, whose meshes need not be alike:
-/// each is there in its frames alone. Errors, promise and checks as of join_clips().
-format::Bytes join_topologies(const std::vector<ClipPart>& parts);
+/// A clip of one mesh, and where it goes.
+struct PlacedPart {
+  ClipPart part;
+  uint16_t mesh = 0;         ///< parts of one mesh are encoded with EncodeOptions::part
+  uint32_t first_frame = 0;  ///< of the joined clip
+};
+
+/// Makes one file of clips of one mesh each, of several meshes: each is there in the frames of its
+/// parts alone. Meshes are numbered from 0, none left out. What the file says of the clip is given;
+/// its promise must be true. Checks and errors as of join_clips().
+format::Bytes join_meshes(const std::vector<PlacedPart>& parts, uint32_t frames,
+                          const format::ClipRecord& record);
 
 }  // namespace anicodec
 

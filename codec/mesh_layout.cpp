@@ -156,6 +156,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   auto triangle_count = static_cast<uint32_t>(manifold.triangle_polygon.size());
 
   MeshLayout layout;
+  layout.name = sequence.mesh_name;
   Vector<uint32_t> triangles(manifold.triangles.begin(),
                              manifold.triangles.end());  // as the decoder will see them,
   std::vector<uint32_t> point_of(manifold.points);       // over renumbered points

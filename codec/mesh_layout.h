@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace anicodec {
@@ -16,6 +17,7 @@ namespace anicodec {
 /// How a mesh is laid out in the file: the numbering of its points and coded vertices, its
 /// connectivity as the decoder will see it, and everything that leads back to the source.
 struct MeshLayout {
+  std::string name;
   format::CoderId coder = format::CoderId::kPlain;
   format::Limits::Mesh sizes;
   Topology topology;                   ///< canonical order, exactly what a decoder rebuilds

@@ -67,6 +67,7 @@ struct PolygonLabels {
 
 /// What stands beside the positions of a mesh.
 struct MeshDetails {
+  std::string mesh_name;  ///< where a clip has several meshes
   std::vector<Attribute> attributes;
   /// Of each corner of the polygons: those at one place with the same number share a normal,
   /// whatever it is, so that edges between different ones are hard. Empty: unknown, or told by a
@@ -100,6 +101,14 @@ struct MeshSequence : MeshDetails {
   std::span<float> frame(size_t f) {
     return {positions.data() + f * vertex_count * 3, size_t{vertex_count} * 3};
   }
+};
+
+/// Frames that follow one another.
+struct FrameRun {
+  uint32_t first = 0;
+  uint32_t count = 0;
+
+  bool operator==(const FrameRun&) const = default;
 };
 
 /// Throws Error(kInput) naming the first fault: no frame, no vertex, a size that does not fit, a

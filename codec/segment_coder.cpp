@@ -9,7 +9,7 @@
 namespace anicodec {
 
 EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder,
-                           const std::optional<PartFrames>& part)
+                           const std::optional<FrameRun>& part)
     : sequence(std::move(source)), layout(lay_out_mesh(sequence, mesh_coder)) {
   const size_t n = layout.sizes.coded_vertices;
   copies.assign(n, 0);
@@ -19,7 +19,7 @@ EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder,
     const float* position = sequence.positions.data() + size_t{3} * v;
     first_pose.insert(first_pose.end(), position, position + 3);
   }
-  const PartFrames kept = part.value_or(PartFrames{0, sequence.frame_count});
+  const FrameRun kept = part.value_or(FrameRun{0, sequence.frame_count});
   std::vector<float> frame(size_t{3} * sequence.vertex_count);
   float* to = sequence.positions.data();  // never ahead of what is yet to be read
   for (size_t f = kept.first; f < size_t{kept.first} + kept.count; ++f) {

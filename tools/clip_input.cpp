@@ -3,12 +3,14 @@
 #include "tools/clip_input.h"
 
 #include "codec/attribute_encode.h"
+#include "codec/scene.h"
 #include "format/container.h"
 #include "tools/io/byte_source.h"
 
 #include <algorithm>
 #include <cctype>
 #include <memory>
+#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -69,76 +71,125 @@ std::string read_bytes(const std::string& path) {
   return bytes;
 }
 
+bool takes_turns(const Clip& clip) {
+  const std::vector<uint32_t> meshes = meshes_of(clip);
+  for (uint32_t f = 0; f < clip.frame_count() && meshes.size() > 1; ++f) {
+    if (std::ranges::count_if(meshes, [&](uint32_t m) { return clip.segment_at(m, f); }) > 1)
+      return false;
+  }
+  return meshes.size() > 1;
+}
+
 void open_clip(const std::string& path, const std::string& bytes, const OpenOptions& options,
                Clip& clip, Topologies allowed) {
   if (Failure failure = clip.open(view_of(bytes), options); !failure.ok())
     fail_clip(path, failure);
-  if (allowed == Topologies::kOne && clip.meshes().size() != 1)
+  if (allowed == Topologies::kOne && takes_turns(clip))
     throw Error(ErrorKind::kUnsupported,
-                fmt::format("{}: {} meshes, where one is wanted; decode makes files of the frames",
+                fmt::format("{}: {} meshes that take turns, where the frames must have one; decode "
+                            "makes files of the frames",
                             path, clip.meshes().size()));
 }
 
-MeshFrames frames_of_mesh(const Clip& clip, uint32_t mesh) {
-  MeshFrames frames{UINT32_MAX, 0};
-  for (const format::Limits::Segment& s : clip.limits().segments) {
-    if (s.mesh != mesh || s.attribute != format::kPositions)
-      continue;
-    frames.first = std::min(frames.first, s.first_frame);
-    frames.end = std::max(frames.end, s.first_frame + s.frames);
-  }
-  return frames;
+std::vector<uint32_t> meshes_of(const Clip& clip) {
+  std::vector<uint32_t> meshes(clip.meshes().size());
+  std::iota(meshes.begin(), meshes.end(), 0U);
+  return meshes;
 }
 
-MeshSequence describe_clip(const Clip& clip, uint32_t mesh) {
+std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh) {
+  std::vector<FrameRun> runs;
+  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+    if (!clip.segment_at(mesh, f))
+      continue;
+    if (runs.empty() || runs.back().first + runs.back().count != f)
+      runs.push_back({f, 0});
+    ++runs.back().count;
+  }
+  return runs;
+}
+
+MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes) {
+  std::vector<MeshSequence> described;
+  for (uint32_t m : meshes) {
+    const Mesh& mesh = clip.meshes()[m];
+    const Topology& topology = mesh.topology;
+    MeshSequence& out = described.emplace_back();
+    out.mesh_name.assign(mesh.name.begin(), mesh.name.end());
+    out.polygons.offsets.assign(topology.polygon_offsets.begin(), topology.polygon_offsets.end());
+    out.polygons.corners.assign(topology.polygon_corners.begin(), topology.polygon_corners.end());
+    out.vertex_count = clip.vertex_count(m);
+    restore_attributes(mesh.attributes, &out);
+  }
+  MeshSequence sequence = described.size() == 1 && described[0].mesh_name.empty()
+                              ? std::move(described[0])
+                              : merge_meshes(described);
   const format::ClipRecord& record = clip.record();
-  const Topology& topology = clip.meshes()[mesh].topology;
-  MeshSequence sequence;
   sequence.name.assign(record.name.begin(), record.name.end());
-  sequence.polygons.offsets.assign(topology.polygon_offsets.begin(),
-                                   topology.polygon_offsets.end());
-  sequence.polygons.corners.assign(topology.polygon_corners.begin(),
-                                   topology.polygon_corners.end());
-  sequence.vertex_count = clip.vertex_count(mesh);
   sequence.frame_count = clip.frame_count();
   sequence.rate = {record.rate_numerator, record.rate_denominator, record.rate_assumed};
   sequence.start_time = record.start_time;
   sequence.times.assign(record.times.begin(), record.times.end());
   sequence.up = static_cast<UpAxis>(record.up);
   sequence.metres_per_unit = record.metres_per_unit;
-  restore_attributes(clip.meshes()[mesh].attributes, &sequence);
   return sequence;
 }
 
-std::function<std::vector<Attribute>(uint32_t)> play_attributes(const Clip& clip, uint32_t mesh) {
-  const bool moves = std::ranges::any_of(clip.tracks(), [mesh](const Track& track) {
-    return track.mesh == mesh && track.is_attribute();
+std::function<std::vector<Attribute>(uint32_t)> play_attributes(
+    const Clip& clip, const std::vector<uint32_t>& meshes) {
+  const bool moves = std::ranges::any_of(clip.tracks(), [&](const Track& track) {
+    return track.is_attribute() && std::ranges::count(meshes, track.mesh) > 0;
   });
   if (!moves)
     return {};
-  return [&clip, mesh](uint32_t frame) {
-    const Vector<MeshAttribute>& decoded = clip.meshes()[mesh].attributes;
-    MeshSequence sequence;
-    restore_attributes(decoded, &sequence);
-    size_t restored = 0;
-    for (uint32_t i = 0; i < decoded.size(); ++i) {
-      if (decoded[i].header.components() == 0)
-        continue;
-      Attribute& attribute = sequence.attributes[restored++];
-      if (!attribute.per_corner)
-        clip.attribute_values(mesh, i, frame, attribute.values.data());
+  return [&clip, meshes](uint32_t frame) {
+    std::vector<MeshSequence> described;
+    for (uint32_t mesh : meshes) {
+      MeshSequence& sequence = described.emplace_back(describe_clip(clip, {mesh}));
+      const Vector<MeshAttribute>& decoded = clip.meshes()[mesh].attributes;
+      size_t restored = 0;
+      for (uint32_t i = 0; i < decoded.size(); ++i) {
+        if (decoded[i].header.components() == 0)
+          continue;
+        Attribute& attribute = sequence.attributes[restored++];
+        if (!attribute.per_corner)  // where the mesh is not there it keeps those of frame 0
+          clip.attribute_values(mesh, i, frame, attribute.values.data());
+      }
     }
-    return std::move(sequence.attributes);
+    return described.size() == 1 ? std::move(described[0].attributes)
+                                 : merge_meshes(described).attributes;
   };
 }
 
-FrameSource play(const std::string& path, const Clip& clip, uint32_t mesh) {
-  auto positions = std::make_shared<std::vector<float>>(size_t{3} * clip.vertex_count(mesh));
-  return [path, &clip, mesh, positions](uint32_t frame) -> std::span<const float> {
-    Status status = clip.positions(mesh, frame, positions->data());
-    if (status != Status::kOk)
-      throw Error(error_kind(status),
-                  fmt::format("{}: frame {}: {}", path, frame, status_string(status)));
+FrameSource play(const std::string& path, const Clip& clip, const std::vector<uint32_t>& meshes) {
+  struct Part {
+    uint32_t mesh;
+    std::vector<FrameRun> there;
+    size_t first, count;  // floats
+  };
+
+  std::vector<Part> parts;
+  size_t count = 0;
+  for (uint32_t m : meshes) {
+    parts.push_back({m, frames_of_mesh(clip, m), count, size_t{3} * clip.vertex_count(m)});
+    count += parts.back().count;
+  }
+  auto positions = std::make_shared<std::vector<float>>(count);
+  return [path, &clip, parts, positions](uint32_t frame) -> std::span<const float> {
+    for (const Part& part : parts) {
+      uint32_t shown = part.there.empty() ? frame : part.there[0].first;
+      for (const FrameRun& run : part.there) {
+        if (run.first <= frame)
+          shown = std::min(frame, run.first + run.count - 1);
+      }
+      const std::span<float> own(positions->data() + part.first, part.count);
+      const Status status = clip.positions(part.mesh, shown, own.data());
+      if (status != Status::kOk)
+        throw Error(error_kind(status),
+                    fmt::format("{}: frame {}: {}", path, frame, status_string(status)));
+      for (size_t i = 3; shown != frame && i < own.size(); ++i)
+        own[i] = own[i - 3];
+    }
     return *positions;
   };
 }

@@ -12,6 +12,7 @@
 #include "format/status.h"
 #include "sdk/clip.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -34,33 +35,36 @@ inline format::ByteView view_of(const std::string& bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
-/// Which clips a command can work on.
+/// Which clips a command can work on: kOne, those whose connectivity does not change.
 enum class Topologies { kOne, kAny };
 
-/// Opens a clip. Throws as fail_clip(); Error(kUnsupported) for several meshes where there must be
-/// one.
+/// True for several meshes that no frame shows together: a clip whose connectivity changes.
+bool takes_turns(const Clip& clip);
+
+/// Opens a clip. Throws as fail_clip(); Error(kUnsupported) for meshes that take turns where that
+/// is not allowed.
 void open_clip(const std::string& path, const std::string& bytes, const OpenOptions& options,
                Clip& clip, Topologies allowed = Topologies::kOne);
 
-/// The frames that have a mesh, from the first to one past the last.
-struct MeshFrames {
-  uint32_t first = 0, end = 0;
-};
+/// Numbers of all meshes of a clip.
+std::vector<uint32_t> meshes_of(const Clip& clip);
 
-MeshFrames frames_of_mesh(const Clip& clip, uint32_t mesh);
+/// The runs of frames that show a mesh.
+std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh);
 
-/// The clip as one of a mesh, without its positions: counts, polygons, metadata, and the timing of
-/// all frames.
-MeshSequence describe_clip(const Clip& clip, uint32_t mesh = 0);
+/// Some meshes of the clip as one, see merge_meshes(): counts, polygons, metadata, and the timing
+/// of all frames.
+MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes);
 
-/// Attributes of a frame of a mesh as numbers, moving or not, in the form of those of
+/// Attributes of a frame of some meshes as numbers, moving or not, in the form of those of
 /// describe_clip(); empty when none moves. The clip must outlive it.
-std::function<std::vector<Attribute>(uint32_t frame)> play_attributes(const Clip& clip,
-                                                                      uint32_t mesh = 0);
+std::function<std::vector<Attribute>(uint32_t frame)> play_attributes(
+    const Clip& clip, const std::vector<uint32_t>& meshes);
 
-/// Plays a mesh of the clip, which must outlive the source. Frames are given in any order. Throws
-/// Error(kCorrupt) naming the path.
-FrameSource play(const std::string& path, const Clip& clip, uint32_t mesh = 0);
+/// Plays some meshes of the clip, which must outlive the source, as one. Frames are given in any
+/// order. In those that do not show a mesh, all its vertices are where its first one was last, or
+/// will be first. Throws Error(kCorrupt) naming the path.
+FrameSource play(const std::string& path, const Clip& clip, const std::vector<uint32_t>& meshes);
 
 }  // namespace anicodec::tools
 

@@ -61,13 +61,25 @@ bool is_written_by_frame(const std::string& path) {
   return !is_cache(kind) && kind != FileKind::kGlb && kind != FileKind::kGltf;
 }
 
-/// Those of some frames that a mesh is there in.
-FrameRange range_within(const FrameRange& range, const MeshFrames& frames) {
-  FrameRange own{range.first, range.first, range.step};
-  if (own.first < frames.first)
-    own.first += (frames.first - own.first + range.step - 1) / range.step * range.step;
-  own.end = std::max(own.first, std::min(range.end, frames.end));
-  return own;
+/// Frames that are written together, and the meshes that they show.
+struct Run {
+  FrameRange frames;
+  std::vector<uint32_t> meshes;
+};
+
+/// Some frames of a clip, cut where what they show changes; those that show nothing are left out.
+std::vector<Run> runs_of(const Clip& clip, const FrameRange& range) {
+  std::vector<Run> runs;
+  for (uint32_t i = 0; i < range.size(); ++i) {
+    const uint32_t f = range.first + i * range.step;
+    std::vector<uint32_t> shown = meshes_of(clip);
+    std::erase_if(shown, [&](uint32_t m) { return !clip.segment_at(m, f); });
+    if (runs.empty() || runs.back().meshes != shown)
+      runs.push_back({{f, f + 1, range.step}, std::move(shown)});
+    runs.back().frames.end = f + 1;
+  }
+  std::erase_if(runs, [](const Run& run) { return run.meshes.empty(); });
+  return runs;
 }
 
 void run(const DecodeCommand& command, const CommonOptions& common) {
@@ -91,30 +103,28 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
   options.first_number = command.start;
   options.progress = line.callback();
   check_sequence_output(command.output, range.size(), options);
-  const auto meshes = static_cast<uint32_t>(clip.meshes().size());
-  if (meshes > 1 && !is_written_by_frame(command.output))
+  const bool by_frame = is_written_by_frame(command.output);
+  if (!by_frame && takes_turns(clip))
     throw Error(ErrorKind::kUsage,
-                fmt::format("{}: has one mesh, but {} has {}; write a file per frame, as in "
-                            "frame_%04d.obj",
-                            command.output, command.input, meshes));
+                fmt::format("{}: has one mesh, but {} has {} that take turns; write a file per "
+                            "frame, as in frame_%04d.obj",
+                            command.output, command.input, clip.meshes().size()));
   std::vector<std::string> written;
-  for (uint32_t mesh = 0; mesh < meshes; ++mesh) {
-    const FrameRange own = range_within(range, frames_of_mesh(clip, mesh));
-    if (own.size() == 0)
-      continue;
-    MeshSequence description = describe_clip(clip, mesh);
+  for (const auto& [own, meshes] :
+       by_frame ? runs_of(clip, range) : std::vector<Run>{{range, meshes_of(clip)}}) {
+    MeshSequence description = describe_clip(clip, meshes);
     if (own.size() < clip.frame_count())
       take_frames(own, description);
     options.first_number = command.start + (own.first - range.first) / range.step;
-    FrameSource all = play(command.input, clip, mesh);
+    FrameSource all = play(command.input, clip, meshes);
     options.attributes = {};
-    if (auto attributes = play_attributes(clip, mesh))
-      options.attributes = [attributes, own](uint32_t f) {
-        return attributes(own.first + f * own.step);
+    if (auto attributes = play_attributes(clip, meshes))
+      options.attributes = [attributes, frames = own](uint32_t f) {
+        return attributes(frames.first + f * frames.step);
       };
     write_sequence(
         command.output, description,
-        [&all, own](uint32_t f) { return all(own.first + f * own.step); }, options);
+        [&all, frames = own](uint32_t f) { return all(frames.first + f * frames.step); }, options);
     written.push_back(fmt::format("{}: {} frames of {} vertices and {} faces", command.output,
                                   description.frame_count, description.vertex_count,
                                   description.polygons.size()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
+#include "codec/encode_scene.h"
 #include "codec/error.h"
 #include "codec/massage_choice.h"
 #include "tools/batch.h"
@@ -14,7 +15,6 @@
 #include "tools/names.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
-#include "tools/topologies.h"
 #include "tools/version.h"
 
 #include <algorithm>
@@ -44,6 +44,10 @@ standard output, and nothing else; decode, info and verify read one from -.
 A scene is baked: skins, morph targets and moving nodes become vertices that move, all its meshes
 (or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. --clip names
 or numbers the clip; without it the first one that moves anything is taken, --clip none takes none.
+
+--meshes apart makes each object of the input (node of a scene, o of an OBJ) a mesh of its own, with
+its name. One that only turns and moves is stored as that where it is smaller, and one whose vertices
+are all at one point in a frame, as those of hidden objects are, is not there in that frame.
 
 --frames A:B encodes some frames of a long clip, on one of several machines perhaps; every machine
 reads the whole clip, and join makes one file of the parts.
@@ -81,6 +85,9 @@ Examples:
 /// What frames of another connectivity are: a mistake, or segments of their own.
 enum class Topology { kOne, kSegments };
 
+/// What the objects of the input are: parts of one mesh, or each a mesh.
+enum class Meshes { kOne, kApart };
+
 enum class Massage { kOff, kOn, kAuto, kTransfer };
 
 struct EncodeCommand {
@@ -95,6 +102,7 @@ struct EncodeCommand {
   format::CoderId mesh_coder = format::CoderId::kDraco;
   int effort = 5;
   Topology topology = Topology::kOne;
+  Meshes meshes = Meshes::kOne;
   Massage massage = Massage::kOff;
   double massage_strength = 0.5;
   std::string massage_tolerance;
@@ -202,7 +210,7 @@ MeshSequence load(const EncodeCommand& command, const Progress& progress,
 /// What a file of this size means for a clip.
 struct Rate {
   explicit Rate(const EncodeResult& result) {
-    double positions = static_cast<double>(result.vertices) * result.frames;
+    const auto positions = static_cast<double>(result.positions);
     auto bytes = static_cast<double>(result.file.size());
     ratio = 12 * positions / bytes;
     bpfv = 8 * bytes / positions;
@@ -311,9 +319,10 @@ void print_text(const EncodeCommand& command, const EncodeResult& result,
 std::string settings_of(const EncodeCommand& c, const EncodeOptions& options) {
   nlohmann::ordered_json settings{c.kg,   c.max_error, c.rmse,   c.size,
                                   c.bpfv, c.keyframes, c.effort, options.encoder};
-  for (int choice : {static_cast<int>(c.basis), static_cast<int>(c.select),
-                     static_cast<int>(c.order), static_cast<int>(c.mesh_coder),
-                     static_cast<int>(c.interpolation), static_cast<int>(c.massage)})
+  for (int choice :
+       {static_cast<int>(c.basis), static_cast<int>(c.select), static_cast<int>(c.order),
+        static_cast<int>(c.mesh_coder), static_cast<int>(c.interpolation),
+        static_cast<int>(c.massage), static_cast<int>(c.meshes)})
     settings.push_back(choice);
   settings.push_back(c.massage_strength);
   settings.push_back(c.massage_tolerance);
@@ -338,6 +347,8 @@ void encode_batch(const EncodeCommand& command, const CommonOptions& common) {
   if (!command.inputs.empty())
     throw Error(ErrorKind::kUsage, command.inputs[0] + ": --batch takes its inputs from " +
                                        command.batch + ", no others");
+  if (command.meshes == Meshes::kApart && command.massage != Massage::kOff)
+    throw Error(ErrorKind::kUsage, "--meshes apart goes without --massage");
   if (command.massage == Massage::kTransfer)
     throw Error(ErrorKind::kUsage,
                 "--massage transfer takes the frames of one clip, --batch has many");
@@ -358,21 +369,29 @@ void encode_batch(const EncodeCommand& command, const CommonOptions& common) {
         return load(one, {}, &options);
       },
       [&](MeshSequence sequence) {
+        if (command.meshes == Meshes::kApart)
+          return encode_scene(split_parts(std::move(sequence)), options);
         MassageVerdict massage;
         return encode_as_asked(command, std::move(sequence), options, &massage, {});
       });
 }
 
-/// Encodes frames whose connectivity changes.
-EncodeResult encode_segments(const EncodeCommand& command, const EncodeOptions& options,
-                             const Progress& progress) {
+/// Encodes several meshes: objects of a scene, or frames whose connectivity changes.
+EncodeResult encode_meshes(const EncodeCommand& command, EncodeOptions options,
+                           const Progress& progress) {
+  const bool segments = command.topology == Topology::kSegments;
   if (!command.frames.empty() || command.massage != Massage::kOff)
-    throw Error(ErrorKind::kUsage, "--topology segments goes without --frames and --massage");
-  std::vector<MeshSequence> runs =
-      load_topologies(command.inputs, load_options_of(command, progress));
-  for (MeshSequence& run : runs)
-    set_metadata(command, run);
-  return encode_topologies(std::move(runs), options, command.inputs[0], progress);
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{} goes without --frames and --massage",
+                            segments ? "--topology segments" : "--meshes apart"));
+  Scene scene = segments ? load_topologies(command.inputs, load_options_of(command, progress))
+                         : split_parts(load(command, progress, &options));
+  set_metadata(command, scene.clip);
+  try {
+    return encode_scene(std::move(scene), options, progress);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
+  }
 }
 
 /// Encodes frames of one connectivity.
@@ -388,7 +407,7 @@ EncodeResult encode_clip(const EncodeCommand& command, EncodeOptions options,
     if (range.step != 1)
       throw Error(ErrorKind::kUsage,
                   "--frames: a part has all frames from A to B - 1, without step");
-    options.part = PartFrames{range.first, range.size()};
+    options.part = FrameRun{range.first, range.size()};
   }
   try {
     EncodeResult result = encode_as_asked(command, std::move(sequence), options, massage, progress);
@@ -417,8 +436,8 @@ void run(const EncodeCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   Progress progress = line.callback();
   MassageVerdict massage;
-  EncodeResult result = command.topology == Topology::kSegments
-                            ? encode_segments(command, options, progress)
+  EncodeResult result = command.topology == Topology::kSegments || command.meshes == Meshes::kApart
+                            ? encode_meshes(command, options, progress)
                             : encode_clip(command, options, &massage, progress);
   line.clear();
   if (to_standard_output) {
@@ -508,6 +527,11 @@ void add_encode(CLI::App& app, CommonOptions& common) {
                        {{"one", Topology::kOne}, {"segments", Topology::kSegments}},
                        "Frames of another connectivity: an error (default one), or segments\n"
                        "of the file with meshes of their own")
+      ->group(method);
+  add_choice<Meshes>(*command, "--meshes", c->meshes,
+                     {{"one", Meshes::kOne}, {"apart", Meshes::kApart}},
+                     "Objects of the input: parts of one mesh (default), or each a mesh\n"
+                     "of its own that is there only in frames that show it")
       ->group(method);
   add_choice<format::CoderId>(
       *command, "--mesh-coder", c->mesh_coder,

@@ -110,12 +110,14 @@ void print_json(const std::string& path, const Contents& c) {
   json["faces"] = limits.meshes[0].polygons;
   json["meshes"] = nlohmann::ordered_json::array();
   for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
-    const MeshFrames frames = frames_of_mesh(c.clip, m);
-    json["meshes"].push_back({{"vertices", limits.meshes[m].source_vertices},
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    for (const FrameRun& run : frames_of_mesh(c.clip, m))
+      frames.push_back({run.first, run.first + run.count});
+    json["meshes"].push_back({{"name", c.clip.meshes()[m].name},
+                              {"vertices", limits.meshes[m].source_vertices},
                               {"coded_vertices", limits.meshes[m].coded_vertices},
                               {"faces", limits.meshes[m].polygons},
-                              {"first_frame", frames.first},
-                              {"end_frame", frames.end}});
+                              {"frames", frames}});
   }
   json["frames"] = limits.frames;
   json["fps"] = {record.rate_numerator, record.rate_denominator};
@@ -242,19 +244,28 @@ void print_text(const std::string& path, const Contents& c) {
   row("name", printable(record.name));
   row("format", fmt::format("{}.{}, written by {}", c.container.version_major(),
                             c.container.version_minor(), printable(record.encoder)));
-  row("clip", fmt::format("{} vertices ({} coded), {} faces, {} frames at {}", mesh.source_vertices,
-                          mesh.coded_vertices, mesh.polygons, limits.frames, rate_text(record)));
+  const std::string what =
+      limits.meshes.size() > 1
+          ? fmt::format("{} meshes", limits.meshes.size())
+          : fmt::format("{} vertices ({} coded), {} faces", mesh.source_vertices,
+                        mesh.coded_vertices, mesh.polygons);
+  row("clip", fmt::format("{}, {} frames at {}", what, limits.frames, rate_text(record)));
   std::string traits = fmt::format(
       "up {}, unit {}", up_name(record.up),
       record.metres_per_unit > 0 ? fmt::format("{:.6g} m", record.metres_per_unit) : "unknown");
   traits += record.loop ? ", loops" : "";
   traits += record.closed ? ", the last frame repeats the first" : "";
   row("", traits);
-  for (uint32_t m = 1; m < limits.meshes.size(); ++m) {
-    const MeshFrames frames = frames_of_mesh(c.clip, m);
-    row("topology", fmt::format("from frame {} to {}: {} vertices ({} coded), {} faces",
-                                frames.first, frames.end - 1, limits.meshes[m].source_vertices,
-                                limits.meshes[m].coded_vertices, limits.meshes[m].polygons));
+  for (uint32_t m = 0; m < limits.meshes.size() && limits.meshes.size() > 1; ++m) {
+    std::string frames;
+    for (const FrameRun& run : frames_of_mesh(c.clip, m))
+      frames +=
+          fmt::format("{} {}:{}", frames.empty() ? "" : ",", run.first, run.first + run.count);
+    row("mesh",
+        fmt::format("{}{}{} vertices ({} coded), {} faces, frames{}",
+                    printable(c.clip.meshes()[m].name), c.clip.meshes()[m].name.empty() ? "" : ": ",
+                    limits.meshes[m].source_vertices, limits.meshes[m].coded_vertices,
+                    limits.meshes[m].polygons, frames));
   }
   row("order", name_of(record.order));
   row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv", grouped(c.bytes),

@@ -37,7 +37,7 @@ size_t check_chunks(const std::string& path, const std::string& bytes) {
 
 void check_frames(const std::string& path, const Clip& clip, ProgressLine& line) {
   for (uint32_t mesh = 0; mesh < clip.meshes().size(); ++mesh) {
-    FrameSource frames = play(path, clip, mesh);
+    FrameSource frames = play(path, clip, {mesh});
     for (uint32_t f = 0; f < clip.frame_count(); ++f) {
       if (!clip.segment_at(mesh, f))
         continue;

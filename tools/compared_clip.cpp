@@ -40,7 +40,7 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
     bytes_ = bytes.size();
     clip_ = std::make_unique<Clip>();
     open_clip(path, bytes, {}, *clip_);
-    sequence_ = describe_clip(*clip_);
+    sequence_ = describe_clip(*clip_, meshes_of(*clip_));
   } else {
     LoadOptions options;
     options.progress = progress;
@@ -62,7 +62,7 @@ bool ComparedClip::has_free_order() const {
 }
 
 FrameSource ComparedClip::frames() const {
-  FrameSource all = clip_ ? play(path_, *clip_) : frames_of(sequence_);
+  FrameSource all = clip_ ? play(path_, *clip_, meshes_of(*clip_)) : frames_of(sequence_);
   return [all = std::move(all), range = range_](uint32_t f) {
     return all(range.first + f * range.step);
   };

@@ -33,7 +33,7 @@ std::vector<format::Bytes> parts_of(const MeshSequence& clip, std::vector<uint32
   cuts.push_back(clip.frame_count);
   uint32_t first = 0;
   for (uint32_t end : cuts) {
-    options.part = PartFrames{first, end - first};
+    options.part = FrameRun{first, end - first};
     files.push_back(encode(clip, options).file);
     first = end;
   }
@@ -121,9 +121,9 @@ TEST(JoinClips, RefusesPartsThatDoNotFit) {
 TEST(JoinClips, PartsAreOfTheClipAndWithoutKeyframes) {
   EncodeOptions options = options_of(format::ErrorMetric::kMaxError, 0.5);
   const MeshSequence limb = corpus::make_clip("limb");
-  options.part = PartFrames{0, limb.frame_count + 1};
+  options.part = FrameRun{0, limb.frame_count + 1};
   EXPECT_THROW(encode(limb, options), Error);
-  options.part = PartFrames{0, 5};
+  options.part = FrameRun{0, 5};
   options.basis = BasisChoice::kKeyframes;
   EXPECT_THROW(encode(limb, options), Error);
 }

@@ -346,8 +346,7 @@ MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOption
   return sequence;
 }
 
-std::vector<MeshSequence> load_topologies(std::span<const std::string> inputs,
-                                          const LoadOptions& options) {
+Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& options) {
   if (inputs.empty())
     fail_usage("no input is given");
   const std::vector<std::string> paths = expand(inputs);
@@ -355,33 +354,37 @@ std::vector<MeshSequence> load_topologies(std::span<const std::string> inputs,
   if (paths.size() > kMaxFrames)
     fail_usage(std::to_string(paths.size()) + " frames; at most 2^24 - 1 are possible");
   MeshReader reader;
-  std::vector<MeshSequence> runs;
-  for (size_t f = 0; f < paths.size(); ++f) {
+  Scene scene;
+  scene.clip.name = fs::path(paths[0]).stem().string();
+  if (options.rate) {
+    scene.clip.rate = *options.rate;
+    scene.clip.rate.assumed = false;
+  }
+  scene.clip.frame_count = static_cast<uint32_t>(paths.size());
+  std::vector<SceneMesh>& runs = scene.meshes;
+  for (uint32_t f = 0; f < paths.size(); ++f) {
     if (kind_of(paths[f]) != kind)
       fail_usage(paths[f] + ": frames are of one format, but " + paths[0] + " is of another");
     MeshDetails details;
     const Mesh* mesh = &reader.read(paths[f], &details);
-    if (runs.empty() || mesh->vertex_count() != runs.back().vertex_count ||
-        mesh->polygons != runs.back().polygons) {
-      MeshSequence& run = runs.emplace_back();
+    if (runs.empty() || mesh->vertex_count() != runs.back().sequence.vertex_count ||
+        mesh->polygons != runs.back().sequence.polygons) {
+      MeshSequence& run = runs.emplace_back().sequence;
       static_cast<MeshDetails&>(run) = std::move(details);
-      run.name = fs::path(paths[0]).stem().string();
       run.vertex_count = static_cast<uint32_t>(mesh->vertex_count());
       run.polygons = mesh->polygons;
-      if (options.rate) {
-        run.rate = *options.rate;
-        run.rate.assumed = false;
-      }
-      run.start_time = static_cast<double>(f) / run.rate.value();
+      runs.back().there = {{f, 0}};
     } else {
-      add_frame(details.attributes, runs.back().frame_count, runs.back().attributes);
+      add_frame(details.attributes, runs.back().sequence.frame_count,
+                runs.back().sequence.attributes);
     }
-    MeshSequence& run = runs.back();
+    MeshSequence& run = runs.back().sequence;
     run.positions.insert(run.positions.end(), mesh->positions.begin(), mesh->positions.end());
     ++run.frame_count;
+    ++runs.back().there[0].count;
     report(options.progress, f + 1, paths.size());
   }
-  return runs;
+  return scene;
 }
 
 }  // namespace anicodec::tools

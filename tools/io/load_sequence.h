@@ -5,6 +5,7 @@
 
 #include "codec/mesh_sequence.h"
 #include "codec/progress.h"
+#include "codec/scene.h"
 
 #include <optional>
 #include <span>
@@ -39,11 +40,9 @@ struct LoadOptions {
 /// naming file and place, Error(kUsage) for inputs that do not make one clip.
 MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options = {});
 
-/// Loads frames of one format (.obj .ply .off) whose connectivity may change: a sequence for each
-/// run of frames that share one, with the time of its first frame as start. Throws as
-/// load_sequence().
-std::vector<MeshSequence> load_topologies(std::span<const std::string> inputs,
-                                          const LoadOptions& options = {});
+/// Loads frames of one format (.obj .ply .off) whose connectivity may change: a mesh for each run
+/// of frames that share one. Throws as load_sequence().
+Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& options = {});
 
 /// The files behind such inputs, in the order of load_sequence(), patterns expanded. Throws as it
 /// for a pattern without a match, folders and unknown kinds.

@@ -133,7 +133,7 @@ class ReportMaker {
     Clip clip;
     if (Failure failure = clip.open(result.file); !failure.ok())
       fail_clip("the encoded clip", failure);
-    FrameSource frames = play("the encoded clip", clip);
+    FrameSource frames = play("the encoded clip", clip, {0});
     const Comparison comparison = compared(frames);
     add(point(codec, result.file.size(), comparison));
     if (basis == BasisChoice::kAuto && kg == kShownKg) {

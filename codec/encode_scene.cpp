@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/encode_scene.h"
+
+#include "codec/clip_record.h"
+#include "codec/error.h"
+#include "codec/join_clips.h"
+#include "codec/rate_control.h"
+#include "format/container.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+using format::ErrorMetric;
+
+/// Length of the diagonal of the box around all meshes.
+double diagonal_of(const Scene& scene) {
+  MeshSequence corners;  // two vertices: of the box around each
+  for (const SceneMesh& mesh : scene.meshes) {
+    const std::vector<float>& positions = mesh.sequence.positions;
+    std::array<float, 3> low{positions[0], positions[1], positions[2]}, high = low;
+    for (size_t i = 0; i < positions.size(); ++i) {
+      low[i % 3] = std::min(low[i % 3], positions[i]);
+      high[i % 3] = std::max(high[i % 3], positions[i]);
+    }
+    corners.positions.insert(corners.positions.end(), low.begin(), low.end());
+    corners.positions.insert(corners.positions.end(), high.begin(), high.end());
+  }
+  return diagonal(corners);
+}
+
+/// How far positions are from the mean of their frame.
+struct Spread {
+  double squared = 0;    ///< summed
+  double positions = 0;  ///< how many there are
+};
+
+Spread spread_of(const Scene& scene) {
+  struct Frame {
+    std::array<double, 3> origin{}, sum{};  // sums are from there, to stay exact far off
+    double squared = 0, count = 0;
+  };
+
+  std::vector<Frame> frames(scene.clip.frame_count);
+  for (const SceneMesh& mesh : scene.meshes) {
+    uint32_t own = 0;
+    for (const FrameRun& run : mesh.there) {
+      for (uint32_t f = run.first; f < run.first + run.count; ++f) {
+        const std::span<const float> positions = mesh.sequence.frame(own++);
+        Frame& frame = frames[f];
+        if (frame.count == 0)
+          std::copy_n(positions.begin(), 3, frame.origin.begin());
+        frame.count += mesh.sequence.vertex_count;
+        for (size_t i = 0; i < positions.size(); ++i) {
+          const double x = static_cast<double>(positions[i]) - frame.origin[i % 3];
+          frame.sum[i % 3] += x;
+          frame.squared += x * x;
+        }
+      }
+    }
+  }
+  Spread spread;
+  for (const Frame& frame : frames) {
+    if (frame.count == 0)
+      continue;
+    double of_mean = 0;
+    for (double x : frame.sum)
+      of_mean += x * x / frame.count;
+    spread.squared += std::max(0.0, frame.squared - of_mean);
+    spread.positions += frame.count;
+  }
+  return spread;
+}
+
+/// What each frame shows.
+struct Counts {
+  explicit Counts(uint32_t frames) : vertices(frames), faces(frames) {}
+
+  void add(const std::vector<FrameRun>& there, uint32_t more_vertices, uint32_t more_faces) {
+    for (const FrameRun& run : there) {
+      for (uint32_t f = run.first; f < run.first + run.count; ++f) {
+        vertices[f] += more_vertices;
+        faces[f] += more_faces;
+      }
+    }
+  }
+
+  std::vector<uint32_t> vertices, faces;
+};
+
+/// What every mesh is asked for, so that the scene keeps what it is asked for.
+Target shared(const Target& target, const Spread& spread, double length) {
+  if (target.metric == ErrorMetric::kSize)
+    throw Error(ErrorKind::kUsage, "a target size cannot be shared out among meshes");
+  if (target.metric == ErrorMetric::kKg && spread.squared > 0)
+    return {ErrorMetric::kRmse, target.value / 100 * std::sqrt(spread.squared / spread.positions),
+            false};
+  return in_scene_units(target, length);
+}
+
+/// Encodes the runs of frames of a mesh, each to a file.
+std::vector<EncodeResult> encode_mesh(SceneMesh mesh, EncodeOptions options,
+                                      const Progress& progress) {
+  const std::string name =
+      mesh.sequence.mesh_name.empty()
+          ? "frames " + std::to_string(mesh.there[0].first) + ":" +
+                std::to_string(mesh.there.back().first + mesh.there.back().count)
+          : "mesh '" + mesh.sequence.mesh_name + "'";
+  try {
+    std::vector<EncodeResult> results;
+    if (mesh.there.size() == 1) {
+      results.push_back(encode(std::move(mesh.sequence), options, progress));
+      return results;
+    }
+    FrameRun own;
+    for (const FrameRun& run : mesh.there) {
+      own = {own.first + own.count, run.count};
+      options.part = own;
+      results.push_back(encode(mesh.sequence, options, progress));
+    }
+    return results;
+  } catch (const Error& e) {
+    throw Error(e.kind(), name + ": " + e.what());
+  }
+}
+
+}  // namespace
+
+EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progress& progress) {
+  if (scene.meshes.size() > format::kMaxMeshes)
+    throw Error(ErrorKind::kInput,
+                std::to_string(scene.meshes.size()) + " meshes; at most 65535 are possible");
+  const double length = diagonal_of(scene);
+  const Spread spread = spread_of(scene);
+  EncodeOptions of_mesh = options;
+  of_mesh.target = shared(options.target, spread, length);
+  if (options.cap)
+    of_mesh.cap = in_scene_units(*options.cap, length);
+
+  EncodeResult all;
+  all.frames = scene.clip.frame_count;
+  all.diagonal = length;
+  Counts counts(all.frames);
+  double squared = 0;
+  std::vector<std::pair<EncodeResult, PlacedPart>> parts;
+  for (size_t m = 0; m < scene.meshes.size(); ++m) {
+    SceneMesh& mesh = scene.meshes[m];
+    const std::vector<FrameRun> there = mesh.there;
+    const std::string name = mesh.sequence.mesh_name;
+    std::vector<EncodeResult> results = encode_mesh(std::move(mesh), of_mesh, progress);
+    counts.add(there, results[0].vertices, results[0].faces);
+    for (size_t r = 0; r < results.size(); ++r) {
+      EncodeResult& result = results[r];
+      if (parts.empty())
+        all.kind = result.kind;
+      all.components = std::max(all.components, result.components);
+      all.max_error = std::max(all.max_error, result.max_error);
+      squared += result.rmse * result.rmse * static_cast<double>(result.positions);
+      all.positions += result.positions;
+      all.attributes.insert(all.attributes.end(), result.attributes.begin(),
+                            result.attributes.end());
+      all.trials.insert(all.trials.end(), result.trials.begin(), result.trials.end());
+      parts.push_back({std::move(result), {{name, {}}, static_cast<uint16_t>(m), there[r].first}});
+    }
+  }
+  all.vertices = *std::ranges::max_element(counts.vertices);
+  all.faces = *std::ranges::max_element(counts.faces);
+  all.rmse = std::sqrt(squared / spread.positions);
+  all.kg = 100 * std::sqrt(squared / (spread.squared > 0 ? spread.squared : 1));
+
+  format::ClipRecord record =
+      clip_record(scene.clip, options, in_scene_units(options.target, length), length);
+  record.max_error = all.max_error;
+  record.rmse = all.rmse;
+  record.kg = all.kg;
+  std::vector<PlacedPart> placed;
+  for (auto& [result, part] : parts) {
+    part.part.file = result.file;
+    placed.push_back(part);
+  }
+  all.file = join_meshes(placed, scene.clip.frame_count, record);
+  return all;
+}
+
+}  // namespace anicodec
