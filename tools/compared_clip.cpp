@@ -71,7 +71,7 @@ FrameSource ComparedClip::frames() const {
 AttributeSource ComparedClip::attributes() const {
   AttributeSource all;
   if (clip_)
-    all = play_attributes(*clip_);
+    all = play_attributes(*clip_, meshes_of(*clip_));
   if (!all)
     all = [this](uint32_t f) { return attributes_of_frame(sequence_.attributes, f); };
   return [all = std::move(all), range = range_](uint32_t f) {
