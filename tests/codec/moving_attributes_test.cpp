@@ -202,7 +202,7 @@ TEST(SlowMovingAttributes, CountForASizeThatIsAskedFor) {
 TEST(SlowMovingAttributes, AreJoinedFromParts) {
   const MeshSequence clip = corpus::make_clip("heated");
   std::vector<format::Bytes> files;
-  for (PartFrames part : {PartFrames{0, 14}, PartFrames{14, 10}}) {
+  for (FrameRun part : {FrameRun{0, 14}, FrameRun{14, 10}}) {
     EncodeOptions options = coarse();
     options.part = part;
     files.push_back(encode(clip, options).file);
