@@ -45,8 +45,8 @@ A scene is baked: skins, morph targets and moving nodes become vertices that mov
 (or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. --clip names
 or numbers the clip; without it the first one that moves anything is taken, --clip none takes none.
 
---meshes apart makes each object of the input (node of a scene, o of an OBJ) a mesh of its own, with
-its name. One that only turns and moves is stored as that where it is smaller, and one whose vertices
+--meshes apart makes each object of the input (node of a scene, o of an OBJ) a mesh of its own with
+its name. One that only turns and moves is stored as that where it is smaller; one whose vertices
 are all at one point in a frame, as those of hidden objects are, is not there in that frame.
 
 --frames A:B encodes some frames of a long clip, on one of several machines perhaps; every machine
