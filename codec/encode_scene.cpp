@@ -103,30 +103,36 @@ Target shared(const Target& target, const Spread& spread, double length) {
   return in_scene_units(target, length);
 }
 
-/// Encodes the runs of frames of a mesh, each to a file.
-std::vector<EncodeResult> encode_mesh(SceneMesh mesh, EncodeOptions options,
-                                      const Progress& progress) {
+/// Does something with a mesh; errors name it, or its frames.
+template <class Work>
+auto naming(const SceneMesh& mesh, const Work& work) {
+  const FrameRun &first = mesh.there.front(), &last = mesh.there.back();
   const std::string name =
       mesh.sequence.mesh_name.empty()
-          ? "frames " + std::to_string(mesh.there[0].first) + ":" +
-                std::to_string(mesh.there.back().first + mesh.there.back().count)
+          ? "frames " + std::to_string(first.first) + ":" + std::to_string(last.first + last.count)
           : "mesh '" + mesh.sequence.mesh_name + "'";
   try {
-    std::vector<EncodeResult> results;
-    if (mesh.there.size() == 1) {
-      results.push_back(encode(std::move(mesh.sequence), options, progress));
-      return results;
-    }
-    FrameRun own;
-    for (const FrameRun& run : mesh.there) {
-      own = {own.first + own.count, run.count};
-      options.part = own;
-      results.push_back(encode(mesh.sequence, options, progress));
-    }
-    return results;
+    return work();
   } catch (const Error& e) {
     throw Error(e.kind(), name + ": " + e.what());
   }
+}
+
+/// Encodes the runs of frames of a mesh, each to a file.
+std::vector<EncodeResult> encode_runs(SceneMesh mesh, EncodeOptions options,
+                                      const Progress& progress) {
+  std::vector<EncodeResult> results;
+  if (mesh.there.size() == 1) {
+    results.push_back(encode(std::move(mesh.sequence), options, progress));
+    return results;
+  }
+  FrameRun own;
+  for (const FrameRun& run : mesh.there) {
+    own = {own.first + own.count, run.count};
+    options.part = own;
+    results.push_back(encode(mesh.sequence, options, progress));
+  }
+  return results;
 }
 
 }  // namespace
@@ -135,6 +141,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   if (scene.meshes.size() > format::kMaxMeshes)
     throw Error(ErrorKind::kInput,
                 std::to_string(scene.meshes.size()) + " meshes; at most 65535 are possible");
+  for (const SceneMesh& mesh : scene.meshes)
+    naming(mesh, [&] { check(mesh.sequence); });
   const double length = diagonal_of(scene);
   const Spread spread = spread_of(scene);
   EncodeOptions of_mesh = options;
@@ -152,7 +160,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
     SceneMesh& mesh = scene.meshes[m];
     const std::vector<FrameRun> there = mesh.there;
     const std::string name = mesh.sequence.mesh_name;
-    std::vector<EncodeResult> results = encode_mesh(std::move(mesh), of_mesh, progress);
+    std::vector<EncodeResult> results =
+        naming(mesh, [&] { return encode_runs(std::move(mesh), of_mesh, progress); });
     counts.add(there, results[0].vertices, results[0].faces);
     for (size_t r = 0; r < results.size(); ++r) {
       EncodeResult& result = results[r];

@@ -203,11 +203,11 @@ Vector<format::AttributeError> joined_errors(const std::vector<Placed>& parts) {
   return errors;
 }
 
-/// A segment of a part, under its number there.
+/// A segment of a part.
 struct PlacedSegment {
   const Placed* placed;
-  uint32_t number;
   format::Limits::Segment sizes;  ///< with mesh and frames of the joined clip
+  std::vector<const Chunk*> chunks;
 };
 
 /// One file of parts: mesh, maps and pose of the first one of each mesh, all segments in the order
@@ -226,10 +226,15 @@ format::Bytes join(const std::vector<Placed>& parts, uint32_t frames, format::Cl
     } else {
       check_same_mesh(*meshes[placed.mesh], part);
     }
-    for (uint32_t s = 0; s < part.limits.segments.size(); ++s) {
-      PlacedSegment& segment = segments.emplace_back(&placed, s, part.limits.segments[s]);
-      segment.sizes.mesh = placed.mesh;
-      segment.sizes.first_frame += placed.first_frame;
+    const size_t first = segments.size();
+    for (format::Limits::Segment sizes : part.limits.segments) {
+      sizes.mesh = placed.mesh;
+      sizes.first_frame += placed.first_frame;
+      segments.push_back({&placed, sizes, {}});
+    }
+    for (const Chunk& chunk : part.reader.chunks()) {
+      if (chunk.segment < part.limits.segments.size())
+        segments[first + chunk.segment].chunks.push_back(&chunk);
     }
   }
   std::stable_sort(segments.begin(), segments.end(),
@@ -251,10 +256,8 @@ format::Bytes join(const std::vector<Placed>& parts, uint32_t frames, format::Cl
   }
   for (uint32_t s = 0; s < segments.size(); ++s) {
     const Placed& placed = *segments[s].placed;
-    for (const Chunk& chunk : placed.part->reader.chunks()) {
-      if (chunk.segment == segments[s].number)
-        add_chunk(*placed.part, chunk, placed.mesh, s, file);
-    }
+    for (const Chunk* chunk : segments[s].chunks)
+      add_chunk(*placed.part, *chunk, placed.mesh, s, file);
   }
   format::Bytes bytes = file.finish();
   verify(bytes);

@@ -12,15 +12,24 @@ namespace {
 
 /// What a mesh has of a sequence, ascending.
 struct Members {
+  uint32_t part = kNoLabel;
   std::vector<uint32_t> vertices, polygons, corners;
 };
 
-/// The polygons of each part and of none, their vertices and corners, by first vertex.
+/// The polygons of each part and of none, their vertices and corners, by first vertex. Polygons
+/// without corners, of which not all may be, stay with the one before.
 std::vector<Members> members_of_parts(const MeshSequence& sequence) {
   const Polygons& polygons = sequence.polygons;
   std::map<uint32_t, Members> parts;  // by label
+  uint32_t first = 0;
+  while (polygons[first].empty())
+    ++first;
+  uint32_t label = sequence.parts.of_polygon[first];
   for (uint32_t p = 0; p < polygons.size(); ++p) {
-    Members& part = parts[sequence.parts.of_polygon[p]];
+    if (!polygons[p].empty())
+      label = sequence.parts.of_polygon[p];
+    Members& part = parts[label];
+    part.part = label;
     part.polygons.push_back(p);
     for (uint32_t c = polygons.offsets[p]; c < polygons.offsets[p + 1]; ++c) {
       part.corners.push_back(c);
@@ -28,15 +37,15 @@ std::vector<Members> members_of_parts(const MeshSequence& sequence) {
     }
   }
   std::vector<Members> members;
-  for (auto& [label, part] : parts) {
+  for (auto& [unused, part] : parts) {
     std::sort(part.vertices.begin(), part.vertices.end());
     part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()),
                         part.vertices.end());
     members.push_back(std::move(part));
   }
-  auto first = [](const Members& m) { return m.vertices.empty() ? UINT32_MAX : m.vertices[0]; };
-  std::stable_sort(members.begin(), members.end(),
-                   [&](const Members& a, const Members& b) { return first(a) < first(b); });
+  std::stable_sort(members.begin(), members.end(), [](const Members& a, const Members& b) {
+    return a.vertices[0] < b.vertices[0];
+  });
   // Vertices without polygon.
   std::vector<uint32_t> owner(sequence.vertex_count, UINT32_MAX);
   for (uint32_t m = 0; m < members.size(); ++m) {
@@ -107,10 +116,8 @@ std::vector<FrameRun> frames_shown(const MeshSequence& sequence,
 SceneMesh taken(const MeshSequence& whole, const Members& members) {
   SceneMesh mesh;
   MeshSequence& out = mesh.sequence;
-  const uint32_t part =
-      members.polygons.empty() ? kNoLabel : whole.parts.of_polygon[members.polygons[0]];
-  if (part != kNoLabel)
-    out.mesh_name = whole.parts.names[part];
+  if (members.part != kNoLabel)
+    out.mesh_name = whole.parts.names[members.part];
   std::vector<uint32_t> number(whole.vertex_count);
   for (uint32_t v : members.vertices)
     number[v] = out.vertex_count++;
@@ -176,6 +183,7 @@ void append(const PolygonLabels& labels, size_t polygons, PolygonLabels& out) {
 }  // namespace
 
 Scene split_parts(MeshSequence sequence) {
+  check(sequence);
   Scene scene;
   MeshSequence& clip = scene.clip;
   clip.name = sequence.name;
@@ -186,7 +194,7 @@ Scene split_parts(MeshSequence sequence) {
   clip.up = sequence.up;
   clip.metres_per_unit = sequence.metres_per_unit;
   clip.loop = sequence.loop;
-  if (sequence.parts.of_polygon.empty()) {
+  if (sequence.parts.of_polygon.empty() || sequence.polygons.corners.empty()) {
     scene.meshes.push_back({std::move(sequence), {{0, clip.frame_count}}});
     return scene;
   }

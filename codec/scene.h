@@ -25,11 +25,12 @@ struct Scene {
 /// Takes a sequence apart into its parts, each a mesh with the part's name, in the order of their
 /// first vertices. In frames where all its vertices are at one point, as those of hidden objects
 /// are, a part is not there, unless it is so in all. Vertices that several parts share come with
-/// each; those without polygon stay with the vertex before.
+/// each; those without polygon stay with the vertex before. Throws as check(sequence).
 Scene split_parts(MeshSequence sequence);
 
-/// The meshes as one, whose parts are those that have a name, without positions and timing: vertices and polygons one
-/// mesh after the other, attributes by kind and name (0 where a mesh has none, 1 for colours).
+/// The meshes as one, without positions and timing: vertices and polygons one mesh after the other,
+/// attributes by kind and name (0 where a mesh has none, 1 for colours). Meshes with a name are its
+/// parts.
 MeshSequence merge_meshes(std::span<const MeshSequence> meshes);
 
 }  // namespace anicodec

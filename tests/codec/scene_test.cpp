@@ -71,6 +71,25 @@ TEST(Scene, SharedAndUnusedVerticesGoWithTheirParts) {
   EXPECT_EQ(scene.meshes[1].sequence.positions[0], whole.positions[6]);
 }
 
+TEST(Scene, PolygonsWithoutCornersStayWithThoseBefore) {
+  MeshSequence whole = two_boxes();
+  const size_t polygons = whole.polygons.size();
+  whole.polygons.add({});
+  whole.parts.names.push_back("nothing");
+  whole.parts.of_polygon.push_back(2);
+  whole.materials = {};
+  const Scene scene = split_parts(whole);
+  ASSERT_EQ(scene.meshes.size(), 2U);
+  EXPECT_EQ(scene.meshes[1].sequence.polygons.size(), polygons / 2 + 1);
+}
+
+TEST(Scene, ThatIsNoSequenceIsRefused) {
+  MeshSequence whole = two_boxes();
+  whole.polygons.corners[3] = whole.vertex_count;
+  EXPECT_THROW(split_parts(whole), Error);
+  EXPECT_THROW(split_parts({}), Error);
+}
+
 TEST(EncodeScene, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
   const MeshSequence whole = two_boxes();
   EncodeOptions options;
