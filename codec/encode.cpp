@@ -59,24 +59,9 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
     step = target.value / 4;
   else if (target.metric == format::ErrorMetric::kRmse)
     step = target.value;
-  const auto rows = static_cast<Eigen::Index>(input.first_pose.size() / 3);
-  Eigen::MatrixXd pose(rows, 3);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    for (Eigen::Index c = 0; c < 3; ++c)
-      pose(i, c) = static_cast<double>(input.first_pose[static_cast<size_t>(3 * i + c)]);
-  }
-  const Eigen::Vector3d origin = pose.colwise().mean();
-  pose.rowwise() -= origin.transpose();
+  Eigen::Vector3d origin;
+  const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
   return encode_reference_pose(pose, origin, step, slow, input.layout);
-}
-
-void check_frames(const MeshSequence& sequence) {
-  for (const Attribute& attribute : sequence.attributes) {
-    if (attribute.frames != 1 && attribute.frames != sequence.frame_count)
-      throw Error(ErrorKind::kInput, attribute.name + ": has values for " +
-                                         std::to_string(attribute.frames) + " of " +
-                                         std::to_string(sequence.frame_count) + " frames");
-  }
 }
 
 Clip opened(const format::Bytes& file) {
@@ -214,10 +199,6 @@ Coded code(RateControl& control, const EncoderInput& input,
       RateControl again(input, options, rest, clip_diagonal);
       coded.positions = again.solve();
     }
-    for (Part& part : coded.positions.parts) {
-      if (!part.encoded.corrections.empty())  // added after it was opened
-        part.opened = open_encoded(part.encoded, input.layout);
-    }
     coded.attributes = encode_moving_attributes(input, stored, options,
                                                 coded.positions.parts[0].encoded.reference);
     record.attribute_errors = errors_of(coded.attributes.results);
@@ -236,7 +217,6 @@ Coded code(RateControl& control, const EncoderInput& input,
 
 EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
   check(sequence);
-  check_frames(sequence);
   double clip_diagonal = diagonal(sequence);
   Target target = in_scene_units(options.target, clip_diagonal);
   if (target.metric == format::ErrorMetric::kNone && !options.keyframes)

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace anicodec {
 
@@ -15,6 +16,9 @@ namespace anicodec {
 /// source, so that a decoder may hand out one buffer again and again. Long computations ask for
 /// frames 0, 1, 2, ... in order, each once.
 using FrameSource = std::function<std::span<const float>(uint32_t frame)>;
+
+/// Gives the attributes of a frame, each with the values of that frame alone.
+using AttributeSource = std::function<std::vector<Attribute>(uint32_t frame)>;
 
 /// Of a sequence that outlives the source.
 inline FrameSource frames_of(const MeshSequence& sequence) {

@@ -40,6 +40,11 @@ void check(const MeshSequence& sequence) {
     fail("frame " + std::to_string(i / per_frame) + ", vertex " +
          std::to_string(i % per_frame / 3) + ": the position is not finite");
   }
+  for (const Attribute& attribute : sequence.attributes) {
+    if (attribute.frames != 1 && attribute.frames != sequence.frame_count)
+      fail(attribute.name + ": has values for " + std::to_string(attribute.frames) + " of " +
+           std::to_string(sequence.frame_count) + " frames");
+  }
 }
 
 double diagonal(const MeshSequence& sequence) {

@@ -112,7 +112,8 @@ struct FrameRun {
 };
 
 /// Throws Error(kInput) naming the first fault: no frame, no vertex, a size that does not fit, a
-/// corner out of range, a position that is not finite (with frame and vertex).
+/// corner out of range, a position that is not finite (with frame and vertex), an attribute that
+/// moves in some frames only.
 void check(const MeshSequence& sequence);
 
 /// Length of the diagonal of the box around all vertices of all frames, in scene units.

@@ -23,12 +23,8 @@ constexpr double kRounding = 0x1p-22;
 /// mesh's Draco bitstream may hold key-frames.
 std::shared_ptr<const EncodedPose> own_pose(const EncoderInput& input) {
   constexpr double kStep = 0x1p-12;  // of the largest coordinate
-  const auto rows = static_cast<Eigen::Index>(input.first_pose.size() / 3);
-  Eigen::MatrixXd pose(rows, 3);
-  for (Eigen::Index i = 0; i < pose.size(); ++i)
-    pose(i / 3, i % 3) = static_cast<double>(input.first_pose[static_cast<size_t>(i)]);
-  const Eigen::Vector3d origin = pose.colwise().mean();
-  pose.rowwise() -= origin.transpose();
+  Eigen::Vector3d origin;
+  const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
   const double largest = pose.cwiseAbs().maxCoeff();
   auto coded = std::make_shared<EncodedPose>(
       *encode_reference_pose(pose, origin, largest * kStep, false, input.layout));
@@ -119,23 +115,10 @@ std::vector<Part> encode_offsets(const EncoderInput& input, std::vector<float> f
   own.keyframes.reset();
   own.cap.reset();
   const Target target{format::ErrorMetric::kMaxError, bound, false};
-  RateControl control(trajectories, own, target, 0);
-  Solution solution = control.solve();
-  for (Part& part : solution.parts) {
-    if (!part.encoded.corrections.empty())  // added after it was opened
-      part.opened = open_encoded(part.encoded, input.layout);
-  }
-  return std::move(solution.parts);
+  return RateControl(trajectories, own, target, 0).solve().parts;
 }
 
 }  // namespace
-
-size_t MovingAttributes::bytes() const {
-  size_t total = 0;
-  for (const AttributeResult& result : results)
-    total += result.bytes;
-  return total;
-}
 
 MovingAttributes encode_moving_attributes(const EncoderInput& input,
                                           const std::vector<StoredAttribute>& stored,

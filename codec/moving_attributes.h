@@ -16,8 +16,6 @@ namespace anicodec {
 struct MovingAttributes {
   std::vector<AttributeResult> results;
   std::vector<Part> parts;
-
-  size_t bytes() const;
 };
 
 /// Codes how the values of attributes of vertices differ from those stored for frame 0, to the

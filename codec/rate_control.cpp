@@ -189,6 +189,15 @@ std::optional<Solution> RateControl::reach(SegmentCoder& coder) {
 }
 
 Solution RateControl::solve() {
+  Solution solution = search();
+  for (Part& part : solution.parts) {
+    if (!part.encoded.corrections.empty())  // added after it was opened: its hash covers them
+      part.opened = open_encoded(part.encoded, input_.layout);
+  }
+  return solution;
+}
+
+Solution RateControl::search() {
   bool keyframes_alone = options_.basis == BasisChoice::kKeyframes || options_.keyframes;
   std::optional<Solution> best;
   auto offer = [&](SegmentCoder& coder) {

@@ -46,6 +46,7 @@ class RateControl {
   const std::vector<Trial>& trials() const { return trials_; }
 
  private:
+  Solution search();
   std::optional<Solution> at_rmse(SegmentCoder& coder, double rmse);
   std::optional<Solution> at_max_error(SegmentCoder& coder, double bound);
   std::optional<Solution> at_bytes(SegmentCoder& coder, size_t bytes);

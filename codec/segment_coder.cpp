@@ -64,6 +64,15 @@ EncoderInput::EncoderInput(const EncoderInput& mesh, std::vector<float> trajecto
     kg_reference = 1;
 }
 
+Eigen::MatrixXd EncoderInput::centred_first_pose(Eigen::Vector3d* origin) const {
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const auto rows = static_cast<Eigen::Index>(first_pose.size() / 3);
+  Eigen::MatrixXd centred = Eigen::Map<const Rows>(first_pose.data(), rows, 3).cast<double>();
+  *origin = centred.colwise().mean();
+  centred.rowwise() -= origin->transpose();
+  return centred;
+}
+
 double EncoderInput::rmse(double squared, size_t frames) const {
   return std::sqrt(squared / sequence.vertex_count / static_cast<double>(frames));
 }

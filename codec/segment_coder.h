@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace anicodec {
 
 /// What all ways of coding share: the clip by coded vertices, and how it leads back to the source.
@@ -38,6 +40,9 @@ struct EncoderInput {
   double rmse(double squared, size_t frames) const;
 
   double rmse(double squared) const { return rmse(squared, sequence.frame_count); }
+
+  /// `first_pose` around its centre, which goes to `origin`.
+  Eigen::MatrixXd centred_first_pose(Eigen::Vector3d* origin) const;
 
   MeshSequence sequence;  ///< the source without its positions
   MeshLayout layout;

@@ -3,17 +3,14 @@
 #ifndef ANICODEC_TOOLS_ATTRIBUTE_DIFFERENCE_H_
 #define ANICODEC_TOOLS_ATTRIBUTE_DIFFERENCE_H_
 
+#include "codec/frame_source.h"
 #include "codec/mesh_sequence.h"
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace anicodec::tools {
-
-/// The attributes of a clip in one frame.
-using AttributeSource = std::function<std::vector<Attribute>(uint32_t frame)>;
 
 /// How far an attribute is from the one of the same kind and name, over all frames.
 struct AttributeDifference {

@@ -17,6 +17,35 @@
 #include <fmt/format.h>
 
 namespace anicodec::tools {
+namespace {
+
+/// The meshes themselves, without positions and timing.
+std::vector<MeshSequence> describe_meshes(const Clip& clip, const std::vector<uint32_t>& meshes) {
+  std::vector<MeshSequence> described;
+  for (uint32_t m : meshes) {
+    const Mesh& mesh = clip.meshes()[m];
+    const Topology& topology = mesh.topology;
+    MeshSequence& out = described.emplace_back();
+    out.mesh_name.assign(mesh.name.begin(), mesh.name.end());
+    out.polygons.offsets.assign(topology.polygon_offsets.begin(), topology.polygon_offsets.end());
+    out.polygons.corners.assign(topology.polygon_corners.begin(), topology.polygon_corners.end());
+    out.vertex_count = clip.vertex_count(m);
+    restore_attributes(mesh.attributes, &out);
+  }
+  return described;
+}
+
+/// The frame, or where it does not show a mesh the last one before that does, or the first.
+uint32_t shown_frame(const std::vector<FrameRun>& there, uint32_t frame) {
+  uint32_t shown = there.empty() ? frame : there[0].first;
+  for (const FrameRun& run : there) {
+    if (run.first <= frame)
+      shown = std::min(frame, run.first + run.count - 1);
+  }
+  return shown;
+}
+
+}  // namespace
 
 bool is_anic(const std::string& path) {
   constexpr std::string_view kExtension = ".anic";
@@ -110,17 +139,7 @@ std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh) {
 }
 
 MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes) {
-  std::vector<MeshSequence> described;
-  for (uint32_t m : meshes) {
-    const Mesh& mesh = clip.meshes()[m];
-    const Topology& topology = mesh.topology;
-    MeshSequence& out = described.emplace_back();
-    out.mesh_name.assign(mesh.name.begin(), mesh.name.end());
-    out.polygons.offsets.assign(topology.polygon_offsets.begin(), topology.polygon_offsets.end());
-    out.polygons.corners.assign(topology.polygon_corners.begin(), topology.polygon_corners.end());
-    out.vertex_count = clip.vertex_count(m);
-    restore_attributes(mesh.attributes, &out);
-  }
+  std::vector<MeshSequence> described = describe_meshes(clip, meshes);
   MeshSequence sequence = described.size() == 1 && described[0].mesh_name.empty()
                               ? std::move(described[0])
                               : merge_meshes(described);
@@ -133,32 +152,6 @@ MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes
   sequence.up = static_cast<UpAxis>(record.up);
   sequence.metres_per_unit = record.metres_per_unit;
   return sequence;
-}
-
-std::function<std::vector<Attribute>(uint32_t)> play_attributes(
-    const Clip& clip, const std::vector<uint32_t>& meshes) {
-  const bool moves = std::ranges::any_of(clip.tracks(), [&](const Track& track) {
-    return track.is_attribute() && std::ranges::count(meshes, track.mesh) > 0;
-  });
-  if (!moves)
-    return {};
-  return [&clip, meshes](uint32_t frame) {
-    std::vector<MeshSequence> described;
-    for (uint32_t mesh : meshes) {
-      MeshSequence& sequence = described.emplace_back(describe_clip(clip, {mesh}));
-      const Vector<MeshAttribute>& decoded = clip.meshes()[mesh].attributes;
-      size_t restored = 0;
-      for (uint32_t i = 0; i < decoded.size(); ++i) {
-        if (decoded[i].header.components() == 0)
-          continue;
-        Attribute& attribute = sequence.attributes[restored++];
-        if (!attribute.per_corner)  // where the mesh is not there it keeps those of frame 0
-          clip.attribute_values(mesh, i, frame, attribute.values.data());
-      }
-    }
-    return described.size() == 1 ? std::move(described[0].attributes)
-                                 : merge_meshes(described).attributes;
-  };
 }
 
 FrameSource play(const std::string& path, const Clip& clip, const std::vector<uint32_t>& meshes) {
@@ -177,11 +170,7 @@ FrameSource play(const std::string& path, const Clip& clip, const std::vector<ui
   auto positions = std::make_shared<std::vector<float>>(count);
   return [path, &clip, parts, positions](uint32_t frame) -> std::span<const float> {
     for (const Part& part : parts) {
-      uint32_t shown = part.there.empty() ? frame : part.there[0].first;
-      for (const FrameRun& run : part.there) {
-        if (run.first <= frame)
-          shown = std::min(frame, run.first + run.count - 1);
-      }
+      const uint32_t shown = shown_frame(part.there, frame);
       const std::span<float> own(positions->data() + part.first, part.count);
       const Status status = clip.positions(part.mesh, shown, own.data());
       if (status != Status::kOk)
@@ -191,6 +180,32 @@ FrameSource play(const std::string& path, const Clip& clip, const std::vector<ui
         own[i] = own[i - 3];
     }
     return *positions;
+  };
+}
+
+AttributeSource play_attributes(const Clip& clip, const std::vector<uint32_t>& meshes) {
+  const bool moves = std::ranges::any_of(clip.tracks(), [&](const Track& track) {
+    return track.is_attribute() && std::ranges::count(meshes, track.mesh) > 0;
+  });
+  if (!moves)
+    return {};
+  std::vector<std::vector<FrameRun>> there;
+  for (uint32_t mesh : meshes)
+    there.push_back(frames_of_mesh(clip, mesh));
+  return [&clip, meshes, there, described = describe_meshes(clip, meshes)](uint32_t frame) mutable {
+    for (size_t m = 0; m < meshes.size(); ++m) {
+      const Vector<MeshAttribute>& decoded = clip.meshes()[meshes[m]].attributes;
+      const uint32_t shown = shown_frame(there[m], frame);
+      size_t restored = 0;
+      for (uint32_t i = 0; i < decoded.size(); ++i) {
+        if (decoded[i].header.components() == 0)
+          continue;
+        Attribute& attribute = described[m].attributes[restored++];
+        if (!attribute.per_corner)
+          clip.attribute_values(meshes[m], i, shown, attribute.values.data());
+      }
+    }
+    return described.size() == 1 ? described[0].attributes : merge_meshes(described).attributes;
   };
 }
 

@@ -13,7 +13,6 @@
 #include "sdk/clip.h"
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -56,15 +55,14 @@ std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh);
 /// of all frames.
 MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes);
 
-/// Attributes of a frame of some meshes as numbers, moving or not, in the form of those of
-/// describe_clip(); empty when none moves. The clip must outlive it.
-std::function<std::vector<Attribute>(uint32_t frame)> play_attributes(
-    const Clip& clip, const std::vector<uint32_t>& meshes);
-
 /// Plays some meshes of the clip, which must outlive the source, as one. Frames are given in any
 /// order. In those that do not show a mesh, all its vertices are where its first one was last, or
 /// will be first. Throws Error(kCorrupt) naming the path.
 FrameSource play(const std::string& path, const Clip& clip, const std::vector<uint32_t>& meshes);
+
+/// The same of their attributes, moving or not, in the form of those of describe_clip(); empty when
+/// none moves. A mesh that a frame does not show has those it had last, or will have first.
+AttributeSource play_attributes(const Clip& clip, const std::vector<uint32_t>& meshes);
 
 }  // namespace anicodec::tools
 

@@ -196,15 +196,19 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
   check_sequence_output(path, clip.frame_count, options);
   if (clip.frame_count == 0)
     throw Error(ErrorKind::kInput, "the sequence has no frame");
+  WriteOptions own = options;
+  if (!own.attributes &&
+      std::ranges::any_of(clip.attributes, [](const Attribute& a) { return a.frames > 1; }))
+    own.attributes = [&clip](uint32_t f) { return attributes_of_frame(clip.attributes, f); };
   OutputFolder folder(path);
   Frames frames(clip, source, options.progress);
   FileKind kind = kind_of(path);
   if (is_cache(kind))
     write_cache(path, clip, frames, options.overwrite);
   else if (kind == FileKind::kGlb)
-    write_glb(path, clip, frames, options);
+    write_glb(path, clip, frames, own);
   else
-    write_frames(parse_name_pattern(path), kind, clip, frames, options);
+    write_frames(parse_name_pattern(path), kind, clip, frames, own);
   folder.keep();
   if (options.progress)
     options.progress("writing", 1);
@@ -212,28 +216,7 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
 
 void write_sequence(const std::string& path, const MeshSequence& clip,
                     const WriteOptions& options) {
-  const FrameSource frames = [&clip](uint32_t f) { return clip.frame(f); };
-  if (std::ranges::all_of(clip.attributes, [](const Attribute& a) { return a.frames == 1; }))
-    return write_sequence(path, clip, frames, options);
-  MeshSequence first;  // without positions
-  first.name = clip.name;
-  first.polygons = clip.polygons;
-  first.vertex_count = clip.vertex_count;
-  first.frame_count = clip.frame_count;
-  first.rate = clip.rate;
-  first.start_time = clip.start_time;
-  first.times = clip.times;
-  first.up = clip.up;
-  first.metres_per_unit = clip.metres_per_unit;
-  first.loop = clip.loop;
-  first.attributes = attributes_of_frame(clip.attributes, 0);
-  first.shared_normals = clip.shared_normals;
-  first.materials = clip.materials;
-  first.parts = clip.parts;
-  WriteOptions own = options;
-  if (!own.attributes)
-    own.attributes = [&clip](uint32_t f) { return attributes_of_frame(clip.attributes, f); };
-  write_sequence(path, first, frames, own);
+  write_sequence(path, clip, frames_of(clip), options);
 }
 
 }  // namespace anicodec::tools

@@ -8,9 +8,7 @@
 #include "codec/progress.h"
 
 #include <cstdint>
-#include <functional>
 #include <string>
-#include <vector>
 
 namespace anicodec::tools {
 
@@ -20,8 +18,8 @@ struct WriteOptions {
   bool step = false;          ///< GLB: frames stand until the next instead of moving to it
   uint32_t first_number = 0;  ///< of frame files
   Progress progress = {};     ///< stage "writing"
-  /// Attributes of a frame, in the form of those of the clip; empty: those of the clip.
-  std::function<std::vector<Attribute>(uint32_t frame)> attributes = {};
+  /// Attributes in the form of those of the clip; empty: those of the clip.
+  AttributeSource attributes = {};
 };
 
 /// Writes a clip, one frame in memory at a time:
