@@ -23,13 +23,13 @@ constexpr const char* kFooter =
     R"(--json prints one object: file, bytes, ratio (float32 positions against the file), bpfv,
 resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
 for each instance), format, encoder, name, vertices, coded_vertices, faces (of the first mesh),
-meshes (vertices, coded_vertices, faces, first_frame, end_frame), frames, fps, fps_assumed,
-start_time, loop, closed (the last frame repeats the first), up, metres_per_unit, order, diagonal,
-asked (metric, value), max_error, max_error_percent, rmse, kg, massaged, surface_error,
-surface_error_mean, attributes (mesh, kind, of, name, components, labels, moves; of those that move,
-bytes, max_error, rmse in units of their values), segments (basis, of, reconstruction, first_frame,
-frames, components, corrections), chunks (type, offset, size, required, mesh, segment). Lengths are
-in scene units, errors those the encoder measured.)";
+meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of those that show
+it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats the first), up,
+metres_per_unit, order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg,
+massaged, surface_error, surface_error_mean, attributes (mesh, kind, of, name, components, labels,
+moves; of those that move, bytes, max_error, rmse in units of their values), segments (mesh, basis,
+of, reconstruction, first_frame, frames, components, corrections), chunks (type, offset, size,
+required, mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
 
 struct InfoCommand {
   std::string input;
@@ -161,7 +161,8 @@ void print_json(const std::string& path, const Contents& c) {
   }
   json["segments"] = nlohmann::ordered_json::array();
   for (const format::Limits::Segment& s : limits.segments)
-    json["segments"].push_back({{"basis", name_of(s.kind)},
+    json["segments"].push_back({{"mesh", s.mesh},
+                                {"basis", name_of(s.kind)},
                                 {"of", moved_by(s)},
                                 {"reconstruction", name_of(s.reconstruction)},
                                 {"first_frame", s.first_frame},
@@ -233,13 +234,50 @@ std::string attribute_text(const format::AttributeHeader& a) {
          fmt::format(", {} components in steps of {:.3g}", a.components(), 1 / a.grids[0].scale);
 }
 
+void row(const char* name, const std::string& value) {
+  fmt::print("{:<10} {}\n", name, value);
+}
+
+/// The meshes, where there are several, and what they have beside positions.
+void print_meshes(const Contents& c) {
+  const format::Limits& limits = c.clip.limits();
+  for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
+    const Mesh& mesh = c.clip.meshes()[m];
+    if (limits.meshes.size() > 1) {
+      std::string frames;
+      for (const FrameRun& run : frames_of_mesh(c.clip, m))
+        frames +=
+            fmt::format("{} {}:{}", frames.empty() ? "" : ",", run.first, run.first + run.count);
+      row("mesh",
+          fmt::format("{}{}{} vertices ({} coded), {} faces, frames{}", printable(mesh.name),
+                      mesh.name.empty() ? "" : ": ", limits.meshes[m].source_vertices,
+                      limits.meshes[m].coded_vertices, limits.meshes[m].polygons, frames));
+    }
+    for (uint32_t i = 0; i < mesh.attributes.size(); ++i) {
+      row("attribute", attribute_text(mesh.attributes[i].header));
+      if (const format::AttributeError* error = error_of(c.clip.record(), m, i))
+        row("", fmt::format("{}, {} bytes, max error {:.4g}, RMSE {:.4g}",
+                            moves(c.clip, m, i) ? "moves" : "as in frame 0",
+                            grouped(moving_bytes(c, m, i)), error->max_error, error->rmse));
+    }
+  }
+}
+
+void print_segments(const format::Limits& limits) {
+  for (const format::Limits::Segment& s : limits.segments)
+    row("segment",
+        fmt::format("{}{}frames {}:{}, {} {}{}, {} corrections",
+                    limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
+                    s.attribute == format::kPositions ? "" : moved_by(s) + ", ", s.first_frame,
+                    s.first_frame + s.frames, s.components, components_of(s.kind),
+                    s.reconstruction == format::Reconstruction::kMsgi ? " by msgi" : "",
+                    s.corrections));
+}
+
 void print_text(const std::string& path, const Contents& c) {
   const format::ClipRecord& record = c.clip.record();
   const format::Limits& limits = c.clip.limits();
   const format::Limits::Mesh& mesh = limits.meshes[0];
-  auto row = [](const char* name, const std::string& value) {
-    fmt::print("{:<10} {}\n", name, value);
-  };
   row("file", path);
   row("name", printable(record.name));
   row("format", fmt::format("{}.{}, written by {}", c.container.version_major(),
@@ -256,17 +294,7 @@ void print_text(const std::string& path, const Contents& c) {
   traits += record.loop ? ", loops" : "";
   traits += record.closed ? ", the last frame repeats the first" : "";
   row("", traits);
-  for (uint32_t m = 0; m < limits.meshes.size() && limits.meshes.size() > 1; ++m) {
-    std::string frames;
-    for (const FrameRun& run : frames_of_mesh(c.clip, m))
-      frames +=
-          fmt::format("{} {}:{}", frames.empty() ? "" : ",", run.first, run.first + run.count);
-    row("mesh",
-        fmt::format("{}{}{} vertices ({} coded), {} faces, frames{}",
-                    printable(c.clip.meshes()[m].name), c.clip.meshes()[m].name.empty() ? "" : ": ",
-                    limits.meshes[m].source_vertices, limits.meshes[m].coded_vertices,
-                    limits.meshes[m].polygons, frames));
-  }
+  print_meshes(c);
   row("order", name_of(record.order));
   row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv", grouped(c.bytes),
                           12 * positions(c.clip) / static_cast<double>(c.bytes),
@@ -282,21 +310,7 @@ void print_text(const std::string& path, const Contents& c) {
   if (record.massaged)
     row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
                                 record.surface_error_mean, record.surface_error));
-  const Vector<MeshAttribute>& attributes = c.clip.meshes()[0].attributes;
-  for (uint32_t i = 0; i < attributes.size(); ++i) {
-    row("attribute", attribute_text(attributes[i].header));
-    if (const format::AttributeError* error = error_of(record, 0, i))
-      row("", fmt::format("{}, {} bytes, max error {:.4g}, RMSE {:.4g}",
-                          moves(c.clip, 0, i) ? "moves" : "as in frame 0",
-                          grouped(moving_bytes(c, 0, i)), error->max_error, error->rmse));
-  }
-  for (const format::Limits::Segment& s : limits.segments)
-    row("segment",
-        fmt::format("{}frames {}:{}, {} {}{}, {} corrections",
-                    s.attribute == format::kPositions ? "" : moved_by(s) + ", ", s.first_frame,
-                    s.first_frame + s.frames, s.components, components_of(s.kind),
-                    s.reconstruction == format::Reconstruction::kMsgi ? " by msgi" : "",
-                    s.corrections));
+  print_segments(limits);
   print_chunks(c);
 }
 
