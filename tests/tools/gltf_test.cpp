@@ -124,6 +124,33 @@ TEST(Gltf, MovesChildrenWithTheirParents) {
   EXPECT_THAT(parse(scene).positions, ElementsAre(2, 0, 0, 4, 0, 0, 2, 2, 0));
 }
 
+TEST(Gltf, PutsWhatIsHiddenAtAPointAndLeavesOutWhatIsNeverShown) {
+  GltfScene scene = triangle_scene();
+  nlohmann::json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+  scene.document["nodes"] = {{{"children", {1}}, {"extensions", hidden}},
+                             {{"mesh", 0}, {"translation", {5, 0, 0}}},
+                             {{"mesh", 0}, {"extensions", hidden}}};
+  scene.document["scenes"][0]["nodes"] = {0, 2};
+  scene.document["extensionsRequired"] = {"KHR_node_visibility", "KHR_animation_pointer"};
+  scene.animate(0, "pointer", {0, 0.5}, scene.scalars({0, 1}), "STEP");
+  nlohmann::json& target = scene.document["animations"][0]["channels"][0]["target"];
+  target.erase("node");
+  nlohmann::json& pointer = target["extensions"]["KHR_animation_pointer"]["pointer"];
+  pointer = "/nodes/0/extensions/KHR_node_visibility/visible";
+  const MeshSequence shown = parse(scene, at_rate(2));
+  EXPECT_EQ(shown.vertex_count, 3U);
+  EXPECT_THAT(track(shown, 1), ElementsAre(5, 6));
+  EXPECT_THAT(track(shown, 0), ElementsAre(5, 5));
+
+  pointer = "/nodes/1/translation";
+  EXPECT_THAT(gltf_fault(scene), HasSubstr("/animations/0/channels/0: /accessors/"));
+  pointer = "/nodes/7/translation";
+  EXPECT_THAT(gltf_fault(scene), HasSubstr("channels/0/target/extensions/KHR_animation_pointer"
+                                           "/pointer: '/nodes/7/translation' leads to no"));
+  pointer = "/meshes/0/weights";
+  EXPECT_THAT(gltf_fault(scene), HasSubstr("not in meshes"));
+}
+
 GltfScene skinned_scene() {
   GltfScene scene = triangle_scene();
   scene.document["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},

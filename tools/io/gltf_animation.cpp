@@ -19,6 +19,7 @@ GltfPose pose_at_rest(const GltfDocument& document) {
     pose.translations.push_back(node.translation);
     pose.rotations.push_back(node.rotation);
     pose.scales.push_back(node.scale);
+    pose.visible.push_back(node.visible ? 1 : 0);
     std::vector<double>& weights = pose.weights.emplace_back();
     if (node.mesh == kGltfNone)
       continue;
@@ -158,6 +159,9 @@ void GltfClip::apply(double time, double tolerance, GltfPose& pose) const {
         break;
       case GltfPath::kWeights:
         out = pose.weights[track.node].data();
+        break;
+      case GltfPath::kVisibility:
+        out = &pose.visible[track.node];
         break;
     }
     evaluate(track, time, tolerance, out);

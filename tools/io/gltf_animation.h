@@ -17,6 +17,7 @@ struct GltfPose {
   std::vector<std::array<double, 3>> translations, scales;
   std::vector<std::array<double, 4>> rotations;  ///< x y z w
   std::vector<std::vector<double>> weights;
+  std::vector<double> visible;  ///< 0 or 1, of a node without its ancestors
 };
 
 /// The pose that nodes have without animation.

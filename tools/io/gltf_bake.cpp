@@ -56,6 +56,20 @@ Eigen::Matrix3d normal_matrix(const Transform& m) {
   return out;
 }
 
+/// Nodes that are hidden whatever is played.
+std::vector<bool> never_shown(const GltfDocument& document) {
+  std::vector<bool> hidden;
+  for (const GltfNode& node : document.nodes)
+    hidden.push_back(!node.visible);
+  for (const GltfAnimation& animation : document.animations) {
+    for (const GltfChannel& channel : animation.channels) {
+      if (channel.path == GltfPath::kVisibility)
+        hidden[channel.node] = false;
+    }
+  }
+  return hidden;
+}
+
 }  // namespace
 
 /// A primitive shown by a node.
@@ -69,6 +83,7 @@ struct GltfBake::Piece {
 
 struct GltfBake::Worlds {
   std::vector<Transform> nodes;
+  std::vector<bool> visible;                   ///< of each node
   std::vector<std::vector<Transform>> joints;  ///< of each skin in use: world x inverse bind
 };
 
@@ -76,10 +91,13 @@ GltfBake::~GltfBake() = default;
 
 GltfBake::GltfBake(const GltfDocument& document, const std::string& mesh) : document_(document) {
   std::vector<uint32_t> open(document.roots.rbegin(), document.roots.rend());
+  const std::vector<bool> hidden = never_shown(document);
   std::set<std::string> names;
   while (!open.empty()) {
     const uint32_t n = open.back();
     open.pop_back();
+    if (hidden[n])
+      continue;
     const GltfNode& node = document.nodes[n];
     open.insert(open.end(), node.children.rbegin(), node.children.rend());
     if (node.mesh == kGltfNone)
@@ -251,10 +269,13 @@ MeshSequence GltfBake::still() const {
 GltfBake::Worlds GltfBake::worlds_of(const GltfPose& pose) const {
   Worlds worlds;
   worlds.nodes.resize(document_.nodes.size());
+  worlds.visible.resize(document_.nodes.size());
   for (uint32_t n : order_) {
     const GltfNode& node = document_.nodes[n];
     const Transform local = local_transform(node, pose, n);
-    worlds.nodes[n] = node.parent == kGltfNone ? local : after(worlds.nodes[node.parent], local);
+    const bool is_root = node.parent == kGltfNone;
+    worlds.nodes[n] = is_root ? local : after(worlds.nodes[node.parent], local);
+    worlds.visible[n] = pose.visible[n] != 0 && (is_root || worlds.visible[node.parent]);
   }
   worlds.joints.resize(document_.skins.size());
   for (const Piece& piece : pieces_) {
@@ -306,6 +327,11 @@ Transform blended(const GltfVertices& vertices, const std::vector<Transform>& jo
 void GltfBake::move(const Piece& piece, const GltfPose& pose, const Worlds& worlds,
                     float* positions) const {
   const GltfVertices& vertices = piece.geometry->vertices;
+  if (!worlds.visible[piece.node]) {
+    Eigen::Map<Eigen::Matrix3Xf>(positions, 3, vertices.count).colwise() =
+        worlds.nodes[piece.node].col(3).cast<float>();
+    return;
+  }
   const std::vector<double> base =
       morphed(vertices, pose.weights[piece.node], &GltfVectors::positions);
   const bool skinned = is_skinned(piece);

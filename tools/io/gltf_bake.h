@@ -19,9 +19,9 @@ namespace anicodec::tools {
 /// The meshes of a document's scene as one, moved by an animation.
 class GltfBake {
  public:
-  /// Takes the meshes of the scene, or those where mesh or node has the given name. The document
-  /// must outlive it. Throws Error(kUsage) when there is none of that name, Error(kInput) for
-  /// faults of the geometry.
+  /// Takes the meshes of the scene, or those where mesh or node has the given name, but for hidden
+  /// ones that no animation shows. The document must outlive it. Throws Error(kUsage) when there is
+  /// none of that name, Error(kInput) for faults of the geometry.
   GltfBake(const GltfDocument& document, const std::string& mesh);
   GltfBake(const GltfBake&) = delete;
   GltfBake& operator=(const GltfBake&) = delete;
@@ -35,8 +35,8 @@ class GltfBake {
 
   /// Adds the positions, and texture coordinates and colours that targets change, of all frames,
   /// from the first key of the clip (without one: of the pose at rest) at the rate of `out`, and
-  /// normals and tangents of the first. Throws Error(kInput) when they take more memory than is
-  /// allowed or are not finite.
+  /// normals and tangents of the first. While a node is hidden its vertices are at one point.
+  /// Throws Error(kInput) when they take more memory than is allowed or are not finite.
   void add_frames(const GltfClip* clip, uint32_t frames, const GltfOptions& options,
                   MeshSequence& out) const;
 

@@ -10,6 +10,7 @@
 #include "tools/io/text_cursor.h"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 namespace anicodec::tools {
@@ -17,6 +18,8 @@ namespace {
 
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kVisibility = "KHR_node_visibility";
+constexpr const char* kPointer = "KHR_animation_pointer";
 constexpr uint64_t kMaxBytes = uint64_t{1} << 40;
 constexpr uint64_t kMaxElements = kMaxVertices;
 
@@ -88,7 +91,7 @@ class Reader {
         "KHR_xmp",        "EXT_lights_",  "KHR_mesh_quantization"};
     for (const JsonNode& node : root_.elements("extensionsRequired")) {
       const std::string name = node.text();
-      bool known = name == kMeshopt || name == kDraco;
+      bool known = name == kMeshopt || name == kDraco || name == kVisibility || name == kPointer;
       for (std::string_view prefix : kHarmless)
         known |= name.starts_with(prefix);
       if (!known)
@@ -325,6 +328,10 @@ class Reader {
         weights->fail("weights of a node without a mesh");
       out.weights = weights->numbers(out_.meshes[out.mesh].primitives[0].targets.size());
     }
+    if (std::optional<JsonNode> visibility = extension(node, kVisibility)) {
+      if (std::optional<JsonNode> visible = visibility->find("visible"))
+        out.visible = visible->boolean();
+    }
     return out;
   }
 
@@ -442,25 +449,45 @@ class Reader {
     return animation;
   }
 
+  /// Targets that move no vertex are left out.
   void read_channel(const JsonNode& node, GltfAnimation& animation) {
     constexpr std::pair<std::string_view, GltfPath> kPaths[] = {
         {"translation", GltfPath::kTranslation},
         {"rotation", GltfPath::kRotation},
         {"scale", GltfPath::kScale},
-        {"weights", GltfPath::kWeights}};
+        {"weights", GltfPath::kWeights},
+        {"extensions/KHR_node_visibility/visible", GltfPath::kVisibility}};
     GltfChannel channel;
     channel.sampler = node.member("sampler").index(animation.samplers.size(), "samplers");
     const JsonNode target = node.member("target");
     channel.node = index_or_none(target, "node", out_.nodes.size(), "nodes");
-    const std::string path = target.member("path").text();
+    std::string path = target.member("path").text();
+    if (path == "pointer") {
+      if (std::optional<JsonNode> pointer = extension(target, kPointer))
+        path = property_of(pointer->member("pointer"), channel.node);
+    }
     const auto* found = std::find_if(std::begin(kPaths), std::end(kPaths),
                                      [&](const auto& p) { return p.first == path; });
-    // Targets of extensions, which move no vertex that is known here.
     if (channel.node == kGltfNone || found == std::end(kPaths))
       return;
     channel.path = found->second;
     check_channel(node, channel, animation.samplers[channel.sampler]);
     animation.channels.push_back(channel);
+  }
+
+  /// What a pointer to a property of a node leads to; nothing for pointers elsewhere.
+  std::string property_of(const JsonNode& pointer, uint32_t& node) {
+    constexpr std::string_view kNodes = "/nodes/", kMeshes = "/meshes/";
+    const std::string text = pointer.text();
+    if (text.starts_with(kMeshes))
+      pointer.fail("'" + shown(text) + "': weights can be animated in nodes, not in meshes");
+    if (!text.starts_with(kNodes))
+      return {};
+    const char *first = text.data() + kNodes.size(), *end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(first, end, node);
+    if (error != std::errc() || last == end || *last != '/' || node >= out_.nodes.size())
+      pointer.fail("'" + shown(text) + "' leads to no property of a node");
+    return {last + 1, end};
   }
 
   void check_channel(const JsonNode& node, const GltfChannel& channel, const GltfSampler& sampler) {
@@ -477,6 +504,10 @@ class Reader {
         node.fail("animates weights of node " + std::to_string(channel.node) +
                   ", whose mesh has no morph target");
       values *= targets;
+      components = 1;
+    } else if (channel.path == GltfPath::kVisibility) {
+      if (sampler.interpolation != GltfInterpolation::kStep)
+        node.fail("visibility changes by STEP alone");
       components = 1;
     } else if (target.matrix) {
       node.fail("animates node " + std::to_string(channel.node) + ", which has a matrix");

@@ -89,6 +89,7 @@ struct GltfNode {
   std::array<double, 4> rotation{0, 0, 0, 1};    ///< x y z w
   std::optional<std::array<double, 16>> matrix;  ///< column-major, instead of the three
   std::vector<double> weights;                   ///< empty: those of the mesh
+  bool visible = true;                           ///< KHR_node_visibility: with all below it
 };
 
 struct GltfSkin {
@@ -103,7 +104,7 @@ struct GltfSampler {
   GltfInterpolation interpolation = GltfInterpolation::kLinear;
 };
 
-enum class GltfPath { kTranslation, kRotation, kScale, kWeights };
+enum class GltfPath { kTranslation, kRotation, kScale, kWeights, kVisibility };
 
 struct GltfChannel {
   uint32_t sampler = 0, node = 0;
