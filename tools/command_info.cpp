@@ -212,11 +212,14 @@ std::string rate_text(const format::ClipRecord& record) {
 }
 
 void print_chunks(const Contents& c) {
-  fmt::print("\n{:<6} {:>8} {:>12} {:>12} {:>7}\n", "chunk", "segment", "offset", "bytes", "share");
+  auto number = [](uint32_t value, uint32_t none) {
+    return value == none ? std::string() : fmt::format("{}", value);
+  };
+  fmt::print("\n{:<6} {:>5} {:>8} {:>12} {:>12} {:>7}\n", "chunk", "mesh", "segment", "offset",
+             "bytes", "share");
   for (const format::Chunk& chunk : c.container.chunks()) {
-    std::string segment =
-        chunk.segment == format::kNoSegment ? "" : fmt::format("{}", chunk.segment);
-    fmt::print("{:<6} {:>8} {:>12} {:>12} {:>5.1f} %\n", format::chunk_name(chunk.type), segment,
+    fmt::print("{:<6} {:>5} {:>8} {:>12} {:>12} {:>5.1f} %\n", format::chunk_name(chunk.type),
+               number(chunk.mesh, format::kNoMesh), number(chunk.segment, format::kNoSegment),
                chunk.offset, grouped(chunk.size),
                100 * static_cast<double>(chunk.size) / static_cast<double>(c.bytes));
   }

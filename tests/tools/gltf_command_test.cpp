@@ -6,6 +6,7 @@
 #include "tests/real_data.h"
 #include "tests/tools/command_testing.h"
 #include "tests/tools/gltf_testing.h"
+#include "tests/two_boxes.h"
 #include "tools/io/glb_output.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
@@ -71,6 +72,31 @@ TEST(GlbOutput, KeepsMaterialsAndAttributesOfVertices) {
   ASSERT_EQ(back.attributes.size(), 2U);
   for (size_t i = 0; i < 2; ++i)
     EXPECT_EQ(back.attributes[i].values, first.attributes[i].values);
+}
+
+TEST(GlbOutput, MakesAMeshOfEachObjectAndKeepsTheirNames) {
+  TemporaryFolder folder;
+  MeshSequence scene = two_boxes();
+  write_sequence(folder / "a.glb", scene);
+  const MeshSequence back = load(folder / "a.glb");
+  const size_t quads = scene.polygons.size() / 2;  // of an object
+  EXPECT_EQ(back.parts.names, scene.parts.names);
+  EXPECT_EQ(back.polygons.size(), 4 * quads);
+  EXPECT_EQ(std::ranges::count(back.parts.of_polygon, 1U), 2 * quads);
+  EXPECT_LT(largest_difference(back, scene), 1e-6 * diagonal(scene));
+  LoadOptions one;
+  one.mesh = "still";
+  EXPECT_EQ(load_sequence(std::vector<std::string>{folder / "a.glb"}, one).vertex_count,
+            scene.vertex_count / 2);
+
+  std::vector<uint32_t>& part = scene.parts.of_polygon;
+  std::swap(part[1], part[quads + 1]);
+  part[2] = kNoLabel;
+  write_sequence(folder / "b.glb", scene);
+  const MeshSequence mixed = load(folder / "b.glb");
+  EXPECT_GT(mixed.vertex_count, scene.vertex_count) << "corners of two objects";
+  EXPECT_EQ(std::ranges::count(mixed.parts.of_polygon, kNoLabel), 2);
+  EXPECT_EQ(std::ranges::count(mixed.parts.of_polygon, 0U), 2 * (quads - 1));
 }
 
 TEST(GlbOutput, TurnsClipsWithZUpAndScalesUnits) {
@@ -183,8 +209,8 @@ TEST(GltfValidator, FindsNothingWrong) {
     GTEST_SKIP() << "node is absent";
   TemporaryFolder folder;
   std::vector<std::string> arguments{"node", package + "/validate.mjs"};
-  for (const char* name : {"limb", "waves", "quad_box", "one_triangle"}) {
-    MeshSequence clip = corpus::make_clip(name);
+  for (const std::string name : {"limb", "waves", "quad_box", "one_triangle", "boxes"}) {
+    MeshSequence clip = name == "boxes" ? two_boxes() : corpus::make_clip(name);
     const std::string base = folder / name;
     write_sequence(base + ".glb", clip);
     write_sequence(base + "_step.glb", clip, {.step = true});
