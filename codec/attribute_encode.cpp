@@ -40,6 +40,22 @@ double on_grid(double value, const AttributeHeader::Grid& grid) {
   return grid.origin + std::round((value - grid.origin) * grid.scale) / grid.scale;
 }
 
+/// Steps to 1 that keep all vectors of an attribute within an angle, in degrees: of a vector whose
+/// components are off by half a step the end is off by the root of 3 times as much. A whole number,
+/// so that 1 is kept.
+double direction_scale(const Attribute& attribute, double angle) {
+  constexpr double kShortest = 1e-3;  // vectors below have no direction worth keeping
+  double shortest = 1;
+  for (size_t i = 0; i + 2 < attribute.values.size(); i += attribute.components) {
+    const float* v = attribute.values.data() + i;
+    const auto length = static_cast<double>(std::hypot(v[0], v[1], v[2]));
+    if (length >= kShortest)
+      shortest = std::min(shortest, length);
+  }
+  const double off = shortest * std::sin(std::min(angle, 90.0) * std::numbers::pi / 180);
+  return std::ceil(std::numbers::sqrt3 / 2 / off);
+}
+
 /// The corner of the source that each canonical corner is.
 std::vector<uint32_t> corner_sources(const MeshSequence& sequence, const MeshLayout& layout) {
   std::vector<uint32_t> sources(layout.topology.polygon_corners.size());
@@ -188,7 +204,7 @@ class Writer {
         return grid;
       case AttributeKind::kNormal:
       case AttributeKind::kTangent:
-        grid.scale = steps(options_.other_bits - 1) - 1;  // -1 to 1
+        grid.scale = direction_scale(attribute, *options_.normals);
         return grid;
       default:
         break;

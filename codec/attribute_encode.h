@@ -18,10 +18,11 @@ struct AttributeOptions {
   bool keep = true;          ///< false: positions alone
   uint32_t uv_bits = 12;     ///< UV are stored in steps of 2^-uv_bits
   uint32_t colour_bits = 8;  ///< colours in steps of 1 / (2^colour_bits - 1)
-  uint32_t other_bits = 12;  ///< normals, tangents and others, over the range of each component
-  /// Normals and tangents of the first frame as numbers. Otherwise of normals the hard edges alone,
-  /// and no tangents: players make these from positions and texture coordinates.
-  bool normals = false;
+  uint32_t other_bits = 12;  ///< others, over the range of each component
+  /// Normals and tangents of the first frame as numbers, whose directions are at most this many
+  /// degrees off. Nothing: of normals the hard edges alone, and no tangents: players make these
+  /// from positions and texture coordinates.
+  std::optional<double> normals;
   /// Largest error of an attribute that moves, in units of its values or per cent of its range;
   /// nothing: half a step of colour_bits for colours, 0.1 % for others.
   std::optional<double> error;

@@ -171,8 +171,10 @@ void add_arguments(CLI::App& command, EncodeArguments& a) {
       ->option_text("X")
       ->group(attributes);
   command
-      .add_flag("--store-normals", a.attributes.normals,
-                "Normals and tangents of the first frame as numbers, not only\nthe hard edges")
+      .add_option("--store-normals", a.normal_error,
+                  "Normals and tangents of the first frame as numbers, not only the hard\n"
+                  "edges: to within an angle in degrees, as 0.05")
+      ->option_text("DEG")
       ->group(attributes);
 
   const char* metadata = "Metadata (positions stay as they are)";
@@ -210,6 +212,8 @@ EncodeOptions encode_options(const EncodeArguments& command) {
   options.mesh_coder = command.mesh_coder;
   options.attributes = command.attributes;
   options.attributes.keep = !command.no_attributes;
+  if (!command.normal_error.empty())
+    options.attributes.normals = parse_positive(command.normal_error, "--store-normals");
   if (!command.attribute_error.empty()) {
     const Length error = parse_length(command.attribute_error, "--attribute-error");
     options.attributes.error = error.value;
@@ -267,8 +271,9 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
   settings.push_back(c.massage_strength);
   settings.push_back(c.massage_tolerance);
   settings.push_back(c.attribute_error);
+  settings.push_back(c.normal_error);
   for (uint32_t number : {uint32_t{options.attributes.keep}, options.attributes.uv_bits,
-                          options.attributes.colour_bits, uint32_t{options.attributes.normals}})
+                          options.attributes.colour_bits})
     settings.push_back(number);
   return settings.dump();
 }

@@ -46,7 +46,7 @@ struct EncodeArguments {
   bool loop = false;
   bool no_attributes = false;
   AttributeOptions attributes;
-  std::string attribute_error;
+  std::string attribute_error, normal_error;
   bool json = false;
 };
 
