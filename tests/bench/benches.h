@@ -30,7 +30,9 @@ Table run_rate(const BenchOptions& options, const std::vector<double>& targets);
 
 /// Bytes of glTF files' clips at a KG error, order kept, against gltfpack -cc at no larger error
 /// and against what the file itself spends on the clip. A word is FILE or FILE@ANIMATION.
-Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate);
+/// `normals`: with texture coordinates and normals, which we make from positions and hard edges.
+Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate,
+               bool normals);
 
 /// Bytes at a maximum error in per cent of the diagonal, and frame deltas at the same.
 Table run_near(const BenchOptions& options, double max_error_percent);

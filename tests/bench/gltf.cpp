@@ -5,12 +5,15 @@
 #include "codec/error.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
+#include "tools/clip_input.h"
 #include "tools/io/byte_source.h"
 #include "tools/names.h"
 #include "tools/peers/gltfpack.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -116,14 +119,27 @@ uint64_t raw_bytes(const GltfDocument& document, const std::string& animation) {
   return bytes.sum();
 }
 
+/// The hard edges as our decoder gets them.
+std::vector<uint32_t> shared_normals_in(const format::Bytes& file) {
+  Clip clip;
+  if (!clip.open(file).ok())
+    throw Error(ErrorKind::kInternal, "the encoded file cannot be opened");
+  return describe_clip(clip, meshes_of(clip)).shared_normals;
+}
+
 ordered_json measure(const std::string& word, const BenchOptions& options, double kg,
-                     const std::optional<FrameRate>& rate) {
+                     const std::optional<FrameRate>& rate, bool normals) {
   const auto [file, animation] = split(word);
   const GltfDocument document = read_document(file);
   MeshSequence sequence = bake_gltf(document, {.rate = rate, .clip = animation});
   const uint64_t raw = raw_bytes(document, sequence.name);
-  // Neither side stores anything but positions and faces.
+  // Neither side stores anything else.
+  std::vector<Attribute> kept;
+  std::ranges::copy_if(sequence.attributes, std::back_inserter(kept), [&](const Attribute& a) {
+    return normals && (a.kind == AttributeKind::kUv || a.kind == AttributeKind::kNormal);
+  });
   static_cast<MeshDetails&>(sequence) = {};
+  sequence.attributes = std::move(kept);
   const TimedEncode timed =
       encode_timed(sequence, {format::ErrorMetric::kKg, kg, false}, options.basis, options.effort,
                    options.verbose, format::OrderMode::kVertices);
@@ -144,7 +160,10 @@ ordered_json measure(const std::string& word, const BenchOptions& options, doubl
                    {"ours_to_raw", bytes / static_cast<double>(raw)}};
   if (gltfpack_version().empty())
     return row;
-  const GltfpackClip packed = gltfpack_at_kg(sequence, kg);
+  if (normals)
+    sequence.shared_normals = shared_normals_in(result.file);
+  const GltfpackClip packed =
+      gltfpack_at_kg(sequence, kg, normals ? GltfpackInput::kNormals : GltfpackInput::kPositions);
   row["gltfpack_bits"] = packed.bits;
   row["gltfpack_vertices"] = packed.vertices;
   row["gltfpack_kg"] = packed.kg;
@@ -156,7 +175,8 @@ ordered_json measure(const std::string& word, const BenchOptions& options, doubl
 
 }  // namespace
 
-Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate) {
+Table run_gltf(const BenchOptions& options, double kg, const std::optional<FrameRate>& rate,
+               bool normals) {
   if (options.clips.empty())
     throw Error(ErrorKind::kUsage, "no clip is named");
   if (gltfpack_version().empty())
@@ -180,7 +200,7 @@ Table run_gltf(const BenchOptions& options, double kg, const std::optional<Frame
                {"raw_bytes", "bytes in the source", ""},
                {"ours_to_raw", "ours : source", "{:.2f}"}});
   for (const std::string& word : options.clips)
-    table.add(measure(word, options, kg, rate));
+    table.add(measure(word, options, kg, rate, normals));
   return table;
 }
 

@@ -37,6 +37,7 @@ struct Arguments {
   double one_kg = 0.1;
   double max_error = 0.002;
   std::string fps;
+  bool normals = false;
   int runs = 5;
   uint32_t vertices = 210000, frames = 100, shapes = 30;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
@@ -121,7 +122,7 @@ void add_gltf(CLI::App& app, Arguments& a) {
         std::optional<FrameRate> rate;
         if (!args.fps.empty())
           rate = tools::parse_frame_rate(args.fps);
-        return std::vector{run_gltf(args.bench, args.one_kg, rate)};
+        return std::vector{run_gltf(args.bench, args.one_kg, rate, args.normals)};
       });
   command->footer(
       "\nINPUT and CLIP are .gltf and .glb files, FILE@ANIMATION for other than the first "
@@ -131,6 +132,7 @@ void add_gltf(CLI::App& app, Arguments& a) {
       ->check(CLI::PositiveNumber);
   command->add_option("--fps", a.fps, "Frames per second (default: the rate of the keys)")
       ->option_text("N[/D]");
+  command->add_flag("--normals", a.normals, "With texture coordinates and normals");
 }
 
 void add_near(CLI::App& app, Arguments& a) {

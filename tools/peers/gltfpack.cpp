@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -54,17 +55,22 @@ std::string content(const std::string& path) {
   return bytes;
 }
 
-/// The clip with a morph target per frame, without attributes, names and units.
-std::string morph_glb(const MeshSequence& sequence) {
+/// The clip with a morph target per frame, without names and units.
+std::string morph_glb(const MeshSequence& sequence, GltfpackInput input) {
   MeshSequence bare;
   bare.polygons = sequence.polygons;
   bare.vertex_count = sequence.vertex_count;
   bare.frame_count = sequence.frame_count;
   bare.rate = kRate;
+  if (input == GltfpackInput::kNormals) {
+    bare.shared_normals = sequence.shared_normals;
+    std::ranges::copy_if(sequence.attributes, std::back_inserter(bare.attributes),
+                         [](const Attribute& a) { return a.kind == AttributeKind::kUv; });
+  }
   tools::GlbOutput glb(bare, false);
   std::vector<float> times;
   for (uint32_t f = 0; f < sequence.frame_count; ++f) {
-    glb.add_frame(sequence.frame(f), {});
+    glb.add_frame(sequence.frame(f), bare.attributes);
     times.push_back(static_cast<float>(f / kRate.value()));
   }
   return glb.finish(times);
@@ -179,7 +185,7 @@ std::string gltfpack_version() {
   return text.substr(std::min(space, text.size() - 1) + 1, text.find('\n') - space - 1);
 }
 
-GltfpackClip gltfpack_at_kg(const MeshSequence& sequence, double kg) {
+GltfpackClip gltfpack_at_kg(const MeshSequence& sequence, double kg, GltfpackInput input) {
   if (gltfpack_version().empty())
     throw Error(ErrorKind::kUnsupported, "there is no gltfpack command");
   if (sequence.frame_count < 2 || sequence.polygons.size() == 0)
@@ -188,7 +194,7 @@ GltfpackClip gltfpack_at_kg(const MeshSequence& sequence, double kg) {
   const std::string source = folder / "clip.glb", packed = folder / "packed.glb";
   GltfpackClip clip;
   {
-    const std::string glb = morph_glb(sequence);
+    const std::string glb = morph_glb(sequence, input);
     clip.source_bytes = glb.size();
     write_file(source, glb);
   }

@@ -10,7 +10,13 @@
 
 namespace anicodec::peers {
 
-/// A clip as the gltfpack command stores it: positions and faces alone.
+/// What gltfpack is given of a clip.
+enum class GltfpackInput {
+  kPositions,  ///< with faces
+  kNormals     ///< with texture coordinates, and normals of every frame if the hard edges are known
+};
+
+/// A clip as the gltfpack command stores it.
 struct GltfpackClip {
   int bits = 0;               ///< of a coordinate (-vp)
   double kg = 0;              ///< per cent
@@ -32,7 +38,8 @@ std::string gltfpack_version();
 /// its file and matching; files in a private folder. Throws Error(kUsage) for a clip of one frame
 /// or without faces and where 16 bits do not reach the error, Error(kUnsupported) without the
 /// command, Error(kInternal) when it fails.
-GltfpackClip gltfpack_at_kg(const MeshSequence& sequence, double kg);
+GltfpackClip gltfpack_at_kg(const MeshSequence& sequence, double kg,
+                            GltfpackInput input = GltfpackInput::kPositions);
 
 }  // namespace anicodec::peers
 
