@@ -119,12 +119,15 @@ uint64_t raw_bytes(const GltfDocument& document, const std::string& animation) {
   return bytes.sum();
 }
 
-/// The hard edges as our decoder gets them.
-std::vector<uint32_t> shared_normals_in(const format::Bytes& file) {
+/// Faces, texture coordinates and hard edges as our decoder gets them: its faces have an order of
+/// their own.
+void take_decoded_mesh(const format::Bytes& file, MeshSequence& sequence) {
   Clip clip;
   if (!clip.open(file).ok())
     throw Error(ErrorKind::kInternal, "the encoded file cannot be opened");
-  return describe_clip(clip, meshes_of(clip)).shared_normals;
+  MeshSequence decoded = describe_clip(clip, meshes_of(clip));
+  sequence.polygons = std::move(decoded.polygons);
+  static_cast<MeshDetails&>(sequence) = std::move(decoded);
 }
 
 ordered_json measure(const std::string& word, const BenchOptions& options, double kg,
@@ -161,7 +164,7 @@ ordered_json measure(const std::string& word, const BenchOptions& options, doubl
   if (gltfpack_version().empty())
     return row;
   if (normals)
-    sequence.shared_normals = shared_normals_in(result.file);
+    take_decoded_mesh(result.file, sequence);
   const GltfpackClip packed =
       gltfpack_at_kg(sequence, kg, normals ? GltfpackInput::kNormals : GltfpackInput::kPositions);
   row["gltfpack_bits"] = packed.bits;

@@ -132,7 +132,8 @@ void add_gltf(CLI::App& app, Arguments& a) {
       ->check(CLI::PositiveNumber);
   command->add_option("--fps", a.fps, "Frames per second (default: the rate of the keys)")
       ->option_text("N[/D]");
-  command->add_flag("--normals", a.normals, "With texture coordinates and normals");
+  command->add_flag("--normals", a.normals,
+                    "With normals of every frame, and texture coordinates on our side");
 }
 
 void add_near(CLI::App& app, Arguments& a) {

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -62,15 +61,12 @@ std::string morph_glb(const MeshSequence& sequence, GltfpackInput input) {
   bare.vertex_count = sequence.vertex_count;
   bare.frame_count = sequence.frame_count;
   bare.rate = kRate;
-  if (input == GltfpackInput::kNormals) {
+  if (input == GltfpackInput::kNormals)
     bare.shared_normals = sequence.shared_normals;
-    std::ranges::copy_if(sequence.attributes, std::back_inserter(bare.attributes),
-                         [](const Attribute& a) { return a.kind == AttributeKind::kUv; });
-  }
   tools::GlbOutput glb(bare, false);
   std::vector<float> times;
   for (uint32_t f = 0; f < sequence.frame_count; ++f) {
-    glb.add_frame(sequence.frame(f), bare.attributes);
+    glb.add_frame(sequence.frame(f), {});
     times.push_back(static_cast<float>(f / kRate.value()));
   }
   return glb.finish(times);

@@ -13,7 +13,7 @@ namespace anicodec::peers {
 /// What gltfpack is given of a clip.
 enum class GltfpackInput {
   kPositions,  ///< with faces
-  kNormals     ///< with texture coordinates, and normals of every frame if the hard edges are known
+  kNormals     ///< and normals of every frame, if the hard edges are known
 };
 
 /// A clip as the gltfpack command stores it.
