@@ -26,10 +26,11 @@ namespace anicodec::tools {
 namespace {
 
 constexpr const char* kFooter =
-    R"(CLIP and --against are each an .anic file, a quoted pattern of frames ('frames/*.obj'), or a vertex
-cache (.pc2, .mdd) with its mesh of the same stem beside it or the one of --mesh. OUT is a picture
-per frame (frame_%04d.png), one picture of one frame (x.png), or all frames in one file (clip.gif;
-clip.mp4 by the ffmpeg command, if there is one).
+    R"(CLIP and --against are each an .anic file, a quoted pattern of frames ('frames/*.obj'), a scene
+(.gltf, .glb), whose first animation is baked, or a vertex cache (.pc2, .mdd) with its mesh of the
+same stem beside it or the one of --mesh. OUT is a picture per frame (frame_%04d.png), one picture
+of one frame (x.png), or all frames in one file (clip.gif; clip.mp4 by the ffmpeg command, if there
+is one).
 
 Views stand side by side in the order of --view: clip, original, and error, which colours each
 vertex by its distance from the original, from grey (none) over yellow and red to black (the largest
