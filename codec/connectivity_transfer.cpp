@@ -19,16 +19,17 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kFirstStiffness = 10, kDrawnStiffness = 0.5;
+constexpr double kFirstStiffness = 10, kPosedStiffness = 0.5;
 constexpr double kFitStiffness = 0.1;
 constexpr int kFitRounds = 14, kFitPasses = 2;  // a pass halves the largest distance at best
 constexpr int kMostAttempts = 4;
 constexpr double kReversed = 50;  // per cent of the correspondences that disagree
-// What is taken for carried to the right place.
+// What is taken for carried well.
 constexpr double kSlow = 1.5;        // of the median move
 constexpr double kNearEdges = 0.25;  // mean edges from the surface
 constexpr double kAgreement = 0.7;   // of unit normals
 constexpr double kStretch = 0.2;     // of an edge
+constexpr double kSamePlace = 0.05;  // of the diagonal: as well as landmarks know
 
 std::vector<float> floats_of(const Positions& v) {
   std::vector<float> result(static_cast<size_t>(v.size()));
@@ -50,6 +51,7 @@ class Carried {
         first_(positions_of(frame.positions)),
         shape_(topology_, first_),
         registration_(topology_, shape_),
+        first_edge_(mean_edge(topology_, first_)),
         last_(first_) {}
 
   const Polygons& polygons() const { return polygons_; }
@@ -60,14 +62,14 @@ class Carried {
 
   /// Carries the mesh to a surface; `landmarks` are drawn to their places first.
   TransferredFrame try_surface(const SurfaceFrame& frame, const Surface& surface,
-                               const TransferOptions& options, std::vector<Landmark> landmarks,
-                               Positions* v) {
+                               const TransferOptions& options,
+                               const std::vector<Landmark>& landmarks, Positions* v) {
     TransferredFrame report;
     *v = start(surface);
     report.dropped = 100 * residuals(surface, *v).dropped_share;
     // A surface inside out is not followed: the mesh would be turned inside out as well.
     if (report.dropped <= kReversed)
-      carry(surface, options, std::move(landmarks), v, &report);
+      carry(surface, options, landmarks, v, &report);
     const HausdorffDistance distance =
         hausdorff(polygons_, floats_of(*v), frame.polygons, frame.positions);
     report.mean = distance.mean();
@@ -96,10 +98,10 @@ class Carried {
   }
 
   /// Landmarks on a surface that the mesh has been carried to, to `v`, perhaps wrongly in parts.
-  /// Taken for right are those parts that moved no faster than most, lie on the surface and have
-  /// kept their lengths.
+  /// Anchors are those parts that moved no faster than most, lie on the surface and have kept their
+  /// lengths. Of the landmarks, those that lie well and about where the anchors say stay at the
+  /// place that they have, which is known better.
   std::vector<Landmark> landmarks(const Surface& surface, const Positions& v) const {
-    const double near = kNearEdges * mean_edge(topology_, first_);
     const Positions normals = vertex_normals(topology_, v);
     const Eigen::VectorXd moved = (v - last_).rowwise().norm();
     std::vector<double> sorted(moved.data(), moved.data() + moved.size());
@@ -107,34 +109,40 @@ class Carried {
     std::nth_element(sorted.begin(), middle, sorted.end());
     std::vector<Anchor> anchors;
     for (uint32_t i = 0; i < topology_.vertex_count; ++i) {
-      if (topology_.star[i].empty() || moved[static_cast<Index>(i)] > kSlow * *middle ||
-          is_stretched(i, v))
+      if (topology_.star[i].empty() || moved[static_cast<Index>(i)] > kSlow * *middle)
         continue;
-      const SurfacePoint point = surface.closest(row(v, i));
-      if (point.square_distance > near * near ||
-          surface.normal(point).dot(row(normals, i)) < kAgreement)
+      const std::optional<SurfacePoint> point = place(i, surface, v, normals);
+      if (!point)
         continue;
       Index corner = 0;
-      point.weights.maxCoeff(&corner);
+      point->weights.maxCoeff(&corner);
       anchors.push_back(
-          {i, surface.topology().triangles[point.triangle][static_cast<size_t>(corner)]});
+          {i, surface.topology().triangles[point->triangle][static_cast<size_t>(corner)]});
     }
-    return geodesic_landmarks(GeodesicGraph(topology_, first_), anchors,
-                              GeodesicGraph(surface.topology(), surface.positions()), surface);
+    std::vector<Landmark> result =
+        geodesic_landmarks(GeodesicGraph(topology_, first_), anchors,
+                           GeodesicGraph(surface.topology(), surface.positions()), surface);
+    const double unsure = kSamePlace * diagonal_of(surface.positions());
+    for (Landmark& landmark : result) {
+      if ((landmark.position - row(v, landmark.vertex)).norm() > unsure)
+        continue;
+      if (const auto point = place(landmark.vertex, surface, v, normals))
+        landmark.position = point->position;
+    }
+    return result;
   }
 
  private:
   void carry(const Surface& surface, const TransferOptions& options,
-             std::vector<Landmark> landmarks, Positions* v, TransferredFrame* report) {
+             const std::vector<Landmark>& landmarks, Positions* v, TransferredFrame* report) {
     RegistrationOptions registration;
     registration.first_stiffness = kFirstStiffness;
     registration.rounds = options.rounds;
     registration.trust_near = false;
+    // Posed without the surface: it would hold back what lies on the wrong part of it.
     if (!landmarks.empty()) {
-      RegistrationOptions drawn = registration;
-      drawn.last_stiffness = registration.first_stiffness = kDrawnStiffness;
-      drawn.landmarks = std::move(landmarks);
-      registration_.run(surface, drawn, v);
+      registration_.pose(landmarks, v);
+      registration.first_stiffness = kPosedStiffness;
     }
     report->dropped = 100 * registration_.run(surface, registration, v).residuals.dropped_share;
     DistanceFitOptions fit;
@@ -142,6 +150,20 @@ class Carried {
     fit.rounds = kFitRounds;
     for (int pass = 0; pass < kFitPasses; ++pass)
       fit_distance(topology_, shape_, surface, fit, v);
+  }
+
+  /// Where a vertex lies on the surface, if it lies well: near, facing as the surface does, at its
+  /// own distance from its neighbours.
+  std::optional<SurfacePoint> place(uint32_t i, const Surface& surface, const Positions& v,
+                                    const Positions& normals) const {
+    if (is_stretched(i, v))
+      return {};
+    const SurfacePoint point = surface.closest(row(v, i));
+    const double near = kNearEdges * first_edge_;
+    if (point.square_distance > near * near ||
+        surface.normal(point).dot(row(normals, i)) < kAgreement)
+      return {};
+    return point;
   }
 
   bool is_stretched(uint32_t i, const Positions& v) const {
@@ -177,6 +199,7 @@ class Carried {
   Positions first_;
   RigidShape shape_;
   Registration registration_;
+  double first_edge_;
   std::optional<Positions> before_;
   Positions last_;
 };
@@ -224,11 +247,11 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
       report = carried->try_surface(frame, surface, options, {}, &v);
       report.attempts = 1;
       while (report.alarms && report.attempts < kMostAttempts) {
-        std::vector<Landmark> landmarks = carried->landmarks(surface, v);
+        const std::vector<Landmark> landmarks = carried->landmarks(surface, v);
         if (landmarks.empty())
           break;
         const int attempts = report.attempts + 1;
-        report = carried->try_surface(frame, surface, options, std::move(landmarks), &v);
+        report = carried->try_surface(frame, surface, options, landmarks, &v);
         report.attempts = attempts;
       }
     }

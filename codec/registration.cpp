@@ -19,11 +19,13 @@ constexpr double kSolveTolerance = 1e-3;
 constexpr int kMostIterations = 300;
 constexpr double kTolerance = 1e-2;  // of the step, in mean edges
 constexpr double kDamping = 1e-6;
+constexpr int kPoseRounds = 20;
+constexpr double kFirstPoseStiffness = 1, kLastPoseStiffness = 0.1;  // against the landmarks
 
-/// The stiffness of a round.
-double stiffness_at(const RegistrationOptions& options, int round) {
-  const double t = options.rounds > 1 ? static_cast<double>(round) / (options.rounds - 1) : 1;
-  return options.first_stiffness * std::pow(options.last_stiffness / options.first_stiffness, t);
+/// The stiffness of a round, from first to last.
+double stiffness_at(double first, double last, int round, int rounds) {
+  const double t = rounds > 1 ? static_cast<double>(round) / (rounds - 1) : 1;
+  return first * std::pow(last / first, t);
 }
 
 /// What a distance counts in each direction: fully across the surface, by a share along it. A
@@ -48,6 +50,15 @@ void Registration::add_shape(double stiffness) {
       if (s.end > i)
         system_.add_edge(i, s.end, -stiffness * s.weight * Matrix3d::Identity());
     }
+  }
+}
+
+void Registration::add_landmarks(const std::vector<Landmark>& landmarks, double weight,
+                                 const Positions& v, Positions* right) {
+  for (const Landmark& l : landmarks) {
+    system_.add_diagonal(l.vertex, weight * Matrix3d::Identity());
+    right->row(static_cast<Index>(l.vertex)) +=
+        weight * (l.position - row(v, l.vertex)).transpose();
   }
 }
 
@@ -88,7 +99,8 @@ RegistrationReport Registration::run(const Surface& surface, const RegistrationO
   const auto count = static_cast<double>(std::max<Index>(1, v->rows()));
   Convergence& c = report.convergence;
   for (int round = 0; round < options.rounds; ++round) {
-    const double stiffness = stiffness_at(options, round);
+    const double stiffness =
+        stiffness_at(options.first_stiffness, options.last_stiffness, round, options.rounds);
     correspondences.update(*v, round % kIndexEvery == 0);
     if (options.trust_near)
       correspondences.trust_near(*v);
@@ -100,11 +112,7 @@ RegistrationReport Registration::run(const Surface& surface, const RegistrationO
     const double along = options.point_share * stiffness / (stiffness + 1);
     add_correspondences(correspondences.from_mesh(), along, *v, &right);
     add_correspondences(correspondences.from_surface(), along, *v, &right);
-    for (const Landmark& l : options.landmarks) {
-      system_.add_diagonal(l.vertex, options.landmark_weight * Matrix3d::Identity());
-      right.row(static_cast<Index>(l.vertex)) +=
-          options.landmark_weight * (l.position - row(*v, l.vertex)).transpose();
-    }
+    add_landmarks(options.landmarks, options.landmark_weight, *v, &right);
     const Positions old = *v;
     guarded_step(
         *mesh_, old, system_.solve(right, kSolveTolerance, kMostIterations),
@@ -118,6 +126,20 @@ RegistrationReport Registration::run(const Surface& surface, const RegistrationO
   correspondences.update(*v, true);
   report.residuals = correspondences.residuals(*v);
   return report;
+}
+
+void Registration::pose(const std::vector<Landmark>& landmarks, Positions* v) {
+  std::vector<Matrix3d> rotations(mesh_->vertex_count, Matrix3d::Identity());
+  for (int round = 0; round < kPoseRounds; ++round) {
+    const double stiffness =
+        stiffness_at(kFirstPoseStiffness, kLastPoseStiffness, round, kPoseRounds);
+    shape_->update_rotations(*v, &rotations);
+    system_.clear();
+    add_shape(stiffness);
+    Positions right = -stiffness * shape_->half_gradient(*v, rotations);
+    add_landmarks(landmarks, 1, *v, &right);
+    *v += system_.solve(right, kSolveTolerance, kMostIterations);
+  }
 }
 
 }  // namespace anicodec

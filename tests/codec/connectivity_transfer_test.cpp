@@ -5,6 +5,7 @@
 #include "codec/error.h"
 #include "tests/codec/massage_meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -67,6 +68,37 @@ TEST(ConnectivityTransfer, FollowsSlowMotionThroughMeshesOfOtherFaces) {
     EXPECT_LT(result.frames[f].mean, 0.005 * result.diagonal) << f;
     EXPECT_EQ(result.frames[f].turned, 0) << f;
   }
+}
+
+/// A post on the middle of a sheet, tall and thin; its upper part swings by an angle.
+TestMesh post(uint32_t n, double angle) {
+  TestMesh mesh = height_field(n, [](double, double) { return 0.0; });
+  const double middle = (n - 1) / 2.0;
+  for (uint32_t i = 0; i < mesh.topology.vertex_count; ++i) {
+    const Vector3d at = (row(mesh.positions, i) - Vector3d(middle, middle, 0)) / middle;
+    const double out = std::max(std::abs(at[0]), std::abs(at[1]));
+    const double r = at.norm();
+    // Out to 0.3 the tip, to 0.7 the side, beyond the ground.
+    const double height = 4 * std::clamp((0.7 - out) / 0.4, 0.0, 1.0);
+    const double radius = out < 0.3   ? out
+                          : out < 0.7 ? 0.3 + 0.2 * (out - 0.3)
+                                      : 0.38 + 6 * (out - 0.7);
+    Vector3d p =
+        r > 0 ? Vector3d(at[0] / r * radius, at[1] / r * radius, height) : Vector3d(0, 0, 4);
+    const double bend = angle * std::clamp((p[2] - 0.5) / 1.0, 0.0, 1.0);
+    const double over = p[2] - 0.5;
+    if (over > 0)
+      p = Vector3d(p[0] * std::cos(bend) + over * std::sin(bend), p[1],
+                   0.5 + over * std::cos(bend) - p[0] * std::sin(bend));
+    mesh.positions.row(i) = p.transpose();
+  }
+  return mesh;
+}
+
+TEST(ConnectivityTransfer, TriesAgainWhereAPartSwingsFar) {
+  const TransferResult result = transfer(frame_of(post(31, -0.7)), frame_of(post(33, 0.7)));
+  EXPECT_EQ(result.segments.size(), 1U) << alarm_names(result.frames[1].alarms);
+  EXPECT_GT(result.frames[1].attempts, 1);
 }
 
 TEST(ConnectivityTransfer, AlarmsWhereTheSurfaceIsNotCovered) {
