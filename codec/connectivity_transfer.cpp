@@ -20,8 +20,8 @@ namespace {
 using Eigen::Index;
 
 constexpr double kFirstStiffness = 10, kPosedStiffness = 0.5;
-constexpr double kFitStiffness = 0.1;
-constexpr int kFitRounds = 14, kFitPasses = 2;  // a pass halves the largest distance at best
+constexpr double kStiffFit = 0.1, kSoftFit = 0.003;
+constexpr int kFitRounds = 14;  // these halve the largest distance at best
 constexpr int kMostAttempts = 4;
 constexpr double kReversed = 50;  // per cent of the correspondences that disagree
 // What is taken for carried well.
@@ -42,6 +42,13 @@ double diagonal_of(const Positions& v) {
   return (v.colwise().maxCoeff() - v.colwise().minCoeff()).norm();
 }
 
+/// How a frame was tried.
+struct Attempt {
+  /// Brought to the surface as a rigid mesh and, in `fitted`, as close as its shapes allow.
+  Positions carried, fitted;
+  TransferredFrame report;  ///< of `fitted`
+};
+
 /// The mesh being carried, since the segment began.
 class Carried {
  public:
@@ -60,41 +67,47 @@ class Carried {
 
   const Positions& last() const { return last_; }
 
-  /// Carries the mesh to a surface; `landmarks` are drawn to their places first.
-  TransferredFrame try_surface(const SurfaceFrame& frame, const Surface& surface,
-                               const TransferOptions& options,
-                               const std::vector<Landmark>& landmarks, Positions* v) {
-    TransferredFrame report;
-    *v = start(surface);
-    report.dropped = 100 * residuals(surface, *v).dropped_share;
+  /// Carries the mesh to a surface; it is posed by `landmarks` first. Where the softer fit raises
+  /// an alarm and the stiffer one does not, that one counts.
+  Attempt try_surface(const SurfaceFrame& frame, const Surface& surface,
+                      const TransferOptions& options, const std::vector<Landmark>& landmarks) {
+    Attempt attempt;
+    Positions& v = attempt.carried;
+    v = start(surface);
+    double dropped = 100 * residuals(surface, v).dropped_share;
     // A surface inside out is not followed: the mesh would be turned inside out as well.
-    if (report.dropped <= kReversed)
-      carry(surface, options, landmarks, v, &report);
-    const HausdorffDistance distance =
-        hausdorff(polygons_, floats_of(*v), frame.polygons, frame.positions);
-    report.mean = distance.mean();
-    report.max = distance.max();
-    report.tried_mean = report.mean;
-    report.turned = 100 * static_cast<double>(turned_triangles(topology_, *v, surface).size()) /
-                    static_cast<double>(topology_.triangles.size());
-    report.conformal = distortion(topology_, first_, *v).conformal_mean;
-    auto raise = [&report](TransferAlarm alarm, bool yes) {
-      if (yes)
-        report.alarms |= static_cast<uint8_t>(alarm);
-    };
-    const double size = diagonal_of(surface.positions());
-    const double far = std::max(options.distance / 100 * size,
-                                options.edges * mean_edge(surface.topology(), surface.positions()));
-    raise(TransferAlarm::kDistance, !(distance.max() <= far));
-    raise(TransferAlarm::kTurned, !(report.turned <= options.turned));
-    raise(TransferAlarm::kDistortion, !(report.conformal <= options.conformal));
-    raise(TransferAlarm::kDropped, !(report.dropped <= options.dropped));
-    return report;
+    if (dropped > kReversed) {
+      attempt.fitted = v;
+      attempt.report = judge(frame, surface, options, dropped, v);
+      return attempt;
+    }
+    // Posed without the surface: it would hold back what lies on the wrong part of it.
+    RegistrationOptions registration;
+    registration.first_stiffness = landmarks.empty() ? kFirstStiffness : kPosedStiffness;
+    registration.rounds = options.rounds;
+    registration.trust_near = false;
+    if (!landmarks.empty())
+      registration_.pose(landmarks, &v);
+    dropped = 100 * registration_.run(surface, registration, &v).residuals.dropped_share;
+    fit(surface, kStiffFit, kStiffFit, &v);
+    attempt.fitted = v;
+    fit(surface, kStiffFit, kSoftFit, &attempt.fitted);
+    attempt.report = judge(frame, surface, options, dropped, attempt.fitted);
+    if (attempt.report.alarms) {
+      const TransferredFrame stiff = judge(frame, surface, options, dropped, v);
+      if (!stiff.alarms) {
+        attempt.fitted = v;
+        attempt.report = stiff;
+      }
+    }
+    return attempt;
   }
 
-  void accept(Positions v) {
+  /// The next frame starts from the stiffer fit: what a softer one loses of the shapes would add
+  /// up.
+  void accept(Positions carried) {
     before_ = std::move(last_);
-    last_ = std::move(v);
+    last_ = std::move(carried);
   }
 
   /// Landmarks on a surface that the mesh has been carried to, to `v`, perhaps wrongly in parts.
@@ -133,23 +146,39 @@ class Carried {
   }
 
  private:
-  void carry(const Surface& surface, const TransferOptions& options,
-             const std::vector<Landmark>& landmarks, Positions* v, TransferredFrame* report) {
-    RegistrationOptions registration;
-    registration.first_stiffness = kFirstStiffness;
-    registration.rounds = options.rounds;
-    registration.trust_near = false;
-    // Posed without the surface: it would hold back what lies on the wrong part of it.
-    if (!landmarks.empty()) {
-      registration_.pose(landmarks, v);
-      registration.first_stiffness = kPosedStiffness;
-    }
-    report->dropped = 100 * registration_.run(surface, registration, v).residuals.dropped_share;
-    DistanceFitOptions fit;
-    fit.first_stiffness = fit.last_stiffness = kFitStiffness;
-    fit.rounds = kFitRounds;
-    for (int pass = 0; pass < kFitPasses; ++pass)
-      fit_distance(topology_, shape_, surface, fit, v);
+  TransferredFrame judge(const SurfaceFrame& frame, const Surface& surface,
+                         const TransferOptions& options, double dropped, const Positions& v) const {
+    TransferredFrame report;
+    report.dropped = dropped;
+    const HausdorffDistance distance =
+        hausdorff(polygons_, floats_of(v), frame.polygons, frame.positions);
+    report.mean = distance.mean();
+    report.max = distance.max();
+    report.tried_mean = report.mean;
+    report.turned = 100 * static_cast<double>(turned_triangles(topology_, v, surface).size()) /
+                    static_cast<double>(topology_.triangles.size());
+    report.conformal = distortion(topology_, first_, v).conformal_mean;
+    auto raise = [&report](TransferAlarm alarm, bool yes) {
+      if (yes)
+        report.alarms |= static_cast<uint8_t>(alarm);
+    };
+    const double size = diagonal_of(surface.positions());
+    const double far = std::max(options.distance / 100 * size,
+                                options.edges * mean_edge(surface.topology(), surface.positions()));
+    raise(TransferAlarm::kDistance, !(distance.max() <= far));
+    raise(TransferAlarm::kTurned, !(report.turned <= options.turned));
+    raise(TransferAlarm::kDistortion, !(report.conformal <= options.conformal));
+    raise(TransferAlarm::kDropped, !(report.dropped <= options.dropped));
+    return report;
+  }
+
+  void fit(const Surface& surface, double first_stiffness, double last_stiffness,
+           Positions* v) const {
+    DistanceFitOptions options;
+    options.first_stiffness = first_stiffness;
+    options.last_stiffness = last_stiffness;
+    options.rounds = kFitRounds;
+    fit_distance(topology_, shape_, surface, options, v);
   }
 
   /// Where a vertex lies on the surface, if it lies well: near, facing as the surface does, at its
@@ -241,17 +270,17 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
     Surface surface(topology, positions_of(frame.positions));
     surface.build_index();
     result.diagonal = std::max(result.diagonal, diagonal_of(surface.positions()));
-    TransferredFrame report;
-    Positions v;
+    Attempt attempt;
+    TransferredFrame& report = attempt.report;
     if (carried) {
-      report = carried->try_surface(frame, surface, options, {}, &v);
+      attempt = carried->try_surface(frame, surface, options, {});
       report.attempts = 1;
       while (report.alarms && report.attempts < kMostAttempts) {
-        const std::vector<Landmark> landmarks = carried->landmarks(surface, v);
+        const std::vector<Landmark> landmarks = carried->landmarks(surface, attempt.fitted);
         if (landmarks.empty())
           break;
         const int attempts = report.attempts + 1;
-        report = carried->try_surface(frame, surface, options, landmarks, &v);
+        attempt = carried->try_surface(frame, surface, options, landmarks);
         report.attempts = attempts;
       }
     }
@@ -264,12 +293,12 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
       segment.sequence.polygons = frame.polygons;
       segment.sequence.vertex_count = carried->topology().vertex_count;
       result.segments.push_back(std::move(segment));
-      v = carried->last();
+      attempt.fitted = carried->last();
     } else {
-      carried->accept(v);
+      carried->accept(std::move(attempt.carried));
     }
     MeshSequence& sequence = result.segments.back().sequence;
-    const std::vector<float> floats = floats_of(v);
+    const std::vector<float> floats = floats_of(attempt.fitted);
     sequence.positions.insert(sequence.positions.end(), floats.begin(), floats.end());
     ++sequence.frame_count;
     result.frames.push_back(report);

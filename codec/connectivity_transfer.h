@@ -63,13 +63,15 @@ struct TransferResult {
 
 /// Carries the connectivity of the first mesh through the others: each is reached from the mesh
 /// before, or from where its last move leads on, by Registration with the segment's first frame as
-/// rigid shape, and brought close by fit_distance(). A frame that raises an alarm is tried again,
-/// up to three times: what moved slowly and fits is taken for right, and tells where the rest
-/// belongs by distances over the surface (geodesic_landmarks()), to which it is brought
-/// (Registration::pose()) before it is registered, so that a leg finds itself however far it went.
-/// If it still raises one, it starts a new segment with its own connectivity. Memory: the result
-/// and two meshes. Throws Error(kInput) naming the frame for a mesh without triangles, and for
-/// meshes of which one is open and another closed. Stage "transferring".
+/// rigid shape, and brought close by fit_distance(), softly where that raises no alarm; the next
+/// frame starts from before the soft fit, so that shapes lost to it do not add up. A frame that
+/// raises an alarm is tried again, up to three times: what moved slowly and fits is taken for
+/// right, and tells by distances over the surface where the rest belongs (geodesic_landmarks());
+/// there the mesh is brought without regard to the surface (Registration::pose()) before it is
+/// registered, so that a leg finds itself however far it went. If it still raises one, it starts a
+/// new segment with its own connectivity. Memory: the result and two meshes. Throws Error(kInput)
+/// naming the frame for a mesh without triangles, and for meshes of which one is open and another
+/// closed. Stage "transferring".
 TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame_count,
                                      const TransferOptions& options, const Progress& progress = {});
 
