@@ -215,6 +215,7 @@ TEST(Massage, TakesEveryClipOfTheCorpusWithASurface) {
     clip.positions.resize(size_t{3} * clip.vertex_count * clip.frame_count);
     if (!clip.times.empty())
       clip.times.resize(clip.frame_count);
+    std::erase_if(clip.attributes, [](const Attribute& a) { return a.frames > 1; });
     if (clip.polygons.size() == 0) {
       EXPECT_THROW(massage(clip, {}), Error) << name;
       continue;
