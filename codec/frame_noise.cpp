@@ -25,6 +25,7 @@ using Eigen::Vector3d;
 constexpr uint32_t kFewestFrames = 8, kMostFrames = 512;
 constexpr uint32_t kSamples = 8;
 constexpr int kHalvings = 4;           // of the level
+constexpr double kRaised = 4;          // the level that is tried where the first keeps the distance
 constexpr int kIntervalHalvings = 8;   // of that of levels of the filter of whole frames
 constexpr double kLeastLevel = 0.001;  // of the smallest variance
 constexpr double kFurther = 1.05;      // distance that it may leave, in that before
@@ -90,14 +91,24 @@ class Run {
     const FrameView fitted = FrameView(massaged_).frames(first_, count_);
     const std::vector<float> before(fitted.positions,
                                     fitted.positions + fitted.frame_count * fitted.frame_stride);
-    double level = options.last_level;
-    for (int halving = 0;; ++halving, level /= 2) {
+    auto settle_at = [&](double level) {
+      std::copy(before.begin(), before.end(), massaged_.frame(first_).begin());
       report.components = filtered(level);
       for_frames([&](const Surface& surface, Positions* v) { put_on(surface, false, v); });
       measure(&report);
-      if (halving == kHalvings || report.moved <= options.share * report.sagitta)
-        break;
-      std::copy(before.begin(), before.end(), massaged_.frame(first_).begin());
+    };
+    double level = options.last_level;
+    settle_at(level);
+    for (int k = 0; k < kHalvings && report.moved > options.share * report.sagitta; ++k)
+      settle_at(level /= 2);
+    if (level == options.last_level) {
+      const FrameNoiseReport settled = report;
+      const std::vector<float> kept(fitted.positions, fitted.positions + before.size());
+      settle_at(kRaised * level);
+      if (report.moved > std::min(kFurther * settled.moved, options.share * settled.sagitta)) {
+        std::copy(kept.begin(), kept.end(), massaged_.frame(first_).begin());
+        report = settled;
+      }
     }
     filter_whole(&report);
     return report;

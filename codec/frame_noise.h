@@ -12,9 +12,9 @@
 namespace anicodec {
 
 struct FrameNoiseOptions {
-  double slide_level = 3;   ///< of PatchFilter, for where vertices slide to
-  double last_level = 1.2;  ///< the same for positions, at last
-  double share = 0.8;       ///< how far from the surface the last filter may take the vertices
+  double slide_level = 5;  ///< of PatchFilter, for where vertices slide to
+  double last_level = 1;   ///< the same for positions, at last
+  double share = 0.8;      ///< how far from the surface the last filter may take the vertices
   int rounds = 3;
 };
 
@@ -33,11 +33,11 @@ bool can_remove_frame_noise(const MeshSequence& sequence);
 /// curved surfaces of `source`, so that the vertices take the places that they share. Then heights
 /// are fitted (fit_heights()) and the frames filtered once more, as strongly as asked and as keeps
 /// the vertices, in the mean over eight sample frames, within `share` sagittas of those surfaces:
-/// so far the polygons themselves do not know their surface. Whole frames are filtered at last
-/// (SequenceFilter), as strongly as leaves that distance about as it is. Vertices of the boundary
-/// stay on it, those that `freedom` (sliding_freedom()) pins stay in place. Leaves fewer than eight
-/// frames alone. Cost: that of PatchFilter and about 20 queries a vertex. Works on runs of at most
-/// 512 frames.
+/// so far the polygons themselves do not know their surface; four times as strongly where that
+/// takes them hardly further. Whole frames are filtered at last (SequenceFilter), as strongly as
+/// leaves that distance about as it is. Vertices of the boundary stay on it, those that `freedom`
+/// (sliding_freedom()) pins stay in place. Leaves fewer than eight frames alone. Cost: that of
+/// PatchFilter and about 20 queries a vertex. Works on runs of at most 512 frames.
 FrameNoiseReport remove_frame_noise(const MeshSequence& source, const WeldedClip& clip,
                                     const std::vector<uint8_t>& freedom,
                                     const FrameNoiseOptions& options, MeshSequence* massaged);
