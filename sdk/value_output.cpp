@@ -45,6 +45,8 @@ void store_value(float x, anic_value_format format, unsigned char* to) {
       std::memcpy(to, &bits, sizeof bits);
       break;
     }
+    case ANIC_VALUE_FORMAT_MAX:
+      break;
   }
 }
 
