@@ -28,6 +28,7 @@ constexpr int kPoints = 0, kTriangles = 4;
 struct Written {
   std::string name;
   size_t components = 0;
+  bool in_every_target = false;  ///< otherwise where it differs from the first frame
   std::vector<float> values;
 
   /// Those of an object.
@@ -96,9 +97,9 @@ class GlbOutput::Writer {
   /// What a frame has: positions, normals where the clip knows its hard edges, then attributes.
   std::vector<Written> written(std::span<const float> positions,
                                std::span<const Attribute> attributes) const {
-    std::vector<Written> result{{"POSITION", 3, vertices_.of_vertices(positions, 3)}};
+    std::vector<Written> result{{"POSITION", 3, true, vertices_.of_vertices(positions, 3)}};
     if (normals_)
-      result.push_back({"NORMAL", 3, normals_of(positions)});
+      result.push_back({"NORMAL", 3, true, normals_of(positions)});
     std::map<AttributeKind, int> sets;
     for (const Attribute& attribute : attributes) {
       if (!GlbVertices::is_written(attribute))
@@ -112,7 +113,7 @@ class GlbOutput::Writer {
         for (size_t i = 1; i < values.size(); i += 2)
           values[i] = 1 - values[i];
       }
-      result.push_back({name, n, std::move(values)});
+      result.push_back({name, n, false, std::move(values)});
     }
     return result;
   }
@@ -139,13 +140,12 @@ class GlbOutput::Writer {
     mesh.moves.resize(first_.size());
   }
 
-  /// Of differences to the first frame. Positions and normals are in every target, attributes where
-  /// they differ.
+  /// Of differences to the first frame.
   void add_target(const std::vector<Written>& frame, const GlbObject& object, Output& mesh) {
     Json target;
     for (size_t i = 0; i < frame.size(); ++i) {
       const std::span<const float> values = frame[i].of(object);
-      if (i >= (normals_ ? 2U : 1U) && std::ranges::all_of(values, [](float x) { return x == 0; }))
+      if (!frame[i].in_every_target && std::ranges::all_of(values, [](float x) { return x == 0; }))
         continue;
       mesh.moves[i] = true;
       target[frame[i].name] = buffer_.add_differences(values, frame[i].components);
