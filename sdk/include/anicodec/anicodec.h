@@ -103,7 +103,7 @@ typedef enum anic_status {
   ANIC_E_MEMORY = 70, /**< the allocator had no memory */
   ANIC_E_READ = 71,   /**< the read callback failed */
 
-  ANIC_E_INTERNAL = 90, /**< a defect of the library */
+  ANIC_E_INTERNAL = 90,        /**< a defect of the library */
   ANIC_STATUS_MAX = 0x7FFFFFFF /**< none: any number may be given */
 } anic_status;
 
@@ -381,17 +381,17 @@ ANIC_API void anic_context_destroy(anic_context* context);
 
 /** What is shown between two frames. Spec: 10, section 2. */
 typedef enum anic_interpolation {
-  ANIC_STEP = 0,   /**< the frame before */
-  ANIC_LINEAR = 1, /**< between the frames before and after */
-  ANIC_CUBIC = 2,   /**< a smooth curve through four frames (Catmull-Rom, for uneven times too) */
+  ANIC_STEP = 0,                      /**< the frame before */
+  ANIC_LINEAR = 1,                    /**< between the frames before and after */
+  ANIC_CUBIC = 2,                     /**< a smooth curve through four frames (Catmull-Rom, for uneven times too) */
   ANIC_INTERPOLATION_MAX = 0x7FFFFFFF /**< none: any number may be given */
 } anic_interpolation;
 
 /** What is shown outside the clip. Any speed, and backwards, is a matter of the time asked for. */
 typedef enum anic_wrap {
-  ANIC_CLAMP = 0,    /**< the first and the last frame stay */
-  ANIC_LOOP = 1,     /**< frame 0 follows the last frame; if info.closed, they are one */
-  ANIC_PING_PONG = 2, /**< backwards after the last frame, forwards after the first */
+  ANIC_CLAMP = 0,            /**< the first and the last frame stay */
+  ANIC_LOOP = 1,             /**< frame 0 follows the last frame; if info.closed, they are one */
+  ANIC_PING_PONG = 2,        /**< backwards after the last frame, forwards after the first */
   ANIC_WRAP_MAX = 0x7FFFFFFF /**< none: any number may be given */
 } anic_wrap;
 
@@ -427,8 +427,8 @@ ANIC_API anic_status anic_forget_previous(anic_context* context);
 
 /** Which of the two times that a context knows. */
 typedef enum anic_when {
-  ANIC_CURRENT = 0, /**< what the last seek chose */
-  ANIC_PREVIOUS = 1, /**< what the one before chose, for motion vectors; the same after the first seek */
+  ANIC_CURRENT = 0,          /**< what the last seek chose */
+  ANIC_PREVIOUS = 1,         /**< what the one before chose, for motion vectors; the same after the first seek */
   ANIC_WHEN_MAX = 0x7FFFFFFF /**< none: any number may be given */
 } anic_when;
 
@@ -477,9 +477,9 @@ ANIC_API anic_status anic_positions(const anic_context* context, uint32_t mesh, 
 /** How a value of an attribute is stored, in the machine's byte order. */
 typedef enum anic_value_format {
   ANIC_VALUE_FLOAT32 = 0,
-  ANIC_VALUE_FLOAT16 = 1, /**< IEEE binary16, rounded to nearest */
-  ANIC_VALUE_UNORM8 = 2,  /**< round(255 x), clamped to x = 0 .. 1 */
-  ANIC_VALUE_UNORM16 = 3,  /**< round(65535 x), clamped to x = 0 .. 1 */
+  ANIC_VALUE_FLOAT16 = 1,            /**< IEEE binary16, rounded to nearest */
+  ANIC_VALUE_UNORM8 = 2,             /**< round(255 x), clamped to x = 0 .. 1 */
+  ANIC_VALUE_UNORM16 = 3,            /**< round(65535 x), clamped to x = 0 .. 1 */
   ANIC_VALUE_FORMAT_MAX = 0x7FFFFFFF /**< none: any number may be given */
 } anic_value_format;
 
