@@ -46,40 +46,48 @@ std::vector<uint32_t> fan_triangles(const Polygons& polygons) {
 }
 
 // Every candidate is a convex combination of the corners, so a weight that rounding spoils (a
-// sliver) can only make a distance too large, and the sides are always tried.
+// sliver) can only make a distance too large. The sides that face the point are tried, and where
+// rounding may hide one, all of them.
 ClosestPoint closest_on_triangle(const Point3& a, const Point3& b, const Point3& c,
                                  const Point3& q) {
+  constexpr double kSliver = 1e-8;  // square of the sine of the angle at a
+  constexpr double kInside = 1e-9;  // weight from which the opposite side is surely no closer
   // Relative to q, so that small distances keep their digits.
   const Point3 corner[3] = {minus(a, q), minus(b, q), minus(c, q)};
   ClosestPoint best;
   best.square_distance = std::numeric_limits<double>::infinity();
   auto consider = [&](const std::array<double, 3>& weights) {
-    Point3 offset = combination(weights, corner[0], corner[1], corner[2]);
-    double square = dot(offset, offset);
+    const Point3 offset = combination(weights, corner[0], corner[1], corner[2]);
+    const double square = dot(offset, offset);
     if (square < best.square_distance) {
       best.square_distance = square;
       best.weights = weights;
     }
   };
+  const Point3 ab = minus(corner[1], corner[0]), ac = minus(corner[2], corner[0]);
+  const Point3 normal = cross(ab, ac);
+  const double area = dot(normal, normal);
+  std::array<double, 3> inside{-1, -1, -1};  // the weights of the foot of the perpendicular
+  if (area > 0) {
+    inside[0] = dot(cross(corner[1], corner[2]), normal) / area;
+    inside[1] = dot(cross(corner[2], corner[0]), normal) / area;
+    inside[2] = 1 - inside[0] - inside[1];
+  }
+  const bool sliver = !(area > kSliver * dot(ab, ab) * dot(ac, ac));
   for (size_t i = 0; i < 3; ++i) {
-    size_t j = (i + 1) % 3;
-    Point3 side = minus(corner[j], corner[i]);
-    double length = dot(side, side);
-    double t = length > 0 ? std::clamp(-dot(corner[i], side) / length, 0.0, 1.0) : 0;
+    const size_t j = (i + 1) % 3;
+    if (!sliver && inside[(i + 2) % 3] > kInside)
+      continue;
+    const Point3 side = minus(corner[j], corner[i]);
+    const double length = dot(side, side);
+    const double t = length > 0 ? std::clamp(-dot(corner[i], side) / length, 0.0, 1.0) : 0;
     std::array<double, 3> weights{};
     weights[i] = 1 - t;
     weights[j] = t;
     consider(weights);
   }
-  Point3 normal = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
-  double area = dot(normal, normal);
-  if (area > 0) {
-    double u = dot(cross(corner[1], corner[2]), normal) / area;
-    double v = dot(cross(corner[2], corner[0]), normal) / area;
-    double w = 1 - u - v;
-    if (u >= 0 && v >= 0 && w >= 0)
-      consider({u, v, w});
-  }
+  if (inside[0] >= 0 && inside[1] >= 0 && inside[2] >= 0)
+    consider(inside);
   best.position = combination(best.weights, a, b, c);
   return best;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,9 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
   const SurfaceTopology& topology = before.topology();
   const double square = limit * limit;
   std::vector<bool> drawn(topology.vertex_count, false);
+  std::vector<uint32_t> same(topology.triangles.size());
+  std::iota(same.begin(), same.end(), 0U);
+  std::vector<uint32_t> turned = turned_in_place(*v, before);
   for (int pass = 0;; ++pass) {
     std::vector<bool> back(topology.vertex_count, false);
     bool any = false;
@@ -78,7 +82,7 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
         return v->row(r) == before.positions().row(r);
       });
     };
-    for (uint32_t t : turned_in_place(*v, before)) {
+    for (uint32_t t : turned) {
       if (!at_rest(topology.triangles[t]))
         mark(t);
     }
@@ -86,14 +90,17 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
       mark_far();
     if (!any)
       break;
+    std::vector<uint32_t> moved;
     for (uint32_t i = 0; i < topology.vertex_count; ++i) {
       if (!back[i])
         continue;
+      moved.push_back(i);
       const Vector3d start = row(before.positions(), i);
       const double share = pass < kMostPasses ? 0.5 : 0;
       v->row(static_cast<Eigen::Index>(i)) =
           float_position(start + share * (row(*v, i) - start)).transpose();
     }
+    turned = turned_around(topology, *v, moved, before, same);
   }
   return static_cast<uint32_t>(std::count(drawn.begin(), drawn.end(), true));
 }

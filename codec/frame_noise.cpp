@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -73,7 +75,14 @@ class Run {
         freedom_(freedom),
         first_(first),
         count_(count),
-        massaged_(*massaged) {}
+        massaged_(*massaged) {
+    double heights[kSamples];
+    tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) {
+      samples_[k].emplace(clip_.topology, clip_.frame(source_.frame(first_ + sampled(k))));
+      heights[k] = sagitta(*samples_[k]);
+    });
+    sagitta_ = std::accumulate(heights, heights + kSamples, 0.0) / kSamples;
+  }
 
   FrameNoiseReport settle(const PatchFilter& filter, const FrameNoiseOptions& options) {
     FrameNoiseReport report;
@@ -163,8 +172,7 @@ class Run {
       double distances[kSamples];
       tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t s) {
         const std::vector<float> x = combination(run, weights.row(Index{sampled(s)}));
-        const Surface surface(clip_.topology, clip_.frame(source_.frame(first_ + sampled(s))));
-        distances[s] = mean_distance(surface, clip_.frame(x));
+        distances[s] = mean_distance(*samples_[s], clip_.frame(x));
       });
       const double distance = std::accumulate(distances, distances + kSamples, 0.0) / kSamples;
       (distance <= most ? low : high) = middle;
@@ -178,14 +186,12 @@ class Run {
   }
 
   void measure(FrameNoiseReport* report) const {
-    double heights[kSamples], distances[kSamples];
+    double distances[kSamples];
     tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) {
-      const uint32_t f = first_ + sampled(k);
-      const Surface surface(clip_.topology, clip_.frame(source_.frame(f)));
-      heights[k] = sagitta(surface);
-      distances[k] = mean_distance(surface, clip_.frame(std::as_const(massaged_).frame(f)));
+      const std::span<const float> frame = std::as_const(massaged_).frame(first_ + sampled(k));
+      distances[k] = mean_distance(*samples_[k], clip_.frame(frame));
     });
-    report->sagitta = std::accumulate(heights, heights + kSamples, 0.0) / kSamples;
+    report->sagitta = sagitta_;
     report->moved = std::accumulate(distances, distances + kSamples, 0.0) / kSamples;
   }
 
@@ -194,6 +200,8 @@ class Run {
   const std::vector<uint8_t>& freedom_;
   uint32_t first_, count_;
   MeshSequence& massaged_;
+  std::optional<Surface> samples_[kSamples];  ///< of `source`
+  double sagitta_ = 0;
 };
 
 }  // namespace

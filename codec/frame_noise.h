@@ -15,7 +15,7 @@ struct FrameNoiseOptions {
   double slide_level = 5;  ///< of PatchFilter, for where vertices slide to
   double last_level = 1;   ///< the same for positions, at last
   double share = 0.8;      ///< how far from the surface the last filter may take the vertices
-  int rounds = 3;
+  int rounds = 2;
 };
 
 struct FrameNoiseReport {

@@ -26,6 +26,7 @@ class Heights {
       : moving_(moving),
         topology_(moving.topology()),
         right_(Eigen::VectorXd::Zero(moving.positions().rows())) {
+    entries_.reserve(size_t{11} * topology_.vertex_count + size_t{9} * topology_.triangles.size());
     for (uint32_t i = 0; i < topology_.vertex_count; ++i) {
       entries_.emplace_back(static_cast<int>(i), static_cast<int>(i), kRest);
       if (topology_.star[i].empty())

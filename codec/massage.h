@@ -22,7 +22,7 @@ struct MassageOptions {
   double tolerance = 0;    ///< how far a surface may move, scene units (limit_distance()); 0: any
   double noise_share =
       1.5;  ///< how much is taken for noise of single frames (remove_frame_noise())
-  int sliding_rounds = 6;
+  int sliding_rounds = 4;
   int fitting_rounds = 3;
 };
 

@@ -156,6 +156,19 @@ bool is_turned(const SurfaceTopology& topology, const Positions& positions, uint
                        surface.walk(centre(positions, corners), start).triangle);
 }
 
+std::vector<uint32_t> turned_around(const SurfaceTopology& topology, const Positions& positions,
+                                    std::span<const uint32_t> vertices, const Surface& surface,
+                                    std::span<const uint32_t> below) {
+  std::vector<uint32_t> triangles;
+  for (uint32_t i : vertices)
+    triangles.insert(triangles.end(), topology.star[i].begin(), topology.star[i].end());
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  std::erase_if(triangles,
+                [&](uint32_t t) { return !is_turned(topology, positions, t, surface, below[t]); });
+  return triangles;
+}
+
 std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
                                        const Surface& surface) {
   const std::vector<uint32_t> below = triangles_below(topology, positions, surface);

@@ -6,6 +6,7 @@
 #include "codec/surface.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace anicodec {
@@ -43,6 +44,12 @@ std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Pos
 /// the surface, to its centre ends.
 bool is_turned(const SurfaceTopology& topology, const Positions& positions, uint32_t triangle,
                const Surface& surface, uint32_t start);
+
+/// Of the triangles at some vertices those that is_turned() finds, ascending. `below`: of every
+/// triangle of the mesh, where its walk starts.
+std::vector<uint32_t> turned_around(const SurfaceTopology& topology, const Positions& positions,
+                                    std::span<const uint32_t> vertices, const Surface& surface,
+                                    std::span<const uint32_t> below);
 
 /// Triangles that face against what is below them (triangles_below()), ascending. The surface has
 /// an index.

@@ -12,7 +12,7 @@
 namespace anicodec {
 
 struct SlidingOptions {
-  int rounds = 6;
+  int rounds = 4;
   double tolerance = 1e-2;    ///< stop when the root mean square step is below so many mean edges
   double longest_step = 0.7;  ///< of a vertex in a round, in mean edges at it
 };
@@ -36,7 +36,7 @@ class SlidingSolver {
   SlidingSolver(const SurfaceTopology& topology, const Positions& reference);
 
   /// Moves `v`, which starts on the surface: vertex i at or near its own place. Cost a round: about
-  /// 100 passes over the edges.
+  /// 10 passes over the edges.
   Convergence run(const Surface& surface, const SlidingOptions& options, Positions* v) const;
 
   const RigidShape& shape() const { return shape_; }

@@ -5,7 +5,6 @@
 #include "codec/mesh_quality.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <vector>
 
@@ -17,7 +16,9 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr int kMostPasses = 40;
+constexpr int kMostPasses = 60;
+constexpr int kPassesAlone = 40;  // before what is around is evened out
+constexpr int kEvenedEvery = 5;   // passes
 constexpr int kMostAttempts = 4;
 constexpr double kHeight = 0.002;     // that a triangle is left with, about, in its sides
 constexpr double kLongestMove = 0.5;  // mean edges
@@ -49,6 +50,45 @@ void turn(const SurfaceTopology& topology, const SurfaceTopology::Triangle& corn
   }
 }
 
+/// The triangles' corners and what is within some edges of them.
+std::vector<uint32_t> vertices_around(const SurfaceTopology& topology,
+                                      const std::vector<uint32_t>& triangles, int edges) {
+  std::vector<uint32_t> found;
+  auto in_order = [&found] {
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+  };
+  for (uint32_t t : triangles)
+    found.insert(found.end(), topology.triangles[t].begin(), topology.triangles[t].end());
+  in_order();
+  for (int k = 0; k < edges; ++k) {
+    for (size_t i = 0, count = found.size(); i < count; ++i)
+      found.insert(found.end(), topology.ring[found[i]].begin(), topology.ring[found[i]].end());
+    in_order();
+  }
+  return found;
+}
+
+/// Moves inner vertices to the middle of their neighbours and back on the surface, again and again:
+/// in a flat piece no triangle is left turned (Tutte 1963).
+void even_out(const SurfaceTopology& topology, const Surface& surface,
+              const std::vector<uint32_t>& below, const std::vector<uint32_t>& vertices, int times,
+              Positions* v) {
+  for (int k = 0; k < times; ++k) {
+    for (uint32_t i : vertices) {
+      if (topology.kind[i] != VertexKind::kInner)
+        continue;
+      Vector3d sum = Vector3d::Zero();
+      for (uint32_t j : topology.ring[i])
+        sum += row(*v, j);
+      const Vector3d middle = sum / static_cast<double>(topology.ring[i].size());
+      v->row(static_cast<Index>(i)) =
+          float_position(surface.curved(surface.walk(middle, below[topology.star[i][0]])))
+              .transpose();
+    }
+  }
+}
+
 void to_floats(Positions* v) {
   for (Eigen::Index i = 0; i < v->rows(); ++i)
     v->row(i) = float_position(v->row(i).transpose()).transpose();
@@ -60,27 +100,40 @@ uint32_t untangle_over(const SurfaceTopology& topology, const Surface& surface,
                        bool boundary, Positions* v) {
   const double longest = kLongestMove * mean_edge(topology, *v);
   std::vector<bool> ever(topology.triangles.size(), false);
+  Positions alone;  // as the least moves leave them
+  size_t turned_alone = 0;
   for (int pass = 0; pass < kMostPasses && !turned.empty(); ++pass) {
-    std::vector<uint32_t> touched;
-    for (uint32_t t : turned) {
-      const SurfaceTopology::Triangle& corners = topology.triangles[t];
-      const Vector3d centre = (row(*v, corners[0]) + row(*v, corners[1]) + row(*v, corners[2])) / 3;
-      const Vector3d up =
-          area_normal(surface.positions(),
-                      surface.topology().triangles[surface.walk(centre, below[t]).triangle]);
-      turn(topology, corners, up.normalized(), longest, boundary, v);
-      ever[t] = true;
-      for (uint32_t corner : corners)
-        touched.insert(touched.end(), topology.star[corner].begin(), topology.star[corner].end());
+    if (pass == kPassesAlone) {
+      alone = *v;
+      turned_alone = turned.size();
     }
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    turned.clear();
-    std::copy_if(touched.begin(), touched.end(), std::back_inserter(turned),
-                 [&](uint32_t t) { return is_turned(topology, *v, t, surface, below[t]); });
+    std::vector<uint32_t> changed;  // vertices
+    if (pass >= kPassesAlone && pass % kEvenedEvery == 0) {
+      const int edges = 1 + (pass - kPassesAlone) / kEvenedEvery;
+      changed = vertices_around(topology, turned, edges);
+      even_out(topology, surface, below, changed, edges, v);
+    } else {
+      for (uint32_t t : turned) {
+        const SurfaceTopology::Triangle& corners = topology.triangles[t];
+        const Vector3d centre =
+            (row(*v, corners[0]) + row(*v, corners[1]) + row(*v, corners[2])) / 3;
+        const Vector3d up =
+            area_normal(surface.positions(),
+                        surface.topology().triangles[surface.walk(centre, below[t]).triangle]);
+        turn(topology, corners, up.normalized(), longest, boundary, v);
+        ever[t] = true;
+      }
+      changed = vertices_around(topology, turned, 0);
+    }
+    turned = turned_around(topology, *v, changed, surface, below);
+  }
+  size_t left = turned.size();
+  if (2 * left > turned_alone && turned_alone > 0) {
+    *v = alone;
+    left = turned_alone;
   }
   return static_cast<uint32_t>(std::count(ever.begin(), ever.end(), true)) -
-         static_cast<uint32_t>(turned.size());
+         static_cast<uint32_t>(left);
 }
 
 }  // namespace
