@@ -22,7 +22,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kIndexEvery = 5;       // rounds
-constexpr double kAlong = 0.01;      // weight of what is across the direction of a distance
 constexpr double kFar = 0.52;        // of the largest distance at the start
 constexpr double kMostGain = 4;      // of a sample's weight in a round
 constexpr double kLoss = 0.9;        // the same of one that is near
@@ -111,9 +110,12 @@ class Fit {
       if (round == options.rounds)
         break;
       reweight(kFar * max);
-      const double t = std::min(1.0, 4.0 * round / options.rounds);
-      const double step = move(options.first_stiffness *
-                               std::pow(options.last_stiffness / options.first_stiffness, t));
+      auto between = [&](double first, double last, double t) {
+        return first * std::pow(last / first, std::clamp(t, 0.0, 1.0));
+      };
+      const double part = static_cast<double>(round) / options.rounds;
+      along_ = between(options.first_along, options.last_along, 2 * part - 1);
+      const double step = move(between(options.first_stiffness, options.last_stiffness, 4 * part));
       result.step = edge > 0 ? step / edge : 0;
       ++result.rounds;
     }
@@ -192,7 +194,7 @@ class Fit {
       const Matrix3d across = pair.direction * pair.direction.transpose();
       const double power = std::pow(pair.distance / typical + kNearest, kPower - 2);
       const Matrix3d q = power * importance * side.shares[s] * side.weights[s] *
-                         ((1 - kAlong) * across + kAlong * Matrix3d::Identity());
+                         ((1 - along_) * across + along_ * Matrix3d::Identity());
       const Vector3d pull = q * (pair.target - pair.on_mesh.position);
       const SurfaceTopology::Triangle& corners = mesh_.triangles[pair.on_mesh.triangle];
       for (size_t a = 0; a < 3; ++a) {
@@ -236,6 +238,7 @@ class Fit {
   const Surface& surface_;
   Positions& v_;
   Side from_mesh_, from_surface_;
+  double along_ = 1;    ///< weight of what is across the direction of a distance
   double balance_ = 1;  ///< weight of from_surface_ in that of from_mesh_
   BlockSystem system_;
   std::vector<Matrix3d> rotations_;

@@ -12,7 +12,9 @@ namespace anicodec {
 struct DistanceFitOptions {
   double first_stiffness = 1;    ///< of the mesh's own shape against the distance, at first
   double last_stiffness = 3e-5;  ///< and from a quarter of the rounds on
-  int rounds = 40;
+  double first_along = 1e-2;     ///< of moves across the direction of a distance against it
+  double last_along = 3e-4;      ///< and falling to this in the second half
+  int rounds = 80;
 };
 
 /// Moves the vertices of a mesh to where its polygons are as close to a surface as they can be, on
