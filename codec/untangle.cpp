@@ -69,8 +69,8 @@ std::vector<uint32_t> vertices_around(const SurfaceTopology& topology,
   return found;
 }
 
-/// Moves inner vertices to the middle of their neighbours and back on the surface, again and again:
-/// in a flat piece no triangle is left turned (Tutte 1963).
+/// Moves inner vertices to the middle of their neighbours and back on the surface, some times over:
+/// towards Tutte's embedding ("How to draw a graph", 1963), in which no triangle is turned.
 void even_out(const SurfaceTopology& topology, const Surface& surface,
               const std::vector<uint32_t>& below, const std::vector<uint32_t>& vertices, int times,
               Positions* v) {
