@@ -238,7 +238,7 @@ class Fit {
   const Surface& surface_;
   Positions& v_;
   Side from_mesh_, from_surface_;
-  double along_ = 1;    ///< options.first_along to last_along
+  double along_ = 1;    ///< what a move across the direction of a distance counts
   double balance_ = 1;  ///< weight of from_surface_ in that of from_mesh_
   BlockSystem system_;
   std::vector<Matrix3d> rotations_;

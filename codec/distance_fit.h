@@ -12,8 +12,8 @@ namespace anicodec {
 struct DistanceFitOptions {
   double first_stiffness = 1;    ///< of the mesh's own shape against the distance, at first
   double last_stiffness = 3e-5;  ///< and from a quarter of the rounds on
-  double first_along = 1e-2;     ///< of moves across the direction of a distance against it
-  double last_along = 3e-4;      ///< and falling to this in the second half
+  double first_along = 1e-2;     ///< what a move along the surface counts in one across it
+  double last_along = 3e-4;      ///< the same at last, to which it falls from half of the rounds on
   int rounds = 80;
 };
 

@@ -76,16 +76,14 @@ class Run {
         first_(first),
         count_(count),
         massaged_(*massaged) {
-    double heights[kSamples];
     tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) {
       samples_[k].emplace(clip_.topology, clip_.frame(source_.frame(first_ + sampled(k))));
-      heights[k] = sagitta(*samples_[k]);
     });
-    sagitta_ = std::accumulate(heights, heights + kSamples, 0.0) / kSamples;
   }
 
   FrameNoiseReport settle(const PatchFilter& filter, const FrameNoiseOptions& options) {
     FrameNoiseReport report;
+    report.sagitta = sample_mean([&](uint32_t k) { return sagitta(*samples_[k]); });
     auto filtered = [&](double level) {
       return filter.run(level, clip_.weld.representative, first_, count_, &massaged_);
     };
@@ -104,7 +102,7 @@ class Run {
       std::copy(before.begin(), before.end(), massaged_.frame(first_).begin());
       report.components = filtered(level);
       for_frames([&](const Surface& surface, Positions* v) { put_on(surface, false, v); });
-      measure(&report);
+      report.moved = moved();
     };
     double level = options.last_level;
     settle_at(level);
@@ -169,12 +167,10 @@ class Run {
     for (int k = 0; k < kIntervalHalvings; ++k) {
       const double middle = (low + high) / 2;
       const Eigen::MatrixXd weights = filter.weights(std::exp(middle));
-      double distances[kSamples];
-      tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t s) {
+      const double distance = sample_mean([&](uint32_t s) {
         const std::vector<float> x = combination(run, weights.row(Index{sampled(s)}));
-        distances[s] = mean_distance(*samples_[s], clip_.frame(x));
+        return mean_distance(*samples_[s], clip_.frame(x));
       });
-      const double distance = std::accumulate(distances, distances + kSamples, 0.0) / kSamples;
       (distance <= most ? low : high) = middle;
       within = within || distance <= most;
     }
@@ -182,17 +178,23 @@ class Run {
       return;
     combine_frames(filter.weights(std::exp(low)), first_, &massaged_);
     for_frames([&](const Surface& surface, Positions* v) { put_on(surface, false, v); });
-    measure(report);
+    report->moved = moved();
   }
 
-  void measure(FrameNoiseReport* report) const {
-    double distances[kSamples];
-    tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) {
+  /// The mean distance of the vertices, as they are now, from their surfaces.
+  double moved() const {
+    return sample_mean([&](uint32_t k) {
       const std::span<const float> frame = std::as_const(massaged_).frame(first_ + sampled(k));
-      distances[k] = mean_distance(*samples_[k], clip_.frame(frame));
+      return mean_distance(*samples_[k], clip_.frame(frame));
     });
-    report->sagitta = sagitta_;
-    report->moved = std::accumulate(distances, distances + kSamples, 0.0) / kSamples;
+  }
+
+  /// The mean of what a sample frame has, by its number among them.
+  template <class Value>
+  static double sample_mean(const Value& value) {
+    double values[kSamples];
+    tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) { values[k] = value(k); });
+    return std::accumulate(values, values + kSamples, 0.0) / kSamples;
   }
 
   const MeshSequence& source_;
@@ -201,7 +203,6 @@ class Run {
   uint32_t first_, count_;
   MeshSequence& massaged_;
   std::optional<Surface> samples_[kSamples];  ///< of `source`
-  double sagitta_ = 0;
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ namespace anicodec {
 namespace {
 
 constexpr uint32_t kFramesAtOnce = 32;  // between two reports
+constexpr int kFittingRounds = 3;       // these lift what sliding cut
 
 }  // namespace
 
@@ -43,11 +44,9 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
   const Positions reference = clip.frame(sequence.frame(options.reference));
   const SlidingSolver slider(clip.topology, reference);
   const RowMatrix shape = shape_matrix(clip.topology, reference, ShapeWeights::kMeanValue);
-  SlidingOptions sliding;
-  sliding.rounds = options.sliding_rounds;
   SurfaceFitOptions fitting;
   fitting.lambda = 1 - options.strength;
-  fitting.rounds = options.fitting_rounds;
+  fitting.rounds = kFittingRounds;
   const double tolerance =
       options.tolerance > 0 ? options.tolerance : std::numeric_limits<double>::infinity();
   tbb::enumerable_thread_specific<SurfaceFitter> fitters(
@@ -59,7 +58,7 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
     Positions v = clip.frame(sequence.frame(f));
     Surface surface(clip.topology, v);
     MassagedFrame& frame = result.frames[f];
-    frame.sliding = slider.run(surface, sliding, &v);
+    frame.sliding = slider.run(surface, SlidingOptions(), &v);
     if (!settles) {
       surface.build_index();
       frame.fitting = fitters.local().run(surface, fitting, &v).convergence;

@@ -22,8 +22,6 @@ struct MassageOptions {
   double tolerance = 0;    ///< how far a surface may move, scene units (limit_distance()); 0: any
   double noise_share =
       1.5;  ///< how much is taken for noise of single frames (remove_frame_noise())
-  int sliding_rounds = 4;
-  int fitting_rounds = 3;
 };
 
 struct MassagedFrame {

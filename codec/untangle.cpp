@@ -23,10 +23,15 @@ constexpr int kMostAttempts = 4;
 constexpr double kHeight = 0.002;     // that a triangle is left with, about, in its sides
 constexpr double kLongestMove = 0.5;  // mean edges
 
-/// Moves corners, inner ones or all, along the gradient of the area that the triangle has from
-/// above.
-void turn(const SurfaceTopology& topology, const SurfaceTopology::Triangle& corners,
-          const Vector3d& up, double longest, bool boundary, Positions* v) {
+/// Moves the corners of a triangle, inner ones or all, along the gradient of the area that it has
+/// from above the surface. `start`: where the walk to what is below it starts.
+void turn(const SurfaceTopology& topology, uint32_t triangle, const Surface& surface,
+          uint32_t start, double longest, bool boundary, Positions* v) {
+  const SurfaceTopology::Triangle& corners = topology.triangles[triangle];
+  const Vector3d centre = (row(*v, corners[0]) + row(*v, corners[1]) + row(*v, corners[2])) / 3;
+  const uint32_t below = surface.walk(centre, start).triangle;
+  const Vector3d up =
+      area_normal(surface.positions(), surface.topology().triangles[below]).normalized();
   const double area = area_normal(*v, corners).dot(up);
   auto moves = [&](uint32_t i) { return boundary || topology.kind[i] == VertexKind::kInner; };
   Vector3d gradient[3];
@@ -90,7 +95,7 @@ void even_out(const SurfaceTopology& topology, const Surface& surface,
 }
 
 void to_floats(Positions* v) {
-  for (Eigen::Index i = 0; i < v->rows(); ++i)
+  for (Index i = 0; i < v->rows(); ++i)
     v->row(i) = float_position(v->row(i).transpose()).transpose();
 }
 
@@ -101,39 +106,33 @@ uint32_t untangle_over(const SurfaceTopology& topology, const Surface& surface,
   const double longest = kLongestMove * mean_edge(topology, *v);
   std::vector<bool> ever(topology.triangles.size(), false);
   Positions alone;  // as the least moves leave them
-  size_t turned_alone = 0;
+  std::vector<uint32_t> turned_alone;
   for (int pass = 0; pass < kMostPasses && !turned.empty(); ++pass) {
     if (pass == kPassesAlone) {
       alone = *v;
-      turned_alone = turned.size();
+      turned_alone = turned;
     }
     std::vector<uint32_t> changed;  // vertices
-    if (pass >= kPassesAlone && pass % kEvenedEvery == 0) {
+    if (pass >= kPassesAlone && (pass - kPassesAlone) % kEvenedEvery == 0) {
       const int edges = 1 + (pass - kPassesAlone) / kEvenedEvery;
       changed = vertices_around(topology, turned, edges);
       even_out(topology, surface, below, changed, edges, v);
     } else {
       for (uint32_t t : turned) {
-        const SurfaceTopology::Triangle& corners = topology.triangles[t];
-        const Vector3d centre =
-            (row(*v, corners[0]) + row(*v, corners[1]) + row(*v, corners[2])) / 3;
-        const Vector3d up =
-            area_normal(surface.positions(),
-                        surface.topology().triangles[surface.walk(centre, below[t]).triangle]);
-        turn(topology, corners, up.normalized(), longest, boundary, v);
+        turn(topology, t, surface, below[t], longest, boundary, v);
         ever[t] = true;
       }
       changed = vertices_around(topology, turned, 0);
     }
     turned = turned_around(topology, *v, changed, surface, below);
   }
-  size_t left = turned.size();
-  if (2 * left > turned_alone && turned_alone > 0) {
+  if (!turned_alone.empty() && 2 * turned.size() > turned_alone.size()) {
     *v = alone;
-    left = turned_alone;
+    turned = turned_alone;
   }
-  return static_cast<uint32_t>(std::count(ever.begin(), ever.end(), true)) -
-         static_cast<uint32_t>(left);
+  for (uint32_t t : turned)
+    ever[t] = false;
+  return static_cast<uint32_t>(std::count(ever.begin(), ever.end(), true));
 }
 
 }  // namespace
