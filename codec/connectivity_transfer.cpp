@@ -176,7 +176,7 @@ class Carried {
            Positions* v) const {
     DistanceFitOptions options;
     options.first_stiffness = first_stiffness;
-    options.last_stiffness = last_stiffness;
+    options.last_stiffness = options.least_stiffness = last_stiffness;
     options.last_along = options.first_along;  // what slides here would add up over the frames
     options.rounds = kFitRounds;
     fit_distance(topology_, shape_, surface, options, v);

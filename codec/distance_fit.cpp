@@ -28,6 +28,7 @@ constexpr double kLoss = 0.9;        // the same of one that is near
 constexpr double kMostWeight = 1e6;  // of a sample
 constexpr double kPower = 1.3;       // of the distances, of which the sum is to be least
 constexpr double kNearest = 0.1;     // distance in the mean one that counts as none
+constexpr double kSofter = 0.93, kStiffer = 1.1;  // a round
 constexpr double kDamping = 1e-6;
 constexpr double kSolveTolerance = 1e-3;
 constexpr int kMostIterations = 100;
@@ -90,6 +91,7 @@ class Fit {
     Positions best = v_;
     double least = std::numeric_limits<double>::infinity(), mean = 0, max = 0;
     const double edge = mean_edge(mesh_, v_);
+    double last_stiffness = options.last_stiffness;
     for (int round = 0;; ++round) {
       const bool by_index = round % kIndexEvery == 0 || round == options.rounds;
       const bool counts = round > 0 && by_index && 2 * round >= options.rounds;
@@ -115,7 +117,12 @@ class Fit {
       };
       const double part = static_cast<double>(round) / options.rounds;
       along_ = between(options.first_along, options.last_along, 2 * part - 1);
-      const double step = move(between(options.first_stiffness, options.last_stiffness, 4 * part));
+      if (4 * round > options.rounds) {
+        const bool mean_lags = largest_mean() / mean > largest() / max;
+        last_stiffness = std::clamp(last_stiffness * (mean_lags ? kSofter : kStiffer),
+                                    options.least_stiffness, options.last_stiffness);
+      }
+      const double step = move(between(options.first_stiffness, last_stiffness, 4 * part));
       result.step = edge > 0 ? step / edge : 0;
       ++result.rounds;
     }

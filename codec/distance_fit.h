@@ -10,11 +10,12 @@
 namespace anicodec {
 
 struct DistanceFitOptions {
-  double first_stiffness = 1;    ///< of the mesh's own shape against the distance, at first
-  double last_stiffness = 3e-5;  ///< and from a quarter of the rounds on
-  double first_along = 1e-2;     ///< what a move along the surface counts in one across it
-  double last_along = 3e-4;      ///< the same at last, to which it falls from half of the rounds on
-  int rounds = 80;
+  double first_stiffness = 1;     ///< of the mesh's own shape against the distance, at first
+  double last_stiffness = 3e-5;   ///< and from a quarter of the rounds on
+  double least_stiffness = 1e-6;  ///< to which it falls while the mean lags behind the maximum
+  double first_along = 1e-2;      ///< what a move along the surface counts in one across it
+  double last_along = 3e-4;  ///< the same at last, to which it falls from half of the rounds on
+  int rounds = 120;
 };
 
 /// Moves the vertices of a mesh to where its polygons are as close to a surface as they can be, on
@@ -24,7 +25,8 @@ struct DistanceFitOptions {
 /// of the mesh from the surface and of the surface from the mesh, by Gauss-Newton steps with
 /// reweighting. Samples that are further off than about half the largest distance at the start gain
 /// weight from round to round, as in Lawson's algorithm, and lose it again when they no longer are;
-/// so does the direction of which the mean is larger. In every fifth round distances are found by
+/// so does the direction of which the mean is larger, and the stiffness falls while the mean is
+/// left behind by the maximum. In every fifth round distances are found by
 /// the index, else by walking; in those of the second half triangles that have turned are turned
 /// again (untangle()). Of these rounds the one counts of which the larger of mean and maximum, each
 /// in parts of that at the start, is least. The shape has the connectivity of `mesh`, the surface

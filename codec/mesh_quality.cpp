@@ -40,10 +40,21 @@ double longest_side(const Positions& positions, const SurfaceTopology::Triangle&
                    (row(positions, t[2]) - row(positions, t[0])).norm()});
 }
 
-bool faces_against(const Positions& positions, const SurfaceTopology::Triangle& t,
+/// Whether a second triangle with the same corners faces the other way, as where decimation leaves
+/// both sides of a thin part.
+bool is_doubled(const SurfaceTopology& topology, uint32_t t) {
+  const SurfaceTopology::Triangle& across = topology.across[t];
+  for (size_t k = 0; k < 3; ++k) {
+    if (across[k] != SurfaceTopology::kNone && across[k] == across[(k + 1) % 3])
+      return true;
+  }
+  return false;
+}
+
+bool faces_against(const SurfaceTopology& topology, const Positions& positions, uint32_t t,
                    const Surface& surface, uint32_t below) {
   const Vector3d up = area_normal(surface.positions(), surface.topology().triangles[below]);
-  return area_normal(positions, t).dot(up) < 0;
+  return area_normal(positions, topology.triangles[t]).dot(up) < 0 && !is_doubled(topology, t);
 }
 
 /// Of all triangles those for which `turned(t)`, ascending.
@@ -124,7 +135,7 @@ std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Pos
   });
   std::vector<bool> against(count);
   for (uint32_t t = 0; t < count; ++t)
-    against[t] = faces_against(positions, topology.triangles[t], surface, below[t]);
+    against[t] = faces_against(topology, positions, t, surface, below[t]);
   auto find_other_side = [&](uint32_t t) {
     const SurfaceTopology::Triangle& corners = topology.triangles[t];
     const double reach = kReach * longest_side(positions, corners);
@@ -133,7 +144,7 @@ std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Pos
         continue;
       const SurfacePoint point = surface.walk(centre(positions, corners), below[beside]);
       if (point.square_distance > reach * reach ||
-          faces_against(positions, corners, surface, point.triangle))
+          faces_against(topology, positions, t, surface, point.triangle))
         continue;
       below[t] = point.triangle;
       against[t] = false;
@@ -151,9 +162,9 @@ std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Pos
 
 bool is_turned(const SurfaceTopology& topology, const Positions& positions, uint32_t triangle,
                const Surface& surface, uint32_t start) {
-  const SurfaceTopology::Triangle& corners = topology.triangles[triangle];
-  return faces_against(positions, corners, surface,
-                       surface.walk(centre(positions, corners), start).triangle);
+  const Vector3d middle = centre(positions, topology.triangles[triangle]);
+  return faces_against(topology, positions, triangle, surface,
+                       surface.walk(middle, start).triangle);
 }
 
 std::vector<uint32_t> turned_around(const SurfaceTopology& topology, const Positions& positions,
@@ -173,7 +184,7 @@ std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Po
                                        const Surface& surface) {
   const std::vector<uint32_t> below = triangles_below(topology, positions, surface);
   return all_turned(topology, [&](uint32_t t) {
-    return faces_against(positions, topology.triangles[t], surface, below[t]);
+    return faces_against(topology, positions, t, surface, below[t]);
   });
 }
 

@@ -41,7 +41,8 @@ std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Pos
                                       const Surface& surface);
 
 /// Whether a triangle of a mesh faces against the surface where a walk from `start`, a triangle of
-/// the surface, to its centre ends.
+/// the surface, to its centre ends. Never one that has the same corners as its neighbour: together
+/// they are both sides of a part without thickness.
 bool is_turned(const SurfaceTopology& topology, const Positions& positions, uint32_t triangle,
                const Surface& surface, uint32_t start);
 
@@ -51,7 +52,8 @@ std::vector<uint32_t> turned_around(const SurfaceTopology& topology, const Posit
                                     std::span<const uint32_t> vertices, const Surface& surface,
                                     std::span<const uint32_t> below);
 
-/// Triangles that face against what is below them (triangles_below()), ascending. The surface has
+/// Triangles that face against what is below them (triangles_below()), but for those that have the
+/// same corners as a neighbour, ascending. The surface has
 /// an index.
 std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
                                        const Surface& surface);

@@ -5,6 +5,9 @@
 #include "tests/codec/massage_meshes.h"
 
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -75,6 +78,18 @@ TEST(MeshQuality, FindsTurnedTriangles) {
   Positions moved = mesh.positions;
   moved.row(5) << 1.2, -0.5, 0;
   EXPECT_FALSE(turned_triangles(mesh.topology, moved, surface).empty());
+}
+
+TEST(MeshQuality, TwoSidesOfASheetAreNotTurned) {
+  TestMesh mesh = flat_sheet(4);
+  Surface surface(mesh.topology, mesh.positions);
+  surface.build_index();
+  const std::vector<uint32_t> both = {0, 1, 4, 0, 4, 1};
+  auto turned = [&](std::span<const uint32_t> corners) {
+    return turned_triangles(SurfaceTopology(corners, 16), mesh.positions, surface).size();
+  };
+  EXPECT_EQ(turned(std::span(both).first(3)) + turned(std::span(both).last(3)), 1U);
+  EXPECT_EQ(turned(both), 0U);
 }
 
 }  // namespace
