@@ -27,10 +27,10 @@ using Eigen::Vector3d;
 constexpr uint32_t kFewestFrames = 8, kMostFrames = 512;
 constexpr uint32_t kSamples = 8;
 constexpr int kHalvings = 4;           // of the level
-constexpr double kRaised = 4;          // the level that is tried where the first keeps the distance
+constexpr double kRaised = 8;          // the level that is tried where the first keeps the distance
 constexpr int kIntervalHalvings = 8;   // of that of levels of the filter of whole frames
 constexpr double kLeastLevel = 0.001;  // of the smallest variance
-constexpr double kFurther = 1.05;      // distance that it may leave, in that before
+constexpr double kFurther = 1.1;       // distance that it may leave, in that before
 constexpr int kHeightRounds = 2;
 
 /// The mean height of the smooth surface over the centres of the triangles.

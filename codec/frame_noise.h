@@ -33,7 +33,7 @@ bool can_remove_frame_noise(const MeshSequence& sequence);
 /// curved surfaces of `source`, so that the vertices take the places that they share. Then heights
 /// are fitted (fit_heights()) and the frames filtered once more, as strongly as asked and as keeps
 /// the vertices, in the mean over eight sample frames, within `share` sagittas of those surfaces:
-/// so far the polygons themselves do not know their surface; four times as strongly where that
+/// so far the polygons themselves do not know their surface; eight times as strongly where that
 /// takes them hardly further. Whole frames are filtered at last (SequenceFilter), as strongly as
 /// leaves that distance about as it is. Vertices of the boundary stay on it, those that `freedom`
 /// (sliding_freedom()) pins stay in place. Leaves fewer than eight frames alone. Cost: that of

@@ -290,13 +290,12 @@ void run(const MassageCommand& command, const CommonOptions& common) {
                "radius ratio", "turned");
     print_row("before", before);
     print_row("after", after);
-    if (counted.converged < sequence.frame_count)
-      fmt::print("{} of {} frames would have gone on: see -v\n",
-                 sequence.frame_count - counted.converged, sequence.frame_count);
     if (counted.drawn_back > 0)
       fmt::print("vertices were drawn back {} times, by the tolerance or to turn no triangle\n",
                  grouped(counted.drawn_back));
     if (common.verbosity > 0) {
+      fmt::print("{} of {} frames still moved in their last round\n",
+                 sequence.frame_count - counted.converged, sequence.frame_count);
       fmt::print("frame  slid rounds  step   fitted rounds  step   drawn back  mean %     max %\n");
       for (size_t f = 0; f < result.frames.size(); ++f) {
         const MassagedFrame& frame = result.frames[f];
