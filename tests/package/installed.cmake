@@ -41,6 +41,12 @@ if(count LESS 30 OR NOT declared STREQUAL exported)
 endif()
 message("${count} functions exported; needs ${needed}")
 
+run(symbols nm -D --undefined-only "${library}")
+string(REGEX MATCHALL "[^ \n]*(8ios_base|_istream|_ostream|_streambuf)[^\n]*" streams "${symbols}")
+if(streams)
+  message(FATAL_ERROR "libanicodec.so uses streams: ${streams}")
+endif()
+
 set(clip "${SOURCE_DIR}/tests/conformance/limb_effort9.anic")
 set(examples "${SOURCE_DIR}/sdk/examples")
 foreach(static OFF ON)
