@@ -28,7 +28,7 @@ constexpr double kLoss = 0.9;        // the same of one that is near
 constexpr double kMostWeight = 1e6;  // of a sample
 constexpr double kPower = 1.3;       // of the distances, of which the sum is to be least
 constexpr double kNearest = 0.1;     // distance in the mean one that counts as none
-constexpr double kSofter = 0.93, kStiffer = 1.1;  // a round
+constexpr double kSofter = 0.93, kStiffer = 1.1;  // of the stiffness, in a round
 constexpr double kDamping = 1e-6;
 constexpr double kSolveTolerance = 1e-3;
 constexpr int kMostIterations = 100;

@@ -25,13 +25,14 @@ struct DistanceFitOptions {
 /// of the mesh from the surface and of the surface from the mesh, by Gauss-Newton steps with
 /// reweighting. Samples that are further off than about half the largest distance at the start gain
 /// weight from round to round, as in Lawson's algorithm, and lose it again when they no longer are;
-/// so does the direction of which the mean is larger, and the stiffness falls while the mean is
-/// left behind by the maximum. In every fifth round distances are found by
-/// the index, else by walking; in those of the second half triangles that have turned are turned
-/// again (untangle()). Of these rounds the one counts of which the larger of mean and maximum, each
-/// in parts of that at the start, is least. The shape has the connectivity of `mesh`, the surface
-/// has an index. On all threads; the result does not depend on their number. Cost a round: about 12
-/// queries a vertex of either, and up to 100 passes over the edges.
+/// so does the direction of which the mean is larger. The stiffness falls while the mean lags
+/// behind the maximum, each in parts of that at the start, and rises again when it no longer does.
+/// In every fifth round distances are found by the index, else by walking; in those of the second
+/// half triangles that have turned are turned again (untangle()). Of these rounds the one counts of
+/// which the larger of mean and maximum, in the same parts, is least. The shape has the
+/// connectivity of `mesh`, the surface has an index. On all threads; the result does not depend on
+/// their number. Cost a round: about 12 queries a vertex of either, and up to 100 passes over the
+/// edges.
 Convergence fit_distance(const SurfaceTopology& mesh, const RigidShape& shape,
                          const Surface& surface, const DistanceFitOptions& options, Positions* v);
 

@@ -153,7 +153,8 @@ class Run {
 
   uint32_t sampled(uint32_t k) const { return (2 * k + 1) * count_ / (2 * kSamples); }
 
-  /// Filters whole frames as strongly as leaves the vertices about as close to their surfaces.
+  /// Filters whole frames as strongly as takes the vertices at most a tenth further from their
+  /// surfaces.
   void filter_whole(FrameNoiseReport* report) {
     const FrameView run = FrameView(massaged_).frames(first_, count_);
     const SequenceFilter filter(run);

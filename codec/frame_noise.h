@@ -34,10 +34,10 @@ bool can_remove_frame_noise(const MeshSequence& sequence);
 /// are fitted (fit_heights()) and the frames filtered once more, as strongly as asked and as keeps
 /// the vertices, in the mean over eight sample frames, within `share` sagittas of those surfaces:
 /// so far the polygons themselves do not know their surface; eight times as strongly where that
-/// takes them hardly further. Whole frames are filtered at last (SequenceFilter), as strongly as
-/// leaves that distance about as it is. Vertices of the boundary stay on it, those that `freedom`
-/// (sliding_freedom()) pins stay in place. Leaves fewer than eight frames alone. Cost: that of
-/// PatchFilter and about 20 queries a vertex. Works on runs of at most 512 frames.
+/// takes them at most a tenth further. Whole frames are filtered at last (SequenceFilter), as
+/// strongly as adds at most a tenth to that distance. Vertices of the boundary stay on it, those
+/// that `freedom` (sliding_freedom()) pins stay in place. Leaves fewer than eight frames alone.
+/// Cost: that of PatchFilter and about 20 queries a vertex. Works on runs of at most 512 frames.
 FrameNoiseReport remove_frame_noise(const MeshSequence& source, const WeldedClip& clip,
                                     const std::vector<uint8_t>& freedom,
                                     const FrameNoiseOptions& options, MeshSequence* massaged);

@@ -53,8 +53,7 @@ std::vector<uint32_t> turned_around(const SurfaceTopology& topology, const Posit
                                     std::span<const uint32_t> below);
 
 /// Triangles that face against what is below them (triangles_below()), but for those that have the
-/// same corners as a neighbour, ascending. The surface has
-/// an index.
+/// same corners as a neighbour, ascending. The surface has an index.
 std::vector<uint32_t> turned_triangles(const SurfaceTopology& topology, const Positions& positions,
                                        const Surface& surface);
 
