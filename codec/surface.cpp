@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr double kSmoothCosine = 0.7;  // between a vertex normal and a triangle's
+constexpr double kSmoothCosine = 0.866;  // 30 degrees, of a vertex normal from a triangle's
 
 Vector3d to_vector(const Point3& p) {
   return {p[0], p[1], p[2]};

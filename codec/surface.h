@@ -88,7 +88,7 @@ class Surface {
 
   /// Where the point lies on the curved PN triangle over its flat one (Vlachos et al., "Curved PN
   /// triangles", I3D 2001): closer to a smooth surface of which the vertices are samples. Flat
-  /// where a vertex normal is far from the triangle's, at creases.
+  /// where a vertex normal is 30 degrees from the triangle's or more, at creases.
   Eigen::Vector3d curved(const SurfacePoint& point) const;
 
   /// Whether a point lies on a boundary edge of its triangle.

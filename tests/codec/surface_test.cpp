@@ -7,6 +7,7 @@
 #include "tests/codec/massage_meshes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -106,6 +107,23 @@ TEST(Surface, FindsTheClosestPointOfTheBoundary) {
   const Vector3d found = surface.closest_on_boundary({4.5, 2.25, 0.5}, &direction);
   EXPECT_NEAR((found - Vector3d(5, 2.25, 0)).norm(), 0, 1e-6);
   EXPECT_NEAR(std::abs(direction[1]), 1, 1e-12);
+}
+
+TEST(Surface, CurvesOverBluntEdgesButNotOverSharpOnes) {
+  // How far a roof bulges over the middle of its first triangle, a corner of which is on the ridge.
+  auto bulge = [](double slope) {
+    const TestMesh roof =
+        height_field(3, [slope](double x, double) { return -slope * std::abs(x - 1); });
+    const Surface surface(roof.topology, roof.positions);
+    SurfacePoint middle;
+    middle.triangle = 0;
+    middle.weights = Vector3d::Constant(1.0 / 3);
+    for (uint32_t corner : roof.topology.triangles[0])
+      middle.position += row(roof.positions, corner) / 3;
+    return (surface.curved(middle) - middle.position).norm();
+  };
+  EXPECT_GT(bulge(0.2), 0.01);
+  EXPECT_EQ(bulge(1), 0);
 }
 
 TEST(Surface, WithoutTrianglesHasNoIndex) {
