@@ -26,11 +26,9 @@ using Eigen::Vector3d;
 
 constexpr uint32_t kFewestFrames = 8, kMostFrames = 512;
 constexpr uint32_t kSamples = 8;
-constexpr int kHalvings = 4;           // of the level
-constexpr double kRaised = 8;          // the level that is tried where the first keeps the distance
-constexpr int kIntervalHalvings = 8;   // of that of levels of the filter of whole frames
+constexpr double kLeastPatchLevel = -4, kMostPatchLevel = 6;  // powers of two
+constexpr int kLevelHalvings = 8;      // of the interval of levels of the filter of whole frames
 constexpr double kLeastLevel = 0.001;  // of the smallest variance
-constexpr double kFurther = 1.1;       // distance that it may leave, in that before
 constexpr int kHeightRounds = 2;
 
 /// The mean height of the smooth surface over the centres of the triangles.
@@ -84,40 +82,17 @@ class Run {
   FrameNoiseReport settle(const PatchFilter& filter, const FrameNoiseOptions& options) {
     FrameNoiseReport report;
     report.sagitta = sample_mean([&](uint32_t k) { return sagitta(*samples_[k]); });
-    auto filtered = [&](double level) {
-      return filter.run(level, clip_.weld.representative, first_, count_, &massaged_);
-    };
     for (int round = 0; round < options.rounds; ++round) {
-      filtered(options.slide_level);
+      filtered(filter, options.slide_level);
       for_frames([&](const Surface& surface, Positions* v) {
         put_on(surface, true, v);
         if (round + 1 == options.rounds)
           fit_heights(surface, kHeightRounds, v);
       });
     }
-    const FrameView fitted = FrameView(massaged_).frames(first_, count_);
-    const std::vector<float> before(fitted.positions,
-                                    fitted.positions + fitted.frame_count * fitted.frame_stride);
-    auto settle_at = [&](double level) {
-      std::copy(before.begin(), before.end(), massaged_.frame(first_).begin());
-      report.components = filtered(level);
-      for_frames([&](const Surface& surface, Positions* v) { put_on(surface, false, v); });
-      report.moved = moved();
-    };
-    double level = options.last_level;
-    settle_at(level);
-    for (int k = 0; k < kHalvings && report.moved > options.share * report.sagitta; ++k)
-      settle_at(level /= 2);
-    if (level == options.last_level) {
-      const FrameNoiseReport settled = report;
-      const std::vector<float> kept(fitted.positions, fitted.positions + before.size());
-      settle_at(kRaised * level);
-      if (report.moved > std::min(kFurther * settled.moved, options.share * settled.sagitta)) {
-        std::copy(kept.begin(), kept.end(), massaged_.frame(first_).begin());
-        report = settled;
-      }
-    }
-    filter_whole(&report);
+    report.fitted = report.moved = moved();
+    filter_patches(filter, options.patch_allowance * report.sagitta, &report);
+    filter_whole(options.frame_allowance * report.sagitta, &report);
     return report;
   }
 
@@ -151,21 +126,47 @@ class Run {
     }
   }
 
+  double filtered(const PatchFilter& filter, double level) {
+    return filter.run(level, clip_.weld.representative, first_, count_, &massaged_);
+  }
+
   uint32_t sampled(uint32_t k) const { return (2 * k + 1) * count_ / (2 * kSamples); }
 
-  /// Filters whole frames as strongly as takes the vertices at most a tenth further from their
-  /// surfaces.
-  void filter_whole(FrameNoiseReport* report) {
+  /// Filters patches as strongly as takes the vertices further from their surfaces by no more than
+  /// is allowed.
+  void filter_patches(const PatchFilter& filter, double allowance, FrameNoiseReport* report) {
+    const FrameView run = FrameView(massaged_).frames(first_, count_);
+    const std::vector<float> before(run.positions,
+                                    run.positions + run.frame_count * run.frame_stride);
+    const double most = report->moved + allowance;
+    auto filter_at = [&](double level) {
+      std::copy(before.begin(), before.end(), massaged_.frame(first_).begin());
+      report->components = filtered(filter, std::exp2(level));
+      for_frames([&](const Surface& surface, Positions* v) { put_on(surface, false, v); });
+      report->moved = moved();
+    };
+    double low = kLeastPatchLevel, high = kMostPatchLevel, at = high;
+    while (high - low > 1) {
+      at = (low + high) / 2;
+      filter_at(at);
+      (report->moved <= most ? low : high) = at;
+    }
+    if (at != low)
+      filter_at(low);
+  }
+
+  /// Filters whole frames likewise.
+  void filter_whole(double allowance, FrameNoiseReport* report) {
     const FrameView run = FrameView(massaged_).frames(first_, count_);
     const SequenceFilter filter(run);
     const Eigen::VectorXd& variances = filter.variances();
     if (variances.size() == 0)
       return;
-    const double most = kFurther * report->moved;
+    const double most = report->moved + allowance;
     double low = std::log(kLeastLevel * variances[variances.size() - 1]);
     double high = std::log(variances[0]);
     bool within = false;
-    for (int k = 0; k < kIntervalHalvings; ++k) {
+    for (int k = 0; k < kLevelHalvings; ++k) {
       const double middle = (low + high) / 2;
       const Eigen::MatrixXd weights = filter.weights(std::exp(middle));
       const double distance = sample_mean([&](uint32_t s) {
@@ -226,6 +227,7 @@ FrameNoiseReport remove_frame_noise(const MeshSequence& source, const WeldedClip
     const FrameNoiseReport one =
         Run(source, clip, freedom, first, end - first, massaged).settle(filter, options);
     report.sagitta += one.sagitta / runs;
+    report.fitted += one.fitted / runs;
     report.moved += one.moved / runs;
     report.components += one.components / runs;
   }

@@ -51,7 +51,7 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
       options.tolerance > 0 ? options.tolerance : std::numeric_limits<double>::infinity();
   tbb::enumerable_thread_specific<SurfaceFitter> fitters(
       [&] { return SurfaceFitter(clip.topology, shape); });
-  const bool settles = options.noise_share > 0 && can_remove_frame_noise(sequence);
+  const bool settles = options.remove_noise && can_remove_frame_noise(sequence);
   auto massage_frame = [&](uint32_t f) {
     if (f == options.reference)
       return;
@@ -75,8 +75,9 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
   in_parallel("massaging", massage_frame);
   if (settles) {
     FrameNoiseOptions noise;
-    noise.last_level *= options.strength / (1 - options.strength);
-    noise.share = options.noise_share;
+    const double importance = options.strength / (1 - options.strength);
+    noise.patch_allowance *= importance;
+    noise.frame_allowance *= importance;
     result.noise = remove_frame_noise(sequence, clip, slider.freedom(), noise, &result.sequence);
   }
   in_parallel("settling", [&](uint32_t f) {

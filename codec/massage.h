@@ -17,11 +17,10 @@
 namespace anicodec {
 
 struct MassageOptions {
-  uint32_t reference = 0;  ///< the frame whose shapes the others follow
-  double strength = 0.5;   ///< of shape, or of what frames share, against distance, in (0, 1)
-  double tolerance = 0;    ///< how far a surface may move, scene units (limit_distance()); 0: any
-  double noise_share =
-      1.5;  ///< how much is taken for noise of single frames (remove_frame_noise())
+  uint32_t reference = 0;    ///< the frame whose shapes the others follow
+  double strength = 0.5;     ///< of shape, or of what frames share, against distance, in (0, 1)
+  double tolerance = 0;      ///< how far a surface may move, scene units (limit_distance()); 0: any
+  bool remove_noise = true;  ///< what single frames have of their own (remove_frame_noise())
 };
 
 struct MassagedFrame {

@@ -49,7 +49,7 @@ bool sample_shrinks(const MeshSequence& sequence, MassageOptions massage_options
     options.target = {format::ErrorMetric::kKg, kSampleKg, false};
   const MeshSequence sample = sample_of(sequence, massage_options.reference);
   massage_options.reference = 0;
-  massage_options.noise_share = 0;
+  massage_options.remove_noise = false;
   try {
     MassageResult massaged = massage(sample, massage_options, progress);
     verdict->sample_plain_bytes = encode(sample, options, progress).file.size();

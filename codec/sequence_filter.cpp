@@ -46,7 +46,7 @@ SequenceFilter::SequenceFilter(const FrameView& clip) {
 
 Eigen::MatrixXd SequenceFilter::weights(double level) const {
   const Index frames = vectors_.rows();
-  const Eigen::VectorXd kept = (1 - level / variances_.array()).max(0.0);
+  const Eigen::VectorXd kept = (1 - (level / variances_.array()).square()).max(0.0);
   return Eigen::MatrixXd::Constant(frames, frames, 1 / static_cast<double>(frames)) +
          vectors_ * kept.asDiagonal() * vectors_.transpose();
 }

@@ -13,9 +13,11 @@
 
 namespace anicodec {
 
-/// Tells what the frames of a clip share from what is each frame's own, as a Wiener filter along
-/// its principal components: a component of variance s keeps max(0, 1 - level / s) of itself. Noise
-/// that is independent from frame to frame spreads over all components alike, motion over few.
+/// Tells what the frames of a clip share from what is each frame's own, along its principal
+/// components: a component of variance s keeps max(0, 1 - (level / s)^2) of itself, which is a
+/// Wiener filter that is given once more what it took away ("twicing", Tukey 1977), so that what
+/// stays is hardly weakened. Noise that is independent from frame to frame spreads over all
+/// components alike, motion over few.
 class SequenceFilter {
  public:
   /// Cost O(vertices frames^2 + frames^3), memory frames^2 doubles.

@@ -12,7 +12,7 @@
 namespace anicodec {
 
 struct SlidingOptions {
-  int rounds = 4;
+  int rounds = 3;
   double tolerance = 1e-2;    ///< stop when the root mean square step is below so many mean edges
   double longest_step = 0.7;  ///< of a vertex in a round, in mean edges at it
 };

@@ -186,7 +186,7 @@ TEST(Massage, BringsSlidingVerticesToRest) {
   const SurfaceComparison moved = compare_surfaces(clip, result.sequence);
   EXPECT_LT(moved.percent(moved.total.mean()), 0.1);
   EXPECT_GT(result.noise.components, 0);
-  EXPECT_LE(result.noise.moved, result.noise.sagitta);
+  EXPECT_LE(result.noise.moved, result.noise.fitted + 0.2 * result.noise.sagitta);
 }
 
 TEST(Massage, FollowsTheFrameAskedFor) {
