@@ -83,7 +83,7 @@ class Run {
     FrameNoiseReport report;
     report.sagitta = sample_mean([&](uint32_t k) { return sagitta(*samples_[k]); });
     for (int round = 0; round < options.rounds; ++round) {
-      filtered(filter, options.slide_level);
+      run_patches(filter, options.slide_level);
       for_frames([&](const Surface& surface, Positions* v) {
         put_on(surface, true, v);
         if (round + 1 == options.rounds)
@@ -126,7 +126,8 @@ class Run {
     }
   }
 
-  double filtered(const PatchFilter& filter, double level) {
+  /// Filters the frames as they are now. Returns the components left of a patch, in the mean.
+  double run_patches(const PatchFilter& filter, double level) {
     return filter.run(level, clip_.weld.representative, first_, count_, &massaged_);
   }
 
@@ -141,7 +142,7 @@ class Run {
     const double most = report->moved + allowance;
     auto filter_at = [&](double level) {
       std::copy(before.begin(), before.end(), massaged_.frame(first_).begin());
-      report->components = filtered(filter, std::exp2(level));
+      report->components = run_patches(filter, std::exp2(level));
       for_frames([&](const Surface& surface, Positions* v) { put_on(surface, false, v); });
       report->moved = moved();
     };

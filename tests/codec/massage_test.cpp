@@ -187,6 +187,7 @@ TEST(Massage, BringsSlidingVerticesToRest) {
   EXPECT_LT(moved.percent(moved.total.mean()), 0.1);
   EXPECT_GT(result.noise.components, 0);
   EXPECT_LE(result.noise.moved, result.noise.fitted + 0.2 * result.noise.sagitta);
+  EXPECT_LE(result.noise.moved, result.noise.sagitta);
 }
 
 TEST(Massage, FollowsTheFrameAskedFor) {
