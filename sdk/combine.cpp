@@ -165,8 +165,12 @@ size_t all_combine_kernels(const CombineKernels* (&out)[kMaxCombineKernels]) {
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
       __get_cpuid(1, &eax, &ebx, &ecx, &edx) && (ecx & bit_F16C)) {
     out[count++] = &kCombineKernelsAvx2;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
-      out[count++] = &kCombineKernelsAvx512;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) {
+      out[count++] = &kCombineKernelsAvx512vl;
+      // VBMI2 came with the machines that multiply 512 bits without a much lower clock.
+      if (__builtin_cpu_supports("avx512vbmi2"))
+        out[count++] = &kCombineKernelsAvx512;
+    }
   }
 #endif
   return count;

@@ -59,8 +59,8 @@ void combine(const FrameState& state, uint32_t first, uint32_t count, float* out
 /// in the layout of Segment::pose.
 void store_points(const float* blocks, uint32_t first, uint32_t count, const VertexOutput& output);
 
-/// What combine() runs on this machine: "avx512", "avx2", "portable" (the instruction set of the
-/// build) or "scalar".
+/// What combine() runs on this machine: "avx512", "avx512vl", "avx2", "portable" (the instruction
+/// set of the build) or "scalar".
 const char* combine_kernels_name();
 
 }  // namespace anicodec

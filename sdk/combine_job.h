@@ -57,7 +57,7 @@ struct CombineKernels {
 const CombineKernels& combine_kernels();
 
 /// All kernels that this machine runs, the scalar ones first; returns how many.
-inline constexpr size_t kMaxCombineKernels = 4;
+inline constexpr size_t kMaxCombineKernels = 5;
 size_t all_combine_kernels(const CombineKernels* (&out)[kMaxCombineKernels]);
 
 /// combine() with given kernels.
@@ -70,8 +70,9 @@ extern const CombineKernels kCombineKernelsScalar;
 /// is 1.
 extern const CombineKernels kCombineKernelsPortable;
 #if defined(ANICODEC_COMBINE_AVX2)
-extern const CombineKernels kCombineKernelsAvx2;    // and FMA, F16C
-extern const CombineKernels kCombineKernelsAvx512;  // F and VL, and what AVX2 needs
+extern const CombineKernels kCombineKernelsAvx2;      // and FMA, F16C
+extern const CombineKernels kCombineKernelsAvx512vl;  // F and VL, and what AVX2 needs
+extern const CombineKernels kCombineKernelsAvx512;    // the same, where 512 bits are worth it
 #endif
 
 /// combine of kCombineKernelsScalar.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Playing kernels for W = 4 or 8 vertices at once. A lane is a vertex; every sum begins with
+// Playing kernels for W = 4, 8 or 16 vertices at once. A lane is a vertex; every sum begins with
 // the base and runs over the components in ascending order, so that neither the number of lanes nor
 // the frames made together nor the range asked for changes a bit. The including file is compiled
 // once per instruction set: see lanes.h.
@@ -61,6 +61,10 @@ struct LaneKernel {
       return reinterpret_cast<Float>(_mm_fmadd_ps(a, b, c));
     else if constexpr (W == 8)
       return reinterpret_cast<Float>(_mm256_fmadd_ps(a, b, c));
+#if defined(__AVX512F__)
+    else if constexpr (W == 16)
+      return reinterpret_cast<Float>(_mm512_fmadd_ps(a, b, c));
+#endif
 #elif defined(__aarch64__)
     static_assert(W == 4, "NEON has four lanes");
     return vfmaq_f32(c, a, b);
@@ -71,6 +75,14 @@ struct LaneKernel {
 
   template <class Int>
   static ANICODEC_INLINE Float widen(const Int* q) {
+#if defined(__AVX512F__)
+    if constexpr (W == 16 && sizeof(Int) == 2) {
+      const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(q));
+      const auto all = static_cast<__mmask16>(-1);  // GCC 12 warns where there is no mask
+      return __builtin_convertvector(
+          reinterpret_cast<typename LaneTypes<W>::Int>(_mm512_maskz_cvtepi16_epi32(all, v)), Float);
+    }
+#endif
 #if defined(__AVX2__)
     if constexpr (W == 8 && sizeof(Int) == 2) {
       const __m128i v = _mm_loadu_si128(reinterpret_cast<const __m128i*>(q));
@@ -108,6 +120,23 @@ struct LaneKernel {
     }
   }
 
+  /// Vectors of vertices that so many frames are made of at a time: two where there are registers
+  /// for the sums, which hides how long a multiply-add takes. Components of vectors are as fast as
+  /// memory without, and slower where two blocks of them are read side by side.
+  static constexpr size_t vectors(uint32_t frames, uint32_t channels) {
+    return frames * 6 <= kSums && (2 * W <= kBlock || channels == 1) ? 2 : 1;
+  }
+
+  static constexpr uint32_t blocks_together(uint32_t frames, uint32_t channels) {
+    const size_t lanes = vectors(frames, channels) * W;
+    return lanes > kBlock ? static_cast<uint32_t>(lanes / kBlock) : 1;
+  }
+
+  /// Where vector n is, in an array that has a block every so many elements.
+  static constexpr size_t place(size_t n, size_t block_elements) {
+    return n * W / kBlock * block_elements + n * W % kBlock;
+  }
+
   /// s += the components of a block from its vertex h on, `count` of them; `block` may be null when
   /// there are none.
   template <uint32_t Channels, uint32_t F, size_t N, class Int>
@@ -117,31 +146,42 @@ struct LaneKernel {
     if (count == 0)
       return;
     const Int* q = block + h;
+    const size_t block_elements = size_t{count} * Channels * kBlock;
+    constexpr size_t kBlocks = N * W > kBlock ? N * W / kBlock : 1;
+    size_t ahead = kAhead;
+    if constexpr (kBlocks > 1) {  // the same place in blocks to come, as those between are read now
+      const size_t bytes = kBlocks * block_elements * sizeof(Int);
+      ahead = (kAhead / bytes + 1) * bytes;
+    }
     const float* w[F];
     ANICODEC_UNROLL for (uint32_t f = 0; f < F; ++f) w[f] = weights[f];
     for (uint32_t j = 0; j < count; ++j) {
       Float x[Channels][N];
       ANICODEC_UNROLL for (size_t c = 0; c < Channels; ++c)
-          ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) x[c][n] = widen(q + c * kBlock + n * W);
+          ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) x[c][n] =
+              widen(q + c * kBlock + place(n, block_elements));
       ANICODEC_UNROLL for (uint32_t f = 0; f < F; ++f)
           ANICODEC_UNROLL for (size_t c = 0; c < 3; ++c) {
         const Float u = splat(w[f][c % kWeights]);
         ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) s[f][c][n] =
             multiply_add(x[c % Channels][n], u, s[f][c][n]);
       }
-      fetch(q, kAhead);
-      if constexpr (Channels * N > 3)  // more than a line of the cache
-        fetch(q, kAhead + Channels * kBlock);
+      ANICODEC_UNROLL for (size_t b = 0; b < kBlocks; ++b) {
+        fetch(q + b * block_elements, ahead);
+        if constexpr (Channels * N * W > 24)  // more than a line of the cache
+          fetch(q + b * block_elements, ahead + Channels * kBlock);
+      }
       q += Channels * kBlock;
       ANICODEC_UNROLL for (uint32_t f = 0; f < F; ++f) w[f] += kWeights;
     }
   }
 
-  /// The frames first .. first + F - 1 of a block.
-  template <uint32_t F, uint32_t Channels>
+  /// The frames first .. first + F - 1 of B blocks, of AllF frames.
+  template <uint32_t F, uint32_t AllF, uint32_t Channels, uint32_t B>
   static ANICODEC_INLINE void some_sums(const CombineJob& job, uint32_t first, uint32_t block,
                                         Block* sums, unsigned char* const* direct) {
-    constexpr size_t N = F * 6 <= kSums && 2 * W <= kBlock ? 2 : 1;
+    constexpr size_t kMost = B * kBlock / W;
+    constexpr size_t N = vectors(F, Channels) < kMost ? vectors(F, Channels) : kMost;
     const CombineJob::Frame* frame = job.frame + first;
     const float* weights[F];
     const float* narrow_weights[F];
@@ -158,7 +198,7 @@ struct LaneKernel {
         Float in[3][N];
         ANICODEC_UNROLL for (size_t d = 0; d < 3; ++d)
             ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) in[d][n] =
-                load(job.pose + (size_t{block} * 3 + d) * kBlock + h + n * W);
+                load(job.pose + (size_t{block} * 3 + d) * kBlock + h + place(n, 3 * kBlock));
         ANICODEC_UNROLL for (uint32_t f = 0; f < F; ++f) transform<N>(frame[f].pose_map, in, s[f]);
       } else {
         ANICODEC_UNROLL for (uint32_t f = 0; f < F; ++f)
@@ -178,22 +218,23 @@ struct LaneKernel {
           OutputLanes<W>::interleave3(s[f][0][n], s[f][1][n], s[f][2][n],
                                       direct[f] + 12 * (h + n * W));
         } else {
-          ANICODEC_UNROLL for (size_t c = 0; c < 3; ++c) store(sums[f][c] + h + n * W, s[f][c][n]);
+          ANICODEC_UNROLL for (size_t c = 0; c < 3; ++c)
+              store(sums[n * W / kBlock * AllF + f][c] + h + n * W % kBlock, s[f][c][n]);
         }
       }
     }
   }
 
-  template <uint32_t F, uint32_t Channels>
+  template <uint32_t F, uint32_t Channels, uint32_t B>
   static ANICODEC_INLINE void sums(const CombineJob& job, uint32_t block, Block* sums,
                                    unsigned char* const* direct) {
     // Two frames of scalars and all 16 vertices use as many registers as four frames of half of
     // them, and load fewer weights.
     constexpr uint32_t kFirst = Channels == 1 && F > 2 && kSums < 24 && 2 * W <= kBlock ? 2 : F;
-    some_sums<kFirst, Channels>(job, 0, block, sums, direct);
+    some_sums<kFirst, F, Channels, B>(job, 0, block, sums, direct);
     if constexpr (kFirst < F)
-      some_sums<F - kFirst, Channels>(job, kFirst, block, sums + kFirst,
-                                      direct ? direct + kFirst : nullptr);
+      some_sums<F - kFirst, F, Channels, B>(job, kFirst, block, sums + kFirst,
+                                            direct ? direct + kFirst : nullptr);
   }
 
   static ANICODEC_INLINE void move(const float* motion, Block& sums) {

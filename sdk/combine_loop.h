@@ -15,49 +15,89 @@ namespace {
 /// Coordinates of the vertices of a block.
 typedef float Block[3][kBlock];
 
-/// The kernel makes F frames of a block:
-///   sums<F, channels>(job, block, sums, direct) combines base and components; to `sums`, or as
-///   three
-///     floats without gaps to `direct` unless that is null;
-///   move(map, sums) maps the points of one frame by a 3 x 4 matrix;
+/// The kernel makes F frames of B blocks that follow each other:
+///   sums<F, channels, B>(job, block, sums, direct) combines base and components; to
+///     sums[b * F + f], or as three floats without gaps to `direct` unless that is null;
+///   move(map, sums) maps the points of one frame of a block by a 3 x 4 matrix;
 ///   write(frame, sums, begin, end, to) stores the vertices begin .. end - 1 of the block.
+/// B is 1, or blocks_together(F, channels) where so many whole ones are left.
 template <class Kernel, uint32_t F, uint32_t Channels>
-void combine_frames(const CombineJob& job) {
-  const Segment::Correction* correction[F];
-  unsigned char* out[F];
-  bool plain = true;  // all go where a kernel may store them directly
-  for (uint32_t f = 0; f < F; ++f) {
-    const CombineJob::Frame& frame = job.frame[f];
-    correction[f] = frame.correction;
-    out[f] = frame.out;
-    plain &= !frame.motion && frame.format == VertexFormat::kFloat32x3 && frame.stride == 12;
-  }
-  for (uint32_t block = job.first / kBlock; block * kBlock < job.end; ++block) {
-    const uint32_t base = block * kBlock;
-    const uint32_t begin = job.first > base ? job.first - base : 0;
-    const uint32_t end = job.end - base < kBlock ? job.end - base : kBlock;
-    const auto corrected = [&](uint32_t f) {
-      return correction[f] != job.frame[f].corrections_end && correction[f]->vertex < base + end;
-    };
-    bool direct = plain && end - begin == kBlock;
-    for (uint32_t f = 0; f < F; ++f)
-      direct &= !corrected(f);
-    alignas(64) Block sums[F];
-    Kernel::template sums<F, Channels>(job, block, sums, direct ? out : nullptr);
+class FrameLoop {
+ public:
+  explicit FrameLoop(const CombineJob& job) : job_(job) {
     for (uint32_t f = 0; f < F; ++f) {
       const CombineJob::Frame& frame = job.frame[f];
-      if (!direct) {
-        if (frame.motion)
-          Kernel::move(frame.motion, sums[f]);
-        for (; corrected(f); ++correction[f]) {
-          for (uint32_t c = 0; c < 3; ++c)
-            sums[f][c][correction[f]->vertex - base] += correction[f]->delta[c];
-        }
-        Kernel::write(frame, sums[f], begin, end, out[f]);
-      }
-      out[f] += frame.stride * (end - begin);
+      correction_[f] = frame.correction;
+      out_[f] = frame.out;
+      plain_ &= !frame.motion && frame.format == VertexFormat::kFloat32x3 && frame.stride == 12;
     }
   }
+
+  void run() {
+    constexpr uint32_t kTogether = Kernel::blocks_together(F, Channels);
+    for (uint32_t block = job_.first / kBlock; block * kBlock < job_.end;) {
+      const uint32_t base = block * kBlock;
+      if (kTogether > 1 && job_.first <= base && job_.end - base >= kTogether * kBlock) {
+        make<kTogether>(block);
+        block += kTogether;
+      } else {
+        make<1>(block);
+        ++block;
+      }
+    }
+  }
+
+ private:
+  bool corrected(uint32_t f, uint32_t end) const {
+    return correction_[f] != job_.frame[f].corrections_end && correction_[f]->vertex < end;
+  }
+
+  /// B blocks, all whole unless B is 1.
+  template <uint32_t B>
+  ANICODEC_INLINE void make(uint32_t block) {
+    const uint32_t base = block * kBlock;
+    const uint32_t begin = job_.first > base ? job_.first - base : 0;
+    const uint32_t end = job_.end - base < B * kBlock ? job_.end - base : B * kBlock;
+    bool direct = plain_ && end - begin == B * kBlock;
+    for (uint32_t f = 0; f < F; ++f)
+      direct &= !corrected(f, base + end);
+    alignas(64) Block sums[B * F];
+    Kernel::template sums<F, Channels, B>(job_, block, sums, direct ? out_ : nullptr);
+    for (uint32_t f = 0; f < F; ++f) {
+      const size_t stride = job_.frame[f].stride;
+      if (direct) {
+        out_[f] += stride * B * kBlock;
+        continue;
+      }
+      for (uint32_t b = 0; b < B; ++b) {
+        const uint32_t last = B == 1 ? end : kBlock;
+        finish(f, base + b * kBlock, begin, last, sums[b * F + f]);
+        out_[f] += stride * (last - begin);
+      }
+    }
+  }
+
+  /// Moves, corrects and stores the vertices begin .. end - 1 of the block that begins at `base`.
+  void finish(uint32_t f, uint32_t base, uint32_t begin, uint32_t end, Block& sums) {
+    const CombineJob::Frame& frame = job_.frame[f];
+    if (frame.motion)
+      Kernel::move(frame.motion, sums);
+    for (; corrected(f, base + end); ++correction_[f]) {
+      for (uint32_t c = 0; c < 3; ++c)
+        sums[c][correction_[f]->vertex - base] += correction_[f]->delta[c];
+    }
+    Kernel::write(frame, sums, begin, end, out_[f]);
+  }
+
+  const CombineJob& job_;
+  const Segment::Correction* correction_[F];
+  unsigned char* out_[F];
+  bool plain_ = true;  // all go where a kernel may store them directly
+};
+
+template <class Kernel, uint32_t F, uint32_t Channels>
+void combine_frames(const CombineJob& job) {
+  FrameLoop<Kernel, F, Channels>(job).run();
 }
 
 template <class Kernel, uint32_t Channels>

@@ -18,14 +18,21 @@ const CombineKernels kCombineKernelsPortable = {"scalar", false, combine_scalar}
 
 namespace anicodec {
 
+#if defined(__AVX512F__)
+constexpr size_t kWidest = 16;
+#elif defined(__aarch64__)
+constexpr size_t kWidest = 4;
+#else
+constexpr size_t kWidest = 8;
+#endif
 #if defined(ANICODEC_LANES)
-constexpr size_t kLanes = ANICODEC_LANES;
+constexpr size_t kLanes = ANICODEC_LANES < kWidest ? ANICODEC_LANES : kWidest;
 #elif defined(__AVX__)
 constexpr size_t kLanes = 8;
 #else
 constexpr size_t kLanes = 4;
 #endif
-static_assert(kLanes == 4 || kLanes == 8);
+static_assert(kLanes == 4 || kLanes == 8 || kLanes == 16);
 
 const CombineKernels kCombineKernelsPortable = {"portable", kFused,
                                                 combine_job<LaneKernel<kLanes>>};

@@ -86,7 +86,9 @@ uint16_t element(VertexFormat format, float x) {
 }
 
 struct ScalarKernel {
-  template <uint32_t F, uint32_t Channels>
+  static constexpr uint32_t blocks_together(uint32_t, uint32_t) { return 1; }
+
+  template <uint32_t F, uint32_t Channels, uint32_t>
   static void sums(const CombineJob& job, uint32_t block, Block* sums,
                    unsigned char* const* direct) {
     for (uint32_t f = 0; f < F; ++f) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Storing positions from W = 4 or 8 vertices at once: coordinates in vectors become points in
+// Storing positions from W = 4, 8 or 16 vertices at once: coordinates in vectors become points in
 // memory, by shuffles within groups of four lanes. The including file is compiled once per
 // instruction set: see lanes.h.
 #ifndef ANICODEC_SDK_OUTPUT_LANES_H_
@@ -29,8 +29,14 @@ struct OutputLanes {
     if constexpr (W == 4) {
       return __builtin_shufflevector(a, b, I, J, K, L);
     } else {
-      constexpr int i = I + I / 4 * 4, j = J + J / 4 * 4, k = K + K / 4 * 4, l = L + L / 4 * 4;
-      return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4);
+      constexpr int kSecond = W - 4;
+      constexpr int i = I + I / 4 * kSecond, j = J + J / 4 * kSecond, k = K + K / 4 * kSecond,
+                    l = L + L / 4 * kSecond;
+      if constexpr (W == 8)
+        return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4);
+      else
+        return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8,
+                                       k + 8, l + 8, i + 12, j + 12, k + 12, l + 12);
     }
   }
 
@@ -40,14 +46,21 @@ struct OutputLanes {
     if constexpr (W == 4) {
       __builtin_memcpy(to, v, N * sizeof(V));
     } else {
-      ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) {
-        const auto low = __builtin_shufflevector(v[n], v[n], 0, 1, 2, 3);
-        __builtin_memcpy(to + 16 * n, &low, 16);
-      }
-      ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) {
-        const auto high = __builtin_shufflevector(v[n], v[n], 4, 5, 6, 7);
-        __builtin_memcpy(to + 16 * (N + n), &high, 16);
-      }
+      store_fours<N, 0>(to, v);
+      store_fours<N, 1>(to, v);
+    }
+    if constexpr (W == 16) {
+      store_fours<N, 2>(to, v);
+      store_fours<N, 3>(to, v);
+    }
+  }
+
+  template <size_t N, int Four, typename V>
+  static ANICODEC_INLINE void store_fours(unsigned char* to, const V* v) {
+    constexpr int i = 4 * Four;
+    ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) {
+      const auto four = __builtin_shufflevector(v[n], v[n], i, i + 1, i + 2, i + 3);
+      __builtin_memcpy(to + 16 * (N * Four + n), &four, 16);
     }
   }
 
@@ -98,6 +111,13 @@ struct OutputLanes {
       if constexpr (W == 8)
         return reinterpret_cast<Int>(
             _mm256_cvtepu16_epi32(_mm256_cvtps_ph(x, _MM_FROUND_TO_NEAREST_INT)));
+#endif
+#if defined(__AVX512F__)
+      if constexpr (W == 16) {
+        const auto all = static_cast<__mmask16>(-1);  // GCC 12 warns where there is no mask
+        return reinterpret_cast<Int>(_mm512_maskz_cvtepu16_epi32(
+            all, _mm512_maskz_cvtps_ph(all, x, _MM_FROUND_TO_NEAREST_INT)));
+      }
 #endif
       return half_bits<Float, Int>(x);
     }

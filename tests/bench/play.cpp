@@ -122,7 +122,8 @@ volatile int32_t sum_read;  // so that reading is not left out
 
 Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertices,
                const std::vector<uint32_t>& components, int runs) {
-  if (!peers_run_here())
+  const PlayPeers* peers = play_peers();
+  if (!peers)
     throw Error(ErrorKind::kUsage, "the peers of this bench need AVX2 and FMA");
   Table table({{"basis", "kind", ""},
                {"components", "k", ""},
@@ -145,15 +146,15 @@ Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertice
       for (const Peer& peer : all) {
         const uint32_t v = peer.vertices;
         Stage stage(kind, v, k);
-        EigenProduct eigen(v, k, trajectories);
+        const auto eigen = peers->eigen_product(v, k, trajectories);
         const auto& narrow = stage.segment.narrow;
         float result = 0;
         size_t multiplied = 0;
         const auto seconds =
             in_turns(runs, {[&] { stage.play(1); }, [&] { stage.play(kFrames); },
-                            [&] { sum_read = read_all(narrow.data(), narrow.size()); },
-                            [&] { multiplied = multiply_adds(size_t{1} << 24, &result); },
-                            [&] { eigen.run(); }, [&] { peers::decode_draco(peer.draco); }});
+                            [&] { sum_read = peers->read_all(narrow.data(), narrow.size()); },
+                            [&] { multiplied = peers->multiply_adds(size_t{1} << 24, &result); },
+                            [&] { eigen->run(); }, [&] { peers::decode_draco(peer.draco); }});
         const auto &one = seconds[0], &four = seconds[1];
         const double per_vertex = 1e9 / v;
         // The moving base takes as many as three components of vectors.

@@ -9,31 +9,31 @@
 
 namespace anicodec::bench {
 
-/// What playing is compared with, built for the instruction set of the fastest playing kernels.
-
-/// Whether this machine runs them.
-bool peers_run_here();
-
-/// Reads all numbers once, from the first to the last; returns their sum.
-int32_t read_all(const int16_t* q, size_t count);
-
-/// Independent multiply-adds in registers, so many or a few more; returns how many.
-size_t multiply_adds(size_t count, float* result);
-
-/// Eigen's product of a float matrix, the basis, with the weights of a frame, as fast as its layout
-/// allows: eigenshapes as columns (times a vector), or eigentrajectories as columns of row-major
-/// rows (times three vectors).
-class EigenProduct {
+class Product {
  public:
-  EigenProduct(size_t vertices, size_t components, bool trajectories);
-  ~EigenProduct();
-
-  void run();
-
- private:
-  struct Matrices;
-  std::unique_ptr<Matrices> matrices_;
+  virtual ~Product() = default;
+  virtual void run() = 0;
 };
+
+/// What playing is compared with, built for one instruction set.
+struct PlayPeers {
+  /// Reads all numbers once, from the first to the last; returns their sum.
+  int32_t (*read_all)(const int16_t* q, size_t count);
+
+  /// Independent multiply-adds in registers, so many or a few more; returns how many.
+  size_t (*multiply_adds)(size_t count, float* result);
+
+  /// Eigen's product of a float matrix, the basis, with the weights of a frame, as fast as its
+  /// layout allows: eigenshapes as columns (times a vector), or eigentrajectories as columns of
+  /// row-major rows (times three vectors).
+  std::unique_ptr<Product> (*eigen_product)(size_t vertices, size_t components, bool trajectories);
+};
+
+extern const PlayPeers kPlayPeers256;  // AVX2 and FMA on x86, else what the build is for
+extern const PlayPeers kPlayPeers512;  // AVX-512 (F, DQ, VL) on x86
+
+/// Those for the instruction set of the fastest playing kernels, or null where they cannot run.
+const PlayPeers* play_peers();
 
 }  // namespace anicodec::bench
 

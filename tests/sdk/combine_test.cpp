@@ -148,6 +148,23 @@ TEST(Combine, GivesTheBitsOfTheScalarKernelUnlessFused) {
   }
 }
 
+TEST(Combine, GivesTheSameBitsWithAllFusedKernels) {
+  uint32_t seed = 0;
+  for (const Shape& shape : shapes()) {
+    Segment s = random_segment(shape, ++seed);
+    FrameState state = frame_state(s, 2);
+    std::vector<float> first;
+    for (const CombineKernels* k : kernels()) {
+      if (!k->fused)
+        continue;
+      const std::vector<float> out = floats(*k, state, 0, s.vertices);
+      if (first.empty())
+        first = out;
+      EXPECT_TRUE(same_bits(out, first)) << k->name << ", " << shape.name();
+    }
+  }
+}
+
 TEST(Combine, GivesTheSameBitsForAnyRange) {
   uint32_t seed = 0;
   for (const Shape& shape : shapes()) {
