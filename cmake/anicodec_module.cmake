@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 #
-# anicodec_module(NAME STANDARD): a static library anicodec_NAME (alias anicodec::NAME) of every
-# source in the current folder, folders with a CMakeLists.txt of their own excepted. Headers are
-# included as "module/file.h" from the top of the tree.
+# anicodec_library(NAME STANDARD SOURCES...): a static library anicodec_NAME (alias anicodec::NAME).
+# Headers are included as "module/file.h" from the top of the tree.
+#
+# anicodec_module(NAME STANDARD [EXCEPT SOURCES...]): one of every source in the current folder, folders
+# with a CMakeLists.txt of their own excepted.
 
 add_library(anicodec_flags INTERFACE)
 target_compile_options(anicodec_flags INTERFACE
@@ -16,13 +18,21 @@ target_compile_options(anicodec_flags INTERFACE
 target_include_directories(anicodec_flags INTERFACE "${PROJECT_SOURCE_DIR}")
 
 function(anicodec_module name standard)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "EXCEPT")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp *.h)
+  foreach(source IN LISTS arg_EXCEPT)
+    list(REMOVE_ITEM sources "${CMAKE_CURRENT_SOURCE_DIR}/${source}")
+  endforeach()
   file(GLOB folders CONFIGURE_DEPENDS */CMakeLists.txt)
   foreach(folder IN LISTS folders)
     cmake_path(GET folder PARENT_PATH folder)
     list(FILTER sources EXCLUDE REGEX "^${folder}/")
   endforeach()
-  add_library(anicodec_${name} STATIC ${sources})
+  anicodec_library(${name} ${standard} ${sources})
+endfunction()
+
+function(anicodec_library name standard)
+  add_library(anicodec_${name} STATIC ${ARGN})
   add_library(anicodec::${name} ALIAS anicodec_${name})
   target_compile_features(anicodec_${name} PUBLIC cxx_std_${standard})
   set_target_properties(anicodec_${name} PROPERTIES

@@ -560,8 +560,9 @@ typedef struct anic_normal_options {
 } anic_normal_options;
 
 /**
- * Prepares normals. The file does not hold any; these are recomputed from positions. They are smooth across
- * copies of a vertex (anic_mesh_copies()), so that seams of the source do not show unless they are creases.
+ * Prepares normals that are recomputed from positions; normals that a file holds are an attribute, ANIC_NORMAL.
+ * They are smooth across copies of a vertex (anic_mesh_copies()), so that seams of the source do not show unless
+ * they are creases.
  *
  * A normal is the sum of the cross products of the edges at the corners it is averaged over, so that larger
  * faces count more, of length one; (0, 0, 1) where that sum is 0. With per_corner = 0, all corners of a vertex

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+#
+# The fuzz tests once more, under the address and undefined-behaviour sanitizers.
+cmake_policy(VERSION 3.25)
+include("${SOURCE_DIR}/tests/package/run.cmake")
+set(launcher "")
+if(LAUNCHER)
+  set(launcher "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
+endif()
+run(_ "${CMAKE_COMMAND}" --preset asan -S "${SOURCE_DIR}" -B "${WORK_DIR}" ${launcher}
+  "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
+  "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG" -DANICODEC_BUILD_EXAMPLES=OFF -DANICODEC_INSTALL=OFF)
+run(_ "${CMAKE_COMMAND}" --build "${WORK_DIR}" --target fuzz_tests)
+run(_ "${CMAKE_CTEST_COMMAND}" --test-dir "${WORK_DIR}" -L "^fuzz$" -LE slow --no-tests=error --output-on-failure)
