@@ -34,13 +34,13 @@ constexpr size_t kSums = 24;
 constexpr size_t kSums = 12;
 #endif
 
-// Bytes between what is read and what is asked for: coefficients are read in order, through many
-// pages, faster than the machine foresees by itself.
-constexpr size_t kAhead = 4096;
-
 template <size_t W>
 struct LaneKernel {
   using Float = typename LaneTypes<W>::Float;
+
+  /// Bytes between what is read and what is asked for: coefficients are read in order, through many
+  /// pages, faster than the machine foresees by itself, and the faster the more lanes there are.
+  static constexpr size_t kAhead = W == 16 ? 8192 : 4096;
 
   static ANICODEC_INLINE Float load(const float* from) {
     Float v;
