@@ -168,7 +168,7 @@ struct LaneKernel {
       }
       ANICODEC_UNROLL for (size_t b = 0; b < kBlocks; ++b) {
         fetch(q + b * block_elements, ahead);
-        if constexpr (Channels * N * W > 24)  // more than a line of the cache
+        if constexpr (Channels > 1 && (N > 1 || W == kBlock))  // more than a line of the cache
           fetch(q + b * block_elements, ahead + Channels * kBlock);
       }
       q += Channels * kBlock;
