@@ -4,8 +4,8 @@
 # anicodec_library(NAME STANDARD SOURCES...): a static library anicodec_NAME (alias anicodec::NAME).
 # Headers are included as "module/file.h" from the top of the tree.
 #
-# anicodec_module(NAME STANDARD [EXCEPT SOURCES...]): one of every source in the current folder, folders
-# with a CMakeLists.txt of their own excepted.
+# anicodec_module(NAME STANDARD): one of every source in the current folder and below, except in folders
+# that have a CMakeLists.txt.
 
 add_library(anicodec_flags INTERFACE)
 target_compile_options(anicodec_flags INTERFACE
@@ -18,11 +18,7 @@ target_compile_options(anicodec_flags INTERFACE
 target_include_directories(anicodec_flags INTERFACE "${PROJECT_SOURCE_DIR}")
 
 function(anicodec_module name standard)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "EXCEPT")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp *.h)
-  foreach(source IN LISTS arg_EXCEPT)
-    list(REMOVE_ITEM sources "${CMAKE_CURRENT_SOURCE_DIR}/${source}")
-  endforeach()
   file(GLOB folders CONFIGURE_DEPENDS */CMakeLists.txt)
   foreach(folder IN LISTS folders)
     cmake_path(GET folder PARENT_PATH folder)

@@ -2,16 +2,16 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
 
-#include "codec/clip_file.h"
-#include "codec/clip_record.h"
-#include "codec/error.h"
-#include "codec/keyframe_search.h"
-#include "codec/linear_segment_encode.h"
-#include "codec/metrics.h"
-#include "codec/moving_attributes.h"
-#include "codec/rate_control.h"
-#include "codec/search_progress.h"
-#include "sdk/clip.h"
+#include "codec/file/clip_file.h"
+#include "codec/file/clip_record.h"
+#include "codec/metrics/metrics.h"
+#include "codec/search/keyframe_coder.h"
+#include "codec/search/moving_attributes.h"
+#include "codec/search/rate_control.h"
+#include "codec/search/search_progress.h"
+#include "codec/segment/linear_segment_encode.h"
+#include "codec/sequence/error.h"
+#include "sdk/clip/clip.h"
 
 #include <algorithm>
 #include <cmath>

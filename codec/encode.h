@@ -3,96 +3,11 @@
 #ifndef ANICODEC_CODEC_ENCODE_H_
 #define ANICODEC_CODEC_ENCODE_H_
 
-#include "codec/attribute_encode.h"
-#include "codec/frame_selection.h"
-#include "codec/mesh_sequence.h"
-#include "codec/progress.h"
-#include "format/records.h"
-
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
+#include "codec/file/encode_options.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "codec/sequence/progress.h"
 
 namespace anicodec {
-
-enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajectories };
-
-/// How frames are made from key-frames: on straight lines, by multi-scale geometry interpolation,
-/// or by whichever does better.
-enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
-
-/// How far a surface was moved before coding: its Hausdorff distance from the source's, in scene
-/// units.
-struct SurfaceChange {
-  double mean = 0;
-  double max = 0;
-};
-
-/// What the file must keep to.
-struct Target {
-  format::ErrorMetric metric = format::ErrorMetric::kNone;
-  double value = 0;      ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
-  bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames
-};
-
-struct EncodeOptions {
-  Target target;              ///< kNone: only with `keyframes`
-  std::optional<Target> cap;  ///< a maximum error beside another target
-  BasisChoice basis = BasisChoice::kAuto;
-  std::optional<uint32_t> keyframes;  ///< exact number of key-frames
-  KeyframeMethod select = KeyframeMethod::kPivot;
-  InterpolationChoice interpolation = InterpolationChoice::kLinear;  ///< only with key-frames alone
-  format::OrderMode order = format::OrderMode::kVertices;
-  format::CoderId mesh_coder = format::CoderId::kDraco;
-  /// Encodes these frames alone, as a part for join_clips(): mesh, reference pose and diagonal are
-  /// those of the whole sequence, and the same in all parts. Not with key-frames.
-  std::optional<FrameRun> part;
-  std::string encoder;  ///< name and version to store in the file
-  /// The sequence is not the source itself but one that massage() made of it: to store in the file.
-  std::optional<SurfaceChange> surface_change;
-  AttributeOptions attributes;
-  int effort = 5;  ///< 1..9: how long to search
-};
-
-/// One encoding that the search tried: for `-v`.
-struct Trial {
-  std::string what;
-  uint64_t bytes = 0;
-  double rmse = 0;
-  double max_error = 0;
-};
-
-/// How an attribute whose values change came out.
-struct AttributeResult {
-  AttributeKind kind = AttributeKind::kCustom;
-  std::string name;
-  uint32_t number = 0;  ///< in the file
-  bool kept = false;    ///< false: as in the first frame, for the reason in `note`
-  std::string note;
-  uint32_t components = 0;  ///< of its basis; 0: it stays within the error of the first frame
-  size_t bytes = 0;         ///< of its segments
-  double asked = 0;         ///< largest error allowed
-  double max_error = 0;     ///< measured, of a single number
-  double rmse = 0;
-};
-
-/// The encoded clip and what is known about it. Errors are measured on the decoded file.
-struct EncodeResult {
-  format::Bytes file;
-  uint32_t vertices = 0;  ///< of the source; of several meshes, in the frame that shows most
-  uint32_t faces = 0;
-  uint32_t frames = 0;
-  uint64_t positions = 0;  ///< vertices of all frames together
-  format::BasisKind kind = format::BasisKind::kKeyframes;
-  uint32_t components = 0;
-  double kg = 0;         ///< per cent
-  double rmse = 0;       ///< scene units
-  double max_error = 0;  ///< scene units
-  double diagonal = 0;
-  std::vector<AttributeResult> attributes;  ///< those that change
-  std::vector<Trial> trials;
-};
 
 /// Encodes a sequence, decodes the result, and checks that it keeps what was asked.
 /// Throws Error: kInput for a bad sequence, kUsage for a target that cannot be reached (the text

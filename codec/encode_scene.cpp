@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode_scene.h"
 
-#include "codec/clip_record.h"
-#include "codec/error.h"
-#include "codec/join_clips.h"
-#include "codec/rate_control.h"
+#include "codec/file/clip_record.h"
+#include "codec/file/join_clips.h"
+#include "codec/search/rate_control.h"
+#include "codec/sequence/error.h"
 #include "format/container.h"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #define ANICODEC_CODEC_ENCODE_SCENE_H_
 
 #include "codec/encode.h"
-#include "codec/progress.h"
-#include "codec/scene.h"
+#include "codec/sequence/progress.h"
+#include "codec/sequence/scene.h"
 
 namespace anicodec {
 

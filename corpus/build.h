@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CORPUS_BUILD_H_
 #define ANICODEC_CORPUS_BUILD_H_
 
-#include "codec/mesh_sequence.h"
+#include "codec/sequence/mesh_sequence.h"
 
 #include <cmath>
 #include <cstdint>

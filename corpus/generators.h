@@ -5,7 +5,7 @@
 #ifndef ANICODEC_CORPUS_GENERATORS_H_
 #define ANICODEC_CORPUS_GENERATORS_H_
 
-#include "codec/mesh_sequence.h"
+#include "codec/sequence/mesh_sequence.h"
 
 #include <cstdint>
 

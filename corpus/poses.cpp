@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "corpus/poses.h"
 
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 #include "corpus/build.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "corpus/sliding.h"
 
-#include "codec/surface.h"
+#include "codec/surface/surface.h"
 #include "corpus/build.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 #include "corpus/build.h"
 #include "corpus/clips.h"
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// The one enum of status codes. Numbers are pinned: never reused, never renumbered (spec/12-errors.md).
+// The one enum of status codes. Numbers are pinned: never reused, never renumbered
+// (spec/12-errors.md).
 #ifndef ANICODEC_FORMAT_STATUS_H_
 #define ANICODEC_FORMAT_STATUS_H_
 
@@ -59,9 +60,9 @@ const char* status_string(Status status);
 /// What went wrong and where: filled by the function that first noticed it.
 struct Failure {
   Status status = Status::kOk;
-  uint64_t offset = 0;       ///< byte offset in the file, as exact as the reader knows it
-  uint32_t chunk = 0;        ///< chunk type (four characters), 0 outside any chunk
-  const char* detail = "";   ///< static text
+  uint64_t offset = 0;      ///< byte offset in the file, as exact as the reader knows it
+  uint32_t chunk = 0;       ///< chunk type (four characters), 0 outside any chunk
+  const char* detail = "";  ///< static text
 
   bool ok() const { return status == Status::kOk; }
 };

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TESTS_TWO_BOXES_H_
 #define ANICODEC_TESTS_TWO_BOXES_H_
 
-#include "codec/mesh_sequence.h"
+#include "codec/sequence/mesh_sequence.h"
 #include "corpus/clips.h"
 
 #include <cmath>

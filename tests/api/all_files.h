@@ -3,8 +3,8 @@
 #ifndef ANICODEC_TESTS_API_ALL_FILES_H_
 #define ANICODEC_TESTS_API_ALL_FILES_H_
 
-#include "codec/clip_file.h"
-#include "codec/time_segmentation.h"
+#include "codec/file/clip_file.h"
+#include "codec/search/time_segmentation.h"
 #include "tests/api/opened.h"
 
 #include <filesystem>

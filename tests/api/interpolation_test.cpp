@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Multi-scale geometry interpolation through the C interface: of clips, and of the caller's meshes.
-#include "codec/closest_point.h"
+#include "codec/surface/closest_point.h"
 #include "corpus/poses.h"
-#include "sdk/clip.h"
+#include "sdk/clip/clip.h"
 #include "tests/api/opened.h"
 
 #include <cmath>

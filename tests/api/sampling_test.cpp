@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "sdk/clip.h"
+#include "sdk/clip/clip.h"
 #include "tests/api/all_files.h"
 
 #include <algorithm>

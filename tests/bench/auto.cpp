@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
-#include "tools/names.h"
+#include "tools/words/names.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/bench/bench_clips.h"
 
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "tools/io/load_sequence.h"
 

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TESTS_BENCH_BENCH_CLIPS_H_
 #define ANICODEC_TESTS_BENCH_BENCH_CLIPS_H_
 
-#include "codec/mesh_sequence.h"
+#include "codec/sequence/mesh_sequence.h"
 
 #include <string>
 #include <vector>

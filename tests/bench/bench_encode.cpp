@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/bench/bench_encode.h"
 
-#include "codec/error.h"
-#include "codec/mesh_layout.h"
+#include "codec/connectivity/mesh_layout.h"
+#include "codec/sequence/error.h"
 #include "format/container.h"
 #include "format/records.h"
 #include "tests/bench/stopwatch.h"
-#include "tools/version.h"
+#include "tools/words/version.h"
 
 #include <algorithm>
 

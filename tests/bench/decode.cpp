@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/closest_point.h"
-#include "codec/error.h"
+#include "codec/sequence/error.h"
+#include "codec/surface/closest_point.h"
 #include "corpus/clips.h"
-#include "sdk/clip.h"
-#include "sdk/combine.h"
+#include "sdk/clip/clip.h"
+#include "sdk/play/play.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/stopwatch.h"
-#include "tools/clip_input.h"
-#include "tools/names.h"
+#include "tools/inputs/clip_input.h"
 #include "tools/peers/draco_frames.h"
+#include "tools/words/names.h"
 
 namespace anicodec::bench {
 namespace {
@@ -35,7 +35,7 @@ void play(const Clip& clip, std::vector<float>& positions) {
         states[i] = frame_state(segment, first + i);
         outputs[i].data = positions.data() + i * size;
       }
-      combine(states, frames, 0, segment.vertices, outputs);
+      play(states, frames, 0, segment.vertices, outputs);
     }
   }
 }

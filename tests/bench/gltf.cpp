@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/io/gltf.h"
+#include "tools/io/gltf/gltf.h"
 
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
-#include "tools/clip_input.h"
-#include "tools/io/byte_source.h"
-#include "tools/names.h"
+#include "tools/inputs/clip_input.h"
+#include "tools/io/files/byte_source.h"
 #include "tools/peers/gltfpack.h"
+#include "tools/words/names.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 #include "corpus/poses.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
-#include "tools/choice.h"
-#include "tools/io/frame_rate.h"
+#include "tools/io/base/frame_rate.h"
+#include "tools/words/choice.h"
 
 #include <cstdio>
 #include <exception>

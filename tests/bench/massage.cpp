@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/massage.h"
+#include "codec/massage/massage.h"
 
-#include "codec/connectivity_transfer.h"
-#include "codec/hausdorff.h"
-#include "codec/massage_choice.h"
-#include "codec/mesh_fit.h"
-#include "codec/mesh_quality.h"
-#include "codec/welded_clip.h"
+#include "codec/encode_massaged.h"
+#include "codec/massage/welded_surface.h"
+#include "codec/metrics/hausdorff.h"
+#include "codec/surface/mesh_quality.h"
+#include "codec/transfer/connectivity_transfer.h"
+#include "codec/transfer/remesh_fit.h"
 #include "corpus/sliding.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"

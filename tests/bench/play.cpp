@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/closest_point.h"
-#include "codec/error.h"
+#include "sdk/play/play.h"
+
+#include "codec/sequence/error.h"
+#include "codec/surface/closest_point.h"
 #include "corpus/clips.h"
-#include "sdk/combine.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/play_peers.h"
@@ -55,7 +56,7 @@ struct Stage {
   }
 
   void play(uint32_t frames) {
-    combine(states.data(), frames, 0, segment.vertices, outputs.data());
+    anicodec::play(states.data(), frames, 0, segment.vertices, outputs.data());
   }
 
   Segment segment;
@@ -183,7 +184,7 @@ Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertice
     }
   }
   table.add(
-      {{"basis", "median"}, {"kernels", combine_kernels_name()}, {"eigen", median(eigen_ratios)}});
+      {{"basis", "median"}, {"kernels", play_kernels_name()}, {"eigen", median(eigen_ratios)}});
   return table;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/bench/play_peers.h"
 
-#include "sdk/combine.h"
+#include "sdk/play/play.h"
 
 #include <string_view>
 
@@ -10,7 +10,7 @@ namespace anicodec::bench {
 
 const PlayPeers* play_peers() {
 #if defined(__x86_64__)
-  if (combine_kernels_name() == std::string_view("avx512") && __builtin_cpu_supports("avx512dq"))
+  if (play_kernels_name() == std::string_view("avx512") && __builtin_cpu_supports("avx512dq"))
     return &kPlayPeers512;
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
     return nullptr;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/closest_point.h"
+#include "codec/surface/closest_point.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
-#include "tools/names.h"
 #include "tools/peers/cubic_grid.h"
 #include "tools/peers/draco_frames.h"
 #include "tools/peers/frame_deltas.h"
 #include "tools/peers/raw_cache.h"
+#include "tools/words/names.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/bench/table.h"
 
-#include "tools/quantity.h"
+#include "tools/words/quantity.h"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 // Every playing kernel on clips that went through the codec.
 #include "codec/encode.h"
 #include "corpus/clips.h"
-#include "sdk/clip.h"
-#include "sdk/combine.h"
-#include "sdk/combine_job.h"
+#include "sdk/clip/clip.h"
+#include "sdk/play/play.h"
+#include "sdk/play/play_job.h"
 #include "tests/codec/real_clip.h"
 #include "tests/sdk/position_tolerance.h"
 
@@ -20,15 +20,15 @@
 namespace anicodec {
 namespace {
 
-std::vector<float> played(const CombineKernels& kernels, const std::vector<FrameState>& states,
+std::vector<float> played(const PlayKernels& kernels, const std::vector<FrameState>& states,
                           size_t which) {
   const uint32_t vertices = states[0].segment->vertices;
   std::vector<std::vector<float>> out(states.size(), std::vector<float>(size_t{3} * vertices));
   std::vector<VertexOutput> outputs(states.size());
   for (size_t f = 0; f < states.size(); ++f)
     outputs[f].data = out[f].data();
-  combine_with(kernels, states.data(), static_cast<uint32_t>(states.size()), 0, vertices,
-               outputs.data());
+  play_with(kernels, states.data(), static_cast<uint32_t>(states.size()), 0, vertices,
+            outputs.data());
   return out[which];
 }
 
@@ -39,20 +39,20 @@ void expect_all_kernels_within_tolerance(const MeshSequence& sequence, BasisChoi
   options.effort = 1;
   Clip clip;
   ASSERT_TRUE(clip.open(encode(sequence, options).file).ok());
-  const CombineKernels* all[kMaxCombineKernels];
-  const size_t count = all_combine_kernels(all);
+  const PlayKernels* all[kMaxPlayKernels];
+  const size_t count = all_play_kernels(all);
   for (const Segment& segment : clip.segments()) {
     const uint32_t frames = std::min(4U, segment.frames);
     std::vector<FrameState> states;
     for (uint32_t f = 0; f < frames; ++f)
       states.push_back(frame_state(segment, segment.frames - 1 - f));
     for (size_t k = 0; k < count; ++k) {
-      const CombineKernels& kernels = *all[k];
+      const PlayKernels& kernels = *all[k];
       std::vector<float> together = played(kernels, states, frames - 1);
       EXPECT_LE(tolerance_used(segment, segment.frames - frames, together), 1) << kernels.name;
       EXPECT_EQ(together, played(kernels, {states.back()}, 0)) << kernels.name;
       if (!kernels.fused) {
-        EXPECT_EQ(together, played(kCombineKernelsScalar, states, frames - 1)) << kernels.name;
+        EXPECT_EQ(together, played(kPlayKernelsScalar, states, frames - 1)) << kernels.name;
       }
     }
   }

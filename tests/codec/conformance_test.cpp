@@ -3,7 +3,7 @@
 //
 // The files of tests/conformance/, and the example that the specification takes apart.
 #include "corpus/clips.h"
-#include "sdk/clip.h"
+#include "sdk/clip/clip.h"
 
 #include <algorithm>
 #include <cmath>

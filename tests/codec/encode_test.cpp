@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
 
-#include "codec/error.h"
-#include "codec/metrics.h"
+#include "codec/metrics/metrics.h"
+#include "codec/sequence/error.h"
 #include "corpus/clips.h"
-#include "sdk/clip.h"
+#include "sdk/clip/clip.h"
 #include "tests/codec/edited_file.h"
 
 #include <algorithm>

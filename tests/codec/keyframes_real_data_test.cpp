@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/basis_error.h"
-#include "codec/keyframe_count.h"
+#include "codec/keyframes/keyframe_count.h"
+#include "codec/studies/basis_error.h"
 #include "tests/codec/real_clip.h"
 
 #include <gtest/gtest.h>

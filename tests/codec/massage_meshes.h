@@ -5,7 +5,7 @@
 #ifndef ANICODEC_TESTS_CODEC_MASSAGE_MESHES_H_
 #define ANICODEC_TESTS_CODEC_MASSAGE_MESHES_H_
 
-#include "codec/surface.h"
+#include "codec/surface/surface.h"
 
 #include <cmath>
 #include <cstdint>

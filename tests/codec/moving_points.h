@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TESTS_CODEC_MOVING_POINTS_H_
 #define ANICODEC_TESTS_CODEC_MOVING_POINTS_H_
 
-#include "codec/frame_view.h"
+#include "codec/sequence/frame_view.h"
 
 #include <cmath>
 #include <cstddef>

@@ -3,13 +3,13 @@
 //
 // Clips whose frames are rebuilt from key-frames by multi-scale geometry interpolation.
 #include "codec/encode.h"
-#include "codec/error.h"
-#include "codec/metrics.h"
-#include "codec/msgi_weights.h"
+#include "codec/keyframes/msgi_weights.h"
+#include "codec/metrics/metrics.h"
+#include "codec/sequence/error.h"
 #include "corpus/clips.h"
-#include "sdk/clip.h"
-#include "sdk/memory.h"
-#include "sdk/sample.h"
+#include "sdk/clip/clip.h"
+#include "sdk/clip/memory_estimate.h"
+#include "sdk/clip/sample.h"
 
 #include <cmath>
 #include <string>

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Multi-scale geometry interpolation of the clips and poses of the corpus.
-#include "codec/closest_point.h"
-#include "codec/edge_shape.h"
+#include "codec/surface/closest_point.h"
+#include "codec/surface/edge_network.h"
 #include "corpus/clips.h"
 #include "corpus/poses.h"
-#include "sdk/msgi.h"
+#include "sdk/msgi/msgi.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 //
 // Multi-scale geometry interpolation word by word as spec/09d-interpolation.md has it, slow and in
 // double, against the decoder's.
-#include "sdk/msgi.h"
+#include "sdk/msgi/msgi.h"
 #include "tests/sdk/triangle_lists.h"
 
 #include <algorithm>

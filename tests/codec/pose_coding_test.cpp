@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "sdk/pose_coding.h"
+#include "sdk/pose/pose_coding.h"
 
-#include "codec/mesh_layout.h"
+#include "codec/connectivity/mesh_layout.h"
 #include "corpus/clips.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TESTS_CODEC_REAL_CLIP_H_
 #define ANICODEC_TESTS_CODEC_REAL_CLIP_H_
 
-#include "codec/frame_view.h"
+#include "codec/sequence/frame_view.h"
 #include "tests/real_data.h"
 
 #include <cstdint>

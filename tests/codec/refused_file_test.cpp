@@ -4,9 +4,9 @@
 // Files whose checksums fit and whose contents do not: each rule of a decoder, broken once.
 #include "codec/encode.h"
 #include "corpus/clips.h"
-#include "sdk/clip.h"
-#include "sdk/keyframe_segment.h"
-#include "sdk/memory.h"
+#include "sdk/clip/clip.h"
+#include "sdk/clip/memory_estimate.h"
+#include "sdk/segment/keyframe_segment.h"
 #include "tests/codec/edited_file.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "corpus/clips.h"
 
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 // Any chunks through the opening of a file: checksums and places are repaired first, so that what
 // is inside the chunks gets decoded. What opens, plays, with finite positions, in the memory that
 // the limits announce.
-#include "sdk/clip.h"
-#include "sdk/memory.h"
+#include "sdk/clip/clip.h"
+#include "sdk/clip/memory_estimate.h"
 #include "tests/fuzz/fuzz_file.h"
 
 #include <cmath>

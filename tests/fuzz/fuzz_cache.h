@@ -4,8 +4,8 @@
 #define ANICODEC_TESTS_FUZZ_FUZZ_CACHE_H_
 
 #include "tests/fuzz/fuzz_mesh.h"
-#include "tools/io/frame_rate.h"
-#include "tools/io/vertex_cache.h"
+#include "tools/io/base/frame_rate.h"
+#include "tools/io/formats/vertex_cache.h"
 
 #include <cmath>
 

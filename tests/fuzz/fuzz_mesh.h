@@ -3,8 +3,8 @@
 #ifndef ANICODEC_TESTS_FUZZ_FUZZ_MESH_H_
 #define ANICODEC_TESTS_FUZZ_FUZZ_MESH_H_
 
-#include "codec/error.h"
-#include "tools/io/mesh.h"
+#include "codec/sequence/error.h"
+#include "tools/io/base/mesh.h"
 
 #include <bit>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/fuzz/fuzz_mesh.h"
-#include "tools/io/frame_attributes.h"
-#include "tools/io/glb_output.h"
-#include "tools/io/gltf.h"
+#include "tools/io/base/frame_attributes.h"
+#include "tools/io/gltf/glb_output.h"
+#include "tools/io/gltf/gltf.h"
 
 using namespace anicodec;
 using namespace anicodec::tools;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/fuzz/fuzz_mesh.h"
-#include "tools/io/off.h"
+#include "tools/io/formats/off.h"
 
 using namespace anicodec::tools;
 

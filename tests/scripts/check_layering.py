@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Checks that every module includes only what it may: tools -> codec -> sdk -> format.
+"""Checks that every module includes only what it may (tools -> codec -> sdk -> format), that rooms,
+the folders of a module, use one another in one direction only, and that each room is described and small.
 
-usage: check_layering.py CHECKOUT      one line for every include that is not allowed; exit status 1 if there is any
+usage: check_layering.py CHECKOUT      one line for every fault; exit status 1 if there is any
 """
 import pathlib
 import re
@@ -22,16 +23,66 @@ ALLOWED = {
     "corpus": ['"corpus/', '"codec/', "<xxhash.h>"],
     "tools": ['"tools/', '"corpus/', '"codec/', '"sdk/', '"format/', "<anicodec/",
               "<CLI/", "<fmt/", "<nlohmann/", "<tbb/", *POSIX],
+    # Importers and exporters need no encoder: of codec/, only what a mesh in motion is.
+    "tools/io": ['"tools/io/', '"codec/sequence/', '"sdk/', '"format/', "<fmt/", "<nlohmann/", "<tbb/", *POSIX],
 }
+# Rooms, each with the rooms of its module that it may include: only rooms that stand above it, so that all
+# arrows point one way. A folder with sources is a room and has a README.md.
+ROOMS = {
+    "sdk/base": [],
+    "sdk/mesh": [],
+    "sdk/msgi": ["sdk/base"],
+    "sdk/prediction": ["sdk/base"],
+    "sdk/pose": ["sdk/base", "sdk/mesh"],
+    "sdk/segment": ["sdk/base", "sdk/mesh", "sdk/msgi", "sdk/pose", "sdk/prediction"],
+    "sdk/play": ["sdk/base", "sdk/mesh", "sdk/segment"],
+    "sdk/clip": ["sdk/mesh", "sdk/segment", "sdk/play"],
+    "sdk/api": ["sdk/msgi", "sdk/play", "sdk/clip"],
+    "codec/sequence": [],
+    "codec/algebra": ["codec/sequence"],
+    "codec/surface": ["codec/sequence"],
+    "codec/metrics": ["codec/sequence", "codec/surface"],
+    "codec/connectivity": ["codec/sequence"],
+    "codec/massage": ["codec/sequence", "codec/algebra", "codec/surface", "codec/connectivity"],
+    "codec/transfer": ["codec/sequence", "codec/surface", "codec/metrics", "codec/massage"],
+    "codec/interpolation": ["codec/sequence", "codec/algebra", "codec/surface"],
+    "codec/keyframes": ["codec/sequence", "codec/algebra", "codec/interpolation"],
+    "codec/studies": ["codec/sequence", "codec/algebra", "codec/surface", "codec/connectivity",
+                      "codec/interpolation", "codec/keyframes"],
+    "codec/segment": ["codec/sequence", "codec/algebra", "codec/connectivity", "codec/keyframes"],
+    "codec/file": ["codec/sequence", "codec/connectivity", "codec/keyframes", "codec/segment"],
+    "codec/search": ["codec/sequence", "codec/algebra", "codec/connectivity", "codec/keyframes", "codec/segment",
+                     "codec/file"],
+    "codec": ["codec/sequence", "codec/metrics", "codec/massage", "codec/segment", "codec/file", "codec/search"],
+    "tools/words": [],
+    "tools/listing": ["tools/words"],
+    "tools/io/base": [],
+    "tools/io/files": ["tools/io/base"],
+    "tools/io/formats": ["tools/io/base", "tools/io/files"],
+    "tools/io/gltf": ["tools/io/base"],
+    "tools/io/assimp": ["tools/io/base", "tools/io/files", "tools/io/gltf"],
+    "tools/io": ["tools/io/base", "tools/io/files", "tools/io/formats", "tools/io/gltf", "tools/io/assimp"],
+    "tools/peers": ["tools/io/files", "tools/io/gltf"],
+    "tools/render": ["tools/io/files"],
+    "tools/inputs": ["tools/words", "tools/io", "tools/io/base", "tools/io/files"],
+    "tools/report": ["tools/words", "tools/peers", "tools/render", "tools/inputs"],
+    "tools/commands": ["tools/words", "tools/listing", "tools/io", "tools/io/base", "tools/io/files",
+                       "tools/render", "tools/inputs", "tools/report"],
+    "tools": ["tools/commands"],
+}
+# A unit is a header, a source, or both of one name. A room of more is a hall, to be divided.
+MAX_UNITS = 20
+# Folders that hold no room: the public headers, programs that use them, stand-ins, and what is installed.
+NOT_ROOMS = {"sdk/include/anicodec", "sdk/examples", "sdk/package", "sdk/draco_headers"}
 # One file calls Draco's decoder, one its encoder.
-EXCEPTIONS = {"sdk/draco_mesh.cpp": ["<draco/"], "codec/draco_encode.cpp": ["<draco/"],
+EXCEPTIONS = {"sdk/mesh/draco_mesh.cpp": ["<draco/"], "codec/connectivity/draco_encode.cpp": ["<draco/"],
               "tools/render/image.cpp": ["<png.h>", "<gif_lib.h>"],
               "tools/render/shaded_view.cpp": ["<Eigen/", "<embree3/"],
-              "tools/io/assimp_scene.cpp": ["<assimp/"],
-              "tools/io/gltf_animation.cpp": ["<Eigen/"],
-              "tools/io/gltf_bake.cpp": ["<Eigen/"],
-              "tools/io/gltf_draco.cpp": ["<draco/"],
-              "tools/io/gltf_meshopt.cpp": ["<meshoptimizer.h>"],
+              "tools/io/assimp/assimp_scene.cpp": ["<assimp/"],
+              "tools/io/gltf/gltf_animation.cpp": ["<Eigen/"],
+              "tools/io/gltf/gltf_bake.cpp": ["<Eigen/"],
+              "tools/io/gltf/gltf_draco.cpp": ["<draco/"],
+              "tools/io/gltf/gltf_meshopt.cpp": ["<meshoptimizer.h>"],
               "tools/peers/draco_frames.cpp": ["<draco/"],
               "tools/peers/frame_deltas.cpp": ["<meshoptimizer.h>", "<zstd.h>"],
               "tools/peers/raw_cache.cpp": ["<lzma.h>", "<zstd.h>"]}
@@ -40,8 +91,8 @@ EXAMPLES = ["<anicodec/", "<math.h>", "<stdio.h>", "<stdlib.h>"]
 # Memory in, memory out; and no exceptions leave the decoder.
 # One file of the decoder says that there is no memory; whoever calls the library sees a status.
 # The edge of the C interface gives back what it has taken and rethrows, to where all is caught.
-THROWS = {"format/memory.cpp", "sdk/api_asset.cpp", "sdk/api_interpolator.cpp",
-          "sdk/api_normals.cpp", "sdk/api_objects.h"}
+THROWS = {"format/memory.cpp", "sdk/api/asset.cpp", "sdk/api/interpolator.cpp",
+          "sdk/api/normals.cpp", "sdk/api/objects.h"}
 NO_STREAMS = {"format", "sdk", "codec"}
 NO_THROW = {"format", "sdk"}
 
@@ -50,26 +101,65 @@ STANDARD = re.compile(r"^<[a-z_0-9]+>$")
 THROW = re.compile(r"^[^/\"]*\bthrow\b", re.MULTILINE)
 
 
-def faults(checkout):
+def sources(folder):
+    return [path for path in sorted(folder.rglob("*")) if path.suffix in (".h", ".cpp", ".hpp", ".c")]
+
+
+def module_of(name):
+    """The longest key of ALLOWED that the file's folders begin with."""
+    return max((m for m in ALLOWED if name.startswith(m + "/")), key=len)
+
+
+def include_faults(checkout):
     found_any = False
-    for module, prefixes in ALLOWED.items():
-        for path in sorted((checkout / module).rglob("*")):
-            if path.suffix not in (".h", ".cpp", ".hpp", ".c"):
-                continue
+    for module in ("format", "sdk", "codec", "corpus", "tools"):
+        for path in sources(checkout / module):
             found_any = True
             name = path.relative_to(checkout).as_posix()
             text = path.read_text(encoding="utf-8")
-            allowed = prefixes + EXCEPTIONS.get(name, [])
+            allowed = ALLOWED[module_of(name)] + EXCEPTIONS.get(name, [])
             if name.startswith("sdk/examples/"):
                 allowed = EXAMPLES
+            room = name.rpartition("/")[0]
             for header in INCLUDE.findall(text):
                 streams = module in NO_STREAMS and header in STREAMS
-                if streams or not (STANDARD.match(header) or any(header.startswith(p) for p in allowed)):
+                target = header[1:-1].rpartition("/")[0]
+                back = room in ROOMS and target in ROOMS and target != room and \
+                    target.split("/")[0] == module and target not in ROOMS[room]
+                if streams or back or not (STANDARD.match(header) or any(header.startswith(p) for p in allowed)):
                     yield f"{name} must not include {header}"
             if module in NO_THROW and name not in THROWS and THROW.search(text):
                 yield f"{name} must not throw"
     if not found_any:
         yield f"{checkout} has no sources"
+
+
+def room_faults(checkout):
+    above = set()
+    for room, uses in ROOMS.items():
+        for used in uses:
+            if used not in above:
+                yield f"{room} may not use {used}, which does not stand above it"
+        above.add(room)
+    units = {}
+    for module in ("sdk", "codec", "tools"):
+        for path in sources(checkout / module):
+            folder, _, base = path.relative_to(checkout).as_posix().rpartition("/")
+            units.setdefault(folder, set()).add(base.partition(".")[0])
+    for folder, names in units.items():
+        if folder.split("/", 2)[:2] == ["sdk", "draco_headers"] or folder in NOT_ROOMS:
+            continue
+        if folder not in ROOMS:
+            yield f"{folder} is not among the rooms"
+        elif not (checkout / folder / "README.md").is_file():
+            yield f"{folder} has no README.md"
+        if len(names) > MAX_UNITS:
+            yield f"{folder} has {len(names)} units, more than {MAX_UNITS}"
+
+
+def faults(checkout):
+    yield from include_faults(checkout)
+    yield from room_faults(checkout)
 
 
 def main():

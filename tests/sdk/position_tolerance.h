@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TESTS_SDK_POSITION_TOLERANCE_H_
 #define ANICODEC_TESTS_SDK_POSITION_TOLERANCE_H_
 
-#include "sdk/segment.h"
+#include "sdk/segment/segment.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #ifndef ANICODEC_TESTS_SDK_PREDICTION_HASH_H_
 #define ANICODEC_TESTS_SDK_PREDICTION_HASH_H_
 
-#include "sdk/predictor.h"
-#include "sdk/vertex_order.h"
+#include "sdk/prediction/predictor.h"
+#include "sdk/prediction/vertex_order.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,8 +3,8 @@
 //
 // A slow decoder that follows the text of spec/09-reconstruction.md line by line, against the
 // library.
-#include "sdk/predictor.h"
-#include "sdk/vertex_order.h"
+#include "sdk/prediction/predictor.h"
+#include "sdk/prediction/vertex_order.h"
 #include "tests/sdk/prediction_hash.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TESTS_SDK_THREADS_H_
 #define ANICODEC_TESTS_SDK_THREADS_H_
 
-#include "sdk/parallel_for.h"
+#include "sdk/base/parallel_for.h"
 
 #include <thread>
 #include <vector>

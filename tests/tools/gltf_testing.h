@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TESTS_TOOLS_GLTF_TESTING_H_
 #define ANICODEC_TESTS_TOOLS_GLTF_TESTING_H_
 
-#include "tools/io/byte_order.h"
+#include "tools/io/base/byte_order.h"
 
 #include <bit>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #ifndef ANICODEC_TESTS_TOOLS_IO_TESTING_H_
 #define ANICODEC_TESTS_TOOLS_IO_TESTING_H_
 
-#include "codec/error.h"
-#include "codec/mesh_sequence.h"
+#include "codec/sequence/error.h"
+#include "codec/sequence/mesh_sequence.h"
 
 #include <algorithm>
 #include <filesystem>

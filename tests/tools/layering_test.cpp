@@ -28,7 +28,7 @@ TEST(Layering, FindsWhatPointsUpwards) {
   folder.write("format/a.h", "#include \"sdk/clip.h\"\n");
   folder.write("sdk/b.cpp", "#include <iostream>\nvoid f() { throw 1; }\n");
   folder.write("codec/c.cpp", "# include <draco/core/status.h>\n#include \"tools/version.h\"\n");
-  folder.write("sdk/draco_mesh.cpp", "#include <draco/core/status.h>\n");
+  folder.write("sdk/mesh/draco_mesh.cpp", "#include <draco/core/status.h>\n");
   Outcome outcome = check_layering(folder / "");
   EXPECT_EQ(outcome.status, 1);
   for (const char* fault :
@@ -37,6 +37,25 @@ TEST(Layering, FindsWhatPointsUpwards) {
         "codec/c.cpp must not include \"tools/version.h\""})
     EXPECT_THAT(outcome.out, HasSubstr(fault));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("draco_mesh")));
+}
+
+TEST(Layering, FindsArrowsBetweenRoomsThatPointBack) {
+  TemporaryFolder folder;
+  folder.write("codec/segment/README.md", "a room\n");
+  folder.write("codec/segment/a.cpp",
+               "#include \"codec/search/b.h\"\n#include \"codec/algebra/c.h\"\n");
+  folder.write("codec/attic/d.cpp", "");
+  folder.write("tools/io/gltf/e.cpp", "#include \"codec/encode.h\"\n");
+  for (int unit = 0; unit < 21; ++unit)
+    folder.write("sdk/play/u" + std::to_string(unit) + ".cpp", "");
+  Outcome outcome = check_layering(folder / "");
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* fault : {"codec/segment/a.cpp must not include \"codec/search/b.h\"",
+                            "codec/attic is not among the rooms", "sdk/play has no README.md",
+                            "tools/io/gltf/e.cpp must not include \"codec/encode.h\"",
+                            "sdk/play has 21 units, more than 20"})
+    EXPECT_THAT(outcome.out, HasSubstr(fault));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("algebra")));
 }
 
 TEST(Documents, PointToWhatExists) {

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Clips of the corpus through the command and back, by every kind of file.
-#include "codec/metrics.h"
+#include "codec/metrics/metrics.h"
 #include "corpus/clips.h"
 #include "tests/tools/command_testing.h"
-#include "tools/compared_clip.h"
+#include "tools/inputs/compared_clip.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 

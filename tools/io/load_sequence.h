@@ -3,9 +3,9 @@
 #ifndef ANICODEC_TOOLS_IO_LOAD_SEQUENCE_H_
 #define ANICODEC_TOOLS_IO_LOAD_SEQUENCE_H_
 
-#include "codec/mesh_sequence.h"
-#include "codec/progress.h"
-#include "codec/scene.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "codec/sequence/progress.h"
+#include "codec/sequence/scene.h"
 
 #include <optional>
 #include <span>

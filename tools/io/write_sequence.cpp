@@ -2,19 +2,19 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/write_sequence.h"
 
-#include "codec/error.h"
-#include "tools/io/atomic_file.h"
-#include "tools/io/byte_order.h"
-#include "tools/io/file_kind.h"
-#include "tools/io/frame_attributes.h"
-#include "tools/io/glb_output.h"
-#include "tools/io/name_pattern.h"
-#include "tools/io/obj.h"
-#include "tools/io/off.h"
-#include "tools/io/output_folder.h"
-#include "tools/io/ply.h"
-#include "tools/io/stl.h"
-#include "tools/io/vertex_cache.h"
+#include "codec/sequence/error.h"
+#include "tools/io/base/byte_order.h"
+#include "tools/io/base/file_kind.h"
+#include "tools/io/base/frame_attributes.h"
+#include "tools/io/files/atomic_file.h"
+#include "tools/io/files/name_pattern.h"
+#include "tools/io/files/output_folder.h"
+#include "tools/io/formats/obj.h"
+#include "tools/io/formats/off.h"
+#include "tools/io/formats/ply.h"
+#include "tools/io/formats/stl.h"
+#include "tools/io/formats/vertex_cache.h"
+#include "tools/io/gltf/glb_output.h"
 
 #include <algorithm>
 #include <bit>

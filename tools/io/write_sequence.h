@@ -3,9 +3,9 @@
 #ifndef ANICODEC_TOOLS_IO_WRITE_SEQUENCE_H_
 #define ANICODEC_TOOLS_IO_WRITE_SEQUENCE_H_
 
-#include "codec/frame_source.h"
-#include "codec/mesh_sequence.h"
-#include "codec/progress.h"
+#include "codec/sequence/frame_source.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "codec/sequence/progress.h"
 
 #include <cstdint>
 #include <string>

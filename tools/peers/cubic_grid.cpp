@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/peers/cubic_grid.h"
 
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <cmath>

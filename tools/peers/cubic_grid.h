@@ -5,8 +5,8 @@
 #ifndef ANICODEC_TOOLS_PEERS_CUBIC_GRID_H_
 #define ANICODEC_TOOLS_PEERS_CUBIC_GRID_H_
 
-#include "codec/mesh_sequence.h"
-#include "codec/metrics.h"
+#include "codec/metrics/metrics.h"
+#include "codec/sequence/mesh_sequence.h"
 
 #include <cstdint>
 #include <vector>

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/peers/draco_frames.h"
 
-#include "codec/error.h"
-#include "codec/metrics.h"
+#include "codec/metrics/metrics.h"
+#include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <bit>

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TOOLS_PEERS_DRACO_FRAMES_H_
 #define ANICODEC_TOOLS_PEERS_DRACO_FRAMES_H_
 
-#include "codec/mesh_sequence.h"
+#include "codec/sequence/mesh_sequence.h"
 #include "tools/peers/cubic_grid.h"
 
 #include <cstdint>

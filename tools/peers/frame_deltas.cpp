@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/peers/frame_deltas.h"
 
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <limits>

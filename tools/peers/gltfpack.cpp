@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/peers/gltfpack.h"
 
-#include "codec/error.h"
-#include "codec/metrics.h"
-#include "tools/io/byte_source.h"
-#include "tools/io/glb_output.h"
-#include "tools/io/gltf.h"
-#include "tools/io/private_folder.h"
+#include "codec/metrics/metrics.h"
+#include "codec/sequence/error.h"
+#include "tools/io/files/byte_source.h"
+#include "tools/io/files/private_folder.h"
+#include "tools/io/gltf/glb_output.h"
+#include "tools/io/gltf/gltf.h"
 
 #include <algorithm>
 #include <cmath>

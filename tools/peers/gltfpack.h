@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TOOLS_PEERS_GLTFPACK_H_
 #define ANICODEC_TOOLS_PEERS_GLTFPACK_H_
 
-#include "codec/mesh_sequence.h"
+#include "codec/sequence/mesh_sequence.h"
 
 #include <cstdint>
 #include <string>

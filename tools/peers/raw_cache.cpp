@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/peers/raw_cache.h"
 
-#include "codec/error.h"
+#include "codec/sequence/error.h"
 
 #include <span>
 #include <vector>

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/render/shaded_view.h"
 
-#include "codec/closest_point.h"
-#include "codec/error.h"
+#include "codec/sequence/error.h"
+#include "codec/surface/closest_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr double kViewAngle = 30;  // degrees, of the shorter side
-constexpr int kSamples = 2;       // in each direction of a pixel
+constexpr int kSamples = 2;        // in each direction of a pixel
 const Vector3f kSurface(0.72F, 0.74F, 0.78F);
 const Vector3f kSky(0.97F, 0.975F, 0.985F), kGround(0.87F, 0.88F, 0.90F);
 

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TOOLS_RENDER_SHADED_VIEW_H_
 #define ANICODEC_TOOLS_RENDER_SHADED_VIEW_H_
 
-#include "codec/mesh_sequence.h"
+#include "codec/sequence/mesh_sequence.h"
 #include "tools/render/image.h"
 
 #include <array>

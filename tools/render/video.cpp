@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/render/video.h"
 
-#include "codec/error.h"
-#include "tools/io/private_folder.h"
+#include "codec/sequence/error.h"
+#include "tools/io/files/private_folder.h"
 
 #include <csignal>
 #include <cstdio>

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/report/massage_study.h"
 
-#include "codec/basis_error.h"
+#include "codec/algebra/gram.h"
 #include "codec/encode.h"
-#include "codec/gram.h"
-#include "codec/massage.h"
-#include "tools/quantity.h"
+#include "codec/massage/massage.h"
+#include "codec/studies/basis_error.h"
 #include "tools/report/chart.h"
+#include "tools/words/quantity.h"
 
 #include <fmt/format.h>
 

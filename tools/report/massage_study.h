@@ -3,10 +3,10 @@
 #ifndef ANICODEC_TOOLS_REPORT_MASSAGE_STUDY_H_
 #define ANICODEC_TOOLS_REPORT_MASSAGE_STUDY_H_
 
-#include "codec/hausdorff.h"
-#include "codec/massage_quality.h"
-#include "codec/mesh_sequence.h"
-#include "codec/progress.h"
+#include "codec/massage/massage_quality.h"
+#include "codec/metrics/hausdorff.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "codec/sequence/progress.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/quantity.h"
 #include "tools/report/chart.h"
 #include "tools/report/report.h"
-#include "tools/version.h"
+#include "tools/words/quantity.h"
+#include "tools/words/version.h"
 
 #include <algorithm>
 #include <map>

@@ -3,11 +3,11 @@
 #ifndef ANICODEC_TOOLS_REPORT_REPORT_H_
 #define ANICODEC_TOOLS_REPORT_REPORT_H_
 
-#include "codec/basis_error.h"
-#include "codec/mesh_sequence.h"
-#include "codec/metrics.h"
-#include "codec/progress.h"
-#include "codec/shape_spaces.h"
+#include "codec/metrics/metrics.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "codec/sequence/progress.h"
+#include "codec/studies/basis_error.h"
+#include "codec/studies/shape_spaces.h"
 #include "tools/render/image.h"
 #include "tools/report/massage_study.h"
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * SPDX-FileCopyrightText: The anicodec authors
  *
- * anicodec: plays compressed animated meshes (.anic files). This header is all a host needs; it is C99.
+ * anicodec: plays compressed animated meshes (.anic files). This header is all a host needs; it is
+ * C99.
  *
  *   anic_asset* asset;
  *   anic_context* context;
@@ -11,18 +12,17 @@
  *   anic_positions(context, 0, ANIC_CURRENT, 0, vertex_count, &output);
  *
  * Conventions of all functions
- *   Status   every function that can fail returns an anic_status. What it was to fill is then unspecified,
- *            handles are set to NULL, and every object stays usable.
- *   Files    any bytes may be given as a file: damaged and hostile ones are refused with a status.
- *   Threads  the library starts none and has no global state. An asset may be used by any number of
- *            threads. Functions that take a const anic_context may run at the same time; one that takes
- *            a context that is not const needs it to itself. Different contexts are independent.
- *   Memory   all comes from the allocator of anic_options. Functions that take a context, other than
- *            creating and destroying it, allocate nothing.
- *   Floats   the functions compute in the caller's floating-point environment, except while opening.
- *   Units    positions are in the units and axes of the clip's source (anic_info says what is known of
- *            them); times are in seconds.
- *   Spec     sections refer to the folder spec/ of the project.
+ *   Status   every function that can fail returns an anic_status. What it was to fill is then
+ * unspecified, handles are set to NULL, and every object stays usable. Files    any bytes may be
+ * given as a file: damaged and hostile ones are refused with a status. Threads  the library starts
+ * none and has no global state. An asset may be used by any number of threads. Functions that take
+ * a const anic_context may run at the same time; one that takes a context that is not const needs
+ * it to itself. Different contexts are independent. Memory   all comes from the allocator of
+ * anic_options. Functions that take a context, other than creating and destroying it, allocate
+ * nothing. Floats   the functions compute in the caller's floating-point environment, except while
+ * opening. Units    positions are in the units and axes of the clip's source (anic_info says what
+ * is known of them); times are in seconds. Spec     sections refer to the folder spec/ of the
+ * project.
  */
 #ifndef ANICODEC_ANICODEC_H_
 #define ANICODEC_ANICODEC_H_
@@ -46,7 +46,8 @@
 extern "C" {
 #endif
 
-/* ------------------------------------------------------------------------------------------------ version */
+/* ------------------------------------------------------------------------------------------------
+ * version */
 
 #define ANIC_VERSION_MAJOR 0
 #define ANIC_VERSION_MINOR 1
@@ -55,15 +56,16 @@ extern "C" {
 /** Version of the library that is linked: major << 16 | minor << 8 | patch. */
 ANIC_API uint32_t anic_version(void);
 
-/* ------------------------------------------------------------------------------------------------- status */
+/* -------------------------------------------------------------------------------------------------
+ * status */
 
 /** Numbers are fixed for good: none is ever given another meaning. Spec: 12. */
 typedef enum anic_status {
   ANIC_OK = 0,
 
   /* the caller's */
-  ANIC_E_ARGUMENT = 1,    /**< an argument makes no sense */
-  ANIC_E_STATE = 2,       /**< the call is not possible now: nothing sampled, not enough of a stream */
+  ANIC_E_ARGUMENT = 1, /**< an argument makes no sense */
+  ANIC_E_STATE = 2,    /**< the call is not possible now: nothing sampled, not enough of a stream */
   ANIC_E_BUFFER_SIZE = 3, /**< a buffer of the caller is too small */
   ANIC_E_FRAME_RANGE = 4, /**< there is no such frame */
 
@@ -95,7 +97,8 @@ typedef enum anic_status {
   ANIC_E_QUANTIZER = 45,
   ANIC_E_NON_FINITE = 46,
   ANIC_E_DRACO = 47,
-  ANIC_E_SEGMENT = 48, /**< of a segment; from a sampling function: the mesh is not there at that time */
+  ANIC_E_SEGMENT =
+      48, /**< of a segment; from a sampling function: the mesh is not there at that time */
   ANIC_E_HASH = 49,
 
   ANIC_E_LIMIT = 60, /**< more than anic_limits allow */
@@ -118,15 +121,16 @@ typedef struct anic_failure {
   const char* detail; /**< static English text; may be empty, never NULL */
 } anic_failure;
 
-/* ------------------------------------------------------------------------------------------------- memory */
+/* -------------------------------------------------------------------------------------------------
+ * memory */
 
 /**
  * Where memory comes from. All zero: malloc() and free().
  *
- * allocate() returns `size` bytes (never 0) at a multiple of `alignment` (a power of two, at most 16), or
- * NULL; then the call that needed it fails with ANIC_E_MEMORY and gives back what it had. release() gets
- * what allocate() returned and the size it was asked for. Both are called only by functions that open,
- * create, push, destroy or close, on their thread, and must return.
+ * allocate() returns `size` bytes (never 0) at a multiple of `alignment` (a power of two, at most
+ * 16), or NULL; then the call that needed it fails with ANIC_E_MEMORY and gives back what it had.
+ * release() gets what allocate() returned and the size it was asked for. Both are called only by
+ * functions that open, create, push, destroy or close, on their thread, and must return.
  */
 typedef struct anic_allocator {
   void* user;
@@ -137,30 +141,31 @@ typedef struct anic_allocator {
 /**
  * Makes an allocator that serves from one block of the host's and from nowhere else.
  *
- * The block belongs to the allocator until everything made with it is destroyed; then the block may simply
- * be dropped. Best fit, neighbours joined when released; sizes are rounded up to 16 bytes; O(free pieces) for
- * each allocation. One thread at a time.
+ * The block belongs to the allocator until everything made with it is destroyed; then the block may
+ * simply be dropped. Best fit, neighbours joined when released; sizes are rounded up to 16 bytes;
+ * O(free pieces) for each allocation. One thread at a time.
  *
  * Errors  ANIC_E_ARGUMENT: a pointer is NULL; ANIC_E_BUFFER_SIZE: less than 256 bytes.
  */
 ANIC_API anic_status anic_block_allocator(void* block, size_t size, anic_allocator* out);
 
-/* ------------------------------------------------------------------------------------------------ opening */
+/* ------------------------------------------------------------------------------------------------
+ * opening */
 
 /**
- * What a file may ask for, checked before anything that depends on a count is allocated: ANIC_E_LIMIT.
- * A field of 0 has the default in brackets.
+ * What a file may ask for, checked before anything that depends on a count is allocated:
+ * ANIC_E_LIMIT. A field of 0 has the default in brackets.
  */
 typedef struct anic_limits {
   uint64_t vertices;   /**< of a mesh [2^31 - 1] */
   uint64_t frames;     /**< [2^24 - 1] */
   uint64_t components; /**< of a segment [2^20] */
-  uint64_t bytes;      /**< anic_requirements.opening_bytes [2^28 + 2^14 for each byte of the file] */
+  uint64_t bytes; /**< anic_requirements.opening_bytes [2^28 + 2^14 for each byte of the file] */
 } anic_limits;
 
 enum {
-  /** Computes the box of every frame while opening: anic_frame_bounds(), anic_clip_bounds(). Costs playing
-   *  the clip once, and 24 bytes for each frame and mesh. */
+  /** Computes the box of every frame while opening: anic_frame_bounds(), anic_clip_bounds(). Costs
+   * playing the clip once, and 24 bytes for each frame and mesh. */
   ANIC_OPEN_BOUNDS = 1u
 };
 
@@ -168,9 +173,9 @@ enum {
 typedef struct anic_options {
   anic_limits limits;
   anic_allocator allocator; /**< copied; `user` must outlive what is made with it */
-  double quality;           /**< share of the components to open, in (0, 1]; 0 means 1. Less is coarser, smaller,
-                                 and faster to open and to play. Spec: 09a, section 4 */
-  uint32_t flags;           /**< ANIC_OPEN_... */
+  double quality; /**< share of the components to open, in (0, 1]; 0 means 1. Less is coarser,
+                     smaller, and faster to open and to play. Spec: 09a, section 4 */
+  uint32_t flags; /**< ANIC_OPEN_... */
 } anic_options;
 
 /** What a file takes, known from its first bytes. Spec: 11, section 3. */
@@ -178,10 +183,11 @@ typedef struct anic_requirements {
   uint64_t head_bytes;     /**< first bytes of the file that anic_query() has to see */
   uint64_t file_bytes;     /**< the whole file; 0 while its header is not seen */
   uint64_t resident_bytes; /**< held while the asset is open; within 5 % or 4096 bytes */
-  uint64_t opening_bytes;  /**< held at most while it opens, resident ones included, the file excluded */
-  uint64_t draco_bytes;    /**< of those, what Draco may take from the global heap at most */
-  uint64_t block_bytes;    /**< a block for anic_block_allocator() in which the asset can be opened */
-  uint64_t context_bytes;  /**< of one context, at most */
+  uint64_t
+      opening_bytes; /**< held at most while it opens, resident ones included, the file excluded */
+  uint64_t draco_bytes; /**< of those, what Draco may take from the global heap at most */
+  uint64_t block_bytes; /**< a block for anic_block_allocator() in which the asset can be opened */
+  uint64_t context_bytes; /**< of one context, at most */
   uint32_t mesh_count;
   uint32_t segment_count;
   uint32_t frame_count;
@@ -192,12 +198,13 @@ typedef struct anic_requirements {
 /**
  * Tells what a file will take, from its first bytes.
  *
- * `head` holds the first `size` bytes of the file: header, chunk table and the first chunk; a few hundred
- * bytes for most files. If they do not suffice, head_bytes says how many will (or how many will tell).
+ * `head` holds the first `size` bytes of the file: header, chunk table and the first chunk; a few
+ * hundred bytes for most files. If they do not suffice, head_bytes says how many will (or how many
+ * will tell).
  *
  * Errors   ANIC_E_TRUNCATED: head_bytes are needed; others: anic_asset_open() refuses the file too
- * Memory   32 bytes per chunk, mesh and segment for a moment, from options->allocator. Cost O(them).
- * Spec     05, section 7
+ * Memory   32 bytes per chunk, mesh and segment for a moment, from options->allocator. Cost
+ * O(them). Spec     05, section 7
  */
 ANIC_API anic_status anic_query(const void* head, size_t size, const anic_options* options,
                                 anic_requirements* out);
@@ -217,8 +224,8 @@ ANIC_API anic_status anic_asset_open(const void* file, size_t size, const anic_o
                                      anic_asset** out, anic_failure* failure);
 
 /**
- * Reads a file. read() puts `size` bytes from `offset` on to `to` and returns 0, or anything else when it
- * cannot: the opening then fails with ANIC_E_READ.
+ * Reads a file. read() puts `size` bytes from `offset` on to `to` and returns 0, or anything else
+ * when it cannot: the opening then fails with ANIC_E_READ.
  */
 typedef struct anic_reader {
   void* user;
@@ -228,7 +235,8 @@ typedef struct anic_reader {
 /**
  * Opens a file through a callback. Reads its head, checks the limits, then reads the rest.
  *
- * file_size is the length of the file. Memory: file_size more than anic_asset_open() while it opens.
+ * file_size is the length of the file. Memory: file_size more than anic_asset_open() while it
+ * opens.
  */
 ANIC_API anic_status anic_asset_open_reader(const anic_reader* reader, uint64_t file_size,
                                             const anic_options* options, anic_asset** out,
@@ -239,15 +247,18 @@ ANIC_API void anic_asset_close(anic_asset* asset);
 
 /**
  * Compares the hashes in the file with what was decoded: ANIC_E_HASH if this library decodes other
- * integers than the encoder meant. ANIC_E_STATE for an asset that is not complete or of lower quality.
+ * integers than the encoder meant. ANIC_E_STATE for an asset that is not complete or of lower
+ * quality.
  */
 ANIC_API anic_status anic_asset_verify(const anic_asset* asset);
 
-/* ------------------------------------------------------------------------------------------- what is in it */
+/* ------------------------------------------------------------------------------------------- what
+ * is in it */
 
 typedef enum anic_up { ANIC_UP_UNKNOWN = 0, ANIC_UP_Y = 1, ANIC_UP_Z = 2 } anic_up;
 
-/** What of the source's order came back. Every source vertex is there in any case. Spec: 06, section 5. */
+/** What of the source's order came back. Every source vertex is there in any case. Spec: 06,
+ * section 5. */
 typedef enum anic_order {
   ANIC_ORDER_VERTICES = 0, /**< vertices are numbered as in the source */
   ANIC_ORDER_FREE = 1,     /**< vertices and polygons are in an order of the encoder's */
@@ -292,8 +303,8 @@ typedef struct anic_mesh_info {
   uint32_t vertex_count;       /**< of the source, each once */
   uint32_t coded_vertex_count; /**< distinct among them: the others are copies that move along */
   uint32_t polygon_count;
-  uint32_t corner_count;   /**< of all polygons */
-  uint32_t triangle_count; /**< when polygons are cut into fans: anic_triangles() */
+  uint32_t corner_count;    /**< of all polygons */
+  uint32_t triangle_count;  /**< when polygons are cut into fans: anic_triangles() */
   uint32_t attribute_count; /**< anic_mesh_attribute() */
 } anic_mesh_info;
 
@@ -310,25 +321,28 @@ typedef struct anic_polygons {
 ANIC_API anic_status anic_mesh_polygons(const anic_asset* asset, uint32_t mesh, anic_polygons* out);
 
 /**
- * Writes an index buffer: every polygon as a fan from its first corner, in order; polygons with fewer than
- * three corners have none. Counter-clockwise as in the source.
+ * Writes an index buffer: every polygon as a fan from its first corner, in order; polygons with
+ * fewer than three corners have none. Counter-clockwise as in the source.
  *
  * Shapes   out: triangle_count x 3 indices of index_bytes (2 or 4) each; size: bytes at out
- * Errors   ANIC_E_ARGUMENT: no such mesh, or more than 65536 vertices for 2 bytes; ANIC_E_BUFFER_SIZE
+ * Errors   ANIC_E_ARGUMENT: no such mesh, or more than 65536 vertices for 2 bytes;
+ * ANIC_E_BUFFER_SIZE
  */
 ANIC_API anic_status anic_triangles(const anic_asset* asset, uint32_t mesh, uint32_t index_bytes,
                                     void* out, size_t size);
 
 /**
- * Which coded vertex each vertex is a copy of: vertices with the same number have the same position in
- * every frame. vertex_count numbers below coded_vertex_count, in *out; they belong to the asset. Spec: 07.
+ * Which coded vertex each vertex is a copy of: vertices with the same number have the same position
+ * in every frame. vertex_count numbers below coded_vertex_count, in *out; they belong to the asset.
+ * Spec: 07.
  */
 ANIC_API anic_status anic_mesh_copies(const anic_asset* asset, uint32_t mesh, const uint32_t** out);
 
 /** What an attribute means. Numbers are fixed. Spec: 06, section 10. */
 typedef enum anic_attribute_kind {
   ANIC_UV = 0, /**< v upwards: (0, 0) is the lower left corner of an image; some APIs want 1 - v */
-  ANIC_NORMAL = 1, /**< of the first frame; without components: which corners share one, that is, hard edges */
+  ANIC_NORMAL = 1, /**< of the first frame; without components: which corners share one, that is,
+                      hard edges */
   ANIC_TANGENT = 2,
   ANIC_COLOUR = 3, /**< RGB or RGBA, 0 to 1 */
   ANIC_CUSTOM = 4,
@@ -348,9 +362,10 @@ typedef struct anic_attribute {
   uint32_t components;    /**< numbers of an element; 0: it has `labels` */
   uint32_t label_count;   /**< ANIC_POLYGONS: names, anic_attribute_label() */
   const float* values;    /**< count x components; NULL without components */
-  const uint32_t* labels; /**< count; of polygons 0 for none, else one more than the number of a name; of corners,
-                               those at a vertex with the same number share a value. NULL with components */
-  uint8_t moves;          /**< of ANIC_VERTICES: other frames have other values, anic_attribute_values() */
+  const uint32_t* labels; /**< count; of polygons 0 for none, else one more than the number of a
+                             name; of corners, those at a vertex with the same number share a value.
+                             NULL with components */
+  uint8_t moves; /**< of ANIC_VERTICES: other frames have other values, anic_attribute_values() */
 } anic_attribute;
 
 /** Errors: ANIC_E_ARGUMENT, no such mesh or attribute. O(1). */
@@ -364,14 +379,15 @@ ANIC_API const char* anic_attribute_label(const anic_asset* asset, uint32_t mesh
 /** Time of a frame in seconds; frames behind the last count as the last. Spec: 04, section 2. */
 ANIC_API double anic_frame_time(const anic_asset* asset, uint32_t frame);
 
-/* ------------------------------------------------------------------------------------------------ sampling */
+/* ------------------------------------------------------------------------------------------------
+ * sampling */
 
 /** An instance of an asset: what is shown now, and what was shown before. */
 typedef struct anic_context anic_context;
 
 /**
- * Makes a context; allocates context_bytes at once and nothing afterwards. `allocator` may be NULL: the
- * asset's. Many contexts may share an asset.
+ * Makes a context; allocates context_bytes at once and nothing afterwards. `allocator` may be NULL:
+ * the asset's. Many contexts may share an asset.
  */
 ANIC_API anic_status anic_context_create(const anic_asset* asset, const anic_allocator* allocator,
                                          anic_context** out);
@@ -381,9 +397,9 @@ ANIC_API void anic_context_destroy(anic_context* context);
 
 /** What is shown between two frames. Spec: 10, section 2. */
 typedef enum anic_interpolation {
-  ANIC_STEP = 0,                      /**< the frame before */
-  ANIC_LINEAR = 1,                    /**< between the frames before and after */
-  ANIC_CUBIC = 2,                     /**< a smooth curve through four frames (Catmull-Rom, for uneven times too) */
+  ANIC_STEP = 0,   /**< the frame before */
+  ANIC_LINEAR = 1, /**< between the frames before and after */
+  ANIC_CUBIC = 2,  /**< a smooth curve through four frames (Catmull-Rom, for uneven times too) */
   ANIC_INTERPOLATION_MAX = 0x7FFFFFFF /**< none: any number may be given */
 } anic_interpolation;
 
@@ -399,18 +415,20 @@ typedef enum anic_wrap {
  * Chooses a frame. What was chosen before becomes ANIC_PREVIOUS.
  *
  * Errors   ANIC_E_FRAME_RANGE
- * Cost     O(log segments), the same for every frame. Spec: 10. In segments of ANIC_INTERPOLATED the
- *          shape is made here: O(vertices x log vertices)
+ * Cost     O(log segments), the same for every frame. Spec: 10. In segments of ANIC_INTERPOLATED
+ * the shape is made here: O(vertices x log vertices)
  */
 ANIC_API anic_status anic_seek_frame(anic_context* context, uint32_t frame);
 
 /**
- * Chooses a time in seconds; frame 0 is at info.start_time. What was chosen before becomes ANIC_PREVIOUS.
+ * Chooses a time in seconds; frame 0 is at info.start_time. What was chosen before becomes
+ * ANIC_PREVIOUS.
  *
- * Weights and maps are interpolated, not positions, so that a frame in between costs what a whole one does;
- * rigid motions turn the shorter way. Where the frames are in different segments, each is made and their
- * positions are interpolated: twice the cost. Corrections of single vertices are applied at whole frames
- * only; a time within 1/1024 of the way from a frame to the next is that frame.
+ * Weights and maps are interpolated, not positions, so that a frame in between costs what a whole
+ * one does; rigid motions turn the shorter way. Where the frames are in different segments, each is
+ * made and their positions are interpolated: twice the cost. Corrections of single vertices are
+ * applied at whole frames only; a time within 1/1024 of the way from a frame to the next is that
+ * frame.
  *
  * Errors   ANIC_E_ARGUMENT: a time that is not finite
  * Cost     O(components + log segments); with a table of times + O(log frames). In segments of
@@ -427,15 +445,17 @@ ANIC_API anic_status anic_forget_previous(anic_context* context);
 
 /** Which of the two times that a context knows. */
 typedef enum anic_when {
-  ANIC_CURRENT = 0,          /**< what the last seek chose */
-  ANIC_PREVIOUS = 1,         /**< what the one before chose, for motion vectors; the same after the first seek */
+  ANIC_CURRENT = 0, /**< what the last seek chose */
+  ANIC_PREVIOUS =
+      1, /**< what the one before chose, for motion vectors; the same after the first seek */
   ANIC_WHEN_MAX = 0x7FFFFFFF /**< none: any number may be given */
 } anic_when;
 
 /**
- * How a position or normal is stored, in the machine's byte order. The formats of four components write 1 as
- * the last one. The 16-bit formats store t = (x - offset) / scale: as IEEE binary16, rounded to nearest; as
- * round(65535 t), clamped to t = 0 .. 1; as round(32767 t), clamped to t = -1 .. 1.
+ * How a position or normal is stored, in the machine's byte order. The formats of four components
+ * write 1 as the last one. The 16-bit formats store t = (x - offset) / scale: as IEEE binary16,
+ * rounded to nearest; as round(65535 t), clamped to t = 0 .. 1; as round(32767 t), clamped to t =
+ * -1 .. 1.
  */
 typedef enum anic_format {
   ANIC_FLOAT32X3 = 0,
@@ -450,26 +470,25 @@ typedef enum anic_format {
 } anic_format;
 
 /**
- * Where to write positions or normals. Every component is written once, at ascending addresses, and nothing
- * is read: the memory may be write-combined. Bytes between elements stay untouched.
+ * Where to write positions or normals. Every component is written once, at ascending addresses, and
+ * nothing is read: the memory may be write-combined. Bytes between elements stay untouched.
  */
 typedef struct anic_output {
-  void* data;         /**< of the first element asked for; any alignment */
-  size_t size;        /**< bytes that may be written from data on */
-  size_t stride;      /**< bytes from an element to the next; 0: packed */
+  void* data;    /**< of the first element asked for; any alignment */
+  size_t size;   /**< bytes that may be written from data on */
+  size_t stride; /**< bytes from an element to the next; 0: packed */
   anic_format format;
-  float offset[3];    /**< of the 16-bit formats; anic_clip_bounds() gives fitting ones */
-  float scale[3];     /**< of the 16-bit formats; 0 counts as 1 */
+  float offset[3]; /**< of the 16-bit formats; anic_clip_bounds() gives fitting ones */
+  float scale[3];  /**< of the 16-bit formats; 0 counts as 1 */
 } anic_output;
 
 /**
- * Writes positions of the vertices first .. first + count - 1 of a mesh. Threads may write disjoint ranges
- * at the same time; the result does not depend on how a mesh is cut into ranges.
+ * Writes positions of the vertices first .. first + count - 1 of a mesh. Threads may write disjoint
+ * ranges at the same time; the result does not depend on how a mesh is cut into ranges.
  *
- * Errors   ANIC_E_STATE: nothing chosen yet; ANIC_E_ARGUMENT; ANIC_E_BUFFER_SIZE; ANIC_E_SEGMENT: the mesh
- *          is not there at that time
- * Cost     O(count x components), the same for every frame; ranges that begin at multiples of 16 are best
- * Spec     09a, section 1; tolerance: 09a, section 7
+ * Errors   ANIC_E_STATE: nothing chosen yet; ANIC_E_ARGUMENT; ANIC_E_BUFFER_SIZE; ANIC_E_SEGMENT:
+ * the mesh is not there at that time Cost     O(count x components), the same for every frame;
+ * ranges that begin at multiples of 16 are best Spec     09a, section 1; tolerance: 09a, section 7
  */
 ANIC_API anic_status anic_positions(const anic_context* context, uint32_t mesh, anic_when when,
                                     uint32_t first, uint32_t count, const anic_output* out);
@@ -489,18 +508,18 @@ typedef struct anic_value_output {
   size_t size;   /**< bytes that may be written from data on */
   size_t stride; /**< bytes from an element to the next; 0: packed */
   anic_value_format format;
-  uint32_t components; /**< to be written of each element, at most 16; 0: as many as the attribute has. Those that
-                            it does not have are 0, the fourth 1 */
+  uint32_t components; /**< to be written of each element, at most 16; 0: as many as the attribute
+                          has. Those that it does not have are 0, the fourth 1 */
 } anic_value_output;
 
 /**
- * Writes values of an attribute of vertices, moving or not, at the time chosen: of the vertices first .. first +
- * count - 1 of a mesh. Between frames they are interpolated as the seek said, positions and values alike.
+ * Writes values of an attribute of vertices, moving or not, at the time chosen: of the vertices
+ * first .. first + count - 1 of a mesh. Between frames they are interpolated as the seek said,
+ * positions and values alike.
  *
- * Errors   ANIC_E_ARGUMENT: no such attribute, or not one of ANIC_VERTICES with components; others as
- *          anic_positions()
- * Cost     O(count x components of its segments), the same for every frame
- * Spec     09a, section 8
+ * Errors   ANIC_E_ARGUMENT: no such attribute, or not one of ANIC_VERTICES with components; others
+ * as anic_positions() Cost     O(count x components of its segments), the same for every frame Spec
+ * 09a, section 8
  */
 ANIC_API anic_status anic_attribute_values(const anic_context* context, uint32_t mesh,
                                            uint32_t attribute, anic_when when, uint32_t first,
@@ -510,8 +529,8 @@ ANIC_API anic_status anic_attribute_values(const anic_context* context, uint32_t
 #define ANIC_MAX_FRAMES 16
 
 /**
- * Writes positions in several whole frames, without a context: to outputs[i] those of frames[i]. Consecutive
- * frames, four and four, take about half the time of one by one, and come out the same.
+ * Writes positions in several whole frames, without a context: to outputs[i] those of frames[i].
+ * Consecutive frames, four and four, take about half the time of one by one, and come out the same.
  *
  * Shapes   frames, outputs: frame_count, at most ANIC_MAX_FRAMES; outputs must not overlap
  * Errors   ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE, ANIC_E_FRAME_RANGE, ANIC_E_SEGMENT; ANIC_E_STATE: a
@@ -521,7 +540,8 @@ ANIC_API anic_status anic_frames(const anic_asset* asset, uint32_t mesh, const u
                                  uint32_t frame_count, uint32_t first, uint32_t count,
                                  const anic_output* outputs);
 
-/* -------------------------------------------------------------------------------------------------- bounds */
+/* --------------------------------------------------------------------------------------------------
+ * bounds */
 
 typedef struct anic_box {
   float min[3], max[3];
@@ -540,38 +560,39 @@ ANIC_API anic_status anic_frame_bounds(const anic_asset* asset, uint32_t mesh, u
                                        anic_box* out);
 
 /**
- * The box around all frames. Positions between frames may leave it a little with ANIC_CUBIC, or where a
- * segment turns; step and linear interpolation of clips without rigid motions never do, but for rounding.
+ * The box around all frames. Positions between frames may leave it a little with ANIC_CUBIC, or
+ * where a segment turns; step and linear interpolation of clips without rigid motions never do, but
+ * for rounding.
  */
 ANIC_API anic_status anic_clip_bounds(const anic_asset* asset, uint32_t mesh, anic_box* out);
 
-/* ------------------------------------------------------------------------------------------------- normals */
+/* -------------------------------------------------------------------------------------------------
+ * normals */
 
 /** How to make normals of a mesh: which corners a normal is averaged over. Immutable, shared. */
 typedef struct anic_normals anic_normals;
 
 typedef struct anic_normal_options {
-  double crease_angle;      /**< degrees; edges whose polygons' normals are further apart are hard. 0: none is;
-                                 a small one, such as 0.001, shades flat what is not coplanar */
+  double crease_angle; /**< degrees; edges whose polygons' normals are further apart are hard. 0:
+                          none is; a small one, such as 0.001, shades flat what is not coplanar */
   uint32_t reference_frame; /**< the frame in which the angles are looked at, for all frames */
   uint8_t per_corner;       /**< normals for each corner (anic_polygons) instead of each vertex */
-  uint8_t source_edges;     /**< edges are hard where they are in the source, whatever the angle, if the file tells
-                                 (ANIC_NORMAL without components); else by crease_angle */
+  uint8_t source_edges; /**< edges are hard where they are in the source, whatever the angle, if the
+                           file tells (ANIC_NORMAL without components); else by crease_angle */
 } anic_normal_options;
 
 /**
- * Prepares normals that are recomputed from positions; normals that a file holds are an attribute, ANIC_NORMAL.
- * They are smooth across copies of a vertex (anic_mesh_copies()), so that seams of the source do not show unless
- * they are creases.
+ * Prepares normals that are recomputed from positions; normals that a file holds are an attribute,
+ * ANIC_NORMAL. They are smooth across copies of a vertex (anic_mesh_copies()), so that seams of the
+ * source do not show unless they are creases.
  *
- * A normal is the sum of the cross products of the edges at the corners it is averaged over, so that larger
- * faces count more, of length one; (0, 0, 1) where that sum is 0. With per_corner = 0, all corners of a vertex
- * share one, hard edges between them or not.
+ * A normal is the sum of the cross products of the edges at the corners it is averaged over, so
+ * that larger faces count more, of length one; (0, 0, 1) where that sum is 0. With per_corner = 0,
+ * all corners of a vertex share one, hard edges between them or not.
  *
  * Params   options may be NULL; allocator may be NULL: the asset's
- * Memory   4 bytes for each element and 8 to 20 for each corner; 40 more while it is made. Does not refer to
- *          the asset.
- * Errors   ANIC_E_ARGUMENT, ANIC_E_FRAME_RANGE, ANIC_E_SEGMENT, ANIC_E_MEMORY
+ * Memory   4 bytes for each element and 8 to 20 for each corner; 40 more while it is made. Does not
+ * refer to the asset. Errors   ANIC_E_ARGUMENT, ANIC_E_FRAME_RANGE, ANIC_E_SEGMENT, ANIC_E_MEMORY
  */
 ANIC_API anic_status anic_normals_create(const anic_asset* asset, uint32_t mesh,
                                          const anic_normal_options* options,
@@ -584,31 +605,35 @@ ANIC_API void anic_normals_destroy(anic_normals* normals);
 ANIC_API uint32_t anic_normals_count(const anic_normals* normals);
 
 /**
- * Writes the normals first .. first + count - 1 of a mesh in a pose. ANIC_SNORM16X4 with no offset and no
- * scale suits them.
+ * Writes the normals first .. first + count - 1 of a mesh in a pose. ANIC_SNORM16X4 with no offset
+ * and no scale suits them.
  *
- * Shapes   positions: vertex_count x 3 float32, `stride` bytes from a vertex to the next (0: 12), as
- *          anic_positions() writes; multiples of four bytes
- * Errors   ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE.   Cost  O(corners averaged over).   Allocates nothing.
+ * Shapes   positions: vertex_count x 3 float32, `stride` bytes from a vertex to the next (0: 12),
+ * as anic_positions() writes; multiples of four bytes Errors   ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE.
+ * Cost  O(corners averaged over).   Allocates nothing.
  */
 ANIC_API anic_status anic_normals_compute(const anic_normals* normals, const float* positions,
                                           size_t stride, uint32_t first, uint32_t count,
                                           const anic_output* out);
 
-/* ------------------------------------------------------------------------------------------- interpolation */
+/* -------------------------------------------------------------------------------------------
+ * interpolation */
 
 /**
- * Interpolates between meshes of one connectivity, without a file: lengths, angles and volume keep where limbs
- * turn far (multi-scale geometry interpolation; spec: 09d says how). Immutable, shared by threads.
+ * Interpolates between meshes of one connectivity, without a file: lengths, angles and volume keep
+ * where limbs turn far (multi-scale geometry interpolation; spec: 09d says how). Immutable, shared
+ * by threads.
  */
 typedef struct anic_interpolator anic_interpolator;
 
 /** All zero, or a NULL pointer to it: everything by default. */
 typedef struct anic_interpolator_options {
   uint32_t leaf_faces; /**< faces of the smallest patches, 1 to 255; 0 means 8 */
-  uint32_t sweeps;     /**< rounds that adapt the patches' rotations to what they are pulled to: none for plain
-                            interpolation; 1 or 2 may help far outside the meshes, 5 to 20 with pins */
-  const uint32_t* pins; /**< vertices whose positions anic_interpolate() is given; each at most once */
+  uint32_t
+      sweeps; /**< rounds that adapt the patches' rotations to what they are pulled to: none for
+                 plain interpolation; 1 or 2 may help far outside the meshes, 5 to 20 with pins */
+  const uint32_t*
+      pins; /**< vertices whose positions anic_interpolate() is given; each at most once */
   uint32_t pin_count;
   uint64_t bytes; /**< ANIC_E_LIMIT when more would be held; 0 means 2^32 */
 } anic_interpolator_options;
@@ -616,13 +641,14 @@ typedef struct anic_interpolator_options {
 /**
  * Prepares the interpolation. Nothing that is given is kept.
  *
- * Any triangles will do: holes, several parts, duplicate and degenerate faces, edges of many faces. Parts that
- * share no vertex are interpolated apart; vertices of no triangle move on straight lines.
+ * Any triangles will do: holes, several parts, duplicate and degenerate faces, edges of many faces.
+ * Parts that share no vertex are interpolated apart; vertices of no triangle move on straight
+ * lines.
  *
- * Shapes   triangles: triangle_count x 3; meshes: mesh_count (2 or more) pointers to vertex_count x 3
- * Errors   ANIC_E_ARGUMENT; ANIC_E_INDEX_RANGE: a corner is no vertex; ANIC_E_NON_FINITE: a coordinate;
- *          ANIC_E_LIMIT; ANIC_E_MEMORY; ANIC_E_FEATURE: a build without it
- * Cost     O(vertices x log vertices + vertices x meshes) and factoring a sparse matrix, O(vertices^1.5)
+ * Shapes   triangles: triangle_count x 3; meshes: mesh_count (2 or more) pointers to vertex_count x
+ * 3 Errors   ANIC_E_ARGUMENT; ANIC_E_INDEX_RANGE: a corner is no vertex; ANIC_E_NON_FINITE: a
+ * coordinate; ANIC_E_LIMIT; ANIC_E_MEMORY; ANIC_E_FEATURE: a build without it Cost     O(vertices x
+ * log vertices + vertices x meshes) and factoring a sparse matrix, O(vertices^1.5)
  */
 ANIC_API anic_status anic_interpolator_create(const uint32_t* triangles, uint32_t triangle_count,
                                               uint32_t vertex_count, const float* const* meshes,
@@ -639,16 +665,16 @@ typedef struct anic_interpolator_info {
   uint32_t mesh_count;
   uint64_t resident_bytes;
   uint64_t scratch_bytes; /**< that anic_interpolate() works in */
-  double largest_turn;    /**< radians between neighbouring patches, in any mesh against the first: above a
-                               right angle, smaller patches may do better */
+  double largest_turn;    /**< radians between neighbouring patches, in any mesh against the first:
+                             above a    right angle, smaller patches may do better */
 } anic_interpolator_info;
 
 ANIC_API void anic_interpolator_info_get(const anic_interpolator* interpolator,
                                          anic_interpolator_info* out);
 
 /**
- * Threads of the host. run() calls body(context, i) once for every i below count, in any order and from any
- * thread, and returns when all calls have.
+ * Threads of the host. run() calls body(context, i) once for every i below count, in any order and
+ * from any thread, and returns when all calls have.
  */
 typedef struct anic_threads {
   void (*run)(void* host, size_t count, void (*body)(void* context, size_t i), void* context);
@@ -656,20 +682,21 @@ typedef struct anic_threads {
 } anic_threads;
 
 /**
- * Writes the mesh at some weights, which sum to one; outside [0, 1] they extrapolate. At the weights of one mesh
- * it is that mesh, to rounding.
+ * Writes the mesh at some weights, which sum to one; outside [0, 1] they extrapolate. At the
+ * weights of one mesh it is that mesh, to rounding.
  *
- * Shapes   weights: mesh_count; pin_positions: pin_count x 3, may be NULL without pins; out: vertex_count x 3;
- *          scratch: scratch_bytes at a multiple of 8. threads may be NULL; the result does not depend on them
- * Errors   ANIC_E_ARGUMENT: weights that are not finite or do not sum to one within 1e-5, pins missing;
- *          ANIC_E_BUFFER_SIZE: scratch too small
- * Cost     O(vertices x (log vertices + meshes of a weight other than 0)). Allocates nothing.
+ * Shapes   weights: mesh_count; pin_positions: pin_count x 3, may be NULL without pins; out:
+ * vertex_count x 3; scratch: scratch_bytes at a multiple of 8. threads may be NULL; the result does
+ * not depend on them Errors   ANIC_E_ARGUMENT: weights that are not finite or do not sum to one
+ * within 1e-5, pins missing; ANIC_E_BUFFER_SIZE: scratch too small Cost     O(vertices x (log
+ * vertices + meshes of a weight other than 0)). Allocates nothing.
  */
 ANIC_API anic_status anic_interpolate(const anic_interpolator* interpolator, const double* weights,
                                       const float* pin_positions, const anic_threads* threads,
                                       void* scratch, size_t scratch_size, float* out);
 
-/* ----------------------------------------------------------------------------------------------------- GPU */
+/* -----------------------------------------------------------------------------------------------------
+ * GPU */
 
 typedef enum anic_basis_kind {
   ANIC_KEYFRAMES = 0,
@@ -682,19 +709,21 @@ typedef enum anic_basis_kind {
 
 /** How positions come from a basis. */
 typedef enum anic_reconstruction {
-  ANIC_COMBINED = 0,    /**< a linear combination */
-  ANIC_INTERPOLATED = 1 /**< multi-scale geometry interpolation between key-frames: anic_part.shape. Spec: 09d */
+  ANIC_COMBINED = 0, /**< a linear combination */
+  ANIC_INTERPOLATED =
+      1 /**< multi-scale geometry interpolation between key-frames: anic_part.shape. Spec: 09d */
 } anic_reconstruction;
 
 /** Vertices are stored in blocks of this many: one number of all of them lies together. */
 #define ANIC_BLOCK 16
 
 /**
- * The basis of a segment, to be uploaded once. The arrays belong to the asset. With b = v / 16, i = v % 16:
+ * The basis of a segment, to be uploaded once. The arrays belong to the asset. With b = v / 16, i =
+ * v % 16:
  *
  *   pose(v)[c]     = pose[(b * 3 + c) * 16 + i]
- *   basis(j, v)[c] = wide[((b * wide_components + j) * channels + c) * 16 + i]           j < wide_components
- *                    narrow[((b * (components - wide_components) + j - wide_components)
+ *   basis(j, v)[c] = wide[((b * wide_components + j) * channels + c) * 16 + i]           j <
+ * wide_components narrow[((b * (components - wide_components) + j - wide_components)
  *                            * channels + c) * 16 + i]                                    otherwise
  *
  * Vertices behind the last one fill the last block with zeros. Spec: 09a, sections 1 and 5.
@@ -707,7 +736,7 @@ typedef struct anic_basis {
   uint32_t vertex_count;
   uint32_t components;
   uint32_t wide_components;
-  uint32_t channels;        /**< 3: a vector, one weight; 1: a number, a weight for each of x, y, z */
+  uint32_t channels; /**< 3: a vector, one weight; 1: a number, a weight for each of x, y, z */
   uint32_t weight_channels; /**< weights of a component: 1 for vectors, 3 for numbers */
   const float* pose;        /**< NULL: none */
   const int32_t* wide;
@@ -717,10 +746,12 @@ typedef struct anic_basis {
   size_t narrow_count;
   float origin[3]; /**< of kind 0: added to every vertex before the motion */
   anic_reconstruction reconstruction;
-  const uint32_t* vertex_shape; /**< of ANIC_INTERPOLATED: point of the shape that each vertex is; NULL: its own */
-  uint32_t attribute; /**< ANIC_POSITIONS, or the attribute of the mesh that it moves: x of anic_part is then to be
-                           added to anic_attribute.values, */
-  uint32_t first_component; /**< three components of it, or as many as there are, from this one on */
+  const uint32_t* vertex_shape; /**< of ANIC_INTERPOLATED: point of the shape that each vertex is;
+                                   NULL: its own */
+  uint32_t attribute; /**< ANIC_POSITIONS, or the attribute of the mesh that it moves: x of
+                         anic_part is then to be added to anic_attribute.values, */
+  uint32_t
+      first_component; /**< three components of it, or as many as there are, from this one on */
 } anic_basis;
 
 /** Errors: ANIC_E_ARGUMENT: no such segment; ANIC_E_SEGMENT: it has not arrived yet. */
@@ -737,10 +768,11 @@ typedef struct anic_correction {
  *
  *   x = pose_map * (pose(v), 1) + sum over j of weights[j * weight_channels + c] * basis(j, v)[c]
  *       (channels 1: basis(j, v) times each of the three weights)
- *   x = motion * (x + origin, 1)            then the corrections, which are few: ascending by vertex
+ *   x = motion * (x + origin, 1)            then the corrections, which are few: ascending by
+ * vertex
  *
- * With ANIC_INTERPOLATED, the first line and the origin are replaced: x = shape(vertex_shape(v)), three floats
- * for each point, which the seek has made.
+ * With ANIC_INTERPOLATED, the first line and the origin are replaced: x = shape(vertex_shape(v)),
+ * three floats for each point, which the seek has made.
  *
  * Matrices are 3 x 4, row-major. Pointers are good until the next but one seek of the context.
  */
@@ -758,21 +790,23 @@ typedef struct anic_part {
 /** A time has at most this many parts; one, unless it lies between two segments. */
 #define ANIC_MAX_PARTS 4
 
-/** What is chosen, for the GPU. *count receives the number of parts. Errors as anic_positions(). O(1). */
+/** What is chosen, for the GPU. *count receives the number of parts. Errors as anic_positions().
+ * O(1). */
 ANIC_API anic_status anic_parts(const anic_context* context, uint32_t mesh, anic_when when,
                                 anic_part out[ANIC_MAX_PARTS], uint32_t* count);
 
 /**
- * The same for an attribute: the value of components first_component .. first_component + 2 (a multiple of 3) is
- * that of frame 0 (anic_attribute.values) and the sum of share * x over the parts. No parts: it is as in frame 0.
- * Errors: as anic_attribute_values().
+ * The same for an attribute: the value of components first_component .. first_component + 2 (a
+ * multiple of 3) is that of frame 0 (anic_attribute.values) and the sum of share * x over the
+ * parts. No parts: it is as in frame 0. Errors: as anic_attribute_values().
  */
 ANIC_API anic_status anic_attribute_parts(const anic_context* context, uint32_t mesh,
                                           uint32_t attribute, uint32_t first_component,
                                           anic_when when, anic_part out[ANIC_MAX_PARTS],
                                           uint32_t* count);
 
-/* ------------------------------------------------------------------------------------------------- streams */
+/* -------------------------------------------------------------------------------------------------
+ * streams */
 
 /** A file that arrives from the front, piece by piece. Spec: 05, section 7. */
 typedef struct anic_stream anic_stream;
@@ -785,18 +819,19 @@ ANIC_API void anic_stream_destroy(anic_stream* stream);
 
 typedef struct anic_stream_info {
   uint64_t received_bytes;
-  uint64_t file_bytes;       /**< 0 while the header is not there */
-  uint32_t segment_count;    /**< 0 while the head is not there */
+  uint64_t file_bytes;        /**< 0 while the header is not there */
+  uint32_t segment_count;     /**< 0 while the head is not there */
   uint32_t playable_segments; /**< those that can be opened, coarsely at least */
-  uint32_t layers;           /**< of all segments: chunks with components of their bases */
+  uint32_t layers;            /**< of all segments: chunks with components of their bases */
   uint32_t arrived_layers;
-  uint8_t playable; /**< anic_stream_open() gives an asset that plays at least one segment of positions */
+  uint8_t playable; /**< anic_stream_open() gives an asset that plays at least one segment of
+                       positions */
   uint8_t complete;
 } anic_stream_info;
 
 /**
- * Takes the next bytes of the file. Checks what can be checked as soon as it is there: a stream that cannot
- * become a good file, or that breaks the limits, fails at once and stays failed.
+ * Takes the next bytes of the file. Checks what can be checked as soon as it is there: a stream
+ * that cannot become a good file, or that breaks the limits, fails at once and stays failed.
  *
  * Errors   those of anic_asset_open() that concern header, table, limits and checksums;
  *          ANIC_E_TRAILING_BYTES: more than the file has
@@ -810,13 +845,14 @@ ANIC_API void anic_stream_info_get(const anic_stream* stream, anic_stream_info* 
 ANIC_API void anic_stream_failure(const anic_stream* stream, anic_failure* out);
 
 /**
- * Opens what has arrived: segments of which everything needed for their first layer is there, with all
- * layers that follow without a gap. info.partial tells whether anything is missing. An asset of a complete
- * stream is the same, bit for bit, as one of the whole file. Assets that were made before stay as they are:
- * replace them when their contexts can be replaced.
+ * Opens what has arrived: segments of which everything needed for their first layer is there, with
+ * all layers that follow without a gap. info.partial tells whether anything is missing. An asset of
+ * a complete stream is the same, bit for bit, as one of the whole file. Assets that were made
+ * before stay as they are: replace them when their contexts can be replaced.
  *
  * Errors   ANIC_E_STATE: nothing playable yet; others as anic_asset_open()
- * Cost     that of opening what is there, from the beginning: do it when it is worth it, not at every push
+ * Cost     that of opening what is there, from the beginning: do it when it is worth it, not at
+ * every push
  */
 ANIC_API anic_status anic_stream_open(anic_stream* stream, anic_asset** out, anic_failure* failure);
 

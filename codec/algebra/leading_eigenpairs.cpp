@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/algebra/leading_eigenpairs.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+namespace anicodec {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kDirectSize = 320;
+constexpr Index kBlock = 16;
+constexpr double kResidual = 1e-5;
+
+// Descending; only as many as are wanted.
+Eigenpairs select(const VectorXd& ascending, const MatrixXd& vectors, Index max_count,
+                  double smallest) {
+  Index count = 0;
+  const Index n = ascending.size();
+  while (count < std::min(max_count, n) && ascending[n - 1 - count] > smallest)
+    ++count;
+  return {ascending.tail(count).reverse(), vectors.rightCols(count).rowwise().reverse()};
+}
+
+Eigenpairs diagonalise(const MatrixXd& symmetric, Index max_count, double smallest) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
+  return select(solver.eigenvalues(), solver.eigenvectors(), max_count, smallest);
+}
+
+// Orthonormal columns that span those of w without what q spans.
+MatrixXd orthonormal(MatrixXd w, const Eigen::Ref<const MatrixXd>& q) {
+  for (int pass = 0; pass < 2; ++pass) {  // twice is enough
+    w -= q * (q.transpose() * w).eval();
+    const Eigen::HouseholderQR<MatrixXd> qr(w);
+    w = qr.householderQ() * MatrixXd::Identity(w.rows(), w.cols());
+  }
+  return w;
+}
+
+}  // namespace
+
+Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double smallest) {
+  const Index n = symmetric.rows();
+  if (n <= kDirectSize)
+    return diagonalise(symmetric, max_count, smallest);
+  const Index limit = n / 2 / kBlock * kBlock;
+  MatrixXd space(n, limit), image(n, limit);
+  MatrixXd start(n, kBlock);
+  uint64_t seed = 1;
+  for (double& x : start.reshaped()) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    x = static_cast<double>(seed >> 40) / (1 << 23) - 1;
+  }
+  MatrixXd next = orthonormal(start, space.leftCols(0));
+  Index size = 0, check = 4 * kBlock;
+  while (size < limit) {
+    space.middleCols(size, kBlock) = next;
+    image.middleCols(size, kBlock).noalias() = symmetric * next;
+    size += kBlock;
+    if (size >= check || size == limit) {
+      const MatrixXd projected = space.leftCols(size).transpose() * image.leftCols(size);
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(projected);
+      const Eigenpairs small =
+          select(solver.eigenvalues(), solver.eigenvectors(), max_count, smallest);
+      const Index count = small.values.size();
+      // All of the space above the threshold: there may be more of them.
+      if (count < size) {
+        const MatrixXd vectors = space.leftCols(size) * small.vectors;
+        const MatrixXd residual =
+            image.leftCols(size) * small.vectors - vectors * small.values.asDiagonal();
+        bool converged = true;
+        for (Index j = 0; j < count && converged; ++j)
+          converged = residual.col(j).norm() <= kResidual * small.values[j];
+        // A value below the threshold that has not converged may still rise above it.
+        if (converged && (count == max_count || size >= count + 2 * kBlock)) {
+          return {small.values, vectors};
+        }
+      }
+      check = size + std::max(2 * kBlock, size / 3 / kBlock * kBlock);
+    }
+    next = orthonormal(image.middleCols(size - kBlock, kBlock), space.leftCols(size));
+  }
+  return diagonalise(symmetric, max_count, smallest);
+}
+
+}  // namespace anicodec

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/algebra/trajectory_gram.h"
+
+#include "codec/algebra/blocked_product.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+namespace anicodec {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+void trajectory_panel(const FrameView& clip, const Vector3d& origin, size_t first, size_t count,
+                      MatrixXd* panel) {
+  panel->resize(static_cast<Index>(count), static_cast<Index>(3 * clip.frame_count));
+  for (size_t f = 0; f < clip.frame_count; ++f) {
+    const float* p = clip.frame(f) + 3 * first;
+    double* to = panel->col(static_cast<Index>(3 * f)).data();
+    for (size_t i = 0; i < count; ++i)
+      for (size_t c = 0; c < 3; ++c)
+        to[c * count + i] = double{p[3 * i + c]} - origin[static_cast<Index>(c)];
+  }
+}
+
+MatrixXd trajectory_gram(const FrameView& clip, const Vector3d& origin) {
+  const auto rows = static_cast<Index>(3 * clip.frame_count);
+  MatrixXd gram = MatrixXd::Zero(rows, rows), panel;
+  const auto block = static_cast<size_t>(panel_depth(rows));
+  for (size_t first = 0; first < clip.vertex_count; first += block) {
+    trajectory_panel(clip, origin, first, std::min(block, clip.vertex_count - first), &panel);
+    add_self_products(panel, gram);
+  }
+  mirror_upper(gram);
+  return gram;
+}
+
+MatrixXd project_on_functions(const FrameView& clip, const Vector3d& origin,
+                              const MatrixXd& functions) {
+  MatrixXd out(static_cast<Index>(3 * clip.frame_count), functions.cols());
+  // A frame at a time: every sum runs over the vertices in order.
+  tbb::parallel_for(size_t{0}, clip.frame_count, [&](size_t f) {
+    Eigen::Matrix<double, 3, Eigen::Dynamic> sum =
+        Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, functions.cols());
+    const float* p = clip.frame(f);
+    for (size_t v = 0; v < clip.vertex_count; ++v, p += 3) {
+      const Vector3d x = Vector3d(p[0], p[1], p[2]) - origin;
+      for (Index j = 0; j < functions.cols(); ++j)
+        sum.col(j) += functions(static_cast<Index>(v), j) * x;
+    }
+    out.middleRows(static_cast<Index>(3 * f), 3) = sum;
+  });
+  return out;
+}
+
+void combine_rows(const FrameView& clip, const Vector3d& origin, const MatrixXd& weights,
+                  const std::function<void(size_t first, const MatrixXd& block)>& take) {
+  constexpr size_t kVertices = 192;
+  const bool frames = weights.rows() == static_cast<Index>(clip.frame_count);
+  const size_t blocks = (clip.vertex_count + kVertices - 1) / kVertices;
+  tbb::parallel_for(size_t{0}, blocks, [&](size_t b) {
+    const size_t first = b * kVertices, count = std::min(kVertices, clip.vertex_count - first);
+    MatrixXd panel;
+    if (frames) {
+      panel.resize(static_cast<Index>(3 * count), weights.rows());
+      for (size_t f = 0; f < clip.frame_count; ++f) {
+        const float* p = clip.frame(f) + 3 * first;
+        double* to = panel.col(static_cast<Index>(f)).data();
+        for (size_t i = 0; i < 3 * count; ++i)
+          to[i] = double{p[i]} - origin[static_cast<Index>(i % 3)];
+      }
+    } else {
+      trajectory_panel(clip, origin, first, count, &panel);
+    }
+    MatrixXd block = MatrixXd::Zero(panel.rows(), weights.cols());
+    for (Index d = 0; d < weights.rows(); d += kProductDepth) {
+      const Index depth = std::min(kProductDepth, weights.rows() - d);
+      block.noalias() += panel.middleCols(d, depth) * weights.middleRows(d, depth);
+    }
+    take(first, block);
+  });
+}
+
+MatrixXd sum_of_axes(const MatrixXd& trajectory_products) {
+  const Index frames = trajectory_products.rows() / 3;
+  MatrixXd sum(frames, frames);
+  for (Index g = 0; g < frames; ++g)
+    for (Index f = 0; f < frames; ++f)
+      sum(f, g) = trajectory_products(3 * f, 3 * g) + trajectory_products(3 * f + 1, 3 * g + 1) +
+                  trajectory_products(3 * f + 2, 3 * g + 2);
+  return sum;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/connectivity/attribute_encode.h"
+
+#include "codec/sequence/error.h"
+#include "format/attribute_record.h"
+#include "sdk/clip/attribute_coding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+using format::AttributeDomain;
+using format::AttributeHeader;
+
+constexpr double kLargest = 1 << 28;  // of the integers on a grid
+
+String text(const std::string& s) {
+  return String(s.begin(), s.end());
+}
+
+/// Least and largest value of a component over all frames.
+std::pair<double, double> range_of(const Attribute& attribute, uint32_t component) {
+  double low = INFINITY, high = -INFINITY;
+  for (size_t i = component; i < attribute.values.size(); i += attribute.components) {
+    low = std::min(low, static_cast<double>(attribute.values[i]));
+    high = std::max(high, static_cast<double>(attribute.values[i]));
+  }
+  return {low, high};
+}
+
+/// A value as decoders get it.
+double on_grid(double value, const AttributeHeader::Grid& grid) {
+  return grid.origin + std::round((value - grid.origin) * grid.scale) / grid.scale;
+}
+
+/// Steps to 1 that keep all vectors of an attribute within an angle, in degrees: of a vector whose
+/// components are off by half a step the end is off by the root of 3 times as much. A whole number,
+/// so that 1 is kept.
+double direction_scale(const Attribute& attribute, double angle) {
+  constexpr double kShortest = 1e-3;  // vectors below have no direction worth keeping
+  double shortest = 1;
+  for (size_t i = 0; i + 2 < attribute.values.size(); i += attribute.components) {
+    const float* v = attribute.values.data() + i;
+    const auto length = static_cast<double>(std::hypot(v[0], v[1], v[2]));
+    if (length >= kShortest)
+      shortest = std::min(shortest, length);
+  }
+  const double off = shortest * std::sin(std::min(angle, 90.0) * std::numbers::pi / 180);
+  return std::ceil(std::numbers::sqrt3 / 2 / off);
+}
+
+/// The corner of the source that each canonical corner is.
+std::vector<uint32_t> corner_sources(const MeshSequence& sequence, const MeshLayout& layout) {
+  std::vector<uint32_t> sources(layout.topology.polygon_corners.size());
+  for (size_t i = 0; i < layout.polygon_source.size(); ++i) {
+    const uint32_t begin = layout.topology.polygon_offsets[i];
+    const uint32_t n = layout.topology.polygon_offsets[i + 1] - begin;
+    const uint32_t source = sequence.polygons.offsets[layout.polygon_source[i]];
+    for (uint32_t k = 0; k < n; ++k)  // the source's first corner is number polygon_first
+      sources[begin + (layout.polygon_first[i] + k) % n] = source + k;
+  }
+  return sources;
+}
+
+/// Lists attributes and codes their values.
+class Writer {
+ public:
+  Writer(const MeshSequence& sequence, const AttributeOptions& options, const MeshLayout& layout)
+      : sequence_(sequence),
+        options_(options),
+        layout_(layout),
+        graph_(layout.topology),
+        corners_(corner_sources(sequence, layout)) {}
+
+  void run() {
+    bool has_normals = false;
+    for (uint32_t i = 0; i < sequence_.attributes.size(); ++i) {
+      const Attribute& attribute = sequence_.attributes[i];
+      if (attribute.kind == AttributeKind::kNormal && !options_.normals) {
+        if (!has_normals)
+          add_shared(normals_shared(attribute));
+        has_normals = true;
+      } else if (attribute.kind != AttributeKind::kTangent || options_.normals) {
+        const auto number = static_cast<uint32_t>(headers_.size());
+        add_numbers(attribute);
+        stored_.push_back({i, number, headers_.back()});
+      }
+    }
+    if (!has_normals && !sequence_.shared_normals.empty()) {
+      check_count(sequence_.shared_normals.size(), corners_.size(), "shared normals");
+      std::vector<int32_t> shared;
+      for (uint32_t c : corners_)
+        shared.push_back(static_cast<int32_t>(sequence_.shared_normals[c]));
+      add_shared(shared);
+    }
+    add_labels(AttributeKind::kMaterial, sequence_.materials);
+    add_labels(AttributeKind::kPart, sequence_.parts);
+  }
+
+  const Vector<AttributeHeader>& headers() const { return headers_; }
+
+  std::vector<StoredAttribute> stored() && { return std::move(stored_); }
+
+  format::Bytes finish() {
+    const format::Bytes stream = coder_.finish();
+    format::AttributeRecord record;
+    record.attributes = headers_;
+    record.stream = stream;
+    return record.write();
+  }
+
+ private:
+  static void check_count(size_t count, size_t wanted, const std::string& name) {
+    if (count != wanted)
+      throw Error(ErrorKind::kInput, name + ": " + std::to_string(count) + " values for " +
+                                         std::to_string(wanted) + " vertices or corners");
+  }
+
+  AttributeHeader& add_header(AttributeKind kind, AttributeDomain domain, const std::string& name) {
+    if (headers_.size() == format::kMaxAttributes)
+      throw Error(ErrorKind::kInput, "more than 256 attributes");
+    AttributeHeader& header = headers_.emplace_back();
+    header.kind = kind;
+    header.domain = domain;
+    header.name = text(name);
+    return header;
+  }
+
+  /// The source's row of each element in canonical order.
+  std::vector<uint32_t> rows_of(const Attribute& attribute) const {
+    if (attribute.per_corner)
+      return corners_;
+    return {layout_.vertex_source.begin(), layout_.vertex_source.end()};
+  }
+
+  void add_numbers(const Attribute& attribute) {
+    const std::vector<uint32_t> rows = rows_of(attribute);
+    const uint32_t n = attribute.components;
+    if (n == 0 || n > format::kMaxAttributeComponents)
+      throw Error(ErrorKind::kInput,
+                  attribute.name + ": 1 to 16 components are possible, not " + std::to_string(n));
+    check_count(attribute.values.size(), rows.size() * n * attribute.frames, attribute.name);
+    AttributeHeader& header = add_header(
+        attribute.kind, attribute.per_corner ? AttributeDomain::kCorner : AttributeDomain::kVertex,
+        attribute.name);
+    for (uint32_t i = 0; i < n; ++i)
+      header.grids.push_back(grid_of(attribute, i));
+    if (moves(attribute) && !attribute.per_corner)
+      refine(attribute, &header);
+    std::vector<int32_t> truth;
+    truth.reserve(rows.size() * n);
+    for (uint32_t row : rows) {
+      for (uint32_t i = 0; i < n; ++i) {
+        const AttributeHeader::Grid& grid = header.grids[i];
+        const auto value = static_cast<double>(attribute.values[size_t{row} * n + i]);
+        const double integer = std::round((value - grid.origin) * grid.scale);
+        if (!(std::abs(integer) <= kLargest))
+          throw Error(ErrorKind::kInput,
+                      attribute.name + ": the value of element " + std::to_string(row) +
+                          (std::isfinite(value) ? " is too large for its grid" : " is not finite"));
+        truth.push_back(static_cast<int32_t>(integer));
+      }
+    }
+    code(header, truth);
+  }
+
+  void refine(const Attribute& attribute, AttributeHeader* header) const {
+    constexpr double kShare = 0.25, kFinest = 1 << 20;  // of the error; steps to the range
+    const double allowed = kShare * error_bound(attribute, options_);
+    const uint32_t n = attribute.components;
+    const size_t count = attribute.values.size() / attribute.frames;
+    for (uint32_t i = 0; i < n; ++i) {
+      const auto [low, high] = range_of(attribute, i);
+      AttributeHeader::Grid& grid = header->grids[i];
+      auto too_coarse = [&] {
+        for (size_t at = i; at < count; at += n) {
+          const auto value = static_cast<double>(attribute.values[at]);
+          if (std::abs(on_grid(value, grid) - value) > allowed)
+            return true;
+        }
+        return false;
+      };
+      while (grid.scale * (high - low) < kFinest && too_coarse())
+        grid.scale *= 2;
+    }
+  }
+
+  AttributeHeader::Grid grid_of(const Attribute& attribute, uint32_t component) const {
+    AttributeHeader::Grid grid;
+    auto steps = [](uint32_t bits) { return std::exp2(bits); };
+    switch (attribute.kind) {
+      case AttributeKind::kUv:
+        grid.scale = steps(options_.uv_bits);
+        return grid;
+      case AttributeKind::kColour:
+        grid.scale = steps(options_.colour_bits) - 1;
+        return grid;
+      case AttributeKind::kNormal:
+      case AttributeKind::kTangent:
+        grid.scale = direction_scale(attribute, *options_.normals);
+        return grid;
+      default:
+        break;
+    }
+    const auto [low, high] = range_of(attribute, component);
+    if (std::isfinite(low))
+      grid.origin = low;
+    if (high > low && std::isfinite(high - low))
+      grid.scale = (steps(options_.other_bits) - 1) / (high - low);
+    return grid;
+  }
+
+  /// A number for each canonical corner; those at a coded vertex with nearly the same normal share
+  /// one.
+  std::vector<int32_t> normals_shared(const Attribute& normals) const {
+    constexpr uint32_t kComponents = 3;
+    const double kSame = std::cos(0.5 * std::numbers::pi / 180);
+    if (normals.components != kComponents)
+      throw Error(ErrorKind::kInput, normals.name + ": normals have three components");
+    check_count(normals.values.size(), rows_of(normals).size() * kComponents * normals.frames,
+                normals.name);
+    auto normal = [&](uint32_t corner) {
+      const size_t row =
+          normals.per_corner ? corners_[corner] : layout_.vertex_source[graph_.vertex(corner)];
+      return normals.values.data() + kComponents * row;
+    };
+    auto same = [&](uint32_t a, uint32_t b) {
+      double ab = 0, aa = 0, bb = 0;
+      for (uint32_t i = 0; i < kComponents; ++i) {
+        const auto x = static_cast<double>(normal(a)[i]), y = static_cast<double>(normal(b)[i]);
+        ab += x * y, aa += x * x, bb += y * y;
+      }
+      return ab >= kSame * std::sqrt(aa * bb);
+    };
+    constexpr uint32_t kNone = CornerGraph::kNone;
+    std::vector<int32_t> shared(corners_.size());
+    std::vector<uint32_t> newest(layout_.topology.coded_vertices, kNone),
+        older(corners_.size(), kNone);
+    for (uint32_t c = 0; c < corners_.size(); ++c) {
+      uint32_t& first = newest[graph_.coded(c)];
+      uint32_t other = first;
+      while (other != kNone && !same(c, other))
+        other = older[other];
+      shared[c] = other == kNone ? static_cast<int32_t>(c) : shared[other];
+      if (other == kNone) {
+        older[c] = first;
+        first = c;
+      }
+    }
+    return shared;
+  }
+
+  void add_shared(const std::vector<int32_t>& shared) {
+    if (!shared.empty())
+      code(add_header(AttributeKind::kNormal, AttributeDomain::kCorner, ""), shared);
+  }
+
+  void code(const AttributeHeader& header, const std::vector<int32_t>& truth) {
+    AttributeEntries entries;
+    AttributeCoding<BinaryEncoder> coding(coder_, graph_, header.domain, header.components(),
+                                          truth.data(), &entries);
+    if (coding.run() != Status::kOk)
+      throw Error(ErrorKind::kInternal, "an attribute could not be coded");
+  }
+
+  void add_labels(AttributeKind kind, const PolygonLabels& labels) {
+    if (labels.names.empty() || labels.of_polygon.empty())
+      return;
+    check_count(labels.of_polygon.size(), sequence_.polygons.size(), "labels");
+    AttributeHeader& header = add_header(kind, AttributeDomain::kPolygon, "");
+    for (const std::string& name : labels.names)
+      header.labels.push_back(text(name));
+    Vector<uint32_t> values;
+    for (uint32_t p : layout_.polygon_source) {
+      const uint32_t label = labels.of_polygon[p];
+      if (label != kNoLabel && label >= labels.names.size())
+        throw Error(ErrorKind::kInput, "face " + std::to_string(p) + " has label " +
+                                           std::to_string(label) + " of " +
+                                           std::to_string(labels.names.size()));
+      values.push_back(label == kNoLabel ? 0 : label + 1);
+    }
+    if (code_labels(coder_, graph_, static_cast<uint32_t>(labels.names.size()) + 1, &values) !=
+        Status::kOk)
+      throw Error(ErrorKind::kInternal, "labels could not be coded");
+  }
+
+  const MeshSequence& sequence_;
+  const AttributeOptions& options_;
+  const MeshLayout& layout_;
+  const CornerGraph graph_;
+  const std::vector<uint32_t> corners_;
+  Vector<AttributeHeader> headers_;
+  std::vector<StoredAttribute> stored_;
+  BinaryEncoder coder_;
+};
+
+}  // namespace
+
+bool moves(const Attribute& attribute) {
+  if (attribute.frames < 2 || attribute.kind == AttributeKind::kNormal ||
+      attribute.kind == AttributeKind::kTangent)
+    return false;
+  const size_t row = attribute.values.size() / attribute.frames;
+  return !std::equal(attribute.values.begin() + static_cast<ptrdiff_t>(row), attribute.values.end(),
+                     attribute.values.begin());
+}
+
+double error_bound(const Attribute& attribute, const AttributeOptions& options) {
+  constexpr double kDefaultPercent = 0.1;
+  if (options.error && !options.error_percent)
+    return *options.error;
+  if (!options.error && attribute.kind == AttributeKind::kColour)
+    return 0.5 / (std::exp2(options.colour_bits) - 1);
+  double range = 0;
+  for (uint32_t i = 0; i < attribute.components; ++i) {
+    const auto [low, high] = range_of(attribute, i);
+    range = std::max(range, high - low);
+  }
+  return options.error.value_or(kDefaultPercent) / 100 * range;
+}
+
+std::vector<float> stored_values(const Attribute& attribute, const StoredAttribute& stored) {
+  const size_t count = attribute.values.size() / attribute.frames;
+  std::vector<float> values(count);
+  for (size_t i = 0; i < count; ++i)
+    values[i] = static_cast<float>(on_grid(static_cast<double>(attribute.values[i]),
+                                           stored.header.grids[i % attribute.components]));
+  return values;
+}
+
+std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
+                                               const AttributeOptions& options,
+                                               MeshLayout* layout) {
+  if (!options.keep)
+    return {};
+  Writer writer(sequence, options, *layout);
+  writer.run();
+  if (writer.headers().empty())
+    return {};
+  layout->sizes.attribute_bytes = attribute_bytes(writer.headers(), layout->sizes);
+  layout->attributes = writer.finish();
+  return std::move(writer).stored();
+}
+
+void restore_attributes(const Vector<MeshAttribute>& decoded, MeshSequence* sequence) {
+  for (const MeshAttribute& a : decoded) {
+    const AttributeHeader& header = a.header;
+    if (header.domain == AttributeDomain::kPolygon) {
+      PolygonLabels& labels =
+          header.kind == AttributeKind::kMaterial ? sequence->materials : sequence->parts;
+      labels = {};
+      for (const String& name : header.labels)
+        labels.names.emplace_back(name.begin(), name.end());
+      for (uint32_t label : a.labels)
+        labels.of_polygon.push_back(label == 0 ? kNoLabel : label - 1);
+    } else if (header.components() == 0) {
+      sequence->shared_normals.assign(a.labels.begin(), a.labels.end());
+    } else {
+      Attribute& attribute = sequence->attributes.emplace_back();
+      attribute.kind = header.kind;
+      attribute.name.assign(header.name.begin(), header.name.end());
+      attribute.per_corner = header.domain == AttributeDomain::kCorner;
+      attribute.components = header.components();
+      attribute.values.assign(a.values.begin(), a.values.end());
+    }
+  }
+}
+
+}  // namespace anicodec

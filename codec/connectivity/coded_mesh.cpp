@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/connectivity/coded_mesh.h"
+
+#include "sdk/base/disjoint_sets.h"
+#include "sdk/mesh/details_coding.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace anicodec {
+namespace {
+
+uint64_t mixed(uint64_t h, uint32_t x) {
+  h = (h ^ x) * 0x9E3779B97F4A7C15ULL;
+  return h ^ (h >> 29);
+}
+
+/// A directed edge of a triangle, sortable so that both directions of an edge are neighbours.
+struct HalfEdge {
+  uint64_t edge;    ///< smaller end, larger end
+  uint32_t corner;  ///< triangle * 3 + i; the edge leads from this corner to the next one
+  bool forward;     ///< from the smaller end to the larger
+
+  bool operator<(const HalfEdge& other) const {
+    return edge != other.edge ? edge < other.edge : corner < other.corner;
+  }
+};
+
+uint32_t next_corner(uint32_t corner) {
+  return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+/// `ends[corner]` is the vertex (or point) at a corner.
+std::vector<HalfEdge> sorted_half_edges(std::span<const uint32_t> ends) {
+  std::vector<HalfEdge> edges(ends.size());
+  for (uint32_t c = 0; c < ends.size(); ++c) {
+    uint32_t a = ends[c], b = ends[next_corner(c)];
+    edges[c] = {uint64_t{std::min(a, b)} << 32 | std::max(a, b), c, a < b};
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// Calls visit(first, last) for each run of half-edges on the same undirected edge.
+template <class Visit>
+void for_each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
+  for (size_t first = 0, last; first < edges.size(); first = last) {
+    for (last = first + 1; last < edges.size() && edges[last].edge == edges[first].edge; ++last) {
+    }
+    visit(first, last);
+  }
+}
+
+/// Whether the half-edges first..last-1 are one border edge or two oppositely directed ones.
+bool is_manifold(const std::vector<HalfEdge>& edges, size_t first, size_t last) {
+  return last - first == 1 ||
+         (last - first == 2 && edges[first].forward != edges[first + 1].forward);
+}
+
+/// Marks polygons that no triangle mesh can hold as such: too few corners or too many, a repeated
+/// vertex, or the vertices of an earlier polygon.
+std::vector<bool> degenerate_or_duplicate(const Polygons& polygons,
+                                          std::span<const uint32_t> welded) {
+  std::vector<bool> apart(polygons.size(), false);
+  std::vector<uint32_t> sorted;  // vertices of each polygon, ascending
+  std::vector<size_t> offsets{0};
+  std::vector<std::pair<uint64_t, uint32_t>> keys;  // hash, polygon
+  sorted.reserve(polygons.corners.size());
+  for (uint32_t p = 0; p < polygons.size(); ++p) {
+    for (uint32_t v : polygons[p])
+      sorted.push_back(welded[v]);
+    auto begin = sorted.begin() + static_cast<ptrdiff_t>(offsets.back());
+    std::sort(begin, sorted.end());
+    apart[p] = sorted.end() - begin < 3 || polygons[p].size() > kMaxJoinedCorners ||
+               std::adjacent_find(begin, sorted.end()) != sorted.end();
+    if (!apart[p])
+      keys.emplace_back(std::accumulate(begin, sorted.end(), uint64_t{0}, mixed), p);
+    offsets.push_back(sorted.size());
+  }
+  std::sort(keys.begin(), keys.end());
+  auto vertices = [&](uint32_t p) {
+    return std::span(sorted).subspan(offsets[p], offsets[p + 1] - offsets[p]);
+  };
+  for (size_t i = 0; i < keys.size(); ++i) {
+    for (size_t j = i; j-- > 0 && keys[j].first == keys[i].first;) {
+      if (!apart[keys[j].second] &&
+          std::ranges::equal(vertices(keys[j].second), vertices(keys[i].second)))
+        apart[keys[i].second] = true;
+    }
+  }
+  return apart;
+}
+
+}  // namespace
+
+Weld weld_trajectories(const MeshSequence& sequence) {
+  uint32_t n = sequence.vertex_count;
+  std::vector<uint64_t> hash(n, 0);
+  for (size_t f = 0; f < sequence.frame_count; ++f) {
+    std::span<const float> frame = sequence.frame(f);
+    for (size_t v = 0; v < n; ++v) {
+      uint32_t bits[3];
+      std::memcpy(bits, frame.data() + 3 * v, sizeof bits);
+      hash[v] = mixed(mixed(mixed(hash[v], bits[0]), bits[1]), bits[2]);
+    }
+  }
+  auto identical = [&](uint32_t a, uint32_t b) {
+    for (size_t f = 0; f < sequence.frame_count; ++f) {
+      const float* frame = sequence.frame(f).data();
+      if (std::memcmp(frame + size_t{3} * a, frame + size_t{3} * b, 3 * sizeof(float)) != 0)
+        return false;
+    }
+    return true;
+  };
+  std::vector<uint32_t> order(n), first(n);
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return hash[a] != hash[b] ? hash[a] < hash[b] : a < b; });
+  // Vertices of one hash are compared with the first one of it; a collision stays unwelded, which
+  // costs bytes, not correctness.
+  for (size_t i = 0, head = 0; i < n; ++i) {
+    if (hash[order[i]] != hash[order[head]])
+      head = i;
+    first[order[i]] = i != head && identical(order[head], order[i]) ? order[head] : order[i];
+  }
+  Weld weld;
+  weld.welded.resize(n);
+  for (uint32_t v = 0; v < n; ++v) {
+    if (first[v] == v) {
+      weld.welded[v] = static_cast<uint32_t>(weld.representative.size());
+      weld.representative.push_back(v);
+    } else {
+      weld.welded[v] = weld.welded[first[v]];
+    }
+  }
+  return weld;
+}
+
+ManifoldMesh make_manifold(const Polygons& polygons, std::span<const uint32_t> welded) {
+  std::vector<bool> apart = degenerate_or_duplicate(polygons, welded);
+  ManifoldMesh mesh;
+  for (bool settled = false; !settled;) {
+    settled = true;
+    std::vector<uint32_t> vertices;  // welded vertex at each corner of the fans
+    mesh.triangle_polygon.clear();
+    for (uint32_t p = 0; p < polygons.size(); ++p) {
+      if (apart[p])
+        continue;
+      std::span<const uint32_t> corners = polygons[p];
+      for (size_t i = 1; i + 1 < corners.size(); ++i) {
+        for (uint32_t v : {corners[0], corners[i], corners[i + 1]})
+          vertices.push_back(welded[v]);
+        mesh.triangle_polygon.push_back(p);
+      }
+    }
+    auto set_apart = [&](uint32_t corner) {
+      apart[mesh.triangle_polygon[corner / 3]] = true;
+      settled = false;
+    };
+
+    DisjointSets points(vertices.size());  // of corners
+    std::vector<HalfEdge> edges = sorted_half_edges(vertices);
+    for_each_edge(edges, [&](size_t first, size_t last) {
+      if (!is_manifold(edges, first, last)) {
+        // A polygon with such an edge between two of its own triangles could not be put together
+        // again.
+        for (size_t i = first; i < last; ++i) {
+          for (size_t j = first; j < i; ++j) {
+            if (mesh.triangle_polygon[edges[i].corner / 3] ==
+                mesh.triangle_polygon[edges[j].corner / 3])
+              set_apart(edges[i].corner);
+          }
+        }
+      } else if (last - first == 2) {
+        uint32_t c = edges[first].corner, d = edges[first + 1].corner;
+        points.join(c, next_corner(d));
+        points.join(next_corner(c), d);
+      }
+    });
+    if (!settled)
+      continue;
+
+    mesh.triangles.assign(vertices.size(), 0);
+    mesh.point_vertex.clear();
+    for (uint32_t c = 0; c < vertices.size(); ++c) {
+      uint32_t root = points.find(c);
+      if (root == c) {
+        mesh.triangles[c] = static_cast<uint32_t>(mesh.point_vertex.size());
+        mesh.point_vertex.push_back(vertices[c]);
+      } else {
+        mesh.triangles[c] = mesh.triangles[root];
+      }
+    }
+    // Fans that meet again around a vertex can bring the same points back to a cut edge.
+    edges = sorted_half_edges(mesh.triangles);
+    for_each_edge(edges, [&](size_t first, size_t last) {
+      if (!is_manifold(edges, first, last))
+        set_apart(edges[last - 1].corner);
+    });
+  }
+  mesh.points = static_cast<uint32_t>(mesh.point_vertex.size());
+  for (uint32_t p = 0; p < polygons.size(); ++p) {
+    if (apart[p])
+      mesh.apart.push_back(p);
+  }
+  return mesh;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_FILE_CLIP_RECORD_H_
+#define ANICODEC_CODEC_FILE_CLIP_RECORD_H_
+
+#include "codec/file/encode_options.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "format/records.h"
+
+namespace anicodec {
+
+/// What a file says of a clip, but for the errors that are yet to be measured: names, clock,
+/// coordinates, and what was asked for, in scene units.
+format::ClipRecord clip_record(const MeshSequence& sequence, const EncodeOptions& options,
+                               const Target& target, double clip_diagonal);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_FILE_CLIP_RECORD_H_

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/file/join_clips.h"
+
+#include "codec/sequence/error.h"
+#include "format/container.h"
+#include "format/records.h"
+#include "sdk/clip/clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+using format::Chunk;
+using format::ContainerReader;
+
+[[noreturn]] void fail(const ClipPart& part, ErrorKind kind, const std::string& text) {
+  throw Error(kind, part.name + ": " + text);
+}
+
+/// A part, opened.
+struct OpenPart {
+  explicit OpenPart(const ClipPart& source) : part(source) {
+    check(reader.open(part.file));
+    check(format::Limits::read(payload(required("LIMI")), &limits));
+    check(format::ClipRecord::read(payload(required("CLIP")), limits.frames, &record));
+    if (limits.meshes.size() != 1)
+      fail(part, ErrorKind::kUnsupported, "clips of several meshes are not joined");
+  }
+
+  void check(const Failure& failure) const {
+    if (!failure.ok())
+      fail(part, ErrorKind::kCorrupt, status_string(failure.status));
+  }
+
+  void check(Status status) const {
+    if (status != Status::kOk)
+      fail(part, ErrorKind::kCorrupt, status_string(status));
+  }
+
+  const Chunk& required(const char (&type)[5]) const {
+    const Chunk* chunk = reader.find(type);
+    if (!chunk)
+      fail(part, ErrorKind::kCorrupt, std::string("has no chunk ") + type);
+    return *chunk;
+  }
+
+  format::ByteView payload(const Chunk& chunk) const {
+    format::ByteView view;
+    check(reader.payload(chunk, &view));
+    return view;
+  }
+
+  /// Payload of a chunk of the mesh, empty when there is none.
+  format::ByteView of_mesh(const char (&type)[5]) const {
+    const Chunk* chunk = reader.find(type, 0);
+    return chunk ? payload(*chunk) : format::ByteView();
+  }
+
+  ClipPart part;
+  ContainerReader reader;
+  format::Limits limits;
+  format::ClipRecord record;
+};
+
+bool equal(format::ByteView a, format::ByteView b) {
+  return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
+}
+
+format::Bytes copy(format::ByteView view) {
+  return format::Bytes(view.data, view.data + view.size);
+}
+
+constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
+
+void check_same_mesh(const OpenPart& first, const OpenPart& next) {
+  const format::Limits::Mesh &a = first.limits.meshes[0], &b = next.limits.meshes[0];
+  auto counts = [](const format::Limits::Mesh& m) {
+    return std::to_string(m.source_vertices) + " vertices and " + std::to_string(m.polygons) +
+           " faces";
+  };
+  if (a.source_vertices != b.source_vertices || a.polygons != b.polygons || a.corners != b.corners)
+    fail(next.part, ErrorKind::kInput,
+         "has " + counts(b) + ", but " + first.part.name + " has " + counts(a));
+  if (first.record.order != next.record.order)
+    fail(next.part, ErrorKind::kInput, "keeps another order of vertices than " + first.part.name);
+  for (const char(*type)[5] : kMeshChunks) {
+    if (!equal(first.of_mesh(*type), next.of_mesh(*type)))
+      fail(next.part, ErrorKind::kInput,
+           "does not have the connectivity, welds and reference pose of " + first.part.name +
+               "; parts are encoded from the whole clip, with --frames and the same target");
+  }
+}
+
+double duration(const OpenPart& part) {
+  return part.limits.frames * double{1} * part.record.rate_denominator / part.record.rate_numerator;
+}
+
+void check_follows(const OpenPart& before, const OpenPart& next) {
+  const format::ClipRecord &a = before.record, &b = next.record;
+  if (a.rate_numerator != b.rate_numerator || a.rate_denominator != b.rate_denominator ||
+      a.up != b.up || a.metres_per_unit != b.metres_per_unit || a.times.empty() != b.times.empty())
+    fail(next.part, ErrorKind::kInput,
+         "has another frame rate, up axis or unit than " + before.part.name);
+  const double frame = double{1} * a.rate_denominator / a.rate_numerator;
+  const double gap = b.start_time - a.start_time;
+  const bool follows =
+      a.times.empty() ? std::abs(gap - duration(before)) < 0.01 * frame : gap > a.times.back();
+  if (!follows)
+    fail(next.part, ErrorKind::kInput,
+         "starts at " + std::to_string(b.start_time) + " s and does not follow " +
+             before.part.name + ", which starts at " + std::to_string(a.start_time) +
+             " s and has " + std::to_string(before.limits.frames) + " frames");
+}
+
+format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
+  format::ClipRecord record = parts[0].record;
+  double squared = 0, reference = 0, frames = 0;
+  record.times = {};
+  for (const OpenPart& part : parts) {
+    const format::ClipRecord& r = part.record;
+    const double of_part = r.rmse * r.rmse * part.limits.frames;
+    squared += of_part;
+    if (r.kg > 0)
+      reference += of_part / (r.kg * r.kg / 1e4);
+    frames += part.limits.frames;
+    record.max_error = std::max(record.max_error, r.max_error);
+    record.diagonal = std::max(record.diagonal, r.diagonal);
+    record.surface_error = std::max(record.surface_error, r.surface_error);
+    record.massaged |= r.massaged;
+    if (r.asked != record.asked || r.asked_value != record.asked_value)
+      record.asked = format::ErrorMetric::kNone;
+    for (double t : r.times)
+      record.times.push_back(r.start_time - record.start_time + t);
+  }
+  if (record.asked == format::ErrorMetric::kSize || record.asked == format::ErrorMetric::kNone) {
+    record.asked = format::ErrorMetric::kNone;
+    record.asked_value = 0;
+  }
+  record.closed = false;
+  record.rmse = std::sqrt(squared / frames);
+  record.kg = reference > 0 ? 100 * std::sqrt(squared / reference) : 0;
+  return record;
+}
+
+/// Adds a chunk of a segment under its new number, to a mesh.
+void add_chunk(const OpenPart& part, const Chunk& chunk, uint16_t mesh, uint32_t segment,
+               format::ContainerWriter& file) {
+  for (const char(*type)[5] : {&"POSE", &"SEGM", &"BASI", &"CORR"}) {
+    if (chunk.type == format::chunk_type(*type))
+      return file.add(*type, chunk.required, mesh, segment, copy(part.payload(chunk)));
+  }
+  if (chunk.required)
+    fail(part.part, ErrorKind::kUnsupported,
+         "a chunk " + format::chunk_name(chunk.type) + " cannot be joined");
+}
+
+void verify(const format::Bytes& file) {
+  Clip clip;
+  Failure failure = clip.open(file);
+  if (failure.ok())
+    failure = clip.check_hashes();
+  if (!failure.ok())
+    throw Error(ErrorKind::kInternal,
+                std::string("the joined file is not valid: ") + status_string(failure.status));
+}
+
+/// An opened part, and where it goes.
+struct Placed {
+  const OpenPart* part;
+  uint16_t mesh;
+  uint32_t first_frame;
+};
+
+/// Errors of attributes over all parts of each mesh.
+Vector<format::AttributeError> joined_errors(const std::vector<Placed>& parts) {
+  struct Sum {
+    format::AttributeError error;
+    double squared = 0, frames = 0;
+  };
+
+  std::map<std::pair<uint16_t, uint16_t>, Sum> sums;
+  for (const Placed& placed : parts) {
+    for (const format::AttributeError& e : placed.part->record.attribute_errors) {
+      Sum& sum = sums[{placed.mesh, e.attribute}];
+      sum.error.mesh = placed.mesh;
+      sum.error.attribute = e.attribute;
+      sum.error.max_error = std::max(sum.error.max_error, e.max_error);
+      sum.squared += e.rmse * e.rmse * placed.part->limits.frames;
+      sum.frames += placed.part->limits.frames;
+    }
+  }
+  Vector<format::AttributeError> errors;
+  for (auto& [key, sum] : sums) {
+    sum.error.rmse = std::sqrt(sum.squared / sum.frames);
+    errors.push_back(sum.error);
+  }
+  return errors;
+}
+
+/// A segment of a part.
+struct PlacedSegment {
+  const Placed* placed;
+  format::Limits::Segment sizes;  ///< with mesh and frames of the joined clip
+  std::vector<const Chunk*> chunks;
+};
+
+/// One file of parts: mesh, maps and pose of the first one of each mesh, all segments in the order
+/// of time under new numbers.
+format::Bytes join(const std::vector<Placed>& parts, uint32_t frames, format::ClipRecord record) {
+  record.attribute_errors = joined_errors(parts);
+  format::Limits limits;
+  limits.frames = frames;
+  std::vector<const OpenPart*> meshes;
+  std::vector<PlacedSegment> segments;
+  for (const Placed& placed : parts) {
+    const OpenPart& part = *placed.part;
+    if (placed.mesh == meshes.size()) {
+      meshes.push_back(&part);
+      limits.meshes.push_back(part.limits.meshes[0]);
+    } else {
+      check_same_mesh(*meshes[placed.mesh], part);
+    }
+    const size_t first = segments.size();
+    for (format::Limits::Segment sizes : part.limits.segments) {
+      sizes.mesh = placed.mesh;
+      sizes.first_frame += placed.first_frame;
+      segments.push_back({&placed, sizes, {}});
+    }
+    for (const Chunk& chunk : part.reader.chunks()) {
+      if (chunk.segment < part.limits.segments.size())
+        segments[first + chunk.segment].chunks.push_back(&chunk);
+    }
+  }
+  std::stable_sort(segments.begin(), segments.end(),
+                   [](const PlacedSegment& a, const PlacedSegment& b) {
+                     return std::pair(a.sizes.first_frame, a.sizes.mesh) <
+                            std::pair(b.sizes.first_frame, b.sizes.mesh);
+                   });
+  for (const PlacedSegment& segment : segments)
+    limits.segments.push_back(segment.sizes);
+
+  format::ContainerWriter file;
+  file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
+  file.add("CLIP", true, format::kNoMesh, format::kNoSegment, record.write());
+  for (uint16_t m = 0; m < meshes.size(); ++m) {
+    for (const char(*type)[5] : kMeshChunks) {
+      if (const Chunk* chunk = meshes[m]->reader.find(*type, 0))
+        file.add(*type, chunk->required, m, format::kNoSegment, copy(meshes[m]->payload(*chunk)));
+    }
+  }
+  for (uint32_t s = 0; s < segments.size(); ++s) {
+    const Placed& placed = *segments[s].placed;
+    for (const Chunk* chunk : segments[s].chunks)
+      add_chunk(*placed.part, *chunk, placed.mesh, s, file);
+  }
+  format::Bytes bytes = file.finish();
+  verify(bytes);
+  return bytes;
+}
+
+}  // namespace
+
+format::Bytes join_clips(const std::vector<ClipPart>& sources) {
+  if (sources.empty())
+    throw Error(ErrorKind::kUsage, "there is no part to join");
+  std::vector<OpenPart> parts;
+  std::vector<Placed> placed;
+  parts.reserve(sources.size());
+  uint32_t frames = 0;
+  for (const ClipPart& source : sources) {
+    const OpenPart& part = parts.emplace_back(source);
+    if (parts.size() > 1) {
+      check_same_mesh(parts[0], part);
+      check_follows(parts[parts.size() - 2], part);
+    }
+    if (part.limits.frames > format::kMaxFrames - frames)
+      fail(source, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
+    placed.push_back({&part, 0, frames});
+    frames += part.limits.frames;
+  }
+  return join(placed, frames, joined_record(parts));
+}
+
+format::Bytes join_meshes(const std::vector<PlacedPart>& sources, uint32_t frames,
+                          const format::ClipRecord& record) {
+  std::vector<OpenPart> parts;
+  std::vector<Placed> placed;
+  parts.reserve(sources.size());
+  for (const PlacedPart& source : sources)
+    placed.push_back({&parts.emplace_back(source.part), source.mesh, source.first_frame});
+  return join(placed, frames, record);
+}
+
+}  // namespace anicodec

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/keyframes/keyframe_fit.h"
+
+#include "codec/keyframes/keyframe_weights.h"
+#include "codec/keyframes/rigid_weights.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace anicodec {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+namespace {
+
+// Columns of cross products kept between fits: 9 frames doubles each.
+constexpr size_t kKeptBytes = size_t{256} << 20;
+
+Matrix3Xd positions(const FrameView& clip, size_t f) {
+  const auto count = static_cast<Index>(clip.vertex_count);
+  return Eigen::Map<const Eigen::Matrix3Xf>(clip.frame(f), 3, count).cast<double>();
+}
+
+std::vector<float> to_floats(const Matrix3Xd& points) {
+  std::vector<float> floats(static_cast<size_t>(points.size()));
+  Eigen::Map<Eigen::Matrix3Xf>(floats.data(), 3, points.cols()) = points.cast<float>();
+  return floats;
+}
+
+KeyframeFit better(KeyframeFit a, KeyframeFit b) {
+  return b.squared_error() < a.squared_error() ? b : a;
+}
+
+Matrix3Xd turned_back(const FrameView& clip, size_t f, const RigidMotion& motion) {
+  return motion.rotation.transpose() * (positions(clip, f).colwise() - motion.translation);
+}
+
+}  // namespace
+
+KeyframeFitter::KeyframeFitter(const FrameView& clip)
+    : clip_(clip), gram_(frame_gram(clip)), centred_(gram_.clip_centred()) {}
+
+void KeyframeFitter::align() {
+  if (rotations_.empty()) {
+    rotations_ = align_frames(clip_, gram_.centroids);
+    aligned_ = frame_gram(clip_, rotations_).shape;
+    cross_.emplace(clip_, gram_.centroids);
+  }
+}
+
+const MatrixXd& KeyframeFitter::products(KeyframeWeights kind) {
+  if (kind != KeyframeWeights::kRigid) {
+    return centred_;
+  }
+  align();
+  return aligned_;
+}
+
+KeyframeFit KeyframeFitter::fit(size_t count, KeyframeMethod method, KeyframeWeights kind) {
+  if (kind == KeyframeWeights::kLinear) {
+    return fit(select_keyframes(centred_, count, method, KeyframeSpan::kLinear), kind);
+  }
+  if (kind == KeyframeWeights::kSumToOne) {
+    return fit(select_keyframes(centred_, count, method, KeyframeSpan::kAffine), kind);
+  }
+  align();
+  return better(
+      fit_rigid(select_keyframes(aligned_, count, method, KeyframeSpan::kAffine), rotations_),
+      fit_rigid(select_keyframes(gram_.shape, count, method, KeyframeSpan::kAffine), unturned()));
+}
+
+KeyframeFit KeyframeFitter::fit(std::vector<uint32_t> keyframes, KeyframeWeights kind) {
+  if (kind == KeyframeWeights::kRigid) {
+    align();
+    return better(fit_rigid(keyframes, rotations_), fit_rigid(keyframes, unturned()));
+  }
+  FrameWeights fitted = fit_weights(
+      centred_, keyframes,
+      kind == KeyframeWeights::kLinear ? WeightConstraint::kNone : WeightConstraint::kSumToOne);
+  return {std::move(keyframes), std::move(fitted.weights), std::move(fitted.squared_errors), {}};
+}
+
+std::vector<Matrix3d> KeyframeFitter::unturned() const {
+  return std::vector<Matrix3d>(clip_.frame_count, Matrix3d::Identity());
+}
+
+KeyframeFit KeyframeFitter::fit_rigid(std::vector<uint32_t> keyframes,
+                                      const std::vector<Matrix3d>& rotations) {
+  cross_->require(keyframes,
+                  std::max<size_t>(1, kKeptBytes / (9 * sizeof(double) * clip_.frame_count)));
+  RigidWeights fitted =
+      fit_rigid_weights(*cross_, keyframes, rotations, gram_.shape, WeightConstraint::kSumToOne);
+  KeyframeFit result{
+      std::move(keyframes), std::move(fitted.weights), std::move(fitted.squared_errors), {}};
+  for (size_t f = 0; f < clip_.frame_count; f++) {
+    result.motions.push_back(
+        {fitted.rotations[f], gram_.centroids.row(static_cast<Index>(f)).transpose()});
+  }
+  return result;
+}
+
+double KeyframeFitter::kg(const KeyframeFit& fit) const {
+  return kg_error(fit.squared_error(), gram_.kg_reference());
+}
+
+double KeyframeFitter::rmse(const KeyframeFit& fit) const {
+  return anicodec::rmse(fit.squared_error(), clip_.vertex_count, clip_.frame_count);
+}
+
+std::vector<float> aligned_frame(const FrameView& clip, size_t f, const RigidMotion& motion) {
+  return to_floats(turned_back(clip, f, motion));
+}
+
+std::vector<float> combine_keyframes(const FrameView& clip, const KeyframeFit& fit,
+                                     const Vector3d& mean_position, size_t f) {
+  const bool rigid = !fit.motions.empty();
+  Matrix3Xd sum = Matrix3Xd::Zero(3, static_cast<Index>(clip.vertex_count));
+  for (size_t j = 0; j < fit.keyframes.size(); j++) {
+    const uint32_t k = fit.keyframes[j];
+    const double w = fit.weights(static_cast<Index>(f), static_cast<Index>(j));
+    if (rigid) {
+      sum += w * turned_back(clip, k, fit.motions[k]);
+    } else {
+      sum += w * (positions(clip, k).colwise() - mean_position);
+    }
+  }
+  if (rigid) {
+    return to_floats((fit.motions[f].rotation * sum).colwise() + fit.motions[f].translation);
+  }
+  return to_floats(sum.colwise() + mean_position);
+}
+
+}  // namespace anicodec

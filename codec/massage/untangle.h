@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_MASSAGE_UNTANGLE_H_
+#define ANICODEC_CODEC_MASSAGE_UNTANGLE_H_
+
+#include "codec/surface/surface.h"
+
+#include <cstdint>
+
+namespace anicodec {
+
+/// Turns triangles of a mesh that face against a surface of the same connectivity
+/// (turned_in_place()) the right way again, each by the least move of its corners that does it, and
+/// over again for those that this turns, up to 40 times. Where that goes in circles, what is around
+/// is evened out on the surface and moved again; that is kept where it halves what is turned.
+/// Positions become those of floats. Moves inner vertices alone. What is still turned then is left
+/// to limit_distance(). Returns the number of triangles it turned. Cost: that of turned_in_place()
+/// and little more.
+uint32_t untangle(const Surface& surface, Positions* v);
+
+/// The same for a mesh of another connectivity than the surface, which has an index, and what
+/// turned_triangles() finds.
+uint32_t untangle(const SurfaceTopology& mesh, const Surface& surface, Positions* v);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_MASSAGE_UNTANGLE_H_

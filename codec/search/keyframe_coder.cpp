@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/keyframe_coder.h"
+
+#include "codec/keyframes/keyframe_count.h"
+#include "codec/segment/keyframe_segment_encode.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+constexpr KeyframeWeights kWeights[] = {KeyframeWeights::kLinear, KeyframeWeights::kSumToOne,
+                                        KeyframeWeights::kRigid};
+constexpr const char* kWeightNames[] = {"free weights", "weights of sum one", "rigid motion"};
+constexpr int kRounds = 8;
+
+ErrorTarget rmse_target(double rmse) {
+  return {std::numeric_limits<double>::infinity(), rmse};
+}
+
+/// Evenly spread, with the first and the last frame: all others lie between two.
+std::vector<uint32_t> spread_frames(size_t frames, size_t count) {
+  std::vector<uint32_t> chosen;
+  for (size_t j = 0; j < count; ++j)
+    chosen.push_back(static_cast<uint32_t>(j * (frames - 1) / (count - 1)));
+  return chosen;
+}
+
+}  // namespace
+
+KeyframeCoder::KeyframeCoder(const EncoderInput& input, KeyframeMethod method,
+                             std::optional<uint32_t> count, format::Reconstruction reconstruction)
+    : input_(input),
+      fitter_(input.frames()),
+      method_(method),
+      count_(count),
+      reconstruction_(reconstruction) {
+  if (reconstruction == format::Reconstruction::kMsgi) {
+    weights_ = KeyframeWeights::kRigid;
+    return;
+  }
+  // The kind of weights that does best with as many key-frames as asked, or a few.
+  size_t probe = std::min<size_t>(count.value_or(12), input.frames().frame_count);
+  double least = std::numeric_limits<double>::infinity();
+  for (KeyframeWeights kind : kWeights) {
+    double error = fitter_.rmse(fitter_.fit(probe, method, kind));
+    if (error < 0.98 * least) {
+      least = error;
+      weights_ = kind;
+    }
+  }
+}
+
+const MsgiFit& KeyframeCoder::interpolated(size_t count) {
+  auto [found, is_new] = interpolated_.try_emplace(count);
+  if (is_new) {
+    std::vector<KeyframeFit> fits{fitter_.fit(count, method_, weights_)};
+    if (count > 1)
+      fits.push_back(fitter_.fit(spread_frames(input_.frames().frame_count, count), weights_));
+    found->second = fit_msgi_weights(input_.frames(), input_.layout.topology.triangles, fits);
+  }
+  return found->second;
+}
+
+const MsgiFit& KeyframeCoder::fit(double rmse) {
+  if (reconstruction_ == format::Reconstruction::kLinear) {
+    fit_ = {count_ ? fitter_.fit(*count_, method_, weights_)
+                   : fewest_keyframes(fitter_, rmse_target(rmse), method_, weights_),
+            0};
+    return fit_;
+  }
+  if (count_)
+    return interpolated(*count_);
+  // About as many as straight lines need, then fewer.
+  const size_t frames = input_.frames().frame_count;
+  size_t few = 0;
+  size_t enough = fewest_keyframes(fitter_, rmse_target(rmse), method_, weights_).keyframes.size();
+  while (enough < frames && fitter_.rmse(interpolated(enough).fit) > rmse) {
+    few = enough;
+    enough = std::min(frames, enough + enough / 4 + 1);
+  }
+  while (enough - few > 1 + enough / 16) {
+    const size_t middle = (few + enough) / 2;
+    (fitter_.rmse(interpolated(middle).fit) <= rmse ? enough : few) = middle;
+  }
+  return interpolated(enough);
+}
+
+Part KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
+  input_.begin_trial();
+  double finest = input_.largest_coordinate * 0x1p-22;
+  double step = std::max(
+      {step_for_rounding_error(fit.fit, rounding_rms), finest, std::numeric_limits<double>::min()});
+  Part part;
+  part.encoded =
+      encode_keyframes(input_.frames(), fit.fit, weights_, fitter_.gram().mean_position(), step,
+                       input_.layout, fit.leaf_faces);
+  part.opened = open_encoded(part.encoded, input_.layout);
+  part.error = measure(part.opened, input_.frames(), input_.copies);
+  part.what = std::to_string(fit.fit.keyframes.size()) + " key-frames, " +
+              kWeightNames[static_cast<int>(weights_)] + (fit.leaf_faces > 0 ? ", MSGI" : "");
+  return part;
+}
+
+std::optional<Part> KeyframeCoder::at_rmse(double rmse) {
+  std::optional<Part> best;
+  size_t best_bytes = 0;
+  // More key-frames leave more room for rounding: what is cheapest is measured.
+  for (double share : {0.6, 0.85}) {
+    double exact_target = share * rmse;
+    double rounding = 0;
+    for (int round = 0; round < kRounds; ++round) {
+      const MsgiFit& exact = fit(exact_target);
+      double left = rmse * rmse - std::pow(fitter_.rmse(exact.fit), 2);
+      if (left <= 0)
+        break;
+      if (rounding == 0 || rounding > std::sqrt(left))
+        rounding = std::sqrt(left);
+      Part part = coded(exact, rounding);
+      double measured = input_.rmse(part.error.squared);
+      if (measured <= rmse) {
+        size_t bytes = part.encoded.bytes() +
+                       encode_with_poses(input_.layout, part.encoded.draco_poses).size();
+        if (!best || bytes < best_bytes) {
+          best = std::move(part);
+          best_bytes = bytes;
+        }
+        break;
+      }
+      rounding *= 0.97 * std::sqrt(left / std::max(measured * measured - rmse * rmse + left, left));
+      // Welded vertices count more than once: then even exact key-frames may miss the target.
+      if (round >= 3)
+        exact_target *= 0.9;
+    }
+    if (count_)
+      break;
+  }
+  return best;
+}
+
+Part KeyframeCoder::at_count() {
+  const MsgiFit& exact = fit(0);
+  double floor = input_.largest_coordinate * 1e-6;
+  double rms = fitter_.rmse(exact.fit);
+  double allowed = std::max(1.1 * rms, floor);
+  double rounding = std::sqrt(std::max(0.8 * (allowed * allowed - rms * rms), 0.0));
+  Part part = coded(exact, rounding);
+  for (int round = 0; round < kRounds && input_.rmse(part.error.squared) > allowed; ++round)
+    part = coded(exact, rounding *= 0.7);
+  return part;
+}
+
+}  // namespace anicodec

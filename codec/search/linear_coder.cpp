@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/linear_coder.h"
+
+#include "codec/sequence/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace anicodec {
+namespace {
+
+constexpr double kClose = 0.997;  // of the error asked for: near enough
+constexpr double kAim = 0.9985;   // where to aim, of the same
+constexpr int kRounds = 8;
+constexpr int kSlowEffort = 7;      // from here on, files may open slower to be smaller
+constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
+constexpr size_t kMostComponents = 2000;
+
+}  // namespace
+
+LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis,
+                         format::BasisKind kind, int effort, uint32_t layers)
+    : input_(input), analysis_(analysis), kind_(kind), effort_(effort) {
+  const bool shapes = kind == format::BasisKind::kEigenshapes;
+  choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
+  choice_.base = shapes ? Base::kPose : Base::kAffine;
+  choice_.settings.layers = layers;
+  const bool slow = effort >= kSlowEffort;
+  choice_.settings.slow_pose = slow;
+  if (!shapes && !slow) {
+    // Trajectories are many: half the time that prediction takes, for two bytes in a hundred.
+    choice_.settings.neighbours = 12;
+    choice_.settings.schedule = RefitSchedule::kMedium;
+  }
+}
+
+void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
+  pose_ = std::move(pose);
+  const PoseGrid& grid = pose_->grid;
+  given_.resize(static_cast<Eigen::Index>(grid.points.size() / 3), 3);
+  for (Eigen::Index i = 0; i < given_.size(); ++i)
+    given_(i / 3, i % 3) = grid.points[static_cast<size_t>(i)] * grid.step;
+  choice_.pose = ReferencePose::kGiven;
+  choice_.base = Base::kAffine;
+  bases_.clear();
+  chosen_ = true;
+}
+
+/// What the pose takes in the mesh's Draco bitstream and beside it.
+size_t LinearCoder::pose_bytes(const EncodedSegment& encoded) const {
+  return encode_with_poses(input_.layout, encoded.poses_for_draco()).size() +
+         encoded.reference->stream.size();
+}
+
+const LinearBasis& LinearCoder::basis(ReferencePose pose, Base base) {
+  auto [found, fresh] = bases_.try_emplace({pose, base});
+  if (fresh)
+    found->second = analysis_.basis(kind_, pose, base, kMostComponents, 0, &given_);
+  return found->second;
+}
+
+/// The choice with a step and a number of components that should meet the error.
+LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
+  const LinearBasis& b = basis(choice.pose, choice.base);
+  FrameView clip = analysis_.clip();
+  double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
+  bool shapes = kind_ == format::BasisKind::kEigenshapes;
+  double scalars = static_cast<double>(clip.vertex_count * (shapes ? 3 : 1));
+  // Bisection: the error of rounding and of what is left out grows with the step.
+  // Without components the step is that of the pose, tied to the number of frames.
+  double low = rmse * 1e-6;
+  double high = 3 * rmse * std::sqrt(static_cast<double>(clip.frame_count));
+  LinearSettings& settings = choice.settings;
+  for (int round = 0; round < 60; ++round) {
+    settings.components = 0;
+    settings.step = std::sqrt(low * high);
+    settings.components = component_count(b, settings, clip.vertex_count, clip.frame_count);
+    auto k = static_cast<Eigen::Index>(settings.components);
+    double rest = b.base_energy - b.energies.head(k).sum();
+    double error = std::max(rest, 0.0) +
+                   0.12 * static_cast<double>(k) * scalars * settings.step * settings.step;
+    (error > budget ? high : low) = settings.step;
+  }
+  return choice;
+}
+
+LinearCoder::Measured LinearCoder::measured(const Choice& choice, double rmse) {
+  input_.begin_trial();
+  Measured m;
+  const LinearBasis& b = basis(choice.pose, choice.base);
+  try {
+    m.part.encoded = encode_linear(analysis_.clip(), b, choice.settings, input_.layout, pose_);
+  } catch (const TooFine&) {
+    m.rmse = m.bytes = std::numeric_limits<double>::infinity();
+    return m;
+  }
+  m.part.opened = open_encoded(m.part.encoded, input_.layout);
+  m.part.error = measure(m.part.opened, analysis_.clip(), input_.copies);
+  m.part.what = std::to_string(m.part.encoded.sizes.components) +
+                (kind_ == format::BasisKind::kEigenshapes ? " eigenshapes" : " eigentrajectories");
+  m.rmse = input_.rmse(m.part.error.squared, analysis_.clip().frame_count);
+  size_t pose = pose_ ? 0 : pose_bytes(m.part.encoded);
+  m.bytes = static_cast<double>(m.part.encoded.bytes() + pose) *
+            std::pow(std::max(m.rmse, rmse * 1e-3) / rmse, kRateSlope);
+  return m;
+}
+
+double LinearCoder::probe(double rmse) {
+  choice_ = started(choice_, rmse);
+  return measured(choice_, rmse).bytes;
+}
+
+void LinearCoder::choose_settings(double rmse) {
+  chosen_ = true;
+  choice_ = started(choice_, rmse);
+  // One change at a time, those that pay most often first; what helps is kept.
+  using Change = std::function<void(Choice&)>;
+  bool shapes = kind_ == format::BasisKind::kEigenshapes;
+  std::vector<Change> changes = {
+      [](Choice& c) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
+      [](Choice& c) { c.settings.pose_factor *= 1.4; },
+      [shapes](Choice& c) {
+        c.pose = shapes ? ReferencePose::kRankThree : ReferencePose::kMean;
+        c.base = Base::kAffine;
+      },
+      [](Choice& c) { c.settings.lambda = 0.05; },
+      [](Choice& c) { c.settings.weight_factor *= 1.2; },
+      [](Choice& c) { c.settings.colours = 2; },
+      [](Choice& c) { c.settings.rank_factor *= 1.5; },
+      [](Choice& c) { c.settings.radius = 16; },
+      [](Choice& c) { c.settings.pose_factor *= 1.4; },
+      [](Choice& c) { c.settings.lambda = 0.11; },
+      [](Choice& c) { c.settings.weight_factor *= 1.2; },
+      [](Choice& c) { c.settings.pose_factor /= 1.3; },
+      [](Choice& c) { c.settings.weight_factor /= 1.15; },
+      [](Choice& c) { c.settings.rank_factor /= 1.5; },
+      [](Choice& c) { c.settings.radius = 9; },
+  };
+  const bool slow = effort_ >= kSlowEffort;
+  if (shapes || slow)
+    changes.insert(changes.begin() + 1, [](Choice& c) { c.settings.neighbours = 20; });
+  if (slow)
+    changes.insert(changes.begin() + 9, [](Choice& c) { c.settings.neighbours = 24; });
+  constexpr size_t kTrials[10] = {0, 0, 1, 3, 5, 7, 9, 12, 15, 17};
+  size_t trials = std::min(kTrials[std::clamp(effort_, 1, 9)], changes.size());
+  if (trials == 0)
+    return;
+  double least = measured(choice_, rmse).bytes;
+  for (size_t i = 0; i < trials; ++i) {
+    Choice other = choice_;
+    changes[i](other);
+    if (other.settings.rank_factor != choice_.settings.rank_factor || other.pose != choice_.pose ||
+        other.base != choice_.base)
+      other = started(other, rmse);
+    double bytes = measured(other, rmse).bytes;
+    if (bytes < least) {
+      least = bytes;
+      choice_ = other;
+    }
+  }
+}
+
+std::optional<Part> LinearCoder::at_rmse(double rmse) {
+  if (!(rmse > 0))
+    return std::nullopt;
+  if (!chosen_)
+    choose_settings(rmse);
+  else
+    choice_ = started(choice_, rmse);
+  std::optional<Measured> best;
+  double inside = 0, outside = std::numeric_limits<double>::infinity();  // steps known to be so
+  for (int round = 0; round < kRounds; ++round) {
+    Measured trial = measured(choice_, rmse);
+    if (std::isinf(trial.rmse))
+      break;
+    double ratio = trial.rmse / rmse, step = choice_.settings.step;
+    bool fits = ratio <= 1;
+    (fits ? inside : outside) = step;
+    if (fits && (!best || trial.rmse > best->rmse))
+      best = std::move(trial);
+    if (best && best->rmse >= kClose * rmse)
+      break;
+    if (outside < inside || round == 3) {
+      // The components left out alone take most of the error: more of them.
+      choice_.settings.components += choice_.settings.components / 16 + (best ? 0 : 1);
+      outside = std::numeric_limits<double>::infinity();
+    }
+    // Aim just below the target: what counts is to end there from below.
+    double next = step * std::clamp(kAim / std::max(ratio, 1e-9), 0.25, 4.0);
+    if (next >= outside || next <= inside)
+      next = std::isinf(outside) ? next : std::sqrt(std::max(inside, 0.5 * outside) * outside);
+    choice_.settings.step = next;
+  }
+  if (!best)
+    return std::nullopt;
+  best->part.asked = rmse;
+  return std::move(best->part);
+}
+
+}  // namespace anicodec

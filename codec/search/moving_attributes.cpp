@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/moving_attributes.h"
+
+#include "codec/search/rate_control.h"
+#include "codec/segment/linear_segment_encode.h"
+#include "codec/sequence/error.h"
+#include "sdk/pose/pose_coding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+/// Most of the error that copies of a vertex may take up by moving differently.
+constexpr double kSpreadShare = 0.5;
+/// Rounding of a value in binary32, against its magnitude.
+constexpr double kRounding = 0x1p-22;
+
+/// A reference pose for a file whose positions need none: frame 0, coded by itself, since the
+/// mesh's Draco bitstream may hold key-frames.
+std::shared_ptr<const EncodedPose> own_pose(const EncoderInput& input) {
+  constexpr double kStep = 0x1p-12;  // of the largest coordinate
+  Eigen::Vector3d origin;
+  const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
+  const double largest = pose.cwiseAbs().maxCoeff();
+  auto coded = std::make_shared<EncodedPose>(
+      *encode_reference_pose(pose, origin, largest * kStep, false, input.layout));
+  coded->coder = format::CoderId::kPredictive;
+  coded->stream = encode_pose(input.layout.topology, coded->grid.points);
+  return coded;
+}
+
+/// How three components of an attribute differ from those of frame 0 as stored.
+struct Offsets {
+  std::vector<float> frames;  ///< frames x coded vertices x 3
+  double spread = 0;          ///< largest distance of a copy from the mean of its vertex
+  double largest = 0;         ///< of the means
+};
+
+class OffsetReader {
+ public:
+  OffsetReader(const EncoderInput& input, const StoredAttribute& stored, uint32_t first_frame)
+      : input_(input),
+        attribute_(input.sequence.attributes[stored.source]),
+        rest_(stored_values(attribute_, stored)),
+        first_frame_(first_frame) {}
+
+  Offsets read(uint32_t first_component) const {
+    const uint32_t n = attribute_.components, width = std::min(n - first_component, 3U);
+    const std::vector<uint32_t>& coded = input_.layout.source_coded;
+    const size_t row = size_t{3} * input_.layout.sizes.coded_vertices;
+    Offsets result;
+    result.frames.resize(row * input_.sequence.frame_count);
+    std::vector<double> sums(row), moved(size_t{3} * coded.size());
+    // All frames of the clip decide, so that parts of it agree.
+    std::vector<float> other_frame(row);
+    for (size_t f = 0; f < attribute_.frames; ++f) {
+      const bool is_own = f >= first_frame_ && f - first_frame_ < input_.sequence.frame_count;
+      const float* values = attribute_.values.data() + f * coded.size() * n + first_component;
+      const float* rest = rest_.data() + first_component;
+      std::fill(sums.begin(), sums.end(), 0.0);
+      for (size_t v = 0; v < coded.size(); ++v) {
+        for (size_t c = 0; c < width; ++c) {
+          moved[3 * v + c] =
+              static_cast<double>(values[v * n + c]) - static_cast<double>(rest[v * n + c]);
+          sums[size_t{3} * coded[v] + c] += moved[3 * v + c];
+        }
+      }
+      float* means = is_own ? result.frames.data() + row * (f - first_frame_) : other_frame.data();
+      for (size_t i = 0; i < row; ++i)
+        means[i] = static_cast<float>(sums[i] / input_.copies[i / 3]);
+      for (size_t v = 0; v < coded.size(); ++v) {
+        const float* mean = means + size_t{3} * coded[v];
+        double away = 0, size = 0;
+        for (size_t c = 0; c < width; ++c) {
+          const auto m = static_cast<double>(mean[c]);
+          away += (moved[3 * v + c] - m) * (moved[3 * v + c] - m);
+          size += m * m;
+        }
+        result.spread = std::max(result.spread, std::sqrt(away));
+        if (is_own)
+          result.largest = std::max(result.largest, std::sqrt(size));
+      }
+    }
+    return result;
+  }
+
+  double largest_value() const {
+    double largest = 0;
+    for (float x : attribute_.values) {
+      if (!std::isfinite(x))
+        throw Error(ErrorKind::kInput, attribute_.name + ": a value is not finite");
+      largest = std::max(largest, std::abs(static_cast<double>(x)));
+    }
+    return largest;
+  }
+
+ private:
+  const EncoderInput& input_;
+  const Attribute& attribute_;
+  const std::vector<float> rest_;
+  const uint32_t first_frame_;
+};
+
+std::vector<Part> encode_offsets(const EncoderInput& input, std::vector<float> frames, double bound,
+                                 const EncodeOptions& options,
+                                 const std::shared_ptr<const EncodedPose>& pose) {
+  EncoderInput trajectories(input, std::move(frames));
+  trajectories.pose = pose;
+  EncodeOptions own = options;
+  own.basis = BasisChoice::kEigentrajectories;
+  own.keyframes.reset();
+  own.cap.reset();
+  const Target target{format::ErrorMetric::kMaxError, bound, false};
+  return RateControl(trajectories, own, target, 0).solve().parts;
+}
+
+}  // namespace
+
+MovingAttributes encode_moving_attributes(const EncoderInput& input,
+                                          const std::vector<StoredAttribute>& stored,
+                                          const EncodeOptions& options,
+                                          std::shared_ptr<const EncodedPose> pose) {
+  MovingAttributes out;
+  const uint32_t first_frame = options.part ? options.part->first : 0;
+  for (const StoredAttribute& s : stored) {
+    const Attribute& attribute = input.sequence.attributes[s.source];
+    if (!moves(attribute))
+      continue;
+    AttributeResult result;
+    result.kind = attribute.kind;
+    result.name = attribute.name;
+    result.number = s.number;
+    result.asked = error_bound(attribute, options.attributes);
+    if (attribute.per_corner) {
+      result.note = "changes at corners of polygons: kept as in the first frame";
+      out.results.push_back(result);
+      continue;
+    }
+    const OffsetReader reader(input, s, first_frame);
+    const double rounding = kRounding * reader.largest_value();
+    std::vector<Part> parts;
+    for (uint32_t first = 0; first < attribute.components && result.note.empty(); first += 3) {
+      Offsets offsets = reader.read(first);
+      const double bound = result.asked - offsets.spread - rounding;
+      if (!(rounding < result.asked / 4))
+        throw Error(ErrorKind::kUsage,
+                    attribute.name + ": the error asked for is finer than float32 values can keep");
+      if (offsets.spread > kSpreadShare * result.asked) {
+        result.note =
+            "changes differently in vertices that share a position: kept as in the first frame";
+      } else if (offsets.largest > bound) {
+        if (!pose)
+          pose = own_pose(input);
+        try {
+          for (Part& part :
+               encode_offsets(input, std::move(offsets.frames), bound, options, pose)) {
+            part.encoded.sizes.attribute = s.number;
+            part.encoded.sizes.first_component = first;
+            parts.push_back(std::move(part));
+          }
+        } catch (const Error& error) {
+          throw Error(error.kind(), attribute.name + ": " + error.what());
+        }
+      }
+    }
+    if (result.note.empty()) {
+      for (Part& part : parts) {
+        result.bytes += part.encoded.bytes();
+        result.components = std::max(result.components, part.encoded.sizes.components);
+        out.parts.push_back(std::move(part));
+      }
+      result.kept = true;
+    }
+    out.results.push_back(std::move(result));
+  }
+  return out;
+}
+
+}  // namespace anicodec

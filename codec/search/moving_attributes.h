@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_MOVING_ATTRIBUTES_H_
+#define ANICODEC_CODEC_SEARCH_MOVING_ATTRIBUTES_H_
+
+#include "codec/connectivity/attribute_encode.h"
+#include "codec/file/encode_options.h"
+#include "codec/search/segment_coder.h"
+
+#include <memory>
+#include <vector>
+
+namespace anicodec {
+
+/// Attributes that move, coded: how each came out, and the segments of all of them.
+struct MovingAttributes {
+  std::vector<AttributeResult> results;
+  std::vector<Part> parts;
+};
+
+/// Codes how the values of attributes of vertices differ from those stored for frame 0, to the
+/// error that the options ask for: three components at a time are trajectories of the coded
+/// vertices, as positions are, over the geometry of `pose` (null: one of their own). Copies of a
+/// vertex move by the mean of what they do; where that is too far off, and for attributes of
+/// corners, the result says that the attribute stays as in frame 0. Components that stay within the
+/// error have no segment. Throws Error(kUsage) for an error that cannot be reached, Error(kInput)
+/// for values that are not finite.
+MovingAttributes encode_moving_attributes(const EncoderInput& input,
+                                          const std::vector<StoredAttribute>& stored,
+                                          const EncodeOptions& options,
+                                          std::shared_ptr<const EncodedPose> pose);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_MOVING_ATTRIBUTES_H_

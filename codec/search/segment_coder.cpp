@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/segment_coder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace anicodec {
+
+EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder,
+                           const std::optional<FrameRun>& part)
+    : sequence(std::move(source)), layout(lay_out_mesh(sequence, mesh_coder)) {
+  const size_t n = layout.sizes.coded_vertices;
+  copies.assign(n, 0);
+  for (uint32_t c : layout.source_coded)
+    ++copies[c];
+  for (uint32_t v : layout.coded_source) {
+    const float* position = sequence.positions.data() + size_t{3} * v;
+    first_pose.insert(first_pose.end(), position, position + 3);
+  }
+  const FrameRun kept = part.value_or(FrameRun{0, sequence.frame_count});
+  std::vector<float> frame(size_t{3} * sequence.vertex_count);
+  float* to = sequence.positions.data();  // never ahead of what is yet to be read
+  for (size_t f = kept.first; f < size_t{kept.first} + kept.count; ++f) {
+    std::ranges::copy(sequence.frame(f), frame.begin());
+    double mean[3] = {0, 0, 0}, squares = 0;
+    for (size_t v = 0; v < sequence.vertex_count; ++v) {
+      for (size_t c = 0; c < 3; ++c)
+        mean[c] += static_cast<double>(frame[3 * v + c]) / sequence.vertex_count;
+    }
+    for (size_t v = 0; v < sequence.vertex_count; ++v) {
+      for (size_t c = 0; c < 3; ++c) {
+        double x = static_cast<double>(frame[3 * v + c]);
+        squares += (x - mean[c]) * (x - mean[c]);
+        largest_coordinate = std::max(largest_coordinate, std::abs(x));
+      }
+    }
+    kg_reference += squares;
+    for (uint32_t v : layout.coded_source)
+      to = std::copy_n(frame.begin() + ptrdiff_t{3} * v, 3, to);
+  }
+  sequence.frame_count = kept.count;
+  coded = std::move(sequence.positions);
+  coded.resize(3 * n * sequence.frame_count);
+  sequence.positions.clear();
+  if (kg_reference == 0)
+    kg_reference = 1;
+}
+
+EncoderInput::EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories)
+    : layout(mesh.layout),
+      coded(std::move(trajectories)),
+      copies(mesh.copies),
+      on_trial(mesh.on_trial) {
+  sequence.vertex_count = mesh.sequence.vertex_count;
+  sequence.frame_count = mesh.sequence.frame_count;
+  for (float x : coded) {
+    const auto value = static_cast<double>(x);
+    kg_reference += value * value;
+    largest_coordinate = std::max(largest_coordinate, std::abs(value));
+  }
+  if (kg_reference == 0)
+    kg_reference = 1;
+}
+
+Eigen::MatrixXd EncoderInput::centred_first_pose(Eigen::Vector3d* origin) const {
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const auto rows = static_cast<Eigen::Index>(first_pose.size() / 3);
+  Eigen::MatrixXd centred = Eigen::Map<const Rows>(first_pose.data(), rows, 3).cast<double>();
+  *origin = centred.colwise().mean();
+  centred.rowwise() -= origin->transpose();
+  return centred;
+}
+
+double EncoderInput::rmse(double squared, size_t frames) const {
+  return std::sqrt(squared / sequence.vertex_count / static_cast<double>(frames));
+}
+
+}  // namespace anicodec

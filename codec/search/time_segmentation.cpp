@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/time_segmentation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anicodec {
+namespace {
+
+constexpr uint32_t kShortest = 8;  // frames of a segment
+constexpr uint32_t kLong = 128;    // frames from which the middle is a candidate
+constexpr double kHardCut = 30;    // times the usual squared motion around it
+constexpr double kChunks = 160;    // bytes a segment costs in tables and records
+constexpr double kWorthIt = 0.99;  // a cut must save a hundredth
+
+}  // namespace
+
+TimeSegmentation::TimeSegmentation(const EncoderInput& input, const LinearCoder& whole,
+                                   std::shared_ptr<const EncodedPose> pose, double rmse)
+    : input_(input), whole_(whole), pose_(std::move(pose)), rmse_(rmse) {
+  FrameView frames = input.frames();
+  motion_.assign(frames.frame_count, 0);
+  for (size_t f = 1; f < frames.frame_count; ++f) {
+    const float *a = frames.frame(f - 1), *b = frames.frame(f);
+    for (size_t i = 0; i < 3 * frames.vertex_count; ++i) {
+      double d = static_cast<double>(b[i]) - static_cast<double>(a[i]);
+      motion_[f] += d * d;
+    }
+  }
+}
+
+LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis) const {
+  LinearCoder coder(input_, analysis, whole_.kind(), 1, 1);
+  coder.settings_of(whole_);
+  coder.share_pose(pose_);
+  return coder;
+}
+
+double TimeSegmentation::probed(const FrameRange& range) const {
+  LinearAnalysis analysis(input_.frames(range.first, range.count));
+  return coder(analysis).probe(rmse_) + kChunks;
+}
+
+std::optional<Part> TimeSegmentation::coded(const FrameRange& range) const {
+  LinearAnalysis analysis(input_.frames(range.first, range.count));
+  return coder(analysis).at_rmse(rmse_);
+}
+
+std::optional<uint32_t> TimeSegmentation::candidate(const FrameRange& range) const {
+  uint32_t low = range.first + kShortest, high = range.first + range.count - kShortest;
+  if (range.count < 2 * kShortest || low >= high)
+    return std::nullopt;
+  std::vector<double> sorted(motion_.begin() + range.first + 1,
+                             motion_.begin() + range.first + range.count);
+  auto middle = sorted.begin() + static_cast<ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  auto hardest = std::max_element(motion_.begin() + low, motion_.begin() + high);
+  if (*hardest > kHardCut * *middle && *hardest > 0)
+    return static_cast<uint32_t>(hardest - motion_.begin());
+  if (range.count >= kLong)
+    return range.first + range.count / 2;
+  return std::nullopt;
+}
+
+void TimeSegmentation::split(const FrameRange& range, double bytes, std::vector<FrameRange>* out) {
+  if (std::optional<uint32_t> cut = candidate(range)) {
+    FrameRange left{range.first, *cut - range.first};
+    FrameRange right{*cut, range.first + range.count - *cut};
+    double of_left = probed(left), of_right = probed(right);
+    if (of_left + of_right < kWorthIt * bytes) {
+      split(left, of_left, out);
+      split(right, of_right, out);
+      return;
+    }
+  }
+  out->push_back(range);
+}
+
+std::vector<FrameRange> TimeSegmentation::find() {
+  FrameRange all{0, input_.sequence.frame_count};
+  std::vector<FrameRange> ranges;
+  if (!candidate(all))
+    return {all};
+  split(all, probed(all), &ranges);
+  return ranges;
+}
+
+}  // namespace anicodec

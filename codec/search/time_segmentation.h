@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_TIME_SEGMENTATION_H_
+#define ANICODEC_CODEC_SEARCH_TIME_SEGMENTATION_H_
+
+#include "codec/search/linear_coder.h"
+#include "codec/search/segment_coder.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace anicodec {
+
+struct FrameRange {
+  uint32_t first = 0;
+  uint32_t count = 0;
+};
+
+/// Cuts a clip in time where that makes it smaller: at hard cuts, and long ranges in the middle.
+/// All segments share one reference pose; whether a cut pays is measured by coding both sides.
+class TimeSegmentation {
+ public:
+  /// `whole` coded the whole clip, with `pose`, to the error `rmse`.
+  TimeSegmentation(const EncoderInput& input, const LinearCoder& whole,
+                   std::shared_ptr<const EncodedPose> pose, double rmse);
+
+  /// The ranges, in order; one when no cut pays. Cost: about one trial of the whole clip per level
+  /// of cutting.
+  std::vector<FrameRange> find();
+
+  /// A range coded to the error.
+  std::optional<Part> coded(const FrameRange& range) const;
+
+ private:
+  void split(const FrameRange& range, double bytes, std::vector<FrameRange>* out);
+  std::optional<uint32_t> candidate(const FrameRange& range) const;
+  double probed(const FrameRange& range) const;
+  LinearCoder coder(const LinearAnalysis& analysis) const;
+
+  const EncoderInput& input_;
+  const LinearCoder& whole_;
+  std::shared_ptr<const EncodedPose> pose_;
+  double rmse_;
+  std::vector<double> motion_;  ///< squared distance of each frame from the one before
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_TIME_SEGMENTATION_H_

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/segment/encoded_segment.h"
+
+#include "codec/sequence/error.h"
+#include "format/status.h"
+#include "sdk/play/play.h"
+#include "sdk/segment/correction_coding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+namespace anicodec {
+namespace {
+
+/// Calls visit(f, positions of frame f as decoded) for all frames, in parallel over fixed ranges.
+template <class Visit>
+void for_each_frame(const Segment& segment, Visit visit) {
+  constexpr uint32_t kFrames = 8;
+  uint32_t tasks = (segment.frames + kFrames - 1) / kFrames;
+  tbb::parallel_for(uint32_t{0}, tasks, [&](uint32_t task) {
+    std::vector<float> decoded(size_t{3} * segment.vertices);
+    std::vector<float> shape(shape_size(segment)), scratch(shape_scratch_size(segment));
+    for (uint32_t f = task * kFrames; f < std::min(segment.frames, (task + 1) * kFrames); ++f) {
+      FrameState state = frame_state(segment, f);
+      make_shape(&state, shape.data(), scratch.data());
+      play(state, 0, segment.vertices, decoded.data());
+      visit(f, decoded.data());
+    }
+  });
+}
+
+double squared_distance(const float* a, const float* b) {
+  double s = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    double d = static_cast<double>(a[c]) - static_cast<double>(b[c]);
+    s += d * d;
+  }
+  return s;
+}
+
+}  // namespace
+
+size_t EncodedSegment::bytes() const {
+  size_t total =
+      parameters.size() + pose.size() + motion.size() + weights.size() + corrections.size();
+  for (const format::Bytes& layer : layers)
+    total += layer.size();
+  return total;
+}
+
+std::span<const Vector<int32_t>> EncodedSegment::poses_for_draco() const {
+  if (reference && reference->coder == format::CoderId::kDraco)
+    return {&reference->grid.points, 1};
+  return draco_poses;
+}
+
+Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
+  DracoMesh draco;
+  draco.points = layout.sizes.points;
+  draco.components = static_cast<uint32_t>(3 * encoded.draco_poses.size());
+  draco.values.resize(size_t{draco.points} * draco.components);
+  for (size_t p = 0; p < draco.points; ++p) {
+    for (size_t j = 0; j < encoded.draco_poses.size(); ++j)
+      std::copy_n(encoded.draco_poses[j].begin() + ptrdiff_t{3} * layout.topology.point_vertex[p],
+                  3, draco.values.begin() + static_cast<ptrdiff_t>(p * draco.components + 3 * j));
+  }
+  format::SegmentRecord record;
+  record.kind = encoded.sizes.kind;
+  record.reconstruction = encoded.sizes.reconstruction;
+  record.parameters = encoded.parameters;
+  record.pose = encoded.pose;
+  record.motion = encoded.motion;
+  record.weights = encoded.weights;
+  const bool msgi = encoded.sizes.reconstruction == format::Reconstruction::kMsgi;
+  if (msgi)
+    encoded.sizes.msgi_bytes = encoded.sizes.msgi_frame_bytes = uint64_t{1} << 48;
+  SegmentContext context;
+  context.sizes = &encoded.sizes;
+  context.mesh_sizes = &layout.sizes;
+  context.topology = &layout.topology;
+  context.draco = &draco;
+  context.pose = encoded.reference ? &encoded.reference->grid : nullptr;
+  context.layers.assign(encoded.layers.begin(), encoded.layers.end());
+  context.corrections = encoded.corrections;
+  Segment segment;
+  Status status = open_segment(record, context, &segment);
+  if (status == Status::kNonFinite)
+    throw Error(ErrorKind::kUsage, "the coordinates are too large");
+  if (status != Status::kOk)
+    throw Error(ErrorKind::kInternal,
+                std::string("the encoded segment cannot be opened: ") + status_string(status));
+  if (msgi) {
+    encoded.sizes.msgi_bytes = segment.msgi[0].resident_bytes();
+    encoded.sizes.msgi_frame_bytes = segment.msgi[0].scratch_bytes();
+  }
+  encoded.hash = segment.stored_hash = segment.decoded_hash;
+  return segment;
+}
+
+SegmentError measure(const Segment& segment, const FrameView& source,
+                     const std::vector<uint32_t>& copies) {
+  std::vector<double> squared(segment.frames), largest(segment.frames);
+  for_each_frame(segment, [&](uint32_t f, const float* decoded) {
+    const float* original = source.frame(f);
+    for (size_t v = 0; v < segment.vertices; ++v) {
+      double d = squared_distance(decoded + 3 * v, original + 3 * v);
+      squared[f] += copies[v] * d;
+      largest[f] = std::max(largest[f], d);
+    }
+  });
+  return {std::accumulate(squared.begin(), squared.end(), 0.0),
+          std::sqrt(*std::max_element(largest.begin(), largest.end()))};
+}
+
+void correct(const FrameView& source, const std::vector<uint32_t>& copies, double bound,
+             Segment& segment, EncodedSegment& encoded) {
+  // Rounding to a cubic grid leaves at most half its diagonal: 0.95 of the bound, the rest is for
+  // float32.
+  double step = 1.9 * bound / std::sqrt(3.0);
+  segment.correction_begin.clear();
+  segment.corrections.clear();
+  std::vector<Vector<IntegerCorrection>> frames(segment.frames);
+  std::vector<uint8_t> too_fine(segment.frames, 0);
+  for_each_frame(segment, [&](uint32_t f, const float* decoded) {
+    const float* original = source.frame(f);
+    for (uint32_t v = 0; v < segment.vertices; ++v) {
+      const float *d = decoded + size_t{3} * v, *o = original + size_t{3} * v;
+      if (squared_distance(d, o) <= bound * bound)
+        continue;
+      IntegerCorrection& c = frames[f].emplace_back();
+      c.vertex = v;
+      float corrected[3];
+      for (size_t i = 0; i < 3; ++i) {
+        double steps = std::round((static_cast<double>(o[i]) - static_cast<double>(d[i])) / step);
+        c.delta[i] = static_cast<int32_t>(std::clamp(steps, -1e9, 1e9));
+        corrected[i] = d[i] + static_cast<float>(c.delta[i] * step);
+      }
+      too_fine[f] |= squared_distance(corrected, o) > bound * bound;
+    }
+  });
+  if (std::find(too_fine.begin(), too_fine.end(), 1) != too_fine.end())
+    throw Error(ErrorKind::kUsage, "the error bound is finer than float32 positions can keep");
+
+  CorrectionCoding coding(segment.vertices);
+  BinaryEncoder encoder;
+  size_t total = 0;
+  for (Vector<IntegerCorrection>& frame : frames) {
+    for (const IntegerCorrection& c : frame)
+      total += copies[c.vertex];
+    coding.code_frame(encoder, frame.size(), &frame);
+  }
+  encoded.sizes.corrections = static_cast<uint32_t>(total);
+  encoded.corrections.clear();
+  if (total == 0)
+    return;
+  format::ByteWriter writer;
+  writer.f64(step);
+  writer.raw(encoder.finish());
+  encoded.corrections = std::move(writer.bytes());
+  segment.correction_begin.assign(1, 0);
+  for (const Vector<IntegerCorrection>& frame : frames) {
+    for (const IntegerCorrection& c : frame) {
+      Segment::Correction& correction = segment.corrections.emplace_back();
+      correction.vertex = c.vertex;
+      for (size_t i = 0; i < 3; ++i)
+        correction.delta[i] = static_cast<float>(c.delta[i] * step);
+    }
+    segment.correction_begin.push_back(static_cast<uint32_t>(segment.corrections.size()));
+  }
+}
+
+}  // namespace anicodec

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEGMENT_ENCODED_SEGMENT_H_
+#define ANICODEC_CODEC_SEGMENT_ENCODED_SEGMENT_H_
+
+#include "codec/connectivity/mesh_layout.h"
+#include "codec/sequence/frame_view.h"
+#include "format/records.h"
+#include "sdk/segment/segment.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace anicodec {
+
+/// A reference pose, ready for the file.
+struct EncodedPose {
+  PoseGrid grid;
+  format::CoderId coder = format::CoderId::kPlain;
+  format::Bytes stream;  ///< what the mesh's Draco bitstream does not hold
+};
+
+/// The streams of one segment, ready for the file.
+struct EncodedSegment {
+  format::Limits::Segment sizes;
+  format::Bytes parameters, pose, motion, weights;
+  std::vector<format::Bytes> layers;             ///< chunks BASI
+  format::Bytes corrections;                     ///< chunk CORR
+  std::vector<Vector<int32_t>> draco_poses;      ///< to be carried by the mesh's Draco bitstream
+  std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
+  uint64_t hash = 0;
+
+  /// Bytes in the file but for what Draco and the reference pose take.
+  size_t bytes() const;
+
+  /// The poses that the mesh's Draco bitstream is to carry.
+  std::span<const Vector<int32_t>> poses_for_draco() const;
+};
+
+/// How far a decoded segment is from the coded vertices of the source.
+struct SegmentError {
+  double squared = 0;  ///< summed over the source's vertices and frames
+  double max = 0;      ///< largest distance
+};
+
+/// Opens a segment as a decoder does, from streams in memory, and stores its hash in `encoded`.
+/// Draco is left out: it is lossless, and the finished file is checked with it.
+Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout);
+
+/// Plays every frame of a segment against `source` (coded vertices, the segment's frames). A coded
+/// vertex counts as often as the source has it: `copies`.
+SegmentError measure(const Segment& segment, const FrameView& source,
+                     const std::vector<uint32_t>& copies);
+
+/// Adds corrections so that no vertex is further than `bound` from the source in any frame;
+/// replaces earlier ones. `segment` is opened without corrections and gets them. The hash covers
+/// them too: open_encoded() stores the new one. Throws Error(kUsage) when float32 is too coarse for
+/// the bound.
+void correct(const FrameView& source, const std::vector<uint32_t>& copies, double bound,
+             Segment& segment, EncodedSegment& encoded);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEGMENT_ENCODED_SEGMENT_H_

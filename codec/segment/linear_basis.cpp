@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/segment/linear_basis.h"
+
+#include "codec/algebra/gram.h"
+#include "codec/algebra/leading_eigenpairs.h"
+#include "codec/algebra/trajectory_gram.h"
+#include "codec/sequence/error.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace anicodec {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Orthonormal columns with the span of the given ones; dependent ones are dropped.
+MatrixXd orthonormal_span(const MatrixXd& columns) {
+  MatrixXd out(columns.rows(), columns.cols());
+  Index count = 0;
+  for (Index j = 0; j < columns.cols(); ++j) {
+    VectorXd c = columns.col(j);
+    const double size = c.squaredNorm();
+    for (int pass = 0; pass < 2; ++pass)
+      c -= out.leftCols(count) * (out.leftCols(count).transpose() * c).eval();
+    if (c.squaredNorm() > 1e-9 * size)
+      out.col(count++) = c.normalized();
+  }
+  return out.leftCols(count);
+}
+
+// 1, x, y, z of a pose.
+MatrixXd affine_span(const MatrixXd& pose) {
+  MatrixXd columns(pose.rows(), 4);
+  columns.col(0).setOnes();
+  columns.rightCols(3) = pose.rowwise() - pose.colwise().mean();
+  return orthonormal_span(columns);
+}
+
+}  // namespace
+
+LinearAnalysis::LinearAnalysis(const FrameView& clip) : clip_(clip) {
+  const Centroids centroids = frame_centroids(clip);
+  origin_ = centroids.colwise().mean().transpose();
+  gram_ = trajectory_gram(clip, origin_);
+  sums_.resize(gram_.rows());
+  for (Index f = 0; f < centroids.rows(); ++f)
+    sums_.segment<3>(3 * f) =
+        static_cast<double>(clip.vertex_count) * (centroids.row(f).transpose() - origin_);
+  kg_reference_ = gram_.trace() - sums_.squaredNorm() / static_cast<double>(clip.vertex_count);
+}
+
+// All that is needed about a frame as a set of functions is in the Gram matrix.
+size_t LinearAnalysis::best_frame() const {
+  size_t best = 0;
+  double most = -1;
+  const auto n = static_cast<double>(clip_.vertex_count);
+  for (Index f = 0; f < gram_.rows() / 3; ++f) {
+    // Products of the functions x, y, z about their means with each other and with all rows.
+    const VectorXd own_sums = sums_.segment<3>(3 * f);
+    const MatrixXd own = gram_.block<3, 3>(3 * f, 3 * f) - own_sums * own_sums.transpose() / n;
+    const MatrixXd rows = gram_.middleCols<3>(3 * f) - sums_ * own_sums.transpose() / n;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(own);
+    double explained = 0;
+    for (Index a = 0; a < 3; ++a) {
+      const double size = solver.eigenvalues()[a];
+      if (size > 1e-9 * solver.eigenvalues()[2])
+        explained += (rows * solver.eigenvectors().col(a)).squaredNorm() / size;
+    }
+    if (explained > most) {
+      most = explained;
+      best = static_cast<size_t>(f);
+    }
+  }
+  return best;
+}
+
+MatrixXd LinearAnalysis::frame(size_t f) const {
+  MatrixXd pose(static_cast<Index>(clip_.vertex_count), 3);
+  const float* p = clip_.frame(f);
+  for (Index v = 0; v < pose.rows(); ++v, p += 3)
+    pose.row(v) = (Vector3d(p[0], p[1], p[2]) - origin_).transpose();
+  return pose;
+}
+
+MatrixXd LinearAnalysis::rank_three_pose() const {
+  const MatrixXd target = frame(best_frame());
+  const auto n = static_cast<double>(clip_.vertex_count);
+  const Eigenpairs leading = leading_eigenpairs(gram_ - sums_ * sums_.transpose() / n, 3, 0);
+  if (leading.values.size() < 3)
+    return target;
+  MatrixXd functions(target.rows(), 3);
+  combine_rows(clip_, origin_, leading.vectors, [&](size_t first, const MatrixXd& block) {
+    functions.middleRows(static_cast<Index>(first), block.rows()) = block;
+  });
+  const MatrixXd span = affine_span(functions);
+  const MatrixXd pose = span * (span.transpose() * target);
+  // A clip whose leading trajectories look nothing like the mesh would give a useless geometry.
+  const double size = (target.rowwise() - target.colwise().mean()).squaredNorm();
+  return (pose - target).squaredNorm() < 0.3 * size ? pose : target;
+}
+
+LinearBasis LinearAnalysis::basis(format::BasisKind kind, ReferencePose pose, Base base,
+                                  size_t max_components, double smallest,
+                                  const MatrixXd* given) const {
+  const bool shapes = kind == format::BasisKind::kEigenshapes;
+  if (!shapes && (kind != format::BasisKind::kEigentrajectories || base != Base::kAffine))
+    throw Error(ErrorKind::kInternal, "no such linear basis");
+  LinearBasis out;
+  out.kind = kind;
+  out.base = base;
+  out.origin = origin_;
+  const Index frames = gram_.rows() / 3;
+  switch (pose) {
+    case ReferencePose::kMean: {
+      out.pose.resize(static_cast<Index>(clip_.vertex_count), 3);
+      const VectorXd mean = VectorXd::Constant(frames, 1 / static_cast<double>(frames));
+      combine_rows(clip_, origin_, mean, [&](size_t first, const MatrixXd& block) {
+        for (Index i = 0; i < block.rows(); ++i)
+          out.pose(static_cast<Index>(first) + i / 3, i % 3) = block(i, 0);
+      });
+      break;
+    }
+    case ReferencePose::kFrame:
+      out.pose = frame(best_frame());
+      break;
+    case ReferencePose::kRankThree:
+      out.pose = rank_three_pose();
+      break;
+    case ReferencePose::kGiven:
+      out.pose = *given;
+      break;
+  }
+  MatrixXd rest = gram_;
+  if (base == Base::kAffine) {
+    const MatrixXd fitted = project_on_functions(clip_, origin_, affine_span(out.pose));
+    rest -= fitted * fitted.transpose();
+  }
+  if (shapes)
+    rest = sum_of_axes(rest);
+  if (base == Base::kPose) {
+    // <x_f - p, x_g - p> from <x_f, p>.
+    VectorXd products(frames);
+    double own = out.pose.squaredNorm();
+    for (Index f = 0; f < frames; ++f) {
+      const float* x = clip_.frame(static_cast<size_t>(f));
+      double s = 0;
+      for (Index v = 0; v < out.pose.rows(); ++v, x += 3)
+        for (Index c = 0; c < 3; ++c)
+          s += (double{x[c]} - origin_[c]) * out.pose(v, c);
+      products[f] = s;
+    }
+    for (Index g = 0; g < frames; ++g)
+      for (Index f = 0; f < frames; ++f)
+        rest(f, g) += own - products[f] - products[g];
+  }
+  out.base_energy = std::max(0.0, rest.trace());
+  Eigenpairs pairs = leading_eigenpairs(rest, static_cast<Index>(max_components), smallest);
+  out.energies = std::move(pairs.values);
+  out.time = std::move(pairs.vectors);
+  return out;
+}
+
+}  // namespace anicodec

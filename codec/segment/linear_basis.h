@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEGMENT_LINEAR_BASIS_H_
+#define ANICODEC_CODEC_SEGMENT_LINEAR_BASIS_H_
+
+#include "codec/sequence/frame_view.h"
+#include "format/records.h"
+
+#include <cstddef>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace anicodec {
+
+/// The pose that order and prior weights are taken from, and that the components are added to.
+enum class ReferencePose : uint8_t {
+  kMean,       ///< mean of all frames
+  kFrame,      ///< the frame whose affine images explain most of the clip
+  kRankThree,  ///< the three leading trajectories, mapped onto that frame
+  kGiven       ///< chosen elsewhere
+};
+
+/// What is taken out of the clip before the components.
+enum class Base : uint8_t {
+  kPose,   ///< the pose itself, the same in every frame; for shapes
+  kAffine  ///< in every frame its best affine image
+};
+
+/// Principal components of a clip, not yet quantised.
+struct LinearBasis {
+  format::BasisKind kind = format::BasisKind::kEigentrajectories;
+  Base base = Base::kAffine;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< everything is relative to it
+  Eigen::MatrixXd pose;                              ///< vertices x 3
+  double base_energy =
+      0;  ///< squared deviations of the clip from the base: the sum of all energies
+  Eigen::VectorXd energies;  ///< squared singular values, descending
+  Eigen::MatrixXd
+      time;  ///< a column per component, orthonormal: 3 frames (trajectories) or frames (shapes)
+};
+
+/// Finds the bases of a segment. Eigenshapes: a component is a vector per vertex and a weight per
+/// frame; eigentrajectories: a scalar per vertex and three weights per frame (Alexa and Mueller
+/// 2000; Karni and Gotsman 2004). Both come from one Gram matrix, the clip is read a few times and
+/// never copied.
+class LinearAnalysis {
+ public:
+  /// The view must outlive the object. Cost O(vertices frames^2), memory 9 frames^2 doubles.
+  explicit LinearAnalysis(const FrameView& clip);
+
+  /// Components with energy above `smallest`, at most max_components. Trajectories need
+  /// Base::kAffine. Cost: the eigenpairs, and at most two passes over the clip.
+  /// For ReferencePose::kGiven: `given`, vertices x 3, with any origin.
+  LinearBasis basis(format::BasisKind kind, ReferencePose pose, Base base, size_t max_components,
+                    double smallest, const Eigen::MatrixXd* given = nullptr) const;
+
+  const FrameView& clip() const { return clip_; }
+
+  /// Squared deviations of all frames from their own centroids: what the KG error is relative to.
+  double kg_reference() const { return kg_reference_; }
+
+ private:
+  size_t best_frame() const;
+  Eigen::MatrixXd frame(size_t f) const;
+  Eigen::MatrixXd rank_three_pose() const;
+
+  FrameView clip_;
+  Eigen::Vector3d origin_;
+  Eigen::MatrixXd gram_;  // 3 frames x 3 frames
+  Eigen::VectorXd sums_;  // 3 frames: over the vertices
+  double kg_reference_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEGMENT_LINEAR_BASIS_H_

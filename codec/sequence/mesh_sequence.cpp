@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/mesh_sequence.h"
+
+#include "codec/sequence/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace anicodec {
+
+void check(const MeshSequence& sequence) {
+  auto fail = [](const std::string& text) { throw Error(ErrorKind::kInput, text); };
+  if (sequence.frame_count == 0)
+    fail("the sequence has no frame");
+  if (sequence.vertex_count == 0)
+    fail("the mesh has no vertex");
+  if (sequence.vertex_count >= (1U << 31) || sequence.frame_count >= (1U << 24))
+    fail("the sequence is too large: at most 2^31 - 1 vertices and 2^24 - 1 frames");
+  size_t per_frame = size_t{sequence.vertex_count} * 3;
+  if (sequence.positions.size() != per_frame * sequence.frame_count)
+    fail("the positions do not fit the counts of vertices and frames");
+  if (!sequence.times.empty() && sequence.times.size() != sequence.frame_count)
+    fail("the table of times does not fit the number of frames");
+  const Polygons& polygons = sequence.polygons;
+  if (polygons.offsets.empty() || polygons.offsets.back() != polygons.corners.size())
+    fail("the polygon offsets do not fit the corners");
+  for (size_t p = 0; p < polygons.size(); ++p) {
+    for (uint32_t v : polygons[p]) {
+      if (v >= sequence.vertex_count)
+        fail("face " + std::to_string(p) + " uses vertex " + std::to_string(v) + " of " +
+             std::to_string(sequence.vertex_count));
+    }
+  }
+  auto bad = std::find_if(sequence.positions.begin(), sequence.positions.end(),
+                          [](float x) { return !std::isfinite(x); });
+  if (bad != sequence.positions.end()) {
+    size_t i = static_cast<size_t>(bad - sequence.positions.begin());
+    fail("frame " + std::to_string(i / per_frame) + ", vertex " +
+         std::to_string(i % per_frame / 3) + ": the position is not finite");
+  }
+  for (const Attribute& attribute : sequence.attributes) {
+    if (attribute.frames != 1 && attribute.frames != sequence.frame_count)
+      fail(attribute.name + ": has values for " + std::to_string(attribute.frames) + " of " +
+           std::to_string(sequence.frame_count) + " frames");
+  }
+}
+
+double diagonal(const MeshSequence& sequence) {
+  double low[3], high[3];
+  std::fill_n(low, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < sequence.positions.size(); ++i) {
+    double x = static_cast<double>(sequence.positions[i]);
+    low[i % 3] = std::min(low[i % 3], x);
+    high[i % 3] = std::max(high[i % 3], x);
+  }
+  if (sequence.positions.empty())
+    return 0;
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+}  // namespace anicodec

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEQUENCE_MESH_SEQUENCE_H_
+#define ANICODEC_CODEC_SEQUENCE_MESH_SEQUENCE_H_
+
+#include "format/attribute_record.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace anicodec {
+
+/// Polygons over vertices, as imported: degenerate, duplicate and non-manifold ones included.
+struct Polygons {
+  std::vector<uint32_t> offsets{0};  ///< polygon p has corners offsets[p] .. offsets[p+1]-1
+  std::vector<uint32_t> corners;     ///< vertex index of each corner
+
+  size_t size() const { return offsets.size() - 1; }
+
+  std::span<const uint32_t> operator[](size_t p) const {
+    return {corners.data() + offsets[p], offsets[p + 1] - offsets[p]};
+  }
+
+  void add(std::span<const uint32_t> polygon) {
+    corners.insert(corners.end(), polygon.begin(), polygon.end());
+    offsets.push_back(static_cast<uint32_t>(corners.size()));
+  }
+
+  bool operator==(const Polygons&) const = default;
+};
+
+/// Frames per second as a rational; assumed says that the source named none.
+struct FrameRate {
+  uint32_t numerator = 24;
+  uint32_t denominator = 1;
+  bool assumed = true;
+
+  double value() const { return static_cast<double>(numerator) / denominator; }
+};
+
+enum class UpAxis : uint8_t { kUnknown = 0, kY = 1, kZ = 2 };
+
+using format::AttributeKind;
+
+/// Values that stand beside the positions: of each vertex, or of each corner of the polygons.
+struct Attribute {
+  AttributeKind kind = AttributeKind::kUv;
+  std::string name;  ///< as in the source, "TEXCOORD_0"
+  bool per_corner = false;
+  uint32_t components = 2;    ///< 2 for UV, 3 for normals, 4 for tangents, 3 or 4 for colours
+  uint32_t frames = 1;        ///< 1: static, or as in the first frame; else as many as the sequence
+  std::vector<float> values;  ///< frames x elements x components, row-major
+};
+
+inline constexpr uint32_t kNoLabel = UINT32_MAX;
+
+/// Names, each of some polygons.
+struct PolygonLabels {
+  std::vector<std::string> names;
+  std::vector<uint32_t> of_polygon;  ///< a name's number or kNoLabel; empty: none has any
+
+  bool operator==(const PolygonLabels&) const = default;
+};
+
+/// What stands beside the positions of a mesh.
+struct MeshDetails {
+  std::string mesh_name;  ///< where a clip has several meshes
+  std::vector<Attribute> attributes;
+  /// Of each corner of the polygons: those at one place with the same number share a normal,
+  /// whatever it is, so that edges between different ones are hard. Empty: unknown, or told by a
+  /// normal among the attributes.
+  std::vector<uint32_t> shared_normals;
+  PolygonLabels materials;
+  PolygonLabels parts;  ///< meshes or objects of the source
+};
+
+/// An animated mesh: one connectivity, a position per vertex per frame. Positions are kept as
+/// given: nothing is rotated or scaled.
+struct MeshSequence : MeshDetails {
+  std::string name;  ///< of the clip, never a path
+  Polygons polygons;
+  uint32_t vertex_count = 0;
+  uint32_t frame_count = 0;
+  std::vector<float> positions;  ///< frame_count x vertex_count x 3, row-major
+  FrameRate rate;
+  double start_time = 0;  ///< seconds
+  std::vector<double>
+      times;  ///< frame_count seconds from start_time for uneven sampling, else empty
+  UpAxis up = UpAxis::kUnknown;
+  double metres_per_unit = 0;  ///< 0: unknown
+  bool loop = false;           ///< meant to be repeated
+
+  /// Positions of one frame: vertex_count x 3.
+  std::span<const float> frame(size_t f) const {
+    return {positions.data() + f * vertex_count * 3, size_t{vertex_count} * 3};
+  }
+
+  std::span<float> frame(size_t f) {
+    return {positions.data() + f * vertex_count * 3, size_t{vertex_count} * 3};
+  }
+};
+
+/// Frames that follow one another.
+struct FrameRun {
+  uint32_t first = 0;
+  uint32_t count = 0;
+
+  bool operator==(const FrameRun&) const = default;
+};
+
+/// Throws Error(kInput) naming the first fault: no frame, no vertex, a size that does not fit, a
+/// corner out of range, a position that is not finite (with frame and vertex), an attribute that
+/// moves in some frames only.
+void check(const MeshSequence& sequence);
+
+/// Length of the diagonal of the box around all vertices of all frames, in scene units.
+double diagonal(const MeshSequence& sequence);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEQUENCE_MESH_SEQUENCE_H_

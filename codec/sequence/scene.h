@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEQUENCE_SCENE_H_
+#define ANICODEC_CODEC_SEQUENCE_SCENE_H_
+
+#include "codec/sequence/mesh_sequence.h"
+
+#include <span>
+#include <vector>
+
+namespace anicodec {
+
+/// A mesh of a scene.
+struct SceneMesh {
+  MeshSequence sequence;        ///< of the frames it is there in alone, without their timing
+  std::vector<FrameRun> there;  ///< which these are, ascending: sequence.frame_count together
+};
+
+/// Several meshes on one clock: objects that stand beside one another, or take turns.
+struct Scene {
+  MeshSequence clip;  ///< name, number and timing of the frames, axes and units; no mesh
+  std::vector<SceneMesh> meshes;
+};
+
+/// Takes a sequence apart into its parts, each a mesh with the part's name, in the order of their
+/// first vertices. In frames where all its vertices are at one point, as those of hidden objects
+/// are, a part is not there, unless it is so in all. Vertices that several parts share come with
+/// each; those without polygon stay with the vertex before. Throws as check(sequence).
+Scene split_parts(MeshSequence sequence);
+
+/// The meshes as one, without positions and timing: vertices and polygons one mesh after the other,
+/// attributes by kind and name (0 where a mesh has none, 1 for colours). Meshes with a name are its
+/// parts.
+MeshSequence merge_meshes(std::span<const MeshSequence> meshes);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEQUENCE_SCENE_H_

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SURFACE_CLOSEST_POINT_H_
+#define ANICODEC_CODEC_SURFACE_CLOSEST_POINT_H_
+
+#include "codec/sequence/mesh_sequence.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace anicodec {
+
+using Point3 = std::array<double, 3>;
+
+/// Every polygon of three or more corners as a fan from its first corner, three vertices each;
+/// degenerate triangles included.
+std::vector<uint32_t> fan_triangles(const Polygons& polygons);
+
+struct ClosestPoint {
+  double square_distance = 0;
+  uint32_t element = 0;  ///< the triangle, or the vertex of a point cloud; the first of equal ones
+  std::array<double, 3>
+      weights{};  ///< barycentric, none negative, sum 1; {1, 0, 0} in a point cloud
+  Point3 position{};
+};
+
+/// The point of a triangle (corners a, b, c, may be degenerate) that is closest to q, to the
+/// precision of double; `element` is left 0.
+ClosestPoint closest_on_triangle(const Point3& a, const Point3& b, const Point3& c,
+                                 const Point3& q);
+
+/// Closest points on a triangle mesh, or, if it has no triangle, closest vertices of a point cloud.
+/// Embree's box hierarchy finds the candidates in single precision with a margin for its rounding,
+/// their distances are computed in double: the result is that of a search through all elements.
+/// Memory: about 200 bytes an element. Cost: building n log n, a query 2 to 4 microseconds.
+class ClosestPointQuery {
+ public:
+  /// Copies what it needs. `positions` is x y z per vertex, all finite, at least one. Throws
+  /// Error(kInput) if there is none or one is not finite, Error(kInternal) if Embree fails.
+  ClosestPointQuery(std::span<const uint32_t> triangles, std::span<const float> positions);
+  ~ClosestPointQuery();
+  ClosestPointQuery(ClosestPointQuery&&) noexcept;
+  ClosestPointQuery& operator=(ClosestPointQuery&&) noexcept;
+
+  /// May be called from several threads at once.
+  ClosestPoint operator()(const Point3& q) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SURFACE_CLOSEST_POINT_H_

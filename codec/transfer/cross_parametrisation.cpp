@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/transfer/cross_parametrisation.h"
+
+#include "codec/massage/shape_fit.h"
+#include "codec/massage/shape_weights.h"
+#include "codec/sequence/error.h"
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+namespace anicodec {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+void check_fits(const SurfaceTopology& mesh, const Surface& surface,
+                const std::vector<Landmark>& landmarks) {
+  if (mesh.has_boundary() != surface.topology().has_boundary())
+    throw Error(ErrorKind::kInput, std::string("the mesh is ") +
+                                       (mesh.has_boundary() ? "open, but the surface is closed"
+                                                            : "closed, but the surface is open"));
+  for (const Landmark& l : landmarks) {
+    if (l.vertex >= mesh.vertex_count)
+      throw Error(ErrorKind::kUsage, "landmark at vertex " + std::to_string(l.vertex) + " of " +
+                                         std::to_string(mesh.vertex_count));
+  }
+}
+
+/// The shape matrix with empty rows for landmarks: the fit holds such vertices.
+RowMatrix held_at(const RowMatrix& shape, const std::vector<Landmark>& landmarks) {
+  std::vector<bool> held(static_cast<size_t>(shape.rows()), false);
+  for (const Landmark& l : landmarks)
+    held[l.vertex] = true;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index i = 0; i < shape.rows(); ++i) {
+    for (RowMatrix::InnerIterator it(shape, i); it && !held[static_cast<size_t>(i)]; ++it)
+      entries.emplace_back(i, it.col(), it.value());
+  }
+  RowMatrix result(shape.rows(), shape.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+}  // namespace
+
+CrossParametrisation improve_map(const SurfaceTopology& mesh, const Positions& shape,
+                                 const Surface& surface, const Positions& rough,
+                                 const CrossParametrisationOptions& options) {
+  check_fits(mesh, surface, options.landmarks);
+  CrossParametrisation result;
+  auto project = [&] {
+    result.points.resize(mesh.vertex_count);
+    for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
+      result.points[i] = surface.closest(row(result.positions, i));
+      result.positions.row(static_cast<Index>(i)) = result.points[i].position.transpose();
+    }
+  };
+  result.positions = rough;
+  for (const Landmark& l : options.landmarks)
+    result.positions.row(static_cast<Index>(l.vertex)) = l.position.transpose();
+  project();
+  result.before = distortion(mesh, shape, result.positions);
+  const RowMatrix weights =
+      held_at(shape_matrix(mesh, shape, ShapeWeights::kMeanValue), options.landmarks);
+  SurfaceFitOptions fit;
+  fit.lambda = options.lambda;
+  fit.rounds = options.rounds;
+  fit.tolerance = options.tolerance;
+  result.convergence =
+      SurfaceFitter(mesh, weights).run(surface, fit, &result.positions).convergence;
+  project();
+  result.after = distortion(mesh, shape, result.positions);
+  result.turned = static_cast<uint32_t>(turned_triangles(mesh, result.positions, surface).size());
+  return result;
+}
+
+Positions map_by_landmarks(const SurfaceTopology& mesh, const Positions& shape,
+                           const Surface& surface, const std::vector<Landmark>& landmarks) {
+  check_fits(mesh, surface, landmarks);
+  const auto count = static_cast<Index>(landmarks.size());
+  Eigen::Matrix3Xd from(3, count), to(3, count);
+  for (Index k = 0; k < count; ++k) {
+    from.col(k) = row(shape, landmarks[static_cast<size_t>(k)].vertex);
+    to.col(k) = landmarks[static_cast<size_t>(k)].position;
+  }
+  if (count < 3)
+    throw Error(ErrorKind::kUsage, "a map needs three landmarks at least");
+  const Eigen::Matrix3Xd centred = from.colwise() - from.rowwise().mean().eval();
+  if (centred.jacobiSvd().singularValues()[1] < 1e-6 * centred.norm())
+    throw Error(ErrorKind::kUsage, "the landmarks of a map must not lie on a line");
+  const Eigen::Matrix4d similarity = Eigen::umeyama(from, to, true);
+  const Positions laid = (shape * similarity.topLeftCorner<3, 3>().transpose()).rowwise() +
+                         similarity.topRightCorner<3, 1>().transpose();
+  const RigidShape rigid(mesh, laid);
+  RegistrationOptions options;
+  options.first_stiffness = 20;
+  options.rounds = 30;
+  options.landmarks = landmarks;
+  Positions v = laid;
+  Registration(mesh, rigid).run(surface, options, &v);
+  return v;
+}
+
+}  // namespace anicodec

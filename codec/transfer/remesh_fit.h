@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Mesh Massage of one mesh (thesis section 3.3.2, remeshing): a coarse mesh comes to lie on a
+// surface as well as its vertices allow.
+#ifndef ANICODEC_CODEC_TRANSFER_REMESH_FIT_H_
+#define ANICODEC_CODEC_TRANSFER_REMESH_FIT_H_
+
+#include "codec/massage/sliding_solve.h"
+#include "codec/metrics/hausdorff.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "codec/surface/mesh_quality.h"
+#include "codec/transfer/distance_fit.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace anicodec {
+
+/// A mesh by itself.
+struct SurfaceFrame {
+  Polygons polygons;
+  std::vector<float> positions;  ///< vertices x 3
+};
+
+struct MeshFit {
+  std::vector<float> positions;  ///< of the mesh, vertices x 3
+  HausdorffDistance before, after;
+  double diagonal = 0;  ///< of the box around the surface
+  RadiusRatio ratio_before, ratio_after;
+  uint32_t turned_before = 0, turned_after = 0;  ///< triangles that face against the surface
+  bool improved = false;  ///< if not, the positions are those that were given
+  Convergence convergence;
+};
+
+/// Fits a mesh to a surface of any connectivity that it roughly covers already: fit_distance().
+/// Vertices at the same place move together. If the mean distance did not fall, the mesh stays as
+/// it was. Throws Error(kInput) if a mesh has no triangles, if one is open and the other closed,
+/// and for a component of one that has no counterpart in the other.
+MeshFit fit_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
+                 const DistanceFitOptions& options = {});
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_TRANSFER_REMESH_FIT_H_

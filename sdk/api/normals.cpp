@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The C interface: normals.
+#include "sdk/api/objects.h"
+#include "sdk/play/normal_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+struct anic_normals {
+  anicodec::NormalPlan plan;
+};
+
+using namespace anicodec;
+
+namespace {
+
+/// Which corners share a normal in the source; null if the file does not tell.
+const Vector<uint32_t>* source_edges(const Mesh& mesh) {
+  const auto found =
+      std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [](const MeshAttribute& a) {
+        return a.header.kind == format::AttributeKind::kNormal && a.header.components() == 0;
+      });
+  return found == mesh.attributes.end() ? nullptr : &found->labels;
+}
+
+}  // namespace
+
+anic_status anic_normals_create(const anic_asset* asset, uint32_t mesh,
+                                const anic_normal_options* options, const anic_allocator* allocator,
+                                anic_normals** out) {
+  if (out)
+    *out = nullptr;
+  const anic_normal_options wanted = options ? *options : anic_normal_options{};
+  if (!asset || !out || mesh >= asset->clip.meshes().size() ||
+      (allocator && !allocator->allocate != !allocator->release) || !(wanted.crease_angle >= 0))
+    return ANIC_E_ARGUMENT;
+  const Clip& clip = asset->clip;
+  if (wanted.reference_frame >= clip.frame_count())
+    return ANIC_E_FRAME_RANGE;
+  if (!clip.segment_at(mesh, wanted.reference_frame))
+    return ANIC_E_SEGMENT;
+  auto make = [&]() -> Failure {
+    Memory memory = allocator ? memory_of(allocator) : memory_of_object(asset);
+    memory.held = memory.peak = 0;
+    auto* normals = create<anic_normals>(memory, 0);
+    try {
+      const MemoryScope scope(&memory_of_object(normals));
+      const Mesh& of = clip.meshes()[mesh];
+      const Vector<uint32_t>* edges = wanted.source_edges ? source_edges(of) : nullptr;
+      if (edges) {
+        normals->plan = plan_normals(of.topology, *edges, wanted.per_corner != 0);
+      } else {
+        const double degrees = wanted.crease_angle > 0 ? wanted.crease_angle : 180;
+        const double cosine = degrees < 180 ? std::cos(degrees * 3.14159265358979323846 / 180) : -2;
+        Vector<float> pose(size_t{3} * clip.vertex_count(mesh));
+        clip.positions(mesh, wanted.reference_frame, pose.data());
+        normals->plan = plan_normals(of.topology, pose.data(), cosine, wanted.per_corner != 0);
+      }
+    } catch (...) {
+      destroy(normals);
+      throw;
+    }
+    *out = normals;
+    return {};
+  };
+  return c_status(guarded(make).status);
+}
+
+void anic_normals_destroy(anic_normals* normals) {
+  destroy(normals);
+}
+
+uint32_t anic_normals_count(const anic_normals* normals) {
+  return normals ? normals->plan.size() : 0;
+}
+
+anic_status anic_normals_compute(const anic_normals* normals, const float* positions, size_t stride,
+                                 uint32_t first, uint32_t count, const anic_output* out) {
+  if (!normals || !positions || stride % sizeof(float) != 0 ||
+      (stride > 0 && stride < 3 * sizeof(float)) || first > normals->plan.size() ||
+      count > normals->plan.size() - first)
+    return ANIC_E_ARGUMENT;
+  VertexOutput output;
+  if (Status status = check_output(out, count, &output); status != Status::kOk)
+    return c_status(status);
+  if (count > 0)
+    compute_normals(normals->plan, positions, stride > 0 ? stride : 3 * sizeof(float), first, count,
+                    output);
+  return ANIC_OK;
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// What is behind the handles of the C interface, and what its functions share. Internal to sdk/.
+#ifndef ANICODEC_SDK_API_OBJECTS_H_
+#define ANICODEC_SDK_API_OBJECTS_H_
+
+#include "sdk/clip/clip.h"
+#include "sdk/clip/sample.h"
+
+#include <anicodec/anicodec.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace anicodec {
+
+inline anic_status c_status(Status status) {
+  return static_cast<anic_status>(status);
+}
+
+/// Whether options make sense; null does.
+bool is_valid_options(const anic_options* options);
+
+/// Fills a failure, if there is one to fill, and returns its status.
+anic_status report(const Failure& failure, anic_failure* out);
+
+/// The memory of a host's allocator; null, or without functions: malloc() and free().
+Memory memory_of(const anic_allocator* allocator);
+
+/// The options that a caller gave, or none; for a file of this size.
+OpenOptions open_options(const anic_options* options, uint64_t file_size);
+
+/// A stride of 0 and scales of 0 replaced; false when it makes no sense or does not hold `count`
+/// elements.
+Status check_output(const anic_output* out, uint32_t count, VertexOutput* result);
+
+/// Runs what may throw at the edge of the interface: nothing leaves it.
+template <class Function>
+Failure guarded(Function function) noexcept {
+  const Failure no_memory = {Status::kMemory, 0, 0, "the allocator had no memory"};
+  try {
+    return function();
+  } catch (const std::bad_alloc&) {
+    return no_memory;
+  } catch (const std::length_error&) {  // a container that no memory could hold
+    return no_memory;
+  } catch (...) {
+    return {Status::kInternal, 0, 0, "an unexpected exception"};
+  }
+}
+
+/// Bytes before an object that create() makes: the memory it came from.
+inline constexpr size_t kObjectHead = (sizeof(Memory) + 15) / 16 * 16;
+
+/// Bytes that create() takes for an object.
+template <class T>
+constexpr size_t object_bytes(size_t extra = 0) {
+  return kObjectHead + sizeof(T) + extra;
+}
+
+/// Makes an object, with `extra` bytes behind it, in memory that it owns a copy of: containers that
+/// it is made with take theirs from there. Throws std::bad_alloc.
+template <class T, class... Arguments>
+T* create(Memory memory, size_t extra, Arguments&&... arguments) {
+  static_assert(alignof(T) <= 16 && alignof(Memory) <= 16);
+  auto* head = static_cast<unsigned char*>(memory.take(object_bytes<T>(extra), 16));
+  auto* kept = new (head) Memory(memory);
+  const MemoryScope scope(kept);
+  try {
+    return new (head + kObjectHead) T(std::forward<Arguments>(arguments)...);
+  } catch (...) {
+    memory.give_back(head, object_bytes<T>(extra));
+    throw;
+  }
+}
+
+/// The memory of an object that create() made.
+template <class T>
+Memory& memory_of_object(T* object) {
+  return *reinterpret_cast<Memory*>(reinterpret_cast<unsigned char*>(object) - kObjectHead);
+}
+
+template <class T>
+const Memory& memory_of_object(const T* object) {
+  return *reinterpret_cast<const Memory*>(reinterpret_cast<const unsigned char*>(object) -
+                                          kObjectHead);
+}
+
+template <class T>
+void destroy(T* object, size_t extra = 0) {
+  if (!object)
+    return;
+  Memory memory = memory_of_object(object);
+  object->~T();
+  memory.give_back(reinterpret_cast<unsigned char*>(object) - kObjectHead, object_bytes<T>(extra));
+}
+
+}  // namespace anicodec
+
+struct anic_asset {
+  anicodec::Clip clip;
+  double quality = 1;
+  size_t resident_bytes = 0;
+  size_t context_bytes = 0;
+  anicodec::Vector<uint32_t> triangle_counts;  ///< by mesh
+  /// By mesh and frame, then one more for each mesh: around all frames. Empty when not asked for.
+  anicodec::Vector<anic_box> boxes;
+};
+
+struct anic_context {
+  struct State {
+    anicodec::Sample* samples;  ///< by track
+    float* weights;             ///< sample_buffer_size() of the tracks one after another
+  };
+
+  const anic_asset* asset;
+  size_t extra;  ///< bytes behind this object
+  bool chosen = false;
+  State states[2];  ///< by anic_when
+  float* scratch;   ///< of make_sample()
+};
+
+namespace anicodec {
+
+/// Bytes behind a context: samples and weights, twice, and what samples are made in.
+size_t context_extra(const Clip& clip);
+
+/// The box of positions in states, which are of one mesh; as many as play() likes.
+void bounding_boxes(const FrameState* states, uint32_t frames, anic_box* out);
+
+/// Fills asset->boxes.
+void compute_boxes(anic_asset* asset);
+
+/// Opens an asset: what anic_asset_open() does, for prefixes too. Throws std::bad_alloc.
+Failure open_asset(format::ByteView bytes, const anic_options* options, bool prefix,
+                   anic_asset** out);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_API_OBJECTS_H_

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The C interface: files that are read through a callback, or arrive piece by piece.
+#include "sdk/api/objects.h"
+
+#include <algorithm>
+
+struct anic_stream {
+  explicit anic_stream(const anic_options& wanted) : options(wanted) {}
+
+  anic_options options;
+  anicodec::format::Bytes bytes;
+  anicodec::format::ContainerReader file;  ///< of `bytes`
+  bool has_table = false;                  ///< header and table are there
+  bool has_limits = false;
+  size_t arrived = 0;  ///< chunks, from the front of the table
+  /// Chunks that have not arrived: those that all segments need, those that a segment needs.
+  uint32_t common_missing = 0;
+  uint32_t ready = 0;            ///< segments that miss nothing of their own
+  uint32_t ready_positions = 0;  ///< of those, the ones of positions
+  anicodec::Vector<uint8_t> of_positions;
+  anicodec::Vector<uint32_t> missing;
+  anicodec::Vector<uint8_t> layered;  ///< whether the first layer of a segment has been counted
+  anicodec::Failure failure;
+  anic_stream_info info = {};
+};
+
+namespace anicodec {
+namespace {
+
+using format::Chunk;
+using format::chunk_type;
+
+/// Takes more bytes; room is made as they come, so that a header's word for the size costs nothing.
+void append(const void* bytes, size_t size, uint64_t file_bytes, format::Bytes* to) {
+  const size_t wanted = to->size() + size;
+  if (wanted > to->capacity()) {
+    const bool ends_soon = file_bytes >= wanted && file_bytes / 2 < wanted;
+    to->reserve(ends_soon ? static_cast<size_t>(file_bytes) : 2 * wanted);
+  }
+  const auto* from = static_cast<const uint8_t*>(bytes);
+  to->insert(to->end(), from, from + size);
+}
+
+/// Calls visit(chunk, owner) for chunks begin .. end - 1 of the table that are needed to play
+/// anything: owner is the segment's counter of missing chunks, or that of all. Call it in the order
+/// of the table: of the layers of a segment, the first one is needed.
+template <class Visit>
+void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
+  for (size_t i = begin; i < end; ++i) {
+    const Chunk& chunk = stream->file.chunks()[i];
+    if (chunk.segment == format::kNoSegment) {
+      if (chunk.required)
+        visit(&stream->common_missing);
+    } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("CORR")) {
+      const bool layer = chunk.type == chunk_type("BASI");
+      if (!layer || !stream->layered[chunk.segment])
+        visit(&stream->missing[chunk.segment]);
+      stream->layered[chunk.segment] |= layer;
+    }
+  }
+}
+
+/// Reads header and table once they are there, then the limits.
+Failure read_head(anic_stream* stream) {
+  format::ContainerReader& file = stream->file;
+  anic_stream_info& info = stream->info;
+  if (!stream->has_table) {
+    Failure failure = file.open_prefix(stream->bytes);
+    if (failure.status == Status::kTruncated)
+      return {};
+    if (!failure.ok())
+      return failure;
+    stream->has_table = true;
+    info.file_bytes = file.file_size();
+    if (stream->bytes.size() > info.file_bytes)
+      return {Status::kTrailingBytes, info.file_bytes, 0, "bytes follow the end of the file"};
+  }
+  const Chunk* chunk = file.find("LIMI");
+  if (chunk && !file.has(*chunk))
+    return {};
+  format::Limits limits;
+  const OpenOptions options = open_options(&stream->options, info.file_bytes);
+  if (Failure failure = read_limits(file, options, &limits); !failure.ok())
+    return failure;
+  stream->has_limits = true;
+  const size_t segments = limits.segments.size(), chunks = file.chunks().size();
+  stream->missing.assign(segments, 0);
+  stream->layered.assign(segments, 0);
+  stream->of_positions.reserve(segments);
+  for (const format::Limits::Segment& s : limits.segments)
+    stream->of_positions.push_back(s.attribute == format::kPositions);
+  each_needed(stream, 0, chunks, [](uint32_t* missing) { ++*missing; });
+  stream->layered.assign(segments, 0);
+  info.segment_count = static_cast<uint32_t>(segments);
+  for (const Chunk& c : file.chunks())
+    info.layers += c.type == chunk_type("BASI");
+  return {};
+}
+
+/// Checks the payloads that have arrived since the last time, and counts them.
+Failure take_chunks(anic_stream* stream) {
+  const format::ContainerReader& file = stream->file;
+  anic_stream_info& info = stream->info;
+  const size_t before = stream->arrived;
+  for (; stream->arrived < file.chunks().size(); ++stream->arrived) {
+    const Chunk& chunk = file.chunks()[stream->arrived];
+    if (!file.has(chunk))
+      break;
+    format::ByteView payload;
+    if (Failure failure = file.payload(chunk, &payload); !failure.ok())
+      return failure;
+    info.arrived_layers += chunk.type == chunk_type("BASI");
+  }
+  each_needed(stream, before, stream->arrived, [&](uint32_t* missing) {
+    if (--*missing > 0 || missing == &stream->common_missing)
+      return;
+    ++stream->ready;
+    stream->ready_positions += stream->of_positions[size_t(missing - stream->missing.data())];
+  });
+  info.playable_segments = stream->common_missing == 0 ? stream->ready : 0;
+  info.playable = stream->common_missing == 0 && stream->ready_positions > 0;
+  return {};
+}
+
+Failure push(anic_stream* stream, const void* bytes, size_t size) {
+  const MemoryScope scope(&memory_of_object(stream));
+  anic_stream_info& info = stream->info;
+  if (stream->has_table && size > info.file_bytes - stream->bytes.size())
+    return {Status::kTrailingBytes, info.file_bytes, 0, "bytes follow the end of the file"};
+  append(bytes, size, info.file_bytes, &stream->bytes);
+  info.received_bytes = stream->bytes.size();
+  if (stream->has_table)
+    stream->file.extend(stream->bytes);
+  if (!stream->has_limits) {
+    if (Failure failure = read_head(stream); !failure.ok())
+      return failure;
+  }
+  if (!stream->has_limits)
+    return {};
+  if (Failure failure = take_chunks(stream); !failure.ok())
+    return failure;
+  info.complete = stream->file.is_complete();
+  // The padding, too.
+  return info.complete ? stream->file.open(stream->bytes) : Failure{};
+}
+
+/// Reads a whole file into `to`: its head first, so that limits are checked before the rest.
+Failure read_file(const anic_reader& reader, uint64_t size, const anic_options* options,
+                  format::Bytes* to) {
+  if (size > SIZE_MAX / 2)
+    return {Status::kLimit, 0, 0, "a file that fits no memory"};
+  auto read_to = [&](uint64_t end) {
+    const size_t begin = to->size();
+    to->resize(static_cast<size_t>(end));
+    return end == begin ||
+           reader.read(reader.user, begin, to->data() + begin, to->size() - begin) == 0;
+  };
+  const Failure failed = {Status::kRead, 0, 0, "the read callback failed"};
+  constexpr uint64_t kHead = 4096;
+  if (!read_to(std::min(size, kHead)))
+    return failed;
+  // Until the limits are checked, only as much is read as they are known to need.
+  for (;;) {
+    anic_requirements requirements;
+    const anic_status status = anic_query(to->data(), to->size(), options, &requirements);
+    if (status != ANIC_E_TRUNCATED || requirements.head_bytes > size ||
+        requirements.head_bytes <= to->size())
+      break;
+    if (!read_to(requirements.head_bytes))
+      return failed;
+  }
+  // What is wrong with the head, opening will say; what it says of the limits comes before the
+  // rest.
+  format::ContainerReader file;
+  if (Failure failure = file.open_prefix(*to); failure.ok()) {
+    format::Limits limits;
+    const OpenOptions opening = open_options(options, size);
+    if (Failure f = read_limits(file, opening, &limits); f.status == Status::kLimit)
+      return f;
+  } else if (failure.status != Status::kTruncated) {
+    return failure;
+  }
+  to->reserve(static_cast<size_t>(size));
+  return read_to(size) ? Failure{} : failed;
+}
+
+}  // namespace
+}  // namespace anicodec
+
+using namespace anicodec;
+
+anic_status anic_asset_open_reader(const anic_reader* reader, uint64_t file_size,
+                                   const anic_options* options, anic_asset** out,
+                                   anic_failure* failure) {
+  if (out)
+    *out = nullptr;
+  if (!reader || !reader->read || !out || !is_valid_options(options))
+    return report({Status::kArgument, 0, 0, "an argument makes no sense"}, failure);
+  auto open = [&]() -> Failure {
+    Memory memory = memory_of(options ? &options->allocator : nullptr);
+    const MemoryScope scope(&memory);
+    format::Bytes bytes;
+    if (Failure f = read_file(*reader, file_size, options, &bytes); !f.ok())
+      return f;
+    return open_asset(bytes, options, false, out);
+  };
+  return report(guarded(open), failure);
+}
+
+anic_status anic_stream_create(const anic_options* options, anic_stream** out) {
+  if (out)
+    *out = nullptr;
+  if (!out || !is_valid_options(options))
+    return ANIC_E_ARGUMENT;
+  auto make = [&]() -> Failure {
+    const anic_options wanted = options ? *options : anic_options{};
+    *out = create<anic_stream>(memory_of(&wanted.allocator), 0, wanted);
+    return {};
+  };
+  return c_status(guarded(make).status);
+}
+
+void anic_stream_destroy(anic_stream* stream) {
+  destroy(stream);
+}
+
+anic_status anic_stream_push(anic_stream* stream, const void* bytes, size_t size) {
+  if (!stream || (!bytes && size > 0))
+    return ANIC_E_ARGUMENT;
+  if (stream->failure.ok() && size > 0)
+    stream->failure = guarded([&] { return push(stream, bytes, size); });
+  return c_status(stream->failure.status);
+}
+
+void anic_stream_info_get(const anic_stream* stream, anic_stream_info* out) {
+  if (stream && out)
+    *out = stream->info;
+}
+
+void anic_stream_failure(const anic_stream* stream, anic_failure* out) {
+  if (stream && out)
+    report(stream->failure, out);
+}
+
+anic_status anic_stream_open(anic_stream* stream, anic_asset** out, anic_failure* failure) {
+  if (out)
+    *out = nullptr;
+  if (!stream || !out)
+    return report({Status::kArgument, 0, 0, "an argument makes no sense"}, failure);
+  if (!stream->failure.ok())
+    return report(stream->failure, failure);
+  if (!stream->info.playable)
+    return report({Status::kState, stream->bytes.size(), 0, "nothing can be played yet"}, failure);
+  Failure what = guarded(
+      [&] { return open_asset(stream->bytes, &stream->options, !stream->info.complete, out); });
+  // A prefix may be too short for what the whole file is allowed.
+  if (what.status == Status::kLimit && !stream->info.complete)
+    what = {Status::kState, stream->bytes.size(), what.chunk, "too little has arrived"};
+  return report(what, failure);
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/clip/attributes.h"
+
+#include "sdk/clip/attribute_coding.h"
+
+#include <cmath>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+using format::AttributeDomain;
+using format::AttributeHeader;
+
+Status decode_values(BinaryDecoder& decoder, const CornerGraph& graph, MeshAttribute* out) {
+  const AttributeHeader& header = out->header;
+  if (header.domain == AttributeDomain::kPolygon) {
+    out->labels.assign(graph.polygon_count(), 0);
+    return code_labels(decoder, graph, static_cast<uint32_t>(header.labels.size()) + 1,
+                       &out->labels);
+  }
+  AttributeEntries entries;
+  const uint32_t components = header.components();
+  {
+    AttributeCoding<BinaryDecoder> coding(decoder, graph, header.domain, components, nullptr,
+                                          &entries);
+    if (Status s = coding.run(); s != Status::kOk)
+      return s;
+  }
+  if (components == 0) {
+    out->labels = std::move(entries.of_element);
+    return Status::kOk;
+  }
+  out->values.resize(entries.of_element.size() * components);
+  float* to = out->values.data();
+  for (uint32_t entry : entries.of_element) {
+    for (uint32_t i = 0; i < components; ++i, ++to) {
+      const AttributeHeader::Grid& grid = header.grids[i];
+      *to = static_cast<float>(grid.origin +
+                               entries.numbers[size_t{entry} * components + i] / grid.scale);
+      if (!std::isfinite(*to))
+        return Status::kNonFinite;
+    }
+  }
+  return Status::kOk;
+}
+
+/// Row i of the result is row from[i].
+template <class T>
+void permute(const Vector<uint32_t>& from, size_t columns, Vector<T>* values) {
+  if (values->empty())
+    return;
+  Vector<T> result;
+  result.reserve(values->size());
+  for (uint32_t i : from) {
+    const auto row = values->begin() + static_cast<ptrdiff_t>(columns * i);
+    result.insert(result.end(), row, row + static_cast<ptrdiff_t>(columns));
+  }
+  values->swap(result);
+}
+
+void permute(const Vector<uint32_t>& from, AttributeDomain domain,
+             Vector<MeshAttribute>* attributes) {
+  for (MeshAttribute& a : *attributes) {
+    if (a.header.domain != domain)
+      continue;
+    permute(from, a.header.components(), &a.values);
+    permute(from, 1, &a.labels);
+  }
+}
+
+Vector<uint32_t> inverse(const Vector<uint32_t>& permutation) {
+  Vector<uint32_t> result(permutation.size());
+  for (uint32_t i = 0; i < permutation.size(); ++i)
+    result[permutation[i]] = i;
+  return result;
+}
+
+}  // namespace
+
+Status decode_attributes(const format::AttributeRecord& record, const format::Limits::Mesh& sizes,
+                         const Topology& topology, Vector<MeshAttribute>* out) {
+  if (attribute_bytes(record.attributes, sizes) != sizes.attribute_bytes)
+    return Status::kRecord;
+  const CornerGraph graph(topology);
+  BinaryDecoder decoder(record.stream.data, record.stream.size);
+  out->clear();
+  out->reserve(record.attributes.size());
+  for (const AttributeHeader& header : record.attributes) {
+    out->emplace_back();
+    out->back().header = header;
+    if (Status s = decode_values(decoder, graph, &out->back()); s != Status::kOk)
+      return s;
+  }
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+void apply_vertex_map(const Vector<uint32_t>& source, Vector<MeshAttribute>* attributes) {
+  if (!attributes->empty())
+    permute(inverse(source), AttributeDomain::kVertex, attributes);
+}
+
+void apply_face_map(const Vector<uint32_t>& place, const Vector<uint32_t>& first,
+                    const Topology& topology, Vector<MeshAttribute>* attributes) {
+  if (attributes->empty())
+    return;
+  const Vector<uint32_t> canonical = inverse(place);
+  permute(canonical, AttributeDomain::kPolygon, attributes);
+  permute(corner_order(canonical, first, topology.polygon_offsets), AttributeDomain::kCorner,
+          attributes);
+}
+
+}  // namespace anicodec

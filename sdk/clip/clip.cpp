@@ -1,0 +1,485 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/clip/clip.h"
+
+#include "sdk/clip/memory_estimate.h"
+#include "sdk/mesh/plain_coding.h"
+#include "sdk/play/attribute_values.h"
+#include "sdk/play/play.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anicodec {
+namespace {
+
+using format::ByteView;
+using format::Chunk;
+using format::chunk_type;
+
+Failure at(const Chunk& chunk, Status status, const char* detail) {
+  return {status, chunk.offset, chunk.type, detail};
+}
+
+/// Which meshes and segments the chunks of a type may belong to.
+enum class Owner : uint8_t { kClip, kMesh, kSegment, kEither };
+
+struct KnownChunk {
+  uint32_t type;
+  Owner owner;
+  bool required = true;  ///< must be marked so
+};
+
+constexpr KnownChunk kKnownChunks[] = {
+    {chunk_type("LIMI"), Owner::kClip},    {chunk_type("CLIP"), Owner::kClip},
+    {chunk_type("MESH"), Owner::kMesh},    {chunk_type("VMAP"), Owner::kMesh},
+    {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
+    {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
+    {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false}};
+
+const KnownChunk* known(const Chunk& chunk) {
+  const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
+                                         [&](const KnownChunk& k) { return k.type == chunk.type; });
+  return found == std::end(kKnownChunks) ? nullptr : found;
+}
+
+/// Unknown chunks are skipped, unless required; only layers of a basis may occur twice.
+Failure check_chunks(const format::ContainerReader& file) {
+  for (const Chunk& chunk : file.chunks()) {
+    if (chunk.required && !known(chunk))
+      return at(chunk, Status::kChunkUnknown, "the file needs a chunk this reader does not know");
+  }
+  for (size_t i = 1; i < file.by_key().size(); ++i) {
+    const Chunk &a = file.chunks()[file.by_key()[i - 1]], &b = file.chunks()[file.by_key()[i]];
+    if (key(a) == key(b) && b.type != chunk_type("BASI") && known(b))
+      return at(b, Status::kChunkDuplicate, "a chunk occurs twice");
+  }
+  return {};
+}
+
+/// Known chunks are where the limits and the order of the vertices want them, and nowhere else.
+Failure check_places(const format::ContainerReader& file, const format::Limits& limits,
+                     format::OrderMode order) {
+  using format::BasisKind;
+  auto fits = [&](const Chunk& chunk, Owner owner) {
+    const bool of_segment = chunk.segment != format::kNoSegment;
+    if (owner == Owner::kClip)
+      return chunk.mesh == format::kNoMesh && !of_segment;
+    if (chunk.mesh >= limits.meshes.size() || (owner == Owner::kMesh && of_segment) ||
+        (owner == Owner::kSegment && !of_segment))
+      return false;
+    if (chunk.type == chunk_type("ATTR"))
+      return limits.meshes[chunk.mesh].attribute_bytes > 0;
+    if (!of_segment)
+      return (chunk.type != chunk_type("VMAP") || order != format::OrderMode::kFree) &&
+             (chunk.type != chunk_type("FMAP") || order == format::OrderMode::kAll);
+    if (chunk.segment >= limits.segments.size())
+      return false;
+    const format::Limits::Segment& segment = limits.segments[chunk.segment];
+    if (segment.mesh != chunk.mesh)
+      return false;
+    if (chunk.type == chunk_type("CORR"))
+      return segment.corrections > 0;
+    return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
+  };
+  for (const Chunk& chunk : file.chunks()) {
+    const KnownChunk* k = known(chunk);
+    if (k && !(chunk.required == k->required && fits(chunk, k->owner)))
+      return at(chunk, Status::kIndexRange, "a chunk belongs to nothing in the file");
+  }
+  return {};
+}
+
+/// Whether the points of each coded vertex have the same values.
+bool agree(const DracoMesh& draco, const Vector<uint32_t>& point_vertex) {
+  if (draco.components == 0)
+    return true;
+  Vector<uint32_t> first;  // point of each coded vertex; new ones come in ascending order
+  for (uint32_t p = 0; p < point_vertex.size(); ++p) {
+    if (point_vertex[p] == first.size()) {
+      first.push_back(p);
+      continue;
+    }
+    const int32_t* values = draco.values.data() + size_t{p} * draco.components;
+    if (!std::equal(values, values + draco.components,
+                    draco.values.data() + size_t{first[point_vertex[p]]} * draco.components))
+      return false;
+  }
+  return true;
+}
+
+/// The payload of a chunk that must be there.
+Failure required(const format::ContainerReader& file, const char (&type)[5], uint16_t mesh,
+                 uint32_t segment, const Chunk** chunk, ByteView* out) {
+  *chunk = file.find(type, mesh, segment);
+  if (!*chunk)
+    return {Status::kChunkMissing, 0, chunk_type(type), "a required chunk is missing"};
+  return file.payload(**chunk, out);
+}
+
+Failure read_pose(const format::ContainerReader& file, const Chunk& chunk, const Topology& topology,
+                  const DracoMesh& draco, PoseGrid* out) {
+  ByteView payload;
+  if (Failure f = file.payload(chunk, &payload); !f.ok())
+    return f;
+  format::PoseRecord record;
+  Status s = format::PoseRecord::read(payload, &record);
+  if (s == Status::kOk)
+    s = open_pose(record, topology, draco, out);
+  return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
+}
+
+/// Whether what a segment cannot do without is there: its record, its pose, and a layer if it has
+/// any.
+bool has_arrived(const format::ContainerReader& file, const format::Limits::Segment& sizes,
+                 uint32_t number, const Vector<const Chunk*>& layers) {
+  const Chunk* record = file.find("SEGM", sizes.mesh, number);
+  const Chunk* pose = file.find("POSE", sizes.mesh, number);
+  if (!pose)
+    pose = file.find("POSE", sizes.mesh);
+  return !(record && !file.has(*record)) && !(pose && !file.has(*pose)) &&
+         !(!layers.empty() && !file.has(*layers[0]));
+}
+
+}  // namespace
+
+Failure read_limits(const format::ContainerReader& file, const OpenOptions& options,
+                    format::Limits* out) {
+  if (Failure failure = check_chunks(file); !failure.ok())
+    return failure;
+
+  const Chunk* chunk;
+  ByteView payload;
+  if (Failure f = required(file, "LIMI", format::kNoMesh, format::kNoSegment, &chunk, &payload);
+      !f.ok())
+    return f;
+  if (Status s = format::Limits::read(payload, out); s != Status::kOk)
+    return at(*chunk, s, "the limits are malformed");
+  // Even a mesh that is all alike takes some thousandth of a bit per vertex.
+  const uint64_t plausible = std::min(file.file_size(), UINT64_MAX >> 22) << 16;
+  for (const auto& mesh : out->meshes) {
+    if (mesh.source_vertices > options.limits.vertices)
+      return at(*chunk, Status::kLimit, "more vertices than allowed");
+    if (mesh.source_vertices > plausible || mesh.corners > plausible ||
+        mesh.triangles > plausible || mesh.polygons > plausible || mesh.points > plausible ||
+        mesh.draco_bytes > file.file_size())
+      return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
+  }
+  if (out->frames > options.limits.frames)
+    return at(*chunk, Status::kLimit, "more frames than allowed");
+  for (const auto& s : out->segments) {
+    if (s.components > options.limits.components)
+      return at(*chunk, Status::kLimit, "more components than allowed");
+    uint64_t channels = s.kind == format::BasisKind::kEigentrajectories ? 1 : 3;
+    uint64_t coefficients = channels * s.components * out->meshes[s.mesh].coded_vertices;
+    uint64_t weights = uint64_t{4} * s.frames * s.components * (channels == 1 ? 3 : 1);
+    if (coefficients > plausible * 64 || weights > plausible * 64)
+      return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
+  }
+  if (estimate_memory(*out, options.quality).opening > options.limits.resident_bytes)
+    return at(*chunk, Status::kLimit, "more memory than allowed");
+  return {};
+}
+
+Failure Clip::open(ByteView bytes, const OpenOptions& options) {
+  *this = Clip();
+  format::ContainerReader file;
+  if (Failure failure = options.prefix ? file.open_prefix(bytes) : file.open(bytes); !failure.ok())
+    return failure;
+  if (Failure failure = read_limits(file, options, &limits_); !failure.ok())
+    return failure;
+  const Chunk* chunk;
+  ByteView payload;
+  if (Failure f = required(file, "CLIP", format::kNoMesh, format::kNoSegment, &chunk, &payload);
+      !f.ok())
+    return f;
+  if (Status s = format::ClipRecord::read(payload, limits_.frames, &record_); s != Status::kOk)
+    return at(*chunk, s, "the clip record is malformed");
+  if (Failure f = check_places(file, limits_, record_.order); !f.ok())
+    return f;
+
+  meshes_.resize(limits_.meshes.size());
+  draco_.resize(limits_.meshes.size());
+  Failure failure;
+  for (size_t m = 0; m < meshes_.size() && failure.ok(); ++m)
+    failure = open_mesh(file, static_cast<uint16_t>(m), options);
+  if (failure.ok())
+    failure = open_segments(file, options);
+  draco_ = Vector<DracoMesh>();
+  for (Mesh& mesh : meshes_) {
+    mesh.topology.triangles = Vector<uint32_t>();
+    mesh.topology.point_vertex = Vector<uint32_t>();
+  }
+  if (!failure.ok())
+    *this = Clip();
+  return failure;
+}
+
+Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh,
+                        const OpenOptions& options) {
+  const format::Limits::Mesh& sizes = limits_.meshes[mesh];
+  const Chunk* chunk;
+  ByteView payload;
+  if (Failure f = required(file, "MESH", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+    return f;
+  format::MeshRecord record;
+  if (Status s = format::MeshRecord::read(payload, &record); s != Status::kOk)
+    return at(*chunk, s, "the mesh record is malformed");
+  DracoMesh& draco = draco_[mesh];
+  if (record.coder == format::CoderId::kDraco) {
+    if (record.connectivity.size != sizes.draco_bytes)
+      return at(*chunk, Status::kRecord, "the Draco bitstream is not as long as the limits say");
+    Status s = decode_draco_mesh(record.connectivity, sizes.points, sizes.triangles,
+                                 sizes.draco_components, &draco);
+    if (s != Status::kOk)
+      return at(
+          *chunk, s,
+          s == Status::kCoder ? "this build is without Draco" : "the Draco bitstream is damaged");
+  } else {
+    if (sizes.draco_components != 0 || sizes.draco_bytes != 0)
+      return at(*chunk, Status::kRecord, "counts of a Draco bitstream without one");
+    Status s = decode_plain_triangles(record.connectivity, sizes.triangles, &draco.triangles);
+    if (s != Status::kOk)
+      return at(*chunk, s, "the plain connectivity is damaged");
+  }
+  Mesh& out = meshes_[mesh];
+  out.name = record.name;
+  if (Status s = decode_details(record.details, sizes, draco.triangles, &out.topology);
+      s != Status::kOk)
+    return at(*chunk, s, "the mesh details are damaged");
+
+  if (!agree(draco, out.topology.point_vertex))
+    return at(*chunk, Status::kDraco, "points of one vertex have different values");
+  if (Failure f = open_attributes(file, mesh, options); !f.ok())
+    return f;
+  if (record_.order == format::OrderMode::kFree)
+    return {};
+  if (Failure f = required(file, "VMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+    return f;
+  Vector<uint32_t> map;
+  if (Status s = decode_vertex_map(payload, out.topology, &map); s != Status::kOk)
+    return at(*chunk, s, "the vertex map is damaged");
+  if (record_.order == format::OrderMode::kAll) {
+    if (Failure f = required(file, "FMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+      return f;
+    Vector<uint32_t> place, first;
+    if (Status s = decode_face_map(payload, out.topology, &place, &first); s != Status::kOk)
+      return at(*chunk, s, "the face map is damaged");
+    apply_face_map(place, first, out.topology, &out.attributes);
+    apply_face_map(place, first, &out.topology);
+  }
+  apply_vertex_map(map, &out.topology);
+  apply_vertex_map(map, &out.attributes);
+  return {};
+}
+
+Failure Clip::open_attributes(const format::ContainerReader& file, uint16_t mesh,
+                              const OpenOptions& options) {
+  if (limits_.meshes[mesh].attribute_bytes == 0)
+    return {};
+  const Chunk* chunk = file.find("ATTR", mesh);
+  if (options.prefix && chunk && !file.has(*chunk)) {
+    partial_ = true;
+    return {};
+  }
+  ByteView payload;
+  if (Failure f = required(file, "ATTR", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+    return f;
+  format::AttributeRecord record;
+  Status s = format::AttributeRecord::read(payload, &record);
+  if (s == Status::kOk)
+    s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology,
+                          &meshes_[mesh].attributes);
+  return s == Status::kOk ? Failure{} : at(*chunk, s, "the attributes are damaged");
+}
+
+void Clip::list_tracks() {
+  segments_.resize(limits_.segments.size());
+  for (uint32_t i = 0; i < segments_.size(); ++i) {
+    const format::Limits::Segment& sizes = limits_.segments[i];
+    segments_[i].mesh = sizes.mesh;
+    segments_[i].attribute = sizes.attribute;
+    segments_[i].first_component = sizes.first_component;
+    segments_[i].first_frame = sizes.first_frame;
+  }
+  by_frame_ = limits_.segments_by_frame();
+  tracks_.resize(meshes_.size());
+  for (uint32_t m = 0; m < tracks_.size(); ++m)
+    tracks_[m].mesh = m;
+  for (uint32_t i = 0; i < by_frame_.size(); ++i) {
+    const format::Limits::Segment& s = limits_.segments[by_frame_[i]];
+    const bool is_new = i == 0 || !s.is_alike(limits_.segments[by_frame_[i - 1]]);
+    if (is_new && s.attribute != format::kPositions)
+      tracks_.push_back({s.mesh, s.attribute, s.first_component, i, i});
+    Track& track = s.attribute == format::kPositions ? tracks_[s.mesh] : tracks_.back();
+    if (is_new)
+      track.begin = i;
+    track.end = i + 1;
+  }
+}
+
+Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptions& options) {
+  list_tracks();
+  // Layers by segment, in file order, in one pass.
+  Vector<Vector<const Chunk*>> layers(segments_.size());
+  for (const Chunk& chunk : file.chunks()) {
+    if (chunk.type == chunk_type("BASI") && chunk.segment < layers.size())
+      layers[chunk.segment].push_back(&chunk);
+  }
+  Vector<PoseGrid> poses(meshes_.size());
+  for (size_t m = 0; m < meshes_.size(); ++m) {
+    const Chunk* chunk = file.find("POSE", static_cast<uint16_t>(m));
+    if (!chunk || (options.prefix && !file.has(*chunk)))
+      continue;
+    if (Failure f = read_pose(file, *chunk, meshes_[m].topology, draco_[m], &poses[m]); !f.ok())
+      return f;
+  }
+  for (uint32_t i = 0; i < segments_.size(); ++i) {
+    if (options.prefix && !has_arrived(file, limits_.segments[i], i, layers[i])) {
+      partial_ = true;
+      continue;
+    }
+    if (Failure f = open_segment(file, i, layers[i], poses, options); !f.ok())
+      return f;
+  }
+  return {};
+}
+
+Failure Clip::open_segment(const format::ContainerReader& file, uint32_t number,
+                           const Vector<const Chunk*>& layers, const Vector<PoseGrid>& poses,
+                           const OpenOptions& options) {
+  const format::Limits::Segment& sizes = limits_.segments[number];
+  const Chunk* chunk;
+  ByteView payload;
+  if (Failure f = required(file, "SEGM", sizes.mesh, number, &chunk, &payload); !f.ok())
+    return f;
+  format::SegmentRecord record;
+  Status s = format::SegmentRecord::read(payload, &record);
+  if (s == Status::kOk && record.kind != sizes.kind)
+    s = Status::kSegment;
+  if (s != Status::kOk)
+    return at(*chunk, s, "the segment record is malformed");
+  if (sizes.attribute != format::kPositions) {
+    const Vector<MeshAttribute>& attributes = meshes_[sizes.mesh].attributes;
+    const bool unknown = attributes.empty() && options.prefix;  // not there yet
+    if (!unknown &&
+        !(sizes.attribute < attributes.size() &&
+          attributes[sizes.attribute].header.domain == format::AttributeDomain::kVertex &&
+          sizes.first_component < attributes[sizes.attribute].header.components()))
+      return at(*chunk, Status::kIndexRange, "the segment is of no attribute of the vertices");
+  }
+  SegmentContext context;
+  context.sizes = &sizes;
+  context.mesh_sizes = &limits_.meshes[sizes.mesh];
+  context.topology = &meshes_[sizes.mesh].topology;
+  context.vertex_coded = &context.topology->vertex_coded;
+  context.draco = &draco_[sizes.mesh];
+  PoseGrid own;
+  context.pose = &poses[sizes.mesh];
+  if (const Chunk* of_pose = file.find("POSE", sizes.mesh, number)) {
+    if (Failure f = read_pose(file, *of_pose, *context.topology, *context.draco, &own); !f.ok())
+      return f;
+    context.pose = &own;
+  }
+  if (context.pose->points.empty())
+    context.pose = nullptr;
+  context.quality = options.quality;
+  for (const Chunk* layer : layers) {
+    if (options.prefix && !file.has(*layer)) {
+      context.partial = true;
+      break;
+    }
+    ByteView bytes;
+    if (Failure f = file.payload(*layer, &bytes); !f.ok())
+      return f;
+    context.layers.push_back(bytes);
+  }
+  const Chunk* corrections = file.find("CORR", sizes.mesh, number);
+  if (corrections && options.prefix && !file.has(*corrections)) {
+    context.partial = true;
+  } else if (corrections) {
+    if (Failure f = file.payload(*corrections, &context.corrections); !f.ok())
+      return f;
+  }
+  partial_ |= context.partial;
+  s = anicodec::open_segment(record, context, &segments_[number]);
+  return s == Status::kOk ? Failure{} : at(*chunk, s, "the segment cannot be opened");
+}
+
+std::pair<uint32_t, uint32_t> Clip::attribute_tracks(uint32_t mesh, uint32_t attribute) const {
+  const std::pair wanted(mesh, attribute);
+  const auto begin = tracks_.begin() + static_cast<ptrdiff_t>(meshes_.size());
+  const auto first = std::partition_point(begin, tracks_.end(), [&](const Track& t) {
+    return std::pair(t.mesh, t.attribute) < wanted;
+  });
+  const auto last = std::partition_point(first, tracks_.end(), [&](const Track& t) {
+    return std::pair(t.mesh, t.attribute) == wanted;
+  });
+  return {static_cast<uint32_t>(first - tracks_.begin()),
+          static_cast<uint32_t>(last - tracks_.begin())};
+}
+
+const Segment* Clip::segment_at(uint32_t track, uint32_t frame) const {
+  // The last segment of the track that begins at the frame or before.
+  const Track& t = tracks_[track];
+  const auto begin = by_frame_.begin() + t.begin;
+  const auto after = std::partition_point(begin, by_frame_.begin() + t.end, [&](uint32_t i) {
+    return segments_[i].first_frame <= frame;
+  });
+  if (after == begin)
+    return nullptr;
+  const Segment& s = segments_[*(after - 1)];
+  return frame - s.first_frame < s.frames ? &s : nullptr;
+}
+
+size_t Clip::resident_bytes() const {
+  size_t total = 0;
+  for (const Mesh& m : meshes_)
+    total += 4 * (m.topology.vertex_coded.size() + m.topology.polygon_offsets.size() +
+                  m.topology.polygon_corners.size());
+  for (const auto& m : limits_.meshes)
+    total += m.attribute_bytes;
+  for (const Segment& s : segments_)
+    total += s.resident_bytes();
+  return total;
+}
+
+Failure Clip::check_hashes() const {
+  for (const Segment& s : segments_) {
+    if (s.stored_hash != s.decoded_hash)
+      return {Status::kHash, 0, chunk_type("SEGM"), "a segment decodes to other integers"};
+  }
+  return {};
+}
+
+Status Clip::attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame, float* out) const {
+  if (frame >= frame_count())
+    return Status::kFrameRange;
+  if (mesh >= meshes_.size() || attribute >= meshes_[mesh].attributes.size() ||
+      meshes_[mesh].attributes[attribute].header.domain != format::AttributeDomain::kVertex)
+    return Status::kArgument;
+  const MeshAttribute& still = meshes_[mesh].attributes[attribute];
+  std::copy(still.values.begin(), still.values.end(), out);
+  const auto [first, last] = attribute_tracks(mesh, attribute);
+  for (uint32_t t = first; t < last; ++t) {
+    if (const Segment* segment = segment_at(t, frame))
+      add_motion(frame_state(*segment, frame - segment->first_frame), 1, still.header.components(),
+                 0, segment->vertices, out);
+  }
+  return Status::kOk;
+}
+
+Status Clip::positions(uint32_t mesh, uint32_t frame, float* out) const {
+  if (frame >= frame_count())
+    return Status::kFrameRange;
+  const Segment* segment = segment_at(mesh, frame);
+  if (!segment)
+    return Status::kSegment;
+  FrameState state = frame_state(*segment, frame - segment->first_frame);
+  Vector<float> shape(shape_size(*segment)), scratch(shape_scratch_size(*segment));
+  make_shape(&state, shape.data(), scratch.data());
+  play(state, 0, segment->vertices, out);
+  return Status::kOk;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_CLIP_CLIP_H_
+#define ANICODEC_SDK_CLIP_CLIP_H_
+
+#include "format/container.h"
+#include "format/memory.h"
+#include "format/records.h"
+#include "format/status.h"
+#include "sdk/clip/attributes.h"
+#include "sdk/mesh/topology.h"
+#include "sdk/segment/segment.h"
+
+#include <cstdint>
+#include <utility>
+
+namespace anicodec {
+
+/// What a host allows a file to ask for. Checked before anything is allocated.
+struct HostLimits {
+  uint64_t vertices = uint64_t{1} << 31;
+  uint64_t frames = uint64_t{1} << 24;
+  uint64_t components = uint64_t{1} << 20;
+  uint64_t resident_bytes = uint64_t{16} << 30;  ///< while opening, see estimate_memory()
+};
+
+struct OpenOptions {
+  HostLimits limits;
+  /// Share of the components to open, by number, in (0, 1]: fewer give a coarser clip.
+  double quality = 1;
+  /// Whether the bytes may be the first ones of a file: what has arrived is opened, with as many
+  /// components as are there (spec/05-file-layout.md, section 7).
+  bool prefix = false;
+};
+
+/// Checks the chunks of a file, reads its limits and checks them against the host's and against
+/// what a file of its size can hold. The first step of opening it. Cost: O(chunks + meshes +
+/// segments).
+Failure read_limits(const format::ContainerReader& file, const OpenOptions& options,
+                    format::Limits* out);
+
+/// One mesh of a clip. Its topology keeps what a player needs: polygons, and the coded vertex of
+/// each vertex.
+struct Mesh {
+  String name;
+  Topology topology;
+  Vector<MeshAttribute> attributes;
+};
+
+/// What moves by segments of its own: the positions of a mesh, or three components of an attribute.
+struct Track {
+  uint32_t mesh = 0;
+  uint32_t attribute = format::kPositions;
+  uint32_t first_component = 0;
+  uint32_t begin = 0, end = 0;  ///< its segments in Clip::by_frame()
+
+  bool is_attribute() const { return attribute != format::kPositions; }
+};
+
+/// An opened file: immutable, so any number of threads may play it. Owns all it needs; the file's
+/// bytes may go after open(). Make and open it in the same MemoryScope.
+class Clip {
+ public:
+  /// Opens a file in memory. On failure the clip is empty and the failure says where; kTruncated
+  /// for a prefix of which too little is there. Throws std::bad_alloc. Cost: entropy decoding of
+  /// all coefficients once; afterwards every frame costs the same.
+  Failure open(format::ByteView file, const OpenOptions& options = {});
+
+  const format::Limits& limits() const { return limits_; }
+
+  const format::ClipRecord& record() const { return record_; }
+
+  const Vector<Mesh>& meshes() const { return meshes_; }
+
+  const Vector<Segment>& segments() const { return segments_; }
+
+  uint32_t frame_count() const { return limits_.frames; }
+
+  uint32_t vertex_count(uint32_t mesh = 0) const { return limits_.meshes[mesh].source_vertices; }
+
+  /// Track m is that of the positions of mesh m; then follow those of attributes, ascending by
+  /// mesh, attribute and component.
+  const Vector<Track>& tracks() const { return tracks_; }
+
+  /// Numbers of the segments: those of a track one after the other, ascending by first frame.
+  const Vector<uint32_t>& by_frame() const { return by_frame_; }
+
+  /// The tracks first .. second - 1 move an attribute; none when it does not move. O(log tracks).
+  std::pair<uint32_t, uint32_t> attribute_tracks(uint32_t mesh, uint32_t attribute) const;
+
+  /// The segment of a track (or of a mesh's positions) that holds a frame; null when the mesh is
+  /// not there, or the attribute is as in frame 0. O(log segments).
+  const Segment* segment_at(uint32_t track, uint32_t frame) const;
+
+  /// Positions of all vertices of a mesh in one frame, in the order of the clip, three floats each.
+  /// Errors: kFrameRange; kSegment when no segment of the mesh holds the frame. Cost: O(vertices x
+  /// components), the same for every frame. Allocates nothing, but in a segment of MSGI; where
+  /// frames are played one after the other, make_sample() allocates nothing there either.
+  Status positions(uint32_t mesh, uint32_t frame, float* out) const;
+
+  /// Values of an attribute of vertices in one frame, vertices x components, moving or not. Errors:
+  /// kFrameRange, kArgument: no such attribute of vertices. Cost: as positions(), for each track.
+  Status attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame, float* out) const;
+
+  /// Whether something had not arrived: segments have no frames, fewer components than options
+  /// asked for, or no corrections.
+  bool is_partial() const { return partial_; }
+
+  /// Bytes that stay allocated while the clip is open.
+  size_t resident_bytes() const;
+
+  /// kHash when the decoded integers of a segment are not those that the encoder saw. Meaningful
+  /// for clips opened at full quality.
+  Failure check_hashes() const;
+
+ private:
+  Failure open_mesh(const format::ContainerReader& file, uint16_t mesh, const OpenOptions& options);
+  void list_tracks();
+  Failure open_attributes(const format::ContainerReader& file, uint16_t mesh,
+                          const OpenOptions& options);
+  Failure open_segments(const format::ContainerReader& file, const OpenOptions& options);
+  Failure open_segment(const format::ContainerReader& file, uint32_t number,
+                       const Vector<const format::Chunk*>& layers, const Vector<PoseGrid>& poses,
+                       const OpenOptions& options);
+
+  format::Limits limits_;
+  format::ClipRecord record_;
+  Vector<Mesh> meshes_;
+  Vector<DracoMesh> draco_;  ///< while opening
+  Vector<Segment> segments_;
+  bool partial_ = false;
+  Vector<Track> tracks_;
+  Vector<uint32_t> by_frame_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_CLIP_CLIP_H_

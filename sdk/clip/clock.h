@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_CLIP_CLOCK_H_
+#define ANICODEC_SDK_CLIP_CLOCK_H_
+
+#include "format/records.h"
+
+#include <cstdint>
+
+namespace anicodec {
+
+enum class Interpolation : uint8_t { kStep, kLinear, kCubic };
+enum class Wrap : uint8_t { kClamp, kLoop, kPingPong };
+
+/// A time as a combination of frames: each at most once, the weights sum to one.
+struct FrameMix {
+  struct Term {
+    uint32_t frame = 0;
+    double weight = 1;
+  };
+
+  uint32_t count = 0;
+  Term terms[4];  ///< the first is the frame at the time or before it
+
+  void add(uint32_t frame, double weight);
+};
+
+/// When the frames of a clip are (spec/04-coordinates.md, section 2; spec/10-seeking.md, section
+/// 2).
+class Clock {
+ public:
+  /// `record` must outlive the clock; frames > 0.
+  Clock(const format::ClipRecord& record, uint32_t frames) : record_(record), frames_(frames) {}
+
+  /// Seconds, start time included; frames behind the last count as the last.
+  double time(uint32_t frame) const { return record_.start_time + since_start(frame); }
+
+  /// Seconds of one turn of a loop: up to the next frame 0.
+  double loop_duration() const;
+
+  /// The frames that make up a time, which must be finite. O(1), O(log frames) with a table of
+  /// times.
+  FrameMix at(double seconds, Interpolation interpolation, Wrap wrap) const;
+
+ private:
+  double since_start(uint32_t frame) const;
+  double last_period() const;  ///< how long the last frame stays
+  FrameMix smooth(uint32_t frame, double s, Wrap wrap) const;
+
+  /// Frames before the loop begins again.
+  uint32_t loop_frames() const { return record_.closed && frames_ > 1 ? frames_ - 1 : frames_; }
+
+  const format::ClipRecord& record_;
+  uint32_t frames_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_CLIP_CLOCK_H_

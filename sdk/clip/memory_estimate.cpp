@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/clip/memory_estimate.h"
+
+#include "sdk/segment/segment.h"
+
+#include <algorithm>
+
+namespace anicodec {
+namespace {
+
+using format::BasisKind;
+using format::Limits;
+
+constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
+constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
+constexpr uint64_t kStructure = 512;             // of a mesh or segment
+constexpr uint64_t kMatrix = 48;                 // bytes of a pose map or motion
+
+/// A sum that stays at its end instead of wrapping.
+class Sum {
+ public:
+  void add(uint64_t x) { total_ += std::min(x, UINT64_MAX - total_); }
+
+  uint64_t total() const { return total_; }
+
+ private:
+  uint64_t total_ = 0;
+};
+
+uint64_t resident(const Limits::Mesh& m) {
+  return kStructure + 4 * (uint64_t{m.source_vertices} + m.polygons + 1 + uint64_t{m.corners}) +
+         m.attribute_bytes;
+}
+
+/// What a mesh needs until the segments are open: its triangles, coded ones and Draco's, and poses.
+uint64_t held(const Limits::Mesh& m) {
+  return uint64_t{24} * m.triangles + uint64_t{4} * m.points * (1 + uint64_t{m.draco_components}) +
+         uint64_t{12} * m.coded_vertices;
+}
+
+/// A segment whose components are those wanted.
+Limits::Segment coarser(Limits::Segment s, double quality) {
+  if (s.kind != BasisKind::kKeyframes)
+    s.components = wanted_components(quality, s.components);
+  s.wide_components = std::min(s.wide_components, s.components);
+  return s;
+}
+
+// The factors of a product have at most 31 + 21 bits, its constant 6: each term fits 64 bits.
+uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
+  const uint64_t n = (uint64_t{mesh.source_vertices} + 15) / 16 * 16;
+  const uint64_t frames = s.frames, components = s.components;
+  const uint64_t integers = components + s.wide_components;  // in units of 16 bits
+  uint64_t bytes = kStructure;
+  switch (s.kind) {
+    case BasisKind::kKeyframes:
+      bytes += kMatrix * frames + 6 * n * integers + 4 * frames * components;
+      break;
+    case BasisKind::kEigenshapes:
+      bytes += kMatrix * frames + 12 * n + 6 * n * integers + 4 * frames * components;
+      break;
+    case BasisKind::kEigentrajectories:
+      bytes += kMatrix * frames + 12 * n + 2 * n * integers + 12 * frames * components;
+      break;
+  }
+  if (s.reconstruction == format::Reconstruction::kMsgi)
+    bytes += s.msgi_bytes + uint64_t{4} * mesh.source_vertices;
+  if (s.corrections > 0)
+    bytes += uint64_t{16} * s.corrections + 4 * (frames + 1);
+  return bytes;
+}
+
+/// Draco's decoder keeps values twice, and a connectivity for each attribute.
+uint64_t draco(const Limits::Mesh& m) {
+  if (m.draco_components == 0)
+    return 0;
+  const uint64_t attributes = std::clamp(m.draco_components / 3, 2U, 64U);
+  return uint64_t{8} * m.points * m.draco_components + uint64_t{100} * m.triangles +
+         attributes * (uint64_t{20} * m.triangles + uint64_t{24} * m.points);
+}
+
+uint64_t opening(const Limits::Mesh& m) {
+  const uint64_t details =
+      uint64_t{28} * 3 * m.triangles + uint64_t{12} * m.coded_vertices + 4 * m.source_vertices;
+  const uint64_t maps =
+      uint64_t{32} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{12} * m.corners;
+  const uint64_t pose = uint64_t{340} * m.coded_vertices + uint64_t{72} * m.triangles;
+  // Edges, entries and their numbers; or a permutation and a copy.
+  const uint64_t attributes = m.attribute_bytes == 0
+                                  ? 0
+                                  : uint64_t{64} * m.corners + uint64_t{16} * m.source_vertices +
+                                        2 * m.attribute_bytes + 65536;
+  return std::max({details, maps + attributes, pose, draco(m)});
+}
+
+uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
+  // Kinds with a prediction: residuals and coefficients, weights, the order of the vertices.
+  const uint64_t n = mesh.coded_vertices, frames = s.frames, components = s.components;
+  // Key-frames as floats, faces and patches, and the fronts of the factorisation.
+  uint64_t msgi = 0;
+  if (s.reconstruction == format::Reconstruction::kMsgi)
+    msgi = 12 * n * components + uint64_t{1000} * mesh.triangles + 2 * s.msgi_bytes;
+  if (s.kind == BasisKind::kKeyframes)
+    return 36 * n * components + 4 * frames * components + 28 * frames + kModels + msgi;
+  const uint64_t channels = s.kind == BasisKind::kEigenshapes ? 3 : 1;
+  return 8 * channels * (n + 1) * (components + 8) + 12 * frames * components + 80 * frames +
+         (8 * kNeighbours + 256) * n + uint64_t{48} * mesh.triangles + kModels;
+}
+
+}  // namespace
+
+MemoryEstimate estimate_memory(const Limits& limits, double quality) {
+  MemoryEstimate estimate;
+  Sum open, until_open;
+  uint64_t largest = 0;
+  for (const Limits::Mesh& m : limits.meshes) {
+    open.add(resident(m));
+    until_open.add(held(m));
+    largest = std::max(largest, opening(m));
+    estimate.draco = std::max(estimate.draco, draco(m));
+  }
+  for (const Limits::Segment& s : limits.segments) {
+    const Limits::Mesh& mesh = limits.meshes[s.mesh];
+    const Limits::Segment wanted = coarser(s, quality);
+    open.add(resident(wanted, mesh));
+    largest = std::max(largest, opening(wanted, mesh));
+    // The weights of all components are read in any case.
+    until_open.add(uint64_t{12} * s.frames * (s.components - wanted.components));
+  }
+  estimate.resident = open.total();
+  open.add(until_open.total());
+  open.add(largest);
+  estimate.opening = open.total();
+  return estimate;
+}
+
+}  // namespace anicodec

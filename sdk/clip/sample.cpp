@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/clip/sample.h"
+
+#include "sdk/play/attribute_values.h"
+#include "sdk/segment/rotation.h"
+
+#include <algorithm>
+
+namespace anicodec {
+namespace {
+
+/// Vertices whose parts are added up at a time.
+constexpr uint32_t kRange = 16 * kBlock;
+
+/// Parts that are made of several frames: any two of four frames can be in one segment.
+constexpr size_t kMixedParts = 2;
+
+size_t weight_count(const Segment& s) {
+  return size_t{s.components} * s.weight_channels();
+}
+
+/// Frames of one segment, with weights that sum to one.
+struct Group {
+  const Segment* segment = nullptr;
+  double share = 0;
+  int count = 0;
+  uint32_t frames[4];  ///< of the segment
+  double weights[4];
+};
+
+template <class Map>
+Affine mean_map(const Group& group, const Map& maps) {
+  Affine result;
+  for (int i = 0; i < 12; ++i) {
+    double sum = 0;
+    for (int t = 0; t < group.count; ++t)
+      sum += group.weights[t] * double{maps[group.frames[t]].m[i]};
+    result.m[i] = static_cast<float>(sum);
+  }
+  return result;
+}
+
+Affine mean_motion(const Group& group, const Vector<Affine>& motions) {
+  UnitQuaternion rotations[4];
+  double translation[3] = {0, 0, 0};
+  for (int t = 0; t < group.count; ++t) {
+    const Affine& motion = motions[group.frames[t]];
+    rotations[t] = rotation_of(motion);
+    for (int i = 0; i < 3; ++i)
+      translation[i] += group.weights[t] * double{motion.m[4 * i + 3]};
+  }
+  return motion_of(mean_rotation(rotations, group.weights, group.count), translation);
+}
+
+FrameState mean_state(const Group& group, float* weights) {
+  const Segment& s = *group.segment;
+  const size_t n = weight_count(s);
+  FrameState state;
+  state.segment = &s;
+  state.weights = weights;
+  for (size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (int t = 0; t < group.count; ++t)
+      sum += group.weights[t] * double{s.weights[group.frames[t] * n + i]};
+    weights[i] = static_cast<float>(sum);
+  }
+  if (!s.pose_maps.empty())
+    state.pose_map = mean_map(group, s.pose_maps);
+  if (!s.motions.empty())
+    state.motion = mean_motion(group, s.motions);
+  return state;
+}
+
+}  // namespace
+
+size_t sample_buffer_size(const Clip& clip, uint32_t track) {
+  const Track& t = clip.tracks()[track];
+  size_t weights = 0, shape = 0, shapes = 0;
+  for (uint32_t i = t.begin; i < t.end; ++i) {
+    const Segment& s = clip.segments()[clip.by_frame()[i]];
+    weights = std::max(weights, weight_count(s));
+    shape = std::max(shape, shape_size(s));
+    shapes += !s.msgi.empty();
+  }
+  return weights * std::min(size_t{t.end - t.begin}, kMixedParts) +
+         shape * std::min(shapes, size_t{Sample::kMaxParts});
+}
+
+size_t sample_scratch_size(const Clip& clip, uint32_t track) {
+  const Track& t = clip.tracks()[track];
+  size_t largest = 0;
+  for (uint32_t i = t.begin; i < t.end; ++i)
+    largest = std::max(largest, shape_scratch_size(clip.segments()[clip.by_frame()[i]]));
+  return largest;
+}
+
+Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float* buffer,
+                   float* scratch) {
+  const bool is_attribute = clip.tracks()[track].is_attribute();
+  Group groups[Sample::kMaxParts];
+  uint32_t count = 0;
+  double total = 0;
+  for (uint32_t t = 0; t < mix.count; ++t) {
+    const FrameMix::Term& term = mix.terms[t];
+    const Segment* segment = clip.segment_at(track, term.frame);
+    if (!segment && t == 0 && !is_attribute)
+      return {};
+    if (!segment || term.weight == 0)
+      continue;
+    uint32_t g = 0;
+    while (g < count && groups[g].segment != segment)
+      ++g;
+    count = std::max(count, g + 1);
+    Group& group = groups[g];
+    group.segment = segment;
+    group.frames[group.count] = term.frame - segment->first_frame;
+    group.weights[group.count++] = term.weight;
+    group.share += term.weight;
+    total += term.weight;
+  }
+  if (is_attribute)
+    total = 1;
+  Sample sample;
+  for (uint32_t g = 0; g < count; ++g) {
+    Group& group = groups[g];
+    sample.share[g] = static_cast<float>(group.share / total);
+    if (group.count == 1) {
+      sample.parts[g] = frame_state(*group.segment, group.frames[0]);
+      if (mix.count > 1)
+        sample.parts[g].correction_count = 0;
+      continue;
+    }
+    for (int t = 0; t < group.count; ++t)
+      group.weights[t] /= group.share;
+    sample.parts[g] = mean_state(group, buffer);
+    buffer += weight_count(*group.segment);
+  }
+  for (uint32_t g = 0; g < count; ++g) {
+    make_shape(&sample.parts[g], buffer, scratch);
+    buffer += shape_size(*groups[g].segment);
+  }
+  sample.count = count;
+  return sample;
+}
+
+void Sample::add_motion(uint32_t components, uint32_t first, uint32_t vertices,
+                        float* values) const {
+  for (uint32_t p = 0; p < count; ++p)
+    anicodec::add_motion(parts[p], share[p], components, first, vertices, values);
+}
+
+void Sample::positions(uint32_t first, uint32_t vertices, const VertexOutput& output) const {
+  if (count == 1) {
+    play(parts, 1, first, vertices, &output);
+    return;
+  }
+  VertexOutput rest = output;
+  for (uint32_t end = first + vertices; first < end;) {
+    const uint32_t base = first / kRange * kRange;
+    const uint32_t stop = std::min(end, base + kRange), n = stop - first;
+    float sum[3 * kRange] = {}, part[3 * kRange];
+    for (uint32_t p = 0; p < count; ++p) {
+      play(parts[p], first, n, part);
+      for (uint32_t i = 0; i < n; ++i) {
+        const uint32_t v = first - base + i;
+        for (uint32_t c = 0; c < 3; ++c)
+          sum[(v / kBlock * 3 + c) * kBlock + v % kBlock] += share[p] * part[3 * i + c];
+      }
+    }
+    store_points(sum, first - base, n, rest);
+    rest.data = static_cast<unsigned char*>(rest.data) + rest.stride * n;
+    first = stop;
+  }
+}
+
+}  // namespace anicodec

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_CLIP_SAMPLE_H_
+#define ANICODEC_SDK_CLIP_SAMPLE_H_
+
+#include "sdk/clip/clip.h"
+#include "sdk/clip/clock.h"
+#include "sdk/play/play.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace anicodec {
+
+/// A track at one time: the sum over its parts of share * play(part). One part for each segment
+/// that the frames of the time are in; none when the mesh is not there, or the attribute is as in
+/// frame 0 (spec/10-seeking.md, section 2).
+struct Sample {
+  static constexpr uint32_t kMaxParts = 4;
+
+  uint32_t count = 0;
+  FrameState parts[kMaxParts];
+  float share[kMaxParts] = {};
+
+  /// Stores the positions of vertices first .. first + vertices - 1; see play(). Cost:
+  /// O(vertices x components) for each part. Allocates nothing.
+  void positions(uint32_t first, uint32_t vertices, const VertexOutput& output) const;
+
+  /// Of an attribute: adds to the values of vertices first .. first + vertices - 1, vertices x
+  /// components. Cost as above.
+  void add_motion(uint32_t components, uint32_t first, uint32_t vertices, float* values) const;
+};
+
+/// Floats of the interpolated weights of a sample of a track, and of the shapes in segments of
+/// MSGI. O(segments of the track).
+size_t sample_buffer_size(const Clip& clip, uint32_t track);
+
+/// Floats that make_sample() works in and leaves to others afterwards.
+size_t sample_scratch_size(const Clip& clip, uint32_t track);
+
+/// Combines what depends on time. `buffer` holds sample_buffer_size() floats and must outlive the
+/// sample, as the clip must; `scratch` holds sample_scratch_size(). Rigid motions turn the shorter
+/// way; corrections are there when the mix is one frame. Frames in which the mesh is missing drop
+/// out; without the first one, the sample is empty. Frames without an attribute's segment add
+/// nothing. Cost: O(components) per frame; in a segment of
+/// MSGI that of one evaluation for each part. Allocates nothing.
+Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float* buffer,
+                   float* scratch);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_CLIP_SAMPLE_H_

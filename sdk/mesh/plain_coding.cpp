@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/mesh/plain_coding.h"
+
+#include "format/zstd_block.h"
+
+namespace anicodec {
+namespace {
+
+uint32_t folded(uint32_t difference) {
+  return difference << 1 ^ (difference >> 31 ? 0xFFFFFFFFU : 0);
+}
+
+uint32_t unfolded(uint32_t x) {
+  return x >> 1 ^ (x & 1 ? 0xFFFFFFFFU : 0);
+}
+
+}  // namespace
+
+format::Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride) {
+  size_t n = values.size();
+  format::Bytes planes(4 * n);
+  for (size_t i = 0; i < n; ++i) {
+    auto before = i < stride ? 0U : static_cast<uint32_t>(values[i - stride]);
+    uint32_t x = folded(static_cast<uint32_t>(values[i]) - before);
+    for (size_t b = 0; b < 4; ++b)
+      planes[b * n + i] = static_cast<uint8_t>(x >> (8 * b));
+  }
+  return format::zstd_compress(planes);
+}
+
+Status decode_plain_integers(format::ByteView bytes, size_t count, size_t stride,
+                             Vector<int32_t>* values) {
+  format::Bytes planes;
+  if (Status s = format::zstd_decompress(bytes, 4 * count, &planes); s != Status::kOk)
+    return s;
+  values->resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    uint32_t x = 0;
+    for (size_t b = 0; b < 4; ++b)
+      x |= uint32_t{planes[b * count + i]} << (8 * b);
+    auto before = i < stride ? 0U : static_cast<uint32_t>((*values)[i - stride]);
+    (*values)[i] = static_cast<int32_t>(before + unfolded(x));
+  }
+  return Status::kOk;
+}
+
+format::Bytes encode_plain_triangles(const Vector<uint32_t>& triangles) {
+  return encode_plain_integers({triangles.begin(), triangles.end()}, 3);
+}
+
+Status decode_plain_triangles(format::ByteView bytes, size_t count, Vector<uint32_t>* triangles) {
+  Vector<int32_t> values;
+  if (Status s = decode_plain_integers(bytes, 3 * count, 3, &values); s != Status::kOk)
+    return s;
+  triangles->resize(values.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (values[i] < 0)
+      return Status::kIndexRange;
+    (*triangles)[i] = static_cast<uint32_t>(values[i]);
+  }
+  return Status::kOk;
+}
+
+}  // namespace anicodec

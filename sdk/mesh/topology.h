@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_MESH_TOPOLOGY_H_
+#define ANICODEC_SDK_MESH_TOPOLOGY_H_
+
+#include "format/memory.h"
+#include "format/records.h"
+#include "format/status.h"
+
+#include <cstdint>
+
+namespace anicodec {
+
+/// The connectivity of a mesh as decoded (spec/07-topology.md). Three numberings occur:
+///   points           what the connectivity coder knows: non-manifold vertices split
+///   coded vertices   distinct trajectories: points in order of first appearance, splits undone,
+///   then
+///                    the vertices that no coded triangle uses
+///   vertices         what the user gets: every source vertex once, welds undone. In canonical
+///   order
+///                    the copies of a coded vertex follow one another, in the order of their first
+///                    use by a polygon corner; the vertex map then restores the source's order.
+struct Topology {
+  uint32_t coded_vertices = 0;
+  Vector<uint32_t> triangles;        ///< coded vertices, three per triangle
+  Vector<uint32_t> point_vertex;     ///< coded vertex of each point
+  Vector<uint32_t> vertex_coded;     ///< coded vertex of each vertex
+  Vector<uint32_t> polygon_offsets;  ///< polygon p has corners offsets[p] .. offsets[p+1]-1
+  Vector<uint32_t> polygon_corners;  ///< vertex of each corner
+};
+
+/// Decodes the details of a mesh record: splits, welds, polygons, faces kept apart. `triangles` are
+/// over points, as the connectivity coder gave them. Cost: O(corners log corners).
+Status decode_details(format::ByteView details, const format::Limits::Mesh& sizes,
+                      const Vector<uint32_t>& triangles, Topology* out);
+
+/// Decodes a vertex map (chunk VMAP): `source[i]` is the place, in the source's order, of vertex i
+/// of the canonical order, in which `topology` is; a permutation, else kIndexRange.
+Status decode_vertex_map(format::ByteView bytes, const Topology& topology,
+                         Vector<uint32_t>* source);
+
+/// Decodes a face map (chunk FMAP): polygon i of the canonical order is number place[i] of the
+/// source, whose first corner is corner first[i] of it.
+Status decode_face_map(format::ByteView bytes, const Topology& topology, Vector<uint32_t>* place,
+                       Vector<uint32_t>* first);
+
+/// Renumbers vertices into the source's order.
+void apply_vertex_map(const Vector<uint32_t>& source, Topology* topology);
+
+/// Which canonical corner comes at each place once polygons are reordered, canonical[i] to place i,
+/// and rotated to begin with corner first[canonical[i]].
+Vector<uint32_t> corner_order(const Vector<uint32_t>& canonical, const Vector<uint32_t>& first,
+                              const Vector<uint32_t>& offsets);
+
+/// Reorders polygons and rotates their corners into the source's order.
+void apply_face_map(const Vector<uint32_t>& place, const Vector<uint32_t>& first,
+                    Topology* topology);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_MESH_TOPOLOGY_H_

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/mesh/vertex_walk.h"
+
+#include <tuple>
+
+namespace anicodec {
+namespace {
+
+/// 1, 2, 3, 4-5, 6-9, 10-17, 18-65, more.
+uint8_t nearness_of(uint32_t distance) {
+  if (distance <= 3)
+    return static_cast<uint8_t>(distance - 1);
+  constexpr uint32_t kEnds[] = {5, 9, 17, 65};
+  uint8_t nearness = 3;
+  for (uint32_t end : kEnds)
+    nearness = static_cast<uint8_t>(nearness + (distance > end));
+  return nearness;
+}
+
+}  // namespace
+
+VertexWalk::VertexWalk(const Topology& topology)
+    : vertex_coded_(topology.vertex_coded),
+      first_(topology.vertex_coded.size() + 1),
+      place_(topology.vertex_coded.size(), kNotYet),
+      offered_(topology.vertex_coded.size(), kNotYet) {
+  const Vector<uint32_t>&offsets = topology.polygon_offsets, &corners = topology.polygon_corners;
+  // Both ends of each side of a polygon, and the vertex at the other one.
+  auto each_pair = [&](auto&& take) {
+    for (size_t p = 0; p + 1 < offsets.size(); ++p) {
+      for (uint32_t c = offsets[p]; c < offsets[p + 1]; ++c) {
+        const uint32_t a = corners[c], b = corners[c + 1 < offsets[p + 1] ? c + 1 : offsets[p]];
+        if (a == b)
+          continue;
+        take(a, b);
+        take(b, a);
+      }
+    }
+  };
+  each_pair([&](uint32_t a, uint32_t) { ++first_[a + 1]; });
+  for (size_t v = 1; v < first_.size(); ++v)
+    first_[v] += first_[v - 1];
+  neighbours_.resize(first_.back());
+  each_pair([&](uint32_t a, uint32_t b) { neighbours_[first_[a]++] = b; });  // now the ends
+  uint32_t begin = 0, kept = 0;
+  for (size_t v = 0; v + 1 < first_.size(); ++v) {
+    const uint32_t end = first_[v];
+    uint32_t* list = neighbours_.data();
+    std::sort(list + begin, list + end);
+    uint32_t* last = std::unique(list + begin, list + end);
+    std::copy(list + begin, last, list + kept);
+    first_[v] = kept;
+    kept += static_cast<uint32_t>(last - (list + begin));
+    begin = end;
+  }
+  first_.back() = kept;
+  order_.reserve(vertex_coded_.size());
+}
+
+VertexWalk::Range VertexWalk::copies(uint32_t v) const {
+  Range copies{v, v + 1};
+  while (copies.begin > 0 && v - copies.begin < kMaxCopies &&
+         vertex_coded_[copies.begin - 1] == vertex_coded_[v])
+    --copies.begin;
+  while (copies.end < vertex_coded_.size() && copies.end - v <= kMaxCopies &&
+         vertex_coded_[copies.end] == vertex_coded_[v])
+    ++copies.end;
+  return copies;
+}
+
+VertexWalk::Candidate VertexWalk::look_at(uint32_t v) const {
+  const auto now = static_cast<uint32_t>(order_.size());
+  uint32_t touched = 0, copied = 0, count = 0;  // one more than the latest places
+  uint8_t parallel = 0;
+  const Range beside = neighbours(v);
+  for (uint32_t i = beside.begin; i < beside.end; ++i) {
+    const uint32_t place = place_[neighbours_[i]];
+    if (place == kNotYet)
+      continue;
+    ++count;
+    touched = std::max(touched, place + 1);
+    for (uint32_t k = 0; k < along_count_ && place + 1 < now; ++k) {
+      if (place == along_[k] + 1)
+        parallel = 2;
+      else if (place + 1 == along_[k])
+        parallel = std::max<uint8_t>(parallel, 1);
+    }
+  }
+  const Range same = copies(v);
+  for (uint32_t i = same.begin; i < same.end; ++i) {
+    if (place_[i] != kNotYet)
+      copied = std::max(copied, place_[i] + 1);
+  }
+  const uint32_t distance = now + 1 - std::max(touched, copied);
+  return {v,
+          distance,
+          nearness_of(distance),
+          static_cast<uint8_t>(copied > touched),
+          parallel,
+          static_cast<uint8_t>(std::min(count, 3U))};
+}
+
+void VertexWalk::offer(uint32_t v) {
+  const auto now = static_cast<uint32_t>(order_.size());
+  if (place_[v] != kNotYet || offered_[v] == now || candidate_count_ == kMaxCandidates)
+    return;
+  offered_[v] = now;
+  candidates_[candidate_count_++] = look_at(v);
+}
+
+void VertexWalk::offer_neighbours(uint32_t v) {
+  const Range beside = neighbours(v);
+  for (uint32_t i = beside.begin; i < beside.end; ++i)
+    offer(neighbours_[i]);
+}
+
+void VertexWalk::start_candidates() {
+  candidate_count_ = along_count_ = 0;
+  if (order_.empty())
+    return;
+  const Range beside = neighbours(order_.back());
+  for (uint32_t i = beside.begin; i < beside.end; ++i) {
+    const uint32_t place = place_[neighbours_[i]];
+    if (place != kNotYet)
+      along_[along_count_++] = place;
+  }
+}
+
+void VertexWalk::find_beside() {
+  if (order_.empty())
+    return;
+  offer_neighbours(order_.back());
+  sort_from(0);
+}
+
+void VertexWalk::find_others() {
+  const auto now = static_cast<uint32_t>(order_.size());
+  const uint32_t beside = candidate_count_;
+  for (uint32_t k = 0; k < along_count_; ++k) {
+    if (along_[k] + 2 < now)
+      offer_neighbours(order_[along_[k] + 1]);
+    if (along_[k] > 0)
+      offer_neighbours(order_[along_[k] - 1]);
+  }
+  for (uint32_t k = 1; k <= std::min(kWindow, now) && candidate_count_ < kMaxCandidates; ++k) {
+    offer_neighbours(order_[now - k]);
+    const Range same = copies(order_[now - k]);
+    for (uint32_t i = same.begin; i < same.end; ++i)
+      offer(i);
+  }
+  sort_from(beside);
+}
+
+void VertexWalk::sort_from(uint32_t first) {
+  auto key = [](const Candidate& c) {
+    return std::tuple(-c.parallel, c.distance, c.copy, -c.count, c.vertex);
+  };
+  std::sort(candidates_ + first, candidates_ + candidate_count_,
+            [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
+}
+
+void VertexWalk::append(uint32_t v) {
+  place_[v] = static_cast<uint32_t>(order_.size());
+  order_.push_back(v);
+}
+
+}  // namespace anicodec

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/play/play.h"
+
+#include "sdk/play/play_job.h"
+
+#include <algorithm>
+
+#if defined(ANICODEC_PLAY_AVX2)
+#include <cpuid.h>
+#endif
+
+namespace anicodec {
+namespace {
+
+OutputScale output_scale(const VertexOutput& output) {
+  OutputScale scale = {};
+  switch (output.format) {
+    case VertexFormat::kUnorm16x3:
+    case VertexFormat::kUnorm16x4:
+      scale.one = 65535;
+      break;
+    case VertexFormat::kSnorm16x3:
+    case VertexFormat::kSnorm16x4:
+      scale.one = 32767;
+      break;
+    default:
+      scale.one = 1;
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    scale.offset[c] = output.offset[c];
+    scale.factor[c] = scale.one / output.scale[c];
+  }
+  return scale;
+}
+
+void set_segment(const Segment& segment, PlayJob* job) {
+  job->channels = segment.channels();
+  job->wide_components = segment.wide_components;
+  job->narrow_components = segment.components - segment.wide_components;
+  job->wide = segment.wide.data();
+  job->narrow = segment.narrow.data();
+  job->pose = segment.pose.empty() ? nullptr : segment.pose.data();
+  for (size_t c = 0; c < 3; ++c)
+    job->origin[c] = static_cast<float>(segment.origin[c]);
+}
+
+void set_output(const VertexOutput& output, PlayJob::Frame* frame) {
+  frame->out = static_cast<unsigned char*>(output.data);
+  frame->stride = output.stride;
+  frame->format = output.format;
+  frame->scale = output_scale(output);
+}
+
+void set_frame(const FrameState& state, const VertexOutput& output, uint32_t first,
+               PlayJob::Frame* frame) {
+  frame->weights = state.weights;
+  frame->pose_map = state.pose_map.m;
+  frame->motion = state.segment->motions.empty() ? nullptr : state.motion.m;
+  frame->corrections_end = state.corrections + state.correction_count;
+  frame->correction = std::partition_point(state.corrections, frame->corrections_end,
+                                           [&](const auto& c) { return c.vertex < first; });
+  set_output(output, frame);
+}
+
+/// Vertices of a shape that are moved at a time.
+constexpr uint32_t kRange = 16 * kBlock;
+
+/// Moves and corrects the vertices of a shape, and stores them.
+void combine_shape(const FrameState& state, uint32_t first, uint32_t count, VertexOutput output) {
+  const Segment& segment = *state.segment;
+  const Affine identity;
+  const float* m = segment.motions.empty() ? identity.m : state.motion.m;
+  const Segment::Correction* end = state.corrections + state.correction_count;
+  const Segment::Correction* correction =
+      std::partition_point(state.corrections, end, [&](const auto& c) { return c.vertex < first; });
+  float blocks[3 * kRange];
+  for (const uint32_t stop = first + count; first < stop;) {
+    const uint32_t base = first / kRange * kRange, last = std::min(stop, base + kRange);
+    for (uint32_t v = first; v < last; ++v) {
+      const float* p =
+          state.shape + size_t{3} * (segment.vertex_coded.empty() ? v : segment.vertex_coded[v]);
+      const bool corrected = correction != end && correction->vertex == v;
+      for (uint32_t c = 0; c < 3; ++c) {
+        const float* row = m + size_t{4} * c;
+        float x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+        if (corrected)
+          x += correction->delta[c];
+        blocks[((v - base) / kBlock * 3 + c) * kBlock + (v - base) % kBlock] = x;
+      }
+      correction += corrected;
+    }
+    store_points(blocks, first - base, last - first, output);
+    output.data = static_cast<unsigned char*>(output.data) + output.stride * (last - first);
+    first = last;
+  }
+}
+
+/// The next multiple of 8.
+double* aligned(float* p) {
+  const auto address = reinterpret_cast<uintptr_t>(p);
+  return reinterpret_cast<double*>((address + 7) / 8 * 8);
+}
+
+}  // namespace
+
+size_t shape_size(const Segment& segment) {
+  return segment.msgi.empty() ? 0 : size_t{3} * segment.msgi[0].vertex_count();
+}
+
+size_t shape_scratch_size(const Segment& segment) {
+  if (segment.msgi.empty())
+    return 0;
+  return static_cast<size_t>(
+             shape_scratch_bytes(segment.components, segment.msgi[0].scratch_bytes())) /
+         sizeof(float);
+}
+
+uint64_t shape_scratch_bytes(uint64_t components, uint64_t msgi_frame_bytes) {
+  // Weights in double, and room to align them.
+  return (msgi_frame_bytes + 7) / 8 * 8 + sizeof(double) * (components + 1);
+}
+
+void make_shape(FrameState* state, float* shape, float* scratch) {
+  const Segment& segment = *state->segment;
+  if (segment.msgi.empty())
+    return;
+  double* weights = aligned(scratch);
+  weights[0] = 1;
+  for (uint32_t j = 1; j < segment.components; ++j) {
+    weights[j] = double{state->weights[j]} / segment.weight_scale;
+    weights[0] -= weights[j];
+  }
+  const Status status =
+      segment.msgi[0].evaluate(weights, nullptr, weights + segment.components, shape);
+  // Weights that no encoder writes.
+  if (status != Status::kOk)
+    std::fill_n(shape, shape_size(segment), 0.0F);
+  state->shape = shape;
+}
+
+FrameState frame_state(const Segment& segment, uint32_t frame) {
+  FrameState state;
+  state.segment = &segment;
+  state.weights =
+      segment.weights.data() + size_t{frame} * segment.components * segment.weight_channels();
+  if (!segment.pose_maps.empty())
+    state.pose_map = segment.pose_maps[frame];
+  if (!segment.motions.empty())
+    state.motion = segment.motions[frame];
+  if (!segment.correction_begin.empty()) {
+    uint32_t begin = segment.correction_begin[frame];
+    state.corrections = segment.corrections.data() + begin;
+    state.correction_count = segment.correction_begin[frame + 1] - begin;
+  }
+  return state;
+}
+
+size_t all_play_kernels(const PlayKernels* (&out)[kMaxPlayKernels]) {
+  size_t count = 0;
+  out[count++] = &kPlayKernelsScalar;
+  out[count++] = &kPlayKernelsPortable;
+#if defined(ANICODEC_PLAY_AVX2)
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+      __get_cpuid(1, &eax, &ebx, &ecx, &edx) && (ecx & bit_F16C)) {
+    out[count++] = &kPlayKernelsAvx2;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) {
+      out[count++] = &kPlayKernelsAvx512vl;
+      // VBMI2 came with the machines that multiply 512 bits without a much lower clock.
+      if (__builtin_cpu_supports("avx512vbmi2"))
+        out[count++] = &kPlayKernelsAvx512;
+    }
+  }
+#endif
+  return count;
+}
+
+const PlayKernels& play_kernels() {
+  static const PlayKernels& fastest = []() -> const PlayKernels& {
+    const PlayKernels* all[kMaxPlayKernels];
+    return *all[all_play_kernels(all) - 1];
+  }();
+  return fastest;
+}
+
+const char* play_kernels_name() {
+  return play_kernels().name;
+}
+
+void play_with(const PlayKernels& kernels, const FrameState* states, uint32_t frames,
+               uint32_t first, uint32_t count, const VertexOutput* outputs) {
+  for (uint32_t f = 0; f < frames;) {
+    if (states[f].shape) {
+      combine_shape(states[f], first, count, outputs[f]);
+      ++f;
+      continue;
+    }
+    PlayJob job;
+    set_segment(*states[f].segment, &job);
+    job.first = first;
+    job.end = first + count;
+    do {
+      set_frame(states[f], outputs[f], first, &job.frame[job.frames]);
+      ++job.frames;
+      ++f;
+    } while (f < frames && job.frames < kMaxPlayedFrames &&
+             states[f].segment == states[f - 1].segment);
+    kernels.play(job);
+  }
+}
+
+void play(const FrameState* states, uint32_t frames, uint32_t first, uint32_t count,
+          const VertexOutput* outputs) {
+  play_with(play_kernels(), states, frames, first, count, outputs);
+}
+
+void play(const FrameState& state, uint32_t first, uint32_t count, float* out) {
+  VertexOutput output;
+  output.data = out;
+  play(&state, 1, first, count, &output);
+}
+
+void store_points(const float* blocks, uint32_t first, uint32_t count, const VertexOutput& output) {
+  const Affine identity;
+  PlayJob job;
+  job.pose = blocks;
+  job.first = first;
+  job.end = first + count;
+  job.frames = 1;
+  job.frame[0].pose_map = identity.m;
+  set_output(output, &job.frame[0]);
+  play_kernels().play(job);
+}
+
+}  // namespace anicodec

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/pose/pose_coding.h"
+
+#include "format/binary_coder.h"
+#include "sdk/base/float_control.h"
+#include "sdk/pose/pose_prediction.h"
+#include "sdk/pose/surface_growth.h"
+
+namespace anicodec {
+namespace {
+
+/// Codes the pose, or decodes into it; stops when a stream has run out.
+template <class Coder>
+void code_pose(Coder& coder, const Topology& topology, Vector<int32_t>& pose) {
+  FloatControl control;
+  CornerTable table(topology.coded_vertices, topology.triangles);
+  PosePrediction prediction(table);
+  for (uint32_t v : growth_order(table)) {
+    if constexpr (Coder::kDecodes) {
+      if (!coder.ok())
+        return;
+    }
+    prediction.begin(v, pose.data());
+    for (int step = 0; step < 3; ++step) {
+      int32_t& x = pose[size_t{3} * v + prediction.axis(step)];
+      const StudentMixture& mixture = prediction.expect(step);
+      x = prediction.weights(step).code(coder, mixture, x);
+      prediction.learn(step, x);
+    }
+  }
+}
+
+}  // namespace
+
+format::Bytes encode_pose(const Topology& topology, const Vector<int32_t>& pose) {
+  Vector<int32_t> copy = pose;
+  BinaryEncoder encoder;
+  code_pose(encoder, topology, copy);
+  return encoder.finish();
+}
+
+Status decode_pose(format::ByteView stream, const Topology& topology, Vector<int32_t>* pose) {
+  pose->assign(size_t{3} * topology.coded_vertices, 0);
+  BinaryDecoder decoder(stream.data, stream.size);
+  code_pose(decoder, topology, *pose);
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+}  // namespace anicodec

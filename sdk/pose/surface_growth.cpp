@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/pose/surface_growth.h"
+
+#include <algorithm>
+
+namespace anicodec {
+
+CornerTable::CornerTable(uint32_t vertex_count, const Vector<uint32_t>& triangles)
+    : triangles_(triangles),
+      start_(size_t{vertex_count} + 1, 0),
+      corners_(triangles.size()),
+      opposite_(triangles.size(), kNone) {
+  auto count = static_cast<uint32_t>(triangles.size());
+  for (uint32_t v : triangles)
+    ++start_[size_t{v} + 1];
+  for (size_t v = 0; v < vertex_count; ++v)
+    start_[v + 1] += start_[v];
+  Vector<uint32_t> end(start_.begin(), start_.end() - 1);
+  for (uint32_t c = 0; c < count; ++c)
+    corners_[end[triangles[c]]++] = c;
+
+  struct Edge {
+    uint32_t low, high, corner;
+
+    bool operator<(const Edge& b) const {
+      return low != b.low ? low < b.low : high != b.high ? high < b.high : corner < b.corner;
+    }
+  };
+
+  Vector<Edge> edges(count);
+  for (uint32_t c = 0; c < count; ++c) {
+    uint32_t a = triangles[next(c)], b = triangles[previous(c)];
+    edges[c] = {std::min(a, b), std::max(a, b), c};
+  }
+  std::sort(edges.begin(), edges.end());
+  for (size_t i = 0; i + 1 < edges.size(); ++i) {
+    const Edge &e = edges[i], &f = edges[i + 1];
+    if (e.low == f.low && e.high == f.high) {
+      opposite_[e.corner] = f.corner;
+      opposite_[f.corner] = e.corner;
+      ++i;
+    }
+  }
+}
+
+namespace {
+
+/// Vertices waiting at the front, by how well they are surrounded; among equals the one that has
+/// waited longest is next.
+class Front {
+ public:
+  explicit Front(const CornerTable& table)
+      : table_(table),
+        place_(table.vertex_count(), 0),
+        gates_(table.vertex_count(), 0),
+        known_corners_(table.vertex_count(), 0),
+        done_(table.vertex_count(), false) {}
+
+  /// The next vertex, or the first that is not done when none waits.
+  uint32_t next() {
+    for (uint32_t p = kPlaces; p-- > 1;) {
+      while (head_[p] < waiting_[p].size()) {
+        uint32_t v = waiting_[p][head_[p]++];
+        if (!done_[v] && place_[v] == p)
+          return v;
+      }
+    }
+    while (done_[seed_])
+      ++seed_;
+    return seed_;
+  }
+
+  void add(uint32_t v) {
+    done_[v] = true;
+    for (uint32_t i = 0; i < table_.valence(v); ++i) {
+      uint32_t c = table_.corner(v, i), o = table_.opposite(c);
+      uint32_t a = CornerTable::next(c), b = CornerTable::previous(c);
+      // Triangles over the edges of v's triangle: parallelograms that are complete only now.
+      for (uint32_t d : {a, b}) {
+        uint32_t w = table_.vertex(d), third = table_.vertex(d == a ? b : a);
+        uint32_t across = table_.opposite(d);
+        known_corners_[w] += 1;
+        gates_[w] += done_[third] && across != CornerTable::kNone && done_[table_.vertex(across)];
+        enqueue(w);
+      }
+      if (o != CornerTable::kNone && done_[table_.vertex(a)] && done_[table_.vertex(b)]) {
+        gates_[table_.vertex(o)] += 1;
+        enqueue(table_.vertex(o));
+      }
+    }
+  }
+
+ private:
+  static constexpr uint32_t kMostGates = 4, kFractions = 8;
+  static constexpr uint32_t kPlaces = 2 + kFractions * (kMostGates + 1);
+
+  void enqueue(uint32_t v) {
+    if (done_[v] || known_corners_[v] == 0)
+      return;
+    uint32_t place = 1;
+    if (gates_[v] > 0) {
+      uint64_t known = std::min<uint64_t>(known_corners_[v], uint64_t{2} * table_.valence(v));
+      place = 2 + kFractions * std::min(gates_[v], kMostGates) +
+              static_cast<uint32_t>((kFractions - 1) * known / (uint64_t{2} * table_.valence(v)));
+    }
+    if (place == place_[v])
+      return;
+    place_[v] = static_cast<uint8_t>(place);
+    waiting_[place].push_back(v);
+  }
+
+  const CornerTable& table_;
+  Vector<uint32_t> waiting_[kPlaces];
+  size_t head_[kPlaces] = {};
+  Vector<uint8_t> place_;
+  Vector<uint32_t> gates_;          ///< complete parallelograms
+  Vector<uint32_t> known_corners_;  ///< corners of its triangles at vertices that are done
+  Vector<bool> done_;
+  uint32_t seed_ = 0;
+};
+
+}  // namespace
+
+Vector<uint32_t> growth_order(const CornerTable& table) {
+  Vector<uint32_t> order;
+  order.reserve(table.vertex_count());
+  Front front(table);
+  while (order.size() < table.vertex_count()) {
+    order.push_back(front.next());
+    front.add(order.back());
+  }
+  return order;
+}
+
+}  // namespace anicodec

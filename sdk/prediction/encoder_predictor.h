@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Spatial prediction of basis coefficients, encoder's side.
+#ifndef ANICODEC_SDK_PREDICTION_ENCODER_PREDICTOR_H_
+#define ANICODEC_SDK_PREDICTION_ENCODER_PREDICTOR_H_
+
+#include "format/memory.h"
+#include "format/status.h"
+#include "sdk/prediction/prediction_job.h"
+#include "sdk/prediction/predictor.h"
+#include "sdk/prediction/vertex_order.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace anicodec {
+
+/// Predicts one component after the other, with the numbers that Reconstruction computes, so that
+/// the encoder quantises against what a decoder will see. It lives beside the decoder to share its
+/// arithmetic.
+///
+///   for each component: for each rank: for each channel: predict(), then commit() its integer;
+///                       update(0, block_count(), omega); next_component().
+///
+/// Memory: 4 (m(m+1)/2 + 3m + channels + 3) bytes per vertex: 800 for m = 16.
+class EncoderPredictor {
+ public:
+  /// order must outlive this object. Arguments and errors as for Reconstruction::init().
+  Status init(const VertexOrder& order, const int32_t* positions,
+              const PredictionParameters& parameters, size_t components);
+
+  /// Prediction of one channel of the current component, in steps: rounded to 1/64. All neighbours
+  /// of the rank must be committed.
+  float predict(size_t rank, int channel) const;
+
+  /// Sets and returns the coefficient that a decoder reconstructs from q.
+  float commit(size_t rank, int channel, float prediction, int32_t q);
+
+  /// Coefficients of the current component, by rank.
+  const float* coefficients(int channel) const {
+    return y_.data() + static_cast<size_t>(channel) * (vertices_ + 1);
+  }
+
+  /// Learns from the current component. Blocks may be updated at the same time; all of them must
+  /// be, with the same omega, before next_component().
+  size_t block_count() const { return block_count_; }
+
+  void update(size_t first_block, size_t last_block, uint8_t omega);
+
+  void next_component() { ++component_; }
+
+ private:
+  EncoderJob job(uint8_t omega);
+
+  size_t vertices_ = 0, components_ = 0, component_ = 0;
+  size_t block_count_ = 0, lanes_ = 1, neighbour_count_ = 0;
+  PredictionParameters parameters_;
+  const VertexOrder* order_ = nullptr;
+  Vector<float> positions_, state_, y_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_PREDICTION_ENCODER_PREDICTOR_H_

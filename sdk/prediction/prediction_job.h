@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// What the prediction kernels of every instruction set work on. Internal to sdk/.
+#ifndef ANICODEC_SDK_PREDICTION_PREDICTION_JOB_H_
+#define ANICODEC_SDK_PREDICTION_PREDICTION_JOB_H_
+
+#include <cstddef>
+#include <cstdint>
+
+namespace anicodec {
+
+/// Ranks count vertices in decoding order; a sample is one channel of one component.
+struct PredictionJob {
+  int neighbour_count = 0;
+  size_t vertices = 0;
+  size_t samples = 0;                   // components x channels
+  const int32_t* neighbours = nullptr;  // ranks x neighbour_count
+  const float* positions = nullptr;     // ranks x 3
+  float radius = 0;
+  const float* omega = nullptr;    // samples
+  const size_t* refits = nullptr;  // number of samples before each refit, ascending
+  size_t refit_count = 0;
+  size_t wide_samples = 0;        // the first ones have 32-bit integers, the others 16-bit
+  const int32_t* wide = nullptr;  // wide samples x vertices
+  const int16_t* narrow = nullptr;
+  float* y = nullptr;  // (vertices + 1) x stride; the last row is 0
+  size_t stride = 0;   // at least samples, a multiple of 8
+};
+
+/// The state of the vertices while they are encoded, one component after the other.
+struct EncoderJob {
+  int neighbour_count = 0;
+  size_t vertices = 0;
+  size_t channels = 0;
+  const int32_t* neighbours = nullptr;
+  const float* positions = nullptr;
+  float radius = 0;
+  float* state = nullptr;    // blocks of encoder_block_rows() x lanes floats
+  const float* y = nullptr;  // channels x (vertices + 1), the last of each 0: the current component
+  float omega = 0;
+  bool refit = false;
+};
+
+/// Kernels for one instruction set.
+struct PredictionKernels {
+  size_t lanes;
+  /// Ranks [first, last), all of one level.
+  void (*reconstruct)(const PredictionJob&, size_t first, size_t last);
+  /// Sets the prior weights of the blocks [first, last) of `lanes` vertices.
+  void (*start_blocks)(const EncoderJob&, size_t first, size_t last);
+  /// Learns from the current component.
+  void (*update_blocks)(const EncoderJob&, size_t first, size_t last);
+};
+
+/// Offsets in a block, in units of `lanes` floats: weights, prior, g, packed lower triangle of A.
+constexpr size_t encoder_block_rows(size_t m) {
+  return 3 * m + m * (m + 1) / 2;
+}
+
+/// The fastest kernels that this machine runs.
+const PredictionKernels& prediction_kernels();
+
+extern const PredictionKernels kPredictionKernelsPortable;
+#if defined(ANICODEC_PREDICTION_AVX2)
+extern const PredictionKernels kPredictionKernelsAvx2;
+extern const PredictionKernels kPredictionKernelsAvx512;
+#endif
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_PREDICTION_PREDICTION_JOB_H_

@@ -1,0 +1,535 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The exact arithmetic of the spatial prediction (spec/09-reconstruction.md) for W vertices at
+// once.
+//
+// A lane is a vertex. Every sum runs over its index in ascending order in one accumulator, so that
+// the number of lanes and the blocking of loops leave the bits alone. The including file is
+// compiled once per instruction set: everything here has internal linkage and calls no inline
+// function of another header, lest the linker pick a copy with the wrong instructions.
+#ifndef ANICODEC_SDK_PREDICTION_PREDICTION_KERNEL_H_
+#define ANICODEC_SDK_PREDICTION_PREDICTION_KERNEL_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "sdk/base/lanes.h"
+#include "sdk/prediction/prediction_job.h"
+#include "sdk/prediction/prediction_rounding.h"
+
+namespace anicodec {
+namespace {
+
+template <typename V>
+ANICODEC_INLINE V square_root(V x) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(V) == 64)
+    return reinterpret_cast<V>(_mm512_maskz_sqrt_ps(0xFFFF, reinterpret_cast<__m512>(x)));
+#endif
+#if defined(__AVX__)
+  if constexpr (sizeof(V) == 32)
+    return reinterpret_cast<V>(_mm256_sqrt_ps(reinterpret_cast<__m256>(x)));
+#endif
+#if defined(__SSE2__)
+  if constexpr (sizeof(V) == 16)
+    return reinterpret_cast<V>(_mm_sqrt_ps(reinterpret_cast<__m128>(x)));
+#endif
+  for (size_t l = 0; l < sizeof(V) / sizeof(float); ++l)
+    x[l] = __builtin_sqrtf(x[l]);
+  return x;
+}
+
+/// Rows of 4 or 8 lanes become columns; one lane stays what it is.
+template <typename V>
+ANICODEC_INLINE void transpose(V* r) {
+#define ANICODEC_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+  if constexpr (sizeof(V) == 16) {
+    const V a = ANICODEC_SHUFFLE(r[0], r[1], 0, 4, 1, 5),
+            b = ANICODEC_SHUFFLE(r[0], r[1], 2, 6, 3, 7);
+    const V c = ANICODEC_SHUFFLE(r[2], r[3], 0, 4, 1, 5),
+            d = ANICODEC_SHUFFLE(r[2], r[3], 2, 6, 3, 7);
+    r[0] = ANICODEC_SHUFFLE(a, c, 0, 1, 4, 5);
+    r[1] = ANICODEC_SHUFFLE(a, c, 2, 3, 6, 7);
+    r[2] = ANICODEC_SHUFFLE(b, d, 0, 1, 4, 5);
+    r[3] = ANICODEC_SHUFFLE(b, d, 2, 3, 6, 7);
+  } else if constexpr (sizeof(V) == 32) {
+    V t[8], u[8];
+    ANICODEC_UNROLL for (size_t i = 0; i < 8; i += 2) {
+      t[i] = ANICODEC_SHUFFLE(r[i], r[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+      t[i + 1] = ANICODEC_SHUFFLE(r[i], r[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+    }
+    ANICODEC_UNROLL for (size_t i = 0; i < 8; i += 4)
+        ANICODEC_UNROLL for (size_t h = 0; h < 2; ++h) {
+      u[i + 2 * h] = ANICODEC_SHUFFLE(t[i + h], t[i + 2 + h], 0, 1, 8, 9, 4, 5, 12, 13);
+      u[i + 2 * h + 1] = ANICODEC_SHUFFLE(t[i + h], t[i + 2 + h], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+    ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) {
+      r[i] = ANICODEC_SHUFFLE(u[i], u[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+      r[i + 4] = ANICODEC_SHUFFLE(u[i], u[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+  }
+#undef ANICODEC_SHUFFLE
+}
+
+/// Prior weights, normal equations and refit of W vertices with M neighbours each.
+template <size_t W, size_t M>
+struct WeightSolver {
+  using Float = typename LaneTypes<W>::Float;
+
+  Float A[M][M];  // sum of omega x x', lower triangle
+  Float g[M];     // sum of omega x (y - w0 x)
+  Float prior[M];
+  Float weights[M];
+
+  static Float splat(float x) { return Float{} + x; }
+
+  void clear() {
+    for (size_t a = 0; a < M; ++a) {
+      weights[a] = prior[a];
+      g[a] = Float{};
+      for (size_t b = 0; b < M; ++b)
+        A[a][b] = Float{};
+    }
+  }
+
+  /// Prior weights from the positions (rank x 3) of the vertices of `count` ranks from `first`; the
+  /// lanes beyond repeat the last one. Overwrites A.
+  void set_prior(const PredictionJob& job, size_t first, size_t count) {
+    Float x[M][3], length[M], valid[M], sum{}, number{};
+    for (size_t a = 0; a < M; ++a) {
+      for (size_t l = 0; l < W; ++l) {
+        const size_t r = first + (l < count ? l : count - 1);
+        const int32_t b = job.neighbours[r * M + a];
+        const size_t other = b < 0 ? r : static_cast<size_t>(b);
+        valid[a][l] = b < 0 ? 0.0f : 1.0f;
+        for (size_t d = 0; d < 3; ++d)
+          x[a][d][l] = job.positions[3 * other + d] - job.positions[3 * r + d];
+      }
+      length[a] = square_root(x[a][0] * x[a][0] + x[a][1] * x[a][1] + x[a][2] * x[a][2]);
+      sum += length[a];
+      number += valid[a];
+    }
+    const Float scale = sum > 0.0f ? number / sum : splat(1.0f);
+    for (size_t a = 0; a < M; ++a) {
+      for (size_t d = 0; d < 3; ++d)
+        x[a][d] *= scale;
+      length[a] *= scale;
+    }
+    const float inverse_radius = 1.0f / job.radius;
+    const auto kernel = [&](Float r) {  // Wendland's C2 function
+      const Float t = r * inverse_radius;
+      Float u = 1.0f - t;
+      u = u > 0.0f ? u : Float{};
+      const Float u2 = u * u;
+      return u2 * u2 * (4.0f * t + 1.0f);
+    };
+    Float right[M];
+    for (size_t a = 0; a < M; ++a) {
+      right[a] = valid[a] * (100.0f + 10.0f * kernel(length[a]));
+      for (size_t b = 0; b <= a; ++b) {
+        const Float e0 = x[a][0] - x[b][0], e1 = x[a][1] - x[b][1], e2 = x[a][2] - x[b][2];
+        const Float dot = x[a][0] * x[b][0] + x[a][1] * x[b][1] + x[a][2] * x[b][2];
+        const Float near = kernel(square_root(e0 * e0 + e1 * e1 + e2 * e2));
+        A[a][b] = valid[a] * valid[b] * (100.0f + 10.0f * dot + 10.0f * near);
+      }
+      A[a][a] += 1.0f - valid[a];
+    }
+    factor(splat(0.02f));
+    solve(right, prior);
+    for (size_t a = 0; a < M; ++a)
+      prior[a] = finite(prior[a]);
+  }
+
+  /// weights = prior + (A + ridge)^-1 g.
+  void refit() {
+    Float trace{};
+    for (size_t a = 0; a < M; ++a)
+      trace += A[a][a];
+    factor(0.3f + trace * static_cast<float>(1e-5 / M));
+    Float change[M];
+    solve(g, change);
+    for (size_t a = 0; a < M; ++a)
+      weights[a] = finite(prior[a] + change[a]);
+  }
+
+  /// Adds the samples x[s] with weights omega[s] and residuals r[s] to A and g.
+  void accumulate(const Float (*x)[M], const Float* r, const float* omega, size_t samples) {
+    Float scaled[kMaxSamples][M];
+    for (size_t s = 0; s < samples; ++s)
+      for (size_t a = 0; a < M; ++a)
+        scaled[s][a] = x[s][a] * omega[s];
+    // Blocks of 4 x 2 elements stay in registers; those on the diagonal fill a little of the upper
+    // triangle too, which nobody reads.
+    for (size_t a = 0; a < M; a += 4)
+      for (size_t b = 0; b <= a + 2; b += 2) {
+        Float c[4][2];
+        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i)
+            ANICODEC_UNROLL for (size_t j = 0; j < 2; ++j) c[i][j] = A[a + i][b + j];
+        for (size_t s = 0; s < samples; ++s) {
+          const Float x0 = x[s][b], x1 = x[s][b + 1];
+          ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) {
+            c[i][0] += scaled[s][a + i] * x0;
+            c[i][1] += scaled[s][a + i] * x1;
+          }
+        }
+        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i)
+            ANICODEC_UNROLL for (size_t j = 0; j < 2; ++j) A[a + i][b + j] = c[i][j];
+      }
+    for (size_t a = 0; a < M; a += 4) {
+      Float c[4] = {g[a], g[a + 1], g[a + 2], g[a + 3]};
+      for (size_t s = 0; s < samples; ++s)
+        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) c[i] += scaled[s][a + i] * r[s];
+      ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) g[a + i] = c[i];
+    }
+  }
+
+  static constexpr size_t kMaxSamples = 32;
+
+ private:
+  Float L[M][M], D[M], inverse[M];
+  Float row[M];  // row j of L D
+
+  static Float finite(Float x) { return x - x == Float{} ? x : Float{}; }
+
+  // A + ridge I = L D L', left-looking, without pivoting. The diagonal is one of the eight chains
+  // of a block, so that no sum waits for another.
+  void factor(Float ridge) {
+    for (size_t j = 0; j < M; ++j) {
+      for (size_t p = 0; p < j; ++p)
+        row[p] = L[j][p] * D[p];
+      size_t i = j;
+      for (; i + 8 <= M; i += 8)
+        eliminate<8>(i, j, ridge);
+      for (; i + 4 <= M; i += 4)
+        eliminate<4>(i, j, ridge);
+      for (; i < M; ++i)
+        eliminate<1>(i, j, ridge);
+      D[j] = L[j][j];
+      inverse[j] = 1.0f / D[j];
+      for (i = j + 1; i < M; ++i)
+        L[i][j] *= inverse[j];
+    }
+  }
+
+  // Rows i .. i + N - 1 of column j, before the division by D[j].
+  template <size_t N>
+  ANICODEC_INLINE void eliminate(size_t i, size_t j, Float ridge) {
+    Float u[N];
+    ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) u[e] = A[i + e][j];
+    if (i == j)
+      u[0] += ridge;
+    for (size_t p = 0; p < j; ++p)
+      ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) u[e] -= L[i + e][p] * row[p];
+    ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) L[i + e][j] = u[e];
+  }
+
+  void solve(const Float* right, Float* x) const {
+    for (size_t i = 0; i < M; ++i)
+      x[i] = right[i];
+    for (size_t p = 0; p < M; ++p)
+      for (size_t i = p + 1; i < M; ++i)
+        x[i] -= L[i][p] * x[p];
+    for (size_t i = 0; i < M; ++i)
+      x[i] *= inverse[i];
+    for (size_t i = M; i-- > 0;)
+      for (size_t p = i + 1; p < M; ++p)
+        x[i] -= L[p][i] * x[p];
+  }
+};
+
+/// Reconstructs all components of W vertices of one level.
+template <size_t W, size_t M>
+class BatchDecoder {
+ public:
+  explicit BatchDecoder(const PredictionJob& job) : job_(job) {}
+
+  /// count <= W ranks from `first`.
+  void run(size_t first, size_t count) {
+    first_ = first;
+    count_ = count;
+    solver_.set_prior(job_, first, count);
+    solver_.clear();
+    size_t next_refit = 0;
+    for (size_t begin = 0; begin < job_.samples; begin += kWindow) {
+      const size_t end = begin + kWindow < job_.samples ? begin + kWindow : job_.samples;
+      gather(begin, end);
+      for (size_t s = begin; s < end;) {
+        size_t stop = end;
+        const bool learning = next_refit < job_.refit_count;
+        if (learning && job_.refits[next_refit] < end)
+          stop = job_.refits[next_refit];
+        for (size_t t = s; t < stop; ++t)
+          reconstruct(t, t - begin);
+        if (learning) {
+          solver_.accumulate(x_ + (s - begin), residual_ + (s - begin), job_.omega + s, stop - s);
+          if (stop == job_.refits[next_refit]) {
+            solver_.refit();
+            ++next_refit;
+          }
+        }
+        s = stop;
+      }
+      scatter(begin, end);
+    }
+  }
+
+ private:
+  using Float = typename LaneTypes<W>::Float;
+  static constexpr size_t kWindow = WeightSolver<W, M>::kMaxSamples;
+
+  const float* row(size_t lane, size_t a) const {
+    const size_t r = first_ + (lane < count_ ? lane : count_ - 1);
+    const int32_t b = job_.neighbours[r * M + a];
+    return job_.y + (b < 0 ? job_.vertices : static_cast<size_t>(b)) * job_.stride;
+  }
+
+  // W vertices by kTile samples are transposed as tiles of kTile by kTile.
+  static constexpr size_t kTile = W < 8 ? W : 8;
+  using Tile = typename LaneTypes<kTile>::Float;
+  using UnalignedTile = typename LaneTypes<kTile>::Unaligned;
+
+  static char* part_of(Float& lanes, size_t first) {
+    return reinterpret_cast<char*>(&lanes) + first * sizeof(float);
+  }
+
+  void gather(size_t begin, size_t end) {
+    for (size_t a = 0; a < M; ++a) {
+      for (size_t part = 0; part < W; part += kTile) {
+        const float* rows[kTile];
+        for (size_t l = 0; l < kTile; ++l)
+          rows[l] = row(part + l, a) + begin;
+        for (size_t s = 0; s < end - begin; s += kTile) {  // rows are padded
+          Tile tile[kTile];
+          ANICODEC_UNROLL for (size_t l = 0; l < kTile; ++l) tile[l] =
+              *reinterpret_cast<const UnalignedTile*>(rows[l] + s);
+          transpose(tile);
+          ANICODEC_UNROLL for (size_t e = 0; e < kTile; ++e)
+              __builtin_memcpy(part_of(x_[s + e][a], part), &tile[e], sizeof(Tile));
+        }
+      }
+    }
+  }
+
+  void scatter(size_t begin, size_t end) {
+    for (size_t part = 0; part < count_; part += kTile) {
+      const size_t rows = count_ - part < kTile ? count_ - part : kTile;
+      for (size_t s = 0; s < end - begin; s += kTile) {
+        Tile tile[kTile] = {};
+        for (size_t e = 0; e < kTile && s + e < end - begin; ++e)
+          __builtin_memcpy(&tile[e], part_of(y_[s + e], part), sizeof(Tile));
+        transpose(tile);
+        for (size_t l = 0; l < rows; ++l)
+          *reinterpret_cast<UnalignedTile*>(job_.y + (first_ + part + l) * job_.stride + begin +
+                                            s) = tile[l];
+      }
+    }
+  }
+
+  template <typename Narrow>
+  Float load(const Narrow* q) const {
+    typedef Narrow Vector __attribute__((vector_size(sizeof(Narrow) * W)));
+    Vector v;
+    if (count_ == W) {
+      __builtin_memcpy(&v, q, sizeof v);
+    } else {
+      for (size_t l = 0; l < W; ++l)
+        v[l] = q[l < count_ ? l : count_ - 1];
+    }
+    return __builtin_convertvector(v, Float);
+  }
+
+  void reconstruct(size_t s, size_t in_window) {
+    const Float* x = x_[in_window];
+    Float p{}, p0{};
+    for (size_t a = 0; a < M; ++a) {
+      p += solver_.weights[a] * x[a];
+      p0 += solver_.prior[a] * x[a];
+    }
+    const Float q = s < job_.wide_samples
+                        ? load(job_.wide + s * job_.vertices + first_)
+                        : load(job_.narrow + (s - job_.wide_samples) * job_.vertices + first_);
+    const Float y = limited_coefficient(rounded_prediction(p) + q);
+    y_[in_window] = y;
+    residual_[in_window] = y - p0;
+  }
+
+  const PredictionJob& job_;
+  size_t first_ = 0, count_ = 0;
+  WeightSolver<W, M> solver_;
+  Float x_[kWindow + W][M], y_[kWindow], residual_[kWindow];
+};
+
+template <size_t W, size_t M>
+void reconstruct_ranks(const PredictionJob& job, size_t first, size_t last) {
+  BatchDecoder<W, M> decoder(job);
+  for (size_t r = first; r < last; r += W)
+    decoder.run(r, last - r < W ? last - r : W);
+}
+
+template <size_t W>
+void reconstruct_any(const PredictionJob& job, size_t first, size_t last) {
+  switch (job.neighbour_count) {
+    case 8:
+      return reconstruct_ranks<W, 8>(job, first, last);
+    case 12:
+      return reconstruct_ranks<W, 12>(job, first, last);
+    case 16:
+      return reconstruct_ranks<W, 16>(job, first, last);
+    case 20:
+      return reconstruct_ranks<W, 20>(job, first, last);
+    case 24:
+      return reconstruct_ranks<W, 24>(job, first, last);
+    default:
+      return;
+  }
+}
+
+/// The state of W vertices between two components of the encoder.
+template <size_t W, size_t M>
+class EncoderBlock {
+ public:
+  EncoderBlock(const EncoderJob& job, size_t block)
+      : job_(job),
+        first_(block * W),
+        count_(job.vertices - first_ < W ? job.vertices - first_ : W),
+        state_(job.state + block * encoder_block_rows(M) * W) {}
+
+  void start() {
+    PredictionJob job;
+    job.neighbours = job_.neighbours;
+    job.positions = job_.positions;
+    job.radius = job_.radius;
+    solver_.set_prior(job, first_, count_);
+    solver_.clear();
+    float* to = state_;
+    move<false>(solver_.weights, to);
+    move<false>(solver_.prior, to);
+    store_sums(to);
+  }
+
+  void update() {
+    float* from = state_;
+    move<true>(solver_.weights, from);
+    move<true>(solver_.prior, from);
+    float* const sums = from;
+    move<true>(solver_.g, from);
+    for (size_t a = 0; a < M; ++a)
+      for (size_t b = 0; b <= a; ++b)
+        load(solver_.A[a][b], from);
+    Float x[3][M], residual[3];
+    float omega[3];
+    for (size_t c = 0; c < job_.channels; ++c) {
+      const float* y = job_.y + c * (job_.vertices + 1);
+      Float own, p0{};
+      for (size_t l = 0; l < W; ++l) {
+        const size_t r = first_ + (l < count_ ? l : count_ - 1);
+        own[l] = y[r];
+        for (size_t a = 0; a < M; ++a) {
+          const int32_t b = job_.neighbours[r * M + a];
+          x[c][a][l] = y[b < 0 ? job_.vertices : static_cast<size_t>(b)];
+        }
+      }
+      for (size_t a = 0; a < M; ++a)
+        p0 += solver_.prior[a] * x[c][a];
+      residual[c] = own - p0;
+      omega[c] = job_.omega;
+    }
+    solver_.accumulate(x, residual, omega, job_.channels);
+    float* to = sums;
+    store_sums(to);
+    if (job_.refit) {
+      solver_.refit();
+      to = state_;
+      move<false>(solver_.weights, to);
+    }
+  }
+
+ private:
+  using Float = typename LaneTypes<W>::Float;
+
+  static void load(Float& value, float*& at) {
+    __builtin_memcpy(&value, at, sizeof value);
+    at += W;
+  }
+
+  static void store(const Float& value, float*& at) {
+    __builtin_memcpy(at, &value, sizeof value);
+    at += W;
+  }
+
+  template <bool kLoad>
+  static void move(Float* values, float*& at) {
+    for (size_t a = 0; a < M; ++a)
+      kLoad ? load(values[a], at) : store(values[a], at);
+  }
+
+  void store_sums(float*& at) {
+    move<false>(solver_.g, at);
+    for (size_t a = 0; a < M; ++a)
+      for (size_t b = 0; b <= a; ++b)
+        store(solver_.A[a][b], at);
+  }
+
+  const EncoderJob& job_;
+  size_t first_, count_;
+  float* state_;
+  WeightSolver<W, M> solver_;
+};
+
+template <size_t W, size_t M>
+void start_all(const EncoderJob& job, size_t first, size_t last) {
+  for (size_t b = first; b < last; ++b)
+    EncoderBlock<W, M>(job, b).start();
+}
+
+template <size_t W, size_t M>
+void update_all(const EncoderJob& job, size_t first, size_t last) {
+  for (size_t b = first; b < last; ++b)
+    EncoderBlock<W, M>(job, b).update();
+}
+
+template <size_t W>
+void start_any(const EncoderJob& job, size_t first, size_t last) {
+  switch (job.neighbour_count) {
+    case 8:
+      return start_all<W, 8>(job, first, last);
+    case 12:
+      return start_all<W, 12>(job, first, last);
+    case 16:
+      return start_all<W, 16>(job, first, last);
+    case 20:
+      return start_all<W, 20>(job, first, last);
+    case 24:
+      return start_all<W, 24>(job, first, last);
+    default:
+      return;
+  }
+}
+
+template <size_t W>
+void update_any(const EncoderJob& job, size_t first, size_t last) {
+  switch (job.neighbour_count) {
+    case 8:
+      return update_all<W, 8>(job, first, last);
+    case 12:
+      return update_all<W, 12>(job, first, last);
+    case 16:
+      return update_all<W, 16>(job, first, last);
+    case 20:
+      return update_all<W, 20>(job, first, last);
+    case 24:
+      return update_all<W, 24>(job, first, last);
+    default:
+      return;
+  }
+}
+
+}  // namespace
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_PREDICTION_PREDICTION_KERNEL_H_

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Spatial prediction of basis coefficients, decoder's side: integers in, coefficients out, the same
+// bits on every platform (spec/09-reconstruction.md).
+#ifndef ANICODEC_SDK_PREDICTION_PREDICTOR_H_
+#define ANICODEC_SDK_PREDICTION_PREDICTOR_H_
+
+#include "format/memory.h"
+#include "format/status.h"
+#include "sdk/prediction/prediction_job.h"
+#include "sdk/prediction/vertex_order.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace anicodec {
+
+/// Components after which the weights are refitted.
+enum class RefitSchedule : uint8_t {
+  kNone = 0,    ///< the prior weights throughout
+  kSparse = 1,  ///< fastest to decode
+  kMedium = 2,
+  kDense = 3,  ///< smallest files
+};
+constexpr uint8_t kRefitScheduleCount = 4;
+
+/// Refit components of a schedule, ascending; *count receives their number. Static.
+const uint16_t* refit_components(RefitSchedule schedule, size_t* count);
+
+/// What encoder and decoder of a segment agree on.
+struct PredictionParameters {
+  int channels = 1;     ///< scalars per vertex and component: 1 (trajectories) or 3 (shapes)
+  uint8_t radius = 12;  ///< of the prior's kernel, in mean neighbour distances, 1..255
+  RefitSchedule schedule = RefitSchedule::kDense;
+};
+
+/// Weight of a component's samples in the refit, from its byte: 2^((byte - 128) / 4), rounded.
+float omega_value(uint8_t byte);
+
+/// The byte for a component with mean squared residual `energy`, in squared steps. For the encoder.
+uint8_t omega_byte(double energy);
+
+/// kArgument: a number of neighbours or a parameter that no decoder accepts.
+Status check_prediction(const VertexOrder& order, const PredictionParameters& parameters);
+
+/// Positions (vertex x 3) as floats in decoding order.
+void ranked_positions(const VertexOrder& order, const int32_t* positions, Vector<float>* out);
+
+/// Floats of one vertex in the output: samples, rounded up.
+constexpr size_t coefficient_stride(size_t samples) {
+  return (samples + 7) / 8 * 8;
+}
+
+/// Floats of the whole output; the last row is scratch.
+constexpr size_t coefficient_buffer_size(size_t vertices, size_t samples) {
+  return (vertices + 1) * coefficient_stride(samples);
+}
+
+/// The decoded integers of a segment: components x channels x vertices in decoding order, any
+/// values. The first wide_components are 32-bit, the others 16-bit.
+struct PredictionResiduals {
+  size_t components = 0;
+  size_t wide_components = 0;
+  const int32_t* wide = nullptr;
+  const int16_t* narrow = nullptr;
+  const uint8_t* omega = nullptr;  ///< one byte per component
+};
+
+/// Reconstructs the coefficients of one segment from the decoded integers.
+///
+/// Call init() once, then run() for all ranks in ascending order of levels. Ranges within one level
+/// do not depend on each other and may run at the same time. Allocates 12 bytes per vertex.
+class Reconstruction {
+ public:
+  /// @param order       from make_vertex_order() with 8, 12, 16, 20 or 24 neighbours
+  /// @param positions   reference positions by vertex, x 3, as the order was made from
+  /// @param residuals   the decoded integers
+  /// @param y           coefficient_buffer_size() floats: receives the coefficients in steps, by
+  /// rank order, the integers and y must outlive this object.
+  /// @return kArgument: a parameter out of range
+  Status init(const VertexOrder& order, const int32_t* positions,
+              const PredictionParameters& parameters, const PredictionResiduals& residuals,
+              float* y);
+
+  /// Ranks [first, last) of one level. Sets the floating-point environment it needs and restores
+  /// the caller's.
+  void run(size_t first, size_t last) const;
+
+  /// Everything, on this thread.
+  void run_all() const;
+
+ private:
+  PredictionJob job_;
+  const VertexOrder* order_ = nullptr;
+  Vector<float> positions_;
+  Vector<float> omega_;
+  Vector<size_t> refits_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_PREDICTION_PREDICTOR_H_

@@ -1,0 +1,567 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/prediction/vertex_order.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+// Bounds that keep the cost linear whatever the graph (normative). Surfaces have a mean degree of
+// about six and never meet them, save for poles of fans.
+constexpr uint32_t kMaxRemovedDegree = 32;    // a vertex of higher degree waits
+constexpr uint32_t kMaxRingDegree = 32;       // the ring of such a neighbour is not searched
+constexpr uint64_t kMaxMeanDegree = 16;       // a denser graph is replaced
+constexpr uint64_t kMinRemovedFraction = 16;  // and one that loses less than 1/16 of its vertices
+constexpr size_t kMaxCandidates = kMaxRemovedDegree * (1 + kMaxRingDegree) +  // rings 1 and 2
+                                  kMaxNeighbours * kMaxRingDegree +    // ring 3, if those are few
+                                  kMaxRemovedDegree * kMaxRingDegree;  // the same level
+
+constexpr int kGridBits = 15;  // per axis: squared distances fit 32 bits
+
+/// Position on the grid and index of a vertex.
+struct Node {
+  int32_t x, y, z;
+  uint32_t id;
+};
+
+uint32_t squared_distance(const Node& a, const Node& b) {
+  const int32_t x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+  return static_cast<uint32_t>(x * x) + static_cast<uint32_t>(y * y) + static_cast<uint32_t>(z * z);
+}
+
+/// Sorts by distance from `to`, then by index.
+uint64_t nearness(const Node& a, const Node& to) {
+  return uint64_t{squared_distance(a, to)} << 32 | a.id;
+}
+
+uint32_t floor_log2(uint32_t x) {  // 0 for 0
+  return x < 2 ? 0 : 31 - static_cast<uint32_t>(__builtin_clz(x));
+}
+
+uint64_t spread_bits(uint64_t x) {  // ten bits to every third
+  x = (x | x << 16) & 0x30000ff;
+  x = (x | x << 8) & 0x300f00f;
+  x = (x | x << 4) & 0x30c30c3;
+  return (x | x << 2) & 0x9249249;
+}
+
+uint64_t morton_key(const Node& v) {
+  constexpr int drop = kGridBits - 10;
+  const auto part = [](int32_t c) { return spread_bits(static_cast<uint64_t>(c) >> drop); };
+  return (part(v.x) | part(v.y) << 1 | part(v.z) << 2) << 32 | v.id;
+}
+
+/// Undirected graph without loops and multiple edges: vertex v has adjacent[start[v]] ..
+/// [start[v+1]-1].
+struct Graph {
+  Vector<uint32_t> start, adjacent;
+
+  uint32_t degree(uint32_t v) const { return start[v + 1] - start[v]; }
+
+  const uint32_t* begin(uint32_t v) const { return adjacent.data() + start[v]; }
+
+  const uint32_t* end(uint32_t v) const { return adjacent.data() + start[v + 1]; }
+};
+
+/// Candidates for the neighbours of one vertex; tells the nearest of them.
+class Nearest {
+ public:
+  void clear() { count_ = 0; }
+
+  void add(const Node& candidate, const Node& self) {
+    distance_[count_] = static_cast<int32_t>(squared_distance(candidate, self) ^ 0x80000000u);
+    id_[count_++] = static_cast<int32_t>(candidate.id);
+  }
+
+  /// Writes the indices of the m nearest by distance, then index; fewer if there are not as many.
+  void select(size_t m, int32_t* to);
+
+ private:
+  static constexpr size_t kLanes = 4;
+  static constexpr size_t kMaxCounted = 64;
+  using Lanes = int32_t __attribute__((vector_size(4 * kLanes)));
+
+  template <bool kTies>
+  bool count_ranks(size_t m, int32_t* to);
+  void sort(size_t m, int32_t* to);
+
+  size_t count_ = 0;
+  int32_t distance_[kMaxCandidates + kLanes];  // with the sign bit flipped: compares as signed
+  int32_t id_[kMaxCandidates + kLanes];
+};
+
+// The rank of a candidate is the number of nearer ones: no branches to mispredict. Without kTies
+// equal distances share a rank and the ranks fail to add up to 0 + 1 + ...: returns false.
+template <bool kTies>
+bool Nearest::count_ranks(size_t m, int32_t* to) {
+  int32_t sorted[kMaxCounted + kLanes];
+  for (size_t i = count_; i < count_ + kLanes; ++i)
+    distance_[i] = id_[i] = INT32_MAX;
+  int32_t sum = 0;
+  for (size_t i = 0; i < count_; i += kLanes) {
+    Lanes distance, id, rank{};
+    std::memcpy(&distance, distance_ + i, sizeof distance);
+    std::memcpy(&id, id_ + i, sizeof id);
+    for (size_t j = 0; j < count_; ++j) {
+      rank -= distance_[j] < distance;
+      if constexpr (kTies)
+        rank -= (distance_[j] == distance) & (id_[j] < id);
+    }
+    for (size_t l = 0; l < kLanes; ++l) {  // padding ranks last
+      sorted[rank[l]] = id[l];
+      sum += i + l < count_ ? rank[l] : 0;
+    }
+  }
+  const auto n = static_cast<int32_t>(count_);
+  if (2 * sum != n * (n - 1))
+    return false;
+  std::memcpy(to, sorted, std::min(m, count_) * sizeof *to);
+  return true;
+}
+
+void Nearest::sort(size_t m, int32_t* to) {
+  uint64_t keys[kMaxCandidates];
+  for (size_t i = 0; i < count_; ++i)
+    keys[i] = uint64_t{static_cast<uint32_t>(distance_[i]) ^ 0x80000000u} << 32 |
+              static_cast<uint32_t>(id_[i]);
+  m = std::min(m, count_);
+  std::partial_sort(keys, keys + m, keys + count_);
+  for (size_t i = 0; i < m; ++i)
+    to[i] = static_cast<int32_t>(keys[i] & 0xffffffff);
+}
+
+void Nearest::select(size_t m, int32_t* to) {
+  if (count_ > kMaxCounted)
+    sort(m, to);
+  else if (!count_ranks<false>(m, to))
+    count_ranks<true>(m, to);
+}
+
+class Contraction {
+ public:
+  Contraction(const uint32_t* triangles, size_t triangle_count, size_t vertex_count, int m,
+              int colours)
+      : m_(m), colours_(colours) {
+    nodes_.resize(vertex_count);
+    neighbours_.assign(vertex_count * static_cast<size_t>(m), -1);
+    removal_.reserve(vertex_count);
+    isolated_.reserve(vertex_count);
+    stamp_.assign(vertex_count, 0);
+    mesh_graph(triangles, triangle_count);
+  }
+
+  void set_grid(const int32_t* positions);
+  void run();
+  void write(VertexOrder* out) const;
+
+ private:
+  enum State : uint8_t { kKept, kRemoved, kLocked };
+
+  void mesh_graph(const uint32_t* triangles, size_t triangle_count);
+  void drop_isolated();
+  void link_all();
+  void select_removed();
+  void contract();
+  void colour();
+  void find_neighbours();
+  void add_same_level(uint32_t v);
+  void append_level();
+  void advance();
+
+  int m_, colours_;
+  Vector<Node> nodes_;          // all vertices
+  Vector<int32_t> neighbours_;  // of all vertices, by index
+  Vector<uint32_t> removal_;    // vertices, finest level first
+  Vector<uint32_t> level_end_;  // in removal_
+  Vector<uint32_t> isolated_;   // alive vertices without edges, not part of the graph
+
+  // The graph G of the current level over the local indices of its active vertices, ascending in
+  // index; G' over those that stay.
+  Vector<Node> active_, next_active_;
+  Graph graph_, next_;
+  Vector<uint8_t> state_, colour_;
+  Vector<uint32_t> removed_, target_, renumbered_, visit_, merged_, merged_next_;
+  Vector<uint32_t> stamp_;  // by local index: the last tick_ that met the vertex
+  Vector<uint32_t> met_;    // by local index: the last removed vertex that met this one
+  uint32_t tick_ = 0;
+  Nearest nearest_;
+};
+
+void Contraction::mesh_graph(const uint32_t* triangles, size_t triangle_count) {
+  const size_t n = nodes_.size();
+  Vector<uint32_t>& start = graph_.start;
+  Vector<uint32_t>& adjacent = graph_.adjacent;
+  start.assign(n + 1, 0);
+  for (size_t i = 0; i < 3 * triangle_count; ++i)
+    start[triangles[i]] += 2;
+  uint32_t sum = 0;
+  for (uint32_t& s : start) {
+    sum += s;
+    s = sum;  // the end of each vertex's edges; filling moves it to the beginning
+  }
+  adjacent.resize(sum);
+  for (size_t t = 0; t < triangle_count; ++t) {
+    const uint32_t* c = triangles + 3 * t;
+    for (int k = 0; k < 3; ++k) {
+      uint32_t& at = start[c[k]];
+      adjacent[--at] = c[(k + 1) % 3];
+      adjacent[--at] = c[(k + 2) % 3];
+    }
+  }
+  uint32_t size = 0;
+  for (uint32_t v = 0; v < n; ++v) {
+    const uint32_t first = start[v], last = start[v + 1];
+    start[v] = size;
+    stamp_[v] = ++tick_;
+    for (uint32_t e = first; e < last; ++e) {
+      const uint32_t u = adjacent[e];
+      if (stamp_[u] != tick_) {
+        stamp_[u] = tick_;
+        adjacent[size++] = u;
+      }
+    }
+  }
+  start[n] = size;
+  adjacent.resize(size);
+}
+
+void Contraction::set_grid(const int32_t* positions) {
+  const size_t n = nodes_.size();
+  int32_t low[3], extent = 0;
+  for (int d = 0; d < 3; ++d) {
+    int32_t high = low[d] = n ? positions[d] : 0;
+    for (size_t v = 1; v < n; ++v) {
+      low[d] = std::min(low[d], positions[3 * v + static_cast<size_t>(d)]);
+      high = std::max(high, positions[3 * v + static_cast<size_t>(d)]);
+    }
+    extent = std::max(extent, high - low[d]);
+  }
+  int shift = 0;
+  while (extent >> shift >= 1 << kGridBits)
+    ++shift;
+  for (size_t v = 0; v < n; ++v) {
+    const int32_t* p = positions + 3 * v;
+    nodes_[v] = {(p[0] - low[0]) >> shift, (p[1] - low[1]) >> shift, (p[2] - low[2]) >> shift,
+                 static_cast<uint32_t>(v)};
+  }
+}
+
+// Vertices without edges leave the graph; the others are renumbered.
+void Contraction::drop_isolated() {
+  const auto n = static_cast<uint32_t>(active_.size());
+  uint32_t kept = 0;
+  for (uint32_t v = 0; v < n; ++v)
+    kept += graph_.degree(v) > 0;
+  if (kept == n)
+    return;
+  renumbered_.resize(n);
+  kept = 0;
+  for (uint32_t v = 0; v < n; ++v) {
+    renumbered_[v] = kept;
+    if (graph_.degree(v) > 0) {
+      graph_.start[kept] = graph_.start[v];
+      active_[kept++] = active_[v];
+    } else {
+      isolated_.push_back(active_[v].id);
+    }
+  }
+  graph_.start[kept] = graph_.start[n];
+  graph_.start.resize(size_t{kept} + 1);
+  active_.resize(kept);
+  for (uint32_t& u : graph_.adjacent)
+    u = renumbered_[u];
+}
+
+// The graph is replaced by one along a space-filling curve over all alive vertices: each is linked
+// to the two before and the two after it.
+void Contraction::link_all() {
+  for (const Node& v : active_)
+    isolated_.push_back(v.id);
+  std::sort(isolated_.begin(), isolated_.end());
+  active_.clear();
+  Vector<uint64_t> curve;
+  curve.reserve(isolated_.size());
+  for (uint32_t i = 0; i < isolated_.size(); ++i) {
+    active_.push_back(nodes_[isolated_[i]]);
+    Node local = active_.back();
+    local.id = i;
+    curve.push_back(morton_key(local));
+  }
+  isolated_.clear();
+  std::sort(curve.begin(), curve.end());
+  const auto n = static_cast<int64_t>(curve.size());
+  Vector<uint32_t> place(curve.size());
+  for (size_t i = 0; i < curve.size(); ++i)
+    place[curve[i] & 0xffffffff] = static_cast<uint32_t>(i);
+  graph_.start.assign(1, 0);
+  graph_.adjacent.clear();
+  for (const uint32_t at : place) {
+    for (const int d : {-2, -1, 1, 2}) {
+      const int64_t other = int64_t{at} + d;
+      if (other >= 0 && other < n)
+        graph_.adjacent.push_back(
+            static_cast<uint32_t>(curve[static_cast<size_t>(other)] & 0xffffffff));
+    }
+    graph_.start.push_back(static_cast<uint32_t>(graph_.adjacent.size()));
+  }
+}
+
+// A maximal independent set of low degree, short edges and low degrees first.
+void Contraction::select_removed() {
+  constexpr uint32_t buckets = 32 * 16;
+  const auto n = static_cast<uint32_t>(active_.size());
+  uint32_t count[buckets + 1] = {};
+  Vector<uint32_t>& key = renumbered_;
+  key.resize(n);
+  visit_.resize(n);
+  for (uint32_t v = 0; v < n; ++v) {
+    uint32_t shortest = UINT32_MAX;
+    for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u)
+      shortest = std::min(shortest, squared_distance(active_[*u], active_[v]));
+    key[v] = floor_log2(shortest) * 16 + std::min(graph_.degree(v), 15u);
+    ++count[key[v] + 1];
+  }
+  for (uint32_t b = 0; b < buckets; ++b)
+    count[b + 1] += count[b];
+  for (uint32_t v = 0; v < n; ++v)
+    visit_[count[key[v]]++] = v;
+  state_.assign(n, kKept);
+  for (const uint32_t v : visit_) {
+    if (state_[v] != kKept || graph_.degree(v) > kMaxRemovedDegree)
+      continue;
+    state_[v] = kRemoved;
+    for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u)
+      state_[*u] = kLocked;
+  }
+  removed_.clear();
+  for (uint32_t v = 0; v < n; ++v)
+    if (state_[v] == kRemoved)
+      removed_.push_back(v);
+}
+
+// G' = G with every removed vertex merged into its nearest neighbour.
+void Contraction::contract() {
+  const auto n = static_cast<uint32_t>(active_.size());
+  constexpr uint32_t none = UINT32_MAX;
+  target_.resize(n);
+  merged_.assign(n, none);
+  merged_next_.resize(n);
+  renumbered_.resize(n);
+  next_active_.clear();
+  for (uint32_t v = 0; v < n; ++v)
+    if (state_[v] != kRemoved) {
+      renumbered_[v] = static_cast<uint32_t>(next_active_.size());
+      next_active_.push_back(active_[v]);
+    }
+  for (const uint32_t v : removed_) {
+    uint64_t best = UINT64_MAX;
+    uint32_t target = none;
+    for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
+      const uint64_t d = nearness(active_[*u], active_[v]);
+      if (d < best) {
+        best = d;
+        target = *u;
+      }
+    }
+    renumbered_[v] = renumbered_[target];
+    merged_next_[v] = merged_[target];
+    merged_[target] = v;
+  }
+  next_.start.clear();
+  next_.start.push_back(0);
+  next_.adjacent.resize(graph_.adjacent.size());
+  uint32_t size = 0;
+  for (uint32_t v = 0; v < n; ++v) {
+    if (state_[v] == kRemoved)
+      continue;
+    stamp_[renumbered_[v]] = ++tick_;
+    const auto add_ring = [&](uint32_t w) {
+      for (const uint32_t* u = graph_.begin(w); u != graph_.end(w); ++u) {
+        const uint32_t x = renumbered_[*u];
+        next_.adjacent[size] = x;
+        size += stamp_[x] != tick_;
+        stamp_[x] = tick_;
+      }
+    };
+    add_ring(v);
+    for (uint32_t w = merged_[v]; w != none; w = merged_next_[w])
+      add_ring(w);
+    next_.start.push_back(size);
+  }
+  next_.adjacent.resize(size);
+}
+
+// Removed vertices that share a neighbour get different colours as far as there are colours.
+void Contraction::colour() {
+  if (colours_ == 1)
+    return;
+  constexpr uint8_t none = 255;
+  colour_.assign(active_.size(), none);
+  met_.assign(active_.size(), UINT32_MAX);
+  for (const uint32_t v : removed_) {
+    uint32_t used = 0;
+    for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
+      if (graph_.degree(*u) > kMaxRingDegree)
+        continue;
+      for (const uint32_t* w = graph_.begin(*u); w != graph_.end(*u); ++w)
+        if (colour_[*w] != none)
+          used |= 1u << colour_[*w];
+    }
+    int c = 0;
+    while (c < colours_ - 1 && (used >> c & 1))
+      ++c;
+    colour_[v] = static_cast<uint8_t>(c);
+  }
+}
+
+// Removed vertices of lower colour around v: they are decoded earlier.
+void Contraction::add_same_level(uint32_t v) {
+  for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
+    if (graph_.degree(*u) > kMaxRingDegree)
+      continue;
+    for (const uint32_t* w = graph_.begin(*u); w != graph_.end(*u); ++w) {
+      if (colour_[*w] < colour_[v] && met_[*w] != v) {
+        met_[*w] = v;
+        nearest_.add(active_[*w], active_[v]);
+      }
+    }
+  }
+}
+
+void Contraction::find_neighbours() {
+  // Local copies: stores through candidates must not force reloads of the members.
+  uint32_t candidates[kMaxCandidates + 1];  // local to G'
+  uint32_t* const stamp = stamp_.data();
+  const Node* const kept = next_active_.data();
+  const auto m = static_cast<size_t>(m_);
+  for (const uint32_t v : removed_) {
+    const Node self = active_[v];
+    const uint32_t tick = ++tick_;
+    size_t count = 0;
+    for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
+      const uint32_t w = renumbered_[*u];
+      stamp[w] = tick;
+      candidates[count++] = w;
+    }
+    const auto add_rings = [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) {
+        const uint32_t u = candidates[i];
+        if (next_.degree(u) > kMaxRingDegree)
+          continue;
+        for (const uint32_t *w = next_.begin(u), *end = next_.end(u); w != end; ++w) {
+          candidates[count] = *w;
+          count += stamp[*w] != tick;  // without a branch: nothing to predict here
+          stamp[*w] = tick;
+        }
+      }
+    };
+    const size_t ring1 = count;
+    add_rings(0, ring1);
+    if (count <= m)
+      add_rings(ring1, count);
+    nearest_.clear();
+    for (size_t i = 0; i < count; ++i)
+      nearest_.add(kept[candidates[i]], self);
+    if (colours_ > 1 && colour_[v] > 0)
+      add_same_level(v);
+    nearest_.select(m, neighbours_.data() + self.id * m);
+  }
+}
+
+// Finest level first, highest colour first: write() reverses both.
+void Contraction::append_level() {
+  for (int c = colours_ - 1; c >= 0; --c) {
+    const size_t before = removal_.size();
+    for (const uint32_t v : removed_)
+      if (colours_ == 1 || colour_[v] == c)
+        removal_.push_back(active_[v].id);
+    if (removal_.size() > before)
+      level_end_.push_back(static_cast<uint32_t>(removal_.size()));
+  }
+}
+
+void Contraction::advance() {
+  std::swap(graph_, next_);
+  std::swap(active_, next_active_);
+}
+
+void Contraction::run() {
+  active_ = nodes_;
+  while (true) {
+    drop_isolated();
+    if (tick_ > UINT32_MAX / 4) {  // a level takes at most two per vertex
+      std::fill(stamp_.begin(), stamp_.end(), 0);
+      tick_ = 0;
+    }
+    if (active_.empty()) {
+      if (isolated_.size() <= 1)
+        break;
+      link_all();
+    } else if (graph_.adjacent.size() > kMaxMeanDegree * active_.size()) {
+      link_all();
+    }
+    select_removed();
+    if (removed_.size() * kMinRemovedFraction < active_.size()) {
+      link_all();
+      select_removed();
+    }
+    contract();
+    colour();
+    find_neighbours();
+    append_level();
+    advance();
+  }
+  for (const uint32_t v : isolated_) {
+    removal_.push_back(v);
+    level_end_.push_back(static_cast<uint32_t>(removal_.size()));
+  }
+}
+
+void Contraction::write(VertexOrder* out) const {
+  const size_t n = nodes_.size();
+  const auto m = static_cast<size_t>(m_);
+  out->neighbour_count = m_;
+  out->order.clear();
+  out->order.reserve(n);
+  out->level_start.assign(1, 0);
+  for (size_t l = level_end_.size(); l-- > 0;) {
+    const uint32_t first = l ? level_end_[l - 1] : 0;
+    out->order.insert(out->order.end(), removal_.begin() + first, removal_.begin() + level_end_[l]);
+    out->level_start.push_back(static_cast<uint32_t>(out->order.size()));
+  }
+  Vector<int32_t> rank(n);
+  for (size_t r = 0; r < n; ++r)
+    rank[out->order[r]] = static_cast<int32_t>(r);
+  out->neighbours.resize(n * m);
+  for (size_t r = 0; r < n; ++r) {
+    const int32_t* from = neighbours_.data() + out->order[r] * m;
+    for (size_t a = 0; a < m; ++a)
+      out->neighbours[r * m + a] = from[a] < 0 ? -1 : rank[static_cast<size_t>(from[a])];
+  }
+}
+
+}  // namespace
+
+Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const int32_t* positions,
+                         size_t vertex_count, int neighbours, int colours, VertexOrder* out) {
+  if (neighbours < 1 || neighbours > kMaxNeighbours || colours < 1 || colours > kMaxColours)
+    return Status::kArgument;
+  if (vertex_count > size_t{1} << 30 || triangle_count > UINT32_MAX / 6)
+    return Status::kLimit;
+  for (size_t i = 0; i < 3 * triangle_count; ++i)
+    if (triangles[i] >= vertex_count)
+      return Status::kIndexRange;
+  for (size_t i = 0; i < 3 * vertex_count; ++i)
+    if (positions[i] > kMaxReferenceCoordinate || positions[i] < -kMaxReferenceCoordinate)
+      return Status::kQuantizer;
+  Contraction contraction(triangles, triangle_count, vertex_count, neighbours, colours);
+  contraction.set_grid(positions);
+  contraction.run();
+  contraction.write(out);
+  return Status::kOk;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Sparse corrections of single vertices in single frames (spec/09-reconstruction.md). Written once
+// for encoder and decoder.
+#ifndef ANICODEC_SDK_SEGMENT_CORRECTION_CODING_H_
+#define ANICODEC_SDK_SEGMENT_CORRECTION_CODING_H_
+
+#include "format/binary_coder.h"
+#include "format/memory.h"
+#include "format/symbol_model.h"
+#include "sdk/segment/segment.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace anicodec {
+
+/// A correction in steps; lists are sorted by vertex.
+struct IntegerCorrection {
+  uint32_t vertex = 0;
+  int32_t delta[3] = {0, 0, 0};
+};
+
+class CorrectionCoding {
+ public:
+  explicit CorrectionCoding(uint32_t vertices)
+      : vertices_(vertices), before_(vertices, 0), block_before_(block_count(vertices), 0) {}
+
+  /// Codes the corrections of the next frame. False when the stream ran out, or there are more than
+  /// `limit` of them.
+  template <class Coder>
+  bool code_frame(Coder& coder, size_t limit, Vector<IntegerCorrection>* frame) {
+    size_t at = 0;
+    if constexpr (Coder::kDecodes)
+      frame->clear();
+    bool any = coder.bit(any_[any_before_], !frame->empty());
+    any_before_ = any;
+    if (!any) {
+      std::fill(before_.begin(), before_.end(), uint8_t{0});
+      std::fill(block_before_.begin(), block_before_.end(), uint8_t{0});
+      return alive(coder);
+    }
+    uint32_t left_block = 0, left = 0;  // neighbours to the left: corrected or not
+    for (uint32_t b = 0; b < block_before_.size(); ++b) {
+      uint32_t first = b * kBlock, last = std::min(first + kBlock, vertices_);
+      bool here = at < frame->size() && (*frame)[at].vertex < last;
+      here = coder.bit(block_[left_block + 2U * block_before_[b]], here);
+      left_block = block_before_[b] = here;
+      if (!here) {
+        left = 0;
+        std::fill(before_.begin() + first, before_.begin() + last, uint8_t{0});
+        continue;
+      }
+      for (uint32_t v = first; v < last; ++v) {
+        bool corrected = at < frame->size() && (*frame)[at].vertex == v;
+        corrected = coder.bit(vertex_[left + 4U * before_[v]], corrected);
+        left = (left << 1 | uint32_t{corrected}) & 3;
+        if (corrected) {
+          if constexpr (Coder::kDecodes) {
+            if (frame->size() >= limit)
+              return false;
+            frame->push_back({v, {0, 0, 0}});
+          }
+          for (uint32_t c = 0; c < 3; ++c) {
+            int32_t& d = (*frame)[at].delta[c];
+            d = delta_[c + 3U * before_[v]].code(coder, d);
+          }
+          ++at;
+        }
+        before_[v] = corrected;
+      }
+      if (!alive(coder))
+        return false;
+    }
+    return alive(coder);
+  }
+
+ private:
+  template <class Coder>
+  static bool alive(const Coder& coder) {
+    if constexpr (Coder::kDecodes)
+      return coder.ok();
+    return true;
+  }
+
+  uint32_t vertices_;
+  Vector<uint8_t> before_, block_before_;  ///< corrected in the previous frame
+  bool any_before_ = false;
+  AdaptiveBit any_[2], block_[4], vertex_[8];
+  SymbolModel<> delta_[6];
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_SEGMENT_CORRECTION_CODING_H_

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/segment/linear_segment.h"
+
+#include "format/coefficient_coder.h"
+#include "format/time_weights.h"
+#include "sdk/base/bounded_float.h"
+#include "sdk/segment/affine_functions.h"
+#include "sdk/segment/residency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anicodec {
+namespace {
+
+constexpr uint8_t kAffineFlag = 1;
+
+/// Time weights: those of the affine base become maps of the pose, the others stay integers.
+Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
+                    const PoseGrid& pose, format::IntegerHash* hash, Segment* out,
+                    Vector<int32_t>* weights) {
+  BinaryDecoder decoder(bytes.data, bytes.size);
+  TimeWeightModel model(out->frames);
+  size_t frames = out->frames;
+  AffineFunctions functions;
+  double unit = parameters.weight_step / (1 << kWeightFractionBits);
+  if (parameters.affine) {
+    functions = AffineFunctions::of(pose.points.data(), pose.points.size() / 3);
+    Vector<int32_t> values[kAffineFunctions];
+    for (Vector<int32_t>& v : values) {
+      v.resize(3 * frames);
+      if (Status s = model.decode(decoder, 3, v.data()); s != Status::kOk)
+        return s;
+      hash->add(v.data(), v.size());
+    }
+    out->pose_maps.resize(frames);
+    for (size_t f = 0; f < frames; ++f) {
+      double w[3][kAffineFunctions], map[12];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        for (size_t b = 0; b < kAffineFunctions; ++b)
+          w[axis][b] = unit * values[b][axis * frames + f];
+      }
+      functions.map(w, map);
+      for (size_t i = 0; i < 12; ++i) {
+        if (!to_float(i % 4 == 3 ? map[i] + pose.origin[i / 4] : map[i], &out->pose_maps[f].m[i]))
+          return Status::kNonFinite;
+      }
+    }
+  } else {
+    Affine still;
+    for (size_t i = 0; i < 12; ++i) {
+      if (!to_float(i % 4 == 3 ? pose.origin[i / 4] : i % 5 == 0 ? pose.step : 0.0, &still.m[i]))
+        return Status::kNonFinite;
+    }
+    out->pose_maps.assign(frames, still);
+  }
+  size_t per_component = frames * out->weight_channels();
+  weights->resize(per_component * parameters.sigma.size());
+  for (size_t j = 0; j < parameters.sigma.size(); ++j) {
+    int32_t* values = weights->data() + j * per_component;
+    if (Status s = model.decode(decoder, out->weight_channels(), values); s != Status::kOk)
+      return s;
+    hash->add(values, per_component);
+  }
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+/// Components in layers; no more than there can be.
+uint32_t components_in(const Vector<format::ByteView>& layers, uint32_t components) {
+  uint32_t count = 0;
+  for (format::ByteView layer : layers)
+    count += format::ByteReader(layer).varint32(components - count);
+  return count;
+}
+
+/// Residuals of the components in the layers, components x channels x vertices in decoding order;
+/// stops after `wanted` components.
+Status read_residuals(const Vector<format::ByteView>& layers, const VertexOrder& order,
+                      uint32_t channels, uint32_t components, uint32_t wanted,
+                      Vector<int32_t>* residuals) {
+  auto n = static_cast<uint32_t>(order.vertex_count());
+  CoefficientModel model(n, channels, order.neighbours.data(),
+                         static_cast<uint32_t>(order.neighbour_count));
+  residuals->resize(size_t{wanted} * channels * n);
+  Vector<int32_t> interleaved(channels == 1 ? 0 : size_t{channels} * n);
+  uint32_t j = 0;
+  for (format::ByteView layer : layers) {
+    format::ByteReader reader(layer);
+    uint32_t count = reader.varint32(components - j);
+    if (!reader.ok())
+      return Status::kRecord;
+    format::ByteView stream = reader.raw(reader.remaining());
+    BinaryDecoder decoder(stream.data, stream.size);
+    for (uint32_t end = j + count; j < end; ++j) {
+      if (j == wanted)
+        return Status::kOk;
+      int32_t* to = residuals->data() + size_t{j} * channels * n;
+      model.code_component(decoder, channels == 1 ? to : interleaved.data());
+      if (!decoder.ok())
+        return Status::kEntropy;
+      for (uint32_t i = 0; channels > 1 && i < n; ++i) {
+        for (uint32_t c = 0; c < channels; ++c)
+          to[size_t{c} * n + i] = interleaved[size_t{i} * channels + c];
+      }
+    }
+    if (!decoder.finish())
+      return Status::kEntropy;
+  }
+  return j == wanted ? Status::kOk : Status::kChunkMissing;
+}
+
+/// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample.
+Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ranks, size_t samples,
+                                format::IntegerHash& hash) {
+  Vector<int32_t> exact(samples);
+  Vector<float> largest(samples, 0.F);
+  for (size_t i = 0; i < ranks; ++i) {
+    const float* row = y.data() + i * stride;
+    for (size_t s = 0; s < samples; ++s) {
+      exact[s] = static_cast<int32_t>(row[s] * (1 << kFractionBits));
+      largest[s] = std::max(largest[s], std::fabs(row[s]));
+    }
+    hash.add(exact.data(), samples);
+  }
+  return largest;
+}
+
+/// Puts the coefficients into the resident blocks, each component with as many fraction bits as
+/// fit, and scales its weights accordingly. `largest`: magnitudes by sample.
+Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t stride,
+                     const Vector<float>& largest, const LinearParameters& parameters,
+                     const Vector<int32_t>& weights, ResidentWriter& writer, Segment* out) {
+  uint32_t channels = out->channels(), weight_channels = out->weight_channels();
+  Vector<float> scale(size_t{out->components} * channels);
+  out->weights.resize(size_t{out->frames} * out->components * weight_channels);
+  for (uint32_t j = 0; j < out->components; ++j) {
+    float most = *std::max_element(largest.begin() + ptrdiff_t{channels} * j,
+                                   largest.begin() + ptrdiff_t{channels} * (j + 1));
+    int bits = kFractionBits;
+    if (j >= out->wide_components) {
+      while (bits > 0 && most * static_cast<float>(1 << bits) > 32767)
+        --bits;
+      if (most * static_cast<float>(1 << bits) > 32767)
+        return Status::kQuantizer;
+    }
+    for (uint32_t c = 0; c < channels; ++c)
+      scale[size_t{j} * channels + c] = static_cast<float>(1 << bits);
+    double unit = parameters.weight_step / (1 << kWeightFractionBits) /
+                  LinearParameters::sigma_value(parameters.sigma[j]) * parameters.basis_step /
+                  (1 << bits);
+    const int32_t* w = weights.data() + size_t{j} * weight_channels * out->frames;
+    for (size_t f = 0; f < out->frames; ++f) {
+      for (size_t c = 0; c < weight_channels; ++c) {
+        if (!to_float(unit * w[c * out->frames + f],
+                      &out->weights[(f * out->components + j) * weight_channels + c]))
+          return Status::kNonFinite;
+      }
+    }
+  }
+  Vector<uint32_t> rank(order.order.size());
+  for (uint32_t i = 0; i < rank.size(); ++i)
+    rank[order.order[i]] = i;
+  writer.samples(rank, y.data(), stride, scale.data());
+  return Status::kOk;
+}
+
+}  // namespace
+
+double LinearParameters::sigma_value(int32_t eighths) {
+  constexpr double kRoots[8] = {1.0,
+                                1.0905077326652577,
+                                1.1892071150027210,
+                                1.2968395546510096,
+                                1.4142135623730951,
+                                1.5422108254079407,
+                                1.6817928305074290,
+                                1.8340080864093424};
+  return std::ldexp(kRoots[eighths & 7], eighths >> 3);
+}
+
+int32_t LinearParameters::sigma_eighths(double sigma) {
+  return static_cast<int32_t>(std::lround(8 * std::log2(sigma)));
+}
+
+format::Bytes LinearParameters::write() const {
+  format::ByteWriter w;
+  w.u8(affine ? kAffineFlag : 0);
+  w.f64(basis_step);
+  w.f64(weight_step);
+  for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule)})
+    w.u8(x);
+  // The components' table: what changes little from one to the next.
+  BinaryEncoder encoder;
+  SymbolModel<> omega_model, sigma_model;
+  int32_t last_omega = 128, last_sigma = 0;
+  for (size_t j = 0; j < omega.size(); ++j) {
+    omega_model.code(encoder, omega[j] - last_omega);
+    sigma_model.code(encoder, sigma[j] - last_sigma);
+    last_omega = omega[j];
+    last_sigma = sigma[j];
+  }
+  w.raw(encoder.finish());
+  return std::move(w.bytes());
+}
+
+Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
+  format::ByteReader r(bytes);
+  uint8_t flags = r.u8();
+  affine = flags & kAffineFlag;
+  basis_step = r.f64();
+  weight_step = r.f64();
+  neighbours = r.u8();
+  colours = r.u8();
+  radius = r.u8();
+  uint8_t id = r.u8();
+  schedule = static_cast<RefitSchedule>(id);
+  if (!r.ok() || (flags & ~kAffineFlag))
+    return Status::kRecord;
+  if (!(std::isfinite(basis_step) && basis_step > 0) ||
+      !(std::isfinite(weight_step) && weight_step > 0) || neighbours < 8 ||
+      neighbours > kMaxNeighbours || neighbours % 4 != 0 || colours == 0 || colours > kMaxColours ||
+      radius == 0 || id >= kRefitScheduleCount)
+    return Status::kQuantizer;
+  format::ByteView stream = r.raw(r.remaining());
+  BinaryDecoder decoder(stream.data, stream.size);
+  SymbolModel<> omega_model, sigma_model;
+  int32_t last_omega = 128, last_sigma = 0;
+  omega.resize(components);
+  sigma.resize(components);
+  for (uint32_t j = 0; j < components; ++j) {
+    int64_t o = int64_t{last_omega} + omega_model.code(decoder);
+    int64_t s = int64_t{last_sigma} + sigma_model.code(decoder);
+    if (!decoder.ok())
+      return Status::kEntropy;
+    if (o < 0 || o > 255 || s < -8000 || s > 8000)
+      return Status::kQuantizer;
+    omega[j] = static_cast<uint8_t>(last_omega = static_cast<int32_t>(o));
+    sigma[j] = last_sigma = static_cast<int32_t>(s);
+  }
+  return decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+Status open_linear_segment(const format::SegmentRecord& record, const SegmentContext& context,
+                           format::IntegerHash& hash, Segment* out) {
+  LinearParameters parameters;
+  uint32_t components = context.sizes->components;
+  if (Status s = parameters.read(record.parameters, components); s != Status::kOk)
+    return s;
+  if (record.motion.size != 0 || record.pose.size != 0)
+    return Status::kRecord;
+  if (!context.pose)
+    return Status::kChunkMissing;
+  const Topology& topology = *context.topology;
+  size_t n = topology.coded_vertices;
+  const PoseGrid& pose = *context.pose;
+  hash.add(pose.points.data(), pose.points.size());
+
+  Vector<int32_t> weights;
+  if (Status s = read_weights(record.weights, parameters, pose, &hash, out, &weights);
+      s != Status::kOk)
+    return s;
+  uint32_t wanted = wanted_components(context.quality, components);
+  if (context.partial)
+    wanted = std::min(wanted, components_in(context.layers, components));
+  out->components = wanted;
+  out->wide_components = std::min(out->wide_components, wanted);
+  ResidentWriter writer(context.vertex_coded, out);
+  writer.pose(pose.points.data());
+  if (wanted == 0)
+    return components == 0 ? Status::kOk : Status::kSegment;
+  VertexOrder order;
+  if (Status s = make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3,
+                                   pose.points.data(), n, parameters.neighbours, parameters.colours,
+                                   &order);
+      s != Status::kOk)
+    return s;
+  uint32_t channels = out->channels();
+  Vector<int32_t> residuals;
+  if (Status s = read_residuals(context.layers, order, channels, components, wanted, &residuals);
+      s != Status::kOk)
+    return s;
+
+  PredictionParameters prediction;
+  prediction.channels = static_cast<int>(channels);
+  prediction.radius = parameters.radius;
+  prediction.schedule = parameters.schedule;
+  PredictionResiduals input;
+  input.components = input.wide_components = wanted;
+  input.wide = residuals.data();
+  input.omega = parameters.omega.data();
+  size_t samples = size_t{wanted} * channels;
+  Vector<float> y(coefficient_buffer_size(n, samples));
+  Reconstruction reconstruction;
+  if (Status s = reconstruction.init(order, pose.points.data(), prediction, input, y.data());
+      s != Status::kOk)
+    return s;
+  reconstruction.run_all();
+
+  size_t stride = coefficient_stride(samples);
+  const Vector<float> largest = hash_coefficients(y, stride, n, samples, hash);
+  return make_resident(order, y, stride, largest, parameters, weights, writer, out);
+}
+
+}  // namespace anicodec

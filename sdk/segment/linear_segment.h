@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_SEGMENT_LINEAR_SEGMENT_H_
+#define ANICODEC_SDK_SEGMENT_LINEAR_SEGMENT_H_
+
+#include "format/checksum.h"
+#include "format/memory.h"
+#include "sdk/prediction/predictor.h"
+#include "sdk/segment/segment.h"
+
+#include <cstdint>
+
+namespace anicodec {
+
+/// Parameters of a segment of eigenshapes or eigentrajectories (spec/09-reconstruction.md).
+///
+///   x(v, f) = base(v, f) + sum_j u(f, j) * basis_step * y(j, v)
+///
+/// y are the coefficients in steps, in 1/64, predicted and decoded; u = weight / 16 * weight_step /
+/// sigma(j) with integer weights. The base is the reference pose, or in every frame an affine image
+/// of it, whose twelve numbers per frame are four more components of sigma 1.
+struct LinearParameters {
+  bool affine = true;  ///< the base moves with the frames
+  double basis_step = 1;
+  double weight_step = 1;
+  uint8_t neighbours = 16;  ///< m, see VertexOrder
+  uint8_t colours = 1;
+  uint8_t radius = 12;
+  RefitSchedule schedule = RefitSchedule::kDense;
+
+  /// Per component, in the order of the file.
+  Vector<uint8_t> omega;  ///< see omega_value()
+  Vector<int32_t> sigma;  ///< in eighths of an octave: sigma(j) = 2^(sigma / 8)
+
+  format::Bytes write() const;
+  Status read(format::ByteView bytes, uint32_t components);
+
+  /// 2^(eighths / 8).
+  static double sigma_value(int32_t eighths);
+  /// The eighths that come nearest.
+  static int32_t sigma_eighths(double sigma);
+};
+
+/// Largest number of fraction bits with which coefficients stay resident.
+inline constexpr int kFractionBits = 6;
+
+Status open_linear_segment(const format::SegmentRecord& record, const SegmentContext& context,
+                           format::IntegerHash& hash, Segment* out);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_SEGMENT_LINEAR_SEGMENT_H_

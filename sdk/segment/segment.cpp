@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/segment/segment.h"
+
+#include "format/checksum.h"
+#include "sdk/base/bounded_float.h"
+#include "sdk/base/float_control.h"
+#include "sdk/segment/correction_coding.h"
+#include "sdk/segment/keyframe_segment.h"
+#include "sdk/segment/linear_segment.h"
+#include "sdk/segment/residency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anicodec {
+
+ResidentWriter::ResidentWriter(const Vector<uint32_t>* vertex_coded, Segment* segment)
+    : vertex_coded_(vertex_coded), segment_(*segment) {
+  size_t per_component = size_t{block_count(segment->vertices)} * segment->channels() * kBlock;
+  segment->wide.assign(per_component * segment->wide_components, 0);
+  segment->narrow.assign(per_component * (segment->components - segment->wide_components), 0);
+}
+
+void ResidentWriter::pose(const int32_t* points) {
+  segment_.pose.assign(size_t{block_count(segment_.vertices)} * 3 * kBlock, 0);
+  for (uint32_t v = 0; v < segment_.vertices; ++v) {
+    for (size_t c = 0; c < 3; ++c)
+      segment_.pose[(v / kBlock * 3 + c) * kBlock + v % kBlock] =
+          static_cast<float>(points[3 * coded(v) + c]);
+  }
+}
+
+bool ResidentWriter::vectors(uint32_t component, const int32_t* values) {
+  bool wide = component < segment_.wide_components;
+  uint32_t count = wide ? segment_.wide_components : segment_.components - segment_.wide_components;
+  uint32_t row = wide ? component : component - segment_.wide_components;
+  for (uint32_t v = 0; v < segment_.vertices; ++v) {
+    const int32_t* from = values + coded(v) * 3;
+    for (uint32_t c = 0; c < 3; ++c) {
+      int32_t x = from[c];
+      size_t at = ((size_t{v / kBlock} * count + row) * 3 + c) * kBlock + v % kBlock;
+      if (wide) {
+        segment_.wide[at] = x;
+      } else {
+        if (x != static_cast<int16_t>(x))
+          return false;
+        segment_.narrow[at] = static_cast<int16_t>(x);
+      }
+    }
+  }
+  return true;
+}
+
+void ResidentWriter::samples(const Vector<uint32_t>& rank, const float* rows, size_t stride,
+                             const float* scale) {
+  const size_t channels = segment_.channels();
+  const size_t wide = segment_.wide_components * channels;
+  const size_t all = segment_.components * channels;
+  // Adding it rounds to whole numbers, ties to even: magnitudes stay below 2^22.
+  constexpr float kRound = 0x1.8p23F;
+  int32_t* to_wide = segment_.wide.data();
+  int16_t* to_narrow = segment_.narrow.data();
+  for (uint32_t first = 0; first < segment_.vertices; first += kBlock) {
+    // Places past the last vertex repeat it.
+    const float* row[kBlock];
+    for (uint32_t i = 0; i < kBlock; ++i)
+      row[i] = rows + rank[coded(std::min(first + i, segment_.vertices - 1))] * stride;
+    for (size_t s = 0; s < wide; ++s) {
+      for (uint32_t i = 0; i < kBlock; ++i)
+        *to_wide++ = static_cast<int32_t>((row[i][s] * scale[s] + kRound) - kRound);
+    }
+    for (size_t s = wide; s < all; ++s) {
+      for (uint32_t i = 0; i < kBlock; ++i)
+        *to_narrow++ = static_cast<int16_t>((row[i][s] * scale[s] + kRound) - kRound);
+    }
+  }
+}
+
+namespace {
+
+/// The vertices of each coded vertex v: vertices[begin[v]] .. vertices[begin[v + 1] - 1],
+/// ascending.
+struct Copies {
+  Copies(const Vector<uint32_t>& vertex_coded, uint32_t coded_vertices)
+      : begin(size_t{coded_vertices} + 1, 0), vertices(vertex_coded.size()) {
+    for (uint32_t c : vertex_coded)
+      ++begin[c + 1];
+    for (size_t c = 0; c < coded_vertices; ++c)
+      begin[c + 1] += begin[c];
+    Vector<uint32_t> next(begin.begin(), begin.end() - 1);
+    for (uint32_t v = 0; v < vertex_coded.size(); ++v)
+      vertices[next[vertex_coded[v]]++] = v;
+  }
+
+  uint32_t count(uint32_t coded) const { return begin[coded + 1] - begin[coded]; }
+
+  Vector<uint32_t> begin, vertices;
+};
+
+Status read_corrections(const SegmentContext& context, format::IntegerHash& hash, Segment* out) {
+  const uint32_t total = context.sizes->corrections;
+  if (context.corrections.size == 0)
+    return total == 0 || context.partial ? Status::kOk : Status::kChunkMissing;
+  format::ByteReader reader(context.corrections);
+  double step = reader.f64();
+  if (!reader.ok() || !std::isfinite(step) || step <= 0)
+    return Status::kQuantizer;
+  format::ByteView stream = reader.raw(reader.remaining());
+  BinaryDecoder decoder(stream.data, stream.size);
+  const uint32_t coded_vertices = context.topology->coded_vertices;
+  const Copies copies(context.topology->vertex_coded, coded_vertices);
+  CorrectionCoding coding(coded_vertices);
+  Vector<IntegerCorrection> frame;
+  uint64_t corrected = 0;  // vertices, over the frames
+  out->corrections.reserve(total);
+  out->correction_begin.reserve(size_t{out->frames} + 1);
+  out->correction_begin.push_back(0);
+  for (uint32_t f = 0; f < out->frames; ++f) {
+    if (!coding.code_frame(decoder, total - corrected, &frame))
+      return Status::kEntropy;
+    for (const IntegerCorrection& c : frame) {
+      corrected += copies.count(c.vertex);
+      if (corrected > total)
+        return Status::kEntropy;
+      Segment::Correction correction;
+      correction.vertex = c.vertex;
+      for (size_t i = 0; i < 3; ++i) {
+        if (!to_float(c.delta[i] * step, &correction.delta[i]))
+          return Status::kNonFinite;
+      }
+      if (!context.vertex_coded)
+        out->corrections.push_back(correction);
+      for (uint32_t i = 0; context.vertex_coded && i < copies.count(c.vertex); ++i) {
+        correction.vertex = copies.vertices[copies.begin[c.vertex] + i];
+        out->corrections.push_back(correction);
+      }
+      const int32_t hashed[5] = {static_cast<int32_t>(f), static_cast<int32_t>(c.vertex),
+                                 c.delta[0], c.delta[1], c.delta[2]};
+      hash.add(hashed, 5);
+    }
+    std::sort(out->corrections.begin() + out->correction_begin.back(), out->corrections.end(),
+              [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+    out->correction_begin.push_back(static_cast<uint32_t>(out->corrections.size()));
+  }
+  return decoder.finish() && corrected == total ? Status::kOk : Status::kEntropy;
+}
+
+}  // namespace
+
+uint32_t wanted_components(double quality, uint32_t components) {
+  return std::min(static_cast<uint32_t>(std::ceil(quality * components)), components);
+}
+
+Status open_segment(const format::SegmentRecord& record, const SegmentContext& context,
+                    Segment* out) {
+  const format::Limits::Segment& sizes = *context.sizes;
+  out->kind = record.kind;
+  out->reconstruction = record.reconstruction;
+  out->mesh = sizes.mesh;
+  out->first_frame = sizes.first_frame;
+  out->frames = sizes.frames;
+  out->vertices = context.vertex_coded ? static_cast<uint32_t>(context.vertex_coded->size())
+                                       : context.topology->coded_vertices;
+  out->components = sizes.components;
+  out->wide_components = sizes.wide_components;
+  out->stored_hash = record.hash;
+  const FloatControl control;
+  format::IntegerHash hash;
+  Status status = record.kind == format::BasisKind::kKeyframes
+                      ? open_keyframe_segment(record, context, hash, out)
+                      : open_linear_segment(record, context, hash, out);
+  if (status == Status::kOk)
+    status = read_corrections(context, hash, out);
+  out->decoded_hash = hash.digest();
+  return status;
+}
+
+size_t Segment::resident_bytes() const {
+  auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
+  return bytes(pose) + bytes(wide) + bytes(narrow) + bytes(weights) + bytes(pose_maps) +
+         bytes(motions) + bytes(correction_begin) + bytes(corrections) + bytes(vertex_coded) +
+         (msgi.empty() ? 0 : msgi[0].resident_bytes());
+}
+
+}  // namespace anicodec

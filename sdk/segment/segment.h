@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_SEGMENT_SEGMENT_H_
+#define ANICODEC_SDK_SEGMENT_SEGMENT_H_
+
+#include "format/memory.h"
+#include "format/records.h"
+#include "format/status.h"
+#include "sdk/mesh/draco_mesh.h"
+#include "sdk/mesh/topology.h"
+#include "sdk/msgi/msgi.h"
+#include "sdk/pose/reference_pose.h"
+
+#include <cstdint>
+
+namespace anicodec {
+
+/// Vertices are played in blocks: one coefficient of all vertices of a block is contiguous.
+inline constexpr uint32_t kBlock = 16;
+
+inline uint32_t block_count(uint32_t vertices) {
+  return (vertices + kBlock - 1) / kBlock;
+}
+
+/// A row-major 3 x 4 matrix: rotation or linear part and translation of an affine map.
+struct Affine {
+  float m[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+};
+
+/// A segment, opened: every coefficient resident as an integer, every time weight as a float, so
+/// that any frame costs the same (spec/09-reconstruction.md). All three basis kinds have this one
+/// form:
+///
+///   x(v, f) = M_f * (A_f * pose(v) + sum_j weight(f, j) * coefficient(j, v)) + correction(v, f)
+///
+/// with A_f affine, M_f rigid, both optional. Its vertices are those of the user, in the user's
+/// order, or the coded ones (SegmentContext::vertex_coded).
+struct Segment {
+  format::BasisKind kind = format::BasisKind::kKeyframes;
+  format::Reconstruction reconstruction = format::Reconstruction::kLinear;
+  uint32_t mesh = 0;
+  uint32_t attribute = format::kPositions;  ///< that it moves, else the positions
+  uint32_t first_component = 0;             ///< of the attribute: x(v, f) is added to three of them
+  uint32_t first_frame = 0;
+  uint32_t frames = 0;
+  uint32_t vertices = 0;
+  uint32_t components = 0;  ///< all resident ones; fewer than coded when opened at lower quality
+  uint32_t wide_components = 0;  ///< the first ones, 32-bit; the others are 16-bit
+
+  /// Scalars per vertex of a component: 3 (a vector; one weight per frame) or, for trajectories, 1
+  /// (and three weights per frame).
+  uint32_t channels() const { return kind == format::BasisKind::kEigentrajectories ? 1 : 3; }
+
+  uint32_t weight_channels() const { return channels() == 1 ? 3 : 1; }
+
+  Vector<float> pose;        ///< blocks x 3 x 16, empty when there is none
+  Vector<int32_t> wide;      ///< blocks x wide_components x channels x 16
+  Vector<int16_t> narrow;    ///< blocks x the other components x channels x 16
+  Vector<float> weights;     ///< frames x components x weight_channels, coefficient scale included
+  Vector<Affine> pose_maps;  ///< A_f; empty when there is no pose
+  Vector<Affine> motions;    ///< M_f; empty when there are none
+
+  Vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
+  double origin[3] = {0, 0, 0};      ///< key-frame kind: offset of every coefficient vector
+
+  /// Corrections of frame f are correction_begin[f] .. correction_begin[f+1]-1, ascending by
+  /// vertex; empty when there are none. Added last, in scene units.
+  struct Correction {
+    uint32_t vertex;
+    float delta[3];
+  };
+
+  Vector<uint32_t> correction_begin;
+  Vector<Correction> corrections;
+
+  /// Key-frames rebuilt by multi-scale geometry interpolation: one element, else empty. It makes
+  /// the coded vertices, by the weights over weight_scale; vertex v is coded vertex
+  /// vertex_coded[v], or v when that is empty.
+  Vector<Msgi> msgi;
+  double weight_scale = 1;
+  Vector<uint32_t> vertex_coded;
+
+  uint64_t stored_hash = 0;
+  uint64_t decoded_hash = 0;
+
+  size_t resident_bytes() const;
+};
+
+/// What opening a segment needs to know besides its own record.
+struct SegmentContext {
+  const format::Limits::Segment* sizes = nullptr;
+  const format::Limits::Mesh* mesh_sizes = nullptr;
+  const Topology* topology = nullptr;
+  /// Coded vertex of each vertex of the opened segment; null: it holds the coded vertices.
+  const Vector<uint32_t>* vertex_coded = nullptr;
+  const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
+  const DracoMesh* draco = nullptr;  ///< null when the connectivity is plain
+  Vector<format::ByteView> layers;   ///< chunks BASI in file order
+  format::ByteView corrections;      ///< chunk CORR, empty when there is none
+  double quality = 1;                ///< share of the components wanted
+  /// Layers or corrections are still to come: as many components as are there are opened.
+  bool partial = false;
+};
+
+/// How many of its components are opened at a quality in (0, 1].
+uint32_t wanted_components(double quality, uint32_t components);
+
+/// Opens a segment of any kind. The counts in `context` have been checked against the host's
+/// limits.
+Status open_segment(const format::SegmentRecord& record, const SegmentContext& context,
+                    Segment* out);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_SEGMENT_SEGMENT_H_

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/segment/linear_basis.h"
+
+#include "codec/algebra/leading_eigenpairs.h"
+#include "codec/algebra/trajectory_gram.h"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+namespace anicodec {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+std::vector<float> noise(size_t count, uint32_t seed) {
+  std::vector<float> out(count);
+  for (float& x : out) {
+    seed = seed * 1664525 + 1013904223;
+    x = static_cast<float>(seed >> 8) / static_cast<float>(1 << 23) - 1;
+  }
+  return out;
+}
+
+/// Frames of a cloud that an affine map and a few other functions of time move.
+std::vector<float> clip(size_t frames, size_t vertices) {
+  const std::vector<float> shape = noise(9 * vertices, 3);
+  std::vector<float> out;
+  for (size_t f = 0; f < frames; ++f) {
+    const float t = static_cast<float>(f);
+    for (size_t v = 0; v < vertices; ++v) {
+      const float* p = shape.data() + 9 * v;
+      for (size_t c = 0; c < 3; ++c)
+        out.push_back(100 + 10 * p[c] + 0.3f * t * p[(c + 1) % 3] + 0.1f * p[3 + c] * std::sin(t) +
+                      0.05f * p[6 + c] * std::cos(0.3f * t));
+    }
+  }
+  return out;
+}
+
+// 3 frames x vertices, about the analysis' origin.
+MatrixXd trajectories(const std::vector<float>& x, size_t frames, const Vector3d& origin) {
+  const size_t n = x.size() / 3 / frames;
+  MatrixXd out(static_cast<Index>(3 * frames), static_cast<Index>(n));
+  for (size_t f = 0; f < frames; ++f)
+    for (size_t v = 0; v < n; ++v)
+      for (size_t c = 0; c < 3; ++c)
+        out(static_cast<Index>(3 * f + c), static_cast<Index>(v)) =
+            static_cast<double>(x[(f * n + v) * 3 + c]) - origin[static_cast<Index>(c)];
+  return out;
+}
+
+MatrixXd residual(const MatrixXd& x, const LinearBasis& basis) {
+  MatrixXd rest = x;
+  if (basis.base == Base::kAffine) {
+    MatrixXd functions(x.cols(), 4);
+    functions << VectorXd::Ones(x.cols()), basis.pose;
+    const Eigen::JacobiSVD<MatrixXd> svd(functions, Eigen::ComputeThinU);
+    rest -= (x * svd.matrixU()) * svd.matrixU().transpose();
+  } else {
+    for (Index r = 0; r < x.rows(); ++r)
+      rest.row(r) -= basis.pose.col(r % 3).transpose();
+  }
+  return rest;
+}
+
+MatrixXd as_frames(const MatrixXd& trajectories) {
+  MatrixXd out(trajectories.rows() / 3, 3 * trajectories.cols());
+  for (Index r = 0; r < trajectories.rows(); ++r)
+    for (Index v = 0; v < trajectories.cols(); ++v)
+      out(r / 3, 3 * v + r % 3) = trajectories(r, v);
+  return out;
+}
+
+TEST(LinearBasis, HasOrthonormalComponentsWithTheEnergiesOfTheClip) {
+  const size_t frames = 17, n = 301;
+  const std::vector<float> x = clip(frames, n);
+  const LinearAnalysis analysis(FrameView(x.data(), frames, n));
+  using format::BasisKind;
+  for (const auto pose : {ReferencePose::kMean, ReferencePose::kFrame, ReferencePose::kRankThree})
+    for (const auto base : {Base::kPose, Base::kAffine})
+      for (const auto kind : {BasisKind::kEigenshapes, BasisKind::kEigentrajectories}) {
+        if (kind == BasisKind::kEigentrajectories && base == Base::kPose)
+          continue;
+        const LinearBasis b = analysis.basis(kind, pose, base, 1000, 1e-7);
+        MatrixXd rest = residual(trajectories(x, frames, b.origin), b);
+        if (kind == BasisKind::kEigenshapes)
+          rest = as_frames(rest);
+        EXPECT_NEAR(b.base_energy, rest.squaredNorm(), 1e-9 * b.base_energy + 1e-7);
+        const Index k = b.energies.size();
+        ASSERT_GT(k, 2);
+        EXPECT_LT((b.time.transpose() * b.time - MatrixXd::Identity(k, k)).cwiseAbs().maxCoeff(),
+                  1e-10);
+        const VectorXd singular = Eigen::JacobiSVD<MatrixXd>(rest).singularValues();
+        for (Index j = 0; j < k; ++j) {
+          EXPECT_NEAR(b.energies[j], singular[j] * singular[j], 1e-8 * b.energies[0]);
+          EXPECT_NEAR((rest.transpose() * b.time.col(j)).squaredNorm(), b.energies[j],
+                      1e-8 * b.energies[0]);
+        }
+      }
+}
+
+TEST(LinearBasis, KnowsTheReferenceOfTheKgError) {
+  const size_t frames = 5, n = 40;
+  const std::vector<float> x = clip(frames, n);
+  const LinearAnalysis analysis(FrameView(x.data(), frames, n));
+  MatrixXd rows = trajectories(x, frames, Vector3d::Zero());
+  rows.colwise() -= rows.rowwise().mean().eval();
+  EXPECT_NEAR(analysis.kg_reference(), rows.squaredNorm(), 1e-9 * rows.squaredNorm());
+}
+
+TEST(LinearBasis, LeavesNothingOfAnAffineMotion) {
+  const size_t frames = 6, n = 50;
+  const std::vector<float> p = noise(3 * n, 5);
+  std::vector<float> x;
+  for (size_t f = 0; f < frames; ++f)
+    for (size_t v = 0; v < n; ++v)
+      for (size_t c = 0; c < 3; ++c)
+        x.push_back(p[3 * v + c] * (1 + 0.1f * static_cast<float>(f)) +
+                    0.2f * static_cast<float>(f) * p[3 * v + (c + 1) % 3]);
+  const LinearAnalysis analysis(FrameView(x.data(), frames, n));
+  const LinearBasis b = analysis.basis(format::BasisKind::kEigentrajectories, ReferencePose::kFrame,
+                                       Base::kAffine, 10, 1e-6);
+  EXPECT_LT(b.base_energy, 1e-6);
+  EXPECT_EQ(b.energies.size(), 0);
+}
+
+TEST(LinearBasis, AcceptsFlatAndStillClips) {
+  std::vector<float> x = clip(4, 30);
+  for (size_t i = 2; i < x.size(); i += 3)
+    x[i] = 7;
+  const LinearAnalysis flat(FrameView(x.data(), 4, 30));
+  const std::vector<float> still(4 * 30 * 3, 2.5f);
+  const LinearAnalysis constant(FrameView(still.data(), 4, 30));
+  for (const auto pose : {ReferencePose::kMean, ReferencePose::kFrame, ReferencePose::kRankThree}) {
+    const auto kind = format::BasisKind::kEigentrajectories;
+    EXPECT_TRUE(flat.basis(kind, pose, Base::kAffine, 9, 1e-9).time.allFinite());
+    const LinearBasis b = constant.basis(kind, pose, Base::kAffine, 9, 1e-9);
+    EXPECT_TRUE(b.pose.allFinite());
+    EXPECT_EQ(b.energies.size(), 0);
+  }
+}
+
+TEST(LinearBasis, IsTheSameForAnyNumberOfThreads) {
+  const size_t frames = 30, n = 3000;
+  const std::vector<float> x = clip(frames, n);
+  const auto make = [&] {
+    const LinearAnalysis analysis(FrameView(x.data(), frames, n));
+    return analysis.basis(format::BasisKind::kEigentrajectories, ReferencePose::kRankThree,
+                          Base::kAffine, 20, 0);
+  };
+  const LinearBasis many = make();
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const LinearBasis single = make();
+  EXPECT_EQ(many.energies, single.energies);
+  EXPECT_EQ(many.time, single.time);
+  EXPECT_EQ(many.pose, single.pose);
+}
+
+TEST(LeadingEigenpairs, AgreeWithTheFullDecomposition) {
+  for (const Index n : {20, 700}) {
+    const Index rank = std::min<Index>(n, 240);
+    const std::vector<float> values = noise(static_cast<size_t>(n * rank), 11);
+    MatrixXd a(n, rank);
+    for (Index j = 0; j < rank; ++j)
+      for (Index i = 0; i < n; ++i)
+        a(i, j) = static_cast<double>(values[static_cast<size_t>(j * n + i)]) *
+                  std::exp(-0.1 * static_cast<double>(j));
+    const MatrixXd symmetric = a * a.transpose();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> full(symmetric);
+    const double smallest = full.eigenvalues()[n - 15];
+    for (const Index count : {Index{5}, Index{1000}}) {
+      const Eigenpairs pairs = leading_eigenpairs(symmetric, count, smallest);
+      ASSERT_EQ(pairs.values.size(), std::min<Index>(count, 14));
+      for (Index j = 0; j < pairs.values.size(); ++j) {
+        EXPECT_NEAR(pairs.values[j], full.eigenvalues()[n - 1 - j], 1e-8 * pairs.values[0]);
+        EXPECT_LT(
+            (symmetric * pairs.vectors.col(j) - pairs.values[j] * pairs.vectors.col(j)).norm(),
+            2e-5 * pairs.values[j]);
+      }
+      EXPECT_LT((pairs.vectors.transpose() * pairs.vectors -
+                 MatrixXd::Identity(pairs.values.size(), pairs.values.size()))
+                    .cwiseAbs()
+                    .maxCoeff(),
+                1e-10);
+    }
+  }
+}
+
+TEST(LeadingEigenpairs, FindAllOfASpectrumThatDoesNotDecay) {
+  const MatrixXd identity = MatrixXd::Identity(400, 400);
+  EXPECT_EQ(leading_eigenpairs(identity, 1000, 0.5).values.size(), 400);
+  EXPECT_EQ(leading_eigenpairs(MatrixXd::Zero(400, 400), 1000, 0).values.size(), 0);
+}
+
+TEST(TrajectoryGram, CombinesRows) {
+  const size_t frames = 9, n = 500;
+  const std::vector<float> x = clip(frames, n);
+  const Vector3d origin(1, -2, 3);
+  const FrameView view(x.data(), frames, n);
+  const MatrixXd rows = trajectories(x, frames, origin);
+  EXPECT_LT((trajectory_gram(view, origin) - rows * rows.transpose()).norm(),
+            1e-12 * (rows * rows.transpose()).norm());
+  const MatrixXd weights = MatrixXd::Random(static_cast<Index>(3 * frames), 4);
+  MatrixXd combined(static_cast<Index>(n), 4);
+  combine_rows(view, origin, weights, [&](size_t first, const MatrixXd& block) {
+    combined.middleRows(static_cast<Index>(first), block.rows()) = block;
+  });
+  EXPECT_LT((combined - rows.transpose() * weights).norm(), 1e-10 * combined.norm());
+  EXPECT_LT((project_on_functions(view, origin, combined) - rows * combined).norm(),
+            1e-10 * (rows * combined).norm());
+}
+
+}  // namespace
+}  // namespace anicodec

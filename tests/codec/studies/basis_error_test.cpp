@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/studies/basis_error.h"
+
+#include "codec/keyframes/keyframe_count.h"
+#include "tests/codec/moving_points.h"
+
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+constexpr double kNoLimit = 1e300;
+
+TEST(BasisError, HasARowPerMethodAndCount) {
+  const MovingPoints clip = swinging_points(20, 30, 6, 1, 0.05);
+  KeyframeFitter fitter(clip.view());
+  const size_t counts[] = {1, 5, 20, 21};
+  const auto rows = basis_errors(fitter, counts);
+  EXPECT_EQ(rows.size(), 3 * basis_error_methods().size());
+  std::set<std::string> seen;
+  for (const BasisError& row : rows) {
+    seen.insert(row.method);
+    EXPECT_NEAR(row.rmse * 100, row.kg * std::sqrt(fitter.gram().kg_reference() / 600), 1e-6);
+    EXPECT_TRUE(row.k < 20 || row.kg < 1e-4);
+  }
+  EXPECT_EQ(seen.size(), basis_error_methods().size());
+  EXPECT_EQ(basis_errors(fitter, counts, false).size(), 3 * 8u);
+}
+
+TEST(BasisError, OfPrincipalComponentsIsALowerBound) {
+  for (uint32_t seed = 1; seed <= 3; seed++) {
+    const MovingPoints clip = swinging_points(40, 50, 10, seed, 0.05);
+    KeyframeFitter fitter(clip.view());
+    const size_t counts[] = {2, 4, 8};
+    std::map<std::pair<std::string, size_t>, double> kg;
+    for (const BasisError& row : basis_errors(fitter, counts)) {
+      kg[{row.method, row.k}] = row.kg;
+    }
+    for (size_t k : counts) {
+      EXPECT_LE((kg[{"pca-mean", k}]), (kg[{"pca", k}]) * (1 + 1e-9));
+      for (const char* method : {"gas", "pivot", "uniform"}) {
+        EXPECT_LE((kg[{"pca", k}]), (kg[{std::string(method) + "-linear", k}]));
+      }
+    }
+  }
+}
+
+TEST(BasisError, OfAllComponentsIsZero) {
+  const MovingPoints clip = swinging_points(12, 20, 3, 2);
+  KeyframeFitter fitter(clip.view());
+  const auto errors = principal_errors(fitter.products(KeyframeWeights::kLinear));
+  ASSERT_EQ(errors.size(), 13u);
+  EXPECT_EQ(errors.back(), 0);
+  EXPECT_NEAR(errors[0], fitter.products(KeyframeWeights::kLinear).trace(), 1e-9 * errors[0]);
+  EXPECT_LT(errors[4], 1e-9 * errors[0]);
+}
+
+TEST(KeyframeCount, IsTheFewestThatMeetTheTarget) {
+  const MovingPoints clip = swinging_points(60, 40, 12, 3, 0.02);
+  KeyframeFitter fitter(clip.view());
+  for (KeyframeWeights kind :
+       {KeyframeWeights::kLinear, KeyframeWeights::kSumToOne, KeyframeWeights::kRigid}) {
+    for (double kg : {30.0, 5.0, 2.0}) {
+      const KeyframeFit fit =
+          fewest_keyframes(fitter, {kg, kNoLimit}, KeyframeMethod::kPivot, kind);
+      EXPECT_LE(fitter.kg(fit), kg);
+      if (fit.keyframes.size() > 1) {
+        const KeyframeFit fewer =
+            fitter.fit(fit.keyframes.size() - 1, KeyframeMethod::kPivot, kind);
+        EXPECT_GT(fitter.kg(fewer), kg);
+      }
+    }
+  }
+}
+
+TEST(KeyframeCount, MeetsTheRmse) {
+  const MovingPoints clip = swinging_points(40, 40, 8, 4, 0.02);
+  KeyframeFitter fitter(clip.view());
+  const KeyframeFit fit =
+      fewest_keyframes(fitter, {kNoLimit, 0.05}, KeyframeMethod::kGas, KeyframeWeights::kLinear);
+  EXPECT_LE(fitter.rmse(fit), 0.05);
+  EXPECT_LT(fit.keyframes.size(), 40u);
+}
+
+TEST(KeyframeCount, IsOneForALooseTargetAndAllForAnImpossibleOne) {
+  const MovingPoints clip = random_points(9, 40, 5);
+  KeyframeFitter fitter(clip.view());
+  for (KeyframeWeights kind :
+       {KeyframeWeights::kLinear, KeyframeWeights::kSumToOne, KeyframeWeights::kRigid}) {
+    const auto count = [&](double kg) {
+      return fewest_keyframes(fitter, {kg, kNoLimit}, KeyframeMethod::kPivot, kind)
+          .keyframes.size();
+    };
+    EXPECT_EQ(count(1000), 1u);
+    EXPECT_EQ(count(0), 9u);
+  }
+}
+
+}  // namespace
+}  // namespace anicodec

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "corpus/clips.h"
+#include "tests/tools/command_testing.h"
+#include "tools/inputs/batch_clips.h"
+#include "tools/io/write_sequence.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+std::vector<std::string> names_of(const std::vector<BatchClip>& clips) {
+  std::vector<std::string> names;
+  for (const BatchClip& clip : clips)
+    names.push_back(clip.name);
+  return names;
+}
+
+TEST(BatchClips, AreScenesCachesAndNumberedFramesOfAllFolders) {
+  TemporaryFolder folder;
+  for (const char* file : {"walk.pc2", "walk.obj", "fox.glb", "readme.txt", "scan/frame_2.ply",
+                           "scan/frame_10.ply", "scan/frame_1.ply", "scan/1.off", "scan/2.off",
+                           "lone_1.obj", "deep/run.mdd", "deep/run.obj"})
+    folder.write(file, "x");
+  std::vector<BatchClip> clips = find_clips(folder / ".");
+  EXPECT_THAT(names_of(clips), ElementsAre("fox", "walk", "deep/run", "scan/scan", "scan/frame"));
+  ASSERT_THAT(clips, SizeIs(5));
+  ASSERT_THAT(clips[4].inputs, SizeIs(3));
+  EXPECT_THAT(clips[4].inputs[2], HasSubstr("frame_10.ply"));
+  EXPECT_THAT(clips[1].inputs, SizeIs(1));
+}
+
+TEST(BatchClips, ComeFromAListWithInputsBetweenTabs) {
+  TemporaryFolder folder;
+  const std::string list =
+      folder.write("list.txt", "# clips\n\na/walk.obj\ta/walk.pc2\r\nruns/*.obj\n");
+  std::vector<BatchClip> clips = find_clips(list);
+  EXPECT_THAT(names_of(clips), ElementsAre("walk", "runs"));
+  EXPECT_THAT(clips[0].inputs, ElementsAre("a/walk.obj", "a/walk.pc2"));
+}
+
+TEST(BatchClips, MustBeFoundAndHaveDifferentNames) {
+  TemporaryFolder folder;
+  EXPECT_THAT(fault([&] { find_clips(folder / "."); }), HasSubstr("no clip is found"));
+  folder.write("a.glb", "x");
+  folder.write("a.mdd", "x");
+  EXPECT_THAT(fault([&] { find_clips(folder / "."); }, ErrorKind::kUsage),
+              HasSubstr("a.mdd: would be written to a.anic, and so would "));
+}
+
+class BatchCommand : public testing::Test {
+ protected:
+  BatchCommand() {
+    for (const char* name : {"limb", "one_triangle", "quad_box"}) {
+      fs::create_directories(folder_ / "in");
+      write_sequence(folder_ / ("in/" + std::string(name) + ".pc2"), corpus::make_clip(name));
+    }
+  }
+
+  Outcome batch(std::vector<std::string> options = {}) {
+    options.insert(options.begin(),
+                   {"encode", "--batch", folder_ / "in", "-o", folder_ / "out", "--effort", "1"});
+    return anicodec(options);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(BatchCommand, EncodesEveryClipOnceWithALineForEach) {
+  Outcome first = batch({"-j", "2"});
+  ASSERT_EQ(first.status, 0) << first;
+  EXPECT_THAT(first.out, HasSubstr("[3/3] "));
+  EXPECT_THAT(first.out, HasSubstr("3 encoded, 0 done before, 0 failed; "));
+  for (const char* name : {"limb", "one_triangle", "quad_box"})
+    EXPECT_EQ(anicodec({"verify", folder_ / ("out/" + std::string(name) + ".anic")}).status, 0);
+
+  Outcome again = batch();
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.out, HasSubstr("0 encoded, 3 done before, 0 failed"));
+}
+
+TEST_F(BatchCommand, EncodesAgainWhatHasChanged) {
+  ASSERT_EQ(batch().status, 0);
+  EXPECT_THAT(batch({"--kg", "1"}).out, HasSubstr("3 encoded, 0 done before"));
+  MeshSequence clip = corpus::make_clip("limb");
+  clip.positions[0] += 1;
+  write_sequence(folder_ / "in/limb.pc2", clip, {.overwrite = true});
+  EXPECT_THAT(batch({"--kg", "1"}).out, HasSubstr("1 encoded, 2 done before"));
+  fs::remove(folder_ / "out/quad_box.anic");
+  EXPECT_THAT(batch({"--kg", "1"}).out, HasSubstr("1 encoded, 2 done before"));
+}
+
+TEST_F(BatchCommand, GoesOnAfterAFailureAndTellsIt) {
+  folder_.write("in/broken.glb", "glTF");
+  Outcome outcome = batch();
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.out, HasSubstr("broken: FAILED: "));
+  EXPECT_THAT(outcome.out, HasSubstr("3 encoded, 0 done before, 1 failed"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 4 clips failed, the first is broken"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/broken.anic"));
+}
+
+TEST_F(BatchCommand, LeavesFilesThatItDidNotWrite) {
+  folder_.write("out/limb.anic", "mine");
+  Outcome outcome = batch();
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("limb: FAILED: "));
+  EXPECT_EQ(folder_.read("out/limb.anic"), "mine");
+  EXPECT_EQ(batch({"-f"}).status, 0);
+}
+
+TEST_F(BatchCommand, KeepsWithinAMemoryCap) {
+  EXPECT_EQ(batch({"-j", "3", "--memory", "1"}).status, 0) << "one after the other";
+  EXPECT_EQ(batch({"--memory", "lots"}).status, 1);
+}
+
+}  // namespace
+}  // namespace anicodec::tools

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tests/tools/command_testing.h"
+#include "tools/words/version.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::vector<std::string> kCommands = {"encode",  "decode",  "join", "info",   "verify",
+                                            "compare", "analyze", "dump", "render", "corpus"};
+
+/// Exit status 1 and one line on stderr that starts with the command's name.
+void expect_usage_error(const Outcome& outcome) {
+  EXPECT_EQ(outcome.status, 1) << outcome;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, StartsWith("anicodec: "));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+TEST(CommandLine, HelpListsTheCommandsAndExitStatuses) {
+  Outcome help = anicodec({"--help"});
+  EXPECT_EQ(help.status, 0);
+  for (const std::string& command : kCommands)
+    EXPECT_THAT(help.out, HasSubstr("  " + command + " "));
+  EXPECT_THAT(help.out, AllOf(StartsWith("Usage: anicodec COMMAND"), HasSubstr("Exit status"),
+                              HasSubstr("3  a damaged .anic file")));
+}
+
+TEST(CommandLine, EveryCommandHasHelpWithinAHundredColumns) {
+  for (const std::string& command : kCommands) {
+    Outcome help = anicodec({command, "--help"});
+    EXPECT_EQ(help.status, 0) << help;
+    EXPECT_THAT(help.out, StartsWith("Usage: anicodec " + command + " "));
+    for (const char* option :
+         {"-h,--help", "-f,--force", "-q,--quiet", "-v,--verbose", "-j,--threads", "--version"})
+      EXPECT_THAT(help.out, HasSubstr(option)) << command;
+    for (size_t begin = 0; begin < help.out.size();) {
+      size_t end = std::min(help.out.find('\n', begin), help.out.size());
+      EXPECT_LE(end - begin, 100U) << help.out.substr(begin, end - begin);
+      begin = end + 1;
+    }
+  }
+}
+
+TEST(CommandLine, PrintsItsVersion) {
+  EXPECT_EQ(anicodec({"--version"}).out, "anicodec " + std::string(version()) + "\n");
+  EXPECT_EQ(anicodec({"encode", "--version"}).status, 0);
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+  expect_usage_error(anicodec({}));
+  expect_usage_error(anicodec({"compress"}));
+  expect_usage_error(anicodec({"info", "a.anic", "--colour"}));
+  expect_usage_error(anicodec({"info"}));
+  expect_usage_error(anicodec({"verify", "a.anic", "b.anic"}));
+  expect_usage_error(anicodec({"info", "a.anic", "-j0"}));
+}
+
+TEST(CommandLine, SaysThatAFileIsMissing) {
+  TemporaryFolder folder;
+  std::string file = folder / "absent.anic";
+  for (const char* command : {"info", "verify", "dump"}) {
+    Outcome outcome = anicodec({command, file});
+    EXPECT_EQ(outcome.status, 2) << outcome;
+    EXPECT_THAT(outcome.err, StartsWith("anicodec: " + file + ": "));
+  }
+}
+
+TEST(CommandLine, ListsTheCorpus) {
+  Outcome list = anicodec({"corpus", "--list"});
+  EXPECT_EQ(list.status, 0);
+  EXPECT_THAT(list.out, HasSubstr("limb "));
+  expect_usage_error(anicodec({"corpus"}));
+  expect_usage_error(anicodec({"corpus", "no-such-clip", "-o", "x.pc2"}));
+  expect_usage_error(anicodec({"corpus", "limb", "--list"}));
+}
+
+TEST(CommandLine, MakesTheFoldersOfItsOutput) {
+  TemporaryFolder folder;
+  EXPECT_EQ(anicodec({"corpus", "one_triangle", "-o", folder / "a/b/frame_%04d.ply"}).status, 0);
+  EXPECT_THAT(folder.read("a/b/frame_0000.ply"), StartsWith("ply"));
+  EXPECT_EQ(anicodec({"corpus", "limb", "-o", folder / "c/d/no_number.ply"}).status, 1);
+  EXPECT_EQ(folder.files(), std::vector<std::string>{"a"});
+}
+
+}  // namespace
+}  // namespace anicodec::tools

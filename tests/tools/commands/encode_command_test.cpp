@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/mesh_sequence.h"
+#include "corpus/clips.h"
+#include "tests/tools/command_testing.h"
+#include "tools/io/write_sequence.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A folder with a clip of the corpus as a.pc2 and a.obj.
+class EncodeCommand : public testing::Test {
+ protected:
+  EncodeCommand() { write_sequence(folder_ / "a.pc2", corpus::make_clip("limb")); }
+
+  Outcome encode(std::vector<std::string> options, const std::string& output = "a.anic") {
+    std::vector<std::string> arguments{"encode", folder_ / "a.pc2", "-o", folder_ / output};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return anicodec(arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(EncodeCommand, PromisesATwentiethPerCentByDefault) {
+  Outcome outcome = encode({"--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_LE(outcome.json()["max_error_percent"], 0.05);
+  EXPECT_EQ(outcome.json()["bytes"], folder_.read("a.anic").size());
+  nlohmann::json info = anicodec({"info", folder_ / "a.anic", "--json"}).json();
+  EXPECT_EQ(info["asked"]["metric"], "max_error");
+  EXPECT_NEAR(info["asked"]["value"], 0.0005 * double(info["diagonal"]), 1e-9);
+}
+
+TEST_F(EncodeCommand, KeepsEveryKindOfTarget) {
+  auto encoded = [&](std::vector<std::string> options, const std::string& file) {
+    options.insert(options.end(), {"--effort", "2", "--json"});
+    return encode(options, file).json();
+  };
+  EXPECT_LE(encoded({"--kg", "0.5"}, "1.anic")["kg"], 0.5);
+  nlohmann::json rmse = encoded({"--rmse", "0.02%"}, "2.anic");
+  EXPECT_LE(rmse["rmse"], 0.0002 * double(rmse["diagonal"]));
+  EXPECT_LE(encoded({"--size", "9k"}, "3.anic")["bytes"], 9000);
+  EXPECT_LE(encoded({"--bpfv", "1.5"}, "4.anic")["bpfv"], 1.5);
+  nlohmann::json capped = encoded({"--kg", "2", "--max-error", "0.5%"}, "5.anic");
+  EXPECT_LE(capped["kg"], 2);
+  EXPECT_LE(capped["max_error_percent"], 0.5);
+}
+
+TEST_F(EncodeCommand, UsesTheNumberOfKeyframesAskedFor) {
+  for (const char* select : {"gas", "pivot", "uniform"}) {
+    Outcome outcome = encode({"--keyframes", "7", "--select", select, "--json", "-f"});
+    ASSERT_EQ(outcome.status, 0) << outcome;
+    EXPECT_EQ(outcome.json()["components"], 7) << select;
+    EXPECT_EQ(outcome.json()["basis"], "keyframes");
+  }
+}
+
+TEST_F(EncodeCommand, RebuildsFramesAsAskedFor) {
+  auto kg = [&](const std::string& interpolation) {
+    Outcome outcome =
+        encode({"--keyframes", "5", "--interpolation", interpolation, "--json", "-f"});
+    EXPECT_EQ(outcome.status, 0) << outcome;
+    EXPECT_EQ(anicodec({"verify", folder_ / "a.anic"}).status, 0);
+    return outcome.json()["kg"].get<double>();
+  };
+  const double linear = kg("linear"), msgi = kg("msgi");
+  nlohmann::json info = anicodec({"info", folder_ / "a.anic", "--json"}).json();
+  EXPECT_EQ(info["segments"][0]["reconstruction"], "msgi");
+  EXPECT_THAT(anicodec({"info", folder_ / "a.anic"}).out, HasSubstr("by msgi"));
+  EXPECT_THAT(anicodec({"dump", folder_ / "a.anic"}).out, HasSubstr("bytes of msgi for a frame"));
+  EXPECT_LE(kg("auto"), std::min(linear, msgi) * 1.000001);
+  Outcome wrong = encode({"--basis", "eigenshapes", "--interpolation", "msgi", "-f"});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("--interpolation goes with"));
+}
+
+TEST_F(EncodeCommand, UsesTheBasisAskedFor) {
+  for (const char* basis : {"keyframes", "eigenshapes", "eigentrajectories"}) {
+    Outcome outcome = encode({"--basis", basis, "--json", "-f"});
+    ASSERT_EQ(outcome.status, 0) << outcome;
+    EXPECT_EQ(outcome.json()["basis"], basis);
+    EXPECT_LE(outcome.json()["max_error_percent"], 0.05);
+    EXPECT_EQ(anicodec({"verify", folder_ / "a.anic"}).status, 0);
+  }
+}
+
+TEST_F(EncodeCommand, GivesTheSameBytesForAnyNumberOfThreads) {
+  ASSERT_EQ(encode({"-j1", "--effort", "3"}, "1.anic").status, 0);
+  ASSERT_EQ(encode({"-j2", "--effort", "3"}, "2.anic").status, 0);
+  ASSERT_EQ(encode({"-j2", "--effort", "3"}, "3.anic").status, 0);
+  EXPECT_EQ(folder_.read("1.anic"), folder_.read("2.anic"));
+  EXPECT_EQ(folder_.read("2.anic"), folder_.read("3.anic"));
+}
+
+TEST_F(EncodeCommand, RefusesImpossibleOptionsAndLeavesNoFile) {
+  const std::vector<std::vector<std::string>> impossible = {
+      {"--kg", "1", "--size", "20k"},
+      {"--kg", "0"},
+      {"--kg", "-1"},
+      {"--kg", "1%"},
+      {"--max-error", "0"},
+      {"--max-error", "nan"},
+      {"--max-error", "1e-30"},
+      {"--size", "12"},
+      {"--size", "lots"},
+      {"--keyframes", "0"},
+      {"--keyframes", "100000"},
+      {"--keyframes", "2", "--kg", "0.01"},
+      {"--basis", "magic"},
+      {"--basis", "eigenshapes", "--keyframes", "5"},
+      {"--select", "best"},
+      {"--order", "none"},
+      {"--fps", "0"},
+      {"--fps", "24/0"},
+      {"--effort", "10"},
+      {"--up", "x"},
+      {"--unit", "-1"},
+      {"--mesh", "absent.obj", "--mesh", "again.obj"}};
+  for (const auto& options : impossible) {
+    Outcome outcome = encode(options);
+    EXPECT_EQ(outcome.status, 1) << testing::PrintToString(options) << outcome;
+    EXPECT_THAT(outcome.err, StartsWith("anicodec: "));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_THAT(folder_.files(), ElementsAre("a.obj", "a.pc2")) << testing::PrintToString(options);
+  }
+}
+
+TEST_F(EncodeCommand, StatesWhatCanBeReached) {
+  Outcome outcome = encode({"--keyframes", "2", "--kg", "0.01"});
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("2 key-frames"), HasSubstr("%")));
+}
+
+TEST_F(EncodeCommand, OverwritesOnlyWhenForced) {
+  folder_.write("a.anic", "precious");
+  Outcome refused = encode({"--kg", "1"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.err, HasSubstr("a.anic"));
+  EXPECT_EQ(folder_.read("a.anic"), "precious");
+  EXPECT_EQ(encode({"--kg", "1", "-f"}).status, 0);
+  EXPECT_NE(folder_.read("a.anic"), "precious");
+}
+
+TEST_F(EncodeCommand, KeepsAnExistingFileWhenItFails) {
+  folder_.write("a.anic", "precious");
+  folder_.write("a.pc2", "POINTCACHE2");
+  EXPECT_EQ(encode({"-f"}).status, 2);
+  EXPECT_EQ(folder_.read("a.anic"), "precious");
+}
+
+TEST_F(EncodeCommand, DoesNotWriteOverItsInput) {
+  std::string before = folder_.read("a.pc2");
+  Outcome outcome = encode({"-f"}, "a.pc2");
+  EXPECT_EQ(outcome.status, 1) << outcome;
+  EXPECT_EQ(folder_.read("a.pc2"), before);
+}
+
+TEST_F(EncodeCommand, SpeaksOnlyWhenAsked) {
+  Outcome quiet = encode({"--kg", "1", "-q"});
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  Outcome loud = encode({"--kg", "1", "-v", "-f"});
+  EXPECT_THAT(loud.out, HasSubstr("tried"));
+  EXPECT_EQ(loud.err, "");
+}
+
+TEST_F(EncodeCommand, NamesFrameAndFileOfANumberThatIsNotFinite) {
+  MeshSequence clip = corpus::make_clip("limb");
+  clip.frame(7)[5] = std::numeric_limits<float>::quiet_NaN();
+  write_sequence(folder_ / "bad.pc2", clip);
+  Outcome outcome = anicodec({"encode", folder_ / "bad.pc2", "-o", folder_ / "bad.anic"});
+  EXPECT_EQ(outcome.status, 2) << outcome;
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("bad.pc2"), HasSubstr("frame 7"), HasSubstr("vertex 1")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "bad.anic"));
+}
+
+TEST_F(EncodeCommand, NamesAFrameThatDoesNotFit) {
+  folder_.write("f/1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder_.write("f/2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n");
+  Outcome counts = anicodec({"encode", folder_ / "f/*.obj", "-o", folder_ / "f.anic"});
+  EXPECT_EQ(counts.status, 2);
+  EXPECT_THAT(counts.err, AllOf(HasSubstr("2.obj"), HasSubstr("4 vertices")));
+  folder_.write("f/2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n");
+  Outcome faces = anicodec({"encode", folder_ / "f/*.obj", "-o", folder_ / "f.anic"});
+  EXPECT_EQ(faces.status, 2);
+  EXPECT_THAT(faces.err, AllOf(HasSubstr("2.obj"), HasSubstr("face 0")));
+  Outcome none = anicodec({"encode", folder_ / "g*.obj", "-o", folder_ / "f.anic"});
+  EXPECT_EQ(none.status, 2);
+  Outcome cache =
+      anicodec({"encode", folder_ / "f/1.obj", folder_ / "a.pc2", "-o", folder_ / "f.anic"});
+  EXPECT_EQ(cache.status, 2);
+  EXPECT_THAT(cache.err, AllOf(HasSubstr("a.pc2"), HasSubstr("1.obj")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "f.anic"));
+}
+
+TEST_F(EncodeCommand, LeavesNothingBehindWhenInterrupted) {
+  write_sequence(folder_ / "big.pc2", corpus::make_wave_grid(20000, 80, 40));
+  for (int signal : {SIGINT, SIGTERM}) {
+    Outcome outcome = run_program({ANICODEC_COMMAND, "encode", folder_ / "big.pc2", "-o",
+                                   folder_ / "big.anic", "--effort", "9", "-f"},
+                                  signal, std::chrono::milliseconds(300));
+    if (outcome.status == 0)
+      continue;  // a fast machine
+    EXPECT_EQ(outcome.status, 128 + signal) << outcome;
+    EXPECT_THAT(folder_.files(), ElementsAre("a.obj", "a.pc2", "big.obj", "big.pc2"));
+  }
+}
+
+}  // namespace
+}  // namespace anicodec::tools

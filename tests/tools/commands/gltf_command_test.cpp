@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Scenes through the command: GLB in, out, and what the Khronos validator says about it.
+#include "corpus/clips.h"
+#include "tests/real_data.h"
+#include "tests/tools/command_testing.h"
+#include "tests/tools/gltf_testing.h"
+#include "tests/two_boxes.h"
+#include "tools/io/gltf/glb_output.h"
+#include "tools/io/load_sequence.h"
+#include "tools/io/write_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::HasSubstr;
+
+MeshSequence load(const std::string& path) {
+  return load_sequence(std::vector<std::string>{path});
+}
+
+/// In the axes of glTF.
+MeshSequence limb() {
+  MeshSequence clip = corpus::make_clip("limb");
+  clip.up = UpAxis::kY;
+  clip.metres_per_unit = 1;
+  return clip;
+}
+
+double largest_difference(const MeshSequence& a, const MeshSequence& b) {
+  double largest = a.positions.size() == b.positions.size() ? 0 : HUGE_VAL;
+  for (size_t i = 0; i < a.positions.size() && largest < HUGE_VAL; ++i)
+    largest = std::max(largest, std::abs(static_cast<double>(a.positions[i]) -
+                                         static_cast<double>(b.positions[i])));
+  return largest;
+}
+
+TEST(GlbOutput, ReadsBackTheSameClip) {
+  TemporaryFolder folder;
+  MeshSequence clip = limb();
+  clip.rate = {25, 1, false};
+  write_sequence(folder / "a.glb", clip);
+  MeshSequence back = load(folder / "a.glb");
+  EXPECT_EQ(back.frame_count, clip.frame_count);
+  EXPECT_EQ(back.rate.numerator, 25U) << "less than 30, but written down";
+  EXPECT_LT(largest_difference(back, clip), 1e-6 * diagonal(clip));
+}
+
+TEST(GlbOutput, KeepsMaterialsAndAttributesOfVertices) {
+  TemporaryFolder folder;
+  GltfScene scene = triangle_scene();
+  scene.primitive()["attributes"]["TEXCOORD_0"] =
+      scene.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 5126, 2);
+  scene.primitive()["attributes"]["COLOR_0"] = scene.quads({1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 0.5});
+  scene.primitive()["material"] = 1;
+  scene.document["materials"] = {{{"name", "red"}}, {{"name", "blue"}}};
+  folder.write("a.glb", scene.glb());
+  MeshSequence first = load(folder / "a.glb");
+  write_sequence(folder / "b.glb", first);
+  MeshSequence back = load(folder / "b.glb");
+  EXPECT_EQ(back.materials, first.materials);
+  ASSERT_EQ(back.attributes.size(), 2U);
+  for (size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(back.attributes[i].values, first.attributes[i].values);
+}
+
+TEST(GlbOutput, MakesAMeshOfEachObjectAndKeepsTheirNames) {
+  TemporaryFolder folder;
+  MeshSequence scene = two_boxes();
+  write_sequence(folder / "a.glb", scene);
+  const MeshSequence back = load(folder / "a.glb");
+  const size_t quads = scene.polygons.size() / 2;  // of an object
+  EXPECT_EQ(back.parts.names, scene.parts.names);
+  EXPECT_EQ(back.polygons.size(), 4 * quads);
+  EXPECT_EQ(std::ranges::count(back.parts.of_polygon, 1U), 2 * quads);
+  EXPECT_LT(largest_difference(back, scene), 1e-6 * diagonal(scene));
+  LoadOptions one;
+  one.mesh = "still";
+  EXPECT_EQ(load_sequence(std::vector<std::string>{folder / "a.glb"}, one).vertex_count,
+            scene.vertex_count / 2);
+
+  std::vector<uint32_t>& part = scene.parts.of_polygon;
+  std::swap(part[1], part[quads + 1]);
+  part[2] = kNoLabel;
+  write_sequence(folder / "b.glb", scene);
+  const MeshSequence mixed = load(folder / "b.glb");
+  EXPECT_GT(mixed.vertex_count, scene.vertex_count) << "corners of two objects";
+  EXPECT_EQ(std::ranges::count(mixed.parts.of_polygon, kNoLabel), 2);
+  EXPECT_EQ(std::ranges::count(mixed.parts.of_polygon, 0U), 2 * (quads - 1));
+}
+
+TEST(GlbOutput, TurnsClipsWithZUpAndScalesUnits) {
+  TemporaryFolder folder;
+  MeshSequence clip;
+  clip.vertex_count = 3;
+  clip.frame_count = 1;
+  clip.positions = {0, 0, 0, 1, 0, 0, 0, 0, 100};
+  clip.polygons.add(std::vector<uint32_t>{0, 1, 2});
+  clip.up = UpAxis::kZ;
+  clip.metres_per_unit = 0.01;
+  write_sequence(folder / "a.glb", clip);
+  EXPECT_NEAR(load(folder / "a.glb").positions[7], 1, 1e-6) << "y";
+}
+
+TEST(GlbOutput, IsSparseWhereLittleMoves) {
+  TemporaryFolder folder;
+  MeshSequence clip = limb();
+  for (uint32_t f = 1; f < clip.frame_count; ++f) {
+    std::copy(clip.frame(0).begin(), clip.frame(0).end(), clip.frame(f).begin());
+    clip.frame(f)[0] += 1.0F;
+  }
+  write_sequence(folder / "a.glb", clip);
+  EXPECT_LT(std::filesystem::file_size(folder / "a.glb"), size_t{12} * clip.vertex_count +
+                                                              4 * clip.polygons.corners.size() * 2 +
+                                                              size_t{900} * clip.frame_count);
+  EXPECT_LT(largest_difference(load(folder / "a.glb"), clip), 1e-6 * diagonal(clip));
+}
+
+TEST(GlbOutput, StepsWhereAskedTo) {
+  TemporaryFolder folder;
+  MeshSequence clip = corpus::make_clip("limb");
+  for (bool step : {false, true}) {
+    write_sequence(folder / "a.glb", clip, {.overwrite = true, .step = step});
+    EXPECT_THAT(folder.read("a.glb"), HasSubstr(step ? "\"STEP\"" : "\"LINEAR\""));
+  }
+}
+
+TEST(GltfCommand, EncodesAndDecodesScenes) {
+  TemporaryFolder folder;
+  write_sequence(folder / "a.glb", corpus::make_clip("limb"));
+  Outcome encoded = anicodec({"encode", folder / "a.glb", "-o", folder / "a.anic"});
+  ASSERT_EQ(encoded.status, 0) << encoded;
+  ASSERT_EQ(anicodec({"decode", folder / "a.anic", "-o", folder / "b.glb"}).status, 0);
+  Outcome compared =
+      anicodec({"compare", folder / "a.glb", folder / "b.glb", "--no-sted", "--json"});
+  ASSERT_EQ(compared.status, 0) << compared;
+  EXPECT_LE(compared.json()["max_error_percent"], 0.0501);
+  ASSERT_EQ(
+      anicodec({"decode", folder / "a.anic", "-o", folder / "one.glb", "--frames", "3"}).status, 0);
+  EXPECT_EQ(load(folder / "one.glb").frame_count, 1U);
+  EXPECT_EQ(anicodec({"decode", folder / "a.anic", "-o", folder / "b.gltf"}).status, 1);
+}
+
+TEST(GltfCommand, AnalyzesAnAnimationAtARate) {
+  TemporaryFolder folder;
+  GltfScene scene = triangle_scene();
+  scene.animate(0, "translation", {0, 1}, scene.vectors({0, 0, 0, 5, 0, 0}), "LINEAR", "short");
+  scene.animate(0, "translation", {0, 2}, scene.vectors({0, 0, 0, 0, 5, 0}), "LINEAR", "long");
+  folder.write("a.glb", scene.glb());
+  Outcome outcome = anicodec({"analyze", folder / "a.glb", "--clip", "long", "--fps", "10",
+                              "--counts", "1", "--effort", "1", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_EQ(outcome.json()["frames"], 21);
+  EXPECT_EQ(outcome.json()["frame_rate"], 10);
+  EXPECT_EQ(outcome.json()["name"], "a long");
+}
+
+TEST(GltfCommand, NamesThePlaceOfAFault) {
+  TemporaryFolder folder;
+  GltfScene scene = triangle_scene();
+  scene.document["nodes"][0]["children"] = {0};
+  Outcome outcome =
+      anicodec({"encode", folder.write("a.glb", scene.glb()), "-o", folder / "a.anic"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("a.glb: /nodes/0: the node is cyclic"));
+}
+
+TEST(GltfCommand, TurnsAndCutsWhatItCompares) {
+  TemporaryFolder folder;
+  MeshSequence clip = corpus::make_clip("limb");
+  write_sequence(folder / "y.pc2", clip);
+  MeshSequence turned = clip;
+  for (size_t i = 0; i < clip.positions.size(); i += 3) {
+    turned.positions[i + 1] = -clip.positions[i + 2];
+    turned.positions[i + 2] = clip.positions[i + 1];
+  }
+  write_sequence(folder / "z.pc2", turned);
+  auto largest = [&](std::vector<std::string> options) -> double {
+    options.insert(options.begin(),
+                   {"compare", folder / "y.pc2", folder / "z.pc2", "--no-sted", "--json"});
+    Outcome compared = anicodec(options);
+    EXPECT_EQ(compared.status, 0) << compared;
+    return compared.json()["max_error"];
+  };
+  EXPECT_GT(largest({}), 0.01);
+  EXPECT_EQ(largest({"--axes-b", "x,z,-y"}), 0);
+  EXPECT_EQ(largest({"--axes-b", "x,z,-y", "--frames-a", "2:5", "--frames-b", "2:5"}), 0);
+  EXPECT_GT(largest({"--axes-b", "x,z,-y", "--frames-a", "0:5", "--frames-b", "2:7"}), 0);
+  EXPECT_EQ(anicodec({"compare", folder / "y.pc2", folder / "z.pc2", "--axes-b", "x,y,y"}).status,
+            1);
+}
+
+// The validator is a package of npm, named in tests/gltf.
+TEST(GltfValidator, FindsNothingWrong) {
+  const std::string package = ANICODEC_SOURCE_DIR "/tests/gltf";
+  if (!std::filesystem::exists(package + "/node_modules/gltf-validator"))
+    GTEST_SKIP() << "the glTF validator is absent; npm ci --prefix tests/gltf installs it";
+  if (run_program({"node", "--version"}).status != 0)
+    GTEST_SKIP() << "node is absent";
+  TemporaryFolder folder;
+  std::vector<std::string> arguments{"node", package + "/validate.mjs"};
+  for (const std::string name : {"limb", "waves", "quad_box", "one_triangle", "boxes"}) {
+    MeshSequence clip = name == "boxes" ? two_boxes() : corpus::make_clip(name);
+    const std::string base = folder / name;
+    write_sequence(base + ".glb", clip);
+    write_sequence(base + "_step.glb", clip, {.step = true});
+    clip.positions.resize(size_t{3} * clip.vertex_count);
+    clip.frame_count = 1;
+    clip.up = UpAxis::kZ;
+    clip.metres_per_unit = 0.01;
+    clip.materials = {{"paint"}, std::vector<uint32_t>(clip.polygons.size(), 0)};
+    clip.attributes.push_back({.kind = AttributeKind::kUv,
+                               .name = "uv",
+                               .components = 2,
+                               .values = std::vector<float>(size_t{2} * clip.vertex_count, 0.5F)});
+    write_sequence(base + "_one.glb", clip);
+    arguments.insert(arguments.end(), {base + ".glb", base + "_step.glb", base + "_one.glb"});
+  }
+  Outcome outcome = run_program(arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome;
+}
+
+class RealDataGltf : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::is_directory(real_data_folder() + "/gltf"))
+      GTEST_SKIP() << real_data_folder()
+                   << "/gltf is absent; ANICODEC_DATA names the folder of real clips";
+  }
+};
+
+TEST_P(RealDataGltf, ImportsAndKeepsItsPromise) {
+  TemporaryFolder folder;
+  const std::string source = real_data_folder() + "/" + GetParam();
+  Outcome encoded = anicodec(
+      {"encode", source, "-o", folder / "a.anic", "--kg", "1", "--effort", "1", "--fps", "10"});
+  ASSERT_EQ(encoded.status, 0) << encoded;
+  Outcome compared = anicodec({"compare", source, folder / "a.anic", "--json", "--no-sted"});
+  ASSERT_EQ(compared.status, 0) << compared;
+  EXPECT_LE(compared.json()["kg"], 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(, RealDataGltf,
+                         testing::Values("gltf/CesiumMan.glb", "gltf/Fox.glb",
+                                         "gltf/MorphStressTest.gltf", "gltf/Tank4.glb",
+                                         "gltf/lumberjack.glb", "gltf/raylib_robot.glb",
+                                         "gltf/fan/vintageFan_animated.gltf",
+                                         "exported/cesium_morph.glb"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           for (char& c : name)
+                             c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                           return name;
+                         });
+
+class RealDataCesium : public RealDataGltf {
+ protected:
+  /// What compare says about two files of the folder.
+  nlohmann::json compared(const std::string& a, const std::string& b,
+                          std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"compare", real_data_folder() + "/" + a, real_data_folder() + "/" + b, "--json",
+                    "--no-sted", "--mesh", real_data_folder() + "/exported/obj/cesium1.obj"});
+    Outcome outcome = anicodec(options);
+    EXPECT_EQ(outcome.status, 0) << outcome;
+    return outcome.json();
+  }
+};
+
+// One clip as another program writes it: 48 frames, those of the scene without its first.
+TEST_F(RealDataCesium, AgreesWithItsExports) {
+  const std::string scene = "gltf/CesiumMan.glb", obj = "exported/obj/*.obj";
+  auto baked = compared(obj, scene, {"--frames-b", "1:"});
+  EXPECT_EQ(baked["method"], "vertices");
+  EXPECT_LT(baked["max_error_percent"], 1e-3);
+  EXPECT_EQ(compared("exported/cesium.pc2", "exported/cesium.mdd", {})["max_error"], 0);
+  for (const char* cache : {"exported/cesium.pc2", "exported/cesium.mdd"}) {
+    EXPECT_LT(compared(obj, cache, {"--axes-b", "x,z,-y"})["max_error_percent"], 1e-3);
+    EXPECT_LT(
+        compared(cache, scene, {"--frames-b", "1:", "--axes-b", "x,-z,y"})["max_error_percent"],
+        1e-3);
+  }
+  // Its vertices are split at seams: the surfaces are compared. The first key is the rest pose, the
+  // last repeats the first.
+  const std::string morph = "exported/cesium_morph.glb";
+  for (const auto& [other, options] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {obj, {"--axes-b", "x,-z,y"}},
+           {scene, {"--fps", "24", "--frames-a", "1:", "--axes-b", "x,-z,y"}},
+           {"exported/cesium.pc2", {"--axes-b", "x,-y,-z"}},
+           {"exported/cesium.mdd", {"--axes-b", "x,-y,-z"}}}) {
+    std::vector<std::string> all = options;
+    all.insert(all.end(), {"--frames-b", "1:49"});
+    auto surfaces = compared(other, morph, all);
+    EXPECT_EQ(surfaces["method"], "surface") << other;
+    EXPECT_LT(surfaces["hausdorff_percent"], 1e-3) << other;
+  }
+}
+
+// Formats that assimp reads: frames of a model, and a mesh whose file has neither skin nor
+// animation.
+TEST_F(RealDataGltf, TakesOtherScenes) {
+  for (const auto& [file, frames] :
+       {std::pair("other/faerie.md2", 198), {"exported/cesium.fbx", 1}}) {
+    TemporaryFolder folder;
+    const std::string source = real_data_folder() + "/" + file;
+    Outcome encoded = anicodec(
+        {"encode", source, "-o", folder / "a.anic", "--kg", "1", "--effort", "1", "--json"});
+    if (encoded.status != 0 && encoded.err.find("without assimp") != std::string::npos)
+      GTEST_SKIP() << "this build is without assimp";
+    ASSERT_EQ(encoded.status, 0) << encoded;
+    EXPECT_EQ(encoded.json()["frames"], frames) << file;
+    EXPECT_LE(encoded.json()["kg"], 1.0) << file;
+  }
+}
+
+}  // namespace
+}  // namespace anicodec::tools

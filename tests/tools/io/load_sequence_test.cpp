@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/io/load_sequence.h"
+
+#include "tests/real_data.h"
+#include "tests/tools/io_testing.h"
+#include "tools/io/base/byte_order.h"
+#include "tools/io/base/frame_rate.h"
+#include "tools/io/formats/stl.h"
+#include "tools/io/formats/vertex_cache.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+MeshSequence load(std::vector<std::string> inputs, const LoadOptions& options = {}) {
+  return load_sequence(inputs, options);
+}
+
+std::string load_fault(std::vector<std::string> inputs, const LoadOptions& options = {}) {
+  return fault([&] { load_sequence(inputs, options); });
+}
+
+std::string usage_fault(std::vector<std::string> inputs, const LoadOptions& options = {}) {
+  return fault([&] { load_sequence(inputs, options); }, ErrorKind::kUsage);
+}
+
+std::string triangle(const std::string& x) {
+  return "v " + x + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+}
+
+std::string pc2(uint32_t vertices, uint32_t frames) {
+  std::string bytes;
+  append_pc2_header(vertices, frames, bytes);
+  for (uint32_t i = 0; i < vertices * frames * 3; ++i)
+    append(static_cast<float>(i), std::endian::little, bytes);
+  return bytes;
+}
+
+TEST(LoadSequence, ReadsOneMeshAsOneFrame) {
+  TemporaryFolder folder;
+  MeshSequence clip = load({folder.write("a.b.OBJ", triangle("7"))});
+  EXPECT_EQ(clip.name, "a.b");
+  EXPECT_EQ(clip.frame_count, 1U);
+  EXPECT_EQ(clip.positions[0], 7);
+  EXPECT_TRUE(clip.rate.assumed);
+  EXPECT_EQ(clip.up, UpAxis::kUnknown);
+}
+
+TEST(LoadSequence, SortsGlobsNaturallyAndKeepsListsAsGiven) {
+  TemporaryFolder folder;
+  for (const char* x : {"1", "2", "10"})
+    folder.write(std::string("f_") + x + ".obj", triangle(x));
+  MeshSequence globbed = load({folder / "f_*.obj"});
+  EXPECT_THAT((std::vector<float>{globbed.frame(0)[0], globbed.frame(1)[0], globbed.frame(2)[0]}),
+              ElementsAre(1, 2, 10));
+  MeshSequence listed = load({folder / "f_10.obj", folder / "f_1.obj"});
+  EXPECT_EQ(listed.name, "f_10");
+  EXPECT_EQ(listed.frame(0)[0], 10);
+  EXPECT_EQ(listed.frame(1)[0], 1);
+}
+
+TEST(LoadSequence, TakesANameThatExistsAsNoPattern) {
+  TemporaryFolder folder;
+  EXPECT_EQ(load({folder.write("a[1].obj", triangle("5"))}).positions[0], 5);
+}
+
+TEST(LoadSequence, PairsCachesWithMeshesInEitherOrder) {
+  TemporaryFolder folder;
+  std::string mesh = folder.write("mesh.obj", triangle("0"));
+  std::string cache = folder.write("cache.pc2", pc2(3, 2));
+  for (auto inputs : {std::vector{mesh, cache}, std::vector{cache, mesh}}) {
+    MeshSequence clip = load(inputs);
+    EXPECT_EQ(clip.frame_count, 2U);
+    EXPECT_EQ(clip.positions[17], 17);
+    EXPECT_EQ(clip.polygons.size(), 1U);
+  }
+  EXPECT_EQ(load({cache}, {.mesh = mesh}).name, "cache");
+  EXPECT_THAT(load_fault({cache}), HasSubstr("cache.pc2: a vertex cache has no faces"));
+  folder.write("cache.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 2 1 0\n");
+  EXPECT_THAT(load({cache}).polygons[0], ElementsAre(2, 1, 0));
+  folder.write("cache.obj", triangle("0"));
+  EXPECT_THAT(load({cache}).polygons[0], ElementsAre(0, 1, 2));
+}
+
+TEST(LoadSequence, RejectsCachesThatDoNotFitTheMesh) {
+  TemporaryFolder folder;
+  std::string mesh = folder.write("a.obj", triangle("0"));
+  std::string cache = folder.write("a.pc2", pc2(4, 2));
+  EXPECT_EQ(load_fault({cache, mesh}), cache + ": 4 vertices, but the mesh " + mesh + " has 3");
+  EXPECT_THAT(load_fault({cache, folder.write("a.stl", "solid")}),
+              HasSubstr("no order of vertices"));
+}
+
+TEST(LoadSequence, RejectsInputsThatMakeNoClip) {
+  TemporaryFolder folder;
+  std::string mesh = folder.write("a.obj", triangle("0"));
+  std::string other = folder.write("b.off", "OFF\n");
+  std::string cache = folder.write("a.pc2", pc2(3, 2));
+  EXPECT_THAT(usage_fault({}), HasSubstr("no input"));
+  EXPECT_THAT(usage_fault({cache, cache}), HasSubstr("a second vertex cache"));
+  EXPECT_THAT(usage_fault({mesh, cache, mesh}), HasSubstr("one mesh, but 2 are given"));
+  EXPECT_THAT(usage_fault({mesh, cache}, {.mesh = mesh}), HasSubstr("one mesh, but 2 are given"));
+  EXPECT_THAT(usage_fault({mesh}, {.mesh = mesh}), HasSubstr("but there is none"));
+  EXPECT_THAT(usage_fault({mesh, other}), HasSubstr("b.off: frames are of one format"));
+}
+
+TEST(LoadSequence, RejectsFilesThatCannotBeRead) {
+  TemporaryFolder folder;
+  EXPECT_EQ(load_fault({folder / "none.obj"}), folder / "none.obj: No such file or directory");
+  EXPECT_EQ(load_fault({folder / "*.obj"}), folder / "*.obj: no file matches");
+  EXPECT_THAT(load_fault({folder / ""}),
+              HasSubstr("is a directory; name its frames with a pattern"));
+  EXPECT_THAT(load_fault({folder.write("a.xyz", "")}), HasSubstr("a.xyz: is of unknown kind"));
+  EXPECT_THAT(load_fault({folder.write("a.abc", "")}),
+              HasSubstr("a.abc: Alembic is not read; export the clip as glTF"));
+  EXPECT_THAT(load_fault({"/dev/null"}), HasSubstr("unknown kind"));
+  std::filesystem::create_symlink("/dev/zero", folder / "zero.obj");
+  EXPECT_THAT(load_fault({folder / "zero.obj"}), HasSubstr("is not a regular file"));
+  for (const char* extension : {"obj", "ply", "off", "stl", "pc2", "mdd"}) {
+    std::string path = folder.write(std::string("empty.") + extension, "");
+    EXPECT_THAT(load_fault({path}, {.mesh = ""}), HasSubstr(extension)) << path;
+  }
+}
+
+TEST(LoadSequence, RejectsFramesOfOtherConnectivityNamingTheDifference) {
+  TemporaryFolder folder;
+  std::string first = folder.write("1.obj", triangle("0"));
+  std::string frame = folder.write("2.obj", "v 0 0 0\n" + triangle("0"));
+  EXPECT_EQ(load_fault({first, frame}), frame + ": 4 vertices, but " + first + " has 3");
+  folder.write("2.obj", triangle("0") + "f 1 2 3\n");
+  EXPECT_EQ(load_fault({first, frame}), frame + ": 2 faces, but " + first + " has 1");
+  folder.write("2.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 3 2\n");
+  EXPECT_EQ(load_fault({first, frame}),
+            frame + ": face 0 has vertices 0 2 1, but 0 1 2 in " + first + " (counted from 0)");
+  folder.write("2.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3 1\n");
+  EXPECT_THAT(load_fault({first, frame}), HasSubstr("has vertices 0 1 2 0, but 0 1 2 in"));
+}
+
+TEST(LoadSequence, WeldsStlSequencesOnRequest) {
+  Polygons quad;
+  quad.add(std::vector<uint32_t>{0, 1, 2, 3});
+  std::vector<float> first = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, second = first;
+  second[2] = 5;
+  TemporaryFolder folder;
+  std::vector<std::string> paths;
+  for (const auto& positions : {first, second}) {
+    std::string bytes;
+    append_stl(quad, positions, paths.empty(), bytes);
+    paths.push_back(folder.write(std::to_string(paths.size()) + ".stl", bytes));
+  }
+  MeshSequence clip = load(paths);
+  EXPECT_EQ(clip.vertex_count, 4U);
+  EXPECT_EQ(clip.frame_count, 2U);
+  EXPECT_EQ(clip.frame(1)[2], 5);
+  EXPECT_EQ(load(paths, {.weld_stl = false}).vertex_count, 6U);
+  // Frame 1 first: its corners coincide in the other order, which is no fault.
+  EXPECT_EQ(load({paths[1], paths[0]}).vertex_count, 4U);
+}
+
+std::string mdd(const std::vector<float>& times) {
+  std::string bytes;
+  append_mdd_header(3, times, bytes);
+  for (size_t i = 0; i < times.size() * 9; ++i)
+    append(1.0F, std::endian::big, bytes);
+  return bytes;
+}
+
+TEST(LoadSequence, TakesTheRateOfMddUnlessOneIsGiven) {
+  TemporaryFolder folder;
+  folder.write("a.obj", triangle("0"));
+  std::string path = folder.write("a.mdd", mdd({0.5F, 0.75F, 1.5F}));
+  EXPECT_THAT(load({path}).times, ElementsAre(0, 0.25, 1));
+  EXPECT_EQ(load({path}).start_time, 0.5);
+  MeshSequence clip = load({path}, {.rate = parse_frame_rate("30000/1001")});
+  EXPECT_TRUE(clip.times.empty());
+  EXPECT_EQ(clip.rate.numerator, 30000U);
+  EXPECT_FALSE(clip.rate.assumed);
+  path = folder.write("a.mdd", mdd({0, 0, 0}));
+  EXPECT_THAT(load_fault({path}), HasSubstr("a.mdd: the time of frame 1 is not after"));
+  EXPECT_EQ(load({path}, {.rate = parse_frame_rate("24")}).rate.numerator, 24U);
+}
+
+TEST(LoadSequence, ReportsProgressAndCanBeCancelled) {
+  TemporaryFolder folder;
+  folder.write("a.obj", triangle("0"));
+  std::string cache = folder.write("a.pc2", pc2(3, 2));
+  double last = 0;
+  load({cache}, {.progress = [&](std::string_view, double done) { last = done; }});
+  EXPECT_EQ(last, 1);
+  EXPECT_THROW(load({cache}, {.progress = [](std::string_view, double) { throw 1; }}), int);
+}
+
+// Real clips: in the folder that ANICODEC_DATA names.
+class RealDataLoadSequence : public testing::Test {
+ protected:
+  void SetUp() override {
+    data_ = real_data_folder();
+    if (!std::filesystem::exists(data_ / "classic"))
+      GTEST_SKIP() << "no real clips: set ANICODEC_DATA to their folder";
+  }
+
+  std::string operator[](const std::string& name) const { return (data_ / name).string(); }
+
+  std::filesystem::path data_;
+};
+
+double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  double largest = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < a.size() && i < b.size(); ++i)
+    largest = std::max(largest, static_cast<double>(std::abs(a[i] - b[i])));
+  return largest;
+}
+
+TEST_F(RealDataLoadSequence, ReadsACache) {
+  MeshSequence dance = load({(*this)["classic/dance.obj"], (*this)["classic/dance.pc2"]});
+  EXPECT_EQ(dance.name, "dance");
+  EXPECT_EQ(dance.vertex_count, 7061U);
+  EXPECT_EQ(dance.frame_count, 201U);
+  EXPECT_EQ(dance.polygons.size(), 14118U);
+  EXPECT_NO_THROW(check(dance));
+}
+
+TEST_F(RealDataLoadSequence, ReadsFramesLikeTheirCache) {
+  MeshSequence frames = load({(*this)["classic/horse_obj/*.obj"]});
+  MeshSequence cache = load({(*this)["classic/horse.pc2"]});
+  EXPECT_EQ(frames.vertex_count, 8431U);
+  EXPECT_EQ(frames.frame_count, 48U);
+  EXPECT_LT(largest_difference(frames.positions, cache.positions), 1e-6 * diagonal(cache));
+  EXPECT_EQ(frames.polygons, cache.polygons);
+}
+
+TEST_F(RealDataLoadSequence, ReadsMddLikePc2) {
+  LoadOptions options{.mesh = (*this)["exported/obj/cesium1.obj"]};
+  MeshSequence mdd = load({(*this)["exported/cesium.mdd"]}, options);
+  MeshSequence pc2 = load({(*this)["exported/cesium.pc2"]}, options);
+  EXPECT_EQ(largest_difference(mdd.positions, pc2.positions), 0);
+  EXPECT_EQ(mdd.polygons, pc2.polygons);
+  EXPECT_EQ(mdd.rate.numerator, 24U);
+  EXPECT_FALSE(mdd.rate.assumed);
+  EXPECT_TRUE(pc2.rate.assumed);
+
+  MeshSequence frames = load({(*this)["exported/obj/cesium*.obj"]});
+  ASSERT_EQ(frames.positions.size(), pc2.positions.size());
+  float largest = 0;
+  for (size_t i = 0; i < frames.positions.size(); i += 3) {
+    const float* z_up = &pc2.positions[i];
+    const float* y_up = &frames.positions[i];
+    largest = std::max({largest, std::abs(y_up[0] - z_up[0]), std::abs(y_up[1] - z_up[2]),
+                        std::abs(y_up[2] + z_up[1])});
+  }
+  EXPECT_LT(largest, 1e-6 * diagonal(pc2));
+}
+
+}  // namespace
+}  // namespace anicodec::tools

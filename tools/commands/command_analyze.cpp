@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/error.h"
+#include "codec/studies/basis_error.h"
+#include "tools/commands/command.h"
+#include "tools/io/base/frame_rate.h"
+#include "tools/io/files/atomic_file.h"
+#include "tools/io/load_sequence.h"
+#include "tools/report/report.h"
+#include "tools/words/progress.h"
+#include "tools/words/quantity.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Expresses the clip by K exact key-frames, chosen by Neural Gas (gas), pivoting (pivot) or evenly
+(uniform), with free weights (linear), weights that sum to one, or those and a rigid motion of each
+frame (rigid), and by K principal components (pca). Nothing is quantised. The table holds KG errors
+in per cent; --csv prints method,k,kg,rmse.
+
+--spaces shows principal components of three shape spaces instead: of positions (vertices), of edge
+lengths and dihedral angles, rebuilt by multi-scale geometry interpolation (edges), and of
+deformation gradients (gradients); frames are compared after the best rigid motion. Beside each
+error stand the bytes of mean, components and weights as float32. --csv prints
+space,k,kg,numbers,bytes,residual_percent: numbers of one component, and the per cent of the
+variance in the space itself that the components leave.
+
+With -o, or --json, more is measured, which takes a minute or so: sizes at several errors, also with
+key-frames alone and with other codecs, where bytes and errors are, and pictures. The page needs
+nothing but a browser; --json prints its numbers: name, vertices, faces, frames, frame_rate,
+diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), missing (other codecs that are
+not installed), shown_kg, shown_bytes, shares, frame_errors (rmse, max_error), basis_errors (method,
+k, kg, rmse), shape_spaces (space, k, kg, numbers, bytes, residual_percent). With -o x.svg the
+curves of size against KG error alone.
+
+--massage measures instead what anicodec massage does to the clip: KG errors in K principal
+components and sizes, of the clip as it is and massaged, how far the surface moved, and the shapes
+of the triangles. With --csv: series,x,original,massaged, where series is pca (x components, KG
+errors) or bytes (x KG error); with --json components (k, original, massaged), sizes (kg, original,
+massaged), hausdorff_mean_percent, hausdorff_rms_percent, hausdorff_percent, before and after
+(conformal_mean, area_mean, radius_ratio, turned). With -o it is a section of the page, and
+"massage" in its JSON.
+
+Examples:
+  anicodec analyze dance.obj dance.pc2
+  anicodec analyze dance.obj dance.pc2 -o report.html
+  anicodec analyze 'frames/*.obj' --counts 5,10,20,45 --csv > errors.csv
+  anicodec analyze dance.obj dance.pc2 --spaces)";
+
+struct AnalyzeCommand {
+  std::vector<std::string> inputs;
+  std::string mesh, clip, rate, output;
+  std::string counts = "1,2,5,10,15,20,30,45,60,80,100";
+  bool csv = false, json = false, spaces = false, massage = false;
+  int effort = 3;
+};
+
+void print_csv(const std::vector<BasisError>& rows) {
+  fmt::print("method,k,kg,rmse\n");
+  for (const BasisError& row : rows)
+    fmt::print("{},{},{:.6g},{:.6g}\n", row.method, row.k, row.kg, row.rmse);
+}
+
+void print_csv(const std::vector<ShapeSpaceError>& rows) {
+  fmt::print("space,k,kg,numbers,bytes,residual_percent\n");
+  for (const ShapeSpaceError& row : rows)
+    fmt::print("{},{},{:.6g},{},{},{:.6g}\n", row.space, row.k, row.kg, row.numbers, row.bytes,
+               row.residual_percent);
+}
+
+/// A number of something with so many elements.
+struct Cell {
+  std::string row;
+  size_t k;
+  std::string text;
+};
+
+/// A row for every name, a column for every k.
+void print_table(const std::string& title, const std::vector<Cell>& cells) {
+  std::vector<std::string> names;
+  std::vector<size_t> counts;
+  for (const Cell& cell : cells) {
+    if (std::find(names.begin(), names.end(), cell.row) == names.end())
+      names.push_back(cell.row);
+    if (std::find(counts.begin(), counts.end(), cell.k) == counts.end())
+      counts.push_back(cell.k);
+  }
+  std::sort(counts.begin(), counts.end());
+  fmt::print("{:<20}", title);
+  for (size_t k : counts)
+    fmt::print(" {:>8}", k);
+  fmt::print("\n");
+  for (const std::string& name : names) {
+    fmt::print("{:<20}", name);
+    for (size_t k : counts) {
+      auto cell = std::find_if(cells.begin(), cells.end(),
+                               [&](const Cell& c) { return c.row == name && c.k == k; });
+      fmt::print(" {:>8}", cell == cells.end() ? "" : cell->text);
+    }
+    fmt::print("\n");
+  }
+}
+
+void print_table(const std::vector<BasisError>& rows) {
+  std::vector<Cell> cells;
+  for (const BasisError& row : rows)
+    cells.push_back({row.method, row.k, fmt::format("{:#.4g}", row.kg)});
+  print_table("KG error in % at k =", cells);
+}
+
+void print_table(const std::vector<ShapeSpaceError>& rows) {
+  std::vector<Cell> errors, sizes;
+  for (const ShapeSpaceError& row : rows) {
+    errors.push_back({row.space, row.k, fmt::format("{:#.4g}", row.kg)});
+    sizes.push_back({row.space, row.k, readable_bytes(row.bytes)});
+  }
+  print_table("KG error in % at k =", errors);
+  print_table("float32 at k =", sizes);
+}
+
+void run(const AnalyzeCommand& command, const CommonOptions& common) {
+  std::vector<size_t> counts = parse_counts(command.counts, "--counts");
+  std::optional<AtomicFile> output;
+  if (!command.output.empty())
+    output.emplace(command.output, common.overwrite);
+  ProgressLine line(common.quiet);
+  LoadOptions options;
+  options.mesh = command.mesh;
+  options.clip = command.clip;
+  options.progress = line.callback();
+  if (!command.rate.empty())
+    options.rate = parse_frame_rate(command.rate);
+  MeshSequence sequence = load_sequence(command.inputs, options);
+  std::optional<MassageStudy> massage;
+  if (command.massage) {
+    try {
+      massage = study_massage(sequence, counts, command.effort, options.progress);
+    } catch (const Error& e) {
+      throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
+    }
+  }
+  if (massage && !output) {
+    line.clear();
+    if (command.json)
+      fmt::print("{}\n", massage_json(*massage).dump(2));
+    else
+      fmt::print("{}", command.csv ? massage_csv(*massage) : massage_text(*massage));
+    return;
+  }
+  if (output || command.json) {
+    Report report = make_report(sequence, {command.effort, counts, options.progress});
+    report.massage = std::move(massage);
+    if (output) {
+      output->write(std::filesystem::path(command.output).extension() == ".svg"
+                        ? rate_figure(report)
+                        : report_page(report));
+      output->commit();
+    }
+    line.clear();
+    if (command.json)
+      fmt::print("{}\n", report_json(report).dump(2));
+    else if (command.csv && command.spaces)
+      print_csv(report.shape_spaces);
+    else if (command.csv)
+      print_csv(report.basis_errors);
+    else if (!common.quiet)
+      fmt::print("{}: {} frames of {} vertices, {} ways of storing them\n", command.output,
+                 report.frames, report.vertices, report.rates.size());
+    return;
+  }
+  line.show("analysing", 0);
+  if (command.spaces) {
+    check(sequence);
+    const std::vector<ShapeSpaceError> rows = shape_space_errors(sequence, counts);
+    line.clear();
+    if (command.csv)
+      print_csv(rows);
+    else
+      print_table(rows);
+    return;
+  }
+  KeyframeFitter fitter{FrameView(sequence)};
+  std::vector<BasisError> rows = basis_errors(fitter, counts);
+  line.clear();
+  if (command.csv)
+    print_csv(rows);
+  else
+    print_table(rows);
+}
+
+}  // namespace
+
+void add_analyze(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<AnalyzeCommand>();
+  CLI::App* command = add_command(app, common,
+                                  {"analyze", "INPUT... [options]",
+                                   "Error against key-frames and components; a report", kFooter},
+                                  [c, &common] { run(*c, common); });
+  command->add_option("INPUT", c->inputs, "As for encode")->required();
+  command
+      ->add_option("--mesh", c->mesh,
+                   "Mesh of a lone vertex cache (default: same stem beside it),\n"
+                   "or the name of one in a scene (default: all)")
+      ->option_text("FILE|NAME");
+  command->add_option("--clip", c->clip, "Animation of a scene, or none")
+      ->option_text("NAME|INDEX");
+  command->add_option("--fps", c->rate, "Frames per second (default: as for encode)")
+      ->option_text("N[/D]");
+  command->add_option("--counts", c->counts, "Numbers of components to try")
+      ->option_text("K,K,...");
+  command->add_option("-o,--output", c->output, "Write a report with charts and pictures")
+      ->option_text("REPORT.html|x.svg");
+  command->add_option("--effort", c->effort, "Of the report's encodings, 1 to 9 (default 3)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 9));
+  command->add_flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
+  command->add_flag("--massage", c->massage, "What Mesh Massage does to the clip");
+  CLI::Option* csv = command->add_flag("--csv", c->csv, "Print comma-separated values");
+  command->add_flag("--json", c->json, "Print all numbers of the report")->excludes(csv);
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/error.h"
+#include "corpus/clips.h"
+#include "tools/commands/command.h"
+#include "tools/io/write_sequence.h"
+#include "tools/words/progress.h"
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  anicodec corpus --list
+  anicodec corpus limb -o limb.pc2
+  anicodec corpus cloth -o cloth/frame_%04d.obj --vertices 20000 --frames 100)";
+
+struct CorpusCommand {
+  std::string name, output;
+  bool list = false;
+  uint32_t vertices = 0, frames = 0;
+};
+
+void run(const CorpusCommand& command, const CommonOptions& common) {
+  if (command.list) {
+    if (!command.name.empty() || !command.output.empty())
+      throw Error(ErrorKind::kUsage, "corpus: --list stands alone");
+    for (const corpus::ClipInfo& clip : corpus::clips())
+      fmt::print("{:<14} {}{}\n", clip.name, clip.description, clip.scalable ? " (scalable)" : "");
+    return;
+  }
+  if (command.name.empty() || command.output.empty())
+    throw Error(ErrorKind::kUsage, "corpus: a NAME and -o OUT are needed, or --list");
+  ProgressLine line(common.quiet);
+  MeshSequence clip = command.vertices > 0 || command.frames > 0
+                          ? corpus::make_scaled(command.name, command.vertices, command.frames)
+                          : corpus::make_clip(command.name);
+  WriteOptions options;
+  options.overwrite = common.overwrite;
+  options.progress = line.callback();
+  check_sequence_output(command.output, clip.frame_count, options);
+  write_sequence(command.output, clip, options);
+  line.clear();
+  if (!common.quiet)
+    fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output, clip.frame_count,
+               clip.vertex_count, clip.polygons.size());
+}
+
+}  // namespace
+
+void add_corpus(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<CorpusCommand>();
+  CLI::App* command = add_command(
+      app, common,
+      {"corpus", "NAME -o OUT [options]", "Make one of the clips of the corpus", kFooter},
+      [c, &common] { run(*c, common); });
+  command->add_option("NAME", c->name, "Which clip");
+  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
+      ->option_text("OUT");
+  command->add_flag("--list", c->list, "List the clips");
+  command->add_option("--vertices", c->vertices, "About as many vertices (scalable clips)")
+      ->option_text("N")
+      ->check(CLI::Range(1U, (1U << 31) - 1));
+  command->add_option("--frames", c->frames, "As many frames (scalable clips)")
+      ->option_text("N")
+      ->check(CLI::Range(1U, (1U << 24) - 1));
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/error.h"
+#include "sdk/clip/clip.h"
+#include "tools/commands/command.h"
+#include "tools/inputs/clip_input.h"
+#include "tools/io/base/file_kind.h"
+#include "tools/io/write_sequence.h"
+#include "tools/words/progress.h"
+#include "tools/words/quantity.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(OUT is a vertex cache (clip.pc2, clip.mdd; the mesh is written beside it as clip.obj), a file per
+frame (dir/frame_%04d.obj, .ply, .off, .stl), or a scene (clip.glb) with a morph target for each
+frame and an animation of their weights. Polygons come back as polygons, but for STL and GLB, which
+have triangles; GLB is turned to Y up and scaled to metres where the clip says. Frames are counted
+from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate that STEP divides
+is divided; PC2 carries no rate. A clip whose topology changes needs a file per frame.
+
+Examples:
+  anicodec decode clip.anic -o clip.pc2
+  anicodec decode clip.anic -o frames/frame_%04d.ply --frames 0:100:2
+  anicodec decode clip.anic -o clip.glb
+  anicodec decode clip.anic -o first.obj --frames 0)";
+
+struct DecodeCommand {
+  std::string input, output, frames;
+  double quality = 1;
+  uint32_t start = 0;
+  bool ascii = false, step = false;
+};
+
+/// Timing of every step-th frame of a clip.
+void take_frames(const FrameRange& range, MeshSequence& clip) {
+  if (clip.times.empty()) {
+    clip.start_time += range.first / clip.rate.value();
+    if (range.step > 1 && clip.rate.denominator <= UINT32_MAX / range.step)
+      clip.rate.denominator *= range.step;
+  } else {
+    std::vector<double> times;
+    for (uint32_t i = 0; i < range.size(); ++i)
+      times.push_back(clip.times[range.first + i * range.step] - clip.times[range.first]);
+    clip.start_time += clip.times[range.first];
+    clip.times = std::move(times);
+  }
+  clip.frame_count = range.size();
+}
+
+bool is_written_by_frame(const std::string& path) {
+  const FileKind kind = kind_of(path);
+  return !is_cache(kind) && kind != FileKind::kGlb && kind != FileKind::kGltf;
+}
+
+/// Frames that are written together, and the meshes that they show.
+struct Run {
+  FrameRange frames;
+  std::vector<uint32_t> meshes;
+};
+
+/// Some frames of a clip, cut where what they show changes; those that show nothing are left out.
+std::vector<Run> runs_of(const Clip& clip, const FrameRange& range) {
+  std::vector<Run> runs;
+  for (uint32_t i = 0; i < range.size(); ++i) {
+    const uint32_t f = range.first + i * range.step;
+    std::vector<uint32_t> shown = meshes_of(clip);
+    std::erase_if(shown, [&](uint32_t m) { return !clip.segment_at(m, f); });
+    if (runs.empty() || runs.back().meshes != shown)
+      runs.push_back({{f, f + 1, range.step}, std::move(shown)});
+    runs.back().frames.end = f + 1;
+  }
+  std::erase_if(runs, [](const Run& run) { return run.meshes.empty(); });
+  return runs;
+}
+
+void run(const DecodeCommand& command, const CommonOptions& common) {
+  ProgressLine line(common.quiet);
+  std::string bytes = read_bytes(command.input);
+  OpenOptions open_options;
+  open_options.quality = command.quality;
+  Clip clip;
+  open_clip(command.input, bytes, open_options, clip, Topologies::kAny);
+  if (Failure failure = clip.check_hashes(); command.quality == 1 && !failure.ok())
+    fail_clip(command.input, failure);
+  bytes = {};
+
+  FrameRange range{0, clip.frame_count(), 1};
+  if (!command.frames.empty())
+    range = parse_frames(command.frames, "--frames", clip.frame_count());
+  WriteOptions options;
+  options.overwrite = common.overwrite;
+  options.ascii = command.ascii;
+  options.step = command.step;
+  options.first_number = command.start;
+  options.progress = line.callback();
+  check_sequence_output(command.output, range.size(), options);
+  const bool by_frame = is_written_by_frame(command.output);
+  if (!by_frame && takes_turns(clip))
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{}: has one mesh, but {} has {} that take turns; write a file per "
+                            "frame, as in frame_%04d.obj",
+                            command.output, command.input, clip.meshes().size()));
+  std::vector<std::string> written;
+  for (const auto& [own, meshes] :
+       by_frame ? runs_of(clip, range) : std::vector<Run>{{range, meshes_of(clip)}}) {
+    MeshSequence description = describe_clip(clip, meshes);
+    if (own.size() < clip.frame_count())
+      take_frames(own, description);
+    options.first_number = command.start + (own.first - range.first) / range.step;
+    FrameSource all = play(command.input, clip, meshes);
+    options.attributes = {};
+    if (auto attributes = play_attributes(clip, meshes))
+      options.attributes = [attributes, frames = own](uint32_t f) {
+        return attributes(frames.first + f * frames.step);
+      };
+    write_sequence(
+        command.output, description,
+        [&all, frames = own](uint32_t f) { return all(frames.first + f * frames.step); }, options);
+    written.push_back(fmt::format("{}: {} frames of {} vertices and {} faces", command.output,
+                                  description.frame_count, description.vertex_count,
+                                  description.polygons.size()));
+  }
+  line.clear();
+  for (const std::string& text : written) {
+    if (!common.quiet)
+      fmt::print("{}\n", text);
+  }
+}
+
+}  // namespace
+
+void add_decode(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<DecodeCommand>();
+  CLI::App* command = add_command(
+      app, common,
+      {"decode", "FILE.anic -o OUT [options]", "Decode an .anic file to a mesh sequence", kFooter},
+      [c, &common] { run(*c, common); });
+  command->add_option("FILE", c->input, "The .anic file to read")->required();
+  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
+      ->option_text("OUT")
+      ->required();
+  command->add_option("--frames", c->frames, "Frames A to B - 1, every STEP-th (default: all)")
+      ->option_text("A:B[:STEP]");
+  command->add_option("--start", c->start, "Number of the first file (default 0)")
+      ->option_text("N");
+  command->add_flag("--step", c->step, "GLB: frames stand until the next, without in-betweens");
+  command->add_flag("--ascii", c->ascii, "PLY and STL as text");
+  command->add_option("--quality", c->quality, "Share of the components to use, above 0 to 1")
+      ->option_text("Q")
+      ->check([](const std::string& text) {
+        return parse_positive(text, "--quality") <= 1 ? "" : "must not be above 1";
+      });
+}
+
+}  // namespace anicodec::tools

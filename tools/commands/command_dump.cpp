@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/container.h"
+#include "tools/commands/command.h"
+#include "tools/inputs/clip_input.h"
+#include "tools/listing/listing.h"
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(A line for every field: offset in hexadecimal, size in bytes, name, value. Streams are listed by
+their size alone. A damaged file is listed as far as it can be read; the fault and the exit status
+are those of verify.)";
+
+void run(const std::string& path) {
+  std::string bytes = read_bytes(path);
+  if (bytes.empty())
+    fail_clip(path, {Status::kTruncated, 0, 0, "the file is empty"});
+  for (const ListedField& field : list_fields(view_of(bytes)))
+    fmt::print("{:08x} {:>9}  {:<28} {}\n", field.offset, field.size, field.name, field.value);
+  format::ContainerReader reader;
+  if (Failure failure = reader.open(view_of(bytes)); !failure.ok())
+    fail_clip(path, failure);
+}
+
+}  // namespace
+
+void add_dump(CLI::App& app, CommonOptions& common) {
+  auto input = std::make_shared<std::string>();
+  CLI::App* command =
+      add_command(app, common, {"dump", "FILE.anic", "List an .anic file field by field", kFooter},
+                  [input] { run(*input); });
+  command->add_option("FILE", *input, "The .anic file to list")->required();
+}
+
+}  // namespace anicodec::tools

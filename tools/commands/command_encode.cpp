@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/encode.h"
+#include "codec/encode_massaged.h"
+#include "codec/encode_scene.h"
+#include "codec/sequence/error.h"
+#include "tools/commands/batch.h"
+#include "tools/commands/command.h"
+#include "tools/commands/encode_report.h"
+#include "tools/inputs/encode_arguments.h"
+#include "tools/inputs/massage_transfer.h"
+#include "tools/io/files/atomic_file.h"
+#include "tools/io/load_sequence.h"
+#include "tools/words/progress.h"
+#include "tools/words/quantity.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(INPUT is a mesh and its vertex cache (mesh.obj cache.pc2), a vertex cache with the mesh beside it or
+given by --mesh, a quoted pattern ('frames/*.obj', in natural order), a list of frames of equal
+connectivity, or a scene. Meshes: .obj .ply .off .stl; caches: .pc2 .mdd; scenes: .gltf .glb, and
+in builds with assimp .fbx .dae .md2 .md3 .3ds and others.
+
+INPUT - is a scene in one file or a mesh from the standard input; -o - writes the .anic file to the
+standard output, and nothing else; decode, info and verify read one from -.
+
+A scene is baked: skins, morph targets and moving nodes become vertices that move, all its meshes
+(or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. --clip names
+or numbers the clip; without it the first one that moves anything is taken, --clip none takes none.
+
+--meshes apart makes each object of the input (node of a scene, o of an OBJ) a mesh of its own with
+its name. One that only turns and moves is stored as that where it is smaller; one whose vertices
+are all at one point in a frame, as those of hidden objects are, is not there in that frame.
+
+--frames A:B encodes some frames of a long clip, on one of several machines perhaps; every machine
+reads the whole clip, and join makes one file of the parts.
+
+--batch encodes many clips to the folder -o, -j of them side by side: of a folder every scene, every
+vertex cache with its mesh, and every run of numbered frames, of a list a clip per line, its inputs
+separated by tabs. Clips that are done already, by the content of what goes in and comes out, are
+left alone; one that fails does not stop the others.
+
+Texture coordinates, colours, other numbers, materials and objects are kept; those of vertices in
+every frame, all others as they are in the first. Of normals the hard edges are: normals come from
+the positions of a frame.
+
+A LEN is in scene units (0.02), or in per cent of the diagonal of the box around all frames (0.05%).
+Give one target; --max-error may stand beside any other as a cap. Without a target it is
+--max-error 0.05%: no vertex of any frame is further off. --keyframes alone sets no target: the
+quantisation then adds at most a tenth to the error of that many exact key-frames.
+
+--interpolation msgi rebuilds frames by multi-scale geometry interpolation of the key-frames, which
+keeps lengths and volume where limbs swing far; auto takes what does better. Both need key-frames
+(--basis keyframes or --keyframes), take longer, and the file takes longer to open and to play.
+
+--massage on moves the vertices of every frame along its surface before coding (anicodec massage);
+errors are then those against the moved clip, and the file records how far the surface moved. auto
+does so only where the file becomes smaller. transfer takes meshes whose faces differ and gives them
+those of the first one.
+
+Examples:
+  anicodec encode dance.obj dance.pc2 -o dance.anic --fps 30
+  anicodec encode 'frames/*.obj' -o clip.anic --kg 0.1
+  anicodec encode fox.glb --clip Run --fps 60 -o run.anic
+  anicodec encode flag.mdd --mesh flag.obj -o flag.anic --size 200k --max-error 1%
+  anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45
+  anicodec encode --batch clips -o encoded -j 4)";
+
+MeshSequence load(const EncodeArguments& command, const Progress& progress,
+                  EncodeOptions* encode_options) {
+  const LoadOptions options = load_options(command, progress);
+  MeshSequence sequence;
+  if (command.massage == Massage::kTransfer) {
+    sequence = transfer_to_one(command.inputs, progress, &encode_options->surface_change.emplace());
+    if (options.rate)
+      sequence.rate = *options.rate;
+  } else {
+    sequence = load_sequence(command.inputs, options);
+  }
+  set_metadata(command, sequence);
+  return sequence;
+}
+
+EncodeResult encode_as_asked(const EncodeArguments& command, MeshSequence sequence,
+                             const EncodeOptions& options, MassageVerdict* massage,
+                             const Progress& progress) {
+  const MassageOptions options_of_massage = massage_options(command, sequence);
+  return encode_massaged(std::move(sequence), massage_mode(command), options_of_massage, options,
+                         massage, progress);
+}
+
+/// Half of what the machine has.
+uint64_t default_memory() {
+  const auto pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
+  return static_cast<uint64_t>(pages) * static_cast<uint64_t>(size) / 2;
+}
+
+void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
+  if (!command.frames.empty())
+    throw Error(ErrorKind::kUsage, "--frames takes a part of one clip, --batch has many");
+  if (command.topology == Topology::kSegments)
+    throw Error(ErrorKind::kUsage, "--topology segments goes with one clip, --batch has many");
+  if (!command.inputs.empty())
+    throw Error(ErrorKind::kUsage, command.inputs[0] + ": --batch takes its inputs from " +
+                                       command.batch + ", no others");
+  if (command.meshes == Meshes::kApart && command.massage != Massage::kOff)
+    throw Error(ErrorKind::kUsage, "--meshes apart goes without --massage");
+  if (command.massage == Massage::kTransfer)
+    throw Error(ErrorKind::kUsage,
+                "--massage transfer takes the frames of one clip, --batch has many");
+  EncodeOptions options = encode_options(command);
+  BatchOptions batch;
+  batch.folder = command.output;
+  batch.jobs = common.threads > 0 ? static_cast<unsigned>(common.threads)
+                                  : std::max(1U, std::thread::hardware_concurrency());
+  batch.memory = command.memory.empty() ? default_memory() : parse_size(command.memory, "--memory");
+  batch.overwrite = common.overwrite;
+  batch.quiet = common.quiet;
+  batch.settings = settings_of(command, options);
+  run_batch(
+      find_clips(command.batch), batch,
+      [&](const BatchClip& clip) {
+        EncodeArguments one = command;
+        one.inputs = clip.inputs;
+        return load(one, {}, &options);
+      },
+      [&](MeshSequence sequence) {
+        if (command.meshes == Meshes::kApart)
+          return encode_scene(split_parts(std::move(sequence)), options);
+        MassageVerdict massage;
+        return encode_as_asked(command, std::move(sequence), options, &massage, {});
+      });
+}
+
+/// Encodes several meshes: objects of a scene, or frames whose connectivity changes.
+EncodeResult encode_meshes(const EncodeArguments& command, EncodeOptions options,
+                           const Progress& progress) {
+  const bool segments = command.topology == Topology::kSegments;
+  if (segments && command.meshes == Meshes::kApart)
+    throw Error(ErrorKind::kUsage, "--topology segments goes without --meshes apart");
+  if (!command.frames.empty() || command.massage != Massage::kOff)
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{} goes without --frames and --massage",
+                            segments ? "--topology segments" : "--meshes apart"));
+  Scene scene;
+  if (segments) {
+    scene = load_topologies(command.inputs, load_options(command, progress));
+    set_metadata(command, scene.clip);
+  } else {
+    scene = split_parts(load(command, progress, &options));
+  }
+  try {
+    return encode_scene(std::move(scene), options, progress);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
+  }
+}
+
+/// Encodes frames of one connectivity.
+EncodeResult encode_clip(const EncodeArguments& command, EncodeOptions options,
+                         MassageVerdict* massage, const Progress& progress) {
+  MeshSequence sequence = load(command, progress, &options);
+  if (options.keyframes && *options.keyframes > sequence.frame_count)
+    throw Error(ErrorKind::kUsage,
+                fmt::format("--keyframes {}: {} has only {} frames", *options.keyframes,
+                            command.inputs[0], sequence.frame_count));
+  if (!command.frames.empty()) {
+    const FrameRange range = parse_frames(command.frames, "--frames", sequence.frame_count);
+    if (range.step != 1)
+      throw Error(ErrorKind::kUsage,
+                  "--frames: a part has all frames from A to B - 1, without step");
+    options.part = FrameRun{range.first, range.size()};
+  }
+  try {
+    EncodeResult result = encode_as_asked(command, std::move(sequence), options, massage, progress);
+    if (command.massage == Massage::kTransfer)
+      massage->change = options.surface_change;
+    return result;
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
+  }
+}
+
+void run(const EncodeArguments& command, const CommonOptions& common) {
+  if (!command.batch.empty())
+    return encode_batch(command, common);
+  if (command.inputs.empty())
+    throw Error(ErrorKind::kUsage, "encode: INPUT is required, or --batch");
+  EncodeOptions options = encode_options(command);
+  if (is_sequence_input(command.output))
+    throw Error(
+        ErrorKind::kUsage,
+        command.output + ": the output of encode is an .anic file (for other formats: decode)");
+  const bool to_standard_output = command.output == "-";
+  std::optional<AtomicFile> output;
+  if (!to_standard_output)
+    output.emplace(command.output, common.overwrite);
+  ProgressLine line(common.quiet);
+  Progress progress = line.callback();
+  MassageVerdict massage;
+  EncodeResult result = command.topology == Topology::kSegments || command.meshes == Meshes::kApart
+                            ? encode_meshes(command, options, progress)
+                            : encode_clip(command, options, &massage, progress);
+  line.clear();
+  if (to_standard_output) {
+    if (std::fwrite(result.file.data(), 1, result.file.size(), stdout) != result.file.size())
+      throw Error(ErrorKind::kInternal, "the standard output cannot be written");
+    return;
+  }
+  output->write({reinterpret_cast<const char*>(result.file.data()), result.file.size()});
+  output->commit();
+  const EncodeReport report{command.output, result, massage, command.massage == Massage::kAuto};
+  if (command.json)
+    report.print_json();
+  else if (!common.quiet)
+    report.print_text(common.verbosity);
+}
+
+}  // namespace
+
+void add_encode(CLI::App& app, CommonOptions& common) {
+  auto arguments = std::make_shared<EncodeArguments>();
+  CLI::App* command = add_command(app, common,
+                                  {"encode", "INPUT...|--batch DIR -o OUT [target] [options]",
+                                   "Encode a mesh sequence to an .anic file", kFooter},
+                                  [arguments, &common] { run(*arguments, common); });
+  add_arguments(*command, *arguments);
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "format/container.h"
+#include "format/records.h"
+#include "sdk/clip/clip.h"
+#include "tools/commands/command.h"
+#include "tools/inputs/clip_input.h"
+#include "tools/words/names.h"
+#include "tools/words/quantity.h"
+
+#include <anicodec/anicodec.h>
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(--json prints one object: file, bytes, ratio (float32 positions against the file), bpfv,
+resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
+for each instance), format, encoder, name, vertices, coded_vertices, faces (of the first mesh),
+meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of those that show
+it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats the first), up,
+metres_per_unit, order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg,
+massaged, surface_error, surface_error_mean, attributes (mesh, kind, of, name, components, labels,
+moves; of those that move, bytes, max_error, rmse in units of their values), segments (mesh, basis,
+of, reconstruction, first_frame, frames, components, corrections), chunks (type, offset, size,
+required, mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
+
+struct InfoCommand {
+  std::string input;
+  bool json = false;
+};
+
+struct Contents {
+  uint64_t bytes = 0;
+  anic_requirements memory = {};  ///< as the SDK announces it
+  format::ContainerReader container;
+  Clip clip;
+};
+
+double percent(const format::ClipRecord& record) {
+  return record.max_error == 0 ? 0 : 100 * record.max_error / record.diagonal;
+}
+
+double positions(const Clip& clip) {
+  double count = 0;
+  for (const format::Limits::Segment& s : clip.limits().segments) {
+    if (s.attribute == format::kPositions)
+      count += static_cast<double>(clip.vertex_count(s.mesh)) * s.frames;
+  }
+  return count;
+}
+
+/// What a segment moves.
+std::string moved_by(const format::Limits::Segment& s) {
+  return s.attribute == format::kPositions
+             ? std::string("positions")
+             : fmt::format("attribute {} from component {}", s.attribute, s.first_component);
+}
+
+bool moves(const Clip& clip, uint32_t mesh, uint32_t attribute) {
+  const auto [first, last] = clip.attribute_tracks(mesh, attribute);
+  return first != last;
+}
+
+/// Bytes of the segments of an attribute.
+uint64_t moving_bytes(const Contents& c, uint32_t mesh, uint32_t attribute) {
+  uint64_t bytes = 0;
+  for (const format::Chunk& chunk : c.container.chunks()) {
+    if (chunk.segment == format::kNoSegment)
+      continue;
+    const format::Limits::Segment& s = c.clip.limits().segments[chunk.segment];
+    if (s.mesh == mesh && s.attribute == attribute)
+      bytes += chunk.size;
+  }
+  return bytes;
+}
+
+/// What the encoder measured of an attribute that moves, if it did.
+const format::AttributeError* error_of(const format::ClipRecord& record, uint32_t mesh,
+                                       uint32_t attribute) {
+  for (const format::AttributeError& e : record.attribute_errors) {
+    if (e.mesh == mesh && e.attribute == attribute)
+      return &e;
+  }
+  return nullptr;
+}
+
+void print_json(const std::string& path, const Contents& c) {
+  const format::ClipRecord& record = c.clip.record();
+  const format::Limits& limits = c.clip.limits();
+  nlohmann::ordered_json json;
+  json["file"] = path;
+  json["bytes"] = c.bytes;
+  json["ratio"] = 12 * positions(c.clip) / static_cast<double>(c.bytes);
+  json["bpfv"] = 8 * static_cast<double>(c.bytes) / positions(c.clip);
+  json["resident_bytes"] = c.memory.resident_bytes;
+  json["opening_bytes"] = c.memory.opening_bytes;
+  json["context_bytes"] = c.memory.context_bytes;
+  json["format"] = fmt::format("{}.{}", c.container.version_major(), c.container.version_minor());
+  json["encoder"] = record.encoder;
+  json["name"] = record.name;
+  json["vertices"] = limits.meshes[0].source_vertices;
+  json["coded_vertices"] = limits.meshes[0].coded_vertices;
+  json["faces"] = limits.meshes[0].polygons;
+  json["meshes"] = nlohmann::ordered_json::array();
+  for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    for (const FrameRun& run : frames_of_mesh(c.clip, m))
+      frames.push_back({run.first, run.first + run.count});
+    json["meshes"].push_back({{"name", c.clip.meshes()[m].name},
+                              {"vertices", limits.meshes[m].source_vertices},
+                              {"coded_vertices", limits.meshes[m].coded_vertices},
+                              {"faces", limits.meshes[m].polygons},
+                              {"frames", frames}});
+  }
+  json["frames"] = limits.frames;
+  json["fps"] = {record.rate_numerator, record.rate_denominator};
+  json["fps_assumed"] = record.rate_assumed;
+  json["start_time"] = record.start_time;
+  json["loop"] = record.loop;
+  json["closed"] = record.closed;
+  json["up"] = up_name(record.up);
+  json["metres_per_unit"] = nullptr;
+  if (record.metres_per_unit > 0)
+    json["metres_per_unit"] = record.metres_per_unit;
+  json["order"] = name_of(record.order);
+  json["diagonal"] = record.diagonal;
+  json["asked"] = {{"metric", name_of(record.asked)}, {"value", record.asked_value}};
+  json["max_error"] = record.max_error;
+  json["max_error_percent"] = percent(record);
+  json["rmse"] = record.rmse;
+  json["kg"] = record.kg;
+  json["massaged"] = record.massaged;
+  json["surface_error"] = record.surface_error;
+  json["surface_error_mean"] = record.surface_error_mean;
+  json["attributes"] = nlohmann::ordered_json::array();
+  for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
+    const Vector<MeshAttribute>& attributes = c.clip.meshes()[m].attributes;
+    for (uint32_t i = 0; i < attributes.size(); ++i) {
+      const MeshAttribute& a = attributes[i];
+      nlohmann::ordered_json entry = {{"mesh", m},
+                                      {"kind", name_of(a.header.kind)},
+                                      {"of", name_of(a.header.domain)},
+                                      {"name", a.header.name},
+                                      {"components", a.header.components()},
+                                      {"labels", a.header.labels},
+                                      {"moves", moves(c.clip, m, i)}};
+      if (const format::AttributeError* error = error_of(record, m, i)) {
+        entry["bytes"] = moving_bytes(c, m, i);
+        entry["max_error"] = error->max_error;
+        entry["rmse"] = error->rmse;
+      }
+      json["attributes"].push_back(entry);
+    }
+  }
+  json["segments"] = nlohmann::ordered_json::array();
+  for (const format::Limits::Segment& s : limits.segments)
+    json["segments"].push_back({{"mesh", s.mesh},
+                                {"basis", name_of(s.kind)},
+                                {"of", moved_by(s)},
+                                {"reconstruction", name_of(s.reconstruction)},
+                                {"first_frame", s.first_frame},
+                                {"frames", s.frames},
+                                {"components", s.components},
+                                {"corrections", s.corrections}});
+  json["chunks"] = nlohmann::ordered_json::array();
+  for (const format::Chunk& chunk : c.container.chunks()) {
+    nlohmann::ordered_json entry = {{"type", format::chunk_name(chunk.type)},
+                                    {"offset", chunk.offset},
+                                    {"size", chunk.size},
+                                    {"required", chunk.required},
+                                    {"mesh", nullptr},
+                                    {"segment", nullptr}};
+    if (chunk.mesh != format::kNoMesh)
+      entry["mesh"] = chunk.mesh;
+    if (chunk.segment != format::kNoSegment)
+      entry["segment"] = chunk.segment;
+    json["chunks"].push_back(entry);
+  }
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+std::string asked_text(const format::ClipRecord& record) {
+  double value = record.asked_value;
+  switch (record.asked) {
+    case format::ErrorMetric::kNone:
+      return "a number of key-frames";
+    case format::ErrorMetric::kKg:
+      return fmt::format("KG error of at most {:.4g} %", value);
+    case format::ErrorMetric::kMaxError:
+      return fmt::format("max error of at most {:.4g}", value);
+    case format::ErrorMetric::kRmse:
+      return fmt::format("RMSE of at most {:.4g}", value);
+    case format::ErrorMetric::kSize:
+      return fmt::format("at most {} bytes", grouped(static_cast<uint64_t>(value)));
+    case format::ErrorMetric::kBpfv:
+      return fmt::format("at most {:.4g} bits per frame and vertex", value);
+  }
+  return "unknown";
+}
+
+std::string rate_text(const format::ClipRecord& record) {
+  double value = static_cast<double>(record.rate_numerator) / record.rate_denominator;
+  return fmt::format("{:.6g} fps{}{}", value, record.rate_assumed ? " (assumed)" : "",
+                     record.times.empty() ? "" : ", uneven times");
+}
+
+void print_chunks(const Contents& c) {
+  auto number = [](uint32_t value, uint32_t none) {
+    return value == none ? std::string() : fmt::format("{}", value);
+  };
+  fmt::print("\n{:<6} {:>5} {:>8} {:>12} {:>12} {:>7}\n", "chunk", "mesh", "segment", "offset",
+             "bytes", "share");
+  for (const format::Chunk& chunk : c.container.chunks()) {
+    fmt::print("{:<6} {:>5} {:>8} {:>12} {:>12} {:>5.1f} %\n", format::chunk_name(chunk.type),
+               number(chunk.mesh, format::kNoMesh), number(chunk.segment, format::kNoSegment),
+               chunk.offset, grouped(chunk.size),
+               100 * static_cast<double>(chunk.size) / static_cast<double>(c.bytes));
+  }
+}
+
+std::string attribute_text(const format::AttributeHeader& a) {
+  std::string text = fmt::format("{} of {}", name_of(a.kind), name_of(a.domain));
+  if (!a.name.empty())
+    text += fmt::format(" \"{}\"", printable(a.name));
+  if (a.domain == format::AttributeDomain::kPolygon)
+    return text + fmt::format(", {} names", a.labels.size());
+  if (a.components() == 0)
+    return text + ": hard edges";
+  return text +
+         fmt::format(", {} components in steps of {:.3g}", a.components(), 1 / a.grids[0].scale);
+}
+
+void row(const char* name, const std::string& value) {
+  fmt::print("{:<10} {}\n", name, value);
+}
+
+/// The meshes, where there are several, and what they have beside positions.
+void print_meshes(const Contents& c) {
+  const format::Limits& limits = c.clip.limits();
+  for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
+    const Mesh& mesh = c.clip.meshes()[m];
+    if (limits.meshes.size() > 1) {
+      std::string frames;
+      for (const FrameRun& run : frames_of_mesh(c.clip, m))
+        frames +=
+            fmt::format("{} {}:{}", frames.empty() ? "" : ",", run.first, run.first + run.count);
+      row("mesh",
+          fmt::format("{}{}{} vertices ({} coded), {} faces, frames{}", printable(mesh.name),
+                      mesh.name.empty() ? "" : ": ", limits.meshes[m].source_vertices,
+                      limits.meshes[m].coded_vertices, limits.meshes[m].polygons, frames));
+    }
+    for (uint32_t i = 0; i < mesh.attributes.size(); ++i) {
+      row("attribute", attribute_text(mesh.attributes[i].header));
+      if (const format::AttributeError* error = error_of(c.clip.record(), m, i))
+        row("", fmt::format("{}, {} bytes, max error {:.4g}, RMSE {:.4g}",
+                            moves(c.clip, m, i) ? "moves" : "as in frame 0",
+                            grouped(moving_bytes(c, m, i)), error->max_error, error->rmse));
+    }
+  }
+}
+
+void print_segments(const format::Limits& limits) {
+  for (const format::Limits::Segment& s : limits.segments)
+    row("segment",
+        fmt::format("{}{}frames {}:{}, {} {}{}, {} corrections",
+                    limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
+                    s.attribute == format::kPositions ? "" : moved_by(s) + ", ", s.first_frame,
+                    s.first_frame + s.frames, s.components, components_of(s.kind),
+                    s.reconstruction == format::Reconstruction::kMsgi ? " by msgi" : "",
+                    s.corrections));
+}
+
+void print_text(const std::string& path, const Contents& c) {
+  const format::ClipRecord& record = c.clip.record();
+  const format::Limits& limits = c.clip.limits();
+  const format::Limits::Mesh& mesh = limits.meshes[0];
+  row("file", path);
+  row("name", printable(record.name));
+  row("format", fmt::format("{}.{}, written by {}", c.container.version_major(),
+                            c.container.version_minor(), printable(record.encoder)));
+  const std::string what =
+      limits.meshes.size() > 1
+          ? fmt::format("{} meshes", limits.meshes.size())
+          : fmt::format("{} vertices ({} coded), {} faces", mesh.source_vertices,
+                        mesh.coded_vertices, mesh.polygons);
+  row("clip", fmt::format("{}, {} frames at {}", what, limits.frames, rate_text(record)));
+  std::string traits = fmt::format(
+      "up {}, unit {}", up_name(record.up),
+      record.metres_per_unit > 0 ? fmt::format("{:.6g} m", record.metres_per_unit) : "unknown");
+  traits += record.loop ? ", loops" : "";
+  traits += record.closed ? ", the last frame repeats the first" : "";
+  row("", traits);
+  print_meshes(c);
+  row("order", name_of(record.order));
+  row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv", grouped(c.bytes),
+                          12 * positions(c.clip) / static_cast<double>(c.bytes),
+                          8 * static_cast<double>(c.bytes) / positions(c.clip)));
+  row("memory",
+      fmt::format("{} open, {} at most while opening, {} for each instance",
+                  readable_bytes(c.memory.resident_bytes), readable_bytes(c.memory.opening_bytes),
+                  readable_bytes(c.memory.context_bytes)));
+  row("asked", asked_text(record));
+  row("measured",
+      fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %",
+                  record.max_error, percent(record), record.rmse, record.kg));
+  if (record.massaged)
+    row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
+                                record.surface_error_mean, record.surface_error));
+  print_segments(limits);
+  print_chunks(c);
+}
+
+void run(const InfoCommand& command) {
+  std::string bytes = read_bytes(command.input);
+  Contents contents;
+  contents.bytes = bytes.size();
+  open_clip(command.input, bytes, {}, contents.clip, Topologies::kAny);
+  if (Failure failure = contents.container.open(view_of(bytes)); !failure.ok())
+    fail_clip(command.input, failure);
+  anic_options options = {};
+  options.limits.bytes = UINT64_MAX;
+  anic_query(bytes.data(), bytes.size(), &options, &contents.memory);  // it is open: nothing fails
+  if (command.json)
+    print_json(command.input, contents);
+  else
+    print_text(command.input, contents);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<InfoCommand>();
+  CLI::App* command = add_command(
+      app, common, {"info", "FILE.anic [--json]", "Say what is in an .anic file", kFooter},
+      [c] { run(*c); });
+  command->add_option("FILE", c->input, "The .anic file to read")->required();
+  command->add_flag("--json", c->json, "Print one JSON object");
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/interpolation/interpolation.h"
+#include "codec/sequence/error.h"
+#include "codec/surface/closest_point.h"
+#include "codec/surface/edge_network.h"
+#include "tools/commands/command.h"
+#include "tools/inputs/interpolation_input.h"
+#include "tools/io/write_sequence.h"
+#include "tools/words/choice.h"
+#include "tools/words/progress.h"
+
+#include <algorithm>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(A, B, ... are meshes of the same vertices and faces: files of one frame, or one frame of a clip as
+FILE@FRAME (clip.pc2@12, clip.anic@0, 'frames/*.obj@5'). The clip goes from A to B and on to the others
+in N equal steps. --range says from where to where, A being 0, B 1 and so on; beyond the ends it
+extrapolates. --weights instead names a text file with a line for each frame and a number for each
+mesh; the numbers of a line sum to 1, and may be negative.
+
+Methods (thesis chapter 4):
+  linear     vertices on straight lines
+  gradients  deformation gradients, rotations by their principal logarithms
+  bfs        the same, full turns tracked breadth first
+  pml        tracked first where logarithms differ least
+  pmln       and normals
+  msgi-v     multi-scale interpolation of lengths and angles, blending vertices
+  msgi       multi-scale interpolation, blending edges
+
+--pin VERTICES=FILE (msgi only) holds vertices, such as 0,7,20-29, at the positions of a text file, a
+line of three numbers for each: once for all frames, or for each frame in turn.
+
+--refine takes steps on the lengths and angles themselves, after any method: closer to them, where a
+method comes near, in about a second for each step, frame and 7000 vertices.
+
+--compare prints how far the frames of every method are from the lengths, angles and volume that the
+weights ask for, means over the frames; then -o may be left out.
+
+Examples:
+  anicodec interpolate a.obj b.obj -o between.pc2 --frames 25
+  anicodec interpolate dance.pc2@0 dance.pc2@40 -o f_%02d.obj --frames 9 --range -0.5:1.5
+  anicodec interpolate a.obj b.obj c.obj -o mix.pc2 --weights weights.txt --method pml
+  anicodec interpolate a.obj b.obj --frames 9 --compare)";
+
+struct InterpolateCommand {
+  std::vector<std::string> inputs;
+  std::string output, mesh, weights, range, pin;
+  uint32_t frames = 0, leaf = 0;
+  int sweeps = -1, refine = 0;
+  InterpolationMethod method = InterpolationMethod::kMsgi;
+  bool compare = false;
+};
+
+WeightRows weights_of(const InterpolateCommand& command, size_t meshes) {
+  if (!command.weights.empty()) {
+    if (command.frames > 0 || !command.range.empty())
+      throw Error(ErrorKind::kUsage, "interpolate: --weights stands without --frames and --range");
+    return read_weights(command.weights, meshes);
+  }
+  if (command.frames == 0)
+    throw Error(ErrorKind::kUsage, "interpolate: --frames N or --weights FILE is needed");
+  double first = 0, last = static_cast<double>(meshes - 1);
+  if (!command.range.empty())
+    std::tie(first, last) = parse_range(command.range, "--range");
+  return path_weights(meshes, command.frames, first, last);
+}
+
+/// Prints a line for every method.
+void print_errors(const std::vector<uint32_t>& triangles, const MeshSequence& poses,
+                  std::span<const std::span<const float>> inputs, const WeightRows& rows,
+                  InterpolationOptions options, ProgressLine& line) {
+  const EdgeNetwork network(triangles, poses.vertex_count);
+  std::vector<Points> points;
+  for (std::span<const float> x : inputs)
+    points.push_back(to_points(x));
+  const std::vector<EdgeShape> shapes = measure_edges(network, points);
+  fmt::print("{:<10} {:>10} {:>10} {:>10} {:>10} {:>7} {:>9}\n", "method", "length %", "largest %",
+             "angle deg", "volume %", "folded", "collapsed");
+  for (InterpolationMethod method : interpolation_methods()) {
+    line.show(fmt::format("method {}", name_of(method)), 0);
+    options.method = method;
+    auto interpolation = make_interpolation(triangles, poses.vertex_count, inputs, options);
+    EdgeError sum;
+    for (const std::vector<double>& weights : rows) {
+      double volume = 0;
+      for (size_t i = 0; i < points.size(); ++i)
+        volume += weights[i] * enclosed_volume(network, points[i]);
+      const EdgeError error = edge_error(network, to_points(interpolation->evaluate(weights)),
+                                         blend_edges(shapes, weights), volume);
+      sum.length += error.length;
+      sum.angle += error.angle;
+      sum.volume += error.volume;
+      sum.largest_length = std::max(sum.largest_length, error.largest_length);
+      sum.folded += error.folded;
+      sum.collapsed += error.collapsed;
+    }
+    const auto count = static_cast<double>(rows.size());
+    line.clear();
+    fmt::print("{:<10} {:>10.4f} {:>10.2f} {:>10.4f} {:>10.4f} {:>7} {:>9}\n", name_of(method),
+               100 * sum.length / count, 100 * sum.largest_length,
+               180 / std::numbers::pi * sum.angle / count, 100 * sum.volume / count, sum.folded,
+               sum.collapsed);
+  }
+}
+
+void run(const InterpolateCommand& command, const CommonOptions& common) {
+  if (command.inputs.size() < 2)
+    throw Error(ErrorKind::kUsage, "interpolate: two meshes or more are needed");
+  if (command.output.empty() && !command.compare)
+    throw Error(ErrorKind::kUsage, "interpolate: -o OUT is needed, or --compare");
+  ProgressLine line(common.quiet);
+  MeshSequence poses = load_poses(command.inputs, command.mesh, line.callback());
+  const WeightRows rows = weights_of(command, poses.frame_count);
+  Pins pins;
+  if (!command.pin.empty())
+    pins = read_pins(command.pin, poses.vertex_count, rows.size());
+
+  const std::vector<uint32_t> triangles = fan_triangles(poses.polygons);
+  std::vector<std::span<const float>> inputs;
+  for (uint32_t i = 0; i < poses.frame_count; ++i)
+    inputs.push_back(std::as_const(poses).frame(i));
+  InterpolationOptions options;
+  options.method = command.method;
+  options.leaf_faces = command.leaf;
+  options.refinement_steps = command.refine;
+  if (command.sweeps >= 0)
+    options.sweeps = static_cast<uint32_t>(command.sweeps);
+  else
+    options.sweeps = pins.vertices.empty() ? 0 : 10;
+  if (command.compare) {
+    if (!pins.vertices.empty())
+      throw Error(ErrorKind::kUsage, "interpolate: --compare knows no pins");
+    print_errors(triangles, poses, inputs, rows, options, line);
+  }
+  if (command.output.empty())
+    return;
+
+  options.pins = pins.vertices;
+  MeshSequence clip;
+  clip.name = poses.name;
+  static_cast<MeshDetails&>(clip) = poses;
+  clip.polygons = poses.polygons;
+  clip.vertex_count = poses.vertex_count;
+  clip.frame_count = static_cast<uint32_t>(rows.size());
+  clip.up = poses.up;
+  clip.metres_per_unit = poses.metres_per_unit;
+  WriteOptions write;
+  write.overwrite = common.overwrite;
+  write.progress = line.callback();
+  check_sequence_output(command.output, clip.frame_count, write);
+  line.show("setting up", 0);
+  auto interpolation = make_interpolation(triangles, poses.vertex_count, inputs, options);
+  write_sequence(
+      command.output, clip,
+      [&](uint32_t f) {
+        return interpolation->evaluate(
+            rows[f], pins.vertices.empty() ? std::span<const float>() : pins.at(f));
+      },
+      write);
+  line.clear();
+  if (!common.quiet)
+    fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output, clip.frame_count,
+               clip.vertex_count, clip.polygons.size());
+}
+
+}  // namespace
+
+void add_interpolate(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<InterpolateCommand>();
+  CLI::App* command = add_command(app, common,
+                                  {"interpolate", "A B [C...] -o OUT --frames N [options]",
+                                   "Make a clip between meshes of one connectivity", kFooter},
+                                  [c, &common] { run(*c, common); });
+  command->add_option("A B", c->inputs, "The meshes")->required();
+  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
+      ->option_text("OUT");
+  command->add_option("--frames", c->frames, "Frames to make")
+      ->option_text("N")
+      ->check(CLI::Range(1U, (1U << 24) - 1));
+  command->add_option("--range", c->range, "From where to where (default: A to the last)")
+      ->option_text("FROM:TO");
+  command->add_option("--weights", c->weights, "Weights of every frame")->option_text("FILE");
+  std::vector<std::pair<std::string, InterpolationMethod>> methods;
+  for (InterpolationMethod method : interpolation_methods())
+    methods.emplace_back(name_of(method), method);
+  add_choice<InterpolationMethod>(*command, "--method", c->method, methods, "Default msgi");
+  command->add_option("--pin", c->pin, "Hold vertices at positions")->option_text("VERTICES=FILE");
+  command->add_option("--leaf", c->leaf, "Faces of a patch (msgi; default: 8 or fewer, by trial)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 255));
+  command
+      ->add_option("--sweeps", c->sweeps,
+                   "Rounds of refitting the patches (default 0; 10 with --pin)")
+      ->option_text("N")
+      ->check(CLI::Range(0, 1000));
+  command
+      ->add_option("--refine", c->refine,
+                   "Gauss-Newton steps on lengths and angles afterwards (default 0)")
+      ->option_text("N")
+      ->check(CLI::Range(0, 100));
+  command->add_option("--mesh", c->mesh, "Mesh of a vertex cache (default: same stem beside it)")
+      ->option_text("FILE");
+  command->add_flag("--compare", c->compare, "Print the errors of all methods");
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/file/join_clips.h"
+#include "tools/commands/command.h"
+#include "tools/inputs/clip_input.h"
+#include "tools/io/files/atomic_file.h"
+#include "tools/words/quantity.h"
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(PART are .anic files that encode --frames made of one clip with the same options, in the order of
+time and without gaps; together they need not be the whole clip. Nothing is coded again: the mesh
+and the reference pose, which all parts share, are stored once.
+
+Examples:
+  anicodec encode walk.obj walk.pc2 --kg 0.1 --frames 0:500    -o a.anic     # on one machine
+  anicodec encode walk.obj walk.pc2 --kg 0.1 --frames 500:1000 -o b.anic     # on another
+  anicodec join a.anic b.anic -o walk.anic)";
+
+struct JoinCommand {
+  std::vector<std::string> inputs;
+  std::string output;
+};
+
+void run(const JoinCommand& command, const CommonOptions& common) {
+  AtomicFile output(command.output, common.overwrite);
+  std::deque<std::string> files;
+  std::vector<ClipPart> parts;
+  for (const std::string& path : command.inputs) {
+    files.push_back(read_bytes(path));
+    parts.push_back({path, view_of(files.back())});
+  }
+  const format::Bytes joined = join_clips(parts);
+  output.write({reinterpret_cast<const char*>(joined.data()), joined.size()});
+  output.commit();
+  if (!common.quiet)
+    fmt::print("{}: {} bytes of {} parts\n", command.output, grouped(joined.size()), parts.size());
+}
+
+}  // namespace
+
+void add_join(CLI::App& app, CommonOptions& common) {
+  auto c = std::make_shared<JoinCommand>();
+  CLI::App* command = add_command(app, common,
+                                  {"join", "PART... -o FILE.anic [options]",
+                                   "Make one .anic file of parts that were encoded apart", kFooter},
+                                  [c, &common] { run(*c, common); });
+  command->add_option("PART", c->inputs, "Parts of a clip, in the order of time")->required();
+  command->add_option("-o,--output", c->output, "The .anic file to write")
+      ->option_text("FILE")
+      ->required();
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/error.h"
+#include "format/container.h"
+#include "sdk/clip/clip.h"
+#include "tools/commands/command.h"
+#include "tools/inputs/clip_input.h"
+#include "tools/words/progress.h"
+#include "tools/words/quantity.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Checks every byte: header, table, the checksum of every chunk, and padding; decodes everything;
+compares the decoded integers with the hash the encoder stored; plays every frame. No source is
+needed.)";
+
+/// Checksums of all chunks, those included that this version does not know. Returns their number.
+size_t check_chunks(const std::string& path, const std::string& bytes) {
+  format::ContainerReader reader;
+  if (Failure failure = reader.open(view_of(bytes)); !failure.ok())
+    fail_clip(path, failure);
+  for (const format::Chunk& chunk : reader.chunks()) {
+    format::ByteView payload;
+    if (Failure failure = reader.payload(chunk, &payload); !failure.ok())
+      fail_clip(path, failure);
+  }
+  return reader.chunks().size();
+}
+
+void check_frames(const std::string& path, const Clip& clip, ProgressLine& line) {
+  for (uint32_t mesh = 0; mesh < clip.meshes().size(); ++mesh) {
+    FrameSource frames = play(path, clip, {mesh});
+    for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+      if (!clip.segment_at(mesh, f))
+        continue;
+      line.show("playing", static_cast<double>(f) / clip.frame_count());
+      std::span<const float> positions = frames(f);
+      for (size_t i = 0; i < positions.size(); ++i) {
+        if (!std::isfinite(positions[i]))
+          throw Error(ErrorKind::kCorrupt,
+                      fmt::format("{}: frame {}: vertex {} is not finite", path, f, i / 3));
+      }
+    }
+  }
+}
+
+void run(const std::string& path, const CommonOptions& common) {
+  ProgressLine line(common.quiet);
+  std::string bytes = read_bytes(path);
+  size_t chunks = check_chunks(path, bytes);
+  Clip clip;
+  open_clip(path, bytes, {}, clip, Topologies::kAny);
+  if (Failure failure = clip.check_hashes(); !failure.ok())
+    fail_clip(path, failure);
+  check_frames(path, clip, line);
+  line.clear();
+  if (!common.quiet)
+    fmt::print("{}: ok ({} bytes, {} chunks, {} frames of {})\n", path, grouped(bytes.size()),
+               chunks, clip.frame_count(),
+               clip.meshes().size() == 1 ? fmt::format("{} vertices", clip.vertex_count())
+                                         : fmt::format("{} meshes", clip.meshes().size()));
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, CommonOptions& common) {
+  auto input = std::make_shared<std::string>();
+  CLI::App* command = add_command(
+      app, common,
+      {"verify", "FILE.anic", "Check an .anic file: checksums and a full decode", kFooter},
+      [input, &common] { run(*input, common); });
+  command->add_option("FILE", *input, "The .anic file to check")->required();
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/commands/encode_report.h"
+
+#include "tools/words/names.h"
+#include "tools/words/quantity.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace anicodec::tools {
+namespace {
+
+/// What a file of this size means for a clip.
+struct Rate {
+  explicit Rate(const EncodeResult& result) {
+    const auto positions = static_cast<double>(result.positions);
+    auto bytes = static_cast<double>(result.file.size());
+    ratio = 12 * positions / bytes;
+    bpfv = 8 * bytes / positions;
+  }
+
+  double ratio = 0;  ///< float32 positions against it
+  double bpfv = 0;   ///< bits per frame and vertex
+};
+
+double percent(double length, double diagonal) {
+  return length == 0 ? 0 : 100 * length / diagonal;
+}
+
+}  // namespace
+
+void EncodeReport::print_json() const {
+  Rate rate(result);
+  nlohmann::ordered_json json;
+  json["file"] = path;
+  json["bytes"] = result.file.size();
+  json["ratio"] = rate.ratio;
+  json["bpfv"] = rate.bpfv;
+  json["vertices"] = result.vertices;
+  json["faces"] = result.faces;
+  json["frames"] = result.frames;
+  json["basis"] = name_of(result.kind);
+  json["components"] = result.components;
+  json["kg"] = result.kg;
+  json["rmse"] = result.rmse;
+  json["max_error"] = result.max_error;
+  json["max_error_percent"] = percent(result.max_error, result.diagonal);
+  json["diagonal"] = result.diagonal;
+  json["massaged"] = massage.change.has_value();
+  json["surface_error"] = massage.change ? massage.change->max : 0;
+  json["surface_error_mean"] = massage.change ? massage.change->mean : 0;
+  json["moving_attributes"] = nlohmann::ordered_json::array();
+  for (const AttributeResult& a : result.attributes)
+    json["moving_attributes"].push_back({{"kind", name_of(a.kind)},
+                                         {"name", a.name},
+                                         {"kept", a.kept},
+                                         {"note", a.note},
+                                         {"bytes", a.bytes},
+                                         {"asked", a.asked},
+                                         {"max_error", a.max_error},
+                                         {"rmse", a.rmse}});
+  fmt::print("{}\n", json.dump(2));
+}
+
+void EncodeReport::print_text(int verbosity) const {
+  if (verbosity > 0) {
+    for (const Trial& trial : result.trials)
+      fmt::print("  tried {:<28} {:>12} bytes  RMSE {:<11.4g} max error {:.4g}\n", trial.what,
+                 grouped(trial.bytes), trial.rmse, trial.max_error);
+  }
+  if (massage_was_choice && verbosity > 0)
+    fmt::print("  massage: sample {} bytes plain, {} massaged; whole clip plain {}\n",
+               grouped(massage.sample_plain_bytes), grouped(massage.sample_massaged_bytes),
+               grouped(massage.plain_bytes));
+  if (massage.change)
+    fmt::print(
+        "massaged: the surface moved by {:.3g} % of the diagonal on average, {:.3g} % at most\n",
+        percent(massage.change->mean, result.diagonal),
+        percent(massage.change->max, result.diagonal));
+  else if (massage_was_choice)
+    fmt::print("not massaged: the clip would not become smaller\n");
+  Rate rate(result);
+  fmt::print(
+      "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {} {}; max error {:.4g} ({:.3g} %), KG {:.3g} %\n",
+      path, grouped(result.file.size()), rate.ratio, rate.bpfv, result.components,
+      components_of(result.kind), result.max_error, percent(result.max_error, result.diagonal),
+      result.kg);
+  for (const AttributeResult& a : result.attributes) {
+    if (a.kept)
+      fmt::print("  {} \"{}\": {} bytes, max error {:.3g} of {:.3g}\n", name_of(a.kind),
+                 printable(a.name), grouped(a.bytes), a.max_error, a.asked);
+    else
+      fmt::print("  {} \"{}\" {}\n", name_of(a.kind), printable(a.name), a.note);
+  }
+}
+
+}  // namespace anicodec::tools

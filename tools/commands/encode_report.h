@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_COMMANDS_ENCODE_REPORT_H_
+#define ANICODEC_TOOLS_COMMANDS_ENCODE_REPORT_H_
+
+#include "codec/encode.h"
+#include "codec/encode_massaged.h"
+
+#include <optional>
+#include <string>
+
+namespace anicodec::tools {
+
+/// What encode says of a file that it has written.
+struct EncodeReport {
+  const std::string& path;
+  const EncodeResult& result;
+  const MassageVerdict& massage;
+  bool massage_was_choice = false;  ///< --massage auto
+
+  void print_json() const;
+
+  /// `verbosity` above 0: what was tried, too.
+  void print_text(int verbosity) const;
+};
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_COMMANDS_ENCODE_REPORT_H_

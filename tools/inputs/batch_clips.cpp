@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/inputs/batch_clips.h"
+
+#include "codec/sequence/error.h"
+#include "tools/io/base/file_kind.h"
+#include "tools/io/base/mesh.h"
+#include "tools/io/files/byte_source.h"
+#include "tools/io/files/natural_order.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace anicodec::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string without_number(const std::string& stem) {
+  return stem.substr(0, stem.find_last_not_of("0123456789") + 1);
+}
+
+std::string joined(const fs::path& folder, const std::string& name) {
+  return (folder / name).lexically_normal().generic_string();
+}
+
+/// Adds the clips of one folder, `relative` to the first.
+void add_folder(const fs::path& folder, const fs::path& relative, std::vector<BatchClip>& clips) {
+  std::vector<std::string> files, folders;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    (it->is_directory() ? folders : files).push_back(it->path().filename().string());
+  if (error)
+    throw Error(ErrorKind::kInput, folder.string() + ": " + error.message());
+  for (std::vector<std::string>* names : {&files, &folders})
+    std::sort(names->begin(), names->end(),
+              [](const std::string& a, const std::string& b) { return natural_less(a, b); });
+
+  std::set<std::string> cached;  // stems of caches, whose meshes are no clips
+  std::map<std::pair<std::string, FileKind>, std::vector<std::string>> frames;
+  for (const std::string& file : files) {
+    const FileKind kind = kind_of(file);
+    const std::string stem = fs::path(file).stem().string();
+    if (is_cache(kind))
+      cached.insert(stem);
+    if (is_cache(kind) || is_scene(kind))
+      clips.push_back({joined(relative, stem), {(folder / file).string()}});
+    else if (kind != FileKind::kUnknown && without_number(stem) != stem)
+      frames[{without_number(stem), kind}].push_back(file);
+  }
+  for (const auto& [group, names] : frames) {
+    BatchClip clip;
+    for (const std::string& name : names) {
+      if (!cached.contains(fs::path(name).stem().string()))
+        clip.inputs.push_back((folder / name).string());
+    }
+    if (clip.inputs.size() < 2)
+      continue;
+    std::string name = group.first.substr(0, group.first.find_last_not_of("_-. ") + 1);
+    if (name.empty())
+      name = folder.filename().string();
+    clip.name = joined(relative, name);
+    clips.push_back(std::move(clip));
+  }
+  for (const std::string& name : folders)
+    add_folder(folder / name, relative / name, clips);
+}
+
+std::vector<BatchClip> clips_of_list(const std::string& path) {
+  std::string text, line, input;
+  read_file(path, text);
+  std::vector<BatchClip> clips;
+  for (std::istringstream lines(text); std::getline(lines, line);) {
+    if (!line.empty() && line.back() == '\r')
+      line.pop_back();
+    if (line.empty() || line[0] == '#')
+      continue;
+    BatchClip clip;
+    for (std::istringstream inputs(line); std::getline(inputs, input, '\t');)
+      clip.inputs.push_back(input);
+    fs::path first = clip.inputs[0];
+    // A pattern has the name of its folder.
+    if (first.stem().string().find_first_of("*?[") != std::string::npos && first.has_parent_path())
+      first = first.parent_path();
+    clip.name = first.stem().string();
+    clips.push_back(std::move(clip));
+  }
+  return clips;
+}
+
+}  // namespace
+
+std::vector<BatchClip> find_clips(const std::string& source) {
+  std::vector<BatchClip> clips;
+  if (fs::is_directory(source))
+    add_folder(source, "", clips);
+  else
+    clips = clips_of_list(source);
+  if (clips.empty())
+    fail_input(source, "no clip is found in it");
+  std::map<std::string, std::string> input_of;
+  for (const BatchClip& clip : clips) {
+    auto [other, is_new] = input_of.emplace(clip.name, clip.inputs[0]);
+    if (!is_new)
+      throw Error(ErrorKind::kUsage, clip.inputs[0] + ": would be written to " + clip.name +
+                                         ".anic, and so would " + other->second);
+  }
+  return clips;
+}
+
+}  // namespace anicodec::tools

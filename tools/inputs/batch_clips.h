@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_INPUTS_BATCH_CLIPS_H_
+#define ANICODEC_TOOLS_INPUTS_BATCH_CLIPS_H_
+
+#include <string>
+#include <vector>
+
+namespace anicodec::tools {
+
+/// One clip of many to be encoded.
+struct BatchClip {
+  std::string name;                 ///< for messages, and of the output, may have folders
+  std::vector<std::string> inputs;  ///< as load_sequence takes them
+};
+
+/// The clips of a folder and the folders in it, in natural order of their names: every scene, every
+/// vertex cache, and every two or more meshes whose names differ in a number at the end. Of a list
+/// (any other file): a clip per line, its inputs separated by tabs; empty lines and those that
+/// begin with # mean nothing. Throws Error(kInput) when nothing is found, Error(kUsage) when two
+/// clips have one name.
+std::vector<BatchClip> find_clips(const std::string& source);
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_INPUTS_BATCH_CLIPS_H_

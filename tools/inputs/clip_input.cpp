@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/inputs/clip_input.h"
+
+#include "codec/connectivity/attribute_encode.h"
+#include "codec/sequence/scene.h"
+#include "format/container.h"
+#include "tools/io/files/byte_source.h"
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+/// The meshes themselves, without positions and timing.
+std::vector<MeshSequence> describe_meshes(const Clip& clip, const std::vector<uint32_t>& meshes) {
+  std::vector<MeshSequence> described;
+  for (uint32_t m : meshes) {
+    const Mesh& mesh = clip.meshes()[m];
+    const Topology& topology = mesh.topology;
+    MeshSequence& out = described.emplace_back();
+    out.mesh_name.assign(mesh.name.begin(), mesh.name.end());
+    out.polygons.offsets.assign(topology.polygon_offsets.begin(), topology.polygon_offsets.end());
+    out.polygons.corners.assign(topology.polygon_corners.begin(), topology.polygon_corners.end());
+    out.vertex_count = clip.vertex_count(m);
+    restore_attributes(mesh.attributes, &out);
+  }
+  return described;
+}
+
+/// The frame, or where it does not show a mesh the last one before that does, or the first.
+uint32_t shown_frame(const std::vector<FrameRun>& there, uint32_t frame) {
+  uint32_t shown = there.empty() ? frame : there[0].first;
+  for (const FrameRun& run : there) {
+    if (run.first <= frame)
+      shown = std::min(frame, run.first + run.count - 1);
+  }
+  return shown;
+}
+
+}  // namespace
+
+bool is_anic(const std::string& path) {
+  constexpr std::string_view kExtension = ".anic";
+  return path.size() >= kExtension.size() &&
+         std::equal(kExtension.rbegin(), kExtension.rend(), path.rbegin(), [](char a, char b) {
+           return a == std::tolower(static_cast<unsigned char>(b));
+         });
+}
+
+ErrorKind error_kind(Status status) {
+  switch (status) {
+    case Status::kVersion:
+    case Status::kFeature:
+    case Status::kCoder:
+    case Status::kChunkUnknown:
+    case Status::kLimit:
+      return ErrorKind::kUnsupported;
+    case Status::kArgument:
+    case Status::kState:
+    case Status::kBufferSize:
+    case Status::kFrameRange:
+    case Status::kMemory:
+    case Status::kInternal:
+      return ErrorKind::kInternal;
+    case Status::kRead:
+      return ErrorKind::kInput;
+    default:
+      return ErrorKind::kCorrupt;
+  }
+}
+
+void fail_clip(const std::string& path, const Failure& failure) {
+  std::string text = path + ": ";
+  if (failure.status != Status::kMagic)
+    text += fmt::format("offset {:#x}", failure.offset);
+  if (failure.chunk != 0)
+    text += ", chunk " + format::chunk_name(failure.chunk);
+  text += failure.status != Status::kMagic ? ": " : "";
+  text += status_string(failure.status);
+  if (*failure.detail)
+    text += fmt::format(" ({})", failure.detail);
+  throw Error(error_kind(failure.status), text);
+}
+
+std::string read_bytes(const std::string& path) {
+  std::string bytes;
+  if (path == "-") {
+    read_standard_input(bytes);
+    return bytes;
+  }
+  read_file(path, bytes);
+  return bytes;
+}
+
+bool takes_turns(const Clip& clip) {
+  const std::vector<uint32_t> meshes = meshes_of(clip);
+  for (uint32_t f = 0; f < clip.frame_count() && meshes.size() > 1; ++f) {
+    if (std::ranges::count_if(meshes, [&](uint32_t m) { return clip.segment_at(m, f); }) > 1)
+      return false;
+  }
+  return meshes.size() > 1;
+}
+
+void open_clip(const std::string& path, const std::string& bytes, const OpenOptions& options,
+               Clip& clip, Topologies allowed) {
+  if (Failure failure = clip.open(view_of(bytes), options); !failure.ok())
+    fail_clip(path, failure);
+  if (allowed == Topologies::kOne && takes_turns(clip))
+    throw Error(ErrorKind::kUnsupported,
+                fmt::format("{}: {} meshes that take turns, where the frames must have one; decode "
+                            "makes files of the frames",
+                            path, clip.meshes().size()));
+}
+
+std::vector<uint32_t> meshes_of(const Clip& clip) {
+  std::vector<uint32_t> meshes(clip.meshes().size());
+  std::iota(meshes.begin(), meshes.end(), 0U);
+  return meshes;
+}
+
+std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh) {
+  std::vector<FrameRun> runs;
+  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+    if (!clip.segment_at(mesh, f))
+      continue;
+    if (runs.empty() || runs.back().first + runs.back().count != f)
+      runs.push_back({f, 0});
+    ++runs.back().count;
+  }
+  return runs;
+}
+
+MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes) {
+  std::vector<MeshSequence> described = describe_meshes(clip, meshes);
+  MeshSequence sequence = described.size() == 1 && described[0].mesh_name.empty()
+                              ? std::move(described[0])
+                              : merge_meshes(described);
+  const format::ClipRecord& record = clip.record();
+  sequence.name.assign(record.name.begin(), record.name.end());
+  sequence.frame_count = clip.frame_count();
+  sequence.rate = {record.rate_numerator, record.rate_denominator, record.rate_assumed};
+  sequence.start_time = record.start_time;
+  sequence.times.assign(record.times.begin(), record.times.end());
+  sequence.up = static_cast<UpAxis>(record.up);
+  sequence.metres_per_unit = record.metres_per_unit;
+  return sequence;
+}
+
+FrameSource play(const std::string& path, const Clip& clip, const std::vector<uint32_t>& meshes) {
+  struct Part {
+    uint32_t mesh;
+    std::vector<FrameRun> there;
+    size_t first, count;  // floats
+  };
+
+  std::vector<Part> parts;
+  size_t count = 0;
+  for (uint32_t m : meshes) {
+    parts.push_back({m, frames_of_mesh(clip, m), count, size_t{3} * clip.vertex_count(m)});
+    count += parts.back().count;
+  }
+  auto positions = std::make_shared<std::vector<float>>(count);
+  return [path, &clip, parts, positions](uint32_t frame) -> std::span<const float> {
+    for (const Part& part : parts) {
+      const uint32_t shown = shown_frame(part.there, frame);
+      const std::span<float> own(positions->data() + part.first, part.count);
+      const Status status = clip.positions(part.mesh, shown, own.data());
+      if (status != Status::kOk)
+        throw Error(error_kind(status),
+                    fmt::format("{}: frame {}: {}", path, frame, status_string(status)));
+      for (size_t i = 3; shown != frame && i < own.size(); ++i)
+        own[i] = own[i - 3];
+    }
+    return *positions;
+  };
+}
+
+AttributeSource play_attributes(const Clip& clip, const std::vector<uint32_t>& meshes) {
+  const bool moves = std::ranges::any_of(clip.tracks(), [&](const Track& track) {
+    return track.is_attribute() && std::ranges::count(meshes, track.mesh) > 0;
+  });
+  if (!moves)
+    return {};
+  std::vector<std::vector<FrameRun>> there;
+  for (uint32_t mesh : meshes)
+    there.push_back(frames_of_mesh(clip, mesh));
+  return [&clip, meshes, there, described = describe_meshes(clip, meshes)](uint32_t frame) mutable {
+    for (size_t m = 0; m < meshes.size(); ++m) {
+      const Vector<MeshAttribute>& decoded = clip.meshes()[meshes[m]].attributes;
+      const uint32_t shown = shown_frame(there[m], frame);
+      size_t restored = 0;
+      for (uint32_t i = 0; i < decoded.size(); ++i) {
+        if (decoded[i].header.components() == 0)
+          continue;
+        Attribute& attribute = described[m].attributes[restored++];
+        if (!attribute.per_corner)
+          clip.attribute_values(meshes[m], i, shown, attribute.values.data());
+      }
+    }
+    return described.size() == 1 ? described[0].attributes : merge_meshes(described).attributes;
+  };
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_INPUTS_ENCODE_ARGUMENTS_H_
+#define ANICODEC_TOOLS_INPUTS_ENCODE_ARGUMENTS_H_
+
+#include "codec/encode.h"
+#include "codec/encode_massaged.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "tools/io/load_sequence.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace anicodec::tools {
+
+/// What frames of another connectivity are: a mistake, or segments of their own.
+enum class Topology { kOne, kSegments };
+
+/// What the objects of the input are: parts of one mesh, or each a mesh.
+enum class Meshes { kOne, kApart };
+
+enum class Massage { kOff, kOn, kAuto, kTransfer };
+
+/// What the command line asks of encode.
+struct EncodeArguments {
+  std::vector<std::string> inputs;
+  std::string output, mesh, clip, batch, memory, frames;
+  std::string kg, max_error, rmse, size, bpfv;
+  BasisChoice basis = BasisChoice::kAuto;
+  uint32_t keyframes = 0;
+  KeyframeMethod select = KeyframeMethod::kPivot;
+  InterpolationChoice interpolation = InterpolationChoice::kLinear;
+  format::OrderMode order = format::OrderMode::kVertices;
+  format::CoderId mesh_coder = format::CoderId::kDraco;
+  int effort = 5;
+  Topology topology = Topology::kOne;
+  Meshes meshes = Meshes::kOne;
+  Massage massage = Massage::kOff;
+  double massage_strength = 0.5;
+  std::string massage_tolerance;
+  std::string rate, unit;
+  UpAxis up = UpAxis::kUnknown;
+  bool loop = false;
+  bool no_attributes = false;
+  AttributeOptions attributes;
+  std::string attribute_error, normal_error;
+  bool json = false;
+};
+
+/// Declares the options, which write to `arguments`.
+void add_arguments(CLI::App& command, EncodeArguments& arguments);
+
+/// What they mean to the encoder. Throws Error(kUsage) naming the option.
+EncodeOptions encode_options(const EncodeArguments& arguments);
+
+/// What they mean to the importers.
+LoadOptions load_options(const EncodeArguments& arguments, const Progress& progress);
+
+/// What they mean to massage(), for a clip.
+MassageOptions massage_options(const EncodeArguments& arguments, const MeshSequence& sequence);
+MassageMode massage_mode(const EncodeArguments& arguments);
+
+/// Axes, unit and loop that they give a clip.
+void set_metadata(const EncodeArguments& arguments, MeshSequence& sequence);
+
+/// All that an output depends on beside its clip, for comparing.
+std::string settings_of(const EncodeArguments& arguments, const EncodeOptions& options);
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_INPUTS_ENCODE_ARGUMENTS_H_

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_IO_BASE_FRAME_RATE_H_
+#define ANICODEC_TOOLS_IO_BASE_FRAME_RATE_H_
+
+#include "codec/sequence/mesh_sequence.h"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace anicodec::tools {
+
+/// Reads "24", "30000/1001" or "12.5"; decimals that abbreviate an NTSC rate (23.976, 23.98, 29.97,
+/// 59.94 ...) are that rate. Not assumed. Throws Error(kUsage).
+FrameRate parse_frame_rate(std::string_view text);
+
+/// When the frames of a sequence stand.
+struct Timing {
+  FrameRate rate;             ///< average one, if uneven
+  double start_time = 0;      ///< seconds
+  std::vector<double> times;  ///< seconds from start_time if uneven, else empty
+};
+
+/// Finds the rate behind times in seconds that were rounded to float: a whole number, an NTSC rate
+/// or the simplest rational within the rounding. Times are even if none is off by more than a
+/// hundredth of a frame. A single frame has the assumed rate. Throws Error(kInput) "name: ..." for
+/// times that are not finite or do not increase.
+Timing timing_of(std::span<const float> times, std::string_view name);
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_BASE_FRAME_RATE_H_

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/io/gltf/glb_output.h"
+
+#include "codec/sequence/error.h"
+#include "codec/sequence/frame_normals.h"
+#include "tools/io/base/byte_order.h"
+#include "tools/io/gltf/glb_buffer.h"
+#include "tools/io/gltf/glb_vertices.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace anicodec::tools {
+namespace {
+
+using Json = GlbBuffer::Json;
+
+constexpr int kPoints = 0, kTriangles = 4;
+
+/// An attribute at the vertices of the GLB, in one frame.
+struct Written {
+  std::string name;
+  size_t components = 0;
+  bool in_every_target = false;  ///< otherwise where it differs from the first frame
+  std::vector<float> values;
+
+  /// Those of an object.
+  std::span<const float> of(const GlbObject& object) const {
+    return std::span(values).subspan(components * object.first, components * object.count);
+  }
+};
+
+/// A mesh of the GLB.
+struct Output {
+  Json attributes, targets = Json::array();
+  std::vector<bool> moves;  ///< of each attribute written: whether a target has it
+};
+
+}  // namespace
+
+class GlbOutput::Writer {
+ public:
+  Writer(const MeshSequence& clip, bool step)
+      : clip_(clip), vertices_(clip), step_(step), meshes_(vertices_.objects().size()) {
+    if (!clip.shared_normals.empty())
+      normals_.emplace(clip);
+    if (clip.frame_count > UINT16_MAX)
+      throw Error(ErrorKind::kInput,
+                  "a GLB of " + std::to_string(clip.frame_count) +
+                      " frames; at most 65535 are possible, whose weights are a table of 2^32");
+  }
+
+  void add_frame(std::span<const float> positions, std::span<const Attribute> attributes) {
+    std::vector<Written> frame = written(positions, attributes);
+    if (first_.empty()) {
+      first_ = frame;
+      for (size_t m = 0; m < meshes_.size(); ++m)
+        add_first(vertices_.objects()[m], meshes_[m]);
+    }
+    if (clip_.frame_count == 1)
+      return;
+    for (size_t i = 0; i < frame.size(); ++i) {
+      for (size_t k = 0; k < frame[i].values.size(); ++k)
+        frame[i].values[k] -= first_[i].values[k];
+    }
+    for (size_t m = 0; m < meshes_.size(); ++m)
+      add_target(frame, vertices_.objects()[m], meshes_[m]);
+  }
+
+  std::string finish(std::span<const float> times) {
+    for (size_t m = 0; m < meshes_.size(); ++m)
+      complete_targets(vertices_.objects()[m], meshes_[m]);
+    Json document;
+    document["asset"] = {{"version", "2.0"}, {"generator", "anicodec"}};
+    document["scene"] = 0;
+    document["scenes"] = Json::array({{{"nodes", {0}}}});
+    document["nodes"] = nodes();
+    document["meshes"] = meshes();
+    if (!clip_.materials.of_polygon.empty()) {
+      for (const std::string& name : clip_.materials.names)
+        document["materials"].push_back({{"name", name}});
+    }
+    if (clip_.frame_count > 1)
+      document["animations"] = Json::array({animation(times)});
+    buffer_.describe_in(document);
+    return packed(document);
+  }
+
+ private:
+  /// What a frame has: positions, normals where the clip knows its hard edges, then attributes.
+  std::vector<Written> written(std::span<const float> positions,
+                               std::span<const Attribute> attributes) const {
+    std::vector<Written> result{{"POSITION", 3, true, vertices_.of_vertices(positions, 3)}};
+    if (normals_)
+      result.push_back({"NORMAL", 3, true, normals_of(positions)});
+    std::map<AttributeKind, int> sets;
+    for (const Attribute& attribute : attributes) {
+      if (!GlbVertices::is_written(attribute))
+        continue;
+      const size_t n = attribute.components;
+      const std::string name = (attribute.kind == AttributeKind::kUv ? "TEXCOORD_" : "COLOR_") +
+                               std::to_string(sets[attribute.kind]++);
+      std::vector<float> values = attribute.per_corner ? vertices_.of_corners(attribute.values, n)
+                                                       : vertices_.of_vertices(attribute.values, n);
+      if (attribute.kind == AttributeKind::kUv) {  // glTF's v points down
+        for (size_t i = 1; i < values.size(); i += 2)
+          values[i] = 1 - values[i];
+      }
+      result.push_back({name, n, false, std::move(values)});
+    }
+    return result;
+  }
+
+  std::vector<float> normals_of(std::span<const float> positions) const {
+    const std::vector<float> normals = normals_->compute(positions);
+    std::vector<float> out;
+    out.reserve(3 * vertices_.corners().size());
+    for (uint32_t c : vertices_.corners()) {
+      if (c == GlbVertices::kNoCorner) {
+        out.insert(out.end(), {0, 0, 1});
+        continue;
+      }
+      const float* normal = normals.data() + size_t{3} * normals_->of_corner(c);
+      out.insert(out.end(), normal, normal + 3);
+    }
+    return out;
+  }
+
+  void add_first(const GlbObject& object, Output& mesh) {
+    for (const Written& w : first_)
+      mesh.attributes[w.name] = buffer_.add_floats(w.of(object), w.components, GlbTarget::kVertices,
+                                                   w.name == "POSITION");
+    mesh.moves.resize(first_.size());
+  }
+
+  /// Of differences to the first frame.
+  void add_target(const std::vector<Written>& frame, const GlbObject& object, Output& mesh) {
+    Json target;
+    for (size_t i = 0; i < frame.size(); ++i) {
+      const std::span<const float> values = frame[i].of(object);
+      if (!frame[i].in_every_target && std::ranges::all_of(values, [](float x) { return x == 0; }))
+        continue;
+      mesh.moves[i] = true;
+      target[frame[i].name] = buffer_.add_differences(values, frame[i].components);
+    }
+    mesh.targets.push_back(std::move(target));
+  }
+
+  /// Of an attribute that moves every target has the differences, those that are 0 too.
+  void complete_targets(const GlbObject& object, Output& mesh) {
+    for (size_t i = 0; i < first_.size(); ++i) {
+      if (!mesh.moves[i])
+        continue;
+      const std::vector<float> zeros(first_[i].components * object.count);
+      for (Json& target : mesh.targets) {
+        if (!target.contains(first_[i].name))
+          target[first_[i].name] = buffer_.add_differences(zeros, first_[i].components);
+      }
+    }
+  }
+
+  /// Empty for what is in no part of several.
+  std::string name_of(const GlbObject& object) const {
+    if (object.part != kNoLabel)
+      return clip_.parts.names[object.part];
+    return meshes_.size() == 1 ? clip_.name : "";
+  }
+
+  /// The object, or a node with the objects below it.
+  Json nodes() const {
+    Json nodes = Json::array();
+    const bool several = meshes_.size() > 1;
+    if (several)
+      nodes.push_back({{"name", clip_.name}, {"children", Json::array()}});
+    for (size_t m = 0; m < meshes_.size(); ++m) {
+      if (several)
+        nodes[0]["children"].push_back(nodes.size());
+      nodes.push_back({{"name", name_of(vertices_.objects()[m])}, {"mesh", m}});
+    }
+    Json& root = nodes[0];
+    if (clip_.up == UpAxis::kZ)  // the axes of glTF: Y up
+      root["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
+    if (const double unit = clip_.metres_per_unit; unit > 0 && unit != 1)
+      root["scale"] = {unit, unit, unit};
+    return nodes;
+  }
+
+  Json meshes() {
+    Json result = Json::array();
+    for (const GlbObject& object : vertices_.objects())
+      result.push_back({{"name", name_of(object)}, {"primitives", Json::array()}});
+    for (const auto& [object, material, corners] : vertices_.triangles(clip_)) {
+      Json& primitive = result[object]["primitives"].emplace_back(Json::object());
+      primitive["mode"] = kTriangles;
+      primitive["indices"] = buffer_.add_indices(corners, vertices_.objects()[object].count);
+      if (material != kNoLabel)
+        primitive["material"] = material;
+    }
+    for (size_t m = 0; m < meshes_.size(); ++m) {
+      Json& primitives = result[m]["primitives"];
+      if (primitives.empty())
+        primitives.push_back({{"mode", kPoints}});
+      for (Json& primitive : primitives) {
+        primitive["attributes"] = meshes_[m].attributes;
+        if (!meshes_[m].targets.empty())
+          primitive["targets"] = meshes_[m].targets;
+      }
+    }
+    return result;
+  }
+
+  /// The weight of a frame is 1 at its time and 0 at those of all others.
+  Json animation(std::span<const float> times) {
+    const uint32_t frames = clip_.frame_count;
+    std::vector<float> input(times.begin(), times.end());
+    for (float& t : input)
+      t -= std::min(times[0], 0.0F);
+    std::vector<uint32_t> elements;
+    for (uint32_t f = 0; f < frames; ++f)
+      elements.push_back(f * frames + f);
+    const std::vector<float> ones(frames, 1.0F);
+    Json sampler{{"input", buffer_.add_floats(input, 1, GlbTarget::kNone, true)},
+                 {"interpolation", step_ ? "STEP" : "LINEAR"},
+                 {"output", buffer_.add_sparse(uint64_t{frames} * frames, elements, ones)}};
+    Json animation{{"name", clip_.name}};
+    animation["samplers"] = Json::array({std::move(sampler)});
+    const size_t first_node = meshes_.size() > 1 ? 1 : 0;
+    for (size_t m = 0; m < meshes_.size(); ++m)
+      animation["channels"].push_back(
+          {{"sampler", 0}, {"target", {{"node", first_node + m}, {"path", "weights"}}}});
+    if (clip_.times.empty())
+      animation["extras"]["anicodec"]["rate"] =
+          std::to_string(clip_.rate.numerator) + "/" + std::to_string(clip_.rate.denominator);
+    return animation;
+  }
+
+  std::string packed(const Json& document) const {
+    std::string json = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    constexpr uint32_t kHeader = 12, kChunkHeader = 8;
+    const size_t binary = (buffer_.bytes().size() + 3) / 4 * 4;
+    buffer_.check_size(json.size() + kHeader + 2 * kChunkHeader + 3);
+    std::string out = "glTF";
+    auto add = [&out](size_t x) { append(static_cast<uint32_t>(x), std::endian::little, out); };
+    add(2);
+    add(kHeader + kChunkHeader + json.size() + kChunkHeader + binary);
+    add(json.size());
+    out += "JSON" + json;
+    add(binary);
+    out += std::string_view("BIN\0", 4);
+    out += buffer_.bytes();
+    out.resize(out.size() + binary - buffer_.bytes().size());
+    return out;
+  }
+
+  const MeshSequence& clip_;
+  const GlbVertices vertices_;
+  std::optional<FrameNormals> normals_;  ///< of clips that know their hard edges
+  const bool step_;
+  GlbBuffer buffer_;
+  std::vector<Written> first_;
+  std::vector<Output> meshes_;
+};
+
+GlbOutput::GlbOutput(const MeshSequence& clip, bool step)
+    : writer_(std::make_unique<Writer>(clip, step)) {}
+
+GlbOutput::~GlbOutput() = default;
+
+void GlbOutput::add_frame(std::span<const float> positions, std::span<const Attribute> attributes) {
+  writer_->add_frame(positions, attributes);
+}
+
+std::string GlbOutput::finish(std::span<const float> times) {
+  return writer_->finish(times);
+}
+
+}  // namespace anicodec::tools

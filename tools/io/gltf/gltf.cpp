@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/io/gltf/gltf.h"
+
+#include "codec/sequence/error.h"
+#include "tools/io/base/frame_rate.h"
+#include "tools/io/base/mesh.h"
+#include "tools/io/base/text_cursor.h"
+#include "tools/io/gltf/gltf_animation.h"
+#include "tools/io/gltf/gltf_bake.h"
+
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr uint32_t kLeastRate = 30;
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names)
+    text += (text.empty() ? "" : ", ") + ("'" + shown(name) + "'");
+  return text.empty() ? "none" : text;
+}
+
+std::string animation_path(uint32_t animation) {
+  return "/animations/" + std::to_string(animation);
+}
+
+/// The animation of a name, else of a number.
+uint32_t named_animation(const GltfDocument& document, const std::string& clip) {
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < document.animations.size(); ++i) {
+    if (document.animations[i].name == clip)
+      return i;
+    names.push_back(document.animations[i].name);
+  }
+  uint32_t number = 0;
+  auto [last, error] = std::from_chars(clip.data(), clip.data() + clip.size(), number);
+  if (error == std::errc() && last == clip.data() + clip.size() && number < names.size())
+    return number;
+  throw Error(ErrorKind::kUsage, document.name + ": there is no clip '" + shown(clip) +
+                                     "'; the clips are: " + listed(names));
+}
+
+bool has_length(const GltfClip& clip) {
+  return clip.last_time() > clip.first_time();
+}
+
+[[noreturn]] void fail_length(const GltfDocument& document, uint32_t animation,
+                              const GltfClip& clip) {
+  fail_gltf(
+      document, animation_path(animation),
+      document.animations[animation].channels.empty()
+          ? "the animation has no channel and so no length; --clip none takes the pose without"
+          : "the animation has no length: all its keys are at " +
+                std::to_string(clip.first_time()) + " s; --clip none takes the pose without");
+}
+
+/// The first animation that moves what is baked, else the first with a length.
+uint32_t first_animation(const GltfDocument& document, const std::vector<bool>& nodes) {
+  uint32_t first = kGltfNone;
+  for (uint32_t i = 0; i < document.animations.size(); ++i) {
+    GltfClip clip(document, i);
+    if (!has_length(clip))
+      continue;
+    if (clip.moves(nodes))
+      return i;
+    if (first == kGltfNone)
+      first = i;
+  }
+  if (first == kGltfNone)
+    fail_length(document, 0, GltfClip(document, 0));
+  return first;
+}
+
+FrameRate default_rate(const GltfAnimation& animation, const GltfClip& clip) {
+  if (!animation.rate.empty()) {
+    try {
+      return parse_frame_rate(animation.rate);
+    } catch (const Error&) {
+      // Not what anicodec writes.
+    }
+  }
+  FrameRate rate = clip.key_rate();
+  if (rate.value() < kLeastRate)
+    rate = {kLeastRate, 1, false};
+  rate.assumed = false;
+  return rate;
+}
+
+uint32_t count_frames(const GltfDocument& document, uint32_t animation, const GltfClip& clip,
+                      const FrameRate& rate) {
+  constexpr double kRounding = 1e-3;  // of a frame: times are floats
+  const double frames =
+      std::floor((clip.last_time() - clip.first_time()) * rate.value() + kRounding) + 1;
+  if (frames > static_cast<double>(kMaxFrames))
+    fail_gltf(document, animation_path(animation),
+              "from " + std::to_string(clip.first_time()) + " to " +
+                  std::to_string(clip.last_time()) + " s there are more than 2^24 - 1 frames");
+  return static_cast<uint32_t>(frames);
+}
+
+}  // namespace
+
+MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
+                        const GltfOptions& options) {
+  return bake_gltf(parse_gltf_document(bytes, name, resolve, options.memory_limit), options);
+}
+
+MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options) {
+  GltfBake bake(document, options.mesh);
+  MeshSequence out = bake.still();
+  if (options.clip == "none" || (options.clip.empty() && document.animations.empty())) {
+    bake.add_frames(nullptr, 1, options, out);
+    return out;
+  }
+  const uint32_t animation = options.clip.empty() ? first_animation(document, bake.moving_nodes())
+                                                  : named_animation(document, options.clip);
+  const GltfClip clip(document, animation);
+  if (!has_length(clip))
+    fail_length(document, animation, clip);
+  out.rate = options.rate ? *options.rate : default_rate(document.animations[animation], clip);
+  out.start_time = clip.first_time();
+  if (document.animations.size() > 1)
+    out.name = document.animations[animation].name;
+  bake.add_frames(&clip, count_frames(document, animation, clip, out.rate), options, out);
+  return out;
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_IO_GLTF_GLTF_H_
+#define ANICODEC_TOOLS_IO_GLTF_GLTF_H_
+
+#include "codec/sequence/mesh_sequence.h"
+#include "codec/sequence/progress.h"
+#include "tools/io/gltf/gltf_document.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace anicodec::tools {
+
+struct GltfOptions {
+  /// Of the frames; default: that of the keys, at least 30, or what anicodec wrote beside them.
+  std::optional<FrameRate> rate = {};
+  /// Name of the mesh or node to take; empty: all of the scene.
+  std::string mesh = {};
+  /// Name or number of the animation, "none" for the pose without; empty: the first that moves
+  /// something.
+  std::string clip = {};
+  /// Most bytes that positions and decompressed buffers may take, each.
+  uint64_t memory_limit = uint64_t{1} << 36;
+  /// Stage "reading".
+  Progress progress = {};
+};
+
+/// Bakes a .gltf or .glb: all triangles of the scene's meshes become one mesh in world space (Y up,
+/// metres), moved by skins (linear blending), morph targets and nodes. Frames stand at multiples of
+/// 1/rate from the first key of the animation to the last. Vertices stay as they are, seams
+/// included, primitives with the same accessors share theirs; points and lines are passed over.
+/// UV sets and colours are kept, normals and tangents as in the first frame, names of materials,
+/// meshes and nodes. The clip has the name of the animation where there are several. Throws
+/// Error(kInput) "name: /json/pointer: reason", Error(kUnsupported), Error(kUsage) for a mesh or
+/// clip that is not there.
+MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
+                        const GltfOptions& options = {});
+
+/// The same for a document that has been read.
+MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options);
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_GLTF_GLTF_H_

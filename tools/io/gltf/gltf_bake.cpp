@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/io/gltf/gltf_bake.h"
+
+#include "codec/sequence/error.h"
+#include "tools/io/base/mesh.h"
+#include "tools/io/base/text_cursor.h"
+#include "tools/io/gltf/gltf_accessor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <tbb/parallel_for.h>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr uint32_t kFirstTriangleMode = 4;
+
+using Transform = Eigen::Matrix<double, 3, 4>;
+
+/// The upper rows of a column-major 4x4 matrix.
+template <typename Number>
+Transform affine(const Number* matrix) {
+  return Eigen::Map<const Eigen::Matrix<Number, 4, 4>>(matrix)
+      .template topRows<3>()
+      .template cast<double>();
+}
+
+Transform after(const Transform& outer, const Transform& inner) {
+  Transform out;
+  out.leftCols<3>() = outer.leftCols<3>() * inner.leftCols<3>();
+  out.col(3) = outer.leftCols<3>() * inner.col(3) + outer.col(3);
+  return out;
+}
+
+Transform local_transform(const GltfNode& node, const GltfPose& pose, uint32_t n) {
+  if (node.matrix)
+    return affine(node.matrix->data());
+  Eigen::Quaterniond rotation(Eigen::Map<const Eigen::Quaterniond>(pose.rotations[n].data()));
+  Transform out;
+  out.leftCols<3>() = rotation.normalized().toRotationMatrix() *
+                      Eigen::Map<const Eigen::Vector3d>(pose.scales[n].data()).asDiagonal();
+  out.col(3) = Eigen::Map<const Eigen::Vector3d>(pose.translations[n].data());
+  return out;
+}
+
+/// What normals are multiplied with: the cofactors, which keep them upright in mirrored and
+/// flattened parts.
+Eigen::Matrix3d normal_matrix(const Transform& m) {
+  Eigen::Matrix3d out;
+  out << m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)), m.col(0).cross(m.col(1));
+  return out;
+}
+
+/// Nodes that are hidden whatever is played.
+std::vector<bool> never_shown(const GltfDocument& document) {
+  std::vector<bool> hidden;
+  for (const GltfNode& node : document.nodes)
+    hidden.push_back(!node.visible);
+  for (const GltfAnimation& animation : document.animations) {
+    for (const GltfChannel& channel : animation.channels) {
+      if (channel.path == GltfPath::kVisibility)
+        hidden[channel.node] = false;
+    }
+  }
+  return hidden;
+}
+
+}  // namespace
+
+/// A primitive shown by a node.
+struct GltfBake::Piece {
+  uint32_t node = 0, mesh = 0;
+  size_t primitive = 0;
+  std::shared_ptr<const GltfGeometry> geometry;
+  uint32_t first_vertex = 0;
+  bool owns_vertices = true;  ///< false: those of an earlier primitive of the node
+};
+
+struct GltfBake::Worlds {
+  std::vector<Transform> nodes;
+  std::vector<bool> visible;                   ///< of each node
+  std::vector<std::vector<Transform>> joints;  ///< of each skin in use: world x inverse bind
+};
+
+GltfBake::~GltfBake() = default;
+
+GltfBake::GltfBake(const GltfDocument& document, const std::string& mesh) : document_(document) {
+  std::vector<uint32_t> open(document.roots.rbegin(), document.roots.rend());
+  const std::vector<bool> hidden = never_shown(document);
+  std::set<std::string> names;
+  while (!open.empty()) {
+    const uint32_t n = open.back();
+    open.pop_back();
+    if (hidden[n])
+      continue;
+    const GltfNode& node = document.nodes[n];
+    open.insert(open.end(), node.children.rbegin(), node.children.rend());
+    if (node.mesh == kGltfNone)
+      continue;
+    const std::string& mesh_name = document.meshes[node.mesh].name;
+    names.insert({mesh_name, node.name});
+    if (mesh.empty() || mesh == mesh_name || mesh == node.name)
+      add_node(n);
+  }
+  if (pieces_.empty() && !mesh.empty()) {
+    std::string list;
+    for (const std::string& name : names)
+      list += (list.empty() ? "'" : ", '") + shown(name) + "'";
+    throw Error(ErrorKind::kUsage, document.name + ": there is no mesh '" + shown(mesh) +
+                                       "' of triangles; the meshes and nodes are: " + list);
+  }
+  if (pieces_.empty())
+    fail_input(document.name, "the scene has no mesh of triangles");
+  if (vertex_count_ > kMaxVertices)
+    fail_input(document.name, "the scene has more than 2^31 - 1 vertices");
+
+  // Joints may stand outside the scene.
+  for (uint32_t n = 0; n < document.nodes.size(); ++n) {
+    if (document.nodes[n].parent == kGltfNone)
+      order_.push_back(n);
+  }
+  for (size_t i = 0; i < order_.size(); ++i) {
+    const std::vector<uint32_t>& children = document.nodes[order_[i]].children;
+    order_.insert(order_.end(), children.begin(), children.end());
+  }
+  inverse_binds_.resize(document.skins.size());
+  for (const Piece& piece : pieces_) {
+    if (!is_skinned(piece))
+      continue;
+    const uint32_t s = document.nodes[piece.node].skin;
+    const GltfSkin& skin = document.skins[s];
+    const GltfVertices& vertices = piece.geometry->vertices;
+    for (size_t i = 0; i < vertices.joints.size(); ++i) {
+      if (vertices.joints[i] >= skin.joints.size() && vertices.weights[i] > 0)
+        fail_gltf(document,
+                  primitive_path(piece.mesh, piece.primitive) + "/attributes/JOINTS_" +
+                      std::to_string(i % vertices.influences / 4),
+                  "joint " + std::to_string(vertices.joints[i]) + " of vertex " +
+                      std::to_string(i / vertices.influences) + " is out of bounds; /skins/" +
+                      std::to_string(s) + " has " + std::to_string(skin.joints.size()));
+    }
+    if (inverse_binds_[s].empty() && skin.inverse_binds != kGltfNone)
+      inverse_binds_[s] = read_floats(document, skin.inverse_binds,
+                                      "/skins/" + std::to_string(s) + "/inverseBindMatrices");
+  }
+}
+
+void GltfBake::add_node(uint32_t n) {
+  const GltfNode& node = document_.nodes[n];
+  const GltfMesh& mesh = document_.meshes[node.mesh];
+  size_t polygons = 0;
+  const size_t first_piece = pieces_.size();
+  for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+    const GltfPrimitive& primitive = mesh.primitives[p];
+    if (primitive.mode < kFirstTriangleMode || !primitive.attributes.contains("POSITION"))
+      continue;
+    Piece piece{.node = n, .mesh = node.mesh, .primitive = p, .geometry = nullptr};
+    for (const Piece& other : pieces_) {
+      if (other.mesh == node.mesh && other.primitive == p)
+        piece.geometry = other.geometry;
+    }
+    if (!piece.geometry)
+      piece.geometry = std::make_shared<const GltfGeometry>(read_geometry(document_, node.mesh, p));
+    piece.first_vertex = static_cast<uint32_t>(vertex_count_);
+    for (size_t q = first_piece; q < pieces_.size() && !primitive.draco; ++q) {
+      const GltfPrimitive& earlier = mesh.primitives[pieces_[q].primitive];
+      if (!earlier.draco && earlier.attributes == primitive.attributes &&
+          earlier.targets == primitive.targets) {
+        piece.first_vertex = pieces_[q].first_vertex;
+        piece.owns_vertices = false;
+        break;
+      }
+    }
+    if (piece.owns_vertices)
+      vertex_count_ += piece.geometry->vertices.count;
+    polygons += piece.geometry->triangles.size() / 3;
+    pieces_.push_back(std::move(piece));
+  }
+  if (pieces_.size() == first_piece)
+    return;
+  const std::string& name = node.name.empty() ? mesh.name : node.name;
+  const auto label = static_cast<uint32_t>(parts_.names.size());
+  parts_.of_polygon.insert(parts_.of_polygon.end(), polygons, name.empty() ? kNoLabel : label);
+  if (!name.empty())
+    parts_.names.push_back(name);
+}
+
+bool GltfBake::is_skinned(const Piece& piece) const {
+  return document_.nodes[piece.node].skin != kGltfNone && piece.geometry->vertices.influences > 0;
+}
+
+std::vector<bool> GltfBake::moving_nodes() const {
+  std::vector<bool> moving(document_.nodes.size());
+  auto add = [&](uint32_t node) {
+    for (uint32_t n = node; n != kGltfNone && !moving[n]; n = document_.nodes[n].parent)
+      moving[n] = true;
+  };
+  for (const Piece& piece : pieces_) {
+    if (!is_skinned(piece)) {
+      add(piece.node);
+      continue;
+    }
+    for (uint32_t joint : document_.skins[document_.nodes[piece.node].skin].joints)
+      add(joint);
+    if (!piece.geometry->vertices.targets.empty())
+      moving[piece.node] = true;
+  }
+  return moving;
+}
+
+MeshSequence GltfBake::still() const {
+  MeshSequence out;
+  out.vertex_count = static_cast<uint32_t>(vertex_count_);
+  out.up = UpAxis::kY;
+  out.metres_per_unit = 1;
+  out.parts = parts_;
+  if (out.parts.names.empty())
+    out.parts.of_polygon.clear();
+  out.materials.names = document_.materials;
+
+  std::map<std::string, Attribute> attributes;
+  for (const Piece& piece : pieces_) {
+    const GltfVertices& vertices = piece.geometry->vertices;
+    const std::vector<uint32_t>& triangles = piece.geometry->triangles;
+    for (size_t i = 0; i < triangles.size(); i += 3) {
+      const uint32_t corners[] = {triangles[i] + piece.first_vertex,
+                                  triangles[i + 1] + piece.first_vertex,
+                                  triangles[i + 2] + piece.first_vertex};
+      out.polygons.add(corners);
+    }
+    static_assert(kNoLabel == kGltfNone);
+    std::vector<uint32_t>& materials = out.materials.of_polygon;
+    materials.insert(materials.end(), triangles.size() / 3,
+                     document_.meshes[piece.mesh].primitives[piece.primitive].material);
+    auto add = [&](const auto& sets, AttributeKind kind, uint32_t components) {
+      for (const auto& [name, values] : sets) {
+        Attribute& attribute = attributes[name];
+        attribute.kind = kind;
+        attribute.name = name;
+        attribute.components = components;
+        attribute.values.resize(size_t{out.vertex_count} * components,
+                                kind == AttributeKind::kColour ? 1.0F : 0.0F);
+        std::copy(values.begin(), values.end(),
+                  attribute.values.begin() +
+                      static_cast<std::ptrdiff_t>(size_t{piece.first_vertex} * components));
+        if (kind == AttributeKind::kUv) {  // glTF's v points down
+          for (size_t v = 0; v < vertices.count; ++v) {
+            float& value = attribute.values[2 * (piece.first_vertex + v) + 1];
+            value = 1 - value;
+          }
+        }
+      }
+    };
+    add(vertices.uvs, AttributeKind::kUv, 2);
+    add(vertices.colours, AttributeKind::kColour, 4);
+  }
+  for (auto& [name, attribute] : attributes)
+    out.attributes.push_back(std::move(attribute));
+  if (out.materials.names.empty())
+    out.materials.of_polygon.clear();
+  return out;
+}
+
+GltfBake::Worlds GltfBake::worlds_of(const GltfPose& pose) const {
+  Worlds worlds;
+  worlds.nodes.resize(document_.nodes.size());
+  worlds.visible.resize(document_.nodes.size());
+  for (uint32_t n : order_) {
+    const GltfNode& node = document_.nodes[n];
+    const Transform local = local_transform(node, pose, n);
+    const bool is_root = node.parent == kGltfNone;
+    worlds.nodes[n] = is_root ? local : after(worlds.nodes[node.parent], local);
+    worlds.visible[n] = pose.visible[n] != 0 && (is_root || worlds.visible[node.parent]);
+  }
+  worlds.joints.resize(document_.skins.size());
+  for (const Piece& piece : pieces_) {
+    if (!is_skinned(piece))
+      continue;
+    const uint32_t s = document_.nodes[piece.node].skin;
+    const GltfSkin& skin = document_.skins[s];
+    if (!worlds.joints[s].empty())
+      continue;
+    for (size_t j = 0; j < skin.joints.size(); ++j) {
+      const Transform& world = worlds.nodes[skin.joints[j]];
+      worlds.joints[s].push_back(inverse_binds_[s].empty()
+                                     ? world
+                                     : after(world, affine(inverse_binds_[s].data() + 16 * j)));
+    }
+  }
+  return worlds;
+}
+
+namespace {
+
+/// Base plus weighted targets, of positions or normals.
+std::vector<double> morphed(const GltfVertices& vertices, const std::vector<double>& weights,
+                            std::vector<float> GltfVectors::*what) {
+  const std::vector<float>& base = vertices.base.*what;
+  std::vector<double> out(base.begin(), base.end());
+  for (size_t t = 0; t < vertices.targets.size(); ++t) {
+    const std::vector<float>& added = vertices.targets[t].*what;
+    if (weights[t] == 0 || added.empty() || out.empty())
+      continue;
+    for (size_t i = 0; i < out.size(); ++i)
+      out[i] += weights[t] * static_cast<double>(added[i]);
+  }
+  return out;
+}
+
+/// The transform of a vertex: of its node, or blended from its joints.
+Transform blended(const GltfVertices& vertices, const std::vector<Transform>& joints, size_t v) {
+  Transform out = Transform::Zero();
+  for (size_t i = v * vertices.influences; i < (v + 1) * vertices.influences; ++i) {
+    if (vertices.weights[i] > 0)
+      out += static_cast<double>(vertices.weights[i]) * joints[vertices.joints[i]];
+  }
+  return out;
+}
+
+}  // namespace
+
+void GltfBake::move(const Piece& piece, const GltfPose& pose, const Worlds& worlds,
+                    float* positions) const {
+  const GltfVertices& vertices = piece.geometry->vertices;
+  if (!worlds.visible[piece.node]) {
+    Eigen::Map<Eigen::Matrix3Xf>(positions, 3, vertices.count).colwise() =
+        worlds.nodes[piece.node].col(3).cast<float>();
+    return;
+  }
+  const std::vector<double> base =
+      morphed(vertices, pose.weights[piece.node], &GltfVectors::positions);
+  const bool skinned = is_skinned(piece);
+  for (size_t v = 0; v < vertices.count; ++v) {
+    const Transform m = skinned
+                            ? blended(vertices, worlds.joints[document_.nodes[piece.node].skin], v)
+                            : worlds.nodes[piece.node];
+    const Eigen::Vector3d p =
+        m.leftCols<3>() * Eigen::Map<const Eigen::Vector3d>(base.data() + 3 * v) + m.col(3);
+    Eigen::Map<Eigen::Vector3f>(positions + 3 * v) = p.cast<float>();
+  }
+}
+
+void GltfBake::add_normals(const GltfPose& pose, const Worlds& worlds, MeshSequence& out) const {
+  Attribute normals{
+      .kind = AttributeKind::kNormal, .name = "NORMAL", .components = 3, .values = {}};
+  Attribute tangents{
+      .kind = AttributeKind::kTangent, .name = "TANGENT", .components = 4, .values = {}};
+  for (const Piece& piece : pieces_) {
+    const GltfVertices& vertices = piece.geometry->vertices;
+    if (!piece.owns_vertices || vertices.base.normals.empty())
+      continue;
+    normals.values.resize(size_t{out.vertex_count} * 3);
+    if (!vertices.tangents.empty())
+      tangents.values.resize(size_t{out.vertex_count} * 4);
+    const std::vector<double> base =
+        morphed(vertices, pose.weights[piece.node], &GltfVectors::normals);
+    for (size_t v = 0; v < vertices.count; ++v) {
+      const Transform m =
+          is_skinned(piece) ? blended(vertices, worlds.joints[document_.nodes[piece.node].skin], v)
+                            : worlds.nodes[piece.node];
+      const size_t to = piece.first_vertex + v;
+      const Eigen::Vector3d n =
+          normal_matrix(m) * Eigen::Map<const Eigen::Vector3d>(base.data() + 3 * v);
+      Eigen::Map<Eigen::Vector3f>(normals.values.data() + 3 * to) = n.normalized().cast<float>();
+      if (vertices.tangents.empty())
+        continue;
+      const Eigen::Vector3d t =
+          m.leftCols<3>() *
+          Eigen::Map<const Eigen::Vector3f>(vertices.tangents.data() + 4 * v).cast<double>();
+      Eigen::Map<Eigen::Vector3f>(tangents.values.data() + 4 * to) = t.normalized().cast<float>();
+      tangents.values[4 * to + 3] = vertices.tangents[4 * v + 3];
+    }
+  }
+  for (Attribute* attribute : {&normals, &tangents}) {
+    if (!attribute->values.empty())
+      out.attributes.push_back(std::move(*attribute));
+  }
+}
+
+void GltfBake::move_attributes(uint32_t frames, const std::function<GltfPose(uint32_t)>& pose_of,
+                               MeshSequence& out) const {
+  for (Attribute& attribute : out.attributes) {
+    auto added = [&](const GltfVectors& target) -> const std::vector<float>* {
+      const auto found = target.sets.find(attribute.name);
+      return found == target.sets.end() ? nullptr : &found->second;
+    };
+    const bool moves = std::ranges::any_of(pieces_, [&](const Piece& piece) {
+      return std::ranges::any_of(piece.geometry->vertices.targets, added);
+    });
+    if (!moves)
+      continue;
+    const size_t n = attribute.components, row = attribute.values.size();
+    const std::vector<float> base = attribute.values;
+    attribute.values.resize(row * frames);
+    attribute.frames = frames;
+    for (uint32_t f = 0; f < frames; ++f) {
+      const GltfPose pose = pose_of(f);
+      float* values = attribute.values.data() + row * f;
+      std::ranges::copy(base, values);
+      for (const Piece& piece : pieces_) {
+        const std::vector<GltfVectors>& targets = piece.geometry->vertices.targets;
+        for (size_t t = 0; t < targets.size() && piece.owns_vertices; ++t) {
+          const std::vector<float>* more = added(targets[t]);
+          const double weight = pose.weights[piece.node][t];
+          for (size_t i = 0; more && i < more->size(); ++i) {
+            const bool turned =
+                attribute.kind == AttributeKind::kUv && i % 2 == 1;  // v points down
+            values[n * piece.first_vertex + i] +=
+                static_cast<float>((turned ? -weight : weight) * static_cast<double>((*more)[i]));
+          }
+        }
+      }
+    }
+  }
+}
+
+void GltfBake::add_frames(const GltfClip* clip, uint32_t frames, const GltfOptions& options,
+                          MeshSequence& out) const {
+  const uint64_t bytes = uint64_t{12} * out.vertex_count * frames;
+  const std::string size =
+      std::to_string(out.vertex_count) + " vertices x " + std::to_string(frames) + " frames";
+  if (bytes > options.memory_limit)
+    fail_input(document_.name, size + " take more memory than is allowed");
+  try {
+    out.positions.resize(bytes / sizeof(float));
+  } catch (const std::exception&) {
+    fail_input(document_.name, "not enough memory for " + size);
+  }
+  out.frame_count = frames;
+  const GltfPose rest = pose_at_rest(document_);
+  constexpr double kTolerance = 1e-3;  // of a frame
+  const double gap = 1 / out.rate.value();
+  auto pose_of = [&](uint32_t f) {
+    GltfPose pose = rest;
+    if (clip)
+      clip->apply(clip->first_time() + f * gap, kTolerance * gap, pose);
+    return pose;
+  };
+  tbb::parallel_for(uint32_t{0}, frames, [&](uint32_t f) {
+    const GltfPose pose = pose_of(f);
+    const Worlds worlds = worlds_of(pose);
+    for (const Piece& piece : pieces_) {
+      if (piece.owns_vertices)
+        move(piece, pose, worlds, out.frame(f).data() + size_t{3} * piece.first_vertex);
+    }
+  });
+  for (size_t i = 0; i < out.positions.size(); ++i) {
+    if (!std::isfinite(out.positions[i]))
+      fail_input(document_.name, "frame " + std::to_string(i / 3 / out.vertex_count) + ", vertex " +
+                                     std::to_string(i / 3 % out.vertex_count) +
+                                     ": the position is not finite");
+  }
+  move_attributes(frames, pose_of, out);
+  const GltfPose pose = pose_of(0);
+  add_normals(pose, worlds_of(pose), out);
+  if (options.progress)
+    options.progress("reading", 1);
+}
+
+}  // namespace anicodec::tools

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_IO_GLTF_GLTF_BAKE_H_
+#define ANICODEC_TOOLS_IO_GLTF_GLTF_BAKE_H_
+
+#include "codec/sequence/mesh_sequence.h"
+#include "tools/io/gltf/gltf.h"
+#include "tools/io/gltf/gltf_animation.h"
+#include "tools/io/gltf/gltf_geometry.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace anicodec::tools {
+
+/// The meshes of a document's scene as one, moved by an animation.
+class GltfBake {
+ public:
+  /// Takes the meshes of the scene, or those where mesh or node has the given name, but for hidden
+  /// ones that no animation shows. The document must outlive it. Throws Error(kUsage) when there is
+  /// none of that name, Error(kInput) for faults of the geometry.
+  GltfBake(const GltfDocument& document, const std::string& mesh);
+  GltfBake(const GltfBake&) = delete;
+  GltfBake& operator=(const GltfBake&) = delete;
+  ~GltfBake();
+
+  /// All but positions and normals.
+  MeshSequence still() const;
+
+  /// Nodes whose transforms or weights move a vertex.
+  std::vector<bool> moving_nodes() const;
+
+  /// Adds the positions, and texture coordinates and colours that targets change, of all frames,
+  /// from the first key of the clip (without one: of the pose at rest) at the rate of `out`, and
+  /// normals and tangents of the first. While a node is hidden its vertices are at one point.
+  /// Throws Error(kInput) when they take more memory than is allowed or are not finite.
+  void add_frames(const GltfClip* clip, uint32_t frames, const GltfOptions& options,
+                  MeshSequence& out) const;
+
+ private:
+  struct Piece;
+  struct Worlds;
+
+  void add_node(uint32_t node);
+  bool is_skinned(const Piece& piece) const;
+  Worlds worlds_of(const GltfPose& pose) const;
+  void move(const Piece& piece, const GltfPose& pose, const Worlds& worlds, float* positions) const;
+  void move_attributes(uint32_t frames, const std::function<GltfPose(uint32_t)>& pose_of,
+                       MeshSequence& out) const;
+  void add_normals(const GltfPose& pose, const Worlds& worlds, MeshSequence& out) const;
+
+  const GltfDocument& document_;
+  std::vector<uint32_t> order_;  ///< nodes, parents first
+  std::vector<Piece> pieces_;
+  std::vector<std::vector<float>> inverse_binds_;  ///< of each skin, joints x 16
+  PolygonLabels parts_;
+  uint64_t vertex_count_ = 0;
+};
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_GLTF_GLTF_BAKE_H_

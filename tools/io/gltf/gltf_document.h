@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// A glTF 2.0 document whose every index, range and hierarchy has been checked. References are to
+// the Khronos glTF 2.0 specification.
+#ifndef ANICODEC_TOOLS_IO_GLTF_GLTF_DOCUMENT_H_
+#define ANICODEC_TOOLS_IO_GLTF_GLTF_DOCUMENT_H_
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace anicodec::tools {
+
+inline constexpr uint32_t kGltfNone = UINT32_MAX;  ///< an index that is not given
+
+enum class GltfComponent : uint32_t {
+  kInt8 = 5120,
+  kUint8 = 5121,
+  kInt16 = 5122,
+  kUint16 = 5123,
+  kUint32 = 5125,
+  kFloat = 5126
+};
+
+/// Bytes of a component.
+uint32_t size_of(GltfComponent component);
+
+/// Bytes of a buffer; those of a view that was compressed (EXT_meshopt_compression) are its own.
+struct GltfView {
+  std::string_view bytes;
+  uint32_t stride = 0;             ///< 0: packed
+  std::vector<char> decompressed;  ///< what `bytes` points to, if compressed
+};
+
+/// Values that replace some of an accessor's.
+struct GltfSparse {
+  uint32_t count = 0;
+  uint32_t index_view = 0, value_view = 0;
+  uint64_t index_offset = 0, value_offset = 0;
+  GltfComponent index_type = GltfComponent::kUint32;
+};
+
+/// Its range lies within its view, that of its sparse parts in theirs.
+struct GltfAccessor {
+  uint32_t view = kGltfNone;  ///< none: zeros
+  uint64_t offset = 0;
+  uint32_t count = 0;       ///< elements
+  uint32_t components = 1;  ///< of an element; 16 for a matrix
+  bool matrix = false;
+  GltfComponent type = GltfComponent::kFloat;
+  bool normalized = false;
+  std::optional<GltfSparse> sparse;
+};
+
+/// KHR_draco_mesh_compression.
+struct GltfDraco {
+  uint32_t view = 0;
+  std::map<std::string, uint32_t> attributes;  ///< name -> unique id in the bitstream
+};
+
+struct GltfPrimitive {
+  std::map<std::string, uint32_t> attributes;  ///< name -> accessor
+  uint32_t indices = kGltfNone;
+  uint32_t material = kGltfNone;
+  uint32_t mode = 4;
+  std::vector<std::map<std::string, uint32_t>> targets;
+  std::optional<GltfDraco> draco;
+};
+
+struct GltfMesh {
+  std::string name;
+  std::vector<GltfPrimitive> primitives;  ///< all with the same number of targets
+  std::vector<double> weights;            ///< of the targets
+};
+
+struct GltfNode {
+  std::string name;
+  uint32_t parent = kGltfNone;
+  std::vector<uint32_t> children;
+  uint32_t mesh = kGltfNone, skin = kGltfNone;
+  std::array<double, 3> translation{0, 0, 0}, scale{1, 1, 1};
+  std::array<double, 4> rotation{0, 0, 0, 1};    ///< x y z w
+  std::optional<std::array<double, 16>> matrix;  ///< column-major, instead of the three
+  std::vector<double> weights;                   ///< empty: those of the mesh
+  bool visible = true;                           ///< KHR_node_visibility: with all below it
+};
+
+struct GltfSkin {
+  std::vector<uint32_t> joints;
+  uint32_t inverse_binds = kGltfNone;
+};
+
+enum class GltfInterpolation { kStep, kLinear, kCubicSpline };
+
+struct GltfSampler {
+  uint32_t input = 0, output = 0;
+  GltfInterpolation interpolation = GltfInterpolation::kLinear;
+};
+
+enum class GltfPath { kTranslation, kRotation, kScale, kWeights, kVisibility };
+
+struct GltfChannel {
+  uint32_t sampler = 0, node = 0;
+  GltfPath path = GltfPath::kTranslation;
+};
+
+struct GltfAnimation {
+  std::string name;
+  std::vector<GltfSampler> samplers;
+  std::vector<GltfChannel> channels;
+  std::string rate;  ///< "24/1" of a clip that anicodec wrote, else empty
+};
+
+/// Nodes form trees. Views point into the buffers, so that a document can be moved only.
+struct GltfDocument {
+  GltfDocument() = default;
+  GltfDocument(GltfDocument&&) = default;
+  GltfDocument& operator=(GltfDocument&&) = default;
+
+  std::string name;  ///< of the file, for messages
+  std::vector<std::vector<char>> buffers;
+  std::vector<GltfView> views;
+  std::vector<GltfAccessor> accessors;
+  std::vector<GltfMesh> meshes;
+  std::vector<GltfNode> nodes;
+  std::vector<uint32_t> roots;  ///< of the scene to be shown
+  std::vector<GltfSkin> skins;
+  std::vector<GltfAnimation> animations;
+  std::vector<std::string> materials;  ///< names
+};
+
+/// Gives the bytes of a file that a document names by a relative URI. Throws Error(kInput).
+using GltfResolver = std::function<std::string(const std::string& path)>;
+
+/// Reads a .gltf or .glb, told apart by their first bytes. `memory_limit` bounds what decompressed
+/// buffer views may take. Throws Error(kInput) "name: /json/pointer: reason", Error(kUnsupported)
+/// for extensions that are required and not known.
+GltfDocument parse_gltf_document(std::string_view bytes, std::string_view name,
+                                 const GltfResolver& resolve, uint64_t memory_limit);
+
+/// Throws Error(kInput) "name: path: reason".
+[[noreturn]] void fail_gltf(const GltfDocument& document, const std::string& path,
+                            const std::string& reason);
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_GLTF_GLTF_DOCUMENT_H_

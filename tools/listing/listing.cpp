@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/listing/listing.h"
+
+#include "format/container.h"
+#include "format/records.h"
+#include "tools/words/names.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace anicodec::tools {
+namespace {
+
+using format::ByteView;
+using format::Chunk;
+using format::chunk_type;
+
+constexpr const char* kUnread = "(not understood)";
+
+void list_limits(FieldReader& r) {
+  r.varint("frames");
+  uint64_t meshes = r.varint("meshes");
+  uint64_t segments = r.varint("segments");
+  for (uint64_t i = 0; i < meshes && r.ok(); ++i) {
+    for (const char* name : {"source vertices", "coded vertices", "points", "triangles", "polygons",
+                             "corners", "Draco components", "Draco bytes"})
+      r.varint(fmt::format("mesh {} {}", i, name));
+  }
+  for (uint64_t i = 0; i < segments && r.ok(); ++i) {
+    r.varint(fmt::format("segment {} mesh", i));
+    constexpr uint8_t kMsgi = 16, kAttribute = 32;
+    const uint8_t code = r.u8(fmt::format("segment {} basis", i));
+    const auto kind = static_cast<uint8_t>(code & ~kAttribute);
+    r.explain((kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<format::BasisKind>(kind))) +
+              std::string(code & kAttribute ? ", of an attribute" : ""));
+    for (const char* name :
+         {"first frame", "frames", "components", "wide components", "corrections"})
+      r.varint(fmt::format("segment {} {}", i, name));
+    if (kind == kMsgi) {
+      r.varint(fmt::format("segment {} bytes of msgi", i));
+      r.varint(fmt::format("segment {} bytes of msgi for a frame", i));
+    }
+    if (code & kAttribute) {
+      r.varint(fmt::format("segment {} attribute", i));
+      r.varint(fmt::format("segment {} three components", i));
+    }
+  }
+  for (uint64_t i = 0; i < meshes && r.ok() && r.remaining() > 0; ++i)
+    r.varint(fmt::format("mesh {} attribute bytes", i));
+}
+
+/// The number of frames is in another chunk: the table of times, when there is one, is what is left
+/// before the fields of fixed size at the end.
+void list_clip(FieldReader& r, uint32_t frames) {
+  constexpr uint8_t kMassaged = 8, kTimes = 16, kAttributeErrors = 32;
+  r.text("name");
+  r.text("encoder");
+  r.varint("rate numerator");
+  r.varint("rate denominator");
+  uint8_t flags = r.u8("flags");
+  std::string meaning;
+  constexpr const char* kFlags[] = {"rate assumed", "loop",  "closed",
+                                    "massaged",     "times", "attribute errors"};
+  for (size_t i = 0; i < std::size(kFlags); ++i) {
+    if (flags >> i & 1)
+      meaning += (meaning.empty() ? "" : ", ") + std::string(kFlags[i]);
+  }
+  if (!meaning.empty())
+    r.explain(meaning);
+  r.explain(up_name(r.u8("up axis")));
+  r.explain(name_of(static_cast<format::OrderMode>(r.u8("order"))));
+  r.f64("start time");
+  r.f32("metres per unit");
+  for (uint32_t f = 0; (flags & kTimes) && f < frames && r.ok(); ++f)
+    r.f64(fmt::format("time of frame {}", f));
+  r.explain(name_of(static_cast<format::ErrorMetric>(r.u8("asked"))));
+  for (const char* name : {"asked value", "max error", "RMSE", "KG", "diagonal"})
+    r.f64(name);
+  if (flags & kMassaged) {
+    r.f64("surface error");
+    r.f64("surface error, mean");
+  }
+  const uint64_t errors = flags & kAttributeErrors ? r.varint("attributes with an error") : 0;
+  for (uint64_t i = 0; i < errors && r.ok(); ++i) {
+    r.varint(fmt::format("error {} mesh", i));
+    r.varint(fmt::format("error {} attribute", i));
+    r.f64(fmt::format("error {} max error", i));
+    r.f64(fmt::format("error {} RMSE", i));
+  }
+}
+
+void list_mesh(FieldReader& r) {
+  r.text("name");
+  r.explain(name_of(static_cast<format::CoderId>(r.u8("coder"))));
+  r.block("connectivity");
+  r.block("details");
+}
+
+void list_pose(FieldReader& r) {
+  r.explain(name_of(static_cast<format::CoderId>(r.u8("coder"))));
+  for (const char* name : {"origin x", "origin y", "origin z", "step"})
+    r.f64(name);
+  r.bytes("coordinates", r.remaining());
+}
+
+void list_segment(FieldReader& r) {
+  r.explain(name_of(static_cast<format::BasisKind>(r.u8("basis"))));
+  r.explain(name_of(static_cast<format::Reconstruction>(r.u8("reconstruction"))));
+  r.hex64("hash of the integers");
+  for (const char* name : {"parameters", "pose", "motion", "weights"})
+    r.block(name);
+}
+
+void list_attributes(FieldReader& r) {
+  const uint64_t count = r.varint("attributes");
+  for (uint64_t i = 0; i < count && r.ok(); ++i) {
+    auto name = [i](std::string_view field) { return fmt::format("attribute {} {}", i, field); };
+    r.explain(name_of(static_cast<format::AttributeKind>(r.u8(name("kind")))));
+    const auto domain = static_cast<format::AttributeDomain>(r.u8(name("domain")));
+    r.explain(name_of(domain));
+    r.text(name("name"));
+    const bool has_labels = domain == format::AttributeDomain::kPolygon;
+    const uint64_t entries = r.varint(name(has_labels ? "labels" : "components"));
+    for (uint64_t k = 0; k < entries && r.ok(); ++k) {
+      if (has_labels) {
+        r.text(name(fmt::format("label {}", k)));
+      } else {
+        r.f64(name(fmt::format("origin {}", k)));
+        r.f64(name(fmt::format("scale {}", k)));
+      }
+    }
+  }
+  r.bytes("values", r.remaining());
+}
+
+void list_payload(const Chunk& chunk, ByteView payload, uint32_t frames,
+                  std::vector<ListedField>& out) {
+  FieldReader r(payload, chunk.offset, out);
+  if (chunk.type == chunk_type("LIMI"))
+    list_limits(r);
+  else if (chunk.type == chunk_type("CLIP"))
+    list_clip(r, frames);
+  else if (chunk.type == chunk_type("MESH"))
+    list_mesh(r);
+  else if (chunk.type == chunk_type("POSE"))
+    list_pose(r);
+  else if (chunk.type == chunk_type("SEGM"))
+    list_segment(r);
+  else if (chunk.type == chunk_type("ATTR"))
+    list_attributes(r);
+  else
+    return r.rest("data");
+  r.rest(kUnread);
+}
+
+/// Header and table; the chunks as the table has them.
+std::vector<Chunk> list_table(ByteView file, std::vector<ListedField>& out) {
+  FieldReader r(file, 0, out);
+  r.hex("magic", sizeof format::kMagic);
+  r.u16("major version");
+  r.u16("minor version");
+  uint32_t count = r.u32("chunks");
+  r.hex64("required features");
+  r.u64("file size");
+  r.hex32("header checksum");
+  r.u32("reserved");
+  std::vector<Chunk> chunks;
+  for (uint32_t i = 0; i < count && r.ok(); ++i) {
+    Chunk chunk;
+    chunk.type = r.hex32(fmt::format("chunk {} type", i));
+    r.explain(format::chunk_name(chunk.type));
+    if (r.u16(fmt::format("chunk {} flags", i)) & 1)
+      r.explain("required");
+    chunk.mesh = r.u16(fmt::format("chunk {} mesh", i));
+    if (chunk.mesh == format::kNoMesh)
+      r.explain("none");
+    chunk.segment = r.u32(fmt::format("chunk {} segment", i));
+    if (chunk.segment == format::kNoSegment)
+      r.explain("none");
+    chunk.checksum = r.hex32(fmt::format("chunk {} checksum", i));
+    chunk.offset = r.u64(fmt::format("chunk {} offset", i));
+    chunk.size = r.u64(fmt::format("chunk {} size", i));
+    if (r.ok())
+      chunks.push_back(chunk);
+  }
+  return chunks;
+}
+
+uint32_t frame_count(ByteView file, const std::vector<Chunk>& chunks) {
+  for (const Chunk& chunk : chunks) {
+    if (chunk.type == chunk_type("LIMI") && chunk.offset <= file.size &&
+        chunk.size <= file.size - chunk.offset) {
+      format::ByteReader r({file.data + chunk.offset, static_cast<size_t>(chunk.size)});
+      return r.varint32();
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<ListedField> list_fields(ByteView file) {
+  std::vector<ListedField> out;
+  std::vector<Chunk> chunks = list_table(file, out);
+  uint32_t frames = frame_count(file, chunks);
+  uint64_t at = out.back().offset + out.back().size;
+  auto gap_to = [&](uint64_t end, const char* name) {
+    if (end > at)
+      out.push_back({at, end - at, name, fmt::format("{} bytes", end - at)});
+    at = std::max(at, end);
+  };
+  for (const Chunk& chunk : chunks) {
+    if (chunk.offset < at || chunk.offset > file.size || chunk.size > file.size - chunk.offset)
+      break;
+    gap_to(chunk.offset, "padding");
+    size_t begin = out.size();
+    list_payload(chunk, {file.data + chunk.offset, static_cast<size_t>(chunk.size)}, frames, out);
+    for (size_t i = begin; i < out.size(); ++i)
+      out[i].name = format::chunk_name(chunk.type) + " " + out[i].name;
+    at = chunk.offset + chunk.size;
+  }
+  gap_to(file.size, kUnread);
+  return out;
+}
+
+}  // namespace anicodec::tools
