@@ -94,7 +94,7 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
     throw Error(ErrorKind::kInternal,
                 std::string("the encoded segment cannot be opened: ") + status_string(status));
   if (msgi) {
-    encoded.sizes.msgi_bytes = segment.msgi[0].resident_bytes();
+    encoded.sizes.msgi_bytes = segment.msgi[0].required_bytes();
     encoded.sizes.msgi_frame_bytes = segment.msgi[0].scratch_bytes();
   }
   encoded.hash = segment.stored_hash = segment.decoded_hash;

@@ -307,6 +307,10 @@ size_t Msgi::resident_bytes() const {
          pinned_system_.resident_bytes();
 }
 
+size_t Msgi::required_bytes() const {
+  return std::max({resident_bytes(), system_.setup_bytes(), pinned_system_.setup_bytes()});
+}
+
 /// Of the arrays that grow with the number of inputs.
 size_t Msgi::blend_bytes(size_t slots, size_t links) const {
   return sizeof(float) * slots +

@@ -38,7 +38,7 @@ class Msgi {
     uint32_t sweeps = 0;
     /// Vertices whose positions evaluate() is given, each at most once.
     Vector<uint32_t> pins;
-    /// kLimit when the object would take more, by resident_bytes().
+    /// kLimit when init() would need more, by required_bytes().
     size_t most_bytes = size_t{4} << 30;
   };
 
@@ -58,6 +58,10 @@ class Msgi {
   double largest_turn() const { return largest_turn_; }
 
   size_t resident_bytes() const;
+
+  /// The least Options::most_bytes for which init() does not end in kLimit: resident_bytes(), or
+  /// what factoring the system takes for a moment where that is more, as in small meshes.
+  size_t required_bytes() const;
 
   /// Of the memory that evaluate() works in.
   size_t scratch_bytes() const;

@@ -18,6 +18,10 @@ size_t Msgi::resident_bytes() const {
   return 0;
 }
 
+size_t Msgi::required_bytes() const {
+  return 0;
+}
+
 size_t Msgi::scratch_bytes() const {
   return 0;
 }

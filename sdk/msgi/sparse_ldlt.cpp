@@ -131,6 +131,7 @@ Status SparseLdlt::analyse(const Graph& graph, size_t most_bytes) {
   rows_.clear();
   size_t values = 0;
   size_t largest_front = 0;
+  setup_bytes_ = 0;
   for (uint32_t b = 0; b < blocks_.size(); ++b) {
     Block& block = blocks_[b];
     uint32_t end = block.first_column + block.columns;
@@ -159,9 +160,9 @@ Status SparseLdlt::analyse(const Graph& graph, size_t most_bytes) {
       sibling[b] = first_child[block.parent];
       first_child[block.parent] = b;
     }
-    if (sizeof(double) * (values + 2 * largest_front) + 2 * sizeof(uint32_t) * rows_.size() >
-            most_bytes ||
-        rows_.size() >= UINT32_MAX - size())
+    setup_bytes_ = std::max(setup_bytes_, sizeof(double) * (values + 2 * largest_front) +
+                                              2 * sizeof(uint32_t) * rows_.size());
+    if (setup_bytes_ > most_bytes || rows_.size() >= UINT32_MAX - size())
       return Status::kLimit;
   }
   values_.resize(values);

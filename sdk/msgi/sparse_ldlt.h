@@ -44,6 +44,9 @@ class SparseLdlt {
 
   size_t resident_bytes() const;
 
+  /// The least most_bytes for which init() does not end in kLimit.
+  size_t setup_bytes() const { return setup_bytes_; }
+
   /// Elements of the array that solve() works in, for three right-hand sides.
   size_t scratch_size() const { return kLanes * size_t{scratch_rows_}; }
 
@@ -90,6 +93,7 @@ class SparseLdlt {
   Vector<Subtree> subtrees_;
   Vector<uint32_t> top_;  ///< blocks above all subtrees
   uint32_t scratch_rows_ = 0;
+  size_t setup_bytes_ = 0;
 };
 
 }  // namespace anicodec

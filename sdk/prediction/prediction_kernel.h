@@ -137,7 +137,6 @@ struct WeightSolver {
         const Float near = kernel(square_root(e0 * e0 + e1 * e1 + e2 * e2));
         A[a][b] = valid[a] * valid[b] * (100.0f + 10.0f * dot + 10.0f * near);
       }
-      A[a][a] += 1.0f - valid[a];
     }
     factor(splat(0.02f));
     solve(right, prior);

@@ -329,7 +329,6 @@ Matrix reference_coefficients(const PredictionCase& t, const PredictionClip& cli
         const float near = phi(std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]));
         M[a][k] = (valid[a] * valid[k]) * ((100 + 10 * dot) + 10 * near);
       }
-      M[a][a] = M[a][a] + (1 - valid[a]);
     }
     Row w0 = Solver(M, 0.02f).solve(b);
     for (float& e : w0)

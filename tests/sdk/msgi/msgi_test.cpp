@@ -214,6 +214,21 @@ TEST(Msgi, GivesTheSameBitsWithAnyThreads) {
   EXPECT_EQ(evaluate(msgi, {0.3, 0.7}), evaluate(msgi, {0.3, 0.7}, nullptr, three_threads()));
 }
 
+TEST(Msgi, SaysHowManyBytesSettingUpNeeds) {
+  for (const TriangleList& list : odd_triangle_lists()) {
+    const std::vector<Positions> inputs{scattered(list.vertex_count, 1),
+                                        scattered(list.vertex_count, 2)};
+    Msgi msgi;
+    ASSERT_EQ(init(msgi, list, inputs), Status::kOk);
+    Msgi::Options options;
+    options.most_bytes = msgi.required_bytes();
+    EXPECT_GE(options.most_bytes, msgi.resident_bytes());
+    EXPECT_EQ(init(msgi, list, inputs, options), Status::kOk) << list.name;
+    --options.most_bytes;
+    EXPECT_EQ(init(msgi, list, inputs, options), Status::kLimit) << list.name;
+  }
+}
+
 TEST(Msgi, RefusesWhatItCannotDo) {
   TriangleList grid = grid_list(4, 4);
   std::vector<Positions> inputs{scattered(16, 1), scattered(16, 2)};
