@@ -64,5 +64,11 @@ TEST(Documents, PointToWhatExists) {
   EXPECT_EQ(outcome.status, 0) << outcome;
 }
 
+TEST(Documents, ShowARangeCodedStreamAsTheirTextDecodesIt) {
+  Outcome outcome = run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/range_coder.py",
+                                 "check", ANICODEC_SOURCE_DIR "/spec/A-examples.md"});
+  EXPECT_EQ(outcome.status, 0) << outcome;
+}
+
 }  // namespace
 }  // namespace anicodec::tools
