@@ -3,29 +3,36 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Runs a decoder on the conformance files.
 
-usage: run.py COMMAND...      as: run.py anicodec decode -q -f {file} -o {out}.pc2
+usage: run.py [--memory BYTES] [--folder FOLDER] [--stop] COMMAND...
+       as: run.py anicodec decode -q -f {file} -o {out}.pc2
 
-COMMAND decodes {file} to a PC2 vertex cache {out}.pc2 and its faces to {out}.obj, and succeeds (exit status 0), or
-refuses the file: another exit status, without a signal. Checked are
-  valid    every file, as MANIFEST hashes it, decodes; sizes and faces are right, positions within the tolerance
+COMMAND decodes {file}, or refuses it by an exit status other than 0, without a signal. Of a file that it decodes it writes
+  {out}.pc2, {out}.obj      positions and faces of the first mesh
+  {out}.1.pc2, {out}.1.obj  of the second, and so on; not-a-number where a mesh is not there. May be left out
+  {out}.json                all else that the file holds, as README.md says. May be left out
+Checked are
+  valid    every file, as MANIFEST hashes it, decodes to what facts/NAME.json says, positions within the tolerance
   invalid  every file is refused
   limit    every file is refused, and nothing takes longer than a few seconds or more than a gigabyte (--memory 0:
            whatever it takes, for decoders with a sanitizer in them)
-Exit status 1 if anything is wrong.
+--stop ends at the first fault. Exit status 1 if anything is wrong.
 """
+import argparse
 import hashlib
+import json
+import math
 import pathlib
 import resource
 import subprocess
 import sys
 import tempfile
 
-FOLDER = pathlib.Path(__file__).resolve().parent
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(FOLDER.parent / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "scripts"))
 import clip_output  # pylint: disable=wrong-import-position
 
 SECONDS = 60  # of a slow machine
+ROUNDING = 1e-6  # of numbers that are printed in decimal, relative
 
 
 class Decoder:
@@ -35,7 +42,7 @@ class Decoder:
         self.command, self.memory = command, memory
 
     def run(self, file, out):
-        """Exit status; a fault if it did not come to an end by itself."""
+        """Exit status; -1 if it did not come to an end by itself."""
         def limit():
             if self.memory:
                 resource.setrlimit(resource.RLIMIT_AS, (self.memory, self.memory))
@@ -48,55 +55,121 @@ class Decoder:
             return -1
 
 
-def check_valid(decoder, file, sizes, points, folder):
+def close(seen, expected, tolerance=0.0):
+    """Whether values agree: numbers within a tolerance, all else exactly; null is not-a-number."""
+    if isinstance(expected, bool) or isinstance(seen, bool) or isinstance(expected, str):
+        return seen == expected
+    if expected is None:
+        return seen is None or isinstance(seen, float) and math.isnan(seen)
+    if isinstance(expected, (int, float)):
+        return isinstance(seen, (int, float)) and \
+            abs(seen - expected) <= max(tolerance, ROUNDING * abs(expected))
+    if isinstance(expected, list):
+        return isinstance(seen, list) and len(seen) == len(expected) and \
+            all(close(a, b, tolerance) for a, b in zip(seen, expected))
+    return isinstance(seen, dict) and all(close(seen.get(key), value, tolerance) for key, value in expected.items())
+
+
+def mesh_faults(out, number, mesh):
+    """Faults of positions and faces."""
+    stem = f"{out}" if number == 0 else f"{out}.{number}"
+    if number > 0 and not pathlib.Path(f"{stem}.pc2").exists():
+        return
+    clip, faces = clip_output.Clip(f"{stem}.pc2"), clip_output.faces(f"{stem}.obj")
+    seen = [clip.vertices, len(clip.frames), len(faces)]
+    if seen != mesh["counts"]:
+        yield f"mesh {number}: {seen} vertices, frames, polygons, not {mesh['counts']}"
+        return
+    if clip_output.faces_hash(faces) != mesh["faces"]:
+        yield f"mesh {number}: other faces"
+    for frame, vertex, *expected in mesh["points"]:
+        at = list(clip.position(frame, vertex))
+        if not close(at, expected, mesh["tolerance"]):
+            yield f"mesh {number}: vertex {vertex} of frame {frame} is at {at}, not {expected}"
+
+
+def fact_faults(seen, facts):
+    """Faults of what is not positions or faces."""
+    for key, value in facts["clip"].items():
+        if not close(seen.get(key), value):
+            yield f"{key} is {seen.get(key)}, not {value}"
+    if len(seen.get("meshes", ())) != len(facts["meshes"]):
+        yield f"{len(seen.get('meshes', ()))} meshes, not {len(facts['meshes'])}"
+        return
+    for number, (mesh, expected) in enumerate(zip(seen["meshes"], facts["meshes"])):
+        for key in ("name", "low", "high"):
+            if not close(mesh.get(key), expected[key], expected["tolerance"]):
+                yield f"mesh {number}: {key} is {mesh.get(key)}, not {expected[key]}"
+        if len(mesh["attributes"]) != len(expected["attributes"]):
+            yield f"mesh {number}: {len(mesh['attributes'])} attributes, not {len(expected['attributes'])}"
+            continue
+        for which, (attribute, wanted) in enumerate(zip(mesh["attributes"], expected["attributes"])):
+            for key in ("kind", "domain", "name", "components", "labels", "moves", "groups"):
+                if attribute.get(key) != wanted[key]:
+                    yield f"mesh {number}: attribute {which}: {key} is {attribute.get(key)}, not {wanted[key]}"
+            sizes = [len(frame) for frame in attribute["values"]]
+            if sizes != wanted["sizes"]:
+                yield f"mesh {number}: attribute {which}: {sizes} values, not {wanted['sizes']}"
+                continue
+            for frame, index, value in wanted["samples"]:
+                if not close(attribute["values"][frame][index], value, wanted["tolerance"]):
+                    yield (f"mesh {number}: attribute {which}: value {index} of frame {frame} is "
+                           f"{attribute['values'][frame][index]}, not {value}")
+
+
+def check_valid(decoder, file, facts, folder):
     """Faults of a file that must decode."""
     out = pathlib.Path(folder) / file.stem
     status = decoder.run(file, out)
     if status != 0:
         yield f"refused, exit status {status}"
         return
-    vertices, frames, polygons, digest, tolerance = sizes
-    clip, faces = clip_output.Clip(f"{out}.pc2"), clip_output.faces(f"{out}.obj")
-    if (clip.vertices, len(clip.frames), len(faces)) != (int(vertices), int(frames), int(polygons)):
-        yield f"{clip.vertices} vertices, {len(clip.frames)} frames, {len(faces)} polygons"
-        return
-    if clip_output.faces_hash(faces) != digest:
-        yield "other faces"
-    for frame, vertex, *expected in points:
-        seen = clip.position(int(frame), int(vertex))
-        if any(abs(a - float(b)) > float(tolerance) for a, b in zip(seen, expected)):
-            yield f"vertex {vertex} of frame {frame} is at {seen}, not {expected}"
+    try:
+        for number, mesh in enumerate(facts["meshes"]):
+            yield from mesh_faults(out, number, mesh)
+        if (told := pathlib.Path(f"{out}.json")).exists():
+            yield from fact_faults(json.loads(told.read_text(encoding="utf-8").replace("nan", "null")), facts)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        yield f"what was written cannot be read: {error}"
+
+
+def faults_of(decoder, folder, kind, name, digest, scratch):
+    """Faults of one file of the manifest."""
+    file = folder / name
+    if hashlib.sha256(file.read_bytes()).hexdigest() != digest:
+        yield "is not the file of the manifest"
+    elif kind == "valid":
+        facts = json.loads((folder / "facts" / f"{file.stem}.json").read_text(encoding="utf-8"))
+        yield from check_valid(decoder, file, facts, scratch)
+    else:
+        status = decoder.run(file, pathlib.Path(scratch) / "refused")
+        if status <= 0:
+            yield "was accepted" if status == 0 else f"ended the decoder: {status}"
 
 
 def main():
-    arguments, memory = sys.argv[1:], 1 << 30
-    if arguments[:1] == ["--memory"]:
-        memory, arguments = int(arguments[1]), arguments[2:]
-    if not arguments or "{file}" not in arguments:
-        sys.exit(__doc__)
-    decoder = Decoder(arguments, memory)
-    entries = [line.split() for line in (FOLDER / "MANIFEST").read_text().splitlines()]
-    faults, counts = [], {"valid": 0, "invalid": 0, "limit": 0}
-    with tempfile.TemporaryDirectory() as folder:
-        for kind, name, *fields in entries:
-            if kind not in counts:
-                continue
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--memory", type=int, default=1 << 30)
+    parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent)
+    parser.add_argument("--stop", action="store_true")
+    parser.add_argument("command", nargs=argparse.REMAINDER)
+    arguments = parser.parse_args()
+    if not any("{file}" in word for word in arguments.command):
+        parser.error("COMMAND names no {file}")
+    decoder = Decoder(arguments.command, arguments.memory)
+    entries = [line.split() for line in (arguments.folder / "MANIFEST").read_text().splitlines()]
+    wrong, counts = False, {"valid": 0, "invalid": 0, "limit": 0}
+    with tempfile.TemporaryDirectory() as scratch:
+        for kind, name, digest, *_ in entries:
             counts[kind] += 1
-            file = FOLDER / name
-            found = []
-            if hashlib.sha256(file.read_bytes()).hexdigest() != fields[0]:
-                found.append("is not the file of the manifest")
-            elif kind == "valid":
-                sizes = next(e[2:] for e in entries if e[:2] == ["sizes", name])
-                points = [e[2:] for e in entries if e[:2] == ["point", name]]
-                found.extend(check_valid(decoder, file, sizes, points, folder))
-            else:
-                status = decoder.run(file, pathlib.Path(folder) / "refused")
-                if status <= 0:
-                    found.append("was accepted" if status == 0 else f"ended the decoder: {status}")
-            faults.extend(f"{name}: {fault}" for fault in found)
-    print("\n".join(faults) or ", ".join(f"{count} {kind} files" for kind, count in counts.items()) + ": conforms")
-    sys.exit(1 if faults else 0)
+            for fault in faults_of(decoder, arguments.folder, kind, name, digest, scratch):
+                wrong = True
+                print(f"{name}: {fault}")
+                if arguments.stop:
+                    sys.exit(1)
+    if not wrong:
+        print(", ".join(f"{count} {kind} files" for kind, count in counts.items()) + ": conforms")
+    sys.exit(1 if wrong else 0)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,9 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Makes tests/conformance/, seeds of tests/fuzz/ and the listing of spec/A-examples.md anew, after the format has changed.
 
-usage: update_conformance.py ANICODEC LIBANICODEC
-  the built command and shared library, as build/release/tools/anicodec build/release/sdk/package/libanicodec.so
+usage: update_conformance.py ANICODEC LIBANICODEC REFERENCE_DECODER
+  the built command, shared library and decoder of the tests, as build/dev/tools/anicodec
+  build/dev/sdk/package/libanicodec.so build/dev/tests/reference_decoder
 """
 import ctypes
 import hashlib
@@ -17,7 +18,7 @@ import sys
 import tempfile
 
 import anic_file
-import clip_output
+import conformance_facts
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests" / "conformance"
@@ -43,7 +44,6 @@ MOVING = ["heated"]
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 # Codes that a file can cause, with the names of spec/12-errors.md.
 CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
-POINTS = 24  # of the manifest, for each file
 # Files whose chunks tests/fuzz/chunk_fuzz.cpp changes, in its order: one for each kind of chunk, quickly decoded.
 FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "quad_box_corrected.anic",
           "soup_plain.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic"]
@@ -231,28 +231,19 @@ def write_seeds(folder):
             (folder / name / f"seed_{file}").write_bytes(data + bytes([mode]) + script[1:])
 
 
-def point_lines(name, clip, faces):
-    """Lines of the manifest for a file that decodes: sizes, hash of its faces, some of its positions."""
-    largest = max(abs(x) for frame in clip.frames for x in frame)
-    yield (f"sizes {name} {clip.vertices} {len(clip.frames)} {len(faces)} {clip_output.faces_hash(faces)} "
-           f"{2e-5 * largest:.3g}")
-    state = 1
-    for _ in range(POINTS):
-        state = state * 1103515245 + 12345 & 0x7FFFFFFF
-        frame, vertex = (state >> 8) % len(clip.frames), (state >> 12) % clip.vertices
-        yield f"point {name} {frame} {vertex} " + " ".join(f"{x:.9g}" for x in clip.position(frame, vertex))
-
-
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 4:
         sys.exit(__doc__)
     command, library = str(pathlib.Path(sys.argv[1]).resolve()), Library(pathlib.Path(sys.argv[2]).resolve())
+    decoder = pathlib.Path(sys.argv[3]).resolve()
     lines = []
 
     def add(kind, path, *fields):
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         lines.append(" ".join([kind, path.relative_to(FOLDER).as_posix(), digest, *fields]))
 
+    shutil.rmtree(FOLDER / "facts", ignore_errors=True)
+    (FOLDER / "facts").mkdir()
     with tempfile.TemporaryDirectory() as name:
         for file, clip, options in VECTORS:
             cache = pathlib.Path(name) / (pathlib.Path(file).stem + ".pc2")
@@ -265,9 +256,11 @@ def main():
                 subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
             subprocess.run([command, "encode", "-q", "-f", *inputs, "-o", FOLDER / file] + options.split(),
                            check=True)
-            subprocess.run([command, "decode", "-q", "-f", FOLDER / file, "-o", cache], check=True)
+            out = pathlib.Path(name) / "decoded"
+            subprocess.run([decoder, FOLDER / file, out], check=True)
             add("valid", FOLDER / file)
-            lines.extend(point_lines(file, clip_output.Clip(cache), clip_output.faces(cache.with_suffix(".obj"))))
+            conformance_facts.write(conformance_facts.facts_of(out),
+                                    FOLDER / "facts" / f"{pathlib.Path(file).stem}.json")
 
     for folder in ("invalid", "limits"):
         shutil.rmtree(FOLDER / folder, ignore_errors=True)

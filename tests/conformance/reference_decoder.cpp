@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Decodes a file for tests/conformance/run.py: positions and faces of each mesh, and all else that
+// a file holds as JSON. Exit status 1 for a file that is refused, its code on stderr.
+//
+// usage: reference_decoder FILE.anic OUT
+#include "sdk/clip/clip.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace anicodec {
+namespace {
+
+using Positions = std::vector<std::vector<float>>;  // by frame
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+/// Bytes that are not ASCII are written as the characters of the same number.
+std::string quoted(const String& text) {
+  std::string out = "\"";
+  for (const char byte : text) {
+    const auto c = static_cast<unsigned char>(byte);
+    char escape[8];
+    std::snprintf(escape, sizeof escape, "\\u%04x", unsigned{c});
+    if (c >= 0x20 && c < 0x7F && c != '"' && c != '\\')
+      out += byte;
+    else
+      out += escape;
+  }
+  return out + "\"";
+}
+
+template <class Values, class Print>
+std::string list(const Values& values, Print print) {
+  std::string out = "[";
+  for (const auto& value : values)
+    out += (out.size() > 1 ? "," : "") + print(value);
+  return out + "]";
+}
+
+std::string integer(uint64_t value) {
+  return std::to_string(value);
+}
+
+/// `"key":value` lists between braces.
+class Object {
+ public:
+  Object& add(const char* key, const std::string& value) {
+    text_ += (text_.empty() ? "\"" : ",\n\"") + std::string(key) + "\":" + value;
+    return *this;
+  }
+
+  Object& add(const char* key, bool value) {
+    return add(key, std::string(value ? "true" : "false"));
+  }
+
+  std::string str() const { return "{" + text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+void write(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// A PC2 vertex cache; frames without the mesh are not-a-number throughout.
+std::string cache(const Positions& frames, uint32_t vertices) {
+  const float start = 0, rate = 1;
+  const uint32_t version = 1, count = static_cast<uint32_t>(frames.size());
+  std::string out("POINTCACHE2\0", 12);
+  auto put = [&](const void* data, size_t size) {
+    out.append(static_cast<const char*>(data), size);
+  };
+  put(&version, 4);
+  put(&vertices, 4);
+  put(&start, 4);
+  put(&rate, 4);
+  put(&count, 4);
+  for (const std::vector<float>& frame : frames)
+    put(frame.data(), frame.size() * sizeof(float));
+  return out;
+}
+
+std::string faces(const Topology& topology) {
+  std::string out;
+  for (size_t p = 0; p + 1 < topology.polygon_offsets.size(); ++p) {
+    out += "f";
+    for (uint32_t c = topology.polygon_offsets[p]; c < topology.polygon_offsets[p + 1]; ++c)
+      out += " " + std::to_string(topology.polygon_corners[c] + 1);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string attribute(const Clip& clip, uint32_t mesh, uint32_t which) {
+  const MeshAttribute& a = clip.meshes()[mesh].attributes[which];
+  const auto [first, end] = clip.attribute_tracks(mesh, which);
+  Object out;
+  out.add("kind", integer(static_cast<uint64_t>(a.header.kind)));
+  out.add("domain", integer(static_cast<uint64_t>(a.header.domain)));
+  out.add("name", quoted(a.header.name));
+  out.add("components", integer(a.header.components()));
+  out.add("labels", list(a.header.labels, quoted));
+  out.add("moves", first != end);
+  out.add("groups", list(a.labels, integer));
+  std::vector<std::vector<float>> values{{a.values.begin(), a.values.end()}};
+  for (uint32_t f = 1; first != end && f < clip.frame_count(); ++f) {
+    values.emplace_back(a.values.size());
+    if (clip.attribute_values(mesh, which, f, values.back().data()) != Status::kOk)
+      values.back().clear();
+  }
+  if (first != end && clip.attribute_values(mesh, which, 0, values[0].data()) != Status::kOk)
+    values[0].clear();
+  out.add("values", list(values, [](const auto& frame) {
+            return list(frame, [](float x) { return number(double{x}); });
+          }));
+  return out.str();
+}
+
+std::string mesh_facts(const Clip& clip, uint32_t mesh, const Positions& frames) {
+  const Mesh& m = clip.meshes()[mesh];
+  std::vector<float> low(3, std::numeric_limits<float>::max()), high(3, -low[0]);
+  for (const std::vector<float>& frame : frames) {
+    for (size_t i = 0; i < frame.size(); ++i) {
+      low[i % 3] = std::min(low[i % 3], frame[i]);
+      high[i % 3] = std::max(high[i % 3], frame[i]);
+    }
+  }
+  std::vector<std::string> attributes;
+  for (uint32_t a = 0; a < m.attributes.size(); ++a)
+    attributes.push_back(attribute(clip, mesh, a));
+  auto as_number = [](float x) { return number(double{x}); };
+  return Object()
+      .add("name", quoted(m.name))
+      .add("low", list(low, as_number))
+      .add("high", list(high, as_number))
+      .add("attributes", list(attributes, [](const std::string& a) { return a; }))
+      .str();
+}
+
+std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
+  const format::ClipRecord& r = clip.record();
+  Object out;
+  out.add("name", quoted(r.name)).add("encoder", quoted(r.encoder));
+  out.add("rate", list(std::vector<uint64_t>{r.rate_numerator, r.rate_denominator}, integer));
+  out.add("rate_assumed", r.rate_assumed).add("loop", r.loop).add("closed", r.closed);
+  out.add("massaged", r.massaged).add("up", integer(r.up));
+  out.add("order", integer(static_cast<uint64_t>(r.order)));
+  out.add("metres_per_unit", number(r.metres_per_unit));
+  out.add("start_time", number(r.start_time));
+  std::vector<double> times(r.times.begin(), r.times.end());
+  for (uint32_t f = 0; r.times.empty() && f < clip.frame_count(); ++f)
+    times.push_back(1.0 * f * r.rate_denominator / r.rate_numerator);
+  out.add("times", list(times, number));
+  out.add("asked", integer(static_cast<uint64_t>(r.asked)));
+  for (const auto& [key, value] : {std::pair{"asked_value", r.asked_value},
+                                   {"max_error", r.max_error},
+                                   {"rmse", r.rmse},
+                                   {"kg", r.kg},
+                                   {"diagonal", r.diagonal},
+                                   {"surface_error", r.surface_error},
+                                   {"surface_error_mean", r.surface_error_mean}})
+    out.add(key, number(value));
+  out.add("attribute_errors", list(r.attribute_errors, [](const format::AttributeError& e) {
+            return "[" + integer(e.mesh) + "," + integer(e.attribute) + "," + number(e.max_error) +
+                   "," + number(e.rmse) + "]";
+          }));
+  std::vector<std::string> meshes;
+  for (uint32_t m = 0; m < clip.meshes().size(); ++m)
+    meshes.push_back(mesh_facts(clip, m, positions[m]));
+  out.add("meshes", list(meshes, [](const std::string& m) { return m; }));
+  return out.str();
+}
+
+int refused(const Failure& failure) {
+  std::fprintf(stderr, "%d %s: %s\n", static_cast<int>(failure.status),
+               status_string(failure.status), failure.detail);
+  return 1;
+}
+
+int decode(const char* path, const std::string& out) {
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(file),
+                                std::istreambuf_iterator<char>()};
+  OpenOptions options;
+  options.limits.resident_bytes = uint64_t{256} << 20;
+  Clip clip;
+  if (Failure f =
+          clip.open({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, options);
+      !f.ok())
+    return refused(f);
+  if (Failure f = clip.check_hashes(); !f.ok())
+    return refused(f);
+  std::vector<Positions> positions(clip.meshes().size());
+  for (uint32_t m = 0; m < positions.size(); ++m) {
+    for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+      std::vector<float>& frame = positions[m].emplace_back(size_t{3} * clip.vertex_count(m));
+      const Status s = clip.positions(m, f, frame.data());
+      if (s == Status::kSegment)
+        std::fill(frame.begin(), frame.end(), std::numeric_limits<float>::quiet_NaN());
+      else if (s != Status::kOk)
+        return refused({s, 0, 0, "a frame cannot be played"});
+    }
+    const std::string stem = out + (m == 0 ? "" : "." + std::to_string(m));
+    write(stem + ".pc2", cache(positions[m], clip.vertex_count(m)));
+    write(stem + ".obj", faces(clip.meshes()[m].topology));
+  }
+  write(out + ".json", facts(clip, positions));
+  return 0;
+}
+
+}  // namespace
+}  // namespace anicodec
+
+int main(int argc, char** argv) {
+  if (argc != 3)
+    return std::fprintf(stderr, "usage: reference_decoder FILE.anic OUT\n"), 2;
+  return anicodec::decode(argv[1], argv[2]);
+}
