@@ -8,20 +8,14 @@
 
 #include "codec/massage/sliding_solve.h"
 #include "codec/metrics/hausdorff.h"
-#include "codec/sequence/mesh_sequence.h"
 #include "codec/surface/mesh_quality.h"
+#include "codec/surface/surface_frame.h"
 #include "codec/transfer/distance_fit.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace anicodec {
-
-/// A mesh by itself.
-struct SurfaceFrame {
-  Polygons polygons;
-  std::vector<float> positions;  ///< vertices x 3
-};
 
 struct MeshFit {
   std::vector<float> positions;  ///< of the mesh, vertices x 3
@@ -39,6 +33,10 @@ struct MeshFit {
 /// and for a component of one that has no counterpart in the other.
 MeshFit fit_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
                  const DistanceFitOptions& options = {});
+
+/// The distances of a mesh from a surface as if it had been fitted in vain. Throws Error(kInput) if
+/// one has no triangles.
+MeshFit measure_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface);
 
 }  // namespace anicodec
 
