@@ -187,16 +187,16 @@ Failure open_asset(ByteView bytes, const anic_options* options, bool prefix, ani
 
 using namespace anicodec;
 
-uint32_t anic_version(void) {
+uint32_t anic_get_version(void) {
   return ANIC_VERSION_MAJOR << 16 | ANIC_VERSION_MINOR << 8 | ANIC_VERSION_PATCH;
 }
 
-const char* anic_status_string(anic_status status) {
+const char* anic_get_status_text(anic_status status) {
   return status_string(static_cast<Status>(status));
 }
 
-anic_status anic_query(const void* head, size_t size, const anic_options* options,
-                       anic_requirements* out) {
+anic_status anic_get_requirements(const void* head, size_t size, const anic_options* options,
+                                  anic_requirements* out) {
   if (!out || (!head && size > 0) || !is_valid_options(options))
     return ANIC_E_ARGUMENT;
   *out = {};
@@ -238,7 +238,7 @@ anic_status anic_query(const void* head, size_t size, const anic_options* option
   return c_status(guarded(query).status);
 }
 
-anic_status anic_asset_open(const void* file, size_t size, const anic_options* options,
+anic_status anic_open_asset(const void* file, size_t size, const anic_options* options,
                             anic_asset** out, anic_failure* failure) {
   if (out)
     *out = nullptr;
@@ -250,11 +250,11 @@ anic_status anic_asset_open(const void* file, size_t size, const anic_options* o
                 failure);
 }
 
-void anic_asset_close(anic_asset* asset) {
+void anic_close_asset(anic_asset* asset) {
   destroy(asset);
 }
 
-anic_status anic_asset_verify(const anic_asset* asset) {
+anic_status anic_verify_asset(const anic_asset* asset) {
   if (!asset)
     return ANIC_E_ARGUMENT;
   if (asset->clip.is_partial() || asset->quality < 1)
@@ -262,7 +262,7 @@ anic_status anic_asset_verify(const anic_asset* asset) {
   return c_status(asset->clip.check_hashes().status);
 }
 
-void anic_asset_info(const anic_asset* asset, anic_info* out) {
+void anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
   if (!asset || !out)
     return;
   const Clip& clip = asset->clip;
@@ -280,7 +280,7 @@ void anic_asset_info(const anic_asset* asset, anic_info* out) {
   out->closed = record.closed;
   out->massaged = record.massaged;
   out->partial = clip.is_partial();
-  out->up = static_cast<anic_up>(record.up);
+  out->up = static_cast<anic_up_axis>(record.up);
   out->order = static_cast<anic_order>(record.order);
   out->start_time = clock.time(0);
   out->end_time = clock.time(clip.frame_count() - 1);
@@ -298,7 +298,7 @@ void anic_asset_info(const anic_asset* asset, anic_info* out) {
   out->context_bytes = asset->context_bytes;
 }
 
-anic_status anic_mesh(const anic_asset* asset, uint32_t mesh, anic_mesh_info* out) {
+anic_status anic_get_mesh(const anic_asset* asset, uint32_t mesh, anic_mesh* out) {
   const Mesh* m = find_mesh(asset, mesh);
   if (!m || !out)
     return ANIC_E_ARGUMENT;
@@ -313,8 +313,8 @@ anic_status anic_mesh(const anic_asset* asset, uint32_t mesh, anic_mesh_info* ou
   return ANIC_OK;
 }
 
-anic_status anic_mesh_attribute(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
-                                anic_attribute* out) {
+anic_status anic_get_attribute(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
+                               anic_attribute* out) {
   const Mesh* m = find_mesh(asset, mesh);
   if (!m || !out || attribute >= m->attributes.size())
     return ANIC_E_ARGUMENT;
@@ -333,8 +333,8 @@ anic_status anic_mesh_attribute(const anic_asset* asset, uint32_t mesh, uint32_t
   return ANIC_OK;
 }
 
-const char* anic_attribute_label(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
-                                 uint32_t label) {
+const char* anic_get_label_name(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
+                                uint32_t label) {
   const Mesh* m = find_mesh(asset, mesh);
   if (!m || attribute >= m->attributes.size() ||
       label >= m->attributes[attribute].header.labels.size())
@@ -342,7 +342,7 @@ const char* anic_attribute_label(const anic_asset* asset, uint32_t mesh, uint32_
   return m->attributes[attribute].header.labels[label].c_str();
 }
 
-anic_status anic_mesh_polygons(const anic_asset* asset, uint32_t mesh, anic_polygons* out) {
+anic_status anic_get_polygons(const anic_asset* asset, uint32_t mesh, anic_polygons* out) {
   const Mesh* m = find_mesh(asset, mesh);
   if (!m || !out)
     return ANIC_E_ARGUMENT;
@@ -352,8 +352,8 @@ anic_status anic_mesh_polygons(const anic_asset* asset, uint32_t mesh, anic_poly
   return ANIC_OK;
 }
 
-anic_status anic_triangles(const anic_asset* asset, uint32_t mesh, uint32_t index_bytes, void* out,
-                           size_t size) {
+anic_status anic_write_indices(const anic_asset* asset, uint32_t mesh, uint32_t index_bytes,
+                               void* out, size_t size) {
   const Mesh* m = find_mesh(asset, mesh);
   if (!m || (index_bytes != 2 && index_bytes != 4) ||
       (index_bytes == 2 && m->topology.vertex_coded.size() > 65536))
@@ -370,7 +370,7 @@ anic_status anic_triangles(const anic_asset* asset, uint32_t mesh, uint32_t inde
   return ANIC_OK;
 }
 
-anic_status anic_mesh_copies(const anic_asset* asset, uint32_t mesh, const uint32_t** out) {
+anic_status anic_get_coded_vertices(const anic_asset* asset, uint32_t mesh, const uint32_t** out) {
   const Mesh* m = find_mesh(asset, mesh);
   if (!m || !out)
     return ANIC_E_ARGUMENT;
@@ -378,11 +378,11 @@ anic_status anic_mesh_copies(const anic_asset* asset, uint32_t mesh, const uint3
   return ANIC_OK;
 }
 
-double anic_frame_time(const anic_asset* asset, uint32_t frame) {
+double anic_get_frame_time(const anic_asset* asset, uint32_t frame) {
   return asset ? Clock(asset->clip.record(), asset->clip.frame_count()).time(frame) : 0;
 }
 
-anic_status anic_segment_basis(const anic_asset* asset, uint32_t segment, anic_basis* out) {
+anic_status anic_get_basis(const anic_asset* asset, uint32_t segment, anic_basis* out) {
   if (!asset || !out || segment >= asset->clip.segments().size())
     return ANIC_E_ARGUMENT;
   const Segment& s = asset->clip.segments()[segment];
@@ -407,7 +407,7 @@ anic_status anic_segment_basis(const anic_asset* asset, uint32_t segment, anic_b
   out->attribute = s.attribute;
   out->first_component = s.first_component;
   out->vertex_shape = s.vertex_coded.empty() ? nullptr : s.vertex_coded.data();
-  out->reconstruction = s.msgi.empty() ? ANIC_COMBINED : ANIC_INTERPOLATED;
+  out->reconstruction = s.msgi.empty() ? ANIC_RECONSTRUCTION_LINEAR : ANIC_RECONSTRUCTION_MSGI;
   for (size_t i = 0; i < 3; ++i)
     out->origin[i] = static_cast<float>(s.origin[i]);
   return ANIC_OK;

@@ -79,7 +79,7 @@ void release(void* user, void* memory, size_t size) {
 
 }  // namespace
 
-anic_status anic_block_allocator(void* block, size_t size, anic_allocator* out) {
+anic_status anic_init_block_allocator(void* block, size_t size, anic_allocator* out) {
   if (!block || !out)
     return ANIC_E_ARGUMENT;
   if (size < 256)

@@ -17,7 +17,7 @@ namespace {
 static_assert(sizeof(anic_correction) == sizeof(Segment::Correction) &&
               offsetof(anic_correction, vertex) == offsetof(Segment::Correction, vertex) &&
               offsetof(anic_correction, delta) == offsetof(Segment::Correction, delta));
-static_assert(ANIC_MAX_PARTS == Sample::kMaxParts && ANIC_BLOCK == kBlock);
+static_assert(ANIC_MAX_PARTS == Sample::kMaxParts && ANIC_BLOCK_VERTICES == kBlock);
 
 /// Vertices whose box is found at a time.
 constexpr uint32_t kRange = 16 * kBlock;
@@ -46,7 +46,7 @@ bool is_empty(const anic_box& box) {
 anic_status find_sample(const anic_context* context, uint32_t mesh, anic_when when,
                         const Sample** out) {
   if (!context || mesh >= context->asset->clip.meshes().size() ||
-      (when != ANIC_CURRENT && when != ANIC_PREVIOUS))
+      (when != ANIC_WHEN_CURRENT && when != ANIC_WHEN_PREVIOUS))
     return ANIC_E_ARGUMENT;
   if (!context->chosen)
     return ANIC_E_STATE;
@@ -93,10 +93,11 @@ bool is_range(const Clip& clip, uint32_t mesh, uint32_t first, uint32_t count) {
 /// Makes the current state the previous one, and `mix` the current one.
 void choose(anic_context* context, const FrameMix& mix) {
   const Clip& clip = context->asset->clip;
-  std::swap(context->states[ANIC_CURRENT], context->states[ANIC_PREVIOUS]);
-  float* weights = context->states[ANIC_CURRENT].weights;
+  std::swap(context->states[ANIC_WHEN_CURRENT], context->states[ANIC_WHEN_PREVIOUS]);
+  float* weights = context->states[ANIC_WHEN_CURRENT].weights;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
-    context->states[ANIC_CURRENT].samples[t] = make_sample(clip, t, mix, weights, context->scratch);
+    context->states[ANIC_WHEN_CURRENT].samples[t] =
+        make_sample(clip, t, mix, weights, context->scratch);
     weights += sample_buffer_size(clip, t);
   }
 }
@@ -104,14 +105,14 @@ void choose(anic_context* context, const FrameMix& mix) {
 }  // namespace
 
 Status check_output(const anic_output* out, uint32_t count, VertexOutput* result) {
-  if (!out || out->format < ANIC_FLOAT32X3 || out->format > ANIC_SNORM16X4 ||
+  if (!out || out->format < ANIC_FORMAT_FLOAT32X3 || out->format > ANIC_FORMAT_SNORM16X4 ||
       (!out->data && count > 0))
     return Status::kArgument;
   result->data = out->data;
   result->format = static_cast<VertexFormat>(out->format);
   const size_t element = vertex_format_size(result->format);
   result->stride = out->stride == 0 ? element : out->stride;
-  const bool scaled = out->format >= ANIC_FLOAT16X3;
+  const bool scaled = out->format >= ANIC_FORMAT_FLOAT16X3;
   for (size_t c = 0; c < 3; ++c) {
     result->offset[c] = scaled ? out->offset[c] : 0;
     result->scale[c] = scaled && out->scale[c] != 0 ? out->scale[c] : 1;
@@ -182,7 +183,7 @@ void compute_boxes(anic_asset* asset) {
 
 using namespace anicodec;
 
-anic_status anic_context_create(const anic_asset* asset, const anic_allocator* allocator,
+anic_status anic_create_context(const anic_asset* asset, const anic_allocator* allocator,
                                 anic_context** out) {
   if (out)
     *out = nullptr;
@@ -216,7 +217,7 @@ anic_status anic_context_create(const anic_asset* asset, const anic_allocator* a
   return c_status(guarded(make).status);
 }
 
-void anic_context_destroy(anic_context* context) {
+void anic_destroy_context(anic_context* context) {
   if (context)
     destroy(context, context->extra);
 }
@@ -236,15 +237,14 @@ anic_status anic_seek_frame(anic_context* context, uint32_t frame) {
   return ANIC_OK;
 }
 
-anic_status anic_seek_time(anic_context* context, double seconds, anic_interpolation interpolation,
+anic_status anic_seek_time(anic_context* context, double seconds, anic_sampling sampling,
                            anic_wrap wrap) {
-  if (!context || !std::isfinite(seconds) || interpolation < ANIC_STEP ||
-      interpolation > ANIC_CUBIC || wrap < ANIC_CLAMP || wrap > ANIC_PING_PONG)
+  if (!context || !std::isfinite(seconds) || sampling < ANIC_SAMPLE_STEP ||
+      sampling > ANIC_SAMPLE_CUBIC || wrap < ANIC_WRAP_CLAMP || wrap > ANIC_WRAP_PING_PONG)
     return ANIC_E_ARGUMENT;
   const Clip& clip = context->asset->clip;
-  choose(context,
-         Clock(clip.record(), clip.frame_count())
-             .at(seconds, static_cast<Interpolation>(interpolation), static_cast<Wrap>(wrap)));
+  choose(context, Clock(clip.record(), clip.frame_count())
+                      .at(seconds, static_cast<Sampling>(sampling), static_cast<Wrap>(wrap)));
   if (!context->chosen) {
     context->chosen = true;
     anic_forget_previous(context);
@@ -258,8 +258,8 @@ anic_status anic_forget_previous(anic_context* context) {
   if (!context->chosen)
     return ANIC_E_STATE;
   const Clip& clip = context->asset->clip;
-  const anic_context::State &from = context->states[ANIC_CURRENT],
-                            &to = context->states[ANIC_PREVIOUS];
+  const anic_context::State &from = context->states[ANIC_WHEN_CURRENT],
+                            &to = context->states[ANIC_WHEN_PREVIOUS];
   size_t begin = 0;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
     const size_t count = sample_buffer_size(clip, t);
@@ -278,8 +278,8 @@ anic_status anic_forget_previous(anic_context* context) {
   return ANIC_OK;
 }
 
-anic_status anic_positions(const anic_context* context, uint32_t mesh, anic_when when,
-                           uint32_t first, uint32_t count, const anic_output* out) {
+anic_status anic_write_positions(const anic_context* context, uint32_t mesh, anic_when when,
+                                 uint32_t first, uint32_t count, const anic_output* out) {
   const Sample* sample = nullptr;
   if (anic_status status = find_sample(context, mesh, when, &sample); status != ANIC_OK)
     return status;
@@ -293,9 +293,9 @@ anic_status anic_positions(const anic_context* context, uint32_t mesh, anic_when
   return ANIC_OK;
 }
 
-anic_status anic_attribute_values(const anic_context* context, uint32_t mesh, uint32_t attribute,
-                                  anic_when when, uint32_t first, uint32_t count,
-                                  const anic_value_output* out) {
+anic_status anic_write_attribute(const anic_context* context, uint32_t mesh, uint32_t attribute,
+                                 anic_when when, uint32_t first, uint32_t count,
+                                 const anic_value_output* out) {
   const MeshAttribute* found = nullptr;
   if (anic_status status = find_attribute(context, mesh, attribute, when, &found);
       status != ANIC_OK)
@@ -319,9 +319,9 @@ anic_status anic_attribute_values(const anic_context* context, uint32_t mesh, ui
   return ANIC_OK;
 }
 
-anic_status anic_frames(const anic_asset* asset, uint32_t mesh, const uint32_t* frames,
-                        uint32_t frame_count, uint32_t first, uint32_t count,
-                        const anic_output* outputs) {
+anic_status anic_write_frames(const anic_asset* asset, uint32_t mesh, const uint32_t* frames,
+                              uint32_t frame_count, uint32_t first, uint32_t count,
+                              const anic_output* outputs) {
   if (!asset || mesh >= asset->clip.meshes().size() || frame_count > ANIC_MAX_FRAMES ||
       (frame_count > 0 && (!frames || !outputs)) || !is_range(asset->clip, mesh, first, count))
     return ANIC_E_ARGUMENT;
@@ -344,7 +344,8 @@ anic_status anic_frames(const anic_asset* asset, uint32_t mesh, const uint32_t* 
   return ANIC_OK;
 }
 
-anic_status anic_bounds(const anic_context* context, uint32_t mesh, anic_when when, anic_box* out) {
+anic_status anic_compute_bounds(const anic_context* context, uint32_t mesh, anic_when when,
+                                anic_box* out) {
   const Sample* sample = nullptr;
   if (!out)
     return ANIC_E_ARGUMENT;
@@ -367,8 +368,8 @@ anic_status anic_bounds(const anic_context* context, uint32_t mesh, anic_when wh
   return ANIC_OK;
 }
 
-anic_status anic_frame_bounds(const anic_asset* asset, uint32_t mesh, uint32_t frame,
-                              anic_box* out) {
+anic_status anic_get_frame_bounds(const anic_asset* asset, uint32_t mesh, uint32_t frame,
+                                  anic_box* out) {
   if (!asset || !out || mesh >= asset->clip.meshes().size())
     return ANIC_E_ARGUMENT;
   if (asset->boxes.empty())
@@ -379,7 +380,7 @@ anic_status anic_frame_bounds(const anic_asset* asset, uint32_t mesh, uint32_t f
   return is_empty(*out) ? ANIC_E_SEGMENT : ANIC_OK;
 }
 
-anic_status anic_clip_bounds(const anic_asset* asset, uint32_t mesh, anic_box* out) {
+anic_status anic_get_clip_bounds(const anic_asset* asset, uint32_t mesh, anic_box* out) {
   if (!asset || !out || mesh >= asset->clip.meshes().size())
     return ANIC_E_ARGUMENT;
   if (asset->boxes.empty())
@@ -389,8 +390,8 @@ anic_status anic_clip_bounds(const anic_asset* asset, uint32_t mesh, anic_box* o
   return is_empty(*out) ? ANIC_E_SEGMENT : ANIC_OK;
 }
 
-anic_status anic_parts(const anic_context* context, uint32_t mesh, anic_when when,
-                       anic_part out[ANIC_MAX_PARTS], uint32_t* count) {
+anic_status anic_get_parts(const anic_context* context, uint32_t mesh, anic_when when,
+                           anic_part out[ANIC_MAX_PARTS], uint32_t* count) {
   const Sample* sample = nullptr;
   if (!out || !count)
     return ANIC_E_ARGUMENT;
@@ -400,9 +401,9 @@ anic_status anic_parts(const anic_context* context, uint32_t mesh, anic_when whe
   return ANIC_OK;
 }
 
-anic_status anic_attribute_parts(const anic_context* context, uint32_t mesh, uint32_t attribute,
-                                 uint32_t first_component, anic_when when,
-                                 anic_part out[ANIC_MAX_PARTS], uint32_t* count) {
+anic_status anic_get_attribute_parts(const anic_context* context, uint32_t mesh, uint32_t attribute,
+                                     uint32_t first_component, anic_when when,
+                                     anic_part out[ANIC_MAX_PARTS], uint32_t* count) {
   const MeshAttribute* found = nullptr;
   if (!out || !count || first_component % 3 != 0)
     return ANIC_E_ARGUMENT;

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-struct anic_normals {
+struct anic_normal_plan {
   anicodec::NormalPlan plan;
 };
 
@@ -27,9 +27,9 @@ const Vector<uint32_t>* source_edges(const Mesh& mesh) {
 
 }  // namespace
 
-anic_status anic_normals_create(const anic_asset* asset, uint32_t mesh,
-                                const anic_normal_options* options, const anic_allocator* allocator,
-                                anic_normals** out) {
+anic_status anic_create_normal_plan(const anic_asset* asset, uint32_t mesh,
+                                    const anic_normal_options* options,
+                                    const anic_allocator* allocator, anic_normal_plan** out) {
   if (out)
     *out = nullptr;
   const anic_normal_options wanted = options ? *options : anic_normal_options{};
@@ -44,7 +44,7 @@ anic_status anic_normals_create(const anic_asset* asset, uint32_t mesh,
   auto make = [&]() -> Failure {
     Memory memory = allocator ? memory_of(allocator) : memory_of_object(asset);
     memory.held = memory.peak = 0;
-    auto* normals = create<anic_normals>(memory, 0);
+    auto* normals = create<anic_normal_plan>(memory, 0);
     try {
       const MemoryScope scope(&memory_of_object(normals));
       const Mesh& of = clip.meshes()[mesh];
@@ -68,16 +68,17 @@ anic_status anic_normals_create(const anic_asset* asset, uint32_t mesh,
   return c_status(guarded(make).status);
 }
 
-void anic_normals_destroy(anic_normals* normals) {
+void anic_destroy_normal_plan(anic_normal_plan* normals) {
   destroy(normals);
 }
 
-uint32_t anic_normals_count(const anic_normals* normals) {
+uint32_t anic_get_normal_count(const anic_normal_plan* normals) {
   return normals ? normals->plan.size() : 0;
 }
 
-anic_status anic_normals_compute(const anic_normals* normals, const float* positions, size_t stride,
-                                 uint32_t first, uint32_t count, const anic_output* out) {
+anic_status anic_write_normals(const anic_normal_plan* normals, const float* positions,
+                               size_t stride, uint32_t first, uint32_t count,
+                               const anic_output* out) {
   if (!normals || !positions || stride % sizeof(float) != 0 ||
       (stride > 0 && stride < 3 * sizeof(float)) || first > normals->plan.size() ||
       count > normals->plan.size() - first)

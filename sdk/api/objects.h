@@ -135,7 +135,7 @@ void bounding_boxes(const FrameState* states, uint32_t frames, anic_box* out);
 /// Fills asset->boxes.
 void compute_boxes(anic_asset* asset);
 
-/// Opens an asset: what anic_asset_open() does, for prefixes too. Throws std::bad_alloc.
+/// Opens an asset: what anic_open_asset() does, for prefixes too. Throws std::bad_alloc.
 Failure open_asset(format::ByteView bytes, const anic_options* options, bool prefix,
                    anic_asset** out);
 

@@ -164,7 +164,8 @@ Failure read_file(const anic_reader& reader, uint64_t size, const anic_options* 
   // Until the limits are checked, only as much is read as they are known to need.
   for (;;) {
     anic_requirements requirements;
-    const anic_status status = anic_query(to->data(), to->size(), options, &requirements);
+    const anic_status status =
+        anic_get_requirements(to->data(), to->size(), options, &requirements);
     if (status != ANIC_E_TRUNCATED || requirements.head_bytes > size ||
         requirements.head_bytes <= to->size())
       break;
@@ -191,9 +192,9 @@ Failure read_file(const anic_reader& reader, uint64_t size, const anic_options* 
 
 using namespace anicodec;
 
-anic_status anic_asset_open_reader(const anic_reader* reader, uint64_t file_size,
-                                   const anic_options* options, anic_asset** out,
-                                   anic_failure* failure) {
+anic_status anic_open_asset_from_reader(const anic_reader* reader, uint64_t file_size,
+                                        const anic_options* options, anic_asset** out,
+                                        anic_failure* failure) {
   if (out)
     *out = nullptr;
   if (!reader || !reader->read || !out || !is_valid_options(options))
@@ -209,7 +210,7 @@ anic_status anic_asset_open_reader(const anic_reader* reader, uint64_t file_size
   return report(guarded(open), failure);
 }
 
-anic_status anic_stream_create(const anic_options* options, anic_stream** out) {
+anic_status anic_create_stream(const anic_options* options, anic_stream** out) {
   if (out)
     *out = nullptr;
   if (!out || !is_valid_options(options))
@@ -222,11 +223,11 @@ anic_status anic_stream_create(const anic_options* options, anic_stream** out) {
   return c_status(guarded(make).status);
 }
 
-void anic_stream_destroy(anic_stream* stream) {
+void anic_destroy_stream(anic_stream* stream) {
   destroy(stream);
 }
 
-anic_status anic_stream_push(anic_stream* stream, const void* bytes, size_t size) {
+anic_status anic_push_bytes(anic_stream* stream, const void* bytes, size_t size) {
   if (!stream || (!bytes && size > 0))
     return ANIC_E_ARGUMENT;
   if (stream->failure.ok() && size > 0)
@@ -234,17 +235,18 @@ anic_status anic_stream_push(anic_stream* stream, const void* bytes, size_t size
   return c_status(stream->failure.status);
 }
 
-void anic_stream_info_get(const anic_stream* stream, anic_stream_info* out) {
+void anic_get_stream_info(const anic_stream* stream, anic_stream_info* out) {
   if (stream && out)
     *out = stream->info;
 }
 
-void anic_stream_failure(const anic_stream* stream, anic_failure* out) {
+void anic_get_stream_failure(const anic_stream* stream, anic_failure* out) {
   if (stream && out)
     report(stream->failure, out);
 }
 
-anic_status anic_stream_open(anic_stream* stream, anic_asset** out, anic_failure* failure) {
+anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
+                                        anic_failure* failure) {
   if (out)
     *out = nullptr;
   if (!stream || !out)

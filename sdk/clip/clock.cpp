@@ -47,7 +47,7 @@ double Clock::loop_duration() const {
   return loop_frames() < frames_ ? last : last + last_period();
 }
 
-FrameMix Clock::at(double seconds, Interpolation interpolation, Wrap wrap) const {
+FrameMix Clock::at(double seconds, Sampling sampling, Wrap wrap) const {
   FrameMix mix;
   const double first = since_start(0), span = since_start(frames_ - 1) - first;
   double t = seconds - record_.start_time - first;
@@ -88,11 +88,11 @@ FrameMix Clock::at(double seconds, Interpolation interpolation, Wrap wrap) const
   else
     frame = std::min(frame, frames_ - 1);
   const bool has_next = wrap == Wrap::kLoop || frame + 1 < frames_;
-  if (!(s >= kWholeFrame) || interpolation == Interpolation::kStep || !has_next) {
+  if (!(s >= kWholeFrame) || sampling == Sampling::kStep || !has_next) {
     mix.add(frame, 1);
     return mix;
   }
-  if (interpolation == Interpolation::kCubic)
+  if (sampling == Sampling::kCubic)
     return smooth(frame, s, wrap);
   mix.add(frame, 1 - s);
   mix.add(wrap == Wrap::kLoop && frame + 1 == loop_frames() ? 0 : frame + 1, s);

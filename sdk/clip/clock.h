@@ -9,7 +9,7 @@
 
 namespace anicodec {
 
-enum class Interpolation : uint8_t { kStep, kLinear, kCubic };
+enum class Sampling : uint8_t { kStep, kLinear, kCubic };
 enum class Wrap : uint8_t { kClamp, kLoop, kPingPong };
 
 /// A time as a combination of frames: each at most once, the weights sum to one.
@@ -40,7 +40,7 @@ class Clock {
 
   /// The frames that make up a time, which must be finite. O(1), O(log frames) with a table of
   /// times.
-  FrameMix at(double seconds, Interpolation interpolation, Wrap wrap) const;
+  FrameMix at(double seconds, Sampling sampling, Wrap wrap) const;
 
  private:
   double since_start(uint32_t frame) const;

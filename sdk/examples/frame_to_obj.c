@@ -16,17 +16,17 @@ int main(int argc, char** argv) {
   anic_asset* clip;
   anic_context* player;
   anic_failure why;
-  if (anic_asset_open_reader(&reader, (uint64_t)ftell(file), NULL, &clip, &why) != ANIC_OK)
-    return fprintf(stderr, "%s: %s\n", anic_status_string(why.status), why.detail), 1;
-  anic_mesh_info mesh;
+  if (anic_open_asset_from_reader(&reader, (uint64_t)ftell(file), NULL, &clip, &why) != ANIC_OK)
+    return fprintf(stderr, "%s: %s\n", anic_get_status_text(why.status), why.detail), 1;
+  anic_mesh mesh;
   anic_polygons faces;
-  anic_mesh(clip, 0, &mesh);
-  anic_mesh_polygons(clip, 0, &faces);
+  anic_get_mesh(clip, 0, &mesh);
+  anic_get_polygons(clip, 0, &faces);
   float* p = malloc(mesh.vertex_count * 3 * sizeof(float) + 1);
-  anic_output out = {p, mesh.vertex_count * 3 * sizeof(float), 0, ANIC_FLOAT32X3, {0}, {0}};
-  if (p == NULL || anic_context_create(clip, NULL, &player) != ANIC_OK ||
+  anic_output out = {p, mesh.vertex_count * 3 * sizeof(float), 0, ANIC_FORMAT_FLOAT32X3, {0}, {0}};
+  if (p == NULL || anic_create_context(clip, NULL, &player) != ANIC_OK ||
       anic_seek_frame(player, 10) != ANIC_OK ||
-      anic_positions(player, 0, ANIC_CURRENT, 0, mesh.vertex_count, &out) != ANIC_OK)
+      anic_write_positions(player, 0, ANIC_WHEN_CURRENT, 0, mesh.vertex_count, &out) != ANIC_OK)
     return fprintf(stderr, "this clip has no frame 10\n"), 1;
   for (uint32_t v = 0; v < mesh.vertex_count; ++v)
     printf("v %.9g %.9g %.9g\n", p[3 * v], p[3 * v + 1], p[3 * v + 2]);
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
       printf(" %u", (unsigned)(faces.corners[c] + 1));
     printf("\n");
   }
-  anic_context_destroy(player);
-  anic_asset_close(clip);
+  anic_destroy_context(player);
+  anic_close_asset(clip);
   return free(p), 0;
 }

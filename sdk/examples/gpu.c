@@ -22,9 +22,9 @@ static void transform(const float* map, const float* in, float* out) {
 
 /* The vertex shader. */
 static void shade(const anic_basis* basis, const anic_part* part, uint32_t v, float* x) {
-  const size_t b = v / ANIC_BLOCK, i = v % ANIC_BLOCK;
+  const size_t b = v / ANIC_BLOCK_VERTICES, i = v % ANIC_BLOCK_VERTICES;
   const uint32_t wide = basis->wide_components, narrow = basis->components - wide;
-  if (part->shape != NULL) { /* ANIC_INTERPOLATED: a buffer that changes with the frame */
+  if (part->shape != NULL) { /* ANIC_RECONSTRUCTION_MSGI: a buffer that changes with the frame */
     const uint32_t point = basis->vertex_shape != NULL ? basis->vertex_shape[v] : v;
     transform(part->motion, part->shape + 3 * (size_t)point, x);
     return;
@@ -33,7 +33,7 @@ static void shade(const anic_basis* basis, const anic_part* part, uint32_t v, fl
   if (basis->pose != NULL) {
     float pose[3];
     for (size_t c = 0; c < 3; ++c)
-      pose[c] = basis->pose[(b * 3 + c) * ANIC_BLOCK + i];
+      pose[c] = basis->pose[(b * 3 + c) * ANIC_BLOCK_VERTICES + i];
     transform(part->pose_map, pose, x);
   }
   for (uint32_t j = 0; j < basis->components; ++j) {
@@ -42,10 +42,11 @@ static void shade(const anic_basis* basis, const anic_part* part, uint32_t v, fl
       const size_t weight = basis->weight_channels == 3 ? 3 * (size_t)j + c : j;
       const float value =
           j < wide
-              ? (float)basis->wide[((b * wide + j) * basis->channels + channel) * ANIC_BLOCK + i]
-              : (float)basis
-                    ->narrow[((b * narrow + j - wide) * basis->channels + channel) * ANIC_BLOCK +
-                             i];
+              ? (float)basis
+                    ->wide[((b * wide + j) * basis->channels + channel) * ANIC_BLOCK_VERTICES + i]
+              : (float)basis->narrow[((b * narrow + j - wide) * basis->channels + channel) *
+                                         ANIC_BLOCK_VERTICES +
+                                     i];
       x[c] += part->weights[weight] * value;
     }
   }
@@ -68,16 +69,16 @@ int main(int argc, char** argv) {
   anic_asset* asset = NULL;
   anic_context* context = NULL;
   if (bytes == NULL || fread(bytes, 1, size, file) != size ||
-      anic_asset_open(bytes, size, NULL, &asset, NULL) != ANIC_OK ||
-      anic_context_create(asset, NULL, &context) != ANIC_OK)
+      anic_open_asset(bytes, size, NULL, &asset, NULL) != ANIC_OK ||
+      anic_create_context(asset, NULL, &context) != ANIC_OK)
     return 1;
   fclose(file);
   free(bytes);
 
-  anic_info info;
-  anic_mesh_info mesh;
-  anic_asset_info(asset, &info);
-  anic_mesh(asset, 0, &mesh);
+  anic_asset_info info;
+  anic_mesh mesh;
+  anic_get_asset_info(asset, &info);
+  anic_get_mesh(asset, 0, &mesh);
   anic_output out = {0};
   out.size = 3 * sizeof(float) * mesh.vertex_count;
   float* expected = out.data = malloc(out.size);
@@ -86,15 +87,16 @@ int main(int argc, char** argv) {
   for (double t = info.start_time; t <= info.end_time; t += 0.05) {
     anic_part parts[ANIC_MAX_PARTS];
     uint32_t count = 0;
-    if (anic_seek_time(context, t, ANIC_LINEAR, ANIC_CLAMP) != ANIC_OK ||
-        anic_positions(context, 0, ANIC_CURRENT, 0, mesh.vertex_count, &out) != ANIC_OK ||
-        anic_parts(context, 0, ANIC_CURRENT, parts, &count) != ANIC_OK)
+    if (anic_seek_time(context, t, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP) != ANIC_OK ||
+        anic_write_positions(context, 0, ANIC_WHEN_CURRENT, 0, mesh.vertex_count, &out) !=
+            ANIC_OK ||
+        anic_get_parts(context, 0, ANIC_WHEN_CURRENT, parts, &count) != ANIC_OK)
       return 1;
     for (uint32_t v = 0; v < 3 * mesh.vertex_count; ++v)
       made[v] = 0;
     for (uint32_t p = 0; p < count; ++p) {
       anic_basis basis;
-      if (anic_segment_basis(asset, parts[p].segment, &basis) != ANIC_OK)
+      if (anic_get_basis(asset, parts[p].segment, &basis) != ANIC_OK)
         return 1;
       for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
         float x[3];
@@ -114,7 +116,7 @@ int main(int argc, char** argv) {
   printf("largest difference %.3g, %.3g of the diagonal\n", worst, worst / info.diagonal);
   free(expected);
   free(made);
-  anic_context_destroy(context);
-  anic_asset_close(asset);
+  anic_destroy_context(context);
+  anic_close_asset(asset);
   return worst <= 1e-4 * info.diagonal ? 0 : 1;
 }

@@ -17,33 +17,33 @@ typedef struct vertex {
 } vertex;
 
 static int fail(const char* what, anic_status status) {
-  fprintf(stderr, "%s: %s\n", what, anic_status_string(status));
+  fprintf(stderr, "%s: %s\n", what, anic_get_status_text(status));
   return 1;
 }
 
 /* The next tick of an instance. Positions are read again for the normals, so this buffer must not
  * be write-combined. */
-static anic_status tick(anic_context* context, const anic_normals* normals, double seconds,
+static anic_status tick(anic_context* context, const anic_normal_plan* normals, double seconds,
                         vertex* vertices, uint32_t count) {
   anic_output out = {0};
   out.size = count * sizeof(vertex);
   out.stride = sizeof(vertex);
-  anic_status status = anic_seek_time(context, seconds, ANIC_LINEAR, ANIC_LOOP);
+  anic_status status = anic_seek_time(context, seconds, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP);
   if (status != ANIC_OK)
     return status;
   out.data = vertices[0].position;
-  status = anic_positions(context, 0, ANIC_CURRENT, 0, count, &out);
+  status = anic_write_positions(context, 0, ANIC_WHEN_CURRENT, 0, count, &out);
   if (status != ANIC_OK)
     return status;
   out.data = vertices[0].previous;
   out.size -= sizeof(float) * 3;
-  status = anic_positions(context, 0, ANIC_PREVIOUS, 0, count, &out);
+  status = anic_write_positions(context, 0, ANIC_WHEN_PREVIOUS, 0, count, &out);
   if (status != ANIC_OK)
     return status;
   out.data = vertices[0].normal;
   out.size -= sizeof(float) * 3;
-  out.format = ANIC_SNORM16X4;
-  return anic_normals_compute(normals, vertices[0].position, sizeof(vertex), 0, count, &out);
+  out.format = ANIC_FORMAT_SNORM16X4;
+  return anic_write_normals(normals, vertices[0].position, sizeof(vertex), 0, count, &out);
 }
 
 int main(int argc, char** argv) {
@@ -65,33 +65,33 @@ int main(int argc, char** argv) {
   options.limits.vertices = 1000000;
   options.limits.bytes = (uint64_t)1 << 30;
   anic_requirements needs;
-  anic_status status = anic_query(bytes, size, &options, &needs);
+  anic_status status = anic_get_requirements(bytes, size, &options, &needs);
   if (status != ANIC_OK)
     return fail(argv[1], status);
   const size_t block_size = (size_t)(needs.block_bytes + 2 * needs.context_bytes);
   void* block = malloc(block_size);
   anic_asset* asset;
   anic_failure failure;
-  anic_block_allocator(block, block_size, &options.allocator);
-  if (anic_asset_open(bytes, size, &options, &asset, &failure) != ANIC_OK) {
+  anic_init_block_allocator(block, block_size, &options.allocator);
+  if (anic_open_asset(bytes, size, &options, &asset, &failure) != ANIC_OK) {
     fprintf(stderr, "%s: byte %llu, chunk '%s': %s (%s)\n", argv[1],
-            (unsigned long long)failure.offset, failure.chunk, anic_status_string(failure.status),
+            (unsigned long long)failure.offset, failure.chunk, anic_get_status_text(failure.status),
             failure.detail);
     return 1;
   }
   free(bytes);
 
-  anic_info info;
-  anic_mesh_info mesh;
+  anic_asset_info info;
+  anic_mesh mesh;
   const anic_allocator heap = {0};
-  anic_normals* normals;
+  anic_normal_plan* normals;
   anic_context* instance[2];
-  anic_asset_info(asset, &info);
-  anic_mesh(asset, 0, &mesh);
-  if ((status = anic_normals_create(asset, 0, NULL, &heap, &normals)) != ANIC_OK)
+  anic_get_asset_info(asset, &info);
+  anic_get_mesh(asset, 0, &mesh);
+  if ((status = anic_create_normal_plan(asset, 0, NULL, &heap, &normals)) != ANIC_OK)
     return fail("normals", status);
   for (int i = 0; i < 2; ++i) {
-    if ((status = anic_context_create(asset, NULL, &instance[i])) != ANIC_OK)
+    if ((status = anic_create_context(asset, NULL, &instance[i])) != ANIC_OK)
       return fail("context", status);
   }
   printf("%u vertices, %u triangles, %u frames, %.3f s; %llu bytes, and %llu for an instance\n",
@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
                     mesh.vertex_count);
       if (t % 20 == 0 && status == ANIC_OK) {
         anic_box box;
-        anic_bounds(instance[i], 0, ANIC_CURRENT, &box);
+        anic_compute_bounds(instance[i], 0, ANIC_WHEN_CURRENT, &box);
         printf("%.2f s, instance %d: x %.4g .. %.4g, y %.4g .. %.4g, z %.4g .. %.4g\n", elapsed, i,
                box.min[0], box.max[0], box.min[1], box.max[1], box.min[2], box.max[2]);
       }
@@ -118,9 +118,9 @@ int main(int argc, char** argv) {
     return fail("playing", status);
   free(vertices);
   for (int i = 0; i < 2; ++i)
-    anic_context_destroy(instance[i]);
-  anic_normals_destroy(normals);
-  anic_asset_close(asset);
+    anic_destroy_context(instance[i]);
+  anic_destroy_normal_plan(normals);
+  anic_close_asset(asset);
   free(block);
   return 0;
 }

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   anic_failure failure = {};
   anic::Asset clip;
   if (!file.handle || !clip.open(file.size(), file, &options, &failure)) {
-    std::fprintf(stderr, "%s: %s\n", argv[1], anic_status_string(failure.status));
+    std::fprintf(stderr, "%s: %s\n", argv[1], anic_get_status_text(failure.status));
     return 1;
   }
   anic::Context context;
@@ -55,22 +55,23 @@ int main(int argc, char** argv) {
 
   const uint32_t vertices = clip.mesh().vertex_count;
   std::vector<uint32_t> indices(size_t{3} * clip.mesh().triangle_count);
-  if (anic::Status status = clip.triangles<uint32_t>(indices); !status) {
+  if (anic::Status status = clip.write_indices<uint32_t>(indices); !status) {
     std::fprintf(stderr, "triangles: %s\n", status.text());
     return 1;
   }
   std::vector<uint16_t> points(size_t{4} * vertices);
-  const anic_info info = clip.info();
+  const anic_asset_info info = clip.info();
   for (double t = info.start_time; t < info.end_time; t += 0.1) {
-    if (!context.seek(t, ANIC_CUBIC, ANIC_PING_PONG))
+    if (!context.seek(t, ANIC_SAMPLE_CUBIC, ANIC_WRAP_PING_PONG))
       return 1;
     // Any thread may make any range; multiples of 16 are best.
     const uint32_t range = (vertices / 8 + 16) / 16 * 16;
     for (uint32_t first = 0; first < vertices; first += range) {
       const uint32_t count = vertices - first < range ? vertices - first : range;
       const anic_output out = anic::within(
-          anic::output(&points[size_t{4} * first], size_t{8} * count, ANIC_UNORM16X4), bounds);
-      if (anic::Status status = context.positions(out, first, count); !status) {
+          anic::output(&points[size_t{4} * first], size_t{8} * count, ANIC_FORMAT_UNORM16X4),
+          bounds);
+      if (anic::Status status = context.write_positions(out, first, count); !status) {
         std::fprintf(stderr, "%.2f s: %s\n", t, status.text());
         return 1;
       }

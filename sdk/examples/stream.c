@@ -12,14 +12,15 @@
 /* The middle of the clip, as it looks so far. */
 static anic_status show(const anic_asset* asset, const anic_stream_info* arrived) {
   anic_context* context;
-  anic_info info;
+  anic_asset_info info;
   anic_box box;
-  anic_asset_info(asset, &info);
-  anic_status status = anic_context_create(asset, NULL, &context);
+  anic_get_asset_info(asset, &info);
+  anic_status status = anic_create_context(asset, NULL, &context);
   if (status == ANIC_OK)
-    status = anic_seek_time(context, (info.start_time + info.end_time) / 2, ANIC_STEP, ANIC_CLAMP);
+    status = anic_seek_time(context, (info.start_time + info.end_time) / 2, ANIC_SAMPLE_STEP,
+                            ANIC_WRAP_CLAMP);
   if (status == ANIC_OK)
-    status = anic_bounds(context, 0, ANIC_CURRENT, &box);
+    status = anic_compute_bounds(context, 0, ANIC_WHEN_CURRENT, &box);
   printf("%llu of %llu bytes, %u of %u layers: ", (unsigned long long)arrived->received_bytes,
          (unsigned long long)arrived->file_bytes, (unsigned)arrived->arrived_layers,
          (unsigned)arrived->layers);
@@ -27,8 +28,8 @@ static anic_status show(const anic_asset* asset, const anic_stream_info* arrived
     printf("%s, from %.6g %.6g %.6g to %.6g %.6g %.6g\n", info.partial ? "coarse" : "whole",
            box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]);
   else
-    printf("%s\n", status == ANIC_E_SEGMENT ? "not there yet" : anic_status_string(status));
-  anic_context_destroy(context);
+    printf("%s\n", status == ANIC_E_SEGMENT ? "not there yet" : anic_get_status_text(status));
+  anic_destroy_context(context);
   return status == ANIC_E_SEGMENT ? ANIC_OK : status;
 }
 
@@ -41,28 +42,28 @@ int main(int argc, char** argv) {
   anic_stream* stream;
   anic_asset* asset = NULL;
   anic_stream_info info;
-  anic_status status = anic_stream_create(NULL, &stream);
+  anic_status status = anic_create_stream(NULL, &stream);
   uint32_t shown = 0;
   unsigned char packet[64];
   size_t size;
   while (status == ANIC_OK && (size = fread(packet, 1, sizeof packet, file)) > 0) {
-    if ((status = anic_stream_push(stream, packet, size)) != ANIC_OK)
+    if ((status = anic_push_bytes(stream, packet, size)) != ANIC_OK)
       break;
-    anic_stream_info_get(stream, &info);
+    anic_get_stream_info(stream, &info);
     if (!info.playable || (asset != NULL && info.arrived_layers == shown && !info.complete))
       continue;
-    anic_asset_close(asset); /* contexts of the old one are gone by now */
+    anic_close_asset(asset); /* contexts of the old one are gone by now */
     shown = info.arrived_layers;
-    status = anic_stream_open(stream, &asset, NULL);
+    status = anic_open_asset_from_stream(stream, &asset, NULL);
     if (status == ANIC_OK)
       status = show(asset, &info);
   }
   fclose(file);
   if (status != ANIC_OK)
-    fprintf(stderr, "%s: %s\n", argv[1], anic_status_string(status));
+    fprintf(stderr, "%s: %s\n", argv[1], anic_get_status_text(status));
   else
-    anic_stream_info_get(stream, &info);
-  anic_stream_destroy(stream);
-  anic_asset_close(asset);
+    anic_get_stream_info(stream, &info);
+  anic_destroy_stream(stream);
+  anic_close_asset(asset);
   return status == ANIC_OK && info.complete ? 0 : 1;
 }

@@ -52,40 +52,40 @@ TEST(Statuses, HaveTheNumbersOfTheFormat) {
                                                   {ANIC_E_INTERNAL, Status::kInternal}};
   for (const auto& [c, status] : pairs) {
     EXPECT_EQ(static_cast<int>(c), static_cast<int>(status));
-    EXPECT_STREQ(anic_status_string(c), status_string(status));
-    EXPECT_STRNE(anic_status_string(c), "unknown status");
+    EXPECT_STREQ(anic_get_status_text(c), status_string(status));
+    EXPECT_STRNE(anic_get_status_text(c), "unknown status");
   }
-  EXPECT_STREQ(anic_status_string(static_cast<anic_status>(12345)), "unknown status");
-  EXPECT_EQ(anic_version(), 0x000100U);
+  EXPECT_STREQ(anic_get_status_text(static_cast<anic_status>(12345)), "unknown status");
+  EXPECT_EQ(anic_get_version(), 0x000100U);
 }
 
 TEST(AnicAsset, TellsWhatIsInIt) {
   const MeshSequence source = corpus::make_clip("polygons");
   const Asset asset = open(encoded_clip("polygons", BasisChoice::kKeyframes));
-  const anic_info info = info_of(asset);
+  const anic_asset_info info = info_of(asset);
   EXPECT_EQ(info.mesh_count, 1U);
   EXPECT_EQ(info.frame_count, source.frame_count);
   EXPECT_EQ(info.rate_numerator, 24U);
   EXPECT_EQ(info.start_time, 0);
   EXPECT_DOUBLE_EQ(info.end_time, (source.frame_count - 1) / 24.0);
   EXPECT_FALSE(info.partial);
-  EXPECT_EQ(anic_asset_verify(asset.get()), ANIC_OK);
+  EXPECT_EQ(anic_verify_asset(asset.get()), ANIC_OK);
 
-  anic_mesh_info mesh;
-  ASSERT_EQ(anic_mesh(asset.get(), 0, &mesh), ANIC_OK);
+  anic_mesh mesh;
+  ASSERT_EQ(anic_get_mesh(asset.get(), 0, &mesh), ANIC_OK);
   EXPECT_EQ(mesh.vertex_count, source.vertex_count);
   EXPECT_EQ(mesh.polygon_count, source.polygons.size());
   EXPECT_EQ(mesh.corner_count, source.polygons.corners.size());
   EXPECT_EQ(mesh.triangle_count, mesh.corner_count - 2 * mesh.polygon_count);
-  EXPECT_EQ(anic_mesh(asset.get(), 1, &mesh), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_get_mesh(asset.get(), 1, &mesh), ANIC_E_ARGUMENT);
 }
 
 TEST(AnicAsset, CutsPolygonsIntoFans) {
   const Asset asset = open(encoded_clip("polygons", BasisChoice::kKeyframes));
-  anic_mesh_info mesh;
+  anic_mesh mesh;
   anic_polygons polygons;
-  ASSERT_EQ(anic_mesh(asset.get(), 0, &mesh), ANIC_OK);
-  ASSERT_EQ(anic_mesh_polygons(asset.get(), 0, &polygons), ANIC_OK);
+  ASSERT_EQ(anic_get_mesh(asset.get(), 0, &mesh), ANIC_OK);
+  ASSERT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
   std::vector<uint32_t> expected;
   for (uint32_t p = 0; p < polygons.polygon_count; ++p) {
     for (uint32_t c = polygons.offsets[p] + 2; c < polygons.offsets[p + 1]; ++c)
@@ -95,21 +95,21 @@ TEST(AnicAsset, CutsPolygonsIntoFans) {
   ASSERT_EQ(expected.size(), size_t{3} * mesh.triangle_count);
   std::vector<uint32_t> wide(expected.size());
   std::vector<uint16_t> narrow(expected.size());
-  EXPECT_EQ(anic_triangles(asset.get(), 0, 4, wide.data(), 4 * wide.size()), ANIC_OK);
-  EXPECT_EQ(anic_triangles(asset.get(), 0, 2, narrow.data(), 2 * narrow.size()), ANIC_OK);
+  EXPECT_EQ(anic_write_indices(asset.get(), 0, 4, wide.data(), 4 * wide.size()), ANIC_OK);
+  EXPECT_EQ(anic_write_indices(asset.get(), 0, 2, narrow.data(), 2 * narrow.size()), ANIC_OK);
   EXPECT_EQ(wide, expected);
   EXPECT_THAT(narrow, ElementsAreArray(expected));
-  EXPECT_EQ(anic_triangles(asset.get(), 0, 4, wide.data(), 4 * wide.size() - 1),
+  EXPECT_EQ(anic_write_indices(asset.get(), 0, 4, wide.data(), 4 * wide.size() - 1),
             ANIC_E_BUFFER_SIZE);
-  EXPECT_EQ(anic_triangles(asset.get(), 0, 3, wide.data(), 4 * wide.size()), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_write_indices(asset.get(), 0, 3, wide.data(), 4 * wide.size()), ANIC_E_ARGUMENT);
 }
 
 TEST(AnicAsset, TellsWhichVerticesMoveTogether) {
   const Asset asset = open(encoded_clip("soup", BasisChoice::kAuto));
-  anic_mesh_info mesh;
+  anic_mesh mesh;
   const uint32_t* coded = nullptr;
-  ASSERT_EQ(anic_mesh(asset.get(), 0, &mesh), ANIC_OK);
-  ASSERT_EQ(anic_mesh_copies(asset.get(), 0, &coded), ANIC_OK);
+  ASSERT_EQ(anic_get_mesh(asset.get(), 0, &mesh), ANIC_OK);
+  ASSERT_EQ(anic_get_coded_vertices(asset.get(), 0, &coded), ANIC_OK);
   ASSERT_LT(mesh.coded_vertex_count, mesh.vertex_count);
   const std::vector<float> p = frame(asset, 3);
   std::vector<uint32_t> first(mesh.coded_vertex_count, UINT32_MAX);
@@ -124,35 +124,37 @@ TEST(AnicAsset, TellsWhichVerticesMoveTogether) {
 TEST(AnicAsset, GivesTheAttributesOfTheSource) {
   const MeshSequence source = corpus::make_clip("painted_box");
   const Asset asset = open(encoded_clip("painted_box", BasisChoice::kKeyframes));
-  anic_mesh_info mesh;
-  ASSERT_EQ(anic_mesh(asset.get(), 0, &mesh), ANIC_OK);
+  anic_mesh mesh;
+  ASSERT_EQ(anic_get_mesh(asset.get(), 0, &mesh), ANIC_OK);
   ASSERT_EQ(mesh.attribute_count, 5U);
-  const anic_attribute_kind kinds[] = {ANIC_UV, ANIC_COLOUR, ANIC_NORMAL, ANIC_MATERIAL, ANIC_PART};
+  const anic_attribute_kind kinds[] = {ANIC_ATTRIBUTE_UV, ANIC_ATTRIBUTE_COLOUR,
+                                       ANIC_ATTRIBUTE_NORMAL, ANIC_ATTRIBUTE_MATERIAL,
+                                       ANIC_ATTRIBUTE_PART};
   const uint32_t counts[] = {mesh.corner_count, mesh.vertex_count, mesh.corner_count,
                              mesh.polygon_count, mesh.polygon_count};
   const uint32_t components[] = {2, 3, 0, 0, 0};
   anic_attribute a;
   for (uint32_t i = 0; i < 5; ++i) {
     SCOPED_TRACE(i);
-    ASSERT_EQ(anic_mesh_attribute(asset.get(), 0, i, &a), ANIC_OK);
+    ASSERT_EQ(anic_get_attribute(asset.get(), 0, i, &a), ANIC_OK);
     EXPECT_EQ(a.kind, kinds[i]);
     EXPECT_EQ(a.count, counts[i]);
     EXPECT_EQ(a.components, components[i]);
     EXPECT_EQ(a.values != nullptr, components[i] > 0);
     EXPECT_EQ(a.labels != nullptr, components[i] == 0);
   }
-  ASSERT_EQ(anic_mesh_attribute(asset.get(), 0, 1, &a), ANIC_OK);
-  EXPECT_EQ(a.domain, ANIC_VERTICES);
+  ASSERT_EQ(anic_get_attribute(asset.get(), 0, 1, &a), ANIC_OK);
+  EXPECT_EQ(a.domain, ANIC_DOMAIN_VERTICES);
   EXPECT_STREQ(a.name, "paint");
   EXPECT_EQ(std::vector<float>(a.values, a.values + size_t{3} * a.count),
             source.attributes[1].values);
-  ASSERT_EQ(anic_mesh_attribute(asset.get(), 0, 3, &a), ANIC_OK);
+  ASSERT_EQ(anic_get_attribute(asset.get(), 0, 3, &a), ANIC_OK);
   ASSERT_EQ(a.label_count, 2U);
-  EXPECT_STREQ(anic_attribute_label(asset.get(), 0, 3, 1), "metal");
-  EXPECT_EQ(anic_attribute_label(asset.get(), 0, 3, 2), nullptr);
-  EXPECT_EQ(anic_attribute_label(asset.get(), 0, 9, 0), nullptr);
-  EXPECT_EQ(anic_mesh_attribute(asset.get(), 0, 5, &a), ANIC_E_ARGUMENT);
-  EXPECT_EQ(anic_mesh_attribute(asset.get(), 1, 0, &a), ANIC_E_ARGUMENT);
+  EXPECT_STREQ(anic_get_label_name(asset.get(), 0, 3, 1), "metal");
+  EXPECT_EQ(anic_get_label_name(asset.get(), 0, 3, 2), nullptr);
+  EXPECT_EQ(anic_get_label_name(asset.get(), 0, 9, 0), nullptr);
+  EXPECT_EQ(anic_get_attribute(asset.get(), 0, 5, &a), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_get_attribute(asset.get(), 1, 0, &a), ANIC_E_ARGUMENT);
 }
 
 TEST(AnicAsset, SaysWhereAFileIsDamaged) {
@@ -163,7 +165,7 @@ TEST(AnicAsset, SaysWhereAFileIsDamaged) {
   file[chunk.offset + 5] ^= 1;
   anic_asset* asset = nullptr;
   anic_failure failure;
-  EXPECT_EQ(anic_asset_open(file.data(), file.size(), nullptr, &asset, &failure),
+  EXPECT_EQ(anic_open_asset(file.data(), file.size(), nullptr, &asset, &failure),
             ANIC_E_CHUNK_CHECKSUM);
   EXPECT_EQ(asset, nullptr);
   EXPECT_EQ(failure.status, ANIC_E_CHUNK_CHECKSUM);
@@ -171,23 +173,23 @@ TEST(AnicAsset, SaysWhereAFileIsDamaged) {
   EXPECT_STREQ(failure.chunk, "SEGM");
   EXPECT_STRNE(failure.detail, "");
   // Without a place for the failure, and with a file that is none.
-  EXPECT_EQ(anic_asset_open(file.data(), 0, nullptr, &asset, nullptr), ANIC_E_MAGIC);
-  EXPECT_EQ(anic_asset_open("no such file", 12, nullptr, &asset, &failure), ANIC_E_MAGIC);
+  EXPECT_EQ(anic_open_asset(file.data(), 0, nullptr, &asset, nullptr), ANIC_E_MAGIC);
+  EXPECT_EQ(anic_open_asset("no such file", 12, nullptr, &asset, &failure), ANIC_E_MAGIC);
   EXPECT_STREQ(failure.chunk, "");
 }
 
 TEST(AnicAsset, RefusesWhatTheHostDoesNotAllow) {
   const format::Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
   anic_requirements r;
-  ASSERT_EQ(anic_query(file.data(), file.size(), nullptr, &r), ANIC_OK);
+  ASSERT_EQ(anic_get_requirements(file.data(), file.size(), nullptr, &r), ANIC_OK);
   auto status = [&](auto set) {
     CountingMemory memory;
     anic_options options = {};
     options.allocator = memory.allocator();
     set(options.limits);
     anic_asset* asset = nullptr;
-    const anic_status result = anic_asset_open(file.data(), file.size(), &options, &asset, nullptr);
-    anic_asset_close(asset);
+    const anic_status result = anic_open_asset(file.data(), file.size(), &options, &asset, nullptr);
+    anic_close_asset(asset);
     EXPECT_EQ(memory.held, 0U);
     if (result == ANIC_E_LIMIT) {
       EXPECT_LT(memory.peak, 4096U);  // header, table and limits only
@@ -212,22 +214,23 @@ TEST(AnicAsset, IsCoarserAndSmallerAtLowerQuality) {
   const double difference = largest_difference(frame(whole, 5), frame(coarse, 5));
   EXPECT_GT(difference, 0);
   EXPECT_LT(difference, 0.2 * info_of(whole).diagonal);
-  EXPECT_EQ(anic_asset_verify(coarse.get()), ANIC_E_STATE);
+  EXPECT_EQ(anic_verify_asset(coarse.get()), ANIC_E_STATE);
   anic_requirements r;
-  ASSERT_EQ(anic_query(file.data(), file.size(), &options, &r), ANIC_OK);
+  ASSERT_EQ(anic_get_requirements(file.data(), file.size(), &options, &r), ANIC_OK);
   EXPECT_NEAR(static_cast<double>(info_of(coarse).resident_bytes),
               static_cast<double>(r.resident_bytes),
               0.05 * static_cast<double>(r.resident_bytes) + 4096);
   options.quality = 1.5;
   anic_asset* none = nullptr;
-  EXPECT_EQ(anic_asset_open(file.data(), file.size(), &options, &none, nullptr), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_open_asset(file.data(), file.size(), &options, &none, nullptr), ANIC_E_ARGUMENT);
 }
 
 TEST(AnicQuery, SaysHowManyBytesItNeeds) {
   const format::Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
   size_t given = 0;
   anic_requirements r;
-  for (int calls = 0; anic_query(file.data(), given, nullptr, &r) == ANIC_E_TRUNCATED; ++calls) {
+  for (int calls = 0; anic_get_requirements(file.data(), given, nullptr, &r) == ANIC_E_TRUNCATED;
+       ++calls) {
     ASSERT_GT(r.head_bytes, given);
     ASSERT_LE(r.head_bytes, file.size());
     ASSERT_LT(calls, 4);
@@ -237,7 +240,7 @@ TEST(AnicQuery, SaysHowManyBytesItNeeds) {
   EXPECT_EQ(r.head_bytes, given);
   EXPECT_EQ(r.file_bytes, file.size());
   EXPECT_EQ(r.frame_count, corpus::make_clip("cloth").frame_count);
-  EXPECT_EQ(anic_query("nothing of the kind", 19, nullptr, &r), ANIC_E_MAGIC);
+  EXPECT_EQ(anic_get_requirements("nothing of the kind", 19, nullptr, &r), ANIC_E_MAGIC);
 }
 
 // The tolerance is what the interface promises.
@@ -250,7 +253,7 @@ TEST(AnicQuery, KnowsTheMemoryInAdvance) {
       options.allocator = memory.allocator();
       options.flags = flags;
       anic_requirements r;
-      ASSERT_EQ(anic_query(file.data(), file.size(), &options, &r), ANIC_OK);
+      ASSERT_EQ(anic_get_requirements(file.data(), file.size(), &options, &r), ANIC_OK);
       EXPECT_EQ(memory.held, 0U);
       const Asset asset = open(file, &options);
       const auto held = static_cast<double>(memory.held);
@@ -273,10 +276,10 @@ TEST(AnicMemory, AllComesFromTheHostAndGoesBack) {
     {
       const Asset asset = open(file, &options);
       const Context context = context_of(asset);
-      anic_normals* normals = nullptr;
-      EXPECT_EQ(anic_normals_create(asset.get(), 0, nullptr, nullptr, &normals), ANIC_OK);
+      anic_normal_plan* normals = nullptr;
+      EXPECT_EQ(anic_create_normal_plan(asset.get(), 0, nullptr, nullptr, &normals), ANIC_OK);
       EXPECT_GT(memory.held, 0U);
-      anic_normals_destroy(normals);
+      anic_destroy_normal_plan(normals);
     }
     EXPECT_EQ(memory.held, 0U);
     EXPECT_EQ(memory.small, 0U);
@@ -296,14 +299,14 @@ void expect_no_allocation(const Asset& asset, const CountingMemory& memory) {
   const size_t heap = mallinfo2().uordblks;
   for (uint32_t f = 0; f < frames; ++f) {
     anic_seek_frame(context.get(), f);
-    anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output);
-    anic_seek_time(context.get(), 0.37 * f, ANIC_CUBIC, ANIC_LOOP);
-    anic_positions(context.get(), 0, ANIC_PREVIOUS, 0, n, &output);
-    anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output);
-    anic_bounds(context.get(), 0, ANIC_CURRENT, &box);
-    anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count);
+    anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, 0, n, &output);
+    anic_seek_time(context.get(), 0.37 * f, ANIC_SAMPLE_CUBIC, ANIC_WRAP_LOOP);
+    anic_write_positions(context.get(), 0, ANIC_WHEN_PREVIOUS, 0, n, &output);
+    anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, 0, n, &output);
+    anic_compute_bounds(context.get(), 0, ANIC_WHEN_CURRENT, &box);
+    anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count);
     anic_forget_previous(context.get());
-    anic_frames(asset.get(), 0, &f, 1, 0, n, &output);
+    anic_write_frames(asset.get(), 0, &f, 1, 0, n, &output);
   }
   EXPECT_EQ(memory.calls, calls);
   EXPECT_EQ(mallinfo2().uordblks, heap);
@@ -319,16 +322,16 @@ TEST(AnicMemory, NothingIsAllocatedAfterOpening) {
 
     // Of a stream, when it becomes playable.
     anic_stream* stream = nullptr;
-    ASSERT_EQ(anic_stream_create(&options, &stream), ANIC_OK);
+    ASSERT_EQ(anic_create_stream(&options, &stream), ANIC_OK);
     anic_stream_info info = {};
     for (size_t i = 0; i < file.size() && !info.playable; ++i) {
-      ASSERT_EQ(anic_stream_push(stream, &file[i], 1), ANIC_OK);
-      anic_stream_info_get(stream, &info);
+      ASSERT_EQ(anic_push_bytes(stream, &file[i], 1), ANIC_OK);
+      anic_get_stream_info(stream, &info);
     }
     anic_asset* asset = nullptr;
-    ASSERT_EQ(anic_stream_open(stream, &asset, nullptr), ANIC_OK);
+    ASSERT_EQ(anic_open_asset_from_stream(stream, &asset, nullptr), ANIC_OK);
     expect_no_allocation(Asset(asset), memory);
-    anic_stream_destroy(stream);
+    anic_destroy_stream(stream);
   }
 }
 
@@ -344,10 +347,10 @@ TEST(AnicMemory, FitsABlockOfTheHost) {
     SCOPED_TRACE(clip);
     const format::Bytes& file = encoded_clip(clip, basis);
     anic_requirements r;
-    ASSERT_EQ(anic_query(file.data(), file.size(), nullptr, &r), ANIC_OK);
+    ASSERT_EQ(anic_get_requirements(file.data(), file.size(), nullptr, &r), ANIC_OK);
     std::vector<unsigned char> block(r.block_bytes + r.context_bytes);
     anic_options options = {};
-    ASSERT_EQ(anic_block_allocator(block.data() + 3, block.size() - 3, &options.allocator),
+    ASSERT_EQ(anic_init_block_allocator(block.data() + 3, block.size() - 3, &options.allocator),
               ANIC_OK);
     const Asset asset = open(file, &options);
     ASSERT_TRUE(asset);
@@ -357,13 +360,13 @@ TEST(AnicMemory, FitsABlockOfTheHost) {
   }
   unsigned char small[255];
   anic_allocator allocator;
-  EXPECT_EQ(anic_block_allocator(small, sizeof small, &allocator), ANIC_E_BUFFER_SIZE);
+  EXPECT_EQ(anic_init_block_allocator(small, sizeof small, &allocator), ANIC_E_BUFFER_SIZE);
 }
 
 TEST(BlockAllocator, GivesEachPieceToOneAndAllBackInTheEnd) {
   std::vector<unsigned char> block(100000);
   anic_allocator a;
-  ASSERT_EQ(anic_block_allocator(block.data(), block.size(), &a), ANIC_OK);
+  ASSERT_EQ(anic_init_block_allocator(block.data(), block.size(), &a), ANIC_OK);
   std::mt19937 random(1);
   std::vector<std::pair<unsigned char*, size_t>> held;
   for (int i = 0; i < 20000; ++i) {

@@ -27,12 +27,12 @@ const format::Bytes& heated() {
 }
 
 std::vector<float> values(const Asset& asset, const Context& context, uint32_t attribute,
-                          anic_when when = ANIC_CURRENT) {
+                          anic_when when = ANIC_WHEN_CURRENT) {
   anic_attribute about;
-  EXPECT_EQ(anic_mesh_attribute(asset.get(), 0, attribute, &about), ANIC_OK);
+  EXPECT_EQ(anic_get_attribute(asset.get(), 0, attribute, &about), ANIC_OK);
   std::vector<float> out(size_t{about.components} * about.count);
   const anic_value_output to = anic::value_output(out);
-  EXPECT_EQ(anic_attribute_values(context.get(), 0, attribute, when, 0, about.count, &to), ANIC_OK);
+  EXPECT_EQ(anic_write_attribute(context.get(), 0, attribute, when, 0, about.count, &to), ANIC_OK);
   return out;
 }
 
@@ -55,45 +55,47 @@ TEST(AnicAttributeValues, AreThoseOfTheFrameChosen) {
           << "attribute " << a << ", frame " << frame;
   }
   // What was shown before.
-  EXPECT_LE(error_at(values(asset, context, kHeat, ANIC_PREVIOUS), source().attributes[kHeat], 20),
-            bounds[kHeat]);
+  EXPECT_LE(
+      error_at(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS), source().attributes[kHeat], 20),
+      bounds[kHeat]);
   ASSERT_EQ(anic_forget_previous(context.get()), ANIC_OK);
-  EXPECT_EQ(values(asset, context, kHeat, ANIC_PREVIOUS), values(asset, context, kHeat));
+  EXPECT_EQ(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS), values(asset, context, kHeat));
 }
 
 TEST(AnicAttributeValues, AreInterpolatedAsTheSeekSays) {
   const Asset asset = open(heated());
   const Context context = context_of(asset);
-  auto at = [&](double frame, anic_interpolation interpolation) {
-    EXPECT_EQ(anic_seek_time(context.get(), frame / 24, interpolation, ANIC_CLAMP), ANIC_OK);
+  auto at = [&](double frame, anic_sampling interpolation) {
+    EXPECT_EQ(anic_seek_time(context.get(), frame / 24, interpolation, ANIC_WRAP_CLAMP), ANIC_OK);
     return values(asset, context, kHeat);
   };
-  const std::vector<float> a = at(9, ANIC_LINEAR), b = at(10, ANIC_LINEAR);
-  const std::vector<float> middle = at(9.25, ANIC_LINEAR);
+  const std::vector<float> a = at(9, ANIC_SAMPLE_LINEAR), b = at(10, ANIC_SAMPLE_LINEAR);
+  const std::vector<float> middle = at(9.25, ANIC_SAMPLE_LINEAR);
   for (size_t i = 0; i < a.size(); ++i)
     ASSERT_NEAR(middle[i], 0.75F * a[i] + 0.25F * b[i], 1);  // corrections are of whole frames
-  EXPECT_EQ(at(9.25, ANIC_STEP), a);
+  EXPECT_EQ(at(9.25, ANIC_SAMPLE_STEP), a);
 }
 
 TEST(AnicAttributeValues, OfOthersStandStillAndSayWhetherTheyMove) {
   const Asset asset = open(heated());
   for (uint32_t a : {kUv, kColour, kHeat}) {
     anic_attribute about;
-    ASSERT_EQ(anic_mesh_attribute(asset.get(), 0, a, &about), ANIC_OK);
+    ASSERT_EQ(anic_get_attribute(asset.get(), 0, a, &about), ANIC_OK);
     EXPECT_EQ(about.moves, 1);
   }
   const Asset box = open(encoded_clip("painted_box", BasisChoice::kKeyframes));
   const Context context = context_of(box);
   ASSERT_EQ(anic_seek_frame(context.get(), 3), ANIC_OK);
   anic_attribute paint;
-  ASSERT_EQ(anic_mesh_attribute(box.get(), 0, 1, &paint), ANIC_OK);
+  ASSERT_EQ(anic_get_attribute(box.get(), 0, 1, &paint), ANIC_OK);
   EXPECT_EQ(paint.moves, 0);
   const std::vector<float> shown = values(box, context, 1);
   EXPECT_TRUE(std::equal(shown.begin(), shown.end(), paint.values));
   // Of corners there is no value for each vertex.
   float x = 0;
   const anic_value_output to = {&x, sizeof x, 0, ANIC_VALUE_FLOAT32, 0};
-  EXPECT_EQ(anic_attribute_values(context.get(), 0, 0, ANIC_CURRENT, 0, 1, &to), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_write_attribute(context.get(), 0, 0, ANIC_WHEN_CURRENT, 0, 1, &to),
+            ANIC_E_ARGUMENT);
 }
 
 TEST(AnicAttributeValues, ComeInAnyFormatStrideAndRange) {
@@ -105,8 +107,9 @@ TEST(AnicAttributeValues, ComeInAnyFormatStrideAndRange) {
   constexpr uint32_t kFirst = 70, kCount = 160;
   std::vector<unsigned char> bytes(size_t{kCount} * 7, 0xEE);
   anic_value_output out = {bytes.data(), bytes.size(), 7, ANIC_VALUE_UNORM8, 3};
-  ASSERT_EQ(anic_attribute_values(context.get(), 0, kColour, ANIC_CURRENT, kFirst, kCount, &out),
-            ANIC_OK);
+  ASSERT_EQ(
+      anic_write_attribute(context.get(), 0, kColour, ANIC_WHEN_CURRENT, kFirst, kCount, &out),
+      ANIC_OK);
   for (uint32_t v = 0; v < kCount; ++v) {
     for (uint32_t c = 0; c < 3; ++c) {
       const float x = std::clamp(colours[size_t{4} * (v + kFirst) + c], 0.0F, 1.0F);
@@ -117,20 +120,22 @@ TEST(AnicAttributeValues, ComeInAnyFormatStrideAndRange) {
   // Missing components are 0, the fourth 1.
   std::vector<float> wide(size_t{kCount} * 4);
   out = {wide.data(), wide.size() * sizeof(float), 0, ANIC_VALUE_FLOAT32, 4};
-  ASSERT_EQ(anic_attribute_values(context.get(), 0, kHeat, ANIC_CURRENT, kFirst, kCount, &out),
+  ASSERT_EQ(anic_write_attribute(context.get(), 0, kHeat, ANIC_WHEN_CURRENT, kFirst, kCount, &out),
             ANIC_OK);
   EXPECT_EQ(wide[40], heat[kFirst + 10]);
   EXPECT_EQ(wide[41], 0);
   EXPECT_EQ(wide[43], 1);
   std::vector<uint16_t> halves(size_t{kCount} * 4);
   out = {halves.data(), halves.size() * 2, 0, ANIC_VALUE_FLOAT16, 0};
-  ASSERT_EQ(anic_attribute_values(context.get(), 0, kColour, ANIC_CURRENT, kFirst, kCount, &out),
-            ANIC_OK);
+  ASSERT_EQ(
+      anic_write_attribute(context.get(), 0, kColour, ANIC_WHEN_CURRENT, kFirst, kCount, &out),
+      ANIC_OK);
   const float alpha = colours[size_t{4} * kFirst + 3];  // between a half and one: exponent -1
   EXPECT_NEAR((0x400 + (halves[3] & 0x3FF)) / 2048.0F, alpha, 1e-3);
   out.format = ANIC_VALUE_UNORM16;
-  ASSERT_EQ(anic_attribute_values(context.get(), 0, kColour, ANIC_CURRENT, kFirst, kCount, &out),
-            ANIC_OK);
+  ASSERT_EQ(
+      anic_write_attribute(context.get(), 0, kColour, ANIC_WHEN_CURRENT, kFirst, kCount, &out),
+      ANIC_OK);
   EXPECT_EQ(halves[3], static_cast<int>(alpha * 65535 + 0.5F));
 }
 
@@ -140,7 +145,8 @@ TEST(AnicAttributeValues, RefuseWhatMakesNoSense) {
   std::vector<float> room(vertices_of(asset));
   anic_value_output out = anic::value_output(room);
   auto status = [&](uint32_t mesh, uint32_t attribute, uint32_t first, uint32_t count) {
-    return anic_attribute_values(context.get(), mesh, attribute, ANIC_CURRENT, first, count, &out);
+    return anic_write_attribute(context.get(), mesh, attribute, ANIC_WHEN_CURRENT, first, count,
+                                &out);
   };
   EXPECT_EQ(status(0, kHeat, 0, 1), ANIC_E_STATE);
   ASSERT_EQ(anic_seek_frame(context.get(), 0), ANIC_OK);
@@ -154,7 +160,7 @@ TEST(AnicAttributeValues, RefuseWhatMakesNoSense) {
   out.stride = 0;
   out.components = 17;
   EXPECT_EQ(status(0, kHeat, 0, 1), ANIC_E_ARGUMENT);
-  EXPECT_EQ(anic_attribute_values(context.get(), 0, kHeat, ANIC_CURRENT, 0, 1, nullptr),
+  EXPECT_EQ(anic_write_attribute(context.get(), 0, kHeat, ANIC_WHEN_CURRENT, 0, 1, nullptr),
             ANIC_E_ARGUMENT);
 }
 
@@ -162,46 +168,51 @@ TEST(AnicAttributeValues, RefuseWhatMakesNoSense) {
 TEST(AnicAttributeValues, ComeFromTheBasisAsPositionsDo) {
   const Asset asset = open(heated());
   const Context context = context_of(asset);
-  ASSERT_EQ(anic_seek_time(context.get(), 0.77, ANIC_LINEAR, ANIC_LOOP), ANIC_OK);
+  ASSERT_EQ(anic_seek_time(context.get(), 0.77, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP), ANIC_OK);
   const std::vector<float> shown = values(asset, context, kColour);
   anic_attribute about;
-  ASSERT_EQ(anic_mesh_attribute(asset.get(), 0, kColour, &about), ANIC_OK);
+  ASSERT_EQ(anic_get_attribute(asset.get(), 0, kColour, &about), ANIC_OK);
   std::vector<float> made(about.values, about.values + shown.size());
   anic_part parts[ANIC_MAX_PARTS];
   uint32_t count = 0;
   // Alpha rests.
-  ASSERT_EQ(anic_attribute_parts(context.get(), 0, kColour, 3, ANIC_CURRENT, parts, &count),
-            ANIC_OK);
+  ASSERT_EQ(
+      anic_get_attribute_parts(context.get(), 0, kColour, 3, ANIC_WHEN_CURRENT, parts, &count),
+      ANIC_OK);
   EXPECT_EQ(count, 0U);
-  EXPECT_EQ(anic_attribute_parts(context.get(), 0, kColour, 1, ANIC_CURRENT, parts, &count),
-            ANIC_E_ARGUMENT);
-  EXPECT_EQ(anic_attribute_parts(context.get(), 0, kColour, 6, ANIC_CURRENT, parts, &count),
-            ANIC_E_ARGUMENT);
-  ASSERT_EQ(anic_attribute_parts(context.get(), 0, kColour, 0, ANIC_CURRENT, parts, &count),
-            ANIC_OK);
+  EXPECT_EQ(
+      anic_get_attribute_parts(context.get(), 0, kColour, 1, ANIC_WHEN_CURRENT, parts, &count),
+      ANIC_E_ARGUMENT);
+  EXPECT_EQ(
+      anic_get_attribute_parts(context.get(), 0, kColour, 6, ANIC_WHEN_CURRENT, parts, &count),
+      ANIC_E_ARGUMENT);
+  ASSERT_EQ(
+      anic_get_attribute_parts(context.get(), 0, kColour, 0, ANIC_WHEN_CURRENT, parts, &count),
+      ANIC_OK);
   ASSERT_GT(count, 0U);
   for (uint32_t p = 0; p < count; ++p) {
     anic_basis basis;
-    ASSERT_EQ(anic_segment_basis(asset.get(), parts[p].segment, &basis), ANIC_OK);
+    ASSERT_EQ(anic_get_basis(asset.get(), parts[p].segment, &basis), ANIC_OK);
     EXPECT_EQ(basis.attribute, kColour);
     EXPECT_EQ(basis.first_component, 0U);
     ASSERT_EQ(basis.channels, 1U);
     for (uint32_t v = 0; v < basis.vertex_count; ++v) {
-      const uint32_t b = v / ANIC_BLOCK, i = v % ANIC_BLOCK;
+      const uint32_t b = v / ANIC_BLOCK_VERTICES, i = v % ANIC_BLOCK_VERTICES;
       for (uint32_t c = 0; c < 3; ++c) {
         const float* m = parts[p].pose_map + size_t{4} * c;
         double x = double{m[3]};
         for (uint32_t d = 0; d < 3; ++d)
-          x += double{m[d]} * double{basis.pose[(size_t{b} * 3 + d) * ANIC_BLOCK + i]};
+          x += double{m[d]} * double{basis.pose[(size_t{b} * 3 + d) * ANIC_BLOCK_VERTICES + i]};
         for (uint32_t j = 0; j < basis.components; ++j) {
           const double r =
               j < basis.wide_components
                   ? double{static_cast<float>(
-                        basis.wide[(size_t{b} * basis.wide_components + j) * ANIC_BLOCK + i])}
+                        basis.wide[(size_t{b} * basis.wide_components + j) * ANIC_BLOCK_VERTICES +
+                                   i])}
                   : double{static_cast<float>(
                         basis.narrow[(size_t{b} * (basis.components - basis.wide_components) + j -
                                       basis.wide_components) *
-                                         ANIC_BLOCK +
+                                         ANIC_BLOCK_VERTICES +
                                      i])};
           x += double{parts[p].weights[3 * j + c]} * r;
         }
@@ -213,7 +224,7 @@ TEST(AnicAttributeValues, ComeFromTheBasisAsPositionsDo) {
   EXPECT_LE(largest_difference(shown, made), 1e-5);
   for (uint32_t s = 0, of_positions = 0; s < info_of(asset).segment_count; ++s) {
     anic_basis basis;
-    ASSERT_EQ(anic_segment_basis(asset.get(), s, &basis), ANIC_OK);
+    ASSERT_EQ(anic_get_basis(asset.get(), s, &basis), ANIC_OK);
     of_positions += basis.attribute == ANIC_POSITIONS;
     EXPECT_EQ(of_positions, 1U);
   }
@@ -245,7 +256,7 @@ TEST(AnicAttributeValues, AreCoarserAtLowerQualityAndOfTheFirstFrameUntilTheyArr
   ASSERT_TRUE(player.seek_frame(20));
   const anic_attribute about = early.attribute(kHeat);
   std::vector<float> shown(about.count);
-  ASSERT_TRUE(player.attribute_values(kHeat, anic::value_output(shown), 0, about.count));
+  ASSERT_TRUE(player.write_attribute(kHeat, anic::value_output(shown), 0, about.count));
   EXPECT_TRUE(std::equal(shown.begin(), shown.end(), about.values));
 }
 

@@ -109,7 +109,7 @@ TEST_F(AnicExamples, FrameToObj) {
     ++written;
     EXPECT_EQ(result.status, 0) << result.out;
     anic_polygons polygons;
-    ASSERT_EQ(anic_mesh_polygons(asset.get(), 0, &polygons), ANIC_OK);
+    ASSERT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
     std::vector<float> points;
     std::vector<uint32_t> corners, offsets = {0};
     std::istringstream lines(result.out);

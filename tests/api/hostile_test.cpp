@@ -48,19 +48,19 @@ anic_status tried(const format::Bytes& file, CountingMemory* memory) {
   options.limits.bytes = 8 << 20;
   anic_asset* raw = nullptr;
   anic_failure failure;
-  anic_status status = anic_asset_open(file.data(), file.size(), &options, &raw, &failure);
+  anic_status status = anic_open_asset(file.data(), file.size(), &options, &raw, &failure);
   EXPECT_EQ(failure.status, status);
   {
     const Asset asset(raw);
     EXPECT_EQ(asset != nullptr, status == ANIC_OK);
     if (asset) {
-      status = anic_asset_verify(raw);
+      status = anic_verify_asset(raw);
       const Context context = context_of(asset);
       const uint32_t frames = info_of(asset).frame_count;
       for (const uint32_t f : {0U, frames / 2, frames - 1}) {
         anic_box box;
         EXPECT_EQ(anic_seek_frame(context.get(), f), ANIC_OK);
-        if (anic_bounds(context.get(), 0, ANIC_CURRENT, &box) == ANIC_OK) {
+        if (anic_compute_bounds(context.get(), 0, ANIC_WHEN_CURRENT, &box) == ANIC_OK) {
           for (int c = 0; c < 3; ++c)
             EXPECT_TRUE(std::isfinite(box.min[c]) && std::isfinite(box.max[c]));
         }
@@ -87,7 +87,7 @@ TEST(Hostile, ConformanceFilesHaveTheirStatus) {
   // One for each code that a file can cause.
   for (int status = ANIC_E_MAGIC; status < ANIC_E_LIMIT; ++status) {
     const bool exists =
-        std::string(anic_status_string(static_cast<anic_status>(status))) != "unknown status";
+        std::string(anic_get_status_text(static_cast<anic_status>(status))) != "unknown status";
     EXPECT_EQ(std::count(seen.begin(), seen.end(), status) > 0, exists) << status;
   }
 }
@@ -116,21 +116,21 @@ TEST(Hostile, EveryPrefixOfAStreamPlaysOrWaits) {
     anic_options options = {};
     options.allocator = memory.allocator();
     anic_stream* stream = nullptr;
-    ASSERT_EQ(anic_stream_create(&options, &stream), ANIC_OK);
+    ASSERT_EQ(anic_create_stream(&options, &stream), ANIC_OK);
     size_t opened = 0;
     for (size_t i = 0; i < entry.bytes.size(); ++i) {
-      ASSERT_EQ(anic_stream_push(stream, &entry.bytes[i], 1), ANIC_OK) << entry.file << " " << i;
+      ASSERT_EQ(anic_push_bytes(stream, &entry.bytes[i], 1), ANIC_OK) << entry.file << " " << i;
       anic_stream_info info;
-      anic_stream_info_get(stream, &info);
+      anic_get_stream_info(stream, &info);
       anic_asset* asset = nullptr;
       if (info.playable && opened++ % 50 != 0 && !info.complete)
         continue;
-      const anic_status status = anic_stream_open(stream, &asset, nullptr);
+      const anic_status status = anic_open_asset_from_stream(stream, &asset, nullptr);
       ASSERT_EQ(status, info.playable ? ANIC_OK : ANIC_E_STATE) << entry.file << " " << i;
-      anic_asset_close(asset);
+      anic_close_asset(asset);
     }
     EXPECT_GT(opened, 0U);
-    anic_stream_destroy(stream);
+    anic_destroy_stream(stream);
     EXPECT_EQ(memory.held, 0U);
   }
 }

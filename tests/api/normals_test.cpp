@@ -11,25 +11,25 @@ namespace anicodec {
 namespace {
 
 struct NormalsDestroyer {
-  void operator()(anic_normals* normals) const { anic_normals_destroy(normals); }
+  void operator()(anic_normal_plan* normals) const { anic_destroy_normal_plan(normals); }
 };
 
-using Normals = std::unique_ptr<anic_normals, NormalsDestroyer>;
+using Normals = std::unique_ptr<anic_normal_plan, NormalsDestroyer>;
 
 Normals plan(const Asset& asset, double crease, bool per_corner) {
   anic_normal_options options = {};
   options.crease_angle = crease;
   options.per_corner = per_corner;
-  anic_normals* normals = nullptr;
-  EXPECT_EQ(anic_normals_create(asset.get(), 0, &options, nullptr, &normals), ANIC_OK);
+  anic_normal_plan* normals = nullptr;
+  EXPECT_EQ(anic_create_normal_plan(asset.get(), 0, &options, nullptr, &normals), ANIC_OK);
   return Normals(normals);
 }
 
 std::vector<float> compute(const Normals& normals, const std::vector<float>& positions) {
-  const uint32_t n = anic_normals_count(normals.get());
+  const uint32_t n = anic_get_normal_count(normals.get());
   std::vector<float> out(size_t{3} * n);
   const anic_output output = floats(out);
-  EXPECT_EQ(anic_normals_compute(normals.get(), positions.data(), 0, 0, n, &output), ANIC_OK);
+  EXPECT_EQ(anic_write_normals(normals.get(), positions.data(), 0, 0, n, &output), ANIC_OK);
   return out;
 }
 
@@ -85,7 +85,7 @@ TEST(AnicNormals, ACubeIsSmoothOrHard) {
     // Hard: along the axes, away from the middle, one of each corner's three.
     n = compute(plan(asset, 30, true), p);
     anic_polygons polygons;
-    ASSERT_EQ(anic_mesh_polygons(asset.get(), 0, &polygons), ANIC_OK);
+    ASSERT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
     ASSERT_EQ(n.size(), 72U);
     for (uint32_t q = 0; q < 6; ++q) {
       for (uint32_t c = polygons.offsets[q]; c < polygons.offsets[q + 1]; ++c) {
@@ -119,14 +119,14 @@ TEST(AnicNormals, RangesFormatsAndStridesAgree) {
   std::vector<float> spread(p.size() / 3 * 5, 1e9F);
   for (size_t v = 0; v < p.size() / 3; ++v)
     std::copy_n(&p[3 * v], 3, &spread[5 * v]);
-  const uint32_t n = anic_normals_count(normals.get());
+  const uint32_t n = anic_get_normal_count(normals.get());
   for (uint32_t first : {0U, 5U, 300U}) {
     std::vector<int16_t> out(size_t{4} * (n - first));
     anic_output output = {};
     output.data = out.data();
     output.size = 2 * out.size();
-    output.format = ANIC_SNORM16X4;
-    ASSERT_EQ(anic_normals_compute(normals.get(), spread.data(), 20, first, n - first, &output),
+    output.format = ANIC_FORMAT_SNORM16X4;
+    ASSERT_EQ(anic_write_normals(normals.get(), spread.data(), 20, first, n - first, &output),
               ANIC_OK);
     for (size_t i = 0; i < out.size(); ++i) {
       if (i % 4 < 3) {
@@ -136,8 +136,8 @@ TEST(AnicNormals, RangesFormatsAndStridesAgree) {
     }
   }
   const anic_output output = {};
-  EXPECT_EQ(anic_normals_compute(normals.get(), p.data(), 6, 0, 1, &output), ANIC_E_ARGUMENT);
-  EXPECT_EQ(anic_normals_compute(normals.get(), p.data(), 0, n, 1, &output), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_write_normals(normals.get(), p.data(), 6, 0, 1, &output), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_write_normals(normals.get(), p.data(), 0, n, 1, &output), ANIC_E_ARGUMENT);
 }
 
 TEST(AnicNormals, AreHardWhereTheSourceWas) {
@@ -145,14 +145,14 @@ TEST(AnicNormals, AreHardWhereTheSourceWas) {
   anic_normal_options options = {};
   options.per_corner = 1;
   auto distinct = [&] {
-    anic_normals* made = nullptr;
-    EXPECT_EQ(anic_normals_create(asset.get(), 0, &options, nullptr, &made), ANIC_OK);
+    anic_normal_plan* made = nullptr;
+    EXPECT_EQ(anic_create_normal_plan(asset.get(), 0, &options, nullptr, &made), ANIC_OK);
     const Normals normals(made);
     const std::vector<float> n = compute(normals, frame(asset, 0));
     anic_polygons polygons;
-    EXPECT_EQ(anic_mesh_polygons(asset.get(), 0, &polygons), ANIC_OK);
+    EXPECT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
     std::set<std::vector<float>> of_vertex;
-    for (uint32_t c = 0; c < anic_normals_count(normals.get()); ++c)
+    for (uint32_t c = 0; c < anic_get_normal_count(normals.get()); ++c)
       of_vertex.insert({static_cast<float>(polygons.corners[c]), n[size_t{3} * c],
                         n[size_t{3} * c + 1], n[size_t{3} * c + 2]});
     return of_vertex.size();
@@ -181,8 +181,8 @@ TEST(AnicNormals, AreUnitVectorsForAnyMesh) {
   EXPECT_EQ(n[2], 1);
   anic_normal_options options = {};
   options.reference_frame = 30;
-  anic_normals* none = nullptr;
-  EXPECT_EQ(anic_normals_create(points.get(), 0, &options, nullptr, &none), ANIC_E_FRAME_RANGE);
+  anic_normal_plan* none = nullptr;
+  EXPECT_EQ(anic_create_normal_plan(points.get(), 0, &options, nullptr, &none), ANIC_E_FRAME_RANGE);
 }
 
 TEST(AnicNormals, FailWithoutALeakWhenThereIsNoMemory) {
@@ -192,10 +192,10 @@ TEST(AnicNormals, FailWithoutALeakWhenThereIsNoMemory) {
     CountingMemory memory;
     memory.fail_at = n;
     const anic_allocator allocator = memory.allocator();
-    anic_normals* normals = nullptr;
-    status = anic_normals_create(asset.get(), 0, nullptr, &allocator, &normals);
+    anic_normal_plan* normals = nullptr;
+    status = anic_create_normal_plan(asset.get(), 0, nullptr, &allocator, &normals);
     ASSERT_TRUE(status == ANIC_OK || status == ANIC_E_MEMORY);
-    anic_normals_destroy(normals);
+    anic_destroy_normal_plan(normals);
     ASSERT_EQ(memory.held, 0U);
   }
 }

@@ -69,13 +69,13 @@ struct CountingMemory {
 };
 
 struct AssetCloser {
-  void operator()(anic_asset* asset) const { anic_asset_close(asset); }
+  void operator()(anic_asset* asset) const { anic_close_asset(asset); }
 };
 
 using Asset = std::unique_ptr<anic_asset, AssetCloser>;
 
 struct ContextDestroyer {
-  void operator()(anic_context* context) const { anic_context_destroy(context); }
+  void operator()(anic_context* context) const { anic_destroy_context(context); }
 };
 
 using Context = std::unique_ptr<anic_context, ContextDestroyer>;
@@ -83,7 +83,7 @@ using Context = std::unique_ptr<anic_context, ContextDestroyer>;
 inline Asset open(const format::Bytes& file, const anic_options* options = nullptr) {
   anic_asset* asset = nullptr;
   anic_failure failure;
-  EXPECT_EQ(anic_asset_open(file.data(), file.size(), options, &asset, &failure), ANIC_OK)
+  EXPECT_EQ(anic_open_asset(file.data(), file.size(), options, &asset, &failure), ANIC_OK)
       << failure.detail << " at " << failure.offset << " in " << failure.chunk;
   return Asset(asset);
 }
@@ -101,12 +101,12 @@ inline size_t expect_no_leak_whichever_allocation_fails(const format::Bytes& fil
     options.flags = ANIC_OPEN_BOUNDS;
     anic_asset* asset = nullptr;
     anic_context* context = nullptr;
-    status = anic_asset_open(file.data(), file.size(), &options, &asset, nullptr);
+    status = anic_open_asset(file.data(), file.size(), &options, &asset, nullptr);
     if (status == ANIC_OK)
-      status = anic_context_create(asset, nullptr, &context);
+      status = anic_create_context(asset, nullptr, &context);
     EXPECT_TRUE(status == ANIC_OK || status == ANIC_E_MEMORY) << status << " at " << n;
-    anic_context_destroy(context);
-    anic_asset_close(asset);
+    anic_destroy_context(context);
+    anic_close_asset(asset);
     EXPECT_EQ(memory.held, 0U) << n;
     if (testing::Test::HasFailure())
       break;
@@ -117,19 +117,19 @@ inline size_t expect_no_leak_whichever_allocation_fails(const format::Bytes& fil
 
 inline Context context_of(const Asset& asset) {
   anic_context* context = nullptr;
-  EXPECT_EQ(anic_context_create(asset.get(), nullptr, &context), ANIC_OK);
+  EXPECT_EQ(anic_create_context(asset.get(), nullptr, &context), ANIC_OK);
   return Context(context);
 }
 
-inline anic_info info_of(const Asset& asset) {
-  anic_info info;
-  anic_asset_info(asset.get(), &info);
+inline anic_asset_info info_of(const Asset& asset) {
+  anic_asset_info info;
+  anic_get_asset_info(asset.get(), &info);
   return info;
 }
 
 inline uint32_t vertices_of(const Asset& asset, uint32_t mesh = 0) {
-  anic_mesh_info info;
-  EXPECT_EQ(anic_mesh(asset.get(), mesh, &info), ANIC_OK);
+  anic_mesh info;
+  EXPECT_EQ(anic_get_mesh(asset.get(), mesh, &info), ANIC_OK);
   return info.vertex_count;
 }
 
@@ -142,17 +142,17 @@ inline anic_output floats(std::vector<float>& to) {
 
 /// Positions of all vertices of mesh 0 in what a context shows.
 inline std::vector<float> positions(const Asset& asset, const Context& context,
-                                    anic_when when = ANIC_CURRENT) {
+                                    anic_when when = ANIC_WHEN_CURRENT) {
   std::vector<float> out(size_t{3} * vertices_of(asset));
   const anic_output output = floats(out);
-  EXPECT_EQ(anic_positions(context.get(), 0, when, 0, vertices_of(asset), &output), ANIC_OK);
+  EXPECT_EQ(anic_write_positions(context.get(), 0, when, 0, vertices_of(asset), &output), ANIC_OK);
   return out;
 }
 
 inline std::vector<float> frame(const Asset& asset, uint32_t f) {
   std::vector<float> out(size_t{3} * vertices_of(asset));
   const anic_output output = floats(out);
-  EXPECT_EQ(anic_frames(asset.get(), 0, &f, 1, 0, vertices_of(asset), &output), ANIC_OK);
+  EXPECT_EQ(anic_write_frames(asset.get(), 0, &f, 1, 0, vertices_of(asset), &output), ANIC_OK);
   return out;
 }
 

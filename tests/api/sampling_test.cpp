@@ -15,8 +15,8 @@
 namespace anicodec {
 namespace {
 
-void seek(const Context& context, double seconds, anic_interpolation interpolation,
-          anic_wrap wrap = ANIC_CLAMP) {
+void seek(const Context& context, double seconds, anic_sampling interpolation,
+          anic_wrap wrap = ANIC_WRAP_CLAMP) {
   ASSERT_EQ(anic_seek_time(context.get(), seconds, interpolation, wrap), ANIC_OK);
 }
 
@@ -34,8 +34,8 @@ TEST(AnicSampling, GivesThePositionsOfTheClip) {
       ASSERT_EQ(anic_seek_frame(context.get(), f), ANIC_OK);
       EXPECT_EQ(positions(asset, context), expected);
       // The same at the frame's time, whatever the interpolation.
-      for (anic_interpolation i : {ANIC_STEP, ANIC_LINEAR, ANIC_CUBIC}) {
-        seek(context, anic_frame_time(asset.get(), f), i);
+      for (anic_sampling i : {ANIC_SAMPLE_STEP, ANIC_SAMPLE_LINEAR, ANIC_SAMPLE_CUBIC}) {
+        seek(context, anic_get_frame_time(asset.get(), f), i);
         EXPECT_EQ(positions(asset, context), expected);
       }
     }
@@ -46,7 +46,7 @@ TEST(AnicSampling, AnyOrderGivesTheSameBits) {
   for (const auto& [name, basis] : cases()) {
     SCOPED_TRACE(name);
     const Asset asset = open(encoded_clip(name, basis));
-    const anic_info info = info_of(asset);
+    const anic_asset_info info = info_of(asset);
 
     struct Step {
       double time;
@@ -59,7 +59,7 @@ TEST(AnicSampling, AnyOrderGivesTheSameBits) {
       steps.push_back({(random() % 4000 / 1000.0 - 1) * info.loop_duration,
                        static_cast<int>(random() % 3), static_cast<int>(random() % 3)});
     auto sample = [&](const Context& context, const Step& s) {
-      seek(context, s.time, static_cast<anic_interpolation>(s.interpolation),
+      seek(context, s.time, static_cast<anic_sampling>(s.interpolation),
            static_cast<anic_wrap>(s.wrap));
       return positions(asset, context);
     };
@@ -82,13 +82,14 @@ TEST(AnicSampling, RangesAndThreadsGiveTheSameBits) {
     const Asset asset = open(*file);
     const Context context = context_of(asset);
     const uint32_t n = vertices_of(asset);
-    seek(context, 23.4 / 24, ANIC_LINEAR);
+    seek(context, 23.4 / 24, ANIC_SAMPLE_LINEAR);
     const std::vector<float> whole = positions(asset, context);
     for (uint32_t first : {0U, 1U, 15U, 16U, 257U}) {
       for (uint32_t count : {0U, 1U, 31U, n - 257}) {
         std::vector<float> part(size_t{3} * count);
         const anic_output output = floats(part);
-        ASSERT_EQ(anic_positions(context.get(), 0, ANIC_CURRENT, first, count, &output), ANIC_OK);
+        ASSERT_EQ(anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, first, count, &output),
+                  ANIC_OK);
         EXPECT_TRUE(std::equal(part.begin(), part.end(), whole.begin() + ptrdiff_t{3} * first));
       }
     }
@@ -100,7 +101,7 @@ TEST(AnicSampling, RangesAndThreadsGiveTheSameBits) {
         anic_output output = {};
         output.data = together.data() + size_t{3} * first;
         output.size = size_t{12} * (end - first);
-        anic_positions(context.get(), 0, ANIC_CURRENT, first, end - first, &output);
+        anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, first, end - first, &output);
       });
     }
     for (std::thread& t : threads)
@@ -113,18 +114,18 @@ TEST(AnicSampling, WritesAnyFormatAndStrideAndNothingElse) {
   const Asset asset = open(encoded_clip("cloth", BasisChoice::kEigenshapes));
   const Context context = context_of(asset);
   const uint32_t n = vertices_of(asset);
-  seek(context, 0.2, ANIC_LINEAR);
+  seek(context, 0.2, ANIC_SAMPLE_LINEAR);
   const std::vector<float> p = positions(asset, context);
   std::vector<unsigned char> bytes(size_t{n} * 20, 0xAB);
   anic_output output = {};
   output.data = bytes.data() + 1;
   output.stride = 20;
   output.size = size_t{20} * (n - 1) + 8;
-  output.format = ANIC_UNORM16X4;
+  output.format = ANIC_FORMAT_UNORM16X4;
   const float low = -100, scale = 200;
   std::fill_n(output.offset, 3, low);
   std::fill_n(output.scale, 3, scale);
-  ASSERT_EQ(anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output), ANIC_OK);
+  ASSERT_EQ(anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, 0, n, &output), ANIC_OK);
   for (uint32_t v = 0; v < n; ++v) {
     uint16_t q[4];
     std::memcpy(q, bytes.data() + 1 + size_t{20} * v, 8);
@@ -135,9 +136,11 @@ TEST(AnicSampling, WritesAnyFormatAndStrideAndNothingElse) {
       EXPECT_EQ(bytes[size_t{20} * v + b], 0xAB);
   }
   --output.size;
-  EXPECT_EQ(anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output), ANIC_E_BUFFER_SIZE);
+  EXPECT_EQ(anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, 0, n, &output),
+            ANIC_E_BUFFER_SIZE);
   output.stride = 7;
-  EXPECT_EQ(anic_positions(context.get(), 0, ANIC_CURRENT, 0, n, &output), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, 0, n, &output),
+            ANIC_E_ARGUMENT);
 }
 
 TEST(AnicSampling, MakesSeveralFramesAtOnce) {
@@ -150,11 +153,11 @@ TEST(AnicSampling, MakesSeveralFramesAtOnce) {
     out[i].resize(size_t{3} * n);
     outputs[i] = floats(out[i]);
   }
-  ASSERT_EQ(anic_frames(asset.get(), 0, frames, 7, 0, n, outputs), ANIC_OK);
+  ASSERT_EQ(anic_write_frames(asset.get(), 0, frames, 7, 0, n, outputs), ANIC_OK);
   for (int i = 0; i < 7; ++i)
     EXPECT_EQ(out[i], frame(asset, frames[i]));
   const uint32_t behind = 48;
-  EXPECT_EQ(anic_frames(asset.get(), 0, &behind, 1, 0, n, outputs), ANIC_E_FRAME_RANGE);
+  EXPECT_EQ(anic_write_frames(asset.get(), 0, &behind, 1, 0, n, outputs), ANIC_E_FRAME_RANGE);
 }
 
 /// a (1 - t) + b t.
@@ -173,10 +176,10 @@ TEST(AnicSampling, LinearInterpolationIsThatOfPositions) {
     const Context context = context_of(asset);
     for (uint32_t f : {0U, 7U, 20U}) {
       for (double t : {0.25, 0.5, 0.9}) {
-        seek(context, (f + t) / 24, ANIC_LINEAR);
+        seek(context, (f + t) / 24, ANIC_SAMPLE_LINEAR);
         anic_part parts[ANIC_MAX_PARTS];
         uint32_t count = 0;
-        ASSERT_EQ(anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count), ANIC_OK);
+        ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
         EXPECT_EQ(count, 1U);
         EXPECT_EQ(parts[0].correction_count, 0U);
         const std::vector<float> a = frame(asset, f), b = frame(asset, f + 1);
@@ -184,7 +187,7 @@ TEST(AnicSampling, LinearInterpolationIsThatOfPositions) {
         EXPECT_LE(largest_difference(positions(asset, context), mixed(a, b, t)), correction);
       }
     }
-    seek(context, 7.99 / 24, ANIC_STEP);
+    seek(context, 7.99 / 24, ANIC_SAMPLE_STEP);
     EXPECT_EQ(positions(asset, context), frame(asset, 7));
   }
 }
@@ -196,16 +199,16 @@ TEST(AnicSampling, FramesOfTwoSegmentsAreBothMade) {
   anic_part parts[ANIC_MAX_PARTS];
   uint32_t count = 0;
   for (double t : {0.1, 0.5, 0.8}) {
-    seek(context, (23 + t) / 24, ANIC_LINEAR);
-    ASSERT_EQ(anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count), ANIC_OK);
+    seek(context, (23 + t) / 24, ANIC_SAMPLE_LINEAR);
+    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
     ASSERT_EQ(count, 2U);
     EXPECT_FLOAT_EQ(parts[0].share, static_cast<float>(1 - t));
     const std::vector<float> expected = mixed(frame(asset, 23), frame(asset, 24), t);
     EXPECT_LE(largest_difference(positions(asset, context), expected),
               1e-5 * diagonal(corpus::make_scaled("limb", 300, 48)) + 2e-2);
     // A smooth curve passes close by, and has two frames in each.
-    seek(context, (23 + t) / 24, ANIC_CUBIC);
-    ASSERT_EQ(anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count), ANIC_OK);
+    seek(context, (23 + t) / 24, ANIC_SAMPLE_CUBIC);
+    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
     EXPECT_EQ(count, 2U);
     EXPECT_FLOAT_EQ(parts[0].share + parts[1].share, 1);
     EXPECT_LE(largest_difference(positions(asset, context), expected),
@@ -247,12 +250,12 @@ TEST(AnicSampling, CubicInterpolationFollowsAParabola) {
     const double tolerance = 2e-3 * diagonal(clip);
     double worst_linear = 0;
     for (double t = 0.09; t < 0.35; t += 0.0077) {
-      seek(context, t, ANIC_CUBIC);
+      seek(context, t, ANIC_SAMPLE_CUBIC);
       const double moved = static_cast<double>(positions(asset, context)[0] - clip.frame(0)[0]);
       // At uneven times the tangents are exact to first order only.
       EXPECT_NEAR(moved, parabola(t) - (times.empty() ? 0 : parabola(0)),
                   times.empty() ? tolerance : 5e-3);
-      seek(context, t, ANIC_LINEAR);
+      seek(context, t, ANIC_SAMPLE_LINEAR);
       worst_linear =
           std::max(worst_linear,
                    std::abs(static_cast<double>(positions(asset, context)[0] - clip.frame(0)[0]) -
@@ -268,27 +271,28 @@ TEST(AnicSampling, WrapsTime) {
   clip.start_time = 2;
   const Asset asset = opened(clip);
   const Context context = context_of(asset);
-  const anic_info info = info_of(asset);
+  const anic_asset_info info = info_of(asset);
   EXPECT_EQ(info.start_time, 2);
   EXPECT_DOUBLE_EQ(info.end_time, 2 + 8 / 24.0);
   EXPECT_DOUBLE_EQ(info.loop_duration, 9 / 24.0);
   auto x = [&](double frames, anic_wrap wrap) {
-    seek(context, 2 + frames / 24, ANIC_LINEAR, wrap);
+    seek(context, 2 + frames / 24, ANIC_SAMPLE_LINEAR, wrap);
     return 24 * static_cast<double>(positions(asset, context)[0] - clip.frame(0)[0]) / 10;
   };
   const double e = 0.02;  // frames
-  EXPECT_NEAR(x(-3, ANIC_CLAMP), 0, e);
-  EXPECT_NEAR(x(3.5, ANIC_CLAMP), 3.5, e);
-  EXPECT_NEAR(x(100, ANIC_CLAMP), 8, e);
-  EXPECT_NEAR(x(8.5, ANIC_LOOP), 4, e);  // between the last frame and the first
-  EXPECT_NEAR(x(9 + 2.5, ANIC_LOOP), 2.5, e);
-  EXPECT_NEAR(x(-1, ANIC_LOOP), 8, e);
-  EXPECT_NEAR(x(-9e6 - 7, ANIC_LOOP), 2, e);
-  EXPECT_NEAR(x(8 + 3.5, ANIC_PING_PONG), 4.5, e);
-  EXPECT_NEAR(x(16 + 3.5, ANIC_PING_PONG), 3.5, e);
-  EXPECT_NEAR(x(-3.5, ANIC_PING_PONG), 3.5, e);
-  EXPECT_EQ(anic_seek_time(context.get(), NAN, ANIC_STEP, ANIC_LOOP), ANIC_E_ARGUMENT);
-  EXPECT_EQ(anic_seek_time(context.get(), INFINITY, ANIC_STEP, ANIC_LOOP), ANIC_E_ARGUMENT);
+  EXPECT_NEAR(x(-3, ANIC_WRAP_CLAMP), 0, e);
+  EXPECT_NEAR(x(3.5, ANIC_WRAP_CLAMP), 3.5, e);
+  EXPECT_NEAR(x(100, ANIC_WRAP_CLAMP), 8, e);
+  EXPECT_NEAR(x(8.5, ANIC_WRAP_LOOP), 4, e);  // between the last frame and the first
+  EXPECT_NEAR(x(9 + 2.5, ANIC_WRAP_LOOP), 2.5, e);
+  EXPECT_NEAR(x(-1, ANIC_WRAP_LOOP), 8, e);
+  EXPECT_NEAR(x(-9e6 - 7, ANIC_WRAP_LOOP), 2, e);
+  EXPECT_NEAR(x(8 + 3.5, ANIC_WRAP_PING_PONG), 4.5, e);
+  EXPECT_NEAR(x(16 + 3.5, ANIC_WRAP_PING_PONG), 3.5, e);
+  EXPECT_NEAR(x(-3.5, ANIC_WRAP_PING_PONG), 3.5, e);
+  EXPECT_EQ(anic_seek_time(context.get(), NAN, ANIC_SAMPLE_STEP, ANIC_WRAP_LOOP), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_seek_time(context.get(), INFINITY, ANIC_SAMPLE_STEP, ANIC_WRAP_LOOP),
+            ANIC_E_ARGUMENT);
 }
 
 TEST(AnicSampling, AClosedLoopLeavesOutTheRepeatedFrame) {
@@ -301,9 +305,9 @@ TEST(AnicSampling, AClosedLoopLeavesOutTheRepeatedFrame) {
   ASSERT_TRUE(info_of(asset).closed);
   EXPECT_DOUBLE_EQ(info_of(asset).loop_duration, 8 / 24.0);
   for (double f = 0; f < 8; f += 0.3) {
-    seek(context, f / 24, ANIC_CUBIC, ANIC_LOOP);
+    seek(context, f / 24, ANIC_SAMPLE_CUBIC, ANIC_WRAP_LOOP);
     const std::vector<float> a = positions(asset, context);
-    seek(context, (f + 16) / 24, ANIC_CUBIC, ANIC_LOOP);
+    seek(context, (f + 16) / 24, ANIC_SAMPLE_CUBIC, ANIC_WRAP_LOOP);
     EXPECT_LE(largest_difference(positions(asset, context), a), 1e-4);
     EXPECT_NEAR(static_cast<double>(a[0] - clip.frame(0)[0]), wave(f / 24), 0.03);
   }
@@ -322,10 +326,10 @@ TEST(AnicSampling, RigidMotionsTurnTheShorterWay) {
   const Asset asset = open(file);
   const Context context = context_of(asset);
   for (double f = 0.5; f < 23; f += 1) {
-    seek(context, f / 24, ANIC_LINEAR);
+    seek(context, f / 24, ANIC_SAMPLE_LINEAR);
     anic_part parts[ANIC_MAX_PARTS];
     uint32_t count = 0;
-    ASSERT_EQ(anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count), ANIC_OK);
+    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
     // Half of the turn: the same angle, and less than a quarter, from either side.
     double cosine[2] = {0, 0};
     for (int side = 0; side < 2; ++side) {
@@ -355,21 +359,21 @@ TEST(AnicSampling, RemembersWhatWasShownBefore) {
   const Context context = context_of(asset);
   std::vector<float> out(size_t{3} * vertices_of(asset));
   const anic_output output = floats(out);
-  EXPECT_EQ(anic_positions(context.get(), 0, ANIC_CURRENT, 0, 1, &output), ANIC_E_STATE);
+  EXPECT_EQ(anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, 0, 1, &output), ANIC_E_STATE);
   EXPECT_EQ(anic_forget_previous(context.get()), ANIC_E_STATE);
-  seek(context, 5.3 / 24, ANIC_CUBIC);
+  seek(context, 5.3 / 24, ANIC_SAMPLE_CUBIC);
   const std::vector<float> a = positions(asset, context);
-  EXPECT_EQ(positions(asset, context, ANIC_PREVIOUS), a);
-  seek(context, 23.6 / 24, ANIC_LINEAR);
+  EXPECT_EQ(positions(asset, context, ANIC_WHEN_PREVIOUS), a);
+  seek(context, 23.6 / 24, ANIC_SAMPLE_LINEAR);
   const std::vector<float> b = positions(asset, context);
-  EXPECT_EQ(positions(asset, context, ANIC_PREVIOUS), a);
+  EXPECT_EQ(positions(asset, context, ANIC_WHEN_PREVIOUS), a);
   ASSERT_EQ(anic_seek_frame(context.get(), 40), ANIC_OK);
-  EXPECT_EQ(positions(asset, context, ANIC_PREVIOUS), b);
-  seek(context, 23.6 / 24, ANIC_LINEAR);
+  EXPECT_EQ(positions(asset, context, ANIC_WHEN_PREVIOUS), b);
+  seek(context, 23.6 / 24, ANIC_SAMPLE_LINEAR);
   ASSERT_EQ(anic_forget_previous(context.get()), ANIC_OK);
-  EXPECT_EQ(positions(asset, context, ANIC_PREVIOUS), b);
-  seek(context, 1.5 / 24, ANIC_LINEAR);  // overwrites what was copied from
-  EXPECT_EQ(positions(asset, context, ANIC_PREVIOUS), b);
+  EXPECT_EQ(positions(asset, context, ANIC_WHEN_PREVIOUS), b);
+  seek(context, 1.5 / 24, ANIC_SAMPLE_LINEAR);  // overwrites what was copied from
+  EXPECT_EQ(positions(asset, context, ANIC_WHEN_PREVIOUS), b);
   EXPECT_EQ(anic_seek_frame(context.get(), 48), ANIC_E_FRAME_RANGE);
 }
 
@@ -381,7 +385,7 @@ TEST(AnicSampling, FindsBoxes) {
     const Asset asset = open(file, &options);
     const Context context = context_of(asset);
     anic_box clip, box, table, around = {{1e9F, 1e9F, 1e9F}, {-1e9F, -1e9F, -1e9F}};
-    ASSERT_EQ(anic_clip_bounds(asset.get(), 0, &clip), ANIC_OK);
+    ASSERT_EQ(anic_get_clip_bounds(asset.get(), 0, &clip), ANIC_OK);
     for (uint32_t f = 0; f < info_of(asset).frame_count; ++f) {
       anic_box expected = {{1e9F, 1e9F, 1e9F}, {-1e9F, -1e9F, -1e9F}};
       const std::vector<float> p = frame(asset, f);
@@ -390,8 +394,8 @@ TEST(AnicSampling, FindsBoxes) {
         expected.max[i % 3] = std::max(expected.max[i % 3], p[i]);
       }
       ASSERT_EQ(anic_seek_frame(context.get(), f), ANIC_OK);
-      ASSERT_EQ(anic_bounds(context.get(), 0, ANIC_CURRENT, &box), ANIC_OK);
-      ASSERT_EQ(anic_frame_bounds(asset.get(), 0, f, &table), ANIC_OK);
+      ASSERT_EQ(anic_compute_bounds(context.get(), 0, ANIC_WHEN_CURRENT, &box), ANIC_OK);
+      ASSERT_EQ(anic_get_frame_bounds(asset.get(), 0, f, &table), ANIC_OK);
       EXPECT_EQ(std::memcmp(&box, &expected, sizeof box), 0);
       EXPECT_EQ(std::memcmp(&table, &expected, sizeof box), 0);
       for (int c = 0; c < 3; ++c) {
@@ -400,22 +404,22 @@ TEST(AnicSampling, FindsBoxes) {
       }
     }
     EXPECT_EQ(std::memcmp(&clip, &around, sizeof clip), 0);
-    EXPECT_EQ(anic_frame_bounds(asset.get(), 0, info_of(asset).frame_count, &box),
+    EXPECT_EQ(anic_get_frame_bounds(asset.get(), 0, info_of(asset).frame_count, &box),
               ANIC_E_FRAME_RANGE);
-    EXPECT_EQ(anic_clip_bounds(open(file).get(), 0, &box), ANIC_E_STATE);
+    EXPECT_EQ(anic_get_clip_bounds(open(file).get(), 0, &box), ANIC_E_STATE);
   }
 }
 
 /// One vertex, computed as a shader does it.
 void shade(const anic_basis& basis, const anic_part& part, uint32_t v, double (&out)[3]) {
-  const size_t b = v / ANIC_BLOCK, i = v % ANIC_BLOCK;
+  const size_t b = v / ANIC_BLOCK_VERTICES, i = v % ANIC_BLOCK_VERTICES;
   double x[3] = {0, 0, 0};
   if (basis.pose) {
     for (int r = 0; r < 3; ++r) {
       x[r] = static_cast<double>(part.pose_map[4 * r + 3]);
       for (size_t c = 0; c < 3; ++c)
         x[r] += static_cast<double>(part.pose_map[4 * static_cast<size_t>(r) + c]) *
-                static_cast<double>(basis.pose[(b * 3 + c) * ANIC_BLOCK + i]);
+                static_cast<double>(basis.pose[(b * 3 + c) * ANIC_BLOCK_VERTICES + i]);
     }
   }
   const uint32_t wide = basis.wide_components, narrow = basis.components - wide;
@@ -424,8 +428,10 @@ void shade(const anic_basis& basis, const anic_part& part, uint32_t v, double (&
       const size_t channel = basis.channels == 3 ? c : 0;
       const double value =
           j < wide
-              ? basis.wide[((b * wide + j) * basis.channels + channel) * ANIC_BLOCK + i]
-              : basis.narrow[((b * narrow + j - wide) * basis.channels + channel) * ANIC_BLOCK + i];
+              ? basis.wide[((b * wide + j) * basis.channels + channel) * ANIC_BLOCK_VERTICES + i]
+              : basis.narrow[((b * narrow + j - wide) * basis.channels + channel) *
+                                 ANIC_BLOCK_VERTICES +
+                             i];
       const size_t weight = basis.weight_channels == 3 ? 3 * size_t{j} + c : j;
       x[c] += static_cast<double>(part.weights[weight]) * value;
     }
@@ -454,17 +460,17 @@ TEST(AnicSampling, BasisAndWeightsMakeTheSameFrame) {
     const Asset asset = open(file);
     const Context context = context_of(asset);
     for (double f : {0.0, 3.0, 4.5, 23.4}) {
-      seek(context, f / 24, ANIC_LINEAR);
+      seek(context, f / 24, ANIC_SAMPLE_LINEAR);
       anic_part parts[ANIC_MAX_PARTS];
       uint32_t count = 0;
-      ASSERT_EQ(anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count), ANIC_OK);
+      ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
       const std::vector<float> expected = positions(asset, context);
       double largest = 0, size = 0;
       for (uint32_t v = 0; v < vertices_of(asset); ++v) {
         double x[3] = {0, 0, 0};
         for (uint32_t p = 0; p < count; ++p) {
           anic_basis basis;
-          ASSERT_EQ(anic_segment_basis(asset.get(), parts[p].segment, &basis), ANIC_OK);
+          ASSERT_EQ(anic_get_basis(asset.get(), parts[p].segment, &basis), ANIC_OK);
           shade(basis, parts[p], v, x);
         }
         for (size_t c = 0; c < 3; ++c) {

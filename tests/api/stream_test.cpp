@@ -12,27 +12,27 @@ namespace anicodec {
 namespace {
 
 struct StreamDestroyer {
-  void operator()(anic_stream* stream) const { anic_stream_destroy(stream); }
+  void operator()(anic_stream* stream) const { anic_destroy_stream(stream); }
 };
 
 using Stream = std::unique_ptr<anic_stream, StreamDestroyer>;
 
 Stream new_stream(const anic_options* options = nullptr) {
   anic_stream* stream = nullptr;
-  EXPECT_EQ(anic_stream_create(options, &stream), ANIC_OK);
+  EXPECT_EQ(anic_create_stream(options, &stream), ANIC_OK);
   return Stream(stream);
 }
 
 anic_stream_info info_of(const Stream& stream) {
   anic_stream_info info;
-  anic_stream_info_get(stream.get(), &info);
+  anic_get_stream_info(stream.get(), &info);
   return info;
 }
 
 Asset open(const Stream& stream) {
   anic_asset* asset = nullptr;
   anic_failure failure;
-  EXPECT_EQ(anic_stream_open(stream.get(), &asset, &failure), ANIC_OK) << failure.detail;
+  EXPECT_EQ(anic_open_asset_from_stream(stream.get(), &asset, &failure), ANIC_OK) << failure.detail;
   return Asset(asset);
 }
 
@@ -49,7 +49,7 @@ TEST(AnicStream, TakesAFileByteByByte) {
   bool was_playable = false;
   uint32_t layers = 0;
   for (size_t i = 0; i < file.size(); ++i) {
-    ASSERT_EQ(anic_stream_push(stream.get(), &file[i], 1), ANIC_OK);
+    ASSERT_EQ(anic_push_bytes(stream.get(), &file[i], 1), ANIC_OK);
     const anic_stream_info info = info_of(stream);
     EXPECT_EQ(info.received_bytes, i + 1);
     EXPECT_EQ(info.complete, i + 1 == file.size());
@@ -66,7 +66,7 @@ TEST(AnicStream, TakesAFileByteByByte) {
   EXPECT_EQ(layers, info_of(stream).layers);
   const uint8_t more = 0;
   expect_same(open(stream), open(file));
-  EXPECT_EQ(anic_stream_push(stream.get(), &more, 1), ANIC_E_TRAILING_BYTES);
+  EXPECT_EQ(anic_push_bytes(stream.get(), &more, 1), ANIC_E_TRAILING_BYTES);
 }
 
 TEST(AnicStream, PlaysEachLayerThatArrives) {
@@ -80,11 +80,11 @@ TEST(AnicStream, PlaysEachLayerThatArrives) {
   uint32_t coarser = 0;
   for (const format::Chunk& chunk : reader.chunks()) {
     const size_t end = chunk.offset + chunk.size;
-    ASSERT_EQ(anic_stream_push(stream.get(), file.data() + at, end - at), ANIC_OK);
+    ASSERT_EQ(anic_push_bytes(stream.get(), file.data() + at, end - at), ANIC_OK);
     at = end;
     anic_asset* none = nullptr;
     if (!info_of(stream).playable) {
-      EXPECT_EQ(anic_stream_open(stream.get(), &none, nullptr), ANIC_E_STATE);
+      EXPECT_EQ(anic_open_asset_from_stream(stream.get(), &none, nullptr), ANIC_E_STATE);
       continue;
     }
     const Asset asset = open(stream);
@@ -96,7 +96,7 @@ TEST(AnicStream, PlaysEachLayerThatArrives) {
     coarser += now < error && now > 0;
     error = now;
     EXPECT_LT(now, 0.3 * info_of(whole).diagonal);
-    EXPECT_EQ(anic_asset_verify(asset.get()), at < file.size() ? ANIC_E_STATE : ANIC_OK);
+    EXPECT_EQ(anic_verify_asset(asset.get()), at < file.size() ? ANIC_E_STATE : ANIC_OK);
   }
   EXPECT_EQ(at, file.size());
   EXPECT_EQ(error, 0);
@@ -116,7 +116,7 @@ TEST(AnicStream, GivesWhatAWholeFileGives) {
         const Stream stream = new_stream(&options);
         for (size_t at = 0; at < file.size(); at += piece) {
           ASSERT_EQ(
-              anic_stream_push(stream.get(), file.data() + at, std::min(piece, file.size() - at)),
+              anic_push_bytes(stream.get(), file.data() + at, std::min(piece, file.size() - at)),
               ANIC_OK);
         }
         expect_same(open(stream), whole);
@@ -132,7 +132,7 @@ TEST(AnicStream, SegmentsThatAreNotThereAreNotPlayed) {
     const format::Bytes& file = encoded_clip(name, basis);
     for (size_t cut = 0; cut < file.size(); cut += 1 + file.size() / 60) {
       const Stream stream = new_stream();
-      ASSERT_EQ(anic_stream_push(stream.get(), file.data(), cut), ANIC_OK);
+      ASSERT_EQ(anic_push_bytes(stream.get(), file.data(), cut), ANIC_OK);
       if (!info_of(stream).playable)
         continue;
       const Asset asset = open(stream);
@@ -143,10 +143,10 @@ TEST(AnicStream, SegmentsThatAreNotThereAreNotPlayed) {
       uint32_t there = 0;
       for (uint32_t f = 0; f < info_of(asset).frame_count; ++f) {
         ASSERT_EQ(anic_seek_frame(context.get(), f), ANIC_OK);
-        const anic_status status =
-            anic_positions(context.get(), 0, ANIC_CURRENT, 0, vertices_of(asset), &output);
+        const anic_status status = anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, 0,
+                                                        vertices_of(asset), &output);
         ASSERT_TRUE(status == ANIC_OK || status == ANIC_E_SEGMENT);
-        EXPECT_EQ(anic_bounds(context.get(), 0, ANIC_CURRENT, &box), status);
+        EXPECT_EQ(anic_compute_bounds(context.get(), 0, ANIC_WHEN_CURRENT, &box), status);
         there += status == ANIC_OK;
       }
       EXPECT_GT(there, 0U);
@@ -161,23 +161,23 @@ TEST(AnicStream, FailsAsSoonAsAChunkIsDamaged) {
   const format::Chunk chunk = *reader.find("MESH", 0);
   file[chunk.offset] ^= 1;
   const Stream stream = new_stream();
-  EXPECT_EQ(anic_stream_push(stream.get(), file.data(), chunk.offset + 3), ANIC_OK);
-  EXPECT_EQ(anic_stream_push(stream.get(), file.data() + chunk.offset + 3, 1000),
+  EXPECT_EQ(anic_push_bytes(stream.get(), file.data(), chunk.offset + 3), ANIC_OK);
+  EXPECT_EQ(anic_push_bytes(stream.get(), file.data() + chunk.offset + 3, 1000),
             ANIC_E_CHUNK_CHECKSUM);
   anic_failure failure;
-  anic_stream_failure(stream.get(), &failure);
+  anic_get_stream_failure(stream.get(), &failure);
   EXPECT_STREQ(failure.chunk, "MESH");
   EXPECT_EQ(failure.offset, chunk.offset);
-  EXPECT_EQ(anic_stream_push(stream.get(), file.data(), 1), ANIC_E_CHUNK_CHECKSUM);
+  EXPECT_EQ(anic_push_bytes(stream.get(), file.data(), 1), ANIC_E_CHUNK_CHECKSUM);
   anic_asset* asset = nullptr;
-  EXPECT_EQ(anic_stream_open(stream.get(), &asset, &failure), ANIC_E_CHUNK_CHECKSUM);
+  EXPECT_EQ(anic_open_asset_from_stream(stream.get(), &asset, &failure), ANIC_E_CHUNK_CHECKSUM);
 
   const Stream limited = [] {
     anic_options options = {};
     options.limits.vertices = 5;
     return new_stream(&options);
   }();
-  EXPECT_EQ(anic_stream_push(limited.get(), file.data(), chunk.offset), ANIC_E_LIMIT);
+  EXPECT_EQ(anic_push_bytes(limited.get(), file.data(), chunk.offset), ANIC_E_LIMIT);
 }
 
 TEST(AnicStream, ChecksThePaddingToo) {
@@ -193,7 +193,7 @@ TEST(AnicStream, ChecksThePaddingToo) {
   ASSERT_LT(at, file.size());
   file[at] = 1;
   const Stream stream = new_stream();
-  EXPECT_EQ(anic_stream_push(stream.get(), file.data(), file.size()), ANIC_E_PADDING);
+  EXPECT_EQ(anic_push_bytes(stream.get(), file.data(), file.size()), ANIC_E_PADDING);
 }
 
 struct FileInMemory {
@@ -222,7 +222,8 @@ TEST(AnicReader, OpensThroughACallback) {
     anic_options options = {};
     options.allocator = memory.allocator();
     anic_asset* asset = nullptr;
-    ASSERT_EQ(anic_asset_open_reader(&reader, file.size(), &options, &asset, nullptr), ANIC_OK);
+    ASSERT_EQ(anic_open_asset_from_reader(&reader, file.size(), &options, &asset, nullptr),
+              ANIC_OK);
     EXPECT_EQ(source.read, file.size());
     expect_same(Asset(asset), open(file));
     EXPECT_EQ(memory.held, 0U);
@@ -242,17 +243,19 @@ TEST(AnicReader, ChecksLimitsBeforeItReadsTheRest) {
   limited.limits.frames = 3;
   anic_asset* asset = nullptr;
   anic_failure failure;
-  EXPECT_EQ(anic_asset_open_reader(&reader, file.size(), &limited, &asset, &failure), ANIC_E_LIMIT);
+  EXPECT_EQ(anic_open_asset_from_reader(&reader, file.size(), &limited, &asset, &failure),
+            ANIC_E_LIMIT);
   EXPECT_EQ(source.read, 4096U);
   EXPECT_STREQ(failure.chunk, "LIMI");
   for (uint64_t fail : {uint64_t{10}, uint64_t{4096}, uint64_t{file.size() - 1}}) {
     source.fail_from = fail;
-    EXPECT_EQ(anic_asset_open_reader(&reader, file.size(), nullptr, &asset, &failure), ANIC_E_READ);
+    EXPECT_EQ(anic_open_asset_from_reader(&reader, file.size(), nullptr, &asset, &failure),
+              ANIC_E_READ);
   }
   source.fail_from = UINT64_MAX;
-  EXPECT_EQ(anic_asset_open_reader(&reader, file.size() - 1, nullptr, &asset, &failure),
+  EXPECT_EQ(anic_open_asset_from_reader(&reader, file.size() - 1, nullptr, &asset, &failure),
             ANIC_E_TRUNCATED);
-  EXPECT_EQ(anic_asset_open_reader(&reader, 0, nullptr, &asset, &failure), ANIC_E_MAGIC);
+  EXPECT_EQ(anic_open_asset_from_reader(&reader, 0, nullptr, &asset, &failure), ANIC_E_MAGIC);
 }
 
 }  // namespace

@@ -41,37 +41,40 @@ TEST(AnicWrapper, OpensPlaysAndGivesBack) {
     EXPECT_EQ(asset.info().frame_count, info_of(expected).frame_count);
     EXPECT_EQ(asset.mesh().vertex_count, vertices_of(expected));
     EXPECT_EQ(asset.polygons().polygon_count, asset.mesh().polygon_count);
-    EXPECT_EQ(asset.copies().size(), asset.mesh().vertex_count);
-    EXPECT_EQ(asset.time(3), anic_frame_time(expected.get(), 3));
+    EXPECT_EQ(asset.coded_vertices().size(), asset.mesh().vertex_count);
+    EXPECT_EQ(asset.frame_time(3), anic_get_frame_time(expected.get(), 3));
     EXPECT_EQ(asset.mesh(7).vertex_count, 0U);
     EXPECT_EQ(asset.polygons(7).polygon_count, 0U);
-    EXPECT_EQ(asset.copies(7).size(), 0U);
+    EXPECT_EQ(asset.coded_vertices(7).size(), 0U);
 
-    const anic_mesh_info mesh = asset.mesh();
+    const anic_mesh mesh = asset.mesh();
     std::vector<uint16_t> narrow(size_t{3} * mesh.triangle_count);
     std::vector<uint32_t> wide(narrow.size());
-    ASSERT_TRUE(asset.triangles<uint16_t>(narrow));
-    ASSERT_TRUE(asset.triangles<uint32_t>(wide));
+    ASSERT_TRUE(asset.write_indices<uint16_t>(narrow));
+    ASSERT_TRUE(asset.write_indices<uint32_t>(wide));
     EXPECT_TRUE(std::equal(wide.begin(), wide.end(), narrow.begin()));
     wide.pop_back();
-    EXPECT_EQ(asset.triangles<uint32_t>(wide).code(), ANIC_E_BUFFER_SIZE);
+    EXPECT_EQ(asset.write_indices<uint32_t>(wide).code(), ANIC_E_BUFFER_SIZE);
 
     anic::Context context;
     ASSERT_TRUE(context.create(asset));
     std::vector<float> points(size_t{3} * mesh.vertex_count);
-    EXPECT_EQ(context.positions(anic::output(points), 0, mesh.vertex_count).code(), ANIC_E_STATE);
+    EXPECT_EQ(context.write_positions(anic::output(points), 0, mesh.vertex_count).code(),
+              ANIC_E_STATE);
     ASSERT_TRUE(context.seek_frame(5));
-    ASSERT_TRUE(context.positions(anic::output(points), 0, mesh.vertex_count));
+    ASSERT_TRUE(context.write_positions(anic::output(points), 0, mesh.vertex_count));
     EXPECT_EQ(points, frame(expected, 5));
-    ASSERT_TRUE(context.seek(asset.time(9), ANIC_LINEAR, ANIC_LOOP));
-    ASSERT_TRUE(context.positions(anic::output(points), 0, mesh.vertex_count, ANIC_PREVIOUS));
+    ASSERT_TRUE(context.seek(asset.frame_time(9), ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP));
+    ASSERT_TRUE(
+        context.write_positions(anic::output(points), 0, mesh.vertex_count, ANIC_WHEN_PREVIOUS));
     EXPECT_EQ(points, frame(expected, 5));
     ASSERT_TRUE(context.forget_previous());
-    ASSERT_TRUE(context.positions(anic::output(points), 0, mesh.vertex_count, ANIC_PREVIOUS));
+    ASSERT_TRUE(
+        context.write_positions(anic::output(points), 0, mesh.vertex_count, ANIC_WHEN_PREVIOUS));
     EXPECT_EQ(points, frame(expected, 9));
 
     anic_box now, table, clip;
-    ASSERT_TRUE(context.bounds(&now));
+    ASSERT_TRUE(context.compute_bounds(&now));
     ASSERT_TRUE(asset.frame_bounds(9, &table));
     ASSERT_TRUE(asset.bounds(&clip));
     EXPECT_EQ(std::memcmp(&now, &table, sizeof now), 0);
@@ -87,16 +90,16 @@ TEST(AnicWrapper, OpensPlaysAndGivesBack) {
     const std::array<uint32_t, 2> frames = {2, 7};
     std::vector<float> two[2] = {points, points};
     const std::array<anic_output, 2> outputs = {anic::output(two[0]), anic::output(two[1])};
-    ASSERT_TRUE(asset.frames(frames, outputs, 0, mesh.vertex_count));
+    ASSERT_TRUE(asset.write_frames(frames, outputs, 0, mesh.vertex_count));
     EXPECT_EQ(two[0], frame(expected, 2));
     EXPECT_EQ(two[1], frame(expected, 7));
-    EXPECT_EQ(asset.frames(frames, {outputs.data(), 1}, 0, 1).code(), ANIC_E_ARGUMENT);
+    EXPECT_EQ(asset.write_frames(frames, {outputs.data(), 1}, 0, 1).code(), ANIC_E_ARGUMENT);
 
-    anic::Normals normals;
+    anic::NormalPlan normals;
     ASSERT_TRUE(normals.create(asset));
     ASSERT_EQ(normals.size(), mesh.vertex_count);
     std::vector<float> directions(points.size());
-    ASSERT_TRUE(normals.compute(points.data(), anic::output(directions), 0, mesh.vertex_count));
+    ASSERT_TRUE(normals.write_normals(points.data(), anic::output(directions), 0, mesh.vertex_count));
     EXPECT_NEAR(std::hypot(directions[0], directions[1], directions[2]), 1, 1e-6);
   }
   EXPECT_EQ(memory.held, 0U);
@@ -141,7 +144,7 @@ TEST(AnicWrapper, OpensThroughAFunction) {
 TEST(AnicWrapper, StreamsAndQueries) {
   const format::Bytes& file = limb();
   anic_requirements needs;
-  ASSERT_TRUE(anic::query(file, &needs));
+  ASSERT_TRUE(anic::get_requirements(file, &needs));
   anic::Stream stream;
   ASSERT_TRUE(stream.create());
   anic::Asset asset;
@@ -169,13 +172,14 @@ TEST(AnicWrapper, PutsABoxIntoSixteenBits) {
   const std::vector<float> exact = frame(open(limb()), 4);
   const uint32_t n = asset.mesh().vertex_count;
   std::vector<int16_t> bits(size_t{3} * n);
-  for (anic_format format : {ANIC_UNORM16X3, ANIC_SNORM16X3}) {
-    const double steps = format == ANIC_UNORM16X3 ? 65535 : 32767;
+  for (anic_format format : {ANIC_FORMAT_UNORM16X3, ANIC_FORMAT_SNORM16X3}) {
+    const double steps = format == ANIC_FORMAT_UNORM16X3 ? 65535 : 32767;
     const anic_output out = anic::within(anic::output(bits.data(), 2 * bits.size(), format), box);
-    ASSERT_TRUE(context.positions(out, 0, n));
+    ASSERT_TRUE(context.write_positions(out, 0, n));
     for (size_t i = 0; i < bits.size(); ++i) {
-      const double stored =
-          format == ANIC_UNORM16X3 ? static_cast<double>(static_cast<uint16_t>(bits[i])) : bits[i];
+      const double stored = format == ANIC_FORMAT_UNORM16X3
+                                ? static_cast<double>(static_cast<uint16_t>(bits[i]))
+                                : bits[i];
       const double scale = static_cast<double>(out.scale[i % 3]);
       const double x = static_cast<double>(out.offset[i % 3]) + scale * stored / steps;
       ASSERT_NEAR(x, static_cast<double>(exact[i]), 0.51 * scale / steps + 1e-6 * scale);

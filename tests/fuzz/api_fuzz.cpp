@@ -22,7 +22,7 @@ anic_status open_reader(const format::Bytes& file, const anic_options& options, 
     std::copy_n(bytes.data() + offset, size, static_cast<uint8_t*>(to));
     return 0;
   };
-  return anic_asset_open_reader(&reader, file.size(), &options, out, failure);
+  return anic_open_asset_from_reader(&reader, file.size(), &options, out, failure);
 }
 
 }  // namespace
@@ -40,9 +40,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     options.limits.frames = 50;  // bounds cost playing all of them
 
   anic_requirements needs;
-  const anic_status query = anic_query(file.data(), file.size(), &options, &needs);
+  const anic_status query = anic_get_requirements(file.data(), file.size(), &options, &needs);
   anic_requirements of_prefix;
-  const anic_status early = anic_query(
+  const anic_status early = anic_get_requirements(
       file.data(), script.below(static_cast<uint32_t>(file.size()) + 1), &options, &of_prefix);
   require(early != ANIC_E_INTERNAL);
   require(memory.held == 0);
@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const bool by_reader = mode % 4 == 3;
   const anic_status status =
       by_reader ? open_reader(file, options, &asset, &failure)
-                : anic_asset_open(file.data(), file.size(), &options, &asset, &failure);
+                : anic_open_asset(file.data(), file.size(), &options, &asset, &failure);
   require(failure.status == status && (asset != nullptr) == (status == ANIC_OK));
   require(status != ANIC_E_INTERNAL && status != ANIC_E_MEMORY);
   require(query == ANIC_OK || status != ANIC_OK);
@@ -60,12 +60,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     require(memory.peak <= needs.opening_bytes + (by_reader ? file.size() : 0));
   if (asset) {
     require(memory.held <= needs.resident_bytes + needs.resident_bytes / 20 + 4096);
-    const anic_status verified = anic_asset_verify(asset);
+    const anic_status verified = anic_verify_asset(asset);
     require(verified == ANIC_OK || verified == ANIC_E_HASH || verified == ANIC_E_STATE);
     sample(asset, &memory, script);
     look(asset, script);
   }
-  anic_asset_close(asset);
+  anic_close_asset(asset);
   require(memory.held == 0);
   return 0;
 }

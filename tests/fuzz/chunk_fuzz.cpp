@@ -60,14 +60,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   CappedMemory memory;
   const anic_options options = memory.options();
   anic_asset* asset = nullptr;
-  const anic_status status = anic_asset_open(file.data(), file.size(), &options, &asset, nullptr);
+  const anic_status status = anic_open_asset(file.data(), file.size(), &options, &asset, nullptr);
   require(status != ANIC_E_INTERNAL && status != ANIC_E_MEMORY);
   if (asset) {
     const Script script = script_of(data, size);
     sample(asset, &memory, script);
     look(asset, script);
   }
-  anic_asset_close(asset);
+  anic_close_asset(asset);
   require(memory.held == 0);
   return 0;
 }

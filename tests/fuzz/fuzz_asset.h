@@ -90,7 +90,7 @@ class GuardedOutput {
   void check() const {
     for (size_t i = 0; i < kGuard; ++i)
       require(bytes_[i] == 0xA5 && bytes_[bytes_.size() - 1 - i] == 0xA5);
-    if (out_.format > ANIC_FLOAT32X4 || size_ == 0)
+    if (out_.format > ANIC_FORMAT_FLOAT32X4 || size_ == 0)
       return;
     const size_t stride = out_.stride == 0 ? element_ : out_.stride;
     for (size_t at = 0; at < size_; at += stride) {
@@ -109,24 +109,24 @@ class GuardedOutput {
 
 /// What a host does with an asset, some of it wrong; nothing of it allocates.
 inline void sample(const anic_asset* asset, CappedMemory* memory, Script script) {
-  anic_info info;
-  anic_asset_info(asset, &info);
+  anic_asset_info info;
+  anic_get_asset_info(asset, &info);
   require(info.mesh_count > 0 && info.frame_count > 0);
   anic_context* context = nullptr;
-  if (anic_context_create(asset, nullptr, &context) != ANIC_OK)
+  if (anic_create_context(asset, nullptr, &context) != ANIC_OK)
     return;
   const size_t calls = memory->calls;
   for (int step = 0; step < 6; ++step) {
     const uint32_t mesh = script.below(info.mesh_count);
-    anic_mesh_info sizes;
-    require(anic_mesh(asset, mesh, &sizes) == ANIC_OK);
+    anic_mesh sizes;
+    require(anic_get_mesh(asset, mesh, &sizes) == ANIC_OK);
     if (script.byte() % 2) {
       const anic_status status = anic_seek_frame(context, script.below(info.frame_count + 1));
       require(status == ANIC_OK || status == ANIC_E_FRAME_RANGE);
     } else {
       const double span = info.end_time - info.start_time + 1;
       const double time = info.start_time + span * (script.below(1000) / 300.0 - 1);
-      const auto interpolation = static_cast<anic_interpolation>(script.byte() % 4);
+      const auto interpolation = static_cast<anic_sampling>(script.byte() % 4);
       const auto wrap = static_cast<anic_wrap>(script.byte() % 4);
       anic_seek_time(context, time, interpolation, wrap);
     }
@@ -134,12 +134,12 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
     const uint32_t first = script.below(sizes.vertex_count + 1);
     const uint32_t count = script.below(sizes.vertex_count - first + 1);
     const GuardedOutput points(count, &script);
-    if (anic_positions(context, mesh, when, first, count, points.out()) == ANIC_OK)
+    if (anic_write_positions(context, mesh, when, first, count, points.out()) == ANIC_OK)
       points.check();
     const uint32_t frames[2] = {script.below(info.frame_count), script.below(info.frame_count)};
     const GuardedOutput one(count, &script), two(count, &script);
     const anic_output outs[2] = {*one.out(), *two.out()};
-    if (anic_frames(asset, mesh, frames, 2, first, count, outs) == ANIC_OK) {
+    if (anic_write_frames(asset, mesh, frames, 2, first, count, outs) == ANIC_OK) {
       one.check();
       two.check();
     }
@@ -148,16 +148,16 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
     const anic_value_output value_out = {values.data(), values.size(), 0,
                                          static_cast<anic_value_format>(script.byte() % 5),
                                          script.below(18)};
-    anic_attribute_values(context, mesh, attribute, when, first, count, &value_out);
+    anic_write_attribute(context, mesh, attribute, when, first, count, &value_out);
     anic_box box;
-    if (anic_bounds(context, mesh, when, &box) == ANIC_OK && sizes.vertex_count > 0)
+    if (anic_compute_bounds(context, mesh, when, &box) == ANIC_OK && sizes.vertex_count > 0)
       require(box.min[0] <= box.max[0] && std::isfinite(box.min[2]));
     anic_part parts[ANIC_MAX_PARTS];
     uint32_t part_count = 0;
-    if (anic_parts(context, mesh, when, parts, &part_count) == ANIC_OK) {
+    if (anic_get_parts(context, mesh, when, parts, &part_count) == ANIC_OK) {
       for (uint32_t p = 0; p < part_count; ++p) {
         anic_basis basis;
-        require(anic_segment_basis(asset, parts[p].segment, &basis) == ANIC_OK);
+        require(anic_get_basis(asset, parts[p].segment, &basis) == ANIC_OK);
         require(basis.vertex_count == sizes.vertex_count);
         for (uint32_t k = 0; k < parts[p].correction_count; ++k)
           require(parts[p].corrections[k].vertex < sizes.vertex_count);
@@ -165,42 +165,42 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
           require(std::isfinite(parts[p].weights[j]));
       }
     }
-    if (anic_attribute_parts(context, mesh, attribute, 3 * script.below(6), when, parts,
-                             &part_count) == ANIC_OK) {
+    if (anic_get_attribute_parts(context, mesh, attribute, 3 * script.below(6), when, parts,
+                                 &part_count) == ANIC_OK) {
       for (uint32_t p = 0; p < part_count; ++p) {
         anic_basis basis;
-        require(anic_segment_basis(asset, parts[p].segment, &basis) == ANIC_OK);
+        require(anic_get_basis(asset, parts[p].segment, &basis) == ANIC_OK);
         require(basis.attribute == attribute && basis.mesh == mesh);
       }
     }
     anic_forget_previous(context);
   }
   require(memory->calls == calls);
-  anic_context_destroy(context);
+  anic_destroy_context(context);
 }
 
 /// The parts of an asset that do not move.
 inline void look(const anic_asset* asset, Script script) {
-  anic_info info;
-  anic_asset_info(asset, &info);
+  anic_asset_info info;
+  anic_get_asset_info(asset, &info);
   for (uint32_t m = 0; m < info.mesh_count; ++m) {
-    anic_mesh_info sizes;
+    anic_mesh sizes;
     anic_polygons polygons;
     const uint32_t* copies = nullptr;
-    require(anic_mesh(asset, m, &sizes) == ANIC_OK);
-    require(anic_mesh_polygons(asset, m, &polygons) == ANIC_OK);
-    require(anic_mesh_copies(asset, m, &copies) == ANIC_OK);
+    require(anic_get_mesh(asset, m, &sizes) == ANIC_OK);
+    require(anic_get_polygons(asset, m, &polygons) == ANIC_OK);
+    require(anic_get_coded_vertices(asset, m, &copies) == ANIC_OK);
     for (uint32_t v = 0; v < sizes.vertex_count; ++v)
       require(copies[v] < sizes.coded_vertex_count);
     for (uint32_t i = 0; i < sizes.attribute_count; ++i) {
       anic_attribute a;
-      require(anic_mesh_attribute(asset, m, i, &a) == ANIC_OK);
+      require(anic_get_attribute(asset, m, i, &a) == ANIC_OK);
       require(a.components > 0 ? a.values != nullptr : a.labels != nullptr || a.count == 0);
       for (uint32_t k = 0; k < a.label_count; ++k)
-        require(anic_attribute_label(asset, m, i, k) != nullptr);
+        require(anic_get_label_name(asset, m, i, k) != nullptr);
       for (uint64_t k = 0; k < uint64_t{a.count} * a.components; ++k)
         require(std::isfinite(a.values[k]));
-      for (uint32_t k = 0; k < a.count && a.domain == ANIC_POLYGONS; ++k)
+      for (uint32_t k = 0; k < a.count && a.domain == ANIC_DOMAIN_POLYGONS; ++k)
         require(a.labels[k] <= a.label_count);
     }
     for (uint32_t p = 0; p < polygons.polygon_count; ++p)
@@ -209,7 +209,7 @@ inline void look(const anic_asset* asset, Script script) {
     for (uint32_t c = 0; c < sizes.corner_count; ++c)
       require(polygons.corners[c] < sizes.vertex_count);
     std::vector<uint32_t> indices(size_t{3} * sizes.triangle_count);
-    require(anic_triangles(asset, m, 4, indices.data(), 4 * indices.size()) == ANIC_OK);
+    require(anic_write_indices(asset, m, 4, indices.data(), 4 * indices.size()) == ANIC_OK);
     for (const uint32_t v : indices)
       require(v < sizes.vertex_count);
 
@@ -217,15 +217,15 @@ inline void look(const anic_asset* asset, Script script) {
     wanted.crease_angle = script.byte() % 3 * 30;
     wanted.per_corner = script.byte() % 2;
     wanted.reference_frame = script.below(info.frame_count);
-    anic_normals* normals = nullptr;
-    if (anic_normals_create(asset, m, &wanted, nullptr, &normals) != ANIC_OK)
+    anic_normal_plan* normals = nullptr;
+    if (anic_create_normal_plan(asset, m, &wanted, nullptr, &normals) != ANIC_OK)
       continue;
     const std::vector<float> points(size_t{3} * sizes.vertex_count, 1.0F);
-    const GuardedOutput out(anic_normals_count(normals), &script);
-    require(anic_normals_compute(normals, points.data(), 0, 0, anic_normals_count(normals),
-                                 out.out()) == ANIC_OK);
+    const GuardedOutput out(anic_get_normal_count(normals), &script);
+    require(anic_write_normals(normals, points.data(), 0, 0, anic_get_normal_count(normals),
+                               out.out()) == ANIC_OK);
     out.check();
-    anic_normals_destroy(normals);
+    anic_destroy_normal_plan(normals);
   }
 }
 

@@ -14,19 +14,19 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const anic_options options = memory.options(), whole_options = whole_memory.options();
   anic_asset* whole = nullptr;
   const anic_status expected =
-      anic_asset_open(file.data(), file.size(), &whole_options, &whole, nullptr);
-  anic_asset_close(whole);
+      anic_open_asset(file.data(), file.size(), &whole_options, &whole, nullptr);
+  anic_close_asset(whole);
 
   anic_stream* stream = nullptr;
-  require(anic_stream_create(&options, &stream) == ANIC_OK);
+  require(anic_create_stream(&options, &stream) == ANIC_OK);
   anic_stream_info info = {};
   int opened = 0;
   for (size_t at = 0; at < file.size();) {
     const size_t piece = std::min<size_t>(1 + script.below(2048), file.size() - at);
-    const anic_status status = anic_stream_push(stream, file.data() + at, piece);
+    const anic_status status = anic_push_bytes(stream, file.data() + at, piece);
     at += piece;
     const uint32_t before = info.arrived_layers;
-    anic_stream_info_get(stream, &info);
+    anic_get_stream_info(stream, &info);
     if (status != ANIC_OK) {
       require(expected != ANIC_OK);
       break;
@@ -37,17 +37,17 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     ++opened;
     anic_asset* asset = nullptr;
     anic_failure failure;
-    const anic_status open = anic_stream_open(stream, &asset, &failure);
+    const anic_status open = anic_open_asset_from_stream(stream, &asset, &failure);
     require(open != ANIC_E_INTERNAL && open != ANIC_E_MEMORY);
     if (info.complete)
       require(open == expected);
     if (asset)
       sample(asset, &memory, script);
-    anic_asset_close(asset);
+    anic_close_asset(asset);
   }
   if (expected == ANIC_OK)
     require(info.complete);
-  anic_stream_destroy(stream);
+  anic_destroy_stream(stream);
   require(memory.held == 0 && whole_memory.held == 0);
   return 0;
 }

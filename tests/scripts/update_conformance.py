@@ -75,17 +75,17 @@ class Library:
 
     def __init__(self, path):
         self.functions = ctypes.CDLL(str(path))
-        self.functions.anic_asset_verify.argtypes = [ctypes.c_void_p]
-        self.functions.anic_asset_close.argtypes = [ctypes.c_void_p]
+        self.functions.anic_verify_asset.argtypes = [ctypes.c_void_p]
+        self.functions.anic_close_asset.argtypes = [ctypes.c_void_p]
 
     def status(self, data):
         """Status and what it says of the place."""
         asset, failure = ctypes.c_void_p(), self.Failure()
-        status = self.functions.anic_asset_open(data, ctypes.c_size_t(len(data)), None, ctypes.byref(asset),
+        status = self.functions.anic_open_asset(data, ctypes.c_size_t(len(data)), None, ctypes.byref(asset),
                                                 ctypes.byref(failure))
         if status == 0:
-            status = self.functions.anic_asset_verify(asset)
-            self.functions.anic_asset_close(asset)
+            status = self.functions.anic_verify_asset(asset)
+            self.functions.anic_close_asset(asset)
         return status, (failure.detail or b"").decode()
 
 

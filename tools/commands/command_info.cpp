@@ -326,7 +326,8 @@ void run(const InfoCommand& command) {
     fail_clip(command.input, failure);
   anic_options options = {};
   options.limits.bytes = UINT64_MAX;
-  anic_query(bytes.data(), bytes.size(), &options, &contents.memory);  // it is open: nothing fails
+  anic_get_requirements(bytes.data(), bytes.size(), &options,
+                        &contents.memory);  // it is open: nothing fails
   if (command.json)
     print_json(command.input, contents);
   else

@@ -26,7 +26,7 @@ class [[nodiscard]] Status {
 
   constexpr anic_status code() const { return code_; }
 
-  const char* text() const { return anic_status_string(code_); }
+  const char* text() const { return anic_get_status_text(code_); }
 
   friend constexpr bool operator==(Status a, Status b) { return a.code_ == b.code_; }
 
@@ -96,7 +96,7 @@ inline anic_value_output value_output(Span<float> values) {
 /// Offset and scale of a 16-bit output for positions in a box.
 inline anic_output within(anic_output out, const anic_box& box) {
   for (int c = 0; c < 3; ++c) {
-    const bool centred = out.format == ANIC_SNORM16X3 || out.format == ANIC_SNORM16X4;
+    const bool centred = out.format == ANIC_FORMAT_SNORM16X3 || out.format == ANIC_FORMAT_SNORM16X4;
     const float size = box.max[c] - box.min[c];
     out.offset[c] = centred ? box.min[c] + size / 2 : box.min[c];
     out.scale[c] = centred ? size / 2 : size;
@@ -125,9 +125,9 @@ Status receive(H* handle, Make make) {
 
 }  // namespace detail
 
-inline Status query(Span<const uint8_t> head, anic_requirements* out,
-                    const anic_options* options = nullptr) {
-  return anic_query(head.data(), head.size(), options, out);
+inline Status get_requirements(Span<const uint8_t> head, anic_requirements* out,
+                               const anic_options* options = nullptr) {
+  return anic_get_requirements(head.data(), head.size(), options, out);
 }
 
 /// A file that arrives piece by piece.
@@ -135,7 +135,7 @@ class Stream {
  public:
   Status create(const anic_options* options = nullptr) {
     return detail::receive<anic_stream>(
-        &handle_, [&](anic_stream** out) { return anic_stream_create(options, out); });
+        &handle_, [&](anic_stream** out) { return anic_create_stream(options, out); });
   }
 
   explicit operator bool() const { return handle_ != nullptr; }
@@ -143,24 +143,24 @@ class Stream {
   anic_stream* get() const { return handle_.get(); }
 
   Status push(Span<const uint8_t> bytes) {
-    return anic_stream_push(get(), bytes.data(), bytes.size());
+    return anic_push_bytes(get(), bytes.data(), bytes.size());
   }
 
   anic_stream_info info() const {
     anic_stream_info info = {};
-    anic_stream_info_get(get(), &info);
+    anic_get_stream_info(get(), &info);
     return info;
   }
 
   anic_failure failure() const {
     anic_failure failure = {};
     failure.detail = "";
-    anic_stream_failure(get(), &failure);
+    anic_get_stream_failure(get(), &failure);
     return failure;
   }
 
  private:
-  detail::Handle<anic_stream, anic_stream_destroy> handle_;
+  detail::Handle<anic_stream, anic_destroy_stream> handle_;
 };
 
 /// An opened file. Empty until open() succeeds.
@@ -169,7 +169,7 @@ class Asset {
   Status open(Span<const uint8_t> file, const anic_options* options = nullptr,
               anic_failure* failure = nullptr) {
     return detail::receive<anic_asset>(&handle_, [&](anic_asset** out) {
-      return anic_asset_open(file.data(), file.size(), options, out, failure);
+      return anic_open_asset(file.data(), file.size(), options, out, failure);
     });
   }
 
@@ -184,14 +184,15 @@ class Asset {
                                                                                              : 1;
                                 }};
     return detail::receive<anic_asset>(&handle_, [&](anic_asset** out) {
-      return anic_asset_open_reader(&reader, file_size, options, out, failure);
+      return anic_open_asset_from_reader(&reader, file_size, options, out, failure);
     });
   }
 
   /// What has arrived of a stream.
   Status open(const Stream& stream, anic_failure* failure = nullptr) {
-    return detail::receive<anic_asset>(
-        &handle_, [&](anic_asset** out) { return anic_stream_open(stream.get(), out, failure); });
+    return detail::receive<anic_asset>(&handle_, [&](anic_asset** out) {
+      return anic_open_asset_from_stream(stream.get(), out, failure);
+    });
   }
 
   void close() { handle_.reset(); }
@@ -200,22 +201,22 @@ class Asset {
 
   anic_asset* get() const { return handle_.get(); }
 
-  anic_info info() const {
-    anic_info info = {};
-    anic_asset_info(get(), &info);
+  anic_asset_info info() const {
+    anic_asset_info info = {};
+    anic_get_asset_info(get(), &info);
     return info;
   }
 
-  anic_mesh_info mesh(uint32_t mesh = 0) const {
-    anic_mesh_info info = {};
-    if (anic_mesh(get(), mesh, &info) != ANIC_OK)
+  anic_mesh mesh(uint32_t mesh = 0) const {
+    anic_mesh info = {};
+    if (anic_get_mesh(get(), mesh, &info) != ANIC_OK)
       info = {};
     return info;
   }
 
   anic_polygons polygons(uint32_t mesh = 0) const {
     anic_polygons polygons = {};
-    if (anic_mesh_polygons(get(), mesh, &polygons) != ANIC_OK)
+    if (anic_get_polygons(get(), mesh, &polygons) != ANIC_OK)
       polygons = {};
     return polygons;
   }
@@ -223,58 +224,58 @@ class Asset {
   /// Texture coordinates, colours, materials and the like; mesh().attribute_count of them.
   anic_attribute attribute(uint32_t number, uint32_t mesh = 0) const {
     anic_attribute attribute = {};
-    if (anic_mesh_attribute(get(), mesh, number, &attribute) != ANIC_OK)
+    if (anic_get_attribute(get(), mesh, number, &attribute) != ANIC_OK)
       attribute = {};
     return attribute;
   }
 
   /// Null if there is no such label.
-  const char* attribute_label(uint32_t attribute, uint32_t label, uint32_t mesh = 0) const {
-    return anic_attribute_label(get(), mesh, attribute, label);
+  const char* label_name(uint32_t attribute, uint32_t label, uint32_t mesh = 0) const {
+    return anic_get_label_name(get(), mesh, attribute, label);
   }
 
   /// Which vertices move together.
-  Span<const uint32_t> copies(uint32_t mesh = 0) const {
+  Span<const uint32_t> coded_vertices(uint32_t mesh = 0) const {
     const uint32_t* first = nullptr;
-    return anic_mesh_copies(get(), mesh, &first) == ANIC_OK
+    return anic_get_coded_vertices(get(), mesh, &first) == ANIC_OK
                ? Span<const uint32_t>(first, this->mesh(mesh).vertex_count)
                : Span<const uint32_t>();
   }
 
   /// Index is uint16_t or uint32_t.
   template <class Index>
-  Status triangles(Span<Index> out, uint32_t mesh = 0) const {
+  Status write_indices(Span<Index> out, uint32_t mesh = 0) const {
     static_assert(sizeof(Index) == 2 || sizeof(Index) == 4);
-    return anic_triangles(get(), mesh, sizeof(Index), out.data(), out.size_bytes());
+    return anic_write_indices(get(), mesh, sizeof(Index), out.data(), out.size_bytes());
   }
 
-  double time(uint32_t frame) const { return anic_frame_time(get(), frame); }
+  double frame_time(uint32_t frame) const { return anic_get_frame_time(get(), frame); }
 
-  Status verify() const { return anic_asset_verify(get()); }
+  Status verify() const { return anic_verify_asset(get()); }
 
   /// Whole frames, without a context; as many outputs as frames.
-  Status frames(Span<const uint32_t> frames, Span<const anic_output> outputs, uint32_t first,
-                uint32_t count, uint32_t mesh = 0) const {
+  Status write_frames(Span<const uint32_t> frames, Span<const anic_output> outputs, uint32_t first,
+                      uint32_t count, uint32_t mesh = 0) const {
     if (frames.size() != outputs.size() || frames.size() > ANIC_MAX_FRAMES)
       return ANIC_E_ARGUMENT;
-    return anic_frames(get(), mesh, frames.data(), static_cast<uint32_t>(frames.size()), first,
-                       count, outputs.data());
+    return anic_write_frames(get(), mesh, frames.data(), static_cast<uint32_t>(frames.size()),
+                             first, count, outputs.data());
   }
 
   Status bounds(anic_box* out, uint32_t mesh = 0) const {
-    return anic_clip_bounds(get(), mesh, out);
+    return anic_get_clip_bounds(get(), mesh, out);
   }
 
   Status frame_bounds(uint32_t frame, anic_box* out, uint32_t mesh = 0) const {
-    return anic_frame_bounds(get(), mesh, frame, out);
+    return anic_get_frame_bounds(get(), mesh, frame, out);
   }
 
   Status basis(uint32_t segment, anic_basis* out) const {
-    return anic_segment_basis(get(), segment, out);
+    return anic_get_basis(get(), segment, out);
   }
 
  private:
-  detail::Handle<anic_asset, anic_asset_close> handle_;
+  detail::Handle<anic_asset, anic_close_asset> handle_;
 };
 
 /// An instance of an asset, which must outlive it.
@@ -282,7 +283,7 @@ class Context {
  public:
   Status create(const Asset& asset, const anic_allocator* allocator = nullptr) {
     return detail::receive<anic_context>(&handle_, [&](anic_context** out) {
-      return anic_context_create(asset.get(), allocator, out);
+      return anic_create_context(asset.get(), allocator, out);
     });
   }
 
@@ -292,70 +293,73 @@ class Context {
 
   Status seek_frame(uint32_t frame) { return anic_seek_frame(get(), frame); }
 
-  Status seek(double seconds, anic_interpolation interpolation = ANIC_LINEAR,
-              anic_wrap wrap = ANIC_CLAMP) {
-    return anic_seek_time(get(), seconds, interpolation, wrap);
+  Status seek(double seconds, anic_sampling sampling = ANIC_SAMPLE_LINEAR,
+              anic_wrap wrap = ANIC_WRAP_CLAMP) {
+    return anic_seek_time(get(), seconds, sampling, wrap);
   }
 
   Status forget_previous() { return anic_forget_previous(get()); }
 
-  Status positions(const anic_output& out, uint32_t first, uint32_t count,
-                   anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
-    return anic_positions(get(), mesh, when, first, count, &out);
+  Status write_positions(const anic_output& out, uint32_t first, uint32_t count,
+                         anic_when when = ANIC_WHEN_CURRENT, uint32_t mesh = 0) const {
+    return anic_write_positions(get(), mesh, when, first, count, &out);
   }
 
-  Status attribute_values(uint32_t attribute, const anic_value_output& out, uint32_t first,
-                          uint32_t count, anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
-    return anic_attribute_values(get(), mesh, attribute, when, first, count, &out);
+  Status write_attribute(uint32_t attribute, const anic_value_output& out, uint32_t first,
+                         uint32_t count, anic_when when = ANIC_WHEN_CURRENT,
+                         uint32_t mesh = 0) const {
+    return anic_write_attribute(get(), mesh, attribute, when, first, count, &out);
   }
 
-  Status bounds(anic_box* out, anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
-    return anic_bounds(get(), mesh, when, out);
+  Status compute_bounds(anic_box* out, anic_when when = ANIC_WHEN_CURRENT,
+                        uint32_t mesh = 0) const {
+    return anic_compute_bounds(get(), mesh, when, out);
   }
 
   /// At most ANIC_MAX_PARTS.
-  Status parts(Span<anic_part> out, uint32_t* count, anic_when when = ANIC_CURRENT,
+  Status parts(Span<anic_part> out, uint32_t* count, anic_when when = ANIC_WHEN_CURRENT,
                uint32_t mesh = 0) const {
     return out.size() < ANIC_MAX_PARTS ? Status(ANIC_E_BUFFER_SIZE)
-                                       : anic_parts(get(), mesh, when, out.data(), count);
+                                       : anic_get_parts(get(), mesh, when, out.data(), count);
   }
 
   /// Of three components of an attribute; at most ANIC_MAX_PARTS.
   Status attribute_parts(uint32_t attribute, uint32_t first_component, Span<anic_part> out,
-                         uint32_t* count, anic_when when = ANIC_CURRENT, uint32_t mesh = 0) const {
+                         uint32_t* count, anic_when when = ANIC_WHEN_CURRENT,
+                         uint32_t mesh = 0) const {
     return out.size() < ANIC_MAX_PARTS
                ? Status(ANIC_E_BUFFER_SIZE)
-               : anic_attribute_parts(get(), mesh, attribute, first_component, when, out.data(),
-                                      count);
+               : anic_get_attribute_parts(get(), mesh, attribute, first_component, when, out.data(),
+                                          count);
   }
 
  private:
-  detail::Handle<anic_context, anic_context_destroy> handle_;
+  detail::Handle<anic_context, anic_destroy_context> handle_;
 };
 
 /// How to make normals of a mesh; independent of the asset once made.
-class Normals {
+class NormalPlan {
  public:
   Status create(const Asset& asset, const anic_normal_options& options = {}, uint32_t mesh = 0,
                 const anic_allocator* allocator = nullptr) {
-    return detail::receive<anic_normals>(&handle_, [&](anic_normals** out) {
-      return anic_normals_create(asset.get(), mesh, &options, allocator, out);
+    return detail::receive<anic_normal_plan>(&handle_, [&](anic_normal_plan** out) {
+      return anic_create_normal_plan(asset.get(), mesh, &options, allocator, out);
     });
   }
 
   explicit operator bool() const { return handle_ != nullptr; }
 
-  anic_normals* get() const { return handle_.get(); }
+  anic_normal_plan* get() const { return handle_.get(); }
 
-  uint32_t size() const { return anic_normals_count(get()); }
+  uint32_t size() const { return anic_get_normal_count(get()); }
 
-  Status compute(const float* positions, const anic_output& out, uint32_t first, uint32_t count,
-                 size_t stride = 0) const {
-    return anic_normals_compute(get(), positions, stride, first, count, &out);
+  Status write_normals(const float* positions, const anic_output& out, uint32_t first,
+                       uint32_t count, size_t stride = 0) const {
+    return anic_write_normals(get(), positions, stride, first, count, &out);
   }
 
  private:
-  detail::Handle<anic_normals, anic_normals_destroy> handle_;
+  detail::Handle<anic_normal_plan, anic_destroy_normal_plan> handle_;
 };
 
 }  // namespace anic

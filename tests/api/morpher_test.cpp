@@ -44,7 +44,7 @@ TEST(AnicInterpolated, SeeksFramesInAnyOrderWithTheSameBits) {
     options.flags = ANIC_OPEN_BOUNDS;
     const Asset asset = open(file, &options);
     const Context context = context_of(asset);
-    EXPECT_EQ(anic_asset_verify(asset.get()), ANIC_OK);
+    EXPECT_EQ(anic_verify_asset(asset.get()), ANIC_OK);
     std::vector<float> expected(size_t{3} * clip.vertex_count());
     std::mt19937 random(1);
     for (int i = 0; i < 12; ++i) {
@@ -53,23 +53,23 @@ TEST(AnicInterpolated, SeeksFramesInAnyOrderWithTheSameBits) {
       const std::vector<float> before = i > 0 ? positions(asset, context) : expected;
       ASSERT_EQ(anic_seek_frame(context.get(), f), ANIC_OK);
       EXPECT_EQ(positions(asset, context), expected);
-      EXPECT_EQ(positions(asset, context, ANIC_PREVIOUS), before);
+      EXPECT_EQ(positions(asset, context, ANIC_WHEN_PREVIOUS), before);
       anic_box now, then;
-      ASSERT_EQ(anic_bounds(context.get(), 0, ANIC_CURRENT, &now), ANIC_OK);
-      ASSERT_EQ(anic_frame_bounds(asset.get(), 0, f, &then), ANIC_OK);
+      ASSERT_EQ(anic_compute_bounds(context.get(), 0, ANIC_WHEN_CURRENT, &now), ANIC_OK);
+      ASSERT_EQ(anic_get_frame_bounds(asset.get(), 0, f, &then), ANIC_OK);
       EXPECT_TRUE(std::equal(now.min, now.min + 3, then.min));
       EXPECT_TRUE(std::equal(now.max, now.max + 3, then.max));
     }
     ASSERT_EQ(anic_forget_previous(context.get()), ANIC_OK);
     ASSERT_EQ(anic_seek_frame(context.get(), 0), ANIC_OK);
-    EXPECT_EQ(positions(asset, context, ANIC_PREVIOUS), expected);
+    EXPECT_EQ(positions(asset, context, ANIC_WHEN_PREVIOUS), expected);
   }
 }
 
 TEST(AnicInterpolated, WritesOtherFormatsAndRangesFromSeveralThreads) {
   const Asset asset = open(interpolated_clip("helix"));
   const Context context = context_of(asset);
-  ASSERT_EQ(anic_seek_time(context.get(), 0.31, ANIC_CUBIC, ANIC_LOOP), ANIC_OK);
+  ASSERT_EQ(anic_seek_time(context.get(), 0.31, ANIC_SAMPLE_CUBIC, ANIC_WRAP_LOOP), ANIC_OK);
   const std::vector<float> all = positions(asset, context);
   const uint32_t n = vertices_of(asset);
   std::vector<float> cut(all.size() / 3 * 4, -5);
@@ -77,8 +77,9 @@ TEST(AnicInterpolated, WritesOtherFormatsAndRangesFromSeveralThreads) {
     anic_output output = {};
     output.data = cut.data() + size_t{4} * first;
     output.size = sizeof(float) * 4 * count;
-    output.format = ANIC_FLOAT32X4;
-    EXPECT_EQ(anic_positions(context.get(), 0, ANIC_CURRENT, first, count, &output), ANIC_OK);
+    output.format = ANIC_FORMAT_FLOAT32X4;
+    EXPECT_EQ(anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, first, count, &output),
+              ANIC_OK);
   };
   std::thread other([&] { write(0, 37); });
   write(37, n - 37);
@@ -97,10 +98,10 @@ TEST(AnicInterpolated, GivesAGpuTheShape) {
     anic_basis basis;
     anic_part parts[ANIC_MAX_PARTS];
     uint32_t count = 0;
-    ASSERT_EQ(anic_segment_basis(asset.get(), 0, &basis), ANIC_OK);
-    ASSERT_EQ(anic_parts(context.get(), 0, ANIC_CURRENT, parts, &count), ANIC_OK);
+    ASSERT_EQ(anic_get_basis(asset.get(), 0, &basis), ANIC_OK);
+    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
     ASSERT_EQ(count, 1U);
-    EXPECT_EQ(basis.reconstruction, ANIC_INTERPOLATED);
+    EXPECT_EQ(basis.reconstruction, ANIC_RECONSTRUCTION_MSGI);
     ASSERT_NE(parts[0].shape, nullptr);
     const std::vector<float> x = positions(asset, context);
     for (uint32_t v = 0; v < basis.vertex_count; ++v) {
@@ -115,7 +116,8 @@ TEST(AnicInterpolated, GivesAGpuTheShape) {
     std::vector<float> out(x.size());
     const anic_output output = floats(out);
     const uint32_t frame = 3;
-    EXPECT_EQ(anic_frames(asset.get(), 0, &frame, 1, 0, basis.vertex_count, &output), ANIC_E_STATE);
+    EXPECT_EQ(anic_write_frames(asset.get(), 0, &frame, 1, 0, basis.vertex_count, &output),
+              ANIC_E_STATE);
   }
 }
 
@@ -124,8 +126,9 @@ TEST(AnicInterpolated, TakesTheMemoryThatTheQueryToldAndNoMore) {
     SCOPED_TRACE(name);
     const format::Bytes& file = interpolated_clip(name);
     anic_requirements r;
-    ASSERT_EQ(anic_query(file.data(), 4096 < file.size() ? 4096 : file.size(), nullptr, &r),
-              ANIC_OK);
+    ASSERT_EQ(
+        anic_get_requirements(file.data(), 4096 < file.size() ? 4096 : file.size(), nullptr, &r),
+        ANIC_OK);
     CountingMemory memory;
     anic_options options = {};
     options.allocator = memory.allocator();
@@ -140,12 +143,12 @@ TEST(AnicInterpolated, TakesTheMemoryThatTheQueryToldAndNoMore) {
     EXPECT_EQ(memory.held - before, r.context_bytes);
     const size_t calls = memory.calls;
     ASSERT_EQ(anic_seek_frame(context.get(), 2), ANIC_OK);
-    ASSERT_EQ(anic_seek_time(context.get(), 0.4, ANIC_LINEAR, ANIC_CLAMP), ANIC_OK);
+    ASSERT_EQ(anic_seek_time(context.get(), 0.4, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP), ANIC_OK);
     positions(asset, context);
     EXPECT_EQ(memory.calls, calls);
     options.limits.bytes = r.resident_bytes;
     anic_asset* none = nullptr;
-    EXPECT_EQ(anic_asset_open(file.data(), file.size(), &options, &none, nullptr), ANIC_E_LIMIT);
+    EXPECT_EQ(anic_open_asset(file.data(), file.size(), &options, &none, nullptr), ANIC_E_LIMIT);
   }
 }
 
@@ -164,7 +167,7 @@ TEST(AnicInterpolated, RefusesDamagedFilesWithoutALeak) {
     anic_options options = {};
     options.allocator = memory.allocator();
     anic_asset* asset = nullptr;
-    EXPECT_NE(anic_asset_open(damaged.data(), damaged.size(), &options, &asset, nullptr), ANIC_OK);
+    EXPECT_NE(anic_open_asset(damaged.data(), damaged.size(), &options, &asset, nullptr), ANIC_OK);
     EXPECT_EQ(memory.held, 0U);
   }
 }
@@ -177,11 +180,11 @@ struct Meshes {
       inputs.push_back(clip.frame(f).data());
   }
 
-  anic_status create(anic_interpolator** out, const anic_interpolator_options* options = nullptr,
+  anic_status create(anic_morpher** out, const anic_morpher_options* options = nullptr,
                      const anic_allocator* allocator = nullptr) const {
-    return anic_interpolator_create(triangles.data(), static_cast<uint32_t>(triangles.size() / 3),
-                                    clip.vertex_count, inputs.data(),
-                                    static_cast<uint32_t>(inputs.size()), options, allocator, out);
+    return anic_create_morpher(triangles.data(), static_cast<uint32_t>(triangles.size() / 3),
+                               clip.vertex_count, inputs.data(),
+                               static_cast<uint32_t>(inputs.size()), options, allocator, out);
   }
 
   MeshSequence clip;
@@ -189,14 +192,14 @@ struct Meshes {
   std::vector<const float*> inputs;
 };
 
-TEST(AnicInterpolator, BlendsMeshesOfTheCaller) {
+TEST(AnicMorpher, BlendsMeshesOfTheCaller) {
   const Meshes meshes("bend");
   CountingMemory memory;
   const anic_allocator allocator = memory.allocator();
-  anic_interpolator* interpolator = nullptr;
-  ASSERT_EQ(meshes.create(&interpolator, nullptr, &allocator), ANIC_OK);
-  anic_interpolator_info info;
-  anic_interpolator_info_get(interpolator, &info);
+  anic_morpher* morpher = nullptr;
+  ASSERT_EQ(meshes.create(&morpher, nullptr, &allocator), ANIC_OK);
+  anic_morpher_info info;
+  anic_get_morpher_info(morpher, &info);
   EXPECT_EQ(info.vertex_count, meshes.clip.vertex_count);
   EXPECT_EQ(info.mesh_count, 2U);
   EXPECT_EQ(info.resident_bytes, memory.held);
@@ -207,9 +210,8 @@ TEST(AnicInterpolator, BlendsMeshesOfTheCaller) {
   const double diagonal = anicodec::diagonal(meshes.clip);
   for (size_t i = 0; i < 2; ++i) {
     const double weights[] = {i == 0 ? 1.0 : 0.0, i == 0 ? 0.0 : 1.0};
-    ASSERT_EQ(
-        anic_interpolate(interpolator, weights, nullptr, nullptr, scratch.data(), size, x.data()),
-        ANIC_OK);
+    ASSERT_EQ(anic_morph(morpher, weights, nullptr, nullptr, scratch.data(), size, x.data()),
+              ANIC_OK);
     for (size_t k = 0; k < x.size(); ++k)
       EXPECT_NEAR(x[k], meshes.inputs[i][k], 1e-6 * diagonal);
   }
@@ -224,88 +226,85 @@ TEST(AnicInterpolator, BlendsMeshesOfTheCaller) {
       body(context, i);
     half.join();
   };
-  ASSERT_EQ(
-      anic_interpolate(interpolator, weights, nullptr, nullptr, scratch.data(), size, x.data()),
-      ANIC_OK);
-  ASSERT_EQ(anic_interpolate(interpolator, weights, nullptr, &threads, scratch.data(), size,
-                             threaded.data()),
+  ASSERT_EQ(anic_morph(morpher, weights, nullptr, nullptr, scratch.data(), size, x.data()),
+            ANIC_OK);
+  ASSERT_EQ(anic_morph(morpher, weights, nullptr, &threads, scratch.data(), size, threaded.data()),
             ANIC_OK);
   EXPECT_EQ(x, threaded);
   EXPECT_EQ(memory.calls, calls);
-  EXPECT_EQ(anic_interpolate(interpolator, weights, nullptr, nullptr, scratch.data(),
-                             info.scratch_bytes - 1, x.data()),
+  EXPECT_EQ(anic_morph(morpher, weights, nullptr, nullptr, scratch.data(), info.scratch_bytes - 1,
+                       x.data()),
             ANIC_E_BUFFER_SIZE);
-  EXPECT_EQ(anic_interpolate(interpolator, weights, nullptr, nullptr,
-                             reinterpret_cast<char*>(scratch.data()) + 4, size, x.data()),
+  EXPECT_EQ(anic_morph(morpher, weights, nullptr, nullptr,
+                       reinterpret_cast<char*>(scratch.data()) + 4, size, x.data()),
             ANIC_E_ARGUMENT);
   const double wrong[] = {0.4, 0.7};
-  EXPECT_EQ(anic_interpolate(interpolator, wrong, nullptr, nullptr, scratch.data(), size, x.data()),
+  EXPECT_EQ(anic_morph(morpher, wrong, nullptr, nullptr, scratch.data(), size, x.data()),
             ANIC_E_ARGUMENT);
-  anic_interpolator_destroy(interpolator);
-  anic_interpolator_destroy(nullptr);
+  anic_destroy_morpher(morpher);
+  anic_destroy_morpher(nullptr);
   EXPECT_EQ(memory.held, 0U);
 }
 
-TEST(AnicInterpolator, HoldsPins) {
+TEST(AnicMorpher, HoldsPins) {
   const Meshes meshes("bend");
   const uint32_t pins[] = {0, 5};
-  anic_interpolator_options options = {};
+  anic_morpher_options options = {};
   options.pins = pins;
   options.pin_count = 2;
   options.sweeps = 2;
-  anic_interpolator* interpolator = nullptr;
-  ASSERT_EQ(meshes.create(&interpolator, &options), ANIC_OK);
-  anic_interpolator_info info;
-  anic_interpolator_info_get(interpolator, &info);
+  anic_morpher* morpher = nullptr;
+  ASSERT_EQ(meshes.create(&morpher, &options), ANIC_OK);
+  anic_morpher_info info;
+  anic_get_morpher_info(morpher, &info);
   std::vector<double> scratch(info.scratch_bytes / 8 + 1);
   std::vector<float> x(size_t{3} * info.vertex_count);
   const double weights[] = {0.5, 0.5};
   const float at[] = {1, 2, 3, 1.5F, 2, 3};
-  EXPECT_EQ(anic_interpolate(interpolator, weights, nullptr, nullptr, scratch.data(),
-                             8 * scratch.size(), x.data()),
-            ANIC_E_ARGUMENT);
-  ASSERT_EQ(anic_interpolate(interpolator, weights, at, nullptr, scratch.data(), 8 * scratch.size(),
-                             x.data()),
+  EXPECT_EQ(
+      anic_morph(morpher, weights, nullptr, nullptr, scratch.data(), 8 * scratch.size(), x.data()),
+      ANIC_E_ARGUMENT);
+  ASSERT_EQ(anic_morph(morpher, weights, at, nullptr, scratch.data(), 8 * scratch.size(), x.data()),
             ANIC_OK);
   for (size_t c = 0; c < 3; ++c) {
     EXPECT_EQ(x[c], at[c]);
     EXPECT_EQ(x[15 + c], at[3 + c]);
   }
-  anic_interpolator_destroy(interpolator);
+  anic_destroy_morpher(morpher);
 }
 
-TEST(AnicInterpolator, SaysWhatItCannotDo) {
+TEST(AnicMorpher, SaysWhatItCannotDo) {
   Meshes meshes("bend");
-  anic_interpolator* interpolator = nullptr;
-  anic_interpolator_options options = {};
+  anic_morpher* morpher = nullptr;
+  anic_morpher_options options = {};
   options.leaf_faces = 256;
-  EXPECT_EQ(meshes.create(&interpolator, &options), ANIC_E_ARGUMENT);
+  EXPECT_EQ(meshes.create(&morpher, &options), ANIC_E_ARGUMENT);
   options = {};
   options.pin_count = 1;
-  EXPECT_EQ(meshes.create(&interpolator, &options), ANIC_E_ARGUMENT);
+  EXPECT_EQ(meshes.create(&morpher, &options), ANIC_E_ARGUMENT);
   options.pins = &meshes.clip.vertex_count;
-  EXPECT_EQ(meshes.create(&interpolator, &options), ANIC_E_ARGUMENT);
+  EXPECT_EQ(meshes.create(&morpher, &options), ANIC_E_ARGUMENT);
   options = {};
   options.bytes = 1000;
-  EXPECT_EQ(meshes.create(&interpolator, &options), ANIC_E_LIMIT);
-  EXPECT_EQ(interpolator, nullptr);
+  EXPECT_EQ(meshes.create(&morpher, &options), ANIC_E_LIMIT);
+  EXPECT_EQ(morpher, nullptr);
   for (size_t n = 0; n < 60; n += 5) {
     CountingMemory memory;
     memory.fail_at = n;
     const anic_allocator allocator = memory.allocator();
-    EXPECT_EQ(meshes.create(&interpolator, nullptr, &allocator), ANIC_E_MEMORY);
+    EXPECT_EQ(meshes.create(&morpher, nullptr, &allocator), ANIC_E_MEMORY);
     EXPECT_EQ(memory.held, 0U);
   }
   Meshes one = meshes;
   one.inputs.resize(1);
-  EXPECT_EQ(one.create(&interpolator), ANIC_E_ARGUMENT);
+  EXPECT_EQ(one.create(&morpher), ANIC_E_ARGUMENT);
   one.inputs.push_back(nullptr);
-  EXPECT_EQ(one.create(&interpolator), ANIC_E_ARGUMENT);
+  EXPECT_EQ(one.create(&morpher), ANIC_E_ARGUMENT);
   meshes.clip.positions[7] = NAN;
-  EXPECT_EQ(meshes.create(&interpolator), ANIC_E_NON_FINITE);
+  EXPECT_EQ(meshes.create(&morpher), ANIC_E_NON_FINITE);
   meshes.clip.positions[7] = 0;
   meshes.triangles[4] = meshes.clip.vertex_count;
-  EXPECT_EQ(meshes.create(&interpolator), ANIC_E_INDEX_RANGE);
+  EXPECT_EQ(meshes.create(&morpher), ANIC_E_INDEX_RANGE);
 }
 
 }  // namespace
