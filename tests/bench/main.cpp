@@ -5,7 +5,6 @@
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
 #include "tools/io/base/frame_rate.h"
-#include "tools/words/choice.h"
 
 #include <cstdio>
 #include <exception>
@@ -93,12 +92,12 @@ CLI::App* add(CLI::App& app, Arguments& a, const char* name, const char* descrip
 }
 
 void add_basis(CLI::App& command, Arguments& a) {
-  tools::add_choice<BasisChoice>(command, "--basis", a.bench.basis,
-                                 {{"auto", BasisChoice::kAuto},
-                                  {"keyframes", BasisChoice::kKeyframes},
-                                  {"eigenshapes", BasisChoice::kEigenshapes},
-                                  {"eigentrajectories", BasisChoice::kEigentrajectories}},
-                                 "Kind of basis (default auto)");
+  command.add_option("--basis", a.bench.basis, "Kind of basis (default auto)")
+      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, BasisChoice>>{
+          {"auto", BasisChoice::kAuto},
+          {"keyframes", BasisChoice::kKeyframes},
+          {"eigenshapes", BasisChoice::kEigenshapes},
+          {"eigentrajectories", BasisChoice::kEigentrajectories}}));
 }
 
 void add_rate(CLI::App& app, Arguments& a) {

@@ -5,14 +5,15 @@
 #ifndef ANICODEC_TOOLS_COMMANDS_COMMAND_H_
 #define ANICODEC_TOOLS_COMMANDS_COMMAND_H_
 
+#include "tools/options/options.h"
+
+#include <deque>
 #include <functional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 namespace anicodec::tools {
 
-/// Options of every command.
+/// Values of the options that several commands have.
 struct CommonOptions {
   bool overwrite = false;
   bool quiet = false;
@@ -20,30 +21,50 @@ struct CommonOptions {
   int threads = 0;  ///< 0: one for every processor
 };
 
+/// The common options of a command, beside --help and --version.
+enum CommonOption : unsigned {
+  kForce = 1,    ///< -f: it writes files
+  kQuiet = 2,    ///< -q: it shows progress, or says what it did
+  kVerbose = 4,  ///< -v: it can say more
+  kThreads = 8   ///< -j: it computes in threads
+};
+
 /// Texts of a command's help.
 struct CommandHelp {
-  std::string name;
+  std::string name;         ///< "encode"
   std::string usage;        ///< what follows the name
   std::string description;  ///< one line
   std::string footer;       ///< examples and anything that needs more words
 };
 
-/// Adds a command with the common options; `run` is called when it is the one asked for.
-CLI::App* add_command(CLI::App& app, CommonOptions& common, const CommandHelp& help,
-                      std::function<void()> run);
+struct Command {
+  CommandHelp help;
+  Options options;
+  std::function<void()> run;
+  bool asks_help = false;  ///< --help is given
+  bool asks_version = false;
+};
 
-void add_encode(CLI::App& app, CommonOptions& common);
-void add_decode(CLI::App& app, CommonOptions& common);
-void add_join(CLI::App& app, CommonOptions& common);
-void add_info(CLI::App& app, CommonOptions& common);
-void add_verify(CLI::App& app, CommonOptions& common);
-void add_compare(CLI::App& app, CommonOptions& common);
-void add_analyze(CLI::App& app, CommonOptions& common);
-void add_interpolate(CLI::App& app, CommonOptions& common);
-void add_massage(CLI::App& app, CommonOptions& common);
-void add_dump(CLI::App& app, CommonOptions& common);
-void add_render(CLI::App& app, CommonOptions& common);
-void add_corpus(CLI::App& app, CommonOptions& common);
+/// All commands; references stay valid.
+using Commands = std::deque<Command>;
+
+/// Adds a command with some of the common options, for more to be declared; `run` is called when it
+/// is the one asked for.
+Options& add_command(Commands& commands, CommonOptions& common, unsigned common_options,
+                     CommandHelp help, std::function<void()> run);
+
+void add_encode(Commands& commands, CommonOptions& common);
+void add_decode(Commands& commands, CommonOptions& common);
+void add_join(Commands& commands, CommonOptions& common);
+void add_info(Commands& commands, CommonOptions& common);
+void add_verify(Commands& commands, CommonOptions& common);
+void add_compare(Commands& commands, CommonOptions& common);
+void add_analyze(Commands& commands, CommonOptions& common);
+void add_interpolate(Commands& commands, CommonOptions& common);
+void add_massage(Commands& commands, CommonOptions& common);
+void add_dump(Commands& commands, CommonOptions& common);
+void add_render(Commands& commands, CommonOptions& common);
+void add_corpus(Commands& commands, CommonOptions& common);
 
 }  // namespace anicodec::tools
 

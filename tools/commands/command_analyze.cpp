@@ -201,33 +201,28 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_analyze(CLI::App& app, CommonOptions& common) {
+void add_analyze(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<AnalyzeCommand>();
-  CLI::App* command = add_command(app, common,
-                                  {"analyze", "INPUT... [options]",
-                                   "Error against key-frames and components; a report", kFooter},
-                                  [c, &common] { run(*c, common); });
-  command->add_option("INPUT", c->inputs, "As for encode")->required();
-  command
-      ->add_option("--mesh", c->mesh,
-                   "Mesh of a lone vertex cache (default: same stem beside it),\n"
-                   "or the name of one in a scene (default: all)")
-      ->option_text("FILE|NAME");
-  command->add_option("--clip", c->clip, "Animation of a scene, or none")
-      ->option_text("NAME|INDEX");
-  command->add_option("--fps", c->rate, "Frames per second (default: as for encode)")
-      ->option_text("N[/D]");
-  command->add_option("--counts", c->counts, "Numbers of components to try")
-      ->option_text("K,K,...");
-  command->add_option("-o,--output", c->output, "Write a report with charts and pictures")
-      ->option_text("REPORT.html|x.svg");
-  command->add_option("--effort", c->effort, "Of the report's encodings, 1 to 9 (default 3)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 9));
-  command->add_flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
-  command->add_flag("--massage", c->massage, "What Mesh Massage does to the clip");
-  CLI::Option* csv = command->add_flag("--csv", c->csv, "Print comma-separated values");
-  command->add_flag("--json", c->json, "Print all numbers of the report")->excludes(csv);
+  Options& options = add_command(commands, common, kForce | kQuiet | kThreads,
+                                 {"analyze", "INPUT... [options]",
+                                  "Error against key-frames and components; a report", kFooter},
+                                 [c, &common] { run(*c, common); });
+  options.arguments("INPUT", c->inputs, "As for encode").required();
+  options.option("--mesh", c->mesh, "FILE|NAME",
+                 "Mesh of a lone vertex cache (default: same stem beside it), "
+                 "or the name of one in a scene (default: all)");
+  options.option("--clip", c->clip, "NAME|INDEX", "Animation of a scene, or none");
+  options.option("--fps", c->rate, "N[/D]", "Frames per second (default: as for encode)");
+  options.option("--counts", c->counts, "K,K,...", "Numbers of components to try");
+  options.option("-o,--output", c->output, "REPORT.html|x.svg",
+                 "Write a report with charts and pictures");
+  options.number("--effort", c->effort, "N", {1, 9},
+                 "Of the report's encodings, 1 to 9 (default 3)");
+  options.flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
+  options.flag("--massage", c->massage, "What Mesh Massage does to the clip");
+  options.flag("--csv", c->csv, "Print comma-separated values");
+  options.flag("--json", c->json, "Print all numbers of the report");
+  options.exclude({"--csv", "--json"});
 }
 
 }  // namespace anicodec::tools

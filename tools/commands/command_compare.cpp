@@ -343,28 +343,26 @@ void run(const CompareCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, CommonOptions& common) {
+void add_compare(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<CompareCommand>();
-  CLI::App* command = add_command(
-      app, common, {"compare", "A B [options]", "Measure how far two clips are apart", kFooter},
-      [c, &common] { run(*c, common); });
-  command->add_option("A", c->a, "The original")->required();
-  command->add_option("B", c->b, "What is compared with it")->required();
-  command->add_option("--mesh", c->mesh, "Mesh of a vertex cache (default: same stem beside it)")
-      ->option_text("FILE");
-  command->add_option("--fps", c->rate, "Frames per second of a scene (default: of the other side)")
-      ->option_text("N[/D]");
-  command->add_option("--clip-a", c->part_a.clip, "Animation of scene A")->option_text("NAME");
-  command->add_option("--clip-b", c->part_b.clip, "Animation of scene B")->option_text("NAME");
-  command->add_option("--frames-a", c->part_a.frames, "Part of the frames of A")
-      ->option_text("A:B[:STEP]");
-  command->add_option("--frames-b", c->part_b.frames, "Part of the frames of B")
-      ->option_text("A:B[:STEP]");
-  command->add_option("--axes-b", c->axes, "How positions of B are turned, such as x,z,-y")
-      ->option_text("AXES");
-  command->add_flag("--surface", c->surface, "Measure the distance of the surfaces as well");
-  command->add_flag("--no-sted", c->no_sted, "Leave out STED, which takes most of the time");
-  command->add_flag("--json", c->json, "Print one JSON object");
+  Options& options =
+      add_command(commands, common, kQuiet | kVerbose | kThreads,
+                  {"compare", "A B [options]", "Measure how far two clips are apart", kFooter},
+                  [c, &common] { run(*c, common); });
+  options.argument("A", c->a, "The original").required();
+  options.argument("B", c->b, "What is compared with it").required();
+  options.option("--mesh", c->mesh, "FILE",
+                 "Mesh of a vertex cache (default: same stem beside it)");
+  options.option("--fps", c->rate, "N[/D]",
+                 "Frames per second of a scene (default: of the other side)");
+  options.option("--clip-a", c->part_a.clip, "NAME", "Animation of scene A");
+  options.option("--clip-b", c->part_b.clip, "NAME", "Animation of scene B");
+  options.option("--frames-a", c->part_a.frames, "A:B[:STEP]", "Part of the frames of A");
+  options.option("--frames-b", c->part_b.frames, "A:B[:STEP]", "Part of the frames of B");
+  options.option("--axes-b", c->axes, "AXES", "How positions of B are turned, such as x,z,-y");
+  options.flag("--surface", c->surface, "Measure the distance of the surfaces as well");
+  options.flag("--no-sted", c->no_sted, "Leave out STED, which takes most of the time");
+  options.flag("--json", c->json, "Print one JSON object");
 }
 
 }  // namespace anicodec::tools

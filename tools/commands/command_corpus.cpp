@@ -52,22 +52,19 @@ void run(const CorpusCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_corpus(CLI::App& app, CommonOptions& common) {
+void add_corpus(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<CorpusCommand>();
-  CLI::App* command = add_command(
-      app, common,
+  Options& options = add_command(
+      commands, common, kForce | kQuiet,
       {"corpus", "NAME -o OUT [options]", "Make one of the clips of the corpus", kFooter},
       [c, &common] { run(*c, common); });
-  command->add_option("NAME", c->name, "Which clip");
-  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
-      ->option_text("OUT");
-  command->add_flag("--list", c->list, "List the clips");
-  command->add_option("--vertices", c->vertices, "About as many vertices (scalable clips)")
-      ->option_text("N")
-      ->check(CLI::Range(1U, (1U << 31) - 1));
-  command->add_option("--frames", c->frames, "As many frames (scalable clips)")
-      ->option_text("N")
-      ->check(CLI::Range(1U, (1U << 24) - 1));
+  options.argument("NAME", c->name, "Which clip");
+  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl");
+  options.flag("--list", c->list, "List the clips");
+  options.number("--vertices", c->vertices, "N", {1U, (1U << 31) - 1},
+                 "About as many vertices (scalable clips)");
+  options.number("--frames", c->frames, "N", {1U, (1U << 24) - 1},
+                 "As many frames (scalable clips)");
 }
 
 }  // namespace anicodec::tools

@@ -34,8 +34,7 @@ Examples:
   anicodec decode clip.anic -o first.obj --frames 0)";
 
 struct DecodeCommand {
-  std::string input, output, frames;
-  double quality = 1;
+  std::string input, output, frames, quality;
   uint32_t start = 0;
   bool ascii = false, step = false;
 };
@@ -86,10 +85,11 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   std::string bytes = read_bytes(command.input);
   OpenOptions open_options;
-  open_options.quality = command.quality;
+  if (!command.quality.empty())
+    open_options.quality = parse_share(command.quality, "--quality");
   Clip clip;
   open_clip(command.input, bytes, open_options, clip, Topologies::kAny);
-  if (Failure failure = clip.check_hashes(); command.quality == 1 && !failure.ok())
+  if (Failure failure = clip.check_hashes(); open_options.quality == 1 && !failure.ok())
     fail_clip(command.input, failure);
   bytes = {};
 
@@ -138,27 +138,21 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_decode(CLI::App& app, CommonOptions& common) {
+void add_decode(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<DecodeCommand>();
-  CLI::App* command = add_command(
-      app, common,
+  Options& options = add_command(
+      commands, common, kForce | kQuiet,
       {"decode", "FILE.anic -o OUT [options]", "Decode an .anic file to a mesh sequence", kFooter},
       [c, &common] { run(*c, common); });
-  command->add_option("FILE", c->input, "The .anic file to read")->required();
-  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
-      ->option_text("OUT")
-      ->required();
-  command->add_option("--frames", c->frames, "Frames A to B - 1, every STEP-th (default: all)")
-      ->option_text("A:B[:STEP]");
-  command->add_option("--start", c->start, "Number of the first file (default 0)")
-      ->option_text("N");
-  command->add_flag("--step", c->step, "GLB: frames stand until the next, without in-betweens");
-  command->add_flag("--ascii", c->ascii, "PLY and STL as text");
-  command->add_option("--quality", c->quality, "Share of the components to use, above 0 to 1")
-      ->option_text("Q")
-      ->check([](const std::string& text) {
-        return parse_positive(text, "--quality") <= 1 ? "" : "must not be above 1";
-      });
+  options.argument("FILE", c->input, "The .anic file to read").required();
+  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
+      .required();
+  options.option("--frames", c->frames, "A:B[:STEP]",
+                 "Frames A to B - 1, every STEP-th (default: all)");
+  options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");
+  options.flag("--step", c->step, "GLB: frames stand until the next, without in-betweens");
+  options.flag("--ascii", c->ascii, "PLY and STL as text");
+  options.option("--quality", c->quality, "Q", "Share of the components to use, above 0 to 1");
 }
 
 }  // namespace anicodec::tools

@@ -31,12 +31,12 @@ void run(const std::string& path) {
 
 }  // namespace
 
-void add_dump(CLI::App& app, CommonOptions& common) {
+void add_dump(Commands& commands, CommonOptions& common) {
   auto input = std::make_shared<std::string>();
-  CLI::App* command =
-      add_command(app, common, {"dump", "FILE.anic", "List an .anic file field by field", kFooter},
-                  [input] { run(*input); });
-  command->add_option("FILE", *input, "The .anic file to list")->required();
+  Options& options = add_command(
+      commands, common, 0, {"dump", "FILE.anic", "List an .anic file field by field", kFooter},
+      [input] { run(*input); });
+  options.argument("FILE", *input, "The .anic file to list").required();
 }
 
 }  // namespace anicodec::tools

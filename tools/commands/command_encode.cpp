@@ -230,13 +230,13 @@ void run(const EncodeArguments& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_encode(CLI::App& app, CommonOptions& common) {
+void add_encode(Commands& commands, CommonOptions& common) {
   auto arguments = std::make_shared<EncodeArguments>();
-  CLI::App* command = add_command(app, common,
-                                  {"encode", "INPUT...|--batch DIR -o OUT [target] [options]",
-                                   "Encode a mesh sequence to an .anic file", kFooter},
-                                  [arguments, &common] { run(*arguments, common); });
-  add_arguments(*command, *arguments);
+  Options& options = add_command(commands, common, kForce | kQuiet | kVerbose | kThreads,
+                                 {"encode", "INPUT...|--batch DIR -o OUT [target] [options]",
+                                  "Encode a mesh sequence to an .anic file", kFooter},
+                                 [arguments, &common] { run(*arguments, common); });
+  add_arguments(options, *arguments);
 }
 
 }  // namespace anicodec::tools

@@ -336,13 +336,13 @@ void run(const InfoCommand& command) {
 
 }  // namespace
 
-void add_info(CLI::App& app, CommonOptions& common) {
+void add_info(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<InfoCommand>();
-  CLI::App* command = add_command(
-      app, common, {"info", "FILE.anic [--json]", "Say what is in an .anic file", kFooter},
+  Options& options = add_command(
+      commands, common, 0, {"info", "FILE.anic [--json]", "Say what is in an .anic file", kFooter},
       [c] { run(*c); });
-  command->add_option("FILE", c->input, "The .anic file to read")->required();
-  command->add_flag("--json", c->json, "Print one JSON object");
+  options.argument("FILE", c->input, "The .anic file to read").required();
+  options.flag("--json", c->json, "Print one JSON object");
 }
 
 }  // namespace anicodec::tools

@@ -7,7 +7,6 @@
 #include "tools/commands/command.h"
 #include "tools/inputs/interpolation_input.h"
 #include "tools/io/write_sequence.h"
-#include "tools/words/choice.h"
 #include "tools/words/progress.h"
 
 #include <algorithm>
@@ -24,11 +23,11 @@ namespace anicodec::tools {
 namespace {
 
 constexpr const char* kFooter =
-    R"(A, B, ... are meshes of the same vertices and faces: files of one frame, or one frame of a clip as
-FILE@FRAME (clip.pc2@12, clip.anic@0, 'frames/*.obj@5'). The clip goes from A to B and on to the others
-in N equal steps. --range says from where to where, A being 0, B 1 and so on; beyond the ends it
-extrapolates. --weights instead names a text file with a line for each frame and a number for each
-mesh; the numbers of a line sum to 1, and may be negative.
+    R"(A, B, ... are meshes of the same vertices and faces: files of one frame, or one frame of a clip
+as FILE@FRAME (clip.pc2@12, clip.anic@0, 'frames/*.obj@5'). The clip goes from A to B and on to the
+others in N equal steps. --range says from where to where, A being 0, B 1 and so on; beyond the ends
+it extrapolates. --weights instead names a text file with a line for each frame and a number for
+each mesh; the numbers of a line sum to 1, and may be negative.
 
 Methods (thesis chapter 4):
   linear     vertices on straight lines
@@ -39,8 +38,8 @@ Methods (thesis chapter 4):
   msgi-v     multi-scale interpolation of lengths and angles, blending vertices
   msgi       multi-scale interpolation, blending edges
 
---pin VERTICES=FILE (msgi only) holds vertices, such as 0,7,20-29, at the positions of a text file, a
-line of three numbers for each: once for all frames, or for each frame in turn.
+--pin VERTICES=FILE (msgi only) holds vertices, such as 0,7,20-29, at the positions of a text file,
+a line of three numbers for each: once for all frames, or for each frame in turn.
 
 --refine takes steps on the lengths and angles themselves, after any method: closer to them, where a
 method comes near, in about a second for each step, frame and 7000 vertices.
@@ -62,6 +61,17 @@ struct InterpolateCommand {
   InterpolationMethod method = InterpolationMethod::kMsgi;
   bool compare = false;
 };
+
+/// All methods, by their words.
+WordTable<InterpolationMethod> method_words() {
+  static const std::vector<Word<InterpolationMethod>> kWords = [] {
+    std::vector<Word<InterpolationMethod>> words;
+    for (InterpolationMethod method : interpolation_methods())
+      words.push_back({method, name_of(method).data()});  // a literal
+    return words;
+  }();
+  return kWords;
+}
 
 WeightRows weights_of(const InterpolateCommand& command, size_t meshes) {
   if (!command.weights.empty()) {
@@ -177,42 +187,28 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_interpolate(CLI::App& app, CommonOptions& common) {
+void add_interpolate(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<InterpolateCommand>();
-  CLI::App* command = add_command(app, common,
-                                  {"interpolate", "A B [C...] -o OUT --frames N [options]",
-                                   "Make a clip between meshes of one connectivity", kFooter},
-                                  [c, &common] { run(*c, common); });
-  command->add_option("A B", c->inputs, "The meshes")->required();
-  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
-      ->option_text("OUT");
-  command->add_option("--frames", c->frames, "Frames to make")
-      ->option_text("N")
-      ->check(CLI::Range(1U, (1U << 24) - 1));
-  command->add_option("--range", c->range, "From where to where (default: A to the last)")
-      ->option_text("FROM:TO");
-  command->add_option("--weights", c->weights, "Weights of every frame")->option_text("FILE");
-  std::vector<std::pair<std::string, InterpolationMethod>> methods;
-  for (InterpolationMethod method : interpolation_methods())
-    methods.emplace_back(name_of(method), method);
-  add_choice<InterpolationMethod>(*command, "--method", c->method, methods, "Default msgi");
-  command->add_option("--pin", c->pin, "Hold vertices at positions")->option_text("VERTICES=FILE");
-  command->add_option("--leaf", c->leaf, "Faces of a patch (msgi; default: 8 or fewer, by trial)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 255));
-  command
-      ->add_option("--sweeps", c->sweeps,
-                   "Rounds of refitting the patches (default 0; 10 with --pin)")
-      ->option_text("N")
-      ->check(CLI::Range(0, 1000));
-  command
-      ->add_option("--refine", c->refine,
-                   "Gauss-Newton steps on lengths and angles afterwards (default 0)")
-      ->option_text("N")
-      ->check(CLI::Range(0, 100));
-  command->add_option("--mesh", c->mesh, "Mesh of a vertex cache (default: same stem beside it)")
-      ->option_text("FILE");
-  command->add_flag("--compare", c->compare, "Print the errors of all methods");
+  Options& options = add_command(commands, common, kForce | kQuiet | kThreads,
+                                 {"interpolate", "A B [C...] -o OUT --frames N [options]",
+                                  "Make a clip between meshes of one connectivity", kFooter},
+                                 [c, &common] { run(*c, common); });
+  options.arguments("A B", c->inputs, "The meshes").required();
+  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl");
+  options.number("--frames", c->frames, "N", {1U, (1U << 24) - 1}, "Frames to make");
+  options.option("--range", c->range, "FROM:TO", "From where to where (default: A to the last)");
+  options.option("--weights", c->weights, "FILE", "Weights of every frame");
+  options.choice("--method", c->method, method_words(), "Default msgi");
+  options.option("--pin", c->pin, "VERTICES=FILE", "Hold vertices at positions");
+  options.number("--leaf", c->leaf, "N", {1, 255},
+                 "Faces of a patch (msgi; default: 8 or fewer, by trial)");
+  options.number("--sweeps", c->sweeps, "N", {0, 1000},
+                 "Rounds of refitting the patches (default 0; 10 with --pin)");
+  options.number("--refine", c->refine, "N", {0, 100},
+                 "Gauss-Newton steps on lengths and angles afterwards (default 0)");
+  options.option("--mesh", c->mesh, "FILE",
+                 "Mesh of a vertex cache (default: same stem beside it)");
+  options.flag("--compare", c->compare, "Print the errors of all methods");
 }
 
 }  // namespace anicodec::tools

@@ -49,16 +49,14 @@ void run(const JoinCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_join(CLI::App& app, CommonOptions& common) {
+void add_join(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<JoinCommand>();
-  CLI::App* command = add_command(app, common,
-                                  {"join", "PART... -o FILE.anic [options]",
-                                   "Make one .anic file of parts that were encoded apart", kFooter},
-                                  [c, &common] { run(*c, common); });
-  command->add_option("PART", c->inputs, "Parts of a clip, in the order of time")->required();
-  command->add_option("-o,--output", c->output, "The .anic file to write")
-      ->option_text("FILE")
-      ->required();
+  Options& options = add_command(commands, common, kForce | kQuiet,
+                                 {"join", "PART... -o FILE.anic [options]",
+                                  "Make one .anic file of parts that were encoded apart", kFooter},
+                                 [c, &common] { run(*c, common); });
+  options.arguments("PART", c->inputs, "Parts of a clip, in the order of time").required();
+  options.option("-o,--output", c->output, "FILE", "The .anic file to write").required();
 }
 
 }  // namespace anicodec::tools

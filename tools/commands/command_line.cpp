@@ -5,7 +5,9 @@
 #include "codec/sequence/error.h"
 #include "tools/commands/command.h"
 #include "tools/io/files/cleanup.h"
-#include "tools/words/help_format.h"
+#include "tools/options/help_text.h"
+#include "tools/options/nearest_word.h"
+#include "tools/options/parse_options.h"
 #include "tools/words/version.h"
 
 #include <algorithm>
@@ -14,6 +16,8 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -49,31 +53,82 @@ int status_of(ErrorKind kind) {
   return static_cast<int>(kind);
 }
 
-void add_version(CLI::App& app) {
-  app.set_version_flag("--version", fmt::format("anicodec {}", version()), "Print the version");
-}
-
-void parse_and_run(int argc, const char* const* argv) {
-  CommonOptions common;
-  CLI::App app("Makes animated meshes small: encodes baked mesh sequences to .anic and back.");
-  app.name("anicodec");
-  app.formatter(std::make_shared<HelpFormat>("COMMAND [options]"));
-  app.set_help_flag("-h,--help", "Print this help");
-  add_version(app);
-  app.require_subcommand(1);
-  app.footer(kFooter);
+Commands all_commands(CommonOptions& common) {
+  Commands commands;
   for (auto add : {add_encode, add_decode, add_join, add_info, add_verify, add_compare, add_analyze,
                    add_interpolate, add_massage, add_dump, add_render, add_corpus})
-    add(app, common);
+    add(commands, common);
+  return commands;
+}
+
+void print_version() {
+  fmt::print("anicodec {}\n", version());
+}
+
+void print_help(const Commands& commands) {
+  fmt::print(
+      "Usage: anicodec COMMAND [options]\n"
+      "Makes animated meshes small: encodes baked mesh sequences to .anic and back.\n\n"
+      "Commands:\n");
+  for (const Command& command : commands)
+    fmt::print("{}", help_row(command.help.name, command.help.description));
+  fmt::print("\nOptions:\n{}{}{}\n", help_row("-h,--help", "Print this help"),
+             help_row("--version", "Print the version"), kFooter);
+}
+
+void print_help(const Command& command) {
+  const CommandHelp& help = command.help;
+  fmt::print("Usage: anicodec {} {}\n{}\n{}", help.name, help.usage, help.description,
+             help_text(command.options));
+  if (!help.footer.empty())
+    fmt::print("\n{}\n", help.footer);
+}
+
+[[noreturn]] void fail_unknown(const Commands& commands, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : commands)
+    names.push_back(command.help.name);
+  const std::string meant = nearest_word(name, names);
+  throw Error(ErrorKind::kUsage,
+              fmt::format("there is no command '{}'{}", name,
+                          meant.empty() ? "; see anicodec --help"
+                                        : fmt::format("; did you mean {}?", meant)));
+}
+
+void run_command(Command& command, const CommonOptions& common,
+                 const std::vector<std::string>& words) {
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {
-    app.exit(e);  // prints help or version
-  } catch (const CLI::ParseError& e) {
-    std::string command;
-    for (const CLI::App* sub : app.get_subcommands())
-      command = sub->get_name() + ": ";
-    throw Error(ErrorKind::kUsage, command + e.what());
+    parse_options(command.options, words);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", command.help.name, e.what()));
+  }
+  if (command.asks_help)
+    return print_help(command);
+  if (command.asks_version)
+    return print_version();
+  using tbb::global_control;
+  const size_t threads =
+      common.threads > 0 ? static_cast<size_t>(common.threads)
+                         : global_control::active_value(global_control::max_allowed_parallelism);
+  global_control limit(global_control::max_allowed_parallelism, threads);
+  command.run();
+}
+
+void parse_and_run(const std::vector<std::string>& words) {
+  CommonOptions common;
+  Commands commands = all_commands(common);
+  if (words.empty())
+    throw Error(ErrorKind::kUsage, "a command is missing; see anicodec --help");
+  if (words[0] == "-h" || words[0] == "--help") {
+    print_help(commands);
+  } else if (words[0] == "--version") {
+    print_version();
+  } else {
+    const auto command = std::find_if(commands.begin(), commands.end(),
+                                      [&](const Command& c) { return c.help.name == words[0]; });
+    if (command == commands.end())
+      fail_unknown(commands, words[0]);
+    run_command(*command, common, {words.begin() + 1, words.end()});
   }
   if (std::fflush(stdout) != 0)
     throw Error(ErrorKind::kInternal, "the standard output cannot be written");
@@ -81,39 +136,32 @@ void parse_and_run(int argc, const char* const* argv) {
 
 }  // namespace
 
-CLI::App* add_command(CLI::App& app, CommonOptions& common, const CommandHelp& help,
-                      std::function<void()> run) {
-  CLI::App* command = app.add_subcommand(help.name, help.description);
-  command->group("Commands");
-  command->formatter(std::make_shared<HelpFormat>(help.usage));
-  command->footer(help.footer.empty() ? "" : "\n" + help.footer);
-  const char* group = kGeneralGroup;
-  command->set_help_flag("-h,--help", "Print this help")->group(group);
-  add_version(*command);
-  command->get_version_ptr()->group(group);
-  command->add_flag("-f,--force", common.overwrite, "Overwrite outputs that exist")->group(group);
-  command->add_flag("-q,--quiet", common.quiet, "Print nothing but errors and what was asked for")
-      ->group(group);
-  command->add_flag("-v,--verbose", common.verbosity, "Print more")->group(group);
-  command->add_option("-j,--threads", common.threads, "Threads (default: one for every processor)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1024))
-      ->group(group);
-  command->callback([&common, run = std::move(run)] {
-    size_t threads =
-        common.threads > 0
-            ? static_cast<size_t>(common.threads)
-            : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    run();
-  });
-  return command;
+Options& add_command(Commands& commands, CommonOptions& common, unsigned common_options,
+                     CommandHelp help, std::function<void()> run) {
+  Command& command = commands.emplace_back();
+  command.help = std::move(help);
+  command.run = std::move(run);
+  Options& options = command.options;
+  options.group(kGeneralGroup);
+  options.flag("-h,--help", command.asks_help, "Print this help").is_alone = true;
+  options.flag("--version", command.asks_version, "Print the version").is_alone = true;
+  if (common_options & kForce)
+    options.flag("-f,--force", common.overwrite, "Overwrite outputs that exist");
+  if (common_options & kQuiet)
+    options.flag("-q,--quiet", common.quiet, "Print nothing but errors and what was asked for");
+  if (common_options & kVerbose)
+    options.count("-v,--verbose", common.verbosity, "Print more");
+  if (common_options & kThreads)
+    options.number("-j,--threads", common.threads, "N", {1, 1024},
+                   "Threads (default: one for every processor)");
+  options.group("Options");
+  return options;
 }
 
 int run_command_line(int argc, const char* const* argv) {
   install_cleanup_on_signal();
   try {
-    parse_and_run(argc, argv);
+    parse_and_run({argv + std::min(argc, 1), argv + argc});
     return 0;
   } catch (const Error& e) {
     print_error(e.what());

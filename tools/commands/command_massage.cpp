@@ -311,40 +311,29 @@ void run(const MassageCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_massage(CLI::App& app, CommonOptions& common) {
+void add_massage(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<MassageCommand>();
-  CLI::App* command = add_command(
-      app, common,
+  Options& options = add_command(
+      commands, common, kForce | kQuiet | kVerbose | kThreads,
       {"massage", "[INPUT...] -o OUT [options]",
        "Move vertices along their surface, to even triangles or to other meshes", kFooter},
       [c, &common] { run(*c, common); });
-  command->add_option("INPUT", c->inputs, "As for encode; for --transfer meshes in their order");
-  command->add_option("-o,--output", c->output, "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
-      ->option_text("OUT")
-      ->required();
-  command
-      ->add_option("--mesh", c->mesh, "Mesh of a lone vertex cache (default: same stem beside it)")
-      ->option_text("FILE");
-  command
-      ->add_option("--massage-strength", c->strength,
-                   "Of shape against distance, between 0 and 1 (default 0.5)")
-      ->option_text("X");
-  command
-      ->add_option("--massage-tolerance", c->tolerance,
-                   "How far the surface may move anywhere (default: as far as it needs)")
-      ->option_text("LEN");
-  command->add_option("--reference", c->reference, "Frame whose shapes are followed (default 0)")
-      ->option_text("FRAME");
-  const char* other = "Other modes";
-  command->add_option("--fit", c->fit, "Mesh to lay on a surface")
-      ->option_text("MESH")
-      ->group(other);
-  command->add_option("--to", c->to, "The surface, a mesh of any faces")
-      ->option_text("MESH")
-      ->group(other);
-  command->add_flag("--transfer", c->transfer, "Give all meshes the faces of the first one")
-      ->group(other);
-  command->add_flag("--json", c->json, "Print one JSON object");
+  options.arguments("INPUT", c->inputs, "As for encode; for --transfer meshes in their order");
+  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
+      .required();
+  options.option("--mesh", c->mesh, "FILE",
+                 "Mesh of a lone vertex cache (default: same stem beside it)");
+  options.number("--massage-strength", c->strength, "X", {},
+                 "Of shape against distance, between 0 and 1 (default 0.5)");
+  options.option("--massage-tolerance", c->tolerance, "LEN",
+                 "How far the surface may move anywhere (default: as far as it needs)");
+  options.number("--reference", c->reference, "FRAME", {},
+                 "Frame whose shapes are followed (default 0)");
+  options.flag("--json", c->json, "Print one JSON object");
+  options.group("Other modes");
+  options.option("--fit", c->fit, "MESH", "Mesh to lay on a surface");
+  options.option("--to", c->to, "MESH", "The surface, a mesh of any faces");
+  options.flag("--transfer", c->transfer, "Give all meshes the faces of the first one");
 }
 
 }  // namespace anicodec::tools

@@ -9,6 +9,7 @@
 #include "tools/render/image.h"
 #include "tools/render/shaded_view.h"
 #include "tools/render/video.h"
+#include "tools/words/names.h"
 #include "tools/words/progress.h"
 #include "tools/words/quantity.h"
 
@@ -44,7 +45,8 @@ Examples:
 enum class View : uint8_t { kClip, kOriginal, kError };
 
 struct RenderCommand {
-  std::string input, against, mesh, output, frames, views, size = "480x480", camera, scale, up;
+  std::string input, against, mesh, output, frames, views, size = "480x480", camera, scale;
+  UpAxis up = UpAxis::kUnknown;
   bool turntable = false;
 };
 
@@ -110,7 +112,7 @@ class Drawing {
                   "--camera: AZIMUTH,ELEVATION in degrees, the second within 89");
     clip_.emplace(command.input, command.mesh, progress);
     const MeshSequence& sequence = clip_->sequence();
-    camera_.z_up = command.up.empty() ? sequence.up == UpAxis::kZ : command.up == "z";
+    camera_.z_up = (command.up == UpAxis::kUnknown ? sequence.up : command.up) == UpAxis::kZ;
     range_ = {0, sequence.frame_count, 1};
     if (!command.frames.empty())
       range_ = parse_frames(command.frames, "--frames", sequence.frame_count);
@@ -281,34 +283,28 @@ void run(const RenderCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_render(CLI::App& app, CommonOptions& common) {
+void add_render(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<RenderCommand>();
-  CLI::App* command =
-      add_command(app, common,
+  Options& options =
+      add_command(commands, common, kForce | kQuiet | kThreads,
                   {"render", "CLIP -o OUT [--against ORIGINAL] [options]",
                    "Draw a clip, beside its original and coloured by error", kFooter},
                   [c, &common] { run(*c, common); });
-  command->add_option("CLIP", c->input, "What to draw")->required();
-  command->add_option("-o,--output", c->output, "frame_%04d.png, x.png, clip.gif or clip.mp4")
-      ->option_text("OUT")
-      ->required();
-  command->add_option("--against", c->against, "The original")->option_text("ORIGINAL");
-  command->add_option("--mesh", c->mesh, "Mesh of a vertex cache (default: same stem beside it)")
-      ->option_text("FILE");
-  command->add_option("--frames", c->frames, "Frames A to B - 1, every STEP-th (default: all)")
-      ->option_text("A:B[:STEP]");
-  command->add_option("--view", c->views, "clip, original, error, separated by commas")
-      ->option_text("VIEW,...");
-  command->add_option("--size", c->size, "Pixels of each view (default 480x480)")
-      ->option_text("WxH");
-  command->add_option("--camera", c->camera, "Degrees about the up axis and above (default 30,15)")
-      ->option_text("AZ,EL");
-  command->add_flag("--turntable", c->turntable, "Turn the camera once while the clip plays");
-  command->add_option("--scale", c->scale, "Error that is black, in scene units")
-      ->option_text("LEN");
-  command->add_option("--up", c->up, "Axis that points up (default: the clip's, else y)")
-      ->option_text("y|z")
-      ->check(CLI::IsMember({"y", "z"}));
+  options.argument("CLIP", c->input, "What to draw").required();
+  options.option("-o,--output", c->output, "OUT", "frame_%04d.png, x.png, clip.gif or clip.mp4")
+      .required();
+  options.option("--against", c->against, "ORIGINAL", "The original");
+  options.option("--mesh", c->mesh, "FILE",
+                 "Mesh of a vertex cache (default: same stem beside it)");
+  options.option("--frames", c->frames, "A:B[:STEP]",
+                 "Frames A to B - 1, every STEP-th (default: all)");
+  options.option("--view", c->views, "VIEW,...", "clip, original, error, separated by commas");
+  options.option("--size", c->size, "WxH", "Pixels of each view (default 480x480)");
+  options.option("--camera", c->camera, "AZ,EL",
+                 "Degrees about the up axis and above (default 30,15)");
+  options.flag("--turntable", c->turntable, "Turn the camera once while the clip plays");
+  options.option("--scale", c->scale, "LEN", "Error that is black, in scene units");
+  options.choice("--up", c->up, {kUpAxes}, "Axis that points up (default: the clip's, else y)");
 }
 
 }  // namespace anicodec::tools

@@ -71,13 +71,13 @@ void run(const std::string& path, const CommonOptions& common) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, CommonOptions& common) {
+void add_verify(Commands& commands, CommonOptions& common) {
   auto input = std::make_shared<std::string>();
-  CLI::App* command = add_command(
-      app, common,
+  Options& options = add_command(
+      commands, common, kQuiet,
       {"verify", "FILE.anic", "Check an .anic file: checksums and a full decode", kFooter},
       [input, &common] { run(*input, common); });
-  command->add_option("FILE", *input, "The .anic file to check")->required();
+  options.argument("FILE", *input, "The .anic file to check").required();
 }
 
 }  // namespace anicodec::tools

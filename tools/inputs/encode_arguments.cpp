@@ -4,7 +4,7 @@
 
 #include "codec/sequence/error.h"
 #include "tools/io/base/frame_rate.h"
-#include "tools/words/choice.h"
+#include "tools/words/names.h"
 #include "tools/words/quantity.h"
 #include "tools/words/version.h"
 
@@ -28,8 +28,6 @@ void set_target(const EncodeArguments& command, EncodeOptions& options) {
         {ErrorMetric::kSize, static_cast<double>(parse_size(command.size, "--size")), false});
   if (!command.bpfv.empty())
     targets.push_back({ErrorMetric::kBpfv, parse_positive(command.bpfv, "--bpfv"), false});
-  if (targets.size() > 1)
-    throw Error(ErrorKind::kUsage, "only one of --kg, --rmse, --size and --bpfv can be the target");
   if (!targets.empty())
     options.target = targets[0];
   if (!command.max_error.empty()) {
@@ -44,154 +42,119 @@ void set_target(const EncodeArguments& command, EncodeOptions& options) {
   }
 }
 
+constexpr Word<BasisChoice> kBases[] = {{BasisChoice::kAuto, "auto"},
+                                        {BasisChoice::kKeyframes, "keyframes"},
+                                        {BasisChoice::kEigenshapes, "eigenshapes"},
+                                        {BasisChoice::kEigentrajectories, "eigentrajectories"}};
+constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
+                                                {KeyframeMethod::kPivot, "pivot"},
+                                                {KeyframeMethod::kUniform, "uniform"}};
+constexpr Word<InterpolationChoice> kInterpolations[] = {{InterpolationChoice::kLinear, "linear"},
+                                                         {InterpolationChoice::kMsgi, "msgi"},
+                                                         {InterpolationChoice::kAuto, "auto"}};
+constexpr Word<Topology> kTopologies[] = {{Topology::kOne, "one"},
+                                          {Topology::kSegments, "segments"}};
+constexpr Word<Meshes> kMeshes[] = {{Meshes::kOne, "one"}, {Meshes::kApart, "apart"}};
+constexpr Word<Massage> kMassages[] = {{Massage::kOff, "off"},
+                                       {Massage::kOn, "on"},
+                                       {Massage::kAuto, "auto"},
+                                       {Massage::kTransfer, "transfer"}};
+/// Coders that an encoder can be asked for.
+constexpr WordTable<format::CoderId> kMeshCoders = WordTable<format::CoderId>(kCoders).first(2);
+
+void add_target(Options& options, EncodeArguments& a) {
+  options.group("Target");
+  options.option("--max-error", a.max_error, "LEN", "Largest error of any vertex (default 0.05%)");
+  options.option("--kg", a.kg, "PCT", "KG error in per cent");
+  options.option("--rmse", a.rmse, "LEN", "Root mean square error");
+  options.option("--size", a.size, "BYTES",
+                 "Smallest error in a file of at most 40000, 40k or 1.5M bytes");
+  options.option("--bpfv", a.bpfv, "BITS", "The same, as bits per frame and vertex");
+  options.exclude({"--kg", "--rmse", "--size", "--bpfv"});
+}
+
+void add_method(Options& options, EncodeArguments& a) {
+  options.group("Method");
+  options.choice("--basis", a.basis, {kBases}, "Kind of basis (default auto: the smallest file)");
+  options.number("--keyframes", a.keyframes, "K", {1, format::kMaxFrames},
+                 "Number of key-frames (default: as few as do)");
+  options.choice("--select", a.select, {kSelections}, "How key-frames are chosen (default pivot)");
+  options.choice("--interpolation", a.interpolation, {kInterpolations},
+                 "How frames come from key-frames (default linear)");
+  options.choice("--order", a.order, {kOrderModes},
+                 "Source order kept: vertices (default), none, faces too");
+  options.choice("--topology", a.topology, {kTopologies},
+                 "Frames of another connectivity: an error (default one), or segments of the file "
+                 "with meshes of their own");
+  options.choice(
+      "--meshes", a.meshes, {kMeshes},
+      "Objects of the input: parts of one mesh (default), or each a mesh of its own that "
+      "is there only in frames that show it");
+  options.choice("--mesh-coder", a.mesh_coder, kMeshCoders,
+                 "Coder of faces and key-frames (default draco)");
+  options.number("--effort", a.effort, "N", {1, 9},
+                 "How long to search, 1 to 9 (default 5); files from 7 on open slower");
+}
+
+void add_massage_options(Options& options, EncodeArguments& a) {
+  options.group("Massage");
+  options.choice("--massage", a.massage, {kMassages},
+                 "Move vertices along their surface first (default off)");
+  options.number("--massage-strength", a.massage_strength, "X", {},
+                 "Of shape against distance, between 0 and 1 (default 0.5)");
+  options.option("--massage-tolerance", a.massage_tolerance, "LEN",
+                 "How far the surface may move anywhere (default: as far as it needs)");
+}
+
+void add_attributes(Options& options, EncodeArguments& a) {
+  options.group("Attributes");
+  options.flag("--no-attributes", a.no_attributes, "Positions and faces alone");
+  options.number("--uv-bits", a.attributes.uv_bits, "N", {1, 24},
+                 "Texture coordinates in steps of 2^-N (default 12)");
+  options.number("--colour-bits", a.attributes.colour_bits, "N", {1, 16},
+                 "Of a component of a colour (default 8)");
+  options.option("--attribute-error", a.attribute_error, "X",
+                 "Largest error of colours, texture coordinates and other numbers that change, in "
+                 "their own units or per cent of their range (default: half a step of "
+                 "--colour-bits for colours, 0.1% for others)");
+  options.option("--store-normals", a.normal_error, "DEG",
+                 "Normals and tangents of the first frame as numbers, not only the hard edges: to "
+                 "within an angle in degrees, as 0.05");
+}
+
+void add_metadata(Options& options, EncodeArguments& a) {
+  options.group("Metadata (positions stay as they are)");
+  options.option("--fps", a.rate, "N[/D]",
+                 "Frames per second (default: as in the input, else 24; of a scene: the rate of "
+                 "its keys, at least 30)");
+  options.choice("--up", a.up, {kUpAxes}, "Axis that points up");
+  options.option("--unit", a.unit, "METRES", "Length of a scene unit: metres, or m cm mm km in ft");
+  options.flag("--loop", a.loop, "The clip is meant to be repeated");
+}
+
 }  // namespace
 
-void add_arguments(CLI::App& command, EncodeArguments& a) {
-  command.add_option("INPUT", a.inputs, "Mesh and vertex cache, frames, or a scene");
-  command.add_option("-o,--output", a.output, "The .anic file to write; of --batch: the folder")
-      ->option_text("FILE")
-      ->required();
-  command
-      .add_option("--mesh", a.mesh,
-                  "Mesh of a lone vertex cache (default: same stem beside it),\n"
-                  "or the name of one in a scene (default: all)")
-      ->option_text("FILE|NAME");
-  command.add_option("--clip", a.clip, "Animation of a scene, or none")->option_text("NAME|INDEX");
-
-  command.add_option("--frames", a.frames, "Encode a part, A to B - 1, to be joined with others")
-      ->option_text("A:B");
-  command
-      .add_option("--batch", a.batch,
-                  "Encode all clips in a folder, or in a list with a clip per line")
-      ->option_text("DIR|LIST");
-  command.add_option("--memory", a.memory, "Of --batch: for clips side by side (default: half)")
-      ->option_text("BYTES");
-
-  auto target = [&command](const char* name, std::string& value, const char* text,
-                           const char* description) {
-    command.add_option(name, value, description)->option_text(text)->group("Target");
-  };
-  target("--max-error", a.max_error, "LEN", "Largest error of any vertex (default 0.05%)");
-  target("--kg", a.kg, "PCT", "KG error in per cent");
-  target("--rmse", a.rmse, "LEN", "Root mean square error");
-  target("--size", a.size, "BYTES", "Smallest error in a file of at most 40000, 40k or 1.5M bytes");
-  target("--bpfv", a.bpfv, "BITS", "The same, as bits per frame and vertex");
-
-  const char* method = "Method";
-  add_choice<BasisChoice>(command, "--basis", a.basis,
-                          {{"auto", BasisChoice::kAuto},
-                           {"keyframes", BasisChoice::kKeyframes},
-                           {"eigenshapes", BasisChoice::kEigenshapes},
-                           {"eigentrajectories", BasisChoice::kEigentrajectories}},
-                          "Kind of basis (default auto: the smallest file)")
-      ->group(method);
-  command.add_option("--keyframes", a.keyframes, "Number of key-frames (default: as few as do)")
-      ->option_text("K")
-      ->check(CLI::Range(uint32_t{1}, format::kMaxFrames))
-      ->group(method);
-  add_choice<KeyframeMethod>(command, "--select", a.select,
-                             {{"gas", KeyframeMethod::kGas},
-                              {"pivot", KeyframeMethod::kPivot},
-                              {"uniform", KeyframeMethod::kUniform}},
-                             "How key-frames are chosen (default pivot)")
-      ->group(method);
-  add_choice<InterpolationChoice>(command, "--interpolation", a.interpolation,
-                                  {{"linear", InterpolationChoice::kLinear},
-                                   {"msgi", InterpolationChoice::kMsgi},
-                                   {"auto", InterpolationChoice::kAuto}},
-                                  "How frames come from key-frames (default linear)")
-      ->group(method);
-  add_choice<format::OrderMode>(command, "--order", a.order,
-                                {{"vertices", format::OrderMode::kVertices},
-                                 {"free", format::OrderMode::kFree},
-                                 {"all", format::OrderMode::kAll}},
-                                "Source order kept: vertices (default), none, faces too")
-      ->group(method);
-  add_choice<Topology>(command, "--topology", a.topology,
-                       {{"one", Topology::kOne}, {"segments", Topology::kSegments}},
-                       "Frames of another connectivity: an error (default one), or segments\n"
-                       "of the file with meshes of their own")
-      ->group(method);
-  add_choice<Meshes>(command, "--meshes", a.meshes,
-                     {{"one", Meshes::kOne}, {"apart", Meshes::kApart}},
-                     "Objects of the input: parts of one mesh (default), or each a mesh\n"
-                     "of its own that is there only in frames that show it")
-      ->group(method);
-  add_choice<format::CoderId>(
-      command, "--mesh-coder", a.mesh_coder,
-      {{"draco", format::CoderId::kDraco}, {"plain", format::CoderId::kPlain}},
-      "Coder of faces and key-frames (default draco)")
-      ->group(method);
-  command
-      .add_option("--effort", a.effort,
-                  "How long to search, 1 to 9 (default 5); files from 7 on open slower")
-      ->option_text("N")
-      ->check(CLI::Range(1, 9))
-      ->group(method);
-
-  const char* massage = "Massage";
-  add_choice<Massage>(command, "--massage", a.massage,
-                      {{"off", Massage::kOff},
-                       {"on", Massage::kOn},
-                       {"auto", Massage::kAuto},
-                       {"transfer", Massage::kTransfer}},
-                      "Move vertices along their surface first (default off)")
-      ->group(massage);
-  command
-      .add_option("--massage-strength", a.massage_strength,
-                  "Of shape against distance, between 0 and 1 (default 0.5)")
-      ->option_text("X")
-      ->group(massage);
-  command
-      .add_option("--massage-tolerance", a.massage_tolerance,
-                  "How far the surface may move anywhere (default: as far as it needs)")
-      ->option_text("LEN")
-      ->group(massage);
-
-  const char* attributes = "Attributes";
-  command.add_flag("--no-attributes", a.no_attributes, "Positions and faces alone")
-      ->group(attributes);
-  command
-      .add_option("--uv-bits", a.attributes.uv_bits,
-                  "Texture coordinates in steps of 2^-N (default 12)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 24))
-      ->group(attributes);
-  command
-      .add_option("--colour-bits", a.attributes.colour_bits,
-                  "Of a component of a colour (default 8)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 16))
-      ->group(attributes);
-  command
-      .add_option("--attribute-error", a.attribute_error,
-                  "Largest error of colours, texture coordinates and other numbers that\n"
-                  "change, in their own units or per cent of their range (default: half\n"
-                  "a step of --colour-bits for colours, 0.1% for others)")
-      ->option_text("X")
-      ->group(attributes);
-  command
-      .add_option("--store-normals", a.normal_error,
-                  "Normals and tangents of the first frame as numbers, not only the hard\n"
-                  "edges: to within an angle in degrees, as 0.05")
-      ->option_text("DEG")
-      ->group(attributes);
-
-  const char* metadata = "Metadata (positions stay as they are)";
-  command
-      .add_option("--fps", a.rate,
-                  "Frames per second (default: as in the input, else 24;\n"
-                  "of a scene: the rate of its keys, at least 30)")
-      ->option_text("N[/D]")
-      ->group(metadata);
-  add_choice<UpAxis>(command, "--up", a.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},
-                     "Axis that points up")
-      ->group(metadata);
-  command.add_option("--unit", a.unit, "Length of a scene unit: metres, or m cm mm km in ft")
-      ->option_text("METRES")
-      ->group(metadata);
-  command.add_flag("--loop", a.loop, "The clip is meant to be repeated")->group(metadata);
-  command.add_flag("--json", a.json, "Print the result as JSON")->group("Options");
+void add_arguments(Options& options, EncodeArguments& a) {
+  options.arguments("INPUT", a.inputs, "Mesh and vertex cache, frames, or a scene");
+  options.option("-o,--output", a.output, "FILE", "The .anic file to write; of --batch: the folder")
+      .required();
+  options.option(
+      "--mesh", a.mesh, "FILE|NAME",
+      "Mesh of a lone vertex cache (default: same stem beside it), or the name of one in "
+      "a scene (default: all)");
+  options.option("--clip", a.clip, "NAME|INDEX", "Animation of a scene, or none");
+  options.option("--frames", a.frames, "A:B",
+                 "Encode a part, A to B - 1, to be joined with others");
+  options.option("--batch", a.batch, "DIR|LIST",
+                 "Encode all clips in a folder, or in a list with a clip per line");
+  options.option("--memory", a.memory, "BYTES",
+                 "Of --batch: for clips side by side (default: half)");
+  options.flag("--json", a.json, "Print the result as JSON");
+  add_target(options, a);
+  add_method(options, a);
+  add_massage_options(options, a);
+  add_attributes(options, a);
+  add_metadata(options, a);
 }
 
 EncodeOptions encode_options(const EncodeArguments& command) {

@@ -7,12 +7,11 @@
 #include "codec/encode_massaged.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "tools/io/load_sequence.h"
+#include "tools/options/options.h"
 
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 namespace anicodec::tools {
 
@@ -51,7 +50,7 @@ struct EncodeArguments {
 };
 
 /// Declares the options, which write to `arguments`.
-void add_arguments(CLI::App& command, EncodeArguments& arguments);
+void add_arguments(Options& options, EncodeArguments& arguments);
 
 /// What they mean to the encoder. Throws Error(kUsage) naming the option.
 EncodeOptions encode_options(const EncodeArguments& arguments);

@@ -5,8 +5,10 @@
 #ifndef ANICODEC_TOOLS_WORDS_NAMES_H_
 #define ANICODEC_TOOLS_WORDS_NAMES_H_
 
+#include "codec/sequence/mesh_sequence.h"
 #include "format/attribute_record.h"
 #include "format/records.h"
+#include "tools/words/word_table.h"
 
 #include <cstdint>
 #include <string>
@@ -24,103 +26,81 @@ inline std::string printable(std::string_view name) {
   return text;
 }
 
+inline constexpr Word<format::BasisKind> kBasisKinds[] = {
+    {format::BasisKind::kKeyframes, "keyframes"},
+    {format::BasisKind::kEigenshapes, "eigenshapes"},
+    {format::BasisKind::kEigentrajectories, "eigentrajectories"}};
+
+inline constexpr Word<format::CoderId> kCoders[] = {{format::CoderId::kDraco, "draco"},
+                                                    {format::CoderId::kPlain, "plain"},
+                                                    {format::CoderId::kPredictive, "predictive"}};
+
+inline constexpr Word<format::Reconstruction> kReconstructions[] = {
+    {format::Reconstruction::kLinear, "linear"}, {format::Reconstruction::kMsgi, "msgi"}};
+
+inline constexpr Word<format::OrderMode> kOrderModes[] = {
+    {format::OrderMode::kVertices, "vertices"},
+    {format::OrderMode::kFree, "free"},
+    {format::OrderMode::kAll, "all"}};
+
+inline constexpr Word<format::ErrorMetric> kErrorMetrics[] = {
+    {format::ErrorMetric::kNone, "none"},          {format::ErrorMetric::kKg, "kg"},
+    {format::ErrorMetric::kMaxError, "max_error"}, {format::ErrorMetric::kRmse, "rmse"},
+    {format::ErrorMetric::kSize, "size"},          {format::ErrorMetric::kBpfv, "bpfv"}};
+
+inline constexpr Word<format::AttributeKind> kAttributeKinds[] = {
+    {format::AttributeKind::kUv, "uv"},           {format::AttributeKind::kNormal, "normal"},
+    {format::AttributeKind::kTangent, "tangent"}, {format::AttributeKind::kColour, "colour"},
+    {format::AttributeKind::kCustom, "custom"},   {format::AttributeKind::kMaterial, "material"},
+    {format::AttributeKind::kPart, "part"}};
+
+inline constexpr Word<format::AttributeDomain> kAttributeDomains[] = {
+    {format::AttributeDomain::kVertex, "vertices"},
+    {format::AttributeDomain::kCorner, "corners"},
+    {format::AttributeDomain::kPolygon, "faces"}};
+
+inline constexpr Word<UpAxis> kUpAxes[] = {{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}};
+
 inline const char* name_of(format::BasisKind kind) {
-  switch (kind) {
-    case format::BasisKind::kKeyframes:
-      return "keyframes";
-    case format::BasisKind::kEigenshapes:
-      return "eigenshapes";
-    case format::BasisKind::kEigentrajectories:
-      return "eigentrajectories";
-  }
-  return "unknown";
+  return word_of(kBasisKinds, kind);
+}
+
+inline const char* name_of(format::CoderId coder) {
+  return word_of(kCoders, coder);
+}
+
+inline const char* name_of(format::Reconstruction reconstruction) {
+  return word_of(kReconstructions, reconstruction);
+}
+
+inline const char* name_of(format::OrderMode order) {
+  return word_of(kOrderModes, order);
+}
+
+inline const char* name_of(format::ErrorMetric metric) {
+  return word_of(kErrorMetrics, metric);
+}
+
+inline const char* name_of(format::AttributeKind kind) {
+  return word_of(kAttributeKinds, kind);
+}
+
+inline const char* name_of(format::AttributeDomain domain) {
+  return word_of(kAttributeDomains, domain);
+}
+
+inline const char* name_of(UpAxis up) {
+  return word_of(kUpAxes, up);
+}
+
+/// Of an axis as a file has it.
+inline const char* up_name(uint8_t up) {
+  return name_of(UpAxis{up});
 }
 
 /// What the components of a basis are, in the plural, for people.
 inline const char* components_of(format::BasisKind kind) {
   return kind == format::BasisKind::kKeyframes ? "key-frames" : name_of(kind);
-}
-
-inline const char* name_of(format::CoderId coder) {
-  switch (coder) {
-    case format::CoderId::kPlain:
-      return "plain";
-    case format::CoderId::kDraco:
-      return "draco";
-    case format::CoderId::kPredictive:
-      return "predictive";
-  }
-  return "unknown";
-}
-
-inline const char* name_of(format::Reconstruction reconstruction) {
-  return reconstruction == format::Reconstruction::kLinear ? "linear" : "msgi";
-}
-
-inline const char* name_of(format::OrderMode order) {
-  switch (order) {
-    case format::OrderMode::kVertices:
-      return "vertices";
-    case format::OrderMode::kFree:
-      return "free";
-    case format::OrderMode::kAll:
-      return "all";
-  }
-  return "unknown";
-}
-
-inline const char* name_of(format::ErrorMetric metric) {
-  switch (metric) {
-    case format::ErrorMetric::kNone:
-      return "none";
-    case format::ErrorMetric::kKg:
-      return "kg";
-    case format::ErrorMetric::kMaxError:
-      return "max_error";
-    case format::ErrorMetric::kRmse:
-      return "rmse";
-    case format::ErrorMetric::kSize:
-      return "size";
-    case format::ErrorMetric::kBpfv:
-      return "bpfv";
-  }
-  return "unknown";
-}
-
-inline const char* name_of(format::AttributeKind kind) {
-  switch (kind) {
-    case format::AttributeKind::kUv:
-      return "uv";
-    case format::AttributeKind::kNormal:
-      return "normal";
-    case format::AttributeKind::kTangent:
-      return "tangent";
-    case format::AttributeKind::kColour:
-      return "colour";
-    case format::AttributeKind::kCustom:
-      return "custom";
-    case format::AttributeKind::kMaterial:
-      return "material";
-    case format::AttributeKind::kPart:
-      return "part";
-  }
-  return "unknown";
-}
-
-inline const char* name_of(format::AttributeDomain domain) {
-  switch (domain) {
-    case format::AttributeDomain::kVertex:
-      return "vertices";
-    case format::AttributeDomain::kCorner:
-      return "corners";
-    case format::AttributeDomain::kPolygon:
-      return "faces";
-  }
-  return "unknown";
-}
-
-inline const char* up_name(uint8_t up) {
-  return up == 1 ? "y" : up == 2 ? "z" : "unknown";
 }
 
 }  // namespace anicodec::tools

@@ -42,6 +42,13 @@ double parse_positive(std::string_view text, std::string_view option) {
   return x;
 }
 
+double parse_share(std::string_view text, std::string_view option) {
+  const double share = parse_positive(text, option);
+  if (share > 1)
+    fail(option, text, "above 0 and at most 1");
+  return share;
+}
+
 Length parse_length(std::string_view text, std::string_view option) {
   std::string_view rest = text;
   Length length;

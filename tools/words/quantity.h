@@ -23,6 +23,9 @@ struct Length {
 /// A finite number greater than 0.
 double parse_positive(std::string_view text, std::string_view option);
 
+/// A number above 0 and up to 1.
+double parse_share(std::string_view text, std::string_view option);
+
 /// "0.02" or "0.05%", greater than 0.
 Length parse_length(std::string_view text, std::string_view option);
 
