@@ -47,7 +47,7 @@ void add_folder(const fs::path& folder, const fs::path& relative, std::vector<Ba
     const std::string stem = fs::path(file).stem().string();
     if (is_cache(kind))
       cached.insert(stem);
-    if (is_cache(kind) || is_scene(kind))
+    if (is_cache(kind) || is_whole_clip(kind))
       clips.push_back({joined(relative, stem), {(folder / file).string()}});
     else if (kind != FileKind::kUnknown && without_number(stem) != stem)
       frames[{without_number(stem), kind}].push_back(file);

@@ -3,6 +3,7 @@
 #include "tools/io/load_sequence.h"
 
 #include "codec/sequence/error.h"
+#include "tools/io/alembic/alembic.h"
 #include "tools/io/assimp/assimp_scene.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_attributes.h"
@@ -31,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReadableKinds =
-    ".obj, .ply, .off, .stl, .pc2, .mdd, .gltf, .glb and scenes of assimp";
+    ".obj, .ply, .off, .stl, .pc2, .mdd, .gltf, .glb, .abc and scenes of assimp";
 
 [[noreturn]] void fail_usage(const std::string& text) {
   throw Error(ErrorKind::kUsage, text);
@@ -72,11 +73,6 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
     if (fs::is_directory(path, error))
       fail_input(path, "is a directory; name its frames with a pattern such as '" +
                            (fs::path(path) / "*.obj").string() + "'");
-    if (kind_of(path) == FileKind::kAlembic)
-      throw Error(ErrorKind::kUnsupported,
-                  path +
-                      ": Alembic is not read; export the clip as glTF, or as OBJ with PC2 or MDD, "
-                      "from the program that made it");
     if (kind_of(path) == FileKind::kUnknown)
       fail_input(path, "is of unknown kind; " + std::string(kReadableKinds) + " are read");
   }
@@ -247,6 +243,19 @@ void load_scene(const std::string& path, const LoadOptions& options, MeshSequenc
   sequence.name = sequence.name.empty() ? stem : stem + " " + sequence.name;
 }
 
+AlembicOptions alembic_options(const LoadOptions& options) {
+  AlembicOptions archive{.rate = options.rate, .mesh = options.mesh};
+  archive.progress = options.progress;
+  archive.note = options.note;
+  return archive;
+}
+
+void load_archive(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
+  const std::string stem = sequence.name;
+  sequence = read_alembic(file_source(path), alembic_options(options));
+  sequence.name = stem;
+}
+
 /// A scene or one mesh from the standard input, told apart by how it begins.
 void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
   std::string bytes;
@@ -278,14 +287,16 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
 void load(const std::vector<std::string>& paths, const LoadOptions& options,
           MeshSequence& sequence) {
   for (const std::string& path : paths) {
-    if (is_scene(kind_of(path)) && paths.size() > 1)
-      fail_usage(path + ": a scene is a whole clip, but " + std::to_string(paths.size()) +
+    if (is_whole_clip(kind_of(path)) && paths.size() > 1)
+      fail_usage(path + ": is a whole clip, but " + std::to_string(paths.size()) +
                  " inputs are given");
   }
   if (is_scene(kind_of(paths[0])))
     return load_scene(paths[0], options, sequence);
   if (!options.clip.empty())
     fail_usage("--clip " + options.clip + ": " + paths[0] + " is no scene with clips");
+  if (kind_of(paths[0]) == FileKind::kAlembic)
+    return load_archive(paths[0], options, sequence);
   std::vector<std::string> caches, meshes;
   for (const std::string& path : paths)
     (is_cache(kind_of(path)) ? caches : meshes).push_back(path);
@@ -319,7 +330,7 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
 }  // namespace
 
 bool is_sequence_input(const std::string& path) {
-  return kind_of(path) != FileKind::kUnknown && kind_of(path) != FileKind::kAlembic;
+  return kind_of(path) != FileKind::kUnknown;
 }
 
 std::vector<std::string> sequence_files(std::span<const std::string> inputs) {
@@ -353,6 +364,13 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
   const FileKind kind = kind_of(paths[0]);
   if (paths.size() > kMaxFrames)
     fail_usage(std::to_string(paths.size()) + " frames; at most 2^24 - 1 are possible");
+  if (kind == FileKind::kAlembic) {
+    if (paths.size() > 1)
+      fail_usage(paths[1] + ": is a second input, but " + paths[0] + " is a whole clip");
+    Scene scene = read_alembic_meshes(file_source(paths[0]), alembic_options(options));
+    scene.clip.name = fs::path(paths[0]).stem().string();
+    return scene;
+  }
   MeshReader reader;
   Scene scene;
   scene.clip.name = fs::path(paths[0]).stem().string();

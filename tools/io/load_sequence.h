@@ -7,6 +7,7 @@
 #include "codec/sequence/progress.h"
 #include "codec/sequence/scene.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,7 +19,8 @@ struct LoadOptions {
   /// Overrides what the input says, an uneven table of times included; a scene is sampled at it.
   std::optional<FrameRate> rate = {};
   /// Mesh of a lone vertex cache; empty: same stem .obj, .ply or .off beside it. Of a scene: the
-  /// name of a mesh or node; empty: all of them.
+  /// name of a mesh or node, of an Alembic archive the path of a mesh or of what holds it; empty:
+  /// all of them.
   std::string mesh = {};
   /// Animation of a scene, see GltfOptions.
   std::string clip = {};
@@ -26,6 +28,8 @@ struct LoadOptions {
   bool weld_stl = true;
   /// Stage "reading".
   Progress progress = {};
+  /// Told what of a file is left out, where that is not plain from its kind.
+  std::function<void(const std::string& text)> note = {};
 };
 
 /// Loads what the command line names, one of
@@ -33,6 +37,7 @@ struct LoadOptions {
 ///   - a vertex cache alone, with options.mesh or a mesh beside it,
 ///   - frames of one format: meshes of equal connectivity in the order given,
 ///   - a scene (.gltf .glb), baked,
+///   - an Alembic archive (.abc), see read_alembic(),
 ///   - a pattern of glob(3) for any of these, its results in natural order,
 ///   - one mesh: a single frame,
 ///   - "-": a scene in one file or a mesh (.obj .ply .off) from the standard input.
@@ -41,7 +46,8 @@ struct LoadOptions {
 MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options = {});
 
 /// Loads frames of one format (.obj .ply .off) whose connectivity may change: a mesh for each run
-/// of frames that share one. Throws as load_sequence().
+/// of frames that share one. Of an Alembic archive: a mesh for each object and connectivity. Throws
+/// as load_sequence().
 Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& options = {});
 
 /// The files behind such inputs, in the order of load_sequence(), patterns expanded. Throws as it

@@ -34,9 +34,14 @@ inline bool is_cache(FileKind kind) {
   return kind == FileKind::kPc2 || kind == FileKind::kMdd;
 }
 
-/// True for scenes, of which one file is a whole clip.
+/// True for scenes, which can be sampled at any rate.
 inline bool is_scene(FileKind kind) {
   return kind == FileKind::kGltf || kind == FileKind::kGlb || kind == FileKind::kAssimp;
+}
+
+/// True for files of which one is a whole clip: scenes, and archives of frames with their meshes.
+inline bool is_whole_clip(FileKind kind) {
+  return is_scene(kind) || kind == FileKind::kAlembic;
 }
 
 }  // namespace anicodec::tools

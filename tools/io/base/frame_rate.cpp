@@ -102,6 +102,14 @@ FrameRate parse_frame_rate(std::string_view text) {
 }
 
 Timing timing_of(std::span<const float> times, std::string_view name) {
+  const std::vector<double> exact(times.begin(), times.end());
+  const float largest =
+      times.empty() ? 0 : std::max(std::abs(times.front()), std::abs(times.back()));
+  const float below = std::nextafter(largest, -std::numeric_limits<float>::infinity());
+  return timing_of(exact, static_cast<double>(largest - below), name);
+}
+
+Timing timing_of(std::span<const double> times, double rounding, std::string_view name) {
   for (size_t f = 0; f < times.size(); ++f) {
     if (!std::isfinite(times[f]))
       fail_input(name, "the time of frame " + std::to_string(f) + " is not finite");
@@ -112,27 +120,24 @@ Timing timing_of(std::span<const float> times, std::string_view name) {
   Timing timing;
   if (times.empty())
     return timing;
-  double start = static_cast<double>(times.front());
+  const double start = times.front();
   timing.start_time = start;
   if (times.size() == 1)
     return timing;
 
-  float largest = std::max(std::abs(times.front()), std::abs(times.back()));
-  double rounding = static_cast<double>(
-      largest - std::nextafter(largest, -std::numeric_limits<float>::infinity()));
-  double length = static_cast<double>(times.back()) - start;
-  double step = length / static_cast<double>(times.size() - 1);
+  const double length = times.back() - start;
+  const double step = length / static_cast<double>(times.size() - 1);
   // 23.976 for 24000/1001 is off by a millionth.
   timing.rate = snap(1 / step, std::max(2e-6, 4 * rounding / length));
 
   bool even = true;
   for (size_t f = 0; f < times.size(); ++f) {
-    double expected = start + step * static_cast<double>(f);
-    even &= std::abs(static_cast<double>(times[f]) - expected) <= 0.01 * step + 4 * rounding;
+    const double expected = start + step * static_cast<double>(f);
+    even &= std::abs(times[f] - expected) <= 0.01 * step + 4 * rounding;
   }
   if (!even) {
-    for (float t : times)
-      timing.times.push_back(static_cast<double>(t) - start);
+    for (double t : times)
+      timing.times.push_back(t - start);
   }
   return timing;
 }

@@ -28,6 +28,9 @@ struct Timing {
 /// times that are not finite or do not increase.
 Timing timing_of(std::span<const float> times, std::string_view name);
 
+/// The same for times that are off by at most `rounding` seconds.
+Timing timing_of(std::span<const double> times, double rounding, std::string_view name);
+
 }  // namespace anicodec::tools
 
 #endif  // ANICODEC_TOOLS_IO_BASE_FRAME_RATE_H_
