@@ -30,8 +30,8 @@ namespace {
 constexpr const char* kFooter =
     R"(INPUT is a mesh and its vertex cache (mesh.obj cache.pc2), a vertex cache with the mesh beside it or
 given by --mesh, a quoted pattern ('frames/*.obj', in natural order), a list of frames of equal
-connectivity, or a scene. Meshes: .obj .ply .off .stl; caches: .pc2 .mdd; scenes: .gltf .glb, and
-in builds with assimp .fbx .dae .md2 .md3 .3ds and others.
+connectivity, a scene, or an archive. Meshes: .obj .ply .off .stl; caches: .pc2 .mdd; scenes: .gltf
+.glb, and in builds with assimp .fbx .dae .md2 .md3 .3ds and others; archives: .abc (Alembic).
 
 INPUT - is a scene in one file or a mesh from the standard input; -o - writes the .anic file to the
 standard output, and nothing else; decode, info and verify read one from -.
@@ -39,6 +39,7 @@ standard output, and nothing else; decode, info and verify read one from -.
 A scene is baked: skins, morph targets and moving nodes become vertices that move, all its meshes
 (or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. --clip names
 or numbers the clip; without it the first one that moves anything is taken, --clip none takes none.
+An archive has a frame for each of its samples (or at --fps); --mesh takes one mesh by its path.
 
 --meshes apart makes each object of the input (node of a scene, o of an OBJ) a mesh of its own with
 its name. One that only turns and moves is stored as that where it is smaller; one whose vertices
@@ -193,7 +194,18 @@ EncodeResult encode_clip(const EncodeArguments& command, EncodeOptions options,
   }
 }
 
-void run(const EncodeArguments& command, const CommonOptions& common) {
+/// Prints what the input does not keep, some lines of it, above the line of progress.
+std::function<void(const std::string&)> notes_above(ProgressLine& line) {
+  constexpr int kMost = 20;
+  return [&line, told = 0](const std::string& text) mutable {
+    if (++told > kMost + 1)
+      return;
+    line.clear();
+    fmt::print(stderr, "{}\n", told <= kMost ? text : "... and more of the like");
+  };
+}
+
+void run(EncodeArguments command, const CommonOptions& common) {
   if (!command.batch.empty())
     return encode_batch(command, common);
   if (command.inputs.empty())
@@ -209,6 +221,8 @@ void run(const EncodeArguments& command, const CommonOptions& common) {
     output.emplace(command.output, common.overwrite);
   ProgressLine line(common.quiet);
   Progress progress = line.callback();
+  if (!common.quiet)
+    command.note = notes_above(line);
   MassageVerdict massage;
   EncodeResult result = command.topology == Topology::kSegments || command.meshes == Meshes::kApart
                             ? encode_meshes(command, options, progress)

@@ -193,6 +193,7 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   options.mesh = command.mesh;
   options.clip = command.clip;
   options.progress = progress;
+  options.note = command.note;
   if (!command.rate.empty())
     options.rate = parse_frame_rate(command.rate);
   return options;

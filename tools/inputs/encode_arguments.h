@@ -10,6 +10,7 @@
 #include "tools/options/options.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,8 @@ struct EncodeArguments {
   AttributeOptions attributes;
   std::string attribute_error, normal_error;
   bool json = false;
+  /// Told what of the input is left out; may be empty.
+  std::function<void(const std::string& text)> note;
 };
 
 /// Declares the options, which write to `arguments`.
