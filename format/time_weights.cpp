@@ -447,12 +447,39 @@ bool TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source*
   return true;
 }
 
-TimeWeightModel::TimeWeightModel(uint32_t frames) : frames_(frames), state_(new State(frames)) {}
+void TimeWeightModel::Release::operator()(State* state) const {
+  state->~State();
+  if (memory)
+    memory->give_back(state, sizeof(State));
+  else
+    ::operator delete(state);
+}
+
+template <class Source>
+TimeWeightModel::StatePointer TimeWeightModel::make_state(const Source& source) {
+  struct Room {
+    HostAllocator<State> allocator;
+    State* state = allocator.allocate(1);
+
+    ~Room() {  // of a state that could not be made
+      if (state)
+        allocator.deallocate(state, 1);
+    }
+  };
+
+  Room room;
+  StatePointer made(new (room.state) State(source), Release{room.allocator.memory()});
+  room.state = nullptr;
+  return made;
+}
+
+TimeWeightModel::TimeWeightModel(uint32_t frames)
+    : frames_(frames), state_(make_state(frames)) {}
 
 TimeWeightModel::~TimeWeightModel() = default;
 
 TimeWeightModel::TimeWeightModel(const TimeWeightModel& other)
-    : frames_(other.frames_), state_(new State(*other.state_)) {}
+    : frames_(other.frames_), state_(make_state(*other.state_)) {}
 
 TimeWeightModel& TimeWeightModel::operator=(const TimeWeightModel& other) {
   frames_ = other.frames_;

@@ -64,8 +64,20 @@ class TimeWeightModel {
 
  private:
   struct State;
+
+  /// Gives a state back to the memory that it came from.
+  struct Release {
+    Memory* memory;
+    void operator()(State* state) const;
+  };
+
+  using StatePointer = std::unique_ptr<State, Release>;
+
+  template <class Source>
+  static StatePointer make_state(const Source& source);
+
   uint32_t frames_;
-  std::unique_ptr<State> state_;
+  StatePointer state_;
 };
 
 }  // namespace anicodec

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+// The context in memory of ours is in the part of zstd's interface that may still change.
+#define ZSTD_STATIC_LINKING_ONLY
 #include <zstd.h>
 
 namespace anicodec::format {
@@ -30,7 +32,11 @@ Status zstd_decompress(ByteView compressed, size_t size, Bytes* out) {
   if (ZSTD_isError(frame) || frame != compressed.size)
     return Status::kZstd;
   out->resize(size);
-  size_t n = ZSTD_decompress(out->data(), size, compressed.data, compressed.size);
+  Vector<uint64_t> memory((ZSTD_estimateDCtxSize() + 7) / 8);
+  ZSTD_DCtx* context = ZSTD_initStaticDCtx(memory.data(), 8 * memory.size());
+  if (!context)
+    return Status::kInternal;
+  size_t n = ZSTD_decompressDCtx(context, out->data(), size, compressed.data, compressed.size);
   return ZSTD_isError(n) || n != size ? Status::kZstd : Status::kOk;
 }
 

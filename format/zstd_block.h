@@ -13,7 +13,7 @@ namespace anicodec::format {
 Bytes zstd_compress(ByteView bytes);
 
 /// Decompresses exactly one zstd frame into exactly `size` bytes, else kZstd. `out` is resized; the
-/// caller has checked `size` against its limits.
+/// caller has checked `size` against its limits. Memory: about 96 kB beside that.
 Status zstd_decompress(ByteView compressed, size_t size, Bytes* out);
 
 }  // namespace anicodec::format

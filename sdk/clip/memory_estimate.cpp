@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/memory_estimate.h"
 
+#include "sdk/mesh/draco_profile.h"
 #include "sdk/segment/segment.h"
 
 #include <algorithm>
@@ -16,6 +17,8 @@ constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
 constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
 constexpr uint64_t kStructure = 512;             // of a mesh or segment
 constexpr uint64_t kMatrix = 48;                 // bytes of a pose map or motion
+constexpr uint64_t kSymbol = 12;                 // bytes that Draco keeps of one that may occur
+constexpr uint64_t kZstd = uint64_t{1} << 17;    // what zstd decodes in
 
 /// A sum that stays at its end instead of wrapping.
 class Sum {
@@ -71,18 +74,24 @@ uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
   return bytes;
 }
 
-/// Draco's decoder keeps values twice, and a connectivity for each attribute.
+/// Draco's decoder keeps values twice, a connectivity for each attribute, and tables for the
+/// symbols that it decodes. Vertices of the surface may be split as often as there are triangles.
 uint64_t draco(const Limits::Mesh& m) {
   if (m.draco_components == 0)
     return 0;
-  const uint64_t attributes = std::clamp(m.draco_components / 3, 2U, 64U);
-  return uint64_t{8} * m.points * m.draco_components + uint64_t{100} * m.triangles +
-         attributes * (uint64_t{20} * m.triangles + uint64_t{24} * m.points);
+  const uint64_t values = uint64_t{m.points} * std::min(m.draco_components, 255U);
+  const uint64_t tables =
+      (uint64_t{4} << draco_table_bits(values)) +
+      kSymbol * std::min<uint64_t>(uint64_t{64} * m.draco_bytes, kMaxDracoSymbols);
+  const uint64_t attributes = most_draco_attributes(m.draco_components);
+  return kStructure * (attributes + 8) + tables + uint64_t{64} * m.draco_bytes +
+         uint64_t{8} * m.points * m.draco_components + uint64_t{160} * m.triangles +
+         attributes * (uint64_t{40} * m.triangles + uint64_t{44} * m.points);
 }
 
 uint64_t opening(const Limits::Mesh& m) {
-  const uint64_t details =
-      uint64_t{28} * 3 * m.triangles + uint64_t{12} * m.coded_vertices + 4 * m.source_vertices;
+  const uint64_t details = uint64_t{84} * m.triangles + uint64_t{12} * m.coded_vertices +
+                           uint64_t{4} * m.source_vertices;
   const uint64_t maps =
       uint64_t{32} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{12} * m.corners;
   const uint64_t pose = uint64_t{340} * m.coded_vertices + uint64_t{72} * m.triangles;
@@ -91,7 +100,7 @@ uint64_t opening(const Limits::Mesh& m) {
                                   ? 0
                                   : uint64_t{64} * m.corners + uint64_t{16} * m.source_vertices +
                                         2 * m.attribute_bytes + 65536;
-  return std::max({details, maps + attributes, pose, draco(m)});
+  return std::max({details, maps + attributes, pose, draco(m) + m.draco_bytes}) + kZstd;
 }
 
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {

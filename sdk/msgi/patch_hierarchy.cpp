@@ -36,9 +36,7 @@ class Bisection {
       else
         more_b = grow(queues_[1], mark_b);
     }
-    uint32_t* middle =
-        std::stable_partition(faces, faces + count, [&](uint32_t f) { return mark_[f] == mark_a; });
-    return static_cast<size_t>(middle - faces);
+    return partition(faces, count, mark_a);
   }
 
  private:
@@ -57,6 +55,17 @@ class Bisection {
     size_t size = 0, at = 0;
     uint32_t neighbour = 0;
   };
+
+  /// Moves the faces with a mark to the front; each part stays ascending. Returns how many they
+  /// are.
+  size_t partition(uint32_t* faces, size_t count, uint32_t mark) {
+    Vector<uint32_t>& others = queues_[1].faces;  // no longer in use
+    size_t front = 0, back = 0;
+    for (size_t i = 0; i < count; ++i)
+      (mark_[faces[i]] == mark ? faces[front++] : others[back++]) = faces[i];
+    std::copy_n(others.begin(), back, faces + front);
+    return front;
+  }
 
   /// Adds one face that is still free; false when there is none.
   bool grow(Queue& queue, uint32_t mark) {

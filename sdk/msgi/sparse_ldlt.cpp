@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace anicodec {
 namespace {
@@ -74,8 +75,9 @@ void SparseLdlt::number(const Vector<uint32_t>& vertex_group) {
     if (vertex_group[v] != kFixed)
       vertices_.push_back(v);
   }
-  std::stable_sort(vertices_.begin(), vertices_.end(),
-                   [&](uint32_t a, uint32_t b) { return vertex_group[a] < vertex_group[b]; });
+  std::sort(vertices_.begin(), vertices_.end(), [&](uint32_t a, uint32_t b) {
+    return std::pair(vertex_group[a], a) < std::pair(vertex_group[b], b);
+  });
   blocks_.clear();
   for (uint32_t i = 0; i < size(); ++i) {
     if (i == 0 || vertex_group[vertices_[i]] != vertex_group[vertices_[i - 1]]) {

@@ -5,6 +5,7 @@
 
 #include "codec/encode.h"
 #include "corpus/clips.h"
+#include "tests/heap_count.h"
 
 #include <anicodec/anicodec.h>
 
@@ -48,6 +49,7 @@ struct CountingMemory {
     a.user = this;
     a.allocate = [](void* user, size_t size, size_t alignment) -> void* {
       auto* self = static_cast<CountingMemory*>(user);
+      const HeapPause own;
       if (self->calls++ == self->fail_at)
         return nullptr;
       self->held += size;
@@ -59,6 +61,7 @@ struct CountingMemory {
     };
     a.release = [](void* user, void* memory, size_t size) {
       auto* self = static_cast<CountingMemory*>(user);
+      const HeapPause own;
       auto* head = static_cast<size_t*>(memory) - 2;
       self->small += head[0] != size;
       self->held -= size;

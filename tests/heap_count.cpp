@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tests/heap_count.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <utility>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define ANICODEC_HEAP_OF_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ANICODEC_HEAP_OF_SANITIZER
+#endif
+#endif
+
+namespace anicodec {
+namespace {
+
+thread_local HeapCount* current = nullptr;
+
+}  // namespace
+
+HeapCount::HeapCount() {
+  current = this;
+}
+
+HeapCount::~HeapCount() {
+  current = nullptr;
+}
+
+void HeapCount::note(int64_t bytes) {
+  if (!current)
+    return;
+  current->calls_ += bytes > 0;
+  current->held_ += bytes;
+  current->peak_ = std::max(current->peak_, current->held_);
+}
+
+HeapPause::HeapPause() : count_(std::exchange(current, nullptr)) {}
+
+HeapPause::~HeapPause() {
+  current = count_;
+}
+
+}  // namespace anicodec
+
+using anicodec::HeapCount;
+
+#if defined(ANICODEC_HEAP_OF_SANITIZER)
+
+extern "C" {
+
+size_t __sanitizer_get_allocated_size(const volatile void* memory);
+
+/// Called by the sanitizer's heap; weak there.
+void __sanitizer_malloc_hook(const volatile void*, size_t size) {
+  HeapCount::note(static_cast<int64_t>(size));
+}
+
+void __sanitizer_free_hook(const volatile void* memory) {
+  if (memory)
+    HeapCount::note(-static_cast<int64_t>(__sanitizer_get_allocated_size(memory)));
+}
+
+}  // extern "C"
+
+#elif defined(__GLIBC__)
+
+// In place of those of the C library, which all others come to.
+#include <malloc.h>
+
+extern "C" {
+
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+void __libc_free(void* memory);
+
+}  // extern "C"
+
+namespace {
+
+void* noted(void* memory) {
+  if (memory)
+    HeapCount::note(static_cast<int64_t>(malloc_usable_size(memory)));
+  return memory;
+}
+
+void note_release(void* memory) {
+  if (memory)
+    HeapCount::note(-static_cast<int64_t>(malloc_usable_size(memory)));
+}
+
+}  // namespace
+
+extern "C" {
+
+void* malloc(size_t size) noexcept {
+  return noted(__libc_malloc(size));
+}
+
+void* calloc(size_t count, size_t size) noexcept {
+  return noted(__libc_calloc(count, size));
+}
+
+void* realloc(void* memory, size_t size) noexcept {
+  note_release(memory);
+  return noted(__libc_realloc(memory, size));
+}
+
+void* memalign(size_t alignment, size_t size) noexcept {
+  return noted(__libc_memalign(alignment, size));
+}
+
+void* aligned_alloc(size_t alignment, size_t size) noexcept {
+  return noted(__libc_memalign(alignment, size));
+}
+
+int posix_memalign(void** out, size_t alignment, size_t size) noexcept {
+  *out = noted(__libc_memalign(alignment, size));
+  return *out ? 0 : ENOMEM;
+}
+
+void free(void* memory) noexcept {
+  note_release(memory);
+  __libc_free(memory);
+}
+
+}  // extern "C"
+
+#endif
