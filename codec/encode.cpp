@@ -55,16 +55,16 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
                                                  double clip_diagonal, bool slow) {
   constexpr double kTypical = 1e-4;  // of the diagonal
   double step = kTypical * clip_diagonal;
-  if (target.metric == format::ErrorMetric::kMaxError)
+  if (target.metric == ErrorMetric::kMaxError)
     step = target.value / 4;
-  else if (target.metric == format::ErrorMetric::kRmse)
+  else if (target.metric == ErrorMetric::kRmse)
     step = target.value;
   Eigen::Vector3d origin;
   const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
   return encode_reference_pose(pose, origin, step, slow, input.layout);
 }
 
-Clip opened(const format::Bytes& file) {
+Clip opened(const Bytes& file) {
   Clip clip;
   if (Failure failure = clip.open(file); !failure.ok())
     throw Error(ErrorKind::kInternal,
@@ -79,7 +79,7 @@ Comparison check_positions(const Clip& clip, const EncoderInput& input) {
   const MeshLayout& layout = input.layout;
   const uint32_t vertices = input.sequence.vertex_count;
   std::vector<uint32_t> played_of(vertices);  // the played vertex that shows a vertex of the source
-  if (clip.record().order == format::OrderMode::kFree) {
+  if (clip.record().order == OrderMode::kFree) {
     const Vector<uint32_t>& coded = clip.meshes()[0].topology.vertex_coded;
     std::vector<uint32_t> place(layout.sizes.coded_vertices);
     for (uint32_t v = 0; v < coded.size(); ++v)
@@ -116,7 +116,7 @@ Comparison check_positions(const Clip& clip, const EncoderInput& input) {
 void check_attributes(const Clip& clip, const EncoderInput& input,
                       const std::vector<StoredAttribute>& stored, uint32_t first_frame,
                       std::vector<AttributeResult>& results) {
-  const bool free = clip.record().order == format::OrderMode::kFree;
+  const bool free = clip.record().order == OrderMode::kFree;
   const uint32_t vertices = input.sequence.vertex_count;
   for (AttributeResult& result : results) {
     if (!result.kept)
@@ -130,10 +130,10 @@ void check_attributes(const Clip& clip, const EncoderInput& input,
       clip.attribute_values(0, result.number, f, played.data());
       const float* source = attribute.values.data() + size_t{f + first_frame} * vertices * n;
       for (uint32_t v = 0; v < vertices; ++v) {
-        const float* own = source + size_t{free ? input.layout.vertex_source[v] : v} * n;
+        const float* source_values = source + size_t{free ? input.layout.vertex_source[v] : v} * n;
         for (uint32_t c = 0; c < n; ++c) {
-          const double d =
-              static_cast<double>(own[c]) - static_cast<double>(played[size_t{v} * n + c]);
+          const double d = static_cast<double>(source_values[c]) -
+                           static_cast<double>(played[size_t{v} * n + c]);
           squared += d * d;
           result.max_error = std::max(result.max_error, std::abs(d));
         }
@@ -149,22 +149,22 @@ void check_attributes(const Clip& clip, const EncoderInput& input,
 std::vector<const EncodedSegment*> all_segments(const Solution& solution,
                                                 const MovingAttributes& moving) {
   std::vector<const EncodedSegment*> list = solution.segments();
-  for (const Part& part : moving.parts)
+  for (const CodedPart& part : moving.parts)
     list.push_back(&part.encoded);
   std::ranges::stable_sort(list, {}, [](const EncodedSegment* s) { return s->sizes.first_frame; });
   return list;
 }
 
 /// The clip and its moving attributes, coded.
-struct Coded {
+struct EncodedClip {
   Solution positions;
   MovingAttributes attributes;
-  format::Bytes file;
+  Bytes file;
 };
 
 /// What the file says of the errors of attributes that move; 0 until they are measured.
-Vector<format::AttributeError> errors_of(const std::vector<AttributeResult>& attributes) {
-  Vector<format::AttributeError> errors;
+Vector<AttributeError> errors_of(const std::vector<AttributeResult>& attributes) {
+  Vector<AttributeError> errors;
   for (const AttributeResult& a : attributes) {
     if (a.kept)
       errors.push_back({0, static_cast<uint16_t>(a.number), a.max_error, a.rmse});
@@ -174,30 +174,30 @@ Vector<format::AttributeError> errors_of(const std::vector<AttributeResult>& att
 
 /// Bytes of a file of a target that is a size; nothing for others.
 std::optional<double> allowed_bytes(const Target& target, const MeshSequence& sequence) {
-  if (target.metric == format::ErrorMetric::kSize)
+  if (target.metric == ErrorMetric::kSize)
     return target.value;
-  if (target.metric == format::ErrorMetric::kBpfv)
+  if (target.metric == ErrorMetric::kBpfv)
     return target.value / 8 * sequence.vertex_count * sequence.frame_count;
   return std::nullopt;
 }
 
 /// Codes the clip. A size that is asked for is that of the file: positions get what the attributes
 /// leave.
-Coded code(RateControl& control, const EncoderInput& input,
-           const std::vector<StoredAttribute>& stored, const EncodeOptions& options,
-           const Target& target, double clip_diagonal, format::ClipRecord record) {
+EncodedClip code(RateControl& control, const EncoderInput& input,
+                 const std::vector<StoredAttribute>& stored, const EncodeOptions& options,
+                 const Target& target, double clip_diagonal, ClipRecord record) {
   constexpr int kRounds = 4;
   constexpr double kRoom = 0.003;
   const std::optional<double> allowed = allowed_bytes(target, input.sequence);
   double positions_bytes = allowed.value_or(0);
-  Coded coded;
-  Target rest = target;
+  EncodedClip coded;
+  Target remaining = target;
   for (int round = 0; round < kRounds; ++round) {
     if (round == 0) {
       coded.positions = control.solve();
     } else {
-      RateControl again(input, options, rest, clip_diagonal);
-      coded.positions = again.solve();
+      RateControl retry(input, options, remaining, clip_diagonal);
+      coded.positions = retry.solve();
     }
     coded.attributes = encode_moving_attributes(input, stored, options,
                                                 coded.positions.parts[0].encoded.reference);
@@ -208,7 +208,7 @@ Coded code(RateControl& control, const EncoderInput& input,
       break;
     // With another pose the attributes take some bytes more or less: room for them.
     positions_bytes -= bytes - *allowed + (round + 1) * kRoom * *allowed;
-    rest = {format::ErrorMetric::kSize, std::max(positions_bytes, 1.0), false};
+    remaining = {ErrorMetric::kSize, std::max(positions_bytes, 1.0), false};
   }
   return coded;
 }
@@ -219,7 +219,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   check(sequence);
   double clip_diagonal = diagonal(sequence);
   Target target = in_scene_units(options.target, clip_diagonal);
-  if (target.metric == format::ErrorMetric::kNone && !options.keyframes)
+  if (target.metric == ErrorMetric::kNone && !options.keyframes)
     throw Error(ErrorKind::kUsage, "an error, a size, or a number of key-frames must be asked for");
   if (options.interpolation != InterpolationChoice::kLinear && !options.keyframes &&
       options.basis != BasisChoice::kKeyframes)
@@ -231,7 +231,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     cut_timing(*options.part, sequence);
     closed = false;
   }
-  format::ClipRecord record = clip_record(sequence, options, target, clip_diagonal);
+  ClipRecord record = clip_record(sequence, options, target, clip_diagonal);
   record.closed = closed;
   EncoderInput input(std::move(sequence), options.mesh_coder, options.part);
   const std::vector<StoredAttribute> stored =
@@ -242,7 +242,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   RateControl control(input, options, target, clip_diagonal);
   SearchProgress search(progress, control.expected_trials());
   input.on_trial = [&search] { search.trial(); };
-  Coded coded = code(control, input, stored, options, target, clip_diagonal, record);
+  EncodedClip coded = code(control, input, stored, options, target, clip_diagonal, record);
 
   const Clip clip = opened(coded.file);
   Comparison measured = check_positions(clip, input);

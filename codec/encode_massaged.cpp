@@ -17,9 +17,9 @@ constexpr double kLeastGain = 0.1;
 constexpr int kSampleEffort = 3;
 constexpr double kSampleKg = 0.1;
 
-bool is_error(format::ErrorMetric metric) {
-  return metric == format::ErrorMetric::kKg || metric == format::ErrorMetric::kMaxError ||
-         metric == format::ErrorMetric::kRmse;
+bool is_error(ErrorMetric metric) {
+  return metric == ErrorMetric::kKg || metric == ErrorMetric::kMaxError ||
+         metric == ErrorMetric::kRmse;
 }
 
 /// Evenly spaced frames with the reference first.
@@ -46,7 +46,7 @@ bool sample_shrinks(const MeshSequence& sequence, MassageOptions massage_options
   options.cap.reset();
   options.keyframes.reset();
   if (!is_error(options.target.metric))
-    options.target = {format::ErrorMetric::kKg, kSampleKg, false};
+    options.target = {ErrorMetric::kKg, kSampleKg, false};
   const MeshSequence sample = sample_of(sequence, massage_options.reference);
   massage_options.reference = 0;
   massage_options.remove_noise = false;

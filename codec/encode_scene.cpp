@@ -16,8 +16,6 @@
 namespace anicodec {
 namespace {
 
-using format::ErrorMetric;
-
 /// Length of the diagonal of the box around all meshes.
 double diagonal_of(const Scene& scene) {
   MeshSequence corners;  // two vertices: of the box around each
@@ -48,10 +46,10 @@ Spread spread_of(const Scene& scene) {
 
   std::vector<Frame> frames(scene.clip.frame_count);
   for (const SceneMesh& mesh : scene.meshes) {
-    uint32_t own = 0;
-    for (const FrameRun& run : mesh.there) {
+    uint32_t mesh_frame = 0;
+    for (const FrameRun& run : mesh.present_in) {
       for (uint32_t f = run.first; f < run.first + run.count; ++f) {
-        const std::span<const float> positions = mesh.sequence.frame(own++);
+        const std::span<const float> positions = mesh.sequence.frame(mesh_frame++);
         Frame& frame = frames[f];
         if (frame.count == 0)
           std::copy_n(positions.begin(), 3, frame.origin.begin());
@@ -81,8 +79,8 @@ Spread spread_of(const Scene& scene) {
 struct Counts {
   explicit Counts(uint32_t frames) : vertices(frames), faces(frames) {}
 
-  void add(const std::vector<FrameRun>& there, uint32_t more_vertices, uint32_t more_faces) {
-    for (const FrameRun& run : there) {
+  void add(const std::vector<FrameRun>& present_in, uint32_t more_vertices, uint32_t more_faces) {
+    for (const FrameRun& run : present_in) {
       for (uint32_t f = run.first; f < run.first + run.count; ++f) {
         vertices[f] += more_vertices;
         faces[f] += more_faces;
@@ -106,7 +104,7 @@ Target shared(const Target& target, const Spread& spread, double length) {
 /// Does something with a mesh; errors name it, or its frames.
 template <class Work>
 auto naming(const SceneMesh& mesh, const Work& work) {
-  const FrameRun &first = mesh.there.front(), &last = mesh.there.back();
+  const FrameRun &first = mesh.present_in.front(), &last = mesh.present_in.back();
   const std::string name =
       mesh.sequence.mesh_name.empty()
           ? "frames " + std::to_string(first.first) + ":" + std::to_string(last.first + last.count)
@@ -122,14 +120,14 @@ auto naming(const SceneMesh& mesh, const Work& work) {
 std::vector<EncodeResult> encode_runs(SceneMesh mesh, EncodeOptions options,
                                       const Progress& progress) {
   std::vector<EncodeResult> results;
-  if (mesh.there.size() == 1) {
+  if (mesh.present_in.size() == 1) {
     results.push_back(encode(std::move(mesh.sequence), options, progress));
     return results;
   }
-  FrameRun own;
-  for (const FrameRun& run : mesh.there) {
-    own = {own.first + own.count, run.count};
-    options.part = own;
+  FrameRun part;
+  for (const FrameRun& run : mesh.present_in) {
+    part = {part.first + part.count, run.count};
+    options.part = part;
     results.push_back(encode(mesh.sequence, options, progress));
   }
   return results;
@@ -138,7 +136,7 @@ std::vector<EncodeResult> encode_runs(SceneMesh mesh, EncodeOptions options,
 }  // namespace
 
 EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progress& progress) {
-  if (scene.meshes.size() > format::kMaxMeshes)
+  if (scene.meshes.size() > kMaxMeshes)
     throw Error(ErrorKind::kInput,
                 std::to_string(scene.meshes.size()) + " meshes; at most 65535 are possible");
   for (const SceneMesh& mesh : scene.meshes)
@@ -158,11 +156,11 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   std::vector<std::pair<EncodeResult, PlacedPart>> parts;
   for (size_t m = 0; m < scene.meshes.size(); ++m) {
     SceneMesh& mesh = scene.meshes[m];
-    const std::vector<FrameRun> there = mesh.there;
+    const std::vector<FrameRun> present_in = mesh.present_in;
     const std::string name = mesh.sequence.mesh_name;
     std::vector<EncodeResult> results =
         naming(mesh, [&] { return encode_runs(std::move(mesh), of_mesh, progress); });
-    counts.add(there, results[0].vertices, results[0].faces);
+    counts.add(present_in, results[0].vertices, results[0].faces);
     for (size_t r = 0; r < results.size(); ++r) {
       EncodeResult& result = results[r];
       if (parts.empty())
@@ -174,7 +172,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
       all.attributes.insert(all.attributes.end(), result.attributes.begin(),
                             result.attributes.end());
       all.trials.insert(all.trials.end(), result.trials.begin(), result.trials.end());
-      parts.push_back({std::move(result), {{name, {}}, static_cast<uint16_t>(m), there[r].first}});
+      parts.push_back(
+          {std::move(result), {{name, {}}, static_cast<uint16_t>(m), present_in[r].first}});
     }
   }
   all.vertices = *std::ranges::max_element(counts.vertices);
@@ -182,7 +181,7 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   all.rmse = std::sqrt(squared / spread.positions);
   all.kg = 100 * std::sqrt(squared / (spread.squared > 0 ? spread.squared : 1));
 
-  format::ClipRecord record =
+  ClipRecord record =
       clip_record(scene.clip, options, in_scene_units(options.target, length), length);
   record.max_error = all.max_error;
   record.rmse = all.rmse;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace anicodec::format {
+namespace anicodec {
 namespace {
 
 constexpr uint64_t kTextBytes = 64;
@@ -98,4 +98,4 @@ Status AttributeRecord::read(ByteView view, AttributeRecord* out) {
   return r.ok() ? Status::kOk : Status::kRecord;
 }
 
-}  // namespace anicodec::format
+}  // namespace anicodec

@@ -13,7 +13,7 @@
 
 #include <cstdint>
 
-namespace anicodec::format {
+namespace anicodec {
 
 enum class AttributeKind : uint8_t {
   kUv = 0,
@@ -61,6 +61,6 @@ struct AttributeRecord {
   static Status read(ByteView view, AttributeRecord* out);
 };
 
-}  // namespace anicodec::format
+}  // namespace anicodec
 
 #endif  // ANICODEC_FORMAT_ATTRIBUTE_RECORD_H_

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace anicodec::format {
+namespace anicodec {
 
 using Bytes = Vector<uint8_t>;
 
@@ -176,6 +176,6 @@ class ByteReader {
   bool ok_ = true;
 };
 
-}  // namespace anicodec::format
+}  // namespace anicodec
 
 #endif  // ANICODEC_FORMAT_BYTES_H_

@@ -6,7 +6,7 @@
 
 #include <xxhash.h>
 
-namespace anicodec::format {
+namespace anicodec {
 
 uint64_t xxh64(ByteView view) {
   return XXH64(view.data, view.size, 0);
@@ -37,4 +37,4 @@ uint64_t IntegerHash::digest() const {
   return XXH64_digest(reinterpret_cast<const XXH64_state_t*>(state_));
 }
 
-}  // namespace anicodec::format
+}  // namespace anicodec

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace anicodec::format {
+namespace anicodec {
 
 /// XXH64 with seed 0.
 uint64_t xxh64(ByteView view);
@@ -29,6 +29,6 @@ class IntegerHash {
   alignas(8) unsigned char state_[96];
 };
 
-}  // namespace anicodec::format
+}  // namespace anicodec
 
 #endif  // ANICODEC_FORMAT_CHECKSUM_H_

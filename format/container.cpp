@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace anicodec::format {
+namespace anicodec {
 namespace {
 
 constexpr size_t kCountAt = 12;
@@ -165,7 +165,7 @@ Failure ContainerReader::open(ByteView file, bool prefix) {
   by_key_.resize(count);
   std::iota(by_key_.begin(), by_key_.end(), 0U);
   std::sort(by_key_.begin(), by_key_.end(), [&](uint32_t a, uint32_t b) {
-    return std::pair(key(chunks_[a]), a) < std::pair(key(chunks_[b]), b);
+    return std::pair(chunk_key(chunks_[a]), a) < std::pair(chunk_key(chunks_[b]), b);
   });
   file_ = file;
   file_size_ = size;
@@ -175,8 +175,9 @@ Failure ContainerReader::open(ByteView file, bool prefix) {
 const Chunk* ContainerReader::find(const char (&type)[5], uint16_t mesh, uint32_t segment) const {
   const std::tuple wanted(chunk_type(type), mesh, segment);
   auto found = std::partition_point(by_key_.begin(), by_key_.end(),
-                                    [&](uint32_t i) { return key(chunks_[i]) < wanted; });
-  return found != by_key_.end() && key(chunks_[*found]) == wanted ? &chunks_[*found] : nullptr;
+                                    [&](uint32_t i) { return chunk_key(chunks_[i]) < wanted; });
+  return found != by_key_.end() && chunk_key(chunks_[*found]) == wanted ? &chunks_[*found]
+                                                                        : nullptr;
 }
 
 Failure ContainerReader::payload(const Chunk& chunk, ByteView* out) const {
@@ -188,4 +189,4 @@ Failure ContainerReader::payload(const Chunk& chunk, ByteView* out) const {
   return {};
 }
 
-}  // namespace anicodec::format
+}  // namespace anicodec

@@ -14,7 +14,7 @@
 #include <string>
 #include <tuple>
 
-namespace anicodec::format {
+namespace anicodec {
 
 inline constexpr uint8_t kMagic[8] = {0x89, 'A', 'N', 'I', '\r', '\n', 0x1A, '\n'};
 inline constexpr uint16_t kVersionMajor = 0;
@@ -48,7 +48,7 @@ struct Chunk {
 };
 
 /// What chunks are found by; see ContainerReader::by_key().
-inline std::tuple<uint32_t, uint16_t, uint32_t> key(const Chunk& chunk) {
+inline std::tuple<uint32_t, uint16_t, uint32_t> chunk_key(const Chunk& chunk) {
   return {chunk.type, chunk.mesh, chunk.segment};
 }
 
@@ -124,6 +124,6 @@ class ContainerReader {
   uint64_t features_ = 0;
 };
 
-}  // namespace anicodec::format
+}  // namespace anicodec
 
 #endif  // ANICODEC_FORMAT_CONTAINER_H_

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace anicodec::format {
+namespace anicodec {
 namespace {
 
 constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 16,
@@ -130,7 +130,7 @@ Status Limits::read(ByteView view, Limits* out) {
   const Vector<uint32_t> order = out->segments_by_frame();
   for (size_t i = 1; i < order.size(); ++i) {
     const Segment &a = out->segments[order[i - 1]], &b = out->segments[order[i]];
-    if (a.is_alike(b) && b.first_frame - a.first_frame < a.frames)
+    if (a.same_track(b) && b.first_frame - a.first_frame < a.frames)
       return Status::kRecord;
   }
   for (const Segment& s : out->segments) {
@@ -326,4 +326,4 @@ Status SegmentRecord::read(ByteView view, SegmentRecord* out) {
   return finished(r);
 }
 
-}  // namespace anicodec::format
+}  // namespace anicodec

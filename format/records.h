@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-namespace anicodec::format {
+namespace anicodec {
 
 inline constexpr uint32_t kMaxVertices = (1U << 31) - 1;
 inline constexpr uint32_t kMaxTriangles = UINT32_MAX / 3;  // corners are numbered with 32 bits
@@ -65,7 +65,7 @@ struct Limits {
     uint32_t first_component = 0;
 
     /// Whether two segments move the same: then they share no frame.
-    bool is_alike(const Segment& other) const {
+    bool same_track(const Segment& other) const {
       return mesh == other.mesh && attribute == other.attribute &&
              first_component == other.first_component;
     }
@@ -80,7 +80,7 @@ struct Limits {
   Vector<uint32_t> segments_by_frame() const;
 
   Bytes write() const;
-  /// Checks that no two segments that are alike share a frame, too.
+  /// Checks that no two segments of the same track share a frame, too.
   static Status read(ByteView view, Limits* out);
 };
 
@@ -169,6 +169,6 @@ struct SegmentRecord {
   static Status read(ByteView view, SegmentRecord* out);
 };
 
-}  // namespace anicodec::format
+}  // namespace anicodec
 
 #endif  // ANICODEC_FORMAT_RECORDS_H_

@@ -8,7 +8,7 @@
 #define ZSTD_STATIC_LINKING_ONLY
 #include <zstd.h>
 
-namespace anicodec::format {
+namespace anicodec {
 namespace {
 
 constexpr uint8_t kFrame[] = {0x28, 0xB5, 0x2F, 0xFD};  // the magic number of a frame
@@ -40,4 +40,4 @@ Status zstd_decompress(ByteView compressed, size_t size, Bytes* out) {
   return ZSTD_isError(n) || n != size ? Status::kZstd : Status::kOk;
 }
 
-}  // namespace anicodec::format
+}  // namespace anicodec

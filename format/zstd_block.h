@@ -6,7 +6,7 @@
 #include "format/bytes.h"
 #include "format/status.h"
 
-namespace anicodec::format {
+namespace anicodec {
 
 /// One zstd frame (RFC 8878) at the highest ordinary level. The size before compression is not in
 /// the result: the caller stores it.
@@ -16,6 +16,6 @@ Bytes zstd_compress(ByteView bytes);
 /// caller has checked `size` against its limits. Memory: about 96 kB beside that.
 Status zstd_decompress(ByteView compressed, size_t size, Bytes* out);
 
-}  // namespace anicodec::format
+}  // namespace anicodec
 
 #endif  // ANICODEC_FORMAT_ZSTD_BLOCK_H_

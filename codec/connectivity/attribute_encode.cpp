@@ -16,9 +16,6 @@
 namespace anicodec {
 namespace {
 
-using format::AttributeDomain;
-using format::AttributeHeader;
-
 constexpr double kLargest = 1 << 28;  // of the integers on a grid
 
 String text(const std::string& s) {
@@ -70,9 +67,10 @@ std::vector<uint32_t> corner_sources(const MeshSequence& sequence, const MeshLay
 }
 
 /// Lists attributes and codes their values.
-class Writer {
+class AttributeWriter {
  public:
-  Writer(const MeshSequence& sequence, const AttributeOptions& options, const MeshLayout& layout)
+  AttributeWriter(const MeshSequence& sequence, const AttributeOptions& options,
+                  const MeshLayout& layout)
       : sequence_(sequence),
         options_(options),
         layout_(layout),
@@ -108,9 +106,9 @@ class Writer {
 
   std::vector<StoredAttribute> stored() && { return std::move(stored_); }
 
-  format::Bytes finish() {
-    const format::Bytes stream = coder_.finish();
-    format::AttributeRecord record;
+  Bytes finish() {
+    const Bytes stream = coder_.finish();
+    AttributeRecord record;
     record.attributes = headers_;
     record.stream = stream;
     return record.write();
@@ -124,7 +122,7 @@ class Writer {
   }
 
   AttributeHeader& add_header(AttributeKind kind, AttributeDomain domain, const std::string& name) {
-    if (headers_.size() == format::kMaxAttributes)
+    if (headers_.size() == kMaxAttributes)
       throw Error(ErrorKind::kInput, "more than 256 attributes");
     AttributeHeader& header = headers_.emplace_back();
     header.kind = kind;
@@ -143,7 +141,7 @@ class Writer {
   void add_numbers(const Attribute& attribute) {
     const std::vector<uint32_t> rows = rows_of(attribute);
     const uint32_t n = attribute.components;
-    if (n == 0 || n > format::kMaxAttributeComponents)
+    if (n == 0 || n > kMaxAttributeComponents)
       throw Error(ErrorKind::kInput,
                   attribute.name + ": 1 to 16 components are possible, not " + std::to_string(n));
     check_count(attribute.values.size(), rows.size() * n * attribute.frames, attribute.name);
@@ -340,7 +338,7 @@ std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
                                                MeshLayout* layout) {
   if (!options.keep)
     return {};
-  Writer writer(sequence, options, *layout);
+  AttributeWriter writer(sequence, options, *layout);
   writer.run();
   if (writer.headers().empty())
     return {};

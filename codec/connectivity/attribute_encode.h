@@ -33,7 +33,7 @@ struct AttributeOptions {
 struct StoredAttribute {
   uint32_t source = 0;  ///< its number in the sequence
   uint32_t number = 0;  ///< and in the file
-  format::AttributeHeader header;
+  AttributeHeader header;
 };
 
 /// Whether values of some frame differ from those of the first one. Normals and tangents never do:

@@ -49,7 +49,7 @@ void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, size_
   }
 }
 
-format::Bytes encode(const draco::Mesh& mesh) {
+Bytes encode(const draco::Mesh& mesh) {
   draco::ExpertEncoder encoder(mesh);
   encoder.SetSpeedOptions(0, 0);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
@@ -74,7 +74,7 @@ std::vector<uint32_t> decoding_order(uint32_t points, std::span<const uint32_t> 
     x[1] = x[2] = 0;
   });
   add_stand_in(mesh);
-  format::Bytes bytes = encode(mesh);
+  Bytes bytes = encode(mesh);
   DracoMesh decoded;
   if (bytes.empty() || decode_draco_mesh(bytes, points, static_cast<uint32_t>(triangles.size() / 3),
                                          draco_components(1), &decoded) != Status::kOk)
@@ -93,10 +93,9 @@ std::vector<uint32_t> decoding_order(uint32_t points, std::span<const uint32_t> 
 
 }  // namespace
 
-format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> triangles,
-                                std::span<const Vector<int32_t>> poses,
-                                std::span<const uint32_t> rows,
-                                std::vector<uint32_t>* points_by_decoded) {
+Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> triangles,
+                        std::span<const Vector<int32_t>> poses, std::span<const uint32_t> rows,
+                        std::vector<uint32_t>* points_by_decoded) {
   if (triangles.empty() || poses.size() > kMaxDracoPoses)
     return {};
   if (points_by_decoded) {
@@ -110,8 +109,8 @@ format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> trian
     for (size_t i = 0; i < 3; ++i)
       x[i] = poses.empty() ? 0 : poses[0][size_t{3} * rows[p] + i];
   });
-  size_t rest = poses.empty() ? 0 : poses.size() - 1;
-  size_t group = (rest + kMaxAttributes - 2) / (kMaxAttributes - 1);  // poses per attribute
+  size_t later_poses = poses.empty() ? 0 : poses.size() - 1;
+  size_t group = (later_poses + kMaxAttributes - 2) / (kMaxAttributes - 1);  // poses per attribute
   for (size_t first = 1; first < poses.size(); first += group) {
     size_t count = std::min(group, poses.size() - first);
     add_attribute(mesh, draco::GeometryAttribute::GENERIC, 3 * count, [&](uint32_t p, int32_t* x) {
@@ -119,7 +118,7 @@ format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> trian
         x[i] = poses[first + i / 3][size_t{3} * rows[p] + i % 3];
     });
   }
-  if (rest == 0)
+  if (later_poses == 0)
     add_stand_in(mesh);
   return encode(mesh);
 }

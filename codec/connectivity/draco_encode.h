@@ -25,10 +25,9 @@ constexpr uint32_t draco_components(size_t poses) {
 /// row rows[p] of each. Without a pose a constant POSITION attribute stands in. An empty result
 /// means that Draco could not. `points_by_decoded[d]` is the point that a decoder returns as its
 /// d-th, if wanted. The triangles come back in another order, each with its corners rotated.
-format::Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> triangles,
-                                std::span<const Vector<int32_t>> poses,
-                                std::span<const uint32_t> rows,
-                                std::vector<uint32_t>* points_by_decoded = nullptr);
+Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> triangles,
+                        std::span<const Vector<int32_t>> poses, std::span<const uint32_t> rows,
+                        std::vector<uint32_t>* points_by_decoded = nullptr);
 
 }  // namespace anicodec
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/connectivity/mesh_layout.h"
 
-#include "codec/connectivity/coded_mesh.h"
 #include "codec/connectivity/draco_encode.h"
+#include "codec/connectivity/manifold_mesh.h"
 #include "codec/sequence/error.h"
 #include "sdk/mesh/details_coding.h"
 #include "sdk/mesh/draco_mesh.h"
@@ -47,12 +47,14 @@ std::vector<uint32_t> match_triangles(const std::vector<uint32_t>& source,
   return match;
 }
 
-/// The truth behind the details of a mesh (see NoTruth), and the numbering that comes out of it.
-class Truth {
+/// The truth behind the details of a mesh (see DetailsDecoderSource), and the numbering that comes
+/// out of it.
+class DetailsEncoderSource {
  public:
-  Truth(const Polygons& polygons, const std::vector<uint32_t>& source_coded,
-        const std::vector<uint32_t>& point_coded, const std::vector<uint32_t>& triangle_polygon,
-        const std::vector<uint32_t>& apart, uint32_t coded)
+  DetailsEncoderSource(const Polygons& polygons, const std::vector<uint32_t>& source_coded,
+                       const std::vector<uint32_t>& point_coded,
+                       const std::vector<uint32_t>& triangle_polygon,
+                       const std::vector<uint32_t>& apart, uint32_t coded)
       : polygons_(polygons),
         source_coded_(source_coded),
         point_coded_(point_coded),
@@ -150,7 +152,7 @@ Vector<uint32_t> canonical_polygons(const std::vector<uint32_t>& triangle_polygo
 
 }  // namespace
 
-MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
+MeshLayout lay_out_mesh(const MeshSequence& sequence, CoderId coder) {
   Weld weld = weld_trajectories(sequence);
   ManifoldMesh manifold = make_manifold(sequence.polygons, weld.welded);
   auto triangle_count = static_cast<uint32_t>(manifold.triangle_polygon.size());
@@ -162,14 +164,14 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   std::vector<uint32_t> point_of(manifold.points);       // over renumbered points
   std::iota(point_of.begin(), point_of.end(), 0U);
   std::vector<uint32_t> triangle_polygon = manifold.triangle_polygon;
-  if (coder == format::CoderId::kDraco) {
+  if (coder == CoderId::kDraco) {
     std::vector<uint32_t> order;
     layout.connectivity = encode_draco_mesh(manifold.points, manifold.triangles, {}, {}, &order);
     DracoMesh decoded;
     if (!layout.connectivity.empty() &&
         decode_draco_mesh(layout.connectivity, manifold.points, triangle_count, draco_components(0),
                           &decoded) == Status::kOk) {
-      layout.coder = format::CoderId::kDraco;
+      layout.coder = CoderId::kDraco;
       point_of = order;
       triangles = decoded.triangles;
       std::vector<uint32_t> back(triangles.size());
@@ -180,7 +182,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
         triangle_polygon[t] = manifold.triangle_polygon[match[t]];
     }
   }
-  if (layout.coder == format::CoderId::kPlain)
+  if (layout.coder == CoderId::kPlain)
     layout.connectivity = encode_plain_triangles(triangles);
 
   // Coded vertices: by first point, then those without one.
@@ -206,7 +208,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
     layout.draco_points[p] = coded_of[manifold.point_vertex[p]];
   layout.draco_triangles = manifold.triangles;
 
-  format::Limits::Mesh& sizes = layout.sizes;
+  Limits::Mesh& sizes = layout.sizes;
   sizes.source_vertices = sequence.vertex_count;
   sizes.coded_vertices = welded_count;
   sizes.points = manifold.points;
@@ -214,10 +216,11 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   sizes.polygons = static_cast<uint32_t>(sequence.polygons.size());
   sizes.corners = static_cast<uint32_t>(sequence.polygons.corners.size());
 
-  Truth truth(sequence.polygons, layout.source_coded, point_coded, triangle_polygon, manifold.apart,
-              welded_count);
+  DetailsEncoderSource truth(sequence.polygons, layout.source_coded, point_coded, triangle_polygon,
+                             manifold.apart, welded_count);
   BinaryEncoder encoder;
-  DetailsCoding<BinaryEncoder, Truth> details(encoder, truth, sizes, triangles, &layout.topology);
+  DetailsCoding<BinaryEncoder, DetailsEncoderSource> details(encoder, truth, sizes, triangles,
+                                                             &layout.topology);
   if (details.run() != Status::kOk)
     throw Error(ErrorKind::kInternal, "the mesh details could not be coded");
   layout.details = encoder.finish();
@@ -253,7 +256,7 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence, format::CoderId coder) {
   return layout;
 }
 
-format::Bytes encode_with_poses(const MeshLayout& layout, std::span<const Vector<int32_t>> poses) {
+Bytes encode_with_poses(const MeshLayout& layout, std::span<const Vector<int32_t>> poses) {
   return encode_draco_mesh(layout.sizes.points, layout.draco_triangles, poses, layout.draco_points);
 }
 

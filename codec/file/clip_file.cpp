@@ -11,8 +11,8 @@
 namespace anicodec {
 namespace {
 
-format::Bytes pose_record(const EncodedPose& pose) {
-  format::PoseRecord record;
+Bytes pose_record(const EncodedPose& pose) {
+  PoseRecord record;
   record.coder = pose.coder;
   std::copy_n(pose.grid.origin, 3, record.origin);
   record.step = pose.grid.step;
@@ -22,20 +22,20 @@ format::Bytes pose_record(const EncodedPose& pose) {
 
 }  // namespace
 
-format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layout,
-                        const std::vector<const EncodedSegment*>& segments) {
+Bytes clip_file(const ClipRecord& record, const MeshLayout& layout,
+                const std::vector<const EncodedSegment*>& segments) {
   constexpr uint16_t kMesh = 0;
-  format::MeshRecord mesh;
+  MeshRecord mesh;
   mesh.name = layout.name;
   mesh.coder = layout.coder;
   mesh.details = layout.details;
-  format::Bytes connectivity = layout.connectivity;
-  format::Limits limits;
+  Bytes connectivity = layout.connectivity;
+  Limits limits;
   limits.meshes.push_back(layout.sizes);
   size_t poses = 0;
   const EncodedSegment* carried_of = nullptr;
   for (const EncodedSegment* segment : segments) {
-    if (segment->sizes.attribute == format::kPositions)
+    if (segment->sizes.attribute == kPositions)
       limits.frames += segment->sizes.frames;
     limits.segments.push_back(segment->sizes);
     std::span<const Vector<int32_t>> carried = segment->poses_for_draco();
@@ -51,34 +51,34 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
       throw Error(ErrorKind::kInternal, "a Draco bitstream holds the poses of one segment");
     }
   }
-  if (layout.coder == format::CoderId::kDraco) {
+  if (layout.coder == CoderId::kDraco) {
     limits.meshes[0].draco_components = draco_components(poses);
     limits.meshes[0].draco_bytes = static_cast<uint32_t>(connectivity.size());
   }
   mesh.connectivity = connectivity;
 
-  format::ContainerWriter file;
-  file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
-  file.add("CLIP", true, format::kNoMesh, format::kNoSegment, record.write());
-  file.add("MESH", true, kMesh, format::kNoSegment, mesh.write());
-  if (record.order != format::OrderMode::kFree)
-    file.add("VMAP", true, kMesh, format::kNoSegment, layout.vertex_map);
-  if (record.order == format::OrderMode::kAll)
-    file.add("FMAP", true, kMesh, format::kNoSegment, layout.face_map);
+  ContainerWriter file;
+  file.add("LIMI", true, kNoMesh, kNoSegment, limits.write());
+  file.add("CLIP", true, kNoMesh, kNoSegment, record.write());
+  file.add("MESH", true, kMesh, kNoSegment, mesh.write());
+  if (record.order != OrderMode::kFree)
+    file.add("VMAP", true, kMesh, kNoSegment, layout.vertex_map);
+  if (record.order == OrderMode::kAll)
+    file.add("FMAP", true, kMesh, kNoSegment, layout.face_map);
   if (!layout.attributes.empty())
-    file.add("ATTR", false, kMesh, format::kNoSegment, layout.attributes);
+    file.add("ATTR", false, kMesh, kNoSegment, layout.attributes);
   const EncodedPose* of_mesh = nullptr;  // the first one, which most segments share
   for (const EncodedSegment* segment : segments) {
     if (!of_mesh)
       of_mesh = segment->reference.get();
   }
   if (of_mesh)
-    file.add("POSE", true, kMesh, format::kNoSegment, pose_record(*of_mesh));
+    file.add("POSE", true, kMesh, kNoSegment, pose_record(*of_mesh));
   for (uint32_t i = 0; i < segments.size(); ++i) {
     const EncodedSegment& s = *segments[i];
     if (s.reference && s.reference.get() != of_mesh)
       file.add("POSE", true, kMesh, i, pose_record(*s.reference));
-    format::SegmentRecord segment;
+    SegmentRecord segment;
     segment.kind = s.sizes.kind;
     segment.reconstruction = s.sizes.reconstruction;
     segment.hash = s.hash;
@@ -87,7 +87,7 @@ format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layo
     segment.motion = s.motion;
     segment.weights = s.weights;
     file.add("SEGM", true, kMesh, i, segment.write());
-    for (const format::Bytes& layer : s.layers)
+    for (const Bytes& layer : s.layers)
       file.add("BASI", true, kMesh, i, layer);
     if (!s.corrections.empty())
       file.add("CORR", true, kMesh, i, s.corrections);

@@ -14,8 +14,8 @@ namespace anicodec {
 /// Puts a clip of one mesh together: limits, clip record, mesh, maps as the order mode asks, and
 /// for each segment its record, layers and corrections, in the order in which a reader needs them;
 /// segments come in the order of the file. The first reference pose is the mesh's.
-format::Bytes clip_file(const format::ClipRecord& record, const MeshLayout& layout,
-                        const std::vector<const EncodedSegment*>& segments);
+Bytes clip_file(const ClipRecord& record, const MeshLayout& layout,
+                const std::vector<const EncodedSegment*>& segments);
 
 }  // namespace anicodec
 

@@ -4,9 +4,9 @@
 
 namespace anicodec {
 
-format::ClipRecord clip_record(const MeshSequence& sequence, const EncodeOptions& options,
-                               const Target& target, double clip_diagonal) {
-  format::ClipRecord record;
+ClipRecord clip_record(const MeshSequence& sequence, const EncodeOptions& options,
+                       const Target& target, double clip_diagonal) {
+  ClipRecord record;
   record.name = sequence.name;
   record.encoder = options.encoder;
   record.rate_numerator = sequence.rate.numerator;

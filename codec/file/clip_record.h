@@ -11,8 +11,8 @@ namespace anicodec {
 
 /// What a file says of a clip, but for the errors that are yet to be measured: names, clock,
 /// coordinates, and what was asked for, in scene units.
-format::ClipRecord clip_record(const MeshSequence& sequence, const EncodeOptions& options,
-                               const Target& target, double clip_diagonal);
+ClipRecord clip_record(const MeshSequence& sequence, const EncodeOptions& options,
+                       const Target& target, double clip_diagonal);
 
 }  // namespace anicodec
 

@@ -30,7 +30,7 @@ struct SurfaceChange {
 
 /// What the file must keep to.
 struct Target {
-  format::ErrorMetric metric = format::ErrorMetric::kNone;
+  ErrorMetric metric = ErrorMetric::kNone;
   double value = 0;      ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
   bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames
 };
@@ -42,8 +42,8 @@ struct EncodeOptions {
   std::optional<uint32_t> keyframes;  ///< exact number of key-frames
   KeyframeMethod select = KeyframeMethod::kPivot;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;  ///< only with key-frames alone
-  format::OrderMode order = format::OrderMode::kVertices;
-  format::CoderId mesh_coder = format::CoderId::kDraco;
+  OrderMode order = OrderMode::kVertices;
+  CoderId mesh_coder = CoderId::kDraco;
   /// Encodes these frames alone, as a part for join_clips(): mesh, reference pose and diagonal are
   /// those of the whole sequence, and the same in all parts. Not with key-frames.
   std::optional<FrameRun> part;
@@ -78,12 +78,12 @@ struct AttributeResult {
 
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
 struct EncodeResult {
-  format::Bytes file;
+  Bytes file;
   uint32_t vertices = 0;  ///< of the source; of several meshes, in the frame that shows most
   uint32_t faces = 0;
   uint32_t frames = 0;
   uint64_t positions = 0;  ///< vertices of all frames together
-  format::BasisKind kind = format::BasisKind::kKeyframes;
+  BasisKind kind = BasisKind::kKeyframes;
   uint32_t components = 0;
   double kg = 0;         ///< per cent
   double rmse = 0;       ///< scene units

@@ -16,9 +16,6 @@
 namespace anicodec {
 namespace {
 
-using format::Chunk;
-using format::ContainerReader;
-
 [[noreturn]] void fail(const ClipPart& part, ErrorKind kind, const std::string& text) {
   throw Error(kind, part.name + ": " + text);
 }
@@ -27,8 +24,8 @@ using format::ContainerReader;
 struct OpenPart {
   explicit OpenPart(const ClipPart& source) : part(source) {
     check(reader.open(part.file));
-    check(format::Limits::read(payload(required("LIMI")), &limits));
-    check(format::ClipRecord::read(payload(required("CLIP")), limits.frames, &record));
+    check(Limits::read(payload(required("LIMI")), &limits));
+    check(ClipRecord::read(payload(required("CLIP")), limits.frames, &record));
     if (limits.meshes.size() != 1)
       fail(part, ErrorKind::kUnsupported, "clips of several meshes are not joined");
   }
@@ -50,37 +47,37 @@ struct OpenPart {
     return *chunk;
   }
 
-  format::ByteView payload(const Chunk& chunk) const {
-    format::ByteView view;
+  ByteView payload(const Chunk& chunk) const {
+    ByteView view;
     check(reader.payload(chunk, &view));
     return view;
   }
 
   /// Payload of a chunk of the mesh, empty when there is none.
-  format::ByteView of_mesh(const char (&type)[5]) const {
+  ByteView of_mesh(const char (&type)[5]) const {
     const Chunk* chunk = reader.find(type, 0);
-    return chunk ? payload(*chunk) : format::ByteView();
+    return chunk ? payload(*chunk) : ByteView();
   }
 
   ClipPart part;
   ContainerReader reader;
-  format::Limits limits;
-  format::ClipRecord record;
+  Limits limits;
+  ClipRecord record;
 };
 
-bool equal(format::ByteView a, format::ByteView b) {
+bool equal(ByteView a, ByteView b) {
   return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
 }
 
-format::Bytes copy(format::ByteView view) {
-  return format::Bytes(view.data, view.data + view.size);
+Bytes copy(ByteView view) {
+  return Bytes(view.data, view.data + view.size);
 }
 
 constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
 
 void check_same_mesh(const OpenPart& first, const OpenPart& next) {
-  const format::Limits::Mesh &a = first.limits.meshes[0], &b = next.limits.meshes[0];
-  auto counts = [](const format::Limits::Mesh& m) {
+  const Limits::Mesh &a = first.limits.meshes[0], &b = next.limits.meshes[0];
+  auto counts = [](const Limits::Mesh& m) {
     return std::to_string(m.source_vertices) + " vertices and " + std::to_string(m.polygons) +
            " faces";
   };
@@ -102,7 +99,7 @@ double duration(const OpenPart& part) {
 }
 
 void check_follows(const OpenPart& before, const OpenPart& next) {
-  const format::ClipRecord &a = before.record, &b = next.record;
+  const ClipRecord &a = before.record, &b = next.record;
   if (a.rate_numerator != b.rate_numerator || a.rate_denominator != b.rate_denominator ||
       a.up != b.up || a.metres_per_unit != b.metres_per_unit || a.times.empty() != b.times.empty())
     fail(next.part, ErrorKind::kInput,
@@ -118,12 +115,12 @@ void check_follows(const OpenPart& before, const OpenPart& next) {
              " s and has " + std::to_string(before.limits.frames) + " frames");
 }
 
-format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
-  format::ClipRecord record = parts[0].record;
+ClipRecord joined_record(const std::vector<OpenPart>& parts) {
+  ClipRecord record = parts[0].record;
   double squared = 0, reference = 0, frames = 0;
   record.times = {};
   for (const OpenPart& part : parts) {
-    const format::ClipRecord& r = part.record;
+    const ClipRecord& r = part.record;
     const double of_part = r.rmse * r.rmse * part.limits.frames;
     squared += of_part;
     if (r.kg > 0)
@@ -134,12 +131,12 @@ format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
     record.surface_error = std::max(record.surface_error, r.surface_error);
     record.massaged |= r.massaged;
     if (r.asked != record.asked || r.asked_value != record.asked_value)
-      record.asked = format::ErrorMetric::kNone;
+      record.asked = ErrorMetric::kNone;
     for (double t : r.times)
       record.times.push_back(r.start_time - record.start_time + t);
   }
-  if (record.asked == format::ErrorMetric::kSize || record.asked == format::ErrorMetric::kNone) {
-    record.asked = format::ErrorMetric::kNone;
+  if (record.asked == ErrorMetric::kSize || record.asked == ErrorMetric::kNone) {
+    record.asked = ErrorMetric::kNone;
     record.asked_value = 0;
   }
   record.closed = false;
@@ -150,17 +147,17 @@ format::ClipRecord joined_record(const std::vector<OpenPart>& parts) {
 
 /// Adds a chunk of a segment under its new number, to a mesh.
 void add_chunk(const OpenPart& part, const Chunk& chunk, uint16_t mesh, uint32_t segment,
-               format::ContainerWriter& file) {
+               ContainerWriter& file) {
   for (const char(*type)[5] : {&"POSE", &"SEGM", &"BASI", &"CORR"}) {
-    if (chunk.type == format::chunk_type(*type))
+    if (chunk.type == chunk_type(*type))
       return file.add(*type, chunk.required, mesh, segment, copy(part.payload(chunk)));
   }
   if (chunk.required)
     fail(part.part, ErrorKind::kUnsupported,
-         "a chunk " + format::chunk_name(chunk.type) + " cannot be joined");
+         "a chunk " + chunk_name(chunk.type) + " cannot be joined");
 }
 
-void verify(const format::Bytes& file) {
+void verify(const Bytes& file) {
   Clip clip;
   Failure failure = clip.open(file);
   if (failure.ok())
@@ -171,22 +168,22 @@ void verify(const format::Bytes& file) {
 }
 
 /// An opened part, and where it goes.
-struct Placed {
+struct PlacedMesh {
   const OpenPart* part;
   uint16_t mesh;
   uint32_t first_frame;
 };
 
 /// Errors of attributes over all parts of each mesh.
-Vector<format::AttributeError> joined_errors(const std::vector<Placed>& parts) {
+Vector<AttributeError> joined_errors(const std::vector<PlacedMesh>& parts) {
   struct Sum {
-    format::AttributeError error;
+    AttributeError error;
     double squared = 0, frames = 0;
   };
 
   std::map<std::pair<uint16_t, uint16_t>, Sum> sums;
-  for (const Placed& placed : parts) {
-    for (const format::AttributeError& e : placed.part->record.attribute_errors) {
+  for (const PlacedMesh& placed : parts) {
+    for (const AttributeError& e : placed.part->record.attribute_errors) {
       Sum& sum = sums[{placed.mesh, e.attribute}];
       sum.error.mesh = placed.mesh;
       sum.error.attribute = e.attribute;
@@ -195,7 +192,7 @@ Vector<format::AttributeError> joined_errors(const std::vector<Placed>& parts) {
       sum.frames += placed.part->limits.frames;
     }
   }
-  Vector<format::AttributeError> errors;
+  Vector<AttributeError> errors;
   for (auto& [key, sum] : sums) {
     sum.error.rmse = std::sqrt(sum.squared / sum.frames);
     errors.push_back(sum.error);
@@ -205,20 +202,20 @@ Vector<format::AttributeError> joined_errors(const std::vector<Placed>& parts) {
 
 /// A segment of a part.
 struct PlacedSegment {
-  const Placed* placed;
-  format::Limits::Segment sizes;  ///< with mesh and frames of the joined clip
+  const PlacedMesh* placed;
+  Limits::Segment sizes;  ///< with mesh and frames of the joined clip
   std::vector<const Chunk*> chunks;
 };
 
 /// One file of parts: mesh, maps and pose of the first one of each mesh, all segments in the order
 /// of time under new numbers.
-format::Bytes join(const std::vector<Placed>& parts, uint32_t frames, format::ClipRecord record) {
+Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipRecord record) {
   record.attribute_errors = joined_errors(parts);
-  format::Limits limits;
+  Limits limits;
   limits.frames = frames;
   std::vector<const OpenPart*> meshes;
   std::vector<PlacedSegment> segments;
-  for (const Placed& placed : parts) {
+  for (const PlacedMesh& placed : parts) {
     const OpenPart& part = *placed.part;
     if (placed.mesh == meshes.size()) {
       meshes.push_back(&part);
@@ -227,7 +224,7 @@ format::Bytes join(const std::vector<Placed>& parts, uint32_t frames, format::Cl
       check_same_mesh(*meshes[placed.mesh], part);
     }
     const size_t first = segments.size();
-    for (format::Limits::Segment sizes : part.limits.segments) {
+    for (Limits::Segment sizes : part.limits.segments) {
       sizes.mesh = placed.mesh;
       sizes.first_frame += placed.first_frame;
       segments.push_back({&placed, sizes, {}});
@@ -245,32 +242,32 @@ format::Bytes join(const std::vector<Placed>& parts, uint32_t frames, format::Cl
   for (const PlacedSegment& segment : segments)
     limits.segments.push_back(segment.sizes);
 
-  format::ContainerWriter file;
-  file.add("LIMI", true, format::kNoMesh, format::kNoSegment, limits.write());
-  file.add("CLIP", true, format::kNoMesh, format::kNoSegment, record.write());
+  ContainerWriter file;
+  file.add("LIMI", true, kNoMesh, kNoSegment, limits.write());
+  file.add("CLIP", true, kNoMesh, kNoSegment, record.write());
   for (uint16_t m = 0; m < meshes.size(); ++m) {
     for (const char(*type)[5] : kMeshChunks) {
       if (const Chunk* chunk = meshes[m]->reader.find(*type, 0))
-        file.add(*type, chunk->required, m, format::kNoSegment, copy(meshes[m]->payload(*chunk)));
+        file.add(*type, chunk->required, m, kNoSegment, copy(meshes[m]->payload(*chunk)));
     }
   }
   for (uint32_t s = 0; s < segments.size(); ++s) {
-    const Placed& placed = *segments[s].placed;
+    const PlacedMesh& placed = *segments[s].placed;
     for (const Chunk* chunk : segments[s].chunks)
       add_chunk(*placed.part, *chunk, placed.mesh, s, file);
   }
-  format::Bytes bytes = file.finish();
+  Bytes bytes = file.finish();
   verify(bytes);
   return bytes;
 }
 
 }  // namespace
 
-format::Bytes join_clips(const std::vector<ClipPart>& sources) {
+Bytes join_clips(const std::vector<ClipPart>& sources) {
   if (sources.empty())
     throw Error(ErrorKind::kUsage, "there is no part to join");
   std::vector<OpenPart> parts;
-  std::vector<Placed> placed;
+  std::vector<PlacedMesh> placed;
   parts.reserve(sources.size());
   uint32_t frames = 0;
   for (const ClipPart& source : sources) {
@@ -279,7 +276,7 @@ format::Bytes join_clips(const std::vector<ClipPart>& sources) {
       check_same_mesh(parts[0], part);
       check_follows(parts[parts.size() - 2], part);
     }
-    if (part.limits.frames > format::kMaxFrames - frames)
+    if (part.limits.frames > kMaxFrames - frames)
       fail(source, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
     placed.push_back({&part, 0, frames});
     frames += part.limits.frames;
@@ -287,10 +284,10 @@ format::Bytes join_clips(const std::vector<ClipPart>& sources) {
   return join(placed, frames, joined_record(parts));
 }
 
-format::Bytes join_meshes(const std::vector<PlacedPart>& sources, uint32_t frames,
-                          const format::ClipRecord& record) {
+Bytes join_meshes(const std::vector<PlacedPart>& sources, uint32_t frames,
+                  const ClipRecord& record) {
   std::vector<OpenPart> parts;
-  std::vector<Placed> placed;
+  std::vector<PlacedMesh> placed;
   parts.reserve(sources.size());
   for (const PlacedPart& source : sources)
     placed.push_back({&parts.emplace_back(source.part), source.mesh, source.first_frame});

@@ -15,7 +15,7 @@ namespace anicodec {
 /// A file to be joined.
 struct ClipPart {
   std::string name;  ///< for messages
-  format::ByteView file;
+  ByteView file;
 };
 
 /// Makes one file of parts that were encoded with EncodeOptions::part from one clip, in the order
@@ -23,7 +23,7 @@ struct ClipPart {
 /// same bytes in all, are stored once. The promise is the largest error of any part, and RMSE and
 /// KG error over all frames. The result has been opened and its hashes checked. Throws Error:
 /// kCorrupt for a damaged part, kInput naming the first part that does not fit.
-format::Bytes join_clips(const std::vector<ClipPart>& parts);
+Bytes join_clips(const std::vector<ClipPart>& parts);
 
 /// A clip of one mesh, and where it goes.
 struct PlacedPart {
@@ -35,8 +35,7 @@ struct PlacedPart {
 /// Makes one file of clips of one mesh each, of several meshes: each is there in the frames of its
 /// parts alone. Meshes are numbered from 0, none left out. What the file says of the clip is given;
 /// its promise must be true. Checks and errors as of join_clips().
-format::Bytes join_meshes(const std::vector<PlacedPart>& parts, uint32_t frames,
-                          const format::ClipRecord& record);
+Bytes join_meshes(const std::vector<PlacedPart>& parts, uint32_t frames, const ClipRecord& record);
 
 }  // namespace anicodec
 

@@ -174,11 +174,11 @@ void exchange_keyframes(const MatrixXd& gram, std::vector<uint32_t>& keyframes) 
       const VectorXd along = projection.residual * lost;
       const double length = lost.squaredNorm();
       const auto gain = [&](uint32_t f) {
-        const double rest = projection.residual(f, f) + lost[f] * lost[f];
-        return rest > tolerance ? (projection.residual.col(f).squaredNorm() +
-                                   2 * lost[f] * along[f] + lost[f] * lost[f] * length) /
-                                      rest
-                                : 0;
+        const double residual = projection.residual(f, f) + lost[f] * lost[f];
+        return residual > tolerance ? (projection.residual.col(f).squaredNorm() +
+                                       2 * lost[f] * along[f] + lost[f] * lost[f] * length) /
+                                          residual
+                                    : 0;
       };
       uint32_t best = keyframes[i];
       double most = gain(best) * kWorthwhile;
@@ -190,9 +190,9 @@ void exchange_keyframes(const MatrixXd& gram, std::vector<uint32_t>& keyframes) 
         }
       }
       if (best != keyframes[i]) {
-        const double rest = projection.residual(best, best) + lost[best] * lost[best];
+        const double residual = projection.residual(best, best) + lost[best] * lost[best];
         const VectorXd caught =
-            (projection.residual.col(best) + lost[best] * lost) / std::sqrt(rest);
+            (projection.residual.col(best) + lost[best] * lost) / std::sqrt(residual);
         taken[keyframes[i]] = false;
         taken[best] = true;
         keyframes[i] = best;

@@ -17,10 +17,10 @@ constexpr double kRankTolerance = 1e-13;
 
 // (x_i - x_0) . (x_j - x_0) for i, j >= 1.
 MatrixXd relative_to_first(const MatrixXd& gram) {
-  const Index rest = gram.rows() - 1;
-  MatrixXd result = gram.bottomRightCorner(rest, rest);
-  result.colwise() -= gram.col(0).tail(rest);
-  result.rowwise() -= gram.row(0).tail(rest);
+  const Index reduced = gram.rows() - 1;
+  MatrixXd result = gram.bottomRightCorner(reduced, reduced);
+  result.colwise() -= gram.col(0).tail(reduced);
+  result.rowwise() -= gram.row(0).tail(reduced);
   result.array() += gram(0, 0);
   return result;
 }
@@ -40,14 +40,14 @@ MatrixXd WeightSolver::solve(const MatrixXd& products) const {
   if (constraint_ == WeightConstraint::kNone) {
     return factor_.solve(products);
   }
-  const Index rest = key_gram_.rows() - 1;
-  MatrixXd right = products.bottomRows(rest);
+  const Index reduced = key_gram_.rows() - 1;
+  MatrixXd right = products.bottomRows(reduced);
   right.rowwise() -= products.row(0);
-  right.colwise() -= key_gram_.col(0).tail(rest);
+  right.colwise() -= key_gram_.col(0).tail(reduced);
   right.array() += key_gram_(0, 0);
-  MatrixXd weights(rest + 1, products.cols());
-  weights.bottomRows(rest) = factor_.solve(right);
-  weights.row(0) = RowVectorXd::Ones(products.cols()) - weights.bottomRows(rest).colwise().sum();
+  MatrixXd weights(reduced + 1, products.cols());
+  weights.bottomRows(reduced) = factor_.solve(right);
+  weights.row(0) = RowVectorXd::Ones(products.cols()) - weights.bottomRows(reduced).colwise().sum();
   return weights;
 }
 

@@ -25,18 +25,18 @@ constexpr double kTurnProgress = 1e-3;
 constexpr double kRoundProgress = 1e-3;
 
 // The problem for fixed rotations of the key-frames.
-class Fitter {
+class RigidFitter {
  public:
-  Fitter(const CrossProducts& products, std::span<const uint32_t> keyframes,
-         const MatrixXd& shape_gram, WeightConstraint constraint, RigidWeights& fit)
+  RigidFitter(const CrossProducts& products, std::span<const uint32_t> keyframes,
+              const MatrixXd& shape_gram, WeightConstraint constraint, RigidWeights& fit)
       : products_(products),
         keyframes_(keyframes),
         shape_gram_(shape_gram),
         constraint_(constraint),
-        own_(fit.rotations.size(), -1),
+        keyframe_of_(fit.rotations.size(), -1),
         fit_(fit) {
     for (size_t j = 0; j < keyframes.size(); j++) {
-      own_[keyframes[j]] = static_cast<Index>(j);
+      keyframe_of_[keyframes[j]] = static_cast<Index>(j);
     }
   }
 
@@ -51,7 +51,7 @@ class Fitter {
     key_gram = (key_gram + key_gram.transpose().eval()) / 2;
     const WeightSolver solver(key_gram, constraint_);
     tbb::parallel_for(Index{0}, shape_gram_.rows(), [&](Index f) {
-      const Index key = own_[static_cast<size_t>(f)];
+      const Index key = keyframe_of_[static_cast<size_t>(f)];
       if (key >= 0) {
         fit_.weights.row(f) = Eigen::RowVectorXd::Unit(keys, key);
         fit_.squared_errors[f] = 0;
@@ -131,7 +131,7 @@ class Fitter {
   std::span<const uint32_t> keyframes_;
   const MatrixXd& shape_gram_;
   WeightConstraint constraint_;
-  std::vector<Index> own_;  // per frame: which key-frame it is, or -1
+  std::vector<Index> keyframe_of_;  // per frame: which key-frame it is, or -1
   RigidWeights& fit_;
 };
 
@@ -145,16 +145,16 @@ RigidWeights fit_rigid_weights(const CrossProducts& products, std::span<const ui
   fit.weights.resize(frames, static_cast<Index>(keyframes.size()));
   fit.squared_errors.resize(frames);
   fit.rotations.assign(rotations.begin(), rotations.end());
-  Fitter fitter(products, keyframes, shape_gram, constraint, fit);
+  RigidFitter fitter(products, keyframes, shape_gram, constraint, fit);
   fitter.fit_frames();
   for (int round = 0; round < kMaxRounds; round++) {
-    const RigidWeights before = fit;
+    const RigidWeights last_fit = fit;
     fitter.turn_keyframes();
     fitter.fit_frames();
-    const double old = before.squared_errors.sum();
+    const double old = last_fit.squared_errors.sum();
     const double now = fit.squared_errors.sum();
     if (!(now < old)) {
-      return before;
+      return last_fit;
     }
     if (now > old * (1 - kRoundProgress)) {
       break;

@@ -170,7 +170,7 @@ void Correspondences::trust_near(const Positions& v) {
   });
 }
 
-Vector3d Correspondences::up(uint32_t triangle) const {
+Vector3d Correspondences::facing(uint32_t triangle) const {
   const SurfaceTopology::Triangle& t = mesh_->triangles[triangle];
   return from_mesh_[t[0]].normal + from_mesh_[t[1]].normal + from_mesh_[t[2]].normal;
 }

@@ -65,8 +65,8 @@ class Correspondences {
   /// Lowers the importance of far ones to exp(-(d / s)^2), s thrice the 90 % quantile of all d.
   void trust_near(const Positions& v);
 
-  /// Normals of the surface at the targets of the vertices.
-  Eigen::Vector3d up(uint32_t triangle) const;
+  /// Sum of the surface's normals at the targets of the vertices.
+  Eigen::Vector3d facing(uint32_t triangle) const;
 
  private:
   SurfacePoint find(const Surface& surface, const Eigen::Vector3d& q, bool by_index,

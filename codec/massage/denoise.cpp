@@ -64,10 +64,11 @@ double mean_distance(const Surface& surface, const Positions& v) {
 }
 
 /// Frames that are settled together.
-class Run {
+class DenoiseRun {
  public:
-  Run(const MeshSequence& source, const WeldedClip& clip, const std::vector<uint8_t>& freedom,
-      uint32_t first, uint32_t count, MeshSequence* massaged)
+  DenoiseRun(const MeshSequence& source, const WeldedSurface& clip,
+             const std::vector<uint8_t>& freedom, uint32_t first, uint32_t count,
+             MeshSequence* massaged)
       : source_(source),
         clip_(clip),
         freedom_(freedom),
@@ -79,15 +80,15 @@ class Run {
     });
   }
 
-  FrameNoiseReport settle(const PatchFilter& filter, const FrameNoiseOptions& options) {
-    FrameNoiseReport report;
+  DenoiseReport settle(const PatchFilter& filter, const DenoiseOptions& options) {
+    DenoiseReport report;
     report.sagitta = sample_mean([&](uint32_t k) { return sagitta(*samples_[k]); });
     for (int round = 0; round < options.rounds; ++round) {
       run_patches(filter, options.slide_level);
       for_frames([&](const Surface& surface, Positions* v) {
         put_on(surface, true, v);
         if (round + 1 == options.rounds)
-          fit_heights(surface, kHeightRounds, v);
+          fit_normals(surface, kHeightRounds, v);
       });
     }
     report.fitted = report.moved = moved();
@@ -135,7 +136,7 @@ class Run {
 
   /// Filters patches as strongly as takes the vertices further from their surfaces by no more than
   /// is allowed.
-  void filter_patches(const PatchFilter& filter, double allowance, FrameNoiseReport* report) {
+  void filter_patches(const PatchFilter& filter, double allowance, DenoiseReport* report) {
     const FrameView run = FrameView(massaged_).frames(first_, count_);
     const std::vector<float> before(run.positions,
                                     run.positions + run.frame_count * run.frame_stride);
@@ -157,7 +158,7 @@ class Run {
   }
 
   /// Filters whole frames likewise.
-  void filter_whole(double allowance, FrameNoiseReport* report) {
+  void filter_whole(double allowance, DenoiseReport* report) {
     const FrameView run = FrameView(massaged_).frames(first_, count_);
     const SequenceFilter filter(run);
     const Eigen::VectorXd& variances = filter.variances();
@@ -201,7 +202,7 @@ class Run {
   }
 
   const MeshSequence& source_;
-  const WeldedClip& clip_;
+  const WeldedSurface& clip_;
   const std::vector<uint8_t>& freedom_;
   uint32_t first_, count_;
   MeshSequence& massaged_;
@@ -210,23 +211,23 @@ class Run {
 
 }  // namespace
 
-bool can_remove_frame_noise(const MeshSequence& sequence) {
+bool can_denoise(const MeshSequence& sequence) {
   return sequence.frame_count >= kFewestFrames;
 }
 
-FrameNoiseReport remove_frame_noise(const MeshSequence& source, const WeldedClip& clip,
-                                    const std::vector<uint8_t>& freedom,
-                                    const FrameNoiseOptions& options, MeshSequence* massaged) {
-  FrameNoiseReport report;
-  if (!can_remove_frame_noise(source))
+DenoiseReport denoise(const MeshSequence& source, const WeldedSurface& clip,
+                      const std::vector<uint8_t>& freedom, const DenoiseOptions& options,
+                      MeshSequence* massaged) {
+  DenoiseReport report;
+  if (!can_denoise(source))
     return report;
   const PatchFilter filter(clip.topology);
   const uint32_t count = source.frame_count, runs = (count + kMostFrames - 1) / kMostFrames;
   for (uint32_t r = 0; r < runs; ++r) {
     const auto first = static_cast<uint32_t>(uint64_t{count} * r / runs);
     const auto end = static_cast<uint32_t>(uint64_t{count} * (r + 1) / runs);
-    const FrameNoiseReport one =
-        Run(source, clip, freedom, first, end - first, massaged).settle(filter, options);
+    const DenoiseReport one =
+        DenoiseRun(source, clip, freedom, first, end - first, massaged).settle(filter, options);
     report.sagitta += one.sagitta / runs;
     report.fitted += one.fitted / runs;
     report.moved += one.moved / runs;

@@ -36,13 +36,13 @@ Vector3d point(const Positions& positions, const SurfaceTopology::Triangle& t, c
 
 }  // namespace
 
-uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
-  const SurfaceTopology& topology = before.topology();
+uint32_t limit_distance(const Surface& original, double limit, Positions* v) {
+  const SurfaceTopology& topology = original.topology();
   const double square = limit * limit;
   std::vector<bool> drawn(topology.vertex_count, false);
   std::vector<uint32_t> same(topology.triangles.size());
   std::iota(same.begin(), same.end(), 0U);
-  std::vector<uint32_t> turned = turned_in_place(*v, before);
+  std::vector<uint32_t> turned = turned_in_place(*v, original);
   for (int pass = 0;; ++pass) {
     std::vector<bool> back(topology.vertex_count, false);
     bool any = false;
@@ -58,10 +58,10 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
       for (uint32_t t = 0; t < topology.triangles.size(); ++t) {
         for_samples([&](const Vector3d& w) {
           const Vector3d moved = point(*v, topology.triangles[t], w);
-          if (before.walk(moved, t).square_distance > square &&
-              before.closest(moved).square_distance > square)
+          if (original.walk(moved, t).square_distance > square &&
+              original.closest(moved).square_distance > square)
             mark(t);
-          const Vector3d old = point(before.positions(), topology.triangles[t], w);
+          const Vector3d old = point(original.positions(), topology.triangles[t], w);
           if (!(after.walk(old, t).square_distance > square))
             return;
           if (!indexed) {
@@ -79,7 +79,7 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
     auto at_rest = [&](const SurfaceTopology::Triangle& t) {
       return std::all_of(t.begin(), t.end(), [&](uint32_t i) {
         const auto r = static_cast<Eigen::Index>(i);
-        return v->row(r) == before.positions().row(r);
+        return v->row(r) == original.positions().row(r);
       });
     };
     for (uint32_t t : turned) {
@@ -95,12 +95,12 @@ uint32_t limit_distance(const Surface& before, double limit, Positions* v) {
       if (!back[i])
         continue;
       moved.push_back(i);
-      const Vector3d start = row(before.positions(), i);
+      const Vector3d start = row(original.positions(), i);
       const double share = pass < kMostPasses ? 0.5 : 0;
       v->row(static_cast<Eigen::Index>(i)) =
           float_position(start + share * (row(*v, i) - start)).transpose();
     }
-    turned = turned_around(topology, *v, moved, before, same);
+    turned = turned_around(topology, *v, moved, original, same);
   }
   return static_cast<uint32_t>(std::count(drawn.begin(), drawn.end(), true));
 }

@@ -10,14 +10,15 @@
 
 namespace anicodec {
 
-/// Moves vertices from `old` by `step`, and where that turns a triangle over, its three vertices by
-/// half of it, at most three times, and then not at all. `put(i, q)` moves vertex i of `v` to q or
-/// near it; `up(t)` is the direction that triangle t should face, of any length, zero if unknown. A
-/// triangle that was turned before is none of the guard's business. Returns the number of vertices
-/// whose step was shortened.
-uint32_t guarded_step(const SurfaceTopology& topology, const Positions& old, Positions step,
-                      const std::function<void(uint32_t, const Eigen::Vector3d&)>& put,
-                      const std::function<Eigen::Vector3d(uint32_t)>& up, const Positions& v);
+/// Moves vertices from `old` by `step`. The three vertices of a triangle that would fold go half as
+/// far, at most three times, and then not at all; triangles already folded are ignored.
+/// `move_to(i, q)` moves vertex i of `v` to q or near it; `facing(t)` is the direction that
+/// triangle t should face, of any length, zero if unknown. Returns the number of vertices whose
+/// step was shortened.
+uint32_t fold_guarded_step(const SurfaceTopology& topology, const Positions& old, Positions step,
+                           const std::function<void(uint32_t, const Eigen::Vector3d&)>& move_to,
+                           const std::function<Eigen::Vector3d(uint32_t)>& facing,
+                           const Positions& v);
 
 }  // namespace anicodec
 

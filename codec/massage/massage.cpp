@@ -35,7 +35,7 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
                                        std::to_string(sequence.frame_count));
   if (!(options.strength > 0 && options.strength < 1))
     throw Error(ErrorKind::kUsage, "the strength of the massage is between 0 and 1");
-  const WeldedClip clip(sequence);
+  const WeldedSurface clip(sequence);
   if (clip.topology.triangles.empty())
     throw Error(ErrorKind::kInput, "there is no surface to massage: no face has three vertices");
   MassageResult result;
@@ -44,14 +44,13 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
   const Positions reference = clip.frame(sequence.frame(options.reference));
   const SlidingSolver slider(clip.topology, reference);
   const RowMatrix shape = shape_matrix(clip.topology, reference, ShapeWeights::kMeanValue);
-  SurfaceFitOptions fitting;
+  ShapeFitOptions fitting;
   fitting.lambda = 1 - options.strength;
   fitting.rounds = kFittingRounds;
   const double tolerance =
       options.tolerance > 0 ? options.tolerance : std::numeric_limits<double>::infinity();
-  tbb::enumerable_thread_specific<SurfaceFitter> fitters(
-      [&] { return SurfaceFitter(clip.topology, shape); });
-  const bool settles = options.remove_noise && can_remove_frame_noise(sequence);
+  tbb::enumerable_thread_specific<ShapeFit> fitters([&] { return ShapeFit(clip.topology, shape); });
+  const bool settles = options.remove_noise && can_denoise(sequence);
   auto massage_frame = [&](uint32_t f) {
     if (f == options.reference)
       return;
@@ -74,11 +73,11 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
   };
   in_parallel("massaging", massage_frame);
   if (settles) {
-    FrameNoiseOptions noise;
+    DenoiseOptions noise;
     const double importance = options.strength / (1 - options.strength);
     noise.patch_allowance *= importance;
     noise.frame_allowance *= importance;
-    result.noise = remove_frame_noise(sequence, clip, slider.freedom(), noise, &result.sequence);
+    result.noise = denoise(sequence, clip, slider.freedom(), noise, &result.sequence);
   }
   in_parallel("settling", [&](uint32_t f) {
     Surface surface(clip.topology, clip.frame(sequence.frame(f)));

@@ -7,7 +7,7 @@
 #define ANICODEC_CODEC_MASSAGE_MASSAGE_H_
 
 #include "codec/massage/denoise.h"
-#include "codec/massage/sliding_solve.h"
+#include "codec/massage/sliding_solver.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
 
@@ -20,7 +20,7 @@ struct MassageOptions {
   uint32_t reference = 0;    ///< the frame whose shapes the others follow
   double strength = 0.5;     ///< of shape, or of what frames share, against distance, in (0, 1)
   double tolerance = 0;      ///< how far a surface may move, scene units (limit_distance()); 0: any
-  bool remove_noise = true;  ///< what single frames have of their own (remove_frame_noise())
+  bool remove_noise = true;  ///< what single frames have of their own (denoise())
 };
 
 struct MassagedFrame {
@@ -31,13 +31,13 @@ struct MassagedFrame {
 struct MassageResult {
   MeshSequence sequence;
   std::vector<MassagedFrame> frames;
-  FrameNoiseReport noise;
+  DenoiseReport noise;
 };
 
 /// Massages every frame but the reference: vertices slide on the surface of their frame
 /// (SlidingSolver). Over all frames, the reference included, what is each frame's own is then
-/// taken out (remove_frame_noise()); where there are too few frames for it, or it is not asked for,
-/// a few rounds of the combined optimisation (SurfaceFitter) lift the ridges that sliding cut.
+/// taken out (denoise()); where there are too few frames for it, or it is not asked for,
+/// a few rounds of the combined optimisation (ShapeFit) lift the ridges that sliding cut.
 /// Triangles that turned are turned again (untangle()); at last limit_distance() draws back what
 /// went further than the tolerance, and triangles that are turned still. Vertices with
 /// bit-identical trajectories move together. Frames in parallel; the result does not depend on the

@@ -12,7 +12,7 @@ namespace anicodec {
 MassageQuality massage_quality(const MeshSequence& surfaces, const MeshSequence& sequence,
                                uint32_t reference) {
   MassageQuality quality;
-  const WeldedClip clip(surfaces);
+  const WeldedSurface clip(surfaces);
   if (clip.topology.triangles.empty() || sequence.frame_count == 0)
     return quality;
   const Positions before = clip.frame(sequence.frame(reference));

@@ -20,9 +20,9 @@ constexpr double kRest = 0.05;           // weight of the height itself
 constexpr double kSolveTolerance = 1e-3;
 
 /// The equations of one round.
-class Heights {
+class HeightEquations {
  public:
-  Heights(const Surface& moving, const Surface& surface)
+  HeightEquations(const Surface& moving, const Surface& surface)
       : moving_(moving),
         topology_(moving.topology()),
         right_(Eigen::VectorXd::Zero(moving.positions().rows())) {
@@ -100,11 +100,11 @@ class Heights {
 
 }  // namespace
 
-void fit_heights(const Surface& surface, int rounds, Positions* v) {
+void fit_normals(const Surface& surface, int rounds, Positions* v) {
   const SurfaceTopology& topology = surface.topology();
   for (int round = 0; round < rounds; ++round) {
     const Surface moving(topology, *v);
-    const Eigen::VectorXd heights = Heights(moving, surface).solve();
+    const Eigen::VectorXd heights = HeightEquations(moving, surface).solve();
     for (uint32_t i = 0; i < topology.vertex_count; ++i) {
       const auto r = static_cast<Index>(i);
       if (topology.kind[i] == VertexKind::kInner)

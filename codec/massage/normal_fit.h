@@ -12,7 +12,7 @@ namespace anicodec {
 /// of the vertices and the triangle centres from the curved surface (Surface::curved()) and of the
 /// vertices of the surface from the polygons. Where vertices lie along the surface stays as it is.
 /// Serial; cost a round: about 4 queries a vertex, by walking, and 20 passes over the edges.
-void fit_heights(const Surface& surface, int rounds, Positions* v);
+void fit_normals(const Surface& surface, int rounds, Positions* v);
 
 }  // namespace anicodec
 

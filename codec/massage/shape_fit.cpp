@@ -55,7 +55,7 @@ void add_to(Matrix* matrix, Index r, Index c, double value) {
 }  // namespace
 
 /// Solves systems of one pattern.
-class SurfaceFitter::Solver {
+class ShapeFit::Solver {
  public:
   Positions solve(const Matrix& matrix, const Positions& right, double lambda) {
     if (matrix.rows() < kLargestDirect && lambda < kLeastIterative) {
@@ -82,9 +82,10 @@ class SurfaceFitter::Solver {
 };
 
 /// The state of one run.
-class SurfaceFitter::Run {
+class ShapeFit::FitIteration {
  public:
-  Run(SurfaceFitter& fitter, const Surface& surface, const SurfaceFitOptions& options, Positions* v)
+  FitIteration(ShapeFit& fitter, const Surface& surface, const ShapeFitOptions& options,
+               Positions* v)
       : fitter_(fitter),
         mesh_(*fitter.mesh_),
         options_(options),
@@ -92,8 +93,8 @@ class SurfaceFitter::Run {
         correspondences_(mesh_, surface, options.centres),
         matrix_(fitter.square_) {}
 
-  SurfaceFitReport run() {
-    SurfaceFitReport report;
+  ShapeFitReport run() {
+    ShapeFitReport report;
     const double edge = mean_edge(mesh_, v_);
     const auto count = static_cast<double>(std::max<Index>(1, v_.rows()));
     const bool lawson = options_.lawson > 0;
@@ -110,10 +111,10 @@ class SurfaceFitter::Run {
       if (lawson)
         correspondences_.reweight(v_, options_.lawson);
       const Positions old = v_;
-      guarded_step(
+      fold_guarded_step(
           mesh_, old, solve(),
           [this](uint32_t i, const Vector3d& q) { v_.row(static_cast<Index>(i)) = q.transpose(); },
-          [this](uint32_t t) { return correspondences_.up(t); }, v_);
+          [this](uint32_t t) { return correspondences_.facing(t); }, v_);
       const double step = (v_ - old).norm() / std::sqrt(count);
       c.step = edge > 0 ? step / edge : 0;
       ++c.rounds;
@@ -186,25 +187,24 @@ class SurfaceFitter::Run {
     return fitter_.solver_->solve(matrix_, right, options_.lambda);
   }
 
-  SurfaceFitter& fitter_;
+  ShapeFit& fitter_;
   const SurfaceTopology& mesh_;
-  const SurfaceFitOptions& options_;
+  const ShapeFitOptions& options_;
   Positions& v_;
   Correspondences correspondences_;
   Matrix matrix_;
 };
 
-SurfaceFitter::SurfaceFitter(const SurfaceTopology& mesh, const RowMatrix& shape)
+ShapeFit::ShapeFit(const SurfaceTopology& mesh, const RowMatrix& shape)
     : mesh_(&mesh),
       shape_(&shape),
       square_(square_with_edges(mesh, shape)),
       solver_(std::make_unique<Solver>()) {}
 
-SurfaceFitter::~SurfaceFitter() = default;
+ShapeFit::~ShapeFit() = default;
 
-SurfaceFitReport SurfaceFitter::run(const Surface& surface, const SurfaceFitOptions& options,
-                                    Positions* v) {
-  return Run(*this, surface, options, v).run();
+ShapeFitReport ShapeFit::run(const Surface& surface, const ShapeFitOptions& options, Positions* v) {
+  return FitIteration(*this, surface, options, v).run();
 }
 
 }  // namespace anicodec

@@ -5,7 +5,7 @@
 
 #include "codec/massage/correspondence.h"
 #include "codec/massage/shape_weights.h"
-#include "codec/massage/sliding_solve.h"
+#include "codec/massage/sliding_solver.h"
 #include "codec/surface/surface.h"
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace anicodec {
 
-struct SurfaceFitOptions {
+struct ShapeFitOptions {
   double lambda = 0.5;  ///< trade-off, in (0, 1): 0 shape alone, 1 distance alone
   int rounds = 10;
   double tolerance = 1e-2;  ///< stop when the root mean square step is below so many mean edges
@@ -25,7 +25,7 @@ struct SurfaceFitOptions {
   double lawson = 0;
 };
 
-struct SurfaceFitReport {
+struct ShapeFitReport {
   Convergence convergence;
   Residuals residuals;  ///< before the last round
 };
@@ -38,17 +38,17 @@ struct SurfaceFitReport {
 /// are found anew by the spatial index in the first and every fourth round. The pattern of the
 /// matrix never changes: its symbolic factorisation is kept for all runs; where few iterations do,
 /// and for large systems, conjugate gradients solve it.
-class SurfaceFitter {
+class ShapeFit {
  public:
   /// All must outlive the fitter. `shape` is that of shape_matrix().
-  SurfaceFitter(const SurfaceTopology& mesh, const RowMatrix& shape);
-  ~SurfaceFitter();
+  ShapeFit(const SurfaceTopology& mesh, const RowMatrix& shape);
+  ~ShapeFit();
 
   /// Moves `v`. The surface has an index. Throws Error(kInput) if a system cannot be solved.
-  SurfaceFitReport run(const Surface& surface, const SurfaceFitOptions& options, Positions* v);
+  ShapeFitReport run(const Surface& surface, const ShapeFitOptions& options, Positions* v);
 
  private:
-  class Run;
+  class FitIteration;
   class Solver;
 
   const SurfaceTopology* mesh_;

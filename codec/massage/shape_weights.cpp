@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/massage/shape_weights.h"
 
-#include "codec/massage/sliding_solve.h"
+#include "codec/massage/sliding_solver.h"
 
 #include <algorithm>
 #include <cmath>

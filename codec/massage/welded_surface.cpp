@@ -10,14 +10,14 @@ namespace anicodec {
 
 using Eigen::Index;
 
-WeldedClip::WeldedClip(const MeshSequence& sequence) : weld(weld_trajectories(sequence)) {
+WeldedSurface::WeldedSurface(const MeshSequence& sequence) : weld(weld_trajectories(sequence)) {
   std::vector<uint32_t> corners = fan_triangles(sequence.polygons);
   for (uint32_t& c : corners)
     c = weld.welded[c];
   topology = SurfaceTopology(corners, static_cast<uint32_t>(weld.representative.size()));
 }
 
-Positions WeldedClip::frame(std::span<const float> positions) const {
+Positions WeldedSurface::frame(std::span<const float> positions) const {
   Positions result(static_cast<Index>(weld.representative.size()), 3);
   for (size_t i = 0; i < weld.representative.size(); ++i) {
     for (size_t axis = 0; axis < 3; ++axis)
@@ -27,7 +27,7 @@ Positions WeldedClip::frame(std::span<const float> positions) const {
   return result;
 }
 
-void WeldedClip::store(const Positions& welded, std::span<float> positions) const {
+void WeldedSurface::store(const Positions& welded, std::span<float> positions) const {
   for (size_t i = 0; i < weld.welded.size(); ++i) {
     for (size_t axis = 0; axis < 3; ++axis)
       positions[3 * i + axis] =

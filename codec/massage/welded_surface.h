@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_MASSAGE_WELDED_SURFACE_H_
 #define ANICODEC_CODEC_MASSAGE_WELDED_SURFACE_H_
 
-#include "codec/connectivity/coded_mesh.h"
+#include "codec/connectivity/manifold_mesh.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/surface/surface.h"
 
@@ -13,9 +13,9 @@ namespace anicodec {
 
 /// The surface of a sequence: vertices with bit-identical trajectories are one, polygons are fans
 /// of triangles. So seams of texture coordinates or normals are no boundaries.
-struct WeldedClip {
+struct WeldedSurface {
   /// The sequence has passed check().
-  explicit WeldedClip(const MeshSequence& sequence);
+  explicit WeldedSurface(const MeshSequence& sequence);
 
   /// Welded vertices x 3 of a frame of this sequence, or of another with its vertices.
   Positions frame(std::span<const float> positions) const;

@@ -20,9 +20,9 @@ double square_distance(const Point& a, const Point& b) {
 }
 
 /// Branch and bound over pairs of boxes of a kd-tree.
-class Search {
+class DiameterSearch {
  public:
-  explicit Search(std::span<const float> points) {
+  explicit DiameterSearch(std::span<const float> points) {
     for (size_t i = 0; i + 2 < points.size(); i += 3)
       points_.push_back({double{points[i]}, double{points[i + 1]}, double{points[i + 2]}});
     build(0, static_cast<uint32_t>(points_.size()));
@@ -127,7 +127,7 @@ class Search {
 }  // namespace
 
 double diameter(std::span<const float> points) {
-  return points.size() < 6 ? 0 : Search(points).run();
+  return points.size() < 6 ? 0 : DiameterSearch(points).run();
 }
 
 }  // namespace anicodec

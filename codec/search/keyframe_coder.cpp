@@ -33,13 +33,13 @@ std::vector<uint32_t> spread_frames(size_t frames, size_t count) {
 }  // namespace
 
 KeyframeCoder::KeyframeCoder(const EncoderInput& input, KeyframeMethod method,
-                             std::optional<uint32_t> count, format::Reconstruction reconstruction)
+                             std::optional<uint32_t> count, Reconstruction reconstruction)
     : input_(input),
       fitter_(input.frames()),
       method_(method),
       count_(count),
       reconstruction_(reconstruction) {
-  if (reconstruction == format::Reconstruction::kMsgi) {
+  if (reconstruction == Reconstruction::kMsgi) {
     weights_ = KeyframeWeights::kRigid;
     return;
   }
@@ -67,7 +67,7 @@ const MsgiFit& KeyframeCoder::interpolated(size_t count) {
 }
 
 const MsgiFit& KeyframeCoder::fit(double rmse) {
-  if (reconstruction_ == format::Reconstruction::kLinear) {
+  if (reconstruction_ == Reconstruction::kLinear) {
     fit_ = {count_ ? fitter_.fit(*count_, method_, weights_)
                    : fewest_keyframes(fitter_, rmse_target(rmse), method_, weights_),
             0};
@@ -90,12 +90,12 @@ const MsgiFit& KeyframeCoder::fit(double rmse) {
   return interpolated(enough);
 }
 
-Part KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
+CodedPart KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
   input_.begin_trial();
   double finest = input_.largest_coordinate * 0x1p-22;
   double step = std::max(
       {step_for_rounding_error(fit.fit, rounding_rms), finest, std::numeric_limits<double>::min()});
-  Part part;
+  CodedPart part;
   part.encoded =
       encode_keyframes(input_.frames(), fit.fit, weights_, fitter_.gram().mean_position(), step,
                        input_.layout, fit.leaf_faces);
@@ -106,8 +106,8 @@ Part KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
   return part;
 }
 
-std::optional<Part> KeyframeCoder::at_rmse(double rmse) {
-  std::optional<Part> best;
+std::optional<CodedPart> KeyframeCoder::at_rmse(double rmse) {
+  std::optional<CodedPart> best;
   size_t best_bytes = 0;
   // More key-frames leave more room for rounding: what is cheapest is measured.
   for (double share : {0.6, 0.85}) {
@@ -120,7 +120,7 @@ std::optional<Part> KeyframeCoder::at_rmse(double rmse) {
         break;
       if (rounding == 0 || rounding > std::sqrt(left))
         rounding = std::sqrt(left);
-      Part part = coded(exact, rounding);
+      CodedPart part = coded(exact, rounding);
       double measured = input_.rmse(part.error.squared);
       if (measured <= rmse) {
         size_t bytes = part.encoded.bytes() +
@@ -142,13 +142,13 @@ std::optional<Part> KeyframeCoder::at_rmse(double rmse) {
   return best;
 }
 
-Part KeyframeCoder::at_count() {
+CodedPart KeyframeCoder::at_count() {
   const MsgiFit& exact = fit(0);
   double floor = input_.largest_coordinate * 1e-6;
   double rms = fitter_.rmse(exact.fit);
   double allowed = std::max(1.1 * rms, floor);
   double rounding = std::sqrt(std::max(0.8 * (allowed * allowed - rms * rms), 0.0));
-  Part part = coded(exact, rounding);
+  CodedPart part = coded(exact, rounding);
   for (int round = 0; round < kRounds && input_.rmse(part.error.squared) > allowed; ++round)
     part = coded(exact, rounding *= 0.7);
   return part;

@@ -4,6 +4,7 @@
 #define ANICODEC_CODEC_SEARCH_KEYFRAME_CODER_H_
 
 #include "codec/keyframes/msgi_weights.h"
+#include "codec/search/encoder_input.h"
 #include "codec/search/segment_coder.h"
 
 #include <cstddef>
@@ -20,25 +21,25 @@ class KeyframeCoder : public SegmentCoder {
   /// frames are made from them; MSGI takes weights that sum to one and a rigid motion per frame,
   /// and tries key-frames spread evenly from the first frame to the last, too.
   KeyframeCoder(const EncoderInput& input, KeyframeMethod method, std::optional<uint32_t> count,
-                format::Reconstruction reconstruction);
+                Reconstruction reconstruction);
 
-  std::optional<Part> at_rmse(double rmse) override;
+  std::optional<CodedPart> at_rmse(double rmse) override;
 
   /// The given number of key-frames, rounded so that the error of exact ones grows by at most a
   /// tenth, or by a millionth of the largest coordinate where that is more.
-  Part at_count();
+  CodedPart at_count();
 
  private:
   /// So many key-frames, or as many as the error needs, with what is needed to code them.
   const MsgiFit& fit(double rmse);
   const MsgiFit& interpolated(size_t count);
-  Part coded(const MsgiFit& fit, double rounding_rms);
+  CodedPart coded(const MsgiFit& fit, double rounding_rms);
 
   const EncoderInput& input_;
   KeyframeFitter fitter_;
   KeyframeMethod method_;
   std::optional<uint32_t> count_;
-  format::Reconstruction reconstruction_;
+  Reconstruction reconstruction_;
   KeyframeWeights weights_ = KeyframeWeights::kLinear;
   MsgiFit fit_;                             ///< the last one by straight lines, leaf_faces 0
   std::map<size_t, MsgiFit> interpolated_;  ///< by number of key-frames: they take long

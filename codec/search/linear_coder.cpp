@@ -22,10 +22,10 @@ constexpr size_t kMostComponents = 2000;
 
 }  // namespace
 
-LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis,
-                         format::BasisKind kind, int effort, uint32_t layers)
+LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
+                         int effort, uint32_t layers)
     : input_(input), analysis_(analysis), kind_(kind), effort_(effort) {
-  const bool shapes = kind == format::BasisKind::kEigenshapes;
+  const bool shapes = kind == BasisKind::kEigenshapes;
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
@@ -68,7 +68,7 @@ LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
   const LinearBasis& b = basis(choice.pose, choice.base);
   FrameView clip = analysis_.clip();
   double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
-  bool shapes = kind_ == format::BasisKind::kEigenshapes;
+  bool shapes = kind_ == BasisKind::kEigenshapes;
   double scalars = static_cast<double>(clip.vertex_count * (shapes ? 3 : 1));
   // Bisection: the error of rounding and of what is left out grows with the step.
   // Without components the step is that of the pose, tied to the number of frames.
@@ -80,8 +80,8 @@ LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
     settings.step = std::sqrt(low * high);
     settings.components = component_count(b, settings, clip.vertex_count, clip.frame_count);
     auto k = static_cast<Eigen::Index>(settings.components);
-    double rest = b.base_energy - b.energies.head(k).sum();
-    double error = std::max(rest, 0.0) +
+    double unexplained = b.base_energy - b.energies.head(k).sum();
+    double error = std::max(unexplained, 0.0) +
                    0.12 * static_cast<double>(k) * scalars * settings.step * settings.step;
     (error > budget ? high : low) = settings.step;
   }
@@ -101,7 +101,7 @@ LinearCoder::Measured LinearCoder::measured(const Choice& choice, double rmse) {
   m.part.opened = open_encoded(m.part.encoded, input_.layout);
   m.part.error = measure(m.part.opened, analysis_.clip(), input_.copies);
   m.part.what = std::to_string(m.part.encoded.sizes.components) +
-                (kind_ == format::BasisKind::kEigenshapes ? " eigenshapes" : " eigentrajectories");
+                (kind_ == BasisKind::kEigenshapes ? " eigenshapes" : " eigentrajectories");
   m.rmse = input_.rmse(m.part.error.squared, analysis_.clip().frame_count);
   size_t pose = pose_ ? 0 : pose_bytes(m.part.encoded);
   m.bytes = static_cast<double>(m.part.encoded.bytes() + pose) *
@@ -119,7 +119,7 @@ void LinearCoder::choose_settings(double rmse) {
   choice_ = started(choice_, rmse);
   // One change at a time, those that pay most often first; what helps is kept.
   using Change = std::function<void(Choice&)>;
-  bool shapes = kind_ == format::BasisKind::kEigenshapes;
+  bool shapes = kind_ == BasisKind::kEigenshapes;
   std::vector<Change> changes = {
       [](Choice& c) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
       [](Choice& c) { c.settings.pose_factor *= 1.4; },
@@ -129,7 +129,7 @@ void LinearCoder::choose_settings(double rmse) {
       },
       [](Choice& c) { c.settings.lambda = 0.05; },
       [](Choice& c) { c.settings.weight_factor *= 1.2; },
-      [](Choice& c) { c.settings.colours = 2; },
+      [](Choice& c) { c.settings.passes_per_level = 2; },
       [](Choice& c) { c.settings.rank_factor *= 1.5; },
       [](Choice& c) { c.settings.radius = 16; },
       [](Choice& c) { c.settings.pose_factor *= 1.4; },
@@ -151,20 +151,20 @@ void LinearCoder::choose_settings(double rmse) {
     return;
   double least = measured(choice_, rmse).bytes;
   for (size_t i = 0; i < trials; ++i) {
-    Choice other = choice_;
-    changes[i](other);
-    if (other.settings.rank_factor != choice_.settings.rank_factor || other.pose != choice_.pose ||
-        other.base != choice_.base)
-      other = started(other, rmse);
-    double bytes = measured(other, rmse).bytes;
+    Choice changed = choice_;
+    changes[i](changed);
+    if (changed.settings.rank_factor != choice_.settings.rank_factor ||
+        changed.pose != choice_.pose || changed.base != choice_.base)
+      changed = started(changed, rmse);
+    double bytes = measured(changed, rmse).bytes;
     if (bytes < least) {
       least = bytes;
-      choice_ = other;
+      choice_ = changed;
     }
   }
 }
 
-std::optional<Part> LinearCoder::at_rmse(double rmse) {
+std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   if (!(rmse > 0))
     return std::nullopt;
   if (!chosen_)

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 #define ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 
+#include "codec/search/encoder_input.h"
 #include "codec/search/segment_coder.h"
 #include "codec/segment/linear_basis.h"
 #include "codec/segment/linear_segment_encode.h"
@@ -19,12 +20,12 @@ namespace anicodec {
 class LinearCoder : public SegmentCoder {
  public:
   /// `effort` 1..9: how many settings are tried. The analysis must outlive the coder.
-  LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, format::BasisKind kind,
-              int effort, uint32_t layers);
+  LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind, int effort,
+              uint32_t layers);
 
-  std::optional<Part> at_rmse(double rmse) override;
+  std::optional<CodedPart> at_rmse(double rmse) override;
 
-  format::BasisKind kind() const { return kind_; }
+  BasisKind kind() const { return kind_; }
 
   /// Makes the coder use a pose that the file has already, with a base that is an affine image of
   /// it, and the settings as they are.
@@ -44,7 +45,7 @@ class LinearCoder : public SegmentCoder {
   };
 
   struct Measured {
-    Part part;
+    CodedPart part;
     double rmse = 0;
     double bytes = 0;  ///< as they would be at the error asked for
   };
@@ -57,7 +58,7 @@ class LinearCoder : public SegmentCoder {
 
   const EncoderInput& input_;
   const LinearAnalysis& analysis_;
-  format::BasisKind kind_;
+  BasisKind kind_;
   int effort_;
   Choice choice_;
   bool chosen_ = false;

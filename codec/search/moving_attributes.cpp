@@ -28,7 +28,7 @@ std::shared_ptr<const EncodedPose> own_pose(const EncoderInput& input) {
   const double largest = pose.cwiseAbs().maxCoeff();
   auto coded = std::make_shared<EncodedPose>(
       *encode_reference_pose(pose, origin, largest * kStep, false, input.layout));
-  coded->coder = format::CoderId::kPredictive;
+  coded->coder = CoderId::kPredictive;
   coded->stream = encode_pose(input.layout.topology, coded->grid.points);
   return coded;
 }
@@ -60,12 +60,12 @@ class OffsetReader {
     for (size_t f = 0; f < attribute_.frames; ++f) {
       const bool is_own = f >= first_frame_ && f - first_frame_ < input_.sequence.frame_count;
       const float* values = attribute_.values.data() + f * coded.size() * n + first_component;
-      const float* rest = rest_.data() + first_component;
+      const float* at_rest = rest_.data() + first_component;
       std::fill(sums.begin(), sums.end(), 0.0);
       for (size_t v = 0; v < coded.size(); ++v) {
         for (size_t c = 0; c < width; ++c) {
           moved[3 * v + c] =
-              static_cast<double>(values[v * n + c]) - static_cast<double>(rest[v * n + c]);
+              static_cast<double>(values[v * n + c]) - static_cast<double>(at_rest[v * n + c]);
           sums[size_t{3} * coded[v] + c] += moved[3 * v + c];
         }
       }
@@ -105,17 +105,17 @@ class OffsetReader {
   const uint32_t first_frame_;
 };
 
-std::vector<Part> encode_offsets(const EncoderInput& input, std::vector<float> frames, double bound,
-                                 const EncodeOptions& options,
-                                 const std::shared_ptr<const EncodedPose>& pose) {
+std::vector<CodedPart> encode_offsets(const EncoderInput& input, std::vector<float> frames,
+                                      double bound, const EncodeOptions& options,
+                                      const std::shared_ptr<const EncodedPose>& pose) {
   EncoderInput trajectories(input, std::move(frames));
   trajectories.pose = pose;
-  EncodeOptions own = options;
-  own.basis = BasisChoice::kEigentrajectories;
-  own.keyframes.reset();
-  own.cap.reset();
-  const Target target{format::ErrorMetric::kMaxError, bound, false};
-  return RateControl(trajectories, own, target, 0).solve().parts;
+  EncodeOptions attribute_options = options;
+  attribute_options.basis = BasisChoice::kEigentrajectories;
+  attribute_options.keyframes.reset();
+  attribute_options.cap.reset();
+  const Target target{ErrorMetric::kMaxError, bound, false};
+  return RateControl(trajectories, attribute_options, target, 0).solve().parts;
 }
 
 }  // namespace
@@ -142,7 +142,7 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
     }
     const OffsetReader reader(input, s, first_frame);
     const double rounding = kRounding * reader.largest_value();
-    std::vector<Part> parts;
+    std::vector<CodedPart> parts;
     for (uint32_t first = 0; first < attribute.components && result.note.empty(); first += 3) {
       Offsets offsets = reader.read(first);
       const double bound = result.asked - offsets.spread - rounding;
@@ -156,7 +156,7 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
         if (!pose)
           pose = own_pose(input);
         try {
-          for (Part& part :
+          for (CodedPart& part :
                encode_offsets(input, std::move(offsets.frames), bound, options, pose)) {
             part.encoded.sizes.attribute = s.number;
             part.encoded.sizes.first_component = first;
@@ -168,7 +168,7 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
       }
     }
     if (result.note.empty()) {
-      for (Part& part : parts) {
+      for (CodedPart& part : parts) {
         result.bytes += part.encoded.bytes();
         result.components = std::max(result.components, part.encoded.sizes.components);
         out.parts.push_back(std::move(part));

@@ -5,7 +5,8 @@
 
 #include "codec/connectivity/attribute_encode.h"
 #include "codec/file/encode_options.h"
-#include "codec/search/segment_coder.h"
+#include "codec/search/coded_part.h"
+#include "codec/search/encoder_input.h"
 
 #include <memory>
 #include <vector>
@@ -15,7 +16,7 @@ namespace anicodec {
 /// Attributes that move, coded: how each came out, and the segments of all of them.
 struct MovingAttributes {
   std::vector<AttributeResult> results;
-  std::vector<Part> parts;
+  std::vector<CodedPart> parts;
 };
 
 /// Codes how the values of attributes of vertices differ from those stored for frame 0, to the

@@ -16,9 +16,6 @@
 namespace anicodec {
 namespace {
 
-using format::BasisKind;
-using format::ErrorMetric;
-
 constexpr uint32_t kLayers = 3;
 constexpr double kFarBehind = 1.15;
 
@@ -48,21 +45,21 @@ Target in_scene_units(Target target, double diagonal) {
 
 std::vector<const EncodedSegment*> Solution::segments() const {
   std::vector<const EncodedSegment*> list;
-  for (const Part& part : parts)
+  for (const CodedPart& part : parts)
     list.push_back(&part.encoded);
   return list;
 }
 
 double Solution::squared_error() const {
   double sum = 0;
-  for (const Part& part : parts)
+  for (const CodedPart& part : parts)
     sum += part.error.squared;
   return sum;
 }
 
 double Solution::max_error() const {
   double largest = 0;
-  for (const Part& part : parts)
+  for (const CodedPart& part : parts)
     largest = std::max(largest, part.error.max);
   return largest;
 }
@@ -93,12 +90,12 @@ double RateControl::rmse_of_kg(double kg) const {
                    input_.sequence.frame_count);
 }
 
-Solution RateControl::finished(std::vector<Part> parts) {
+Solution RateControl::finished(std::vector<CodedPart> parts) {
   Solution solution;
   solution.parts = std::move(parts);
   std::string what;
-  for (Part& part : solution.parts) {
-    const format::Limits::Segment& sizes = part.encoded.sizes;
+  for (CodedPart& part : solution.parts) {
+    const Limits::Segment& sizes = part.encoded.sizes;
     FrameView frames = input_.frames(sizes.first_frame, sizes.frames);
     if (cap_) {
       correct(frames, input_.copies, *cap_, part.opened, part.encoded);
@@ -106,7 +103,7 @@ Solution RateControl::finished(std::vector<Part> parts) {
     }
     what += (what.empty() ? "" : " + ") + part.what;
   }
-  format::ClipRecord record;
+  ClipRecord record;
   record.name = input_.sequence.name;
   record.encoder = options_.encoder;
   record.times.assign(input_.sequence.times.begin(), input_.sequence.times.end());
@@ -118,14 +115,14 @@ Solution RateControl::finished(std::vector<Part> parts) {
 }
 
 std::optional<Solution> RateControl::at_rmse(SegmentCoder& coder, double rmse) {
-  std::optional<Part> part;
+  std::optional<CodedPart> part;
   try {
     part = coder.at_rmse(rmse);
   } catch (const TooFine&) {
   }
   if (!part)
     return std::nullopt;
-  std::vector<Part> parts;
+  std::vector<CodedPart> parts;
   parts.push_back(std::move(*part));
   return finished(std::move(parts));
 }
@@ -190,7 +187,7 @@ std::optional<Solution> RateControl::reach(SegmentCoder& coder) {
 
 Solution RateControl::solve() {
   Solution solution = search();
-  for (Part& part : solution.parts) {
+  for (CodedPart& part : solution.parts) {
     if (!part.encoded.corrections.empty())  // added after it was opened: its hash covers them
       part.opened = open_encoded(part.encoded, input_.layout);
   }
@@ -209,17 +206,17 @@ Solution RateControl::search() {
     std::vector<std::unique_ptr<KeyframeCoder>> ways;
     if (options_.interpolation != InterpolationChoice::kMsgi)
       ways.push_back(std::make_unique<KeyframeCoder>(input_, options_.select, options_.keyframes,
-                                                     format::Reconstruction::kLinear));
+                                                     Reconstruction::kLinear));
     if (options_.interpolation != InterpolationChoice::kLinear)
       ways.push_back(std::make_unique<KeyframeCoder>(input_, options_.select, options_.keyframes,
-                                                     format::Reconstruction::kMsgi));
+                                                     Reconstruction::kMsgi));
     for (std::unique_ptr<KeyframeCoder>& keyframes : ways) {
       if (target_.metric != ErrorMetric::kNone) {
         offer(*keyframes);
         continue;
       }
       // As many bytes but for a few: what counts is the error.
-      std::vector<Part> parts;
+      std::vector<CodedPart> parts;
       parts.push_back(keyframes->at_count());
       Solution solution = finished(std::move(parts));
       if (!best || solution.squared_error() < best->squared_error())
@@ -232,9 +229,9 @@ Solution RateControl::search() {
   LinearAnalysis analysis(input_.frames());
   std::vector<std::unique_ptr<LinearCoder>> coders;
   for (BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
-    BasisChoice own = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
-                                                      : BasisChoice::kEigentrajectories;
-    if (options_.basis == BasisChoice::kAuto || options_.basis == own)
+    BasisChoice choice = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
+                                                         : BasisChoice::kEigentrajectories;
+    if (options_.basis == BasisChoice::kAuto || options_.basis == choice)
       coders.push_back(
           std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort, kLayers));
   }
@@ -263,8 +260,7 @@ Solution RateControl::search() {
     }
   }
   if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
-    KeyframeCoder keyframes(input_, options_.select, options_.keyframes,
-                            format::Reconstruction::kLinear);
+    KeyframeCoder keyframes(input_, options_.select, options_.keyframes, Reconstruction::kLinear);
     offer(keyframes);
   }
   if (!best)
@@ -278,9 +274,9 @@ std::optional<Solution> RateControl::cut_in_time(const Solution& whole, const Li
   std::vector<FrameRange> ranges = segmentation.find();
   if (ranges.size() < 2)
     return std::nullopt;
-  std::vector<Part> parts;
+  std::vector<CodedPart> parts;
   for (const FrameRange& range : ranges) {
-    std::optional<Part> part = segmentation.coded(range);
+    std::optional<CodedPart> part = segmentation.coded(range);
     if (!part)
       return std::nullopt;
     part->encoded.sizes.first_frame = range.first;

@@ -4,6 +4,8 @@
 #define ANICODEC_CODEC_SEARCH_RATE_CONTROL_H_
 
 #include "codec/file/encode_options.h"
+#include "codec/search/coded_part.h"
+#include "codec/search/encoder_input.h"
 #include "codec/search/keyframe_coder.h"
 #include "codec/search/linear_coder.h"
 #include "codec/search/segment_coder.h"
@@ -19,7 +21,7 @@ Target in_scene_units(Target target, double diagonal);
 
 /// A way to code the clip.
 struct Solution {
-  std::vector<Part> parts;
+  std::vector<CodedPart> parts;
   size_t bytes = 0;  ///< of the file
 
   std::vector<const EncodedSegment*> segments() const;
@@ -54,7 +56,7 @@ class RateControl {
   bool better(const Solution& a, const Solution& b) const;
   [[noreturn]] void fail() const;
   [[noreturn]] void fail(KeyframeCoder& keyframes);
-  Solution finished(std::vector<Part> parts);
+  Solution finished(std::vector<CodedPart> parts);
   std::optional<Solution> cut_in_time(const Solution& whole, const LinearCoder& coder);
   bool beats_keyframes(const Solution& solution) const;
   double smallest_bound() const;

@@ -3,73 +3,11 @@
 #ifndef ANICODEC_CODEC_SEARCH_SEGMENT_CODER_H_
 #define ANICODEC_CODEC_SEARCH_SEGMENT_CODER_H_
 
-#include "codec/connectivity/mesh_layout.h"
-#include "codec/file/encode_options.h"
-#include "codec/segment/encoded_segment.h"
-#include "codec/sequence/frame_view.h"
-#include "codec/sequence/mesh_sequence.h"
+#include "codec/search/coded_part.h"
 
-#include <cstdint>
-#include <functional>
-#include <memory>
 #include <optional>
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
 
 namespace anicodec {
-
-/// What all ways of coding share: the clip by coded vertices, and how it leads back to the source.
-struct EncoderInput {
-  /// Takes the positions over: they are put into coded order in place. Of a part, only its frames
-  /// remain, of a mesh that serves all parts.
-  EncoderInput(MeshSequence source, format::CoderId mesh_coder,
-               const std::optional<FrameRun>& part = {});
-
-  /// Other trajectories over the same mesh: as many frames, frames x coded vertices x 3.
-  EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories);
-
-  FrameView frames(size_t first, size_t count) const { return frames().frames(first, count); }
-
-  FrameView frames() const {
-    return {coded.data(), sequence.frame_count, layout.sizes.coded_vertices};
-  }
-
-  /// Root mean square over the source's vertices and some frames.
-  double rmse(double squared, size_t frames) const;
-
-  double rmse(double squared) const { return rmse(squared, sequence.frame_count); }
-
-  /// `first_pose` around its centre, which goes to `origin`.
-  Eigen::MatrixXd centred_first_pose(Eigen::Vector3d* origin) const;
-
-  MeshSequence sequence;  ///< the source without its positions
-  MeshLayout layout;
-  std::vector<float> coded;       ///< frames x coded vertices x 3
-  std::vector<uint32_t> copies;   ///< source vertices of each coded one
-  double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0
-  double largest_coordinate = 0;  ///< in magnitude
-  std::vector<float> first_pose;  ///< coded vertices x 3: frame 0 of the source, before any cut
-  std::shared_ptr<const EncodedPose> pose;  ///< what a part must refer to, else null
-
-  /// Called by coders before every trial, which is what takes time; may be empty.
-  std::function<void()> on_trial;
-
-  void begin_trial() const {
-    if (on_trial)
-      on_trial();
-  }
-};
-
-/// A coded segment and what its decoder shows.
-struct Part {
-  EncodedSegment encoded;
-  Segment opened;
-  SegmentError error;
-  double asked = 0;  ///< the error that it was coded for
-  std::string what;  ///< how it was coded, in a few words
-};
 
 /// One way of coding a segment: a kind of basis.
 class SegmentCoder {
@@ -78,7 +16,7 @@ class SegmentCoder {
 
   /// Codes with an error of at most `rmse` (scene units, over the source's vertices), close to it.
   /// Nothing when it cannot be reached.
-  virtual std::optional<Part> at_rmse(double rmse) = 0;
+  virtual std::optional<CodedPart> at_rmse(double rmse) = 0;
 };
 
 }  // namespace anicodec

@@ -42,7 +42,7 @@ double TimeSegmentation::probed(const FrameRange& range) const {
   return coder(analysis).probe(rmse_) + kChunks;
 }
 
-std::optional<Part> TimeSegmentation::coded(const FrameRange& range) const {
+std::optional<CodedPart> TimeSegmentation::coded(const FrameRange& range) const {
   LinearAnalysis analysis(input_.frames(range.first, range.count));
   return coder(analysis).at_rmse(rmse_);
 }

@@ -3,8 +3,9 @@
 #ifndef ANICODEC_CODEC_SEARCH_TIME_SEGMENTATION_H_
 #define ANICODEC_CODEC_SEARCH_TIME_SEGMENTATION_H_
 
+#include "codec/search/coded_part.h"
+#include "codec/search/encoder_input.h"
 #include "codec/search/linear_coder.h"
-#include "codec/search/segment_coder.h"
 
 #include <cstdint>
 #include <memory>
@@ -31,7 +32,7 @@ class TimeSegmentation {
   std::vector<FrameRange> find();
 
   /// A range coded to the error.
-  std::optional<Part> coded(const FrameRange& range) const;
+  std::optional<CodedPart> coded(const FrameRange& range) const;
 
  private:
   void split(const FrameRange& range, double bytes, std::vector<FrameRange>* out);

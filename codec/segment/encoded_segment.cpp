@@ -47,13 +47,13 @@ double squared_distance(const float* a, const float* b) {
 size_t EncodedSegment::bytes() const {
   size_t total =
       parameters.size() + pose.size() + motion.size() + weights.size() + corrections.size();
-  for (const format::Bytes& layer : layers)
+  for (const Bytes& layer : layers)
     total += layer.size();
   return total;
 }
 
 std::span<const Vector<int32_t>> EncodedSegment::poses_for_draco() const {
-  if (reference && reference->coder == format::CoderId::kDraco)
+  if (reference && reference->coder == CoderId::kDraco)
     return {&reference->grid.points, 1};
   return draco_poses;
 }
@@ -68,14 +68,14 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
       std::copy_n(encoded.draco_poses[j].begin() + ptrdiff_t{3} * layout.topology.point_vertex[p],
                   3, draco.values.begin() + static_cast<ptrdiff_t>(p * draco.components + 3 * j));
   }
-  format::SegmentRecord record;
+  SegmentRecord record;
   record.kind = encoded.sizes.kind;
   record.reconstruction = encoded.sizes.reconstruction;
   record.parameters = encoded.parameters;
   record.pose = encoded.pose;
   record.motion = encoded.motion;
   record.weights = encoded.weights;
-  const bool msgi = encoded.sizes.reconstruction == format::Reconstruction::kMsgi;
+  const bool msgi = encoded.sizes.reconstruction == Reconstruction::kMsgi;
   if (msgi)
     encoded.sizes.msgi_bytes = encoded.sizes.msgi_frame_bytes = uint64_t{1} << 48;
   SegmentContext context;
@@ -157,7 +157,7 @@ void correct(const FrameView& source, const std::vector<uint32_t>& copies, doubl
   encoded.corrections.clear();
   if (total == 0)
     return;
-  format::ByteWriter writer;
+  ByteWriter writer;
   writer.f64(step);
   writer.raw(encoder.finish());
   encoded.corrections = std::move(writer.bytes());

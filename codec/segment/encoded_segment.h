@@ -18,16 +18,16 @@ namespace anicodec {
 /// A reference pose, ready for the file.
 struct EncodedPose {
   PoseGrid grid;
-  format::CoderId coder = format::CoderId::kPlain;
-  format::Bytes stream;  ///< what the mesh's Draco bitstream does not hold
+  CoderId coder = CoderId::kPlain;
+  Bytes stream;  ///< what the mesh's Draco bitstream does not hold
 };
 
 /// The streams of one segment, ready for the file.
 struct EncodedSegment {
-  format::Limits::Segment sizes;
-  format::Bytes parameters, pose, motion, weights;
-  std::vector<format::Bytes> layers;             ///< chunks BASI
-  format::Bytes corrections;                     ///< chunk CORR
+  Limits::Segment sizes;
+  Bytes parameters, pose, motion, weights;
+  std::vector<Bytes> layers;                     ///< chunks BASI
+  Bytes corrections;                             ///< chunk CORR
   std::vector<Vector<int32_t>> draco_poses;      ///< to be carried by the mesh's Draco bitstream
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
   uint64_t hash = 0;

@@ -91,8 +91,7 @@ int32_t rounded(double x) {
 }
 
 /// Quaternions with no jump of sign, then translations, as integers.
-format::Bytes code_motions(const std::vector<RigidMotion>& motions,
-                           const KeyframeParameters& parameters) {
+Bytes code_motions(const std::vector<RigidMotion>& motions, const KeyframeParameters& parameters) {
   Vector<int32_t> series[7];
   Eigen::Vector4d before(0, 0, 0, 1);
   for (const RigidMotion& motion : motions) {
@@ -158,9 +157,9 @@ EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, K
   parameters.translation_step = 0.3 * step;
 
   EncodedSegment encoded;
-  encoded.sizes.kind = format::BasisKind::kKeyframes;
+  encoded.sizes.kind = BasisKind::kKeyframes;
   if (leaf_faces > 0)
-    encoded.sizes.reconstruction = format::Reconstruction::kMsgi;
+    encoded.sizes.reconstruction = Reconstruction::kMsgi;
   encoded.sizes.frames = static_cast<uint32_t>(clip.frame_count);
   encoded.sizes.components = static_cast<uint32_t>(k);
   int32_t largest = 0;
@@ -179,14 +178,14 @@ EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, K
   }
   Pose plain;
   size_t loose_from = 0;  // the first coded vertex that Draco does not hold
-  if (parameters.coder == format::CoderId::kDraco) {
+  if (parameters.coder == CoderId::kDraco) {
     for (uint32_t c : layout.topology.point_vertex)
       loose_from = std::max<size_t>(loose_from, c + 1);
   }
   for (const Pose& pose : poses)
     plain.insert(plain.end(), pose.begin() + static_cast<ptrdiff_t>(3 * loose_from), pose.end());
   encoded.pose = encode_plain_integers(plain, 3);
-  if (parameters.coder == format::CoderId::kDraco)
+  if (parameters.coder == CoderId::kDraco)
     encoded.draco_poses = std::move(poses);
 
   BinaryEncoder encoder;

@@ -60,10 +60,11 @@ size_t LinearAnalysis::best_frame() const {
   const auto n = static_cast<double>(clip_.vertex_count);
   for (Index f = 0; f < gram_.rows() / 3; ++f) {
     // Products of the functions x, y, z about their means with each other and with all rows.
-    const VectorXd own_sums = sums_.segment<3>(3 * f);
-    const MatrixXd own = gram_.block<3, 3>(3 * f, 3 * f) - own_sums * own_sums.transpose() / n;
-    const MatrixXd rows = gram_.middleCols<3>(3 * f) - sums_ * own_sums.transpose() / n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(own);
+    const VectorXd frame_sums = sums_.segment<3>(3 * f);
+    const MatrixXd axes_gram =
+        gram_.block<3, 3>(3 * f, 3 * f) - frame_sums * frame_sums.transpose() / n;
+    const MatrixXd rows = gram_.middleCols<3>(3 * f) - sums_ * frame_sums.transpose() / n;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(axes_gram);
     double explained = 0;
     for (Index a = 0; a < 3; ++a) {
       const double size = solver.eigenvalues()[a];
@@ -103,11 +104,11 @@ MatrixXd LinearAnalysis::rank_three_pose() const {
   return (pose - target).squaredNorm() < 0.3 * size ? pose : target;
 }
 
-LinearBasis LinearAnalysis::basis(format::BasisKind kind, ReferencePose pose, Base base,
+LinearBasis LinearAnalysis::basis(BasisKind kind, ReferencePose pose, Base base,
                                   size_t max_components, double smallest,
-                                  const MatrixXd* given) const {
-  const bool shapes = kind == format::BasisKind::kEigenshapes;
-  if (!shapes && (kind != format::BasisKind::kEigentrajectories || base != Base::kAffine))
+                                  const MatrixXd* given_pose) const {
+  const bool shapes = kind == BasisKind::kEigenshapes;
+  if (!shapes && (kind != BasisKind::kEigentrajectories || base != Base::kAffine))
     throw Error(ErrorKind::kInternal, "no such linear basis");
   LinearBasis out;
   out.kind = kind;
@@ -131,20 +132,20 @@ LinearBasis LinearAnalysis::basis(format::BasisKind kind, ReferencePose pose, Ba
       out.pose = rank_three_pose();
       break;
     case ReferencePose::kGiven:
-      out.pose = *given;
+      out.pose = *given_pose;
       break;
   }
-  MatrixXd rest = gram_;
+  MatrixXd remainder = gram_;
   if (base == Base::kAffine) {
     const MatrixXd fitted = project_on_functions(clip_, origin_, affine_span(out.pose));
-    rest -= fitted * fitted.transpose();
+    remainder -= fitted * fitted.transpose();
   }
   if (shapes)
-    rest = sum_of_axes(rest);
+    remainder = sum_of_axes(remainder);
   if (base == Base::kPose) {
     // <x_f - p, x_g - p> from <x_f, p>.
     VectorXd products(frames);
-    double own = out.pose.squaredNorm();
+    double pose_energy = out.pose.squaredNorm();
     for (Index f = 0; f < frames; ++f) {
       const float* x = clip_.frame(static_cast<size_t>(f));
       double s = 0;
@@ -155,10 +156,10 @@ LinearBasis LinearAnalysis::basis(format::BasisKind kind, ReferencePose pose, Ba
     }
     for (Index g = 0; g < frames; ++g)
       for (Index f = 0; f < frames; ++f)
-        rest(f, g) += own - products[f] - products[g];
+        remainder(f, g) += pose_energy - products[f] - products[g];
   }
-  out.base_energy = std::max(0.0, rest.trace());
-  Eigenpairs pairs = leading_eigenpairs(rest, static_cast<Index>(max_components), smallest);
+  out.base_energy = std::max(0.0, remainder.trace());
+  Eigenpairs pairs = leading_eigenpairs(remainder, static_cast<Index>(max_components), smallest);
   out.energies = std::move(pairs.values);
   out.time = std::move(pairs.vectors);
   return out;

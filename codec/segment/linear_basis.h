@@ -29,7 +29,7 @@ enum class Base : uint8_t {
 
 /// Principal components of a clip, not yet quantised.
 struct LinearBasis {
-  format::BasisKind kind = format::BasisKind::kEigentrajectories;
+  BasisKind kind = BasisKind::kEigentrajectories;
   Base base = Base::kAffine;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< everything is relative to it
   Eigen::MatrixXd pose;                              ///< vertices x 3
@@ -51,9 +51,9 @@ class LinearAnalysis {
 
   /// Components with energy above `smallest`, at most max_components. Trajectories need
   /// Base::kAffine. Cost: the eigenpairs, and at most two passes over the clip.
-  /// For ReferencePose::kGiven: `given`, vertices x 3, with any origin.
-  LinearBasis basis(format::BasisKind kind, ReferencePose pose, Base base, size_t max_components,
-                    double smallest, const Eigen::MatrixXd* given = nullptr) const;
+  /// For ReferencePose::kGiven: `given_pose`, vertices x 3, with any origin.
+  LinearBasis basis(BasisKind kind, ReferencePose pose, Base base, size_t max_components,
+                    double smallest, const Eigen::MatrixXd* given_pose = nullptr) const;
 
   const FrameView& clip() const { return clip_; }
 

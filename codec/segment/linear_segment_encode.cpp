@@ -72,7 +72,7 @@ class WeightCoder {
     }
   }
 
-  format::Bytes finish() { return encoder_.finish(); }
+  Bytes finish() { return encoder_.finish(); }
 
  private:
   size_t frames_;
@@ -93,7 +93,7 @@ Coefficients refitted(const FrameView& clip, const LinearBasis& basis,
   MatrixXd normal = u.transpose() * u;
   normal.diagonal().array() += 1e-9 * std::max(normal.trace() / static_cast<double>(k), 1e-30);
   MatrixXd solved = normal.ldlt().solve(u.transpose()).transpose();  // rows of the clip x k
-  bool shapes = basis.kind == format::BasisKind::kEigenshapes;
+  bool shapes = basis.kind == BasisKind::kEigenshapes;
   Index channels = shapes ? 3 : 1;
   Coefficients y(static_cast<Index>(clip.vertex_count), k * channels);
   // What the base contributes to each component: per axis and function, or the pose times a sum.
@@ -151,7 +151,7 @@ size_t component_count(const LinearBasis& basis, const LinearSettings& settings,
                        size_t frames) {
   if (settings.components > 0)
     return std::min(settings.components, static_cast<size_t>(basis.energies.size()));
-  bool shapes = basis.kind == format::BasisKind::kEigenshapes;
+  bool shapes = basis.kind == BasisKind::kEigenshapes;
   double scalars = static_cast<double>(shapes ? 3 * vertices + frames : vertices + 3 * frames);
   double smallest = settings.rank_factor * scalars * settings.step * settings.step;
   return static_cast<size_t>((basis.energies.array() > smallest).count());
@@ -171,18 +171,17 @@ std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
       grid.points.push_back(static_cast<int32_t>(std::lround(pose(v, c) / grid.step)));
   }
   encoded->coder = layout.coder;
-  size_t held =
-      layout.coder == format::CoderId::kDraco ? vertices_in_triangles(layout.topology) : 0;
+  size_t held = layout.coder == CoderId::kDraco ? vertices_in_triangles(layout.topology) : 0;
   encoded->stream = encode_plain_integers(
       {grid.points.begin() + static_cast<ptrdiff_t>(3 * held), grid.points.end()}, 3);
   if (!slow)
     return encoded;
   size_t bytes = encoded->stream.size();
-  if (encoded->coder == format::CoderId::kDraco)
+  if (encoded->coder == CoderId::kDraco)
     bytes += encode_with_poses(layout, {&grid.points, 1}).size() - layout.connectivity.size();
-  format::Bytes predicted = encode_pose(layout.topology, grid.points);
+  Bytes predicted = encode_pose(layout.topology, grid.points);
   if (predicted.size() < bytes) {
-    encoded->coder = format::CoderId::kPredictive;
+    encoded->coder = CoderId::kPredictive;
     encoded->stream = std::move(predicted);
   }
   return encoded;
@@ -192,7 +191,7 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
                              const LinearSettings& settings, const MeshLayout& layout,
                              std::shared_ptr<const EncodedPose> shared) {
   size_t n = clip.vertex_count, frames = clip.frame_count;
-  bool shapes = basis.kind == format::BasisKind::kEigenshapes;
+  bool shapes = basis.kind == BasisKind::kEigenshapes;
   uint32_t channels = shapes ? 3 : 1, weight_channels = shapes ? 1 : 3;
   size_t k = component_count(basis, settings, n, frames);
 
@@ -201,7 +200,7 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
   parameters.basis_step = settings.step;
   parameters.weight_step = settings.weight_factor * settings.step;
   parameters.neighbours = settings.neighbours;
-  parameters.colours = settings.colours;
+  parameters.colours = settings.passes_per_level;
   parameters.radius = settings.radius;
   parameters.schedule = settings.schedule;
 
@@ -249,7 +248,7 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
       refitted(clip, basis, origin, u, base_weights, functions, still, settings.step);
   VertexOrder order;
   if (make_vertex_order(layout.topology.triangles.data(), layout.topology.triangles.size() / 3,
-                        pose.data(), n, settings.neighbours, settings.colours,
+                        pose.data(), n, settings.neighbours, settings.passes_per_level,
                         &order) != Status::kOk)
     throw Error(ErrorKind::kInternal, "the vertex order cannot be made");
   PredictionParameters prediction;
@@ -293,7 +292,7 @@ EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
                         [&](size_t b) { predictor.update(b, b + 1, parameters.omega[j]); });
       predictor.next_component();
     }
-    format::ByteWriter writer;
+    ByteWriter writer;
     writer.varint(end - begin);
     writer.raw(encoder.finish());
     encoded.layers.push_back(std::move(writer.bytes()));

@@ -25,7 +25,7 @@ struct LinearSettings {
       0.2;  ///< components with less energy per scalar, in squared steps, are left out
   size_t components = 0;  ///< exact number of components; 0: as many as rank_factor says
   uint8_t neighbours = 16;
-  uint8_t colours = 1;
+  uint8_t passes_per_level = 1;
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
   bool slow_pose =

@@ -43,8 +43,6 @@ struct FrameRate {
 
 enum class UpAxis : uint8_t { kUnknown = 0, kY = 1, kZ = 2 };
 
-using format::AttributeKind;
-
 /// Values that stand beside the positions: of each vertex, or of each corner of the polygons.
 struct Attribute {
   AttributeKind kind = AttributeKind::kUv;

@@ -52,12 +52,12 @@ std::vector<Members> members_of_parts(const MeshSequence& sequence) {
     for (uint32_t v : members[m].vertices)
       owner[v] = m;
   }
-  uint32_t before = 0;
+  uint32_t last_owner = 0;
   for (uint32_t v = 0; v < sequence.vertex_count; ++v) {
     if (owner[v] == UINT32_MAX)
-      members[before].vertices.push_back(v);
+      members[last_owner].vertices.push_back(v);
     else
-      before = owner[v];
+      last_owner = owner[v];
   }
   for (Members& m : members)
     std::sort(m.vertices.begin(), m.vertices.end());
@@ -131,27 +131,29 @@ SceneMesh taken(const MeshSequence& whole, const Members& members) {
   out.shared_normals = taken(whole.shared_normals, members.corners);
   out.materials = taken(whole.materials, members.polygons);
 
-  mesh.there = frames_shown(whole, members.vertices);
+  mesh.present_in = frames_shown(whole, members.vertices);
   std::vector<uint32_t> frames;
-  for (const FrameRun& run : mesh.there) {
+  for (const FrameRun& run : mesh.present_in) {
     frames.resize(frames.size() + run.count);
     std::iota(frames.end() - run.count, frames.end(), run.first);
   }
   out.frame_count = static_cast<uint32_t>(frames.size());
   for (const Attribute& attribute : whole.attributes) {
-    Attribute& own = out.attributes.emplace_back(attribute);
+    Attribute& mesh_attribute = out.attributes.emplace_back(attribute);
     const std::vector<uint32_t>& rows = attribute.per_corner ? members.corners : members.vertices;
     const size_t elements =
         attribute.per_corner ? whole.polygons.corners.size() : whole.vertex_count;
-    own.values.clear();
+    mesh_attribute.values.clear();
     for (uint32_t f : attribute.frames == 1 ? std::vector<uint32_t>{0} : frames) {
       for (uint32_t row : rows) {
-        const float* values = attribute.values.data() + (f * elements + row) * own.components;
-        own.values.insert(own.values.end(), values, values + own.components);
+        const float* values =
+            attribute.values.data() + (f * elements + row) * mesh_attribute.components;
+        mesh_attribute.values.insert(mesh_attribute.values.end(), values,
+                                     values + mesh_attribute.components);
       }
     }
     if (attribute.frames != 1)
-      own.frames = out.frame_count;
+      mesh_attribute.frames = out.frame_count;
   }
   out.positions.reserve(size_t{3} * out.vertex_count * out.frame_count);
   for (uint32_t f : frames) {

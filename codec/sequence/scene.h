@@ -12,8 +12,8 @@ namespace anicodec {
 
 /// A mesh of a scene.
 struct SceneMesh {
-  MeshSequence sequence;        ///< of the frames it is there in alone, without their timing
-  std::vector<FrameRun> there;  ///< which these are, ascending: sequence.frame_count together
+  MeshSequence sequence;             ///< of the frames it is there in alone, without their timing
+  std::vector<FrameRun> present_in;  ///< these frames, ascending: sequence.frame_count together
 };
 
 /// Several meshes on one clock: objects that stand beside one another, or take turns.

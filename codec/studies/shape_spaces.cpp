@@ -4,7 +4,7 @@
 
 #include "codec/algebra/gram.h"
 #include "codec/algebra/rigid_motion.h"
-#include "codec/connectivity/coded_mesh.h"
+#include "codec/connectivity/manifold_mesh.h"
 #include "codec/interpolation/deformation_gradients.h"
 #include "codec/interpolation/interpolation.h"
 #include "codec/sequence/error.h"
@@ -157,10 +157,10 @@ std::optional<ShapeSpace> gradient_space(const AlignedFrames& frames) {
   for (size_t f = 0; f < frames.count(); ++f) {
     const DeformationGradients::Gradients& g = interpolation->measured(f);
     for (size_t t = 0; t < areas.size(); ++t) {
-      auto own =
+      auto features_of_triangle =
           features.col(static_cast<Index>(f)).segment<kNumbers>(kNumbers * static_cast<Index>(t));
-      own << g.turns[t], g.stretches[t].reshaped();
-      own *= std::sqrt(areas[t]);
+      features_of_triangle << g.turns[t], g.stretches[t].reshaped();
+      features_of_triangle *= std::sqrt(areas[t]);
     }
   }
   return ShapeSpace{"gradients", uint64_t{9} * areas.size(), products(std::move(features)),

@@ -31,9 +31,9 @@ double area(double a, double b, double c) {
 
 }  // namespace
 
-EdgeNetwork::EdgeNetwork(std::span<const uint32_t> given, uint32_t vertices)
+EdgeNetwork::EdgeNetwork(std::span<const uint32_t> corners, uint32_t vertices)
     : vertex_count(vertices) {
-  FaceGraph graph = make_face_graph(given.data(), given.size() / 3, vertices);
+  FaceGraph graph = make_face_graph(corners.data(), corners.size() / 3, vertices);
   triangles = std::move(graph.corners);
   edges = std::move(graph.edges);
   triangle_edges = std::move(graph.face_edges);

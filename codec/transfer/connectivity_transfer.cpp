@@ -50,9 +50,9 @@ struct Attempt {
 };
 
 /// The mesh being carried, since the segment began.
-class Carried {
+class CarriedMesh {
  public:
-  explicit Carried(const SurfaceFrame& frame)
+  explicit CarriedMesh(const SurfaceFrame& frame)
       : polygons_(frame.polygons),
         topology_(fan_triangles(frame.polygons), static_cast<uint32_t>(frame.positions.size() / 3)),
         first_(positions_of(frame.positions)),
@@ -251,7 +251,7 @@ std::string alarm_names(uint8_t alarms) {
 TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame_count,
                                      const TransferOptions& options, const Progress& progress) {
   TransferResult result;
-  std::unique_ptr<Carried> carried;
+  std::unique_ptr<CarriedMesh> carried;
   bool open = false;
   for (uint32_t f = 0; f < frame_count; ++f) {
     if (progress)
@@ -286,7 +286,7 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
       }
     }
     if (!carried || report.alarms) {
-      carried = std::make_unique<Carried>(frame);
+      carried = std::make_unique<CarriedMesh>(frame);
       report.first = true;
       report.mean = report.max = 0;
       TransferSegment segment;

@@ -67,12 +67,11 @@ CrossParametrisation improve_map(const SurfaceTopology& mesh, const Positions& s
   result.before = distortion(mesh, shape, result.positions);
   const RowMatrix weights =
       held_at(shape_matrix(mesh, shape, ShapeWeights::kMeanValue), options.landmarks);
-  SurfaceFitOptions fit;
+  ShapeFitOptions fit;
   fit.lambda = options.lambda;
   fit.rounds = options.rounds;
   fit.tolerance = options.tolerance;
-  result.convergence =
-      SurfaceFitter(mesh, weights).run(surface, fit, &result.positions).convergence;
+  result.convergence = ShapeFit(mesh, weights).run(surface, fit, &result.positions).convergence;
   project();
   result.after = distortion(mesh, shape, result.positions);
   result.turned = static_cast<uint32_t>(turned_triangles(mesh, result.positions, surface).size());

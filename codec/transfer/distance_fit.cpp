@@ -42,14 +42,14 @@ struct Pair {
 };
 
 /// The samples of one surface against the other.
-struct Side {
+struct SurfacePairs {
   std::vector<SurfaceSample> samples;
   std::vector<double> shares;
   std::vector<uint32_t> starts;  ///< where walks on the other surface start
   std::vector<double> weights;   ///< Lawson's
   std::vector<Pair> pairs;
 
-  explicit Side(const SurfaceTopology& topology)
+  explicit SurfacePairs(const SurfaceTopology& topology)
       : samples(surface_samples(topology)),
         starts(samples.size(), SurfaceTopology::kNone),
         weights(samples.size(), 1),
@@ -71,9 +71,10 @@ struct Side {
 };
 
 /// One mesh being fitted.
-class Fit {
+class DistanceSolver {
  public:
-  Fit(const SurfaceTopology& mesh, const RigidShape& shape, const Surface& surface, Positions* v)
+  DistanceSolver(const SurfaceTopology& mesh, const RigidShape& shape, const Surface& surface,
+                 Positions* v)
       : mesh_(mesh),
         shape_(shape),
         surface_(surface),
@@ -181,7 +182,7 @@ class Fit {
   }
 
   void reweight(double far) {
-    for (Side* side : {&from_mesh_, &from_surface_}) {
+    for (SurfacePairs* side : {&from_mesh_, &from_surface_}) {
       for (size_t s = 0; s < side->samples.size(); ++s) {
         const double part = side->pairs[s].distance / far;
         double& weight = side->weights[s];
@@ -194,7 +195,7 @@ class Fit {
       balance_ *= std::sqrt(b / a);
   }
 
-  void add_side(const Side& side, double importance, Positions* right) {
+  void add_pairs(const SurfacePairs& side, double importance, Positions* right) {
     const double typical = side.mean();
     for (size_t s = 0; s < side.samples.size(); ++s) {
       const Pair& pair = side.pairs[s];
@@ -233,8 +234,8 @@ class Fit {
     }
     Positions right = -stiffness * shape_.half_gradient(v_, rotations_);
     const auto unit = static_cast<double>(mesh_.vertex_count);
-    add_side(from_mesh_, unit, &right);
-    add_side(from_surface_, unit * balance_, &right);
+    add_pairs(from_mesh_, unit, &right);
+    add_pairs(from_surface_, unit * balance_, &right);
     const Positions step = system_.solve(right, kSolveTolerance, kMostIterations);
     v_ += step;
     return step.norm() / std::sqrt(static_cast<double>(std::max<Index>(1, v_.rows())));
@@ -244,7 +245,7 @@ class Fit {
   const RigidShape& shape_;
   const Surface& surface_;
   Positions& v_;
-  Side from_mesh_, from_surface_;
+  SurfacePairs from_mesh_, from_surface_;
   double along_ = 1;    ///< what a move across the direction of a distance counts
   double balance_ = 1;  ///< weight of from_surface_ in that of from_mesh_
   BlockSystem system_;
@@ -255,7 +256,7 @@ class Fit {
 
 Convergence fit_distance(const SurfaceTopology& mesh, const RigidShape& shape,
                          const Surface& surface, const DistanceFitOptions& options, Positions* v) {
-  return Fit(mesh, shape, surface, v).run(options);
+  return DistanceSolver(mesh, shape, surface, v).run(options);
 }
 
 }  // namespace anicodec

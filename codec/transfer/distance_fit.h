@@ -4,7 +4,7 @@
 #define ANICODEC_CODEC_TRANSFER_DISTANCE_FIT_H_
 
 #include "codec/massage/rigid_shape.h"
-#include "codec/massage/sliding_solve.h"
+#include "codec/massage/sliding_solver.h"
 #include "codec/surface/surface.h"
 
 namespace anicodec {

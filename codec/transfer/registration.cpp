@@ -114,10 +114,10 @@ RegistrationReport Registration::run(const Surface& surface, const RegistrationO
     add_correspondences(correspondences.from_surface(), along, *v, &right);
     add_landmarks(options.landmarks, options.landmark_weight, *v, &right);
     const Positions old = *v;
-    guarded_step(
+    fold_guarded_step(
         *mesh_, old, system_.solve(right, kSolveTolerance, kMostIterations),
         [v](uint32_t i, const Vector3d& q) { v->row(static_cast<Index>(i)) = q.transpose(); },
-        [&](uint32_t t) { return correspondences.up(t); }, *v);
+        [&](uint32_t t) { return correspondences.facing(t); }, *v);
     const double step = (*v - old).norm() / std::sqrt(count);
     c.step = edge > 0 ? step / edge : 0;
     ++c.rounds;

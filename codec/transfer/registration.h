@@ -5,7 +5,7 @@
 
 #include "codec/massage/correspondence.h"
 #include "codec/massage/rigid_shape.h"
-#include "codec/massage/sliding_solve.h"
+#include "codec/massage/sliding_solver.h"
 #include "codec/surface/surface.h"
 #include "codec/transfer/block_system.h"
 

@@ -14,8 +14,6 @@
 namespace anicodec {
 namespace {
 
-using format::ByteView;
-
 void* allocate_default(void*, size_t size, size_t) {
   return std::malloc(size);  // aligned for anything up to 16 bytes
 }
@@ -44,7 +42,7 @@ uint32_t triangle_count(const Topology& t) {
   return static_cast<uint32_t>(count);
 }
 
-uint64_t box_bytes(const format::Limits& limits) {
+uint64_t box_bytes(const Limits& limits) {
   return sizeof(anic_box) * (uint64_t{limits.frames} + 1) * limits.meshes.size();
 }
 
@@ -55,26 +53,26 @@ uint64_t track_bytes(uint64_t weights, uint64_t segments, uint64_t interpolated,
 }
 
 /// Of the meshes and segments of limits, as context_extra() finds it for an open clip.
-uint64_t context_bytes(const format::Limits& limits, double quality) {
+uint64_t context_bytes(const Limits& limits, double quality) {
   const Vector<uint32_t> order = limits.segments_by_frame();
   Vector<uint8_t> has_track(limits.meshes.size(), 0);
   uint64_t bytes = object_bytes<anic_context>(), scratch = 0;
   for (size_t i = 0; i < order.size();) {
-    const format::Limits::Segment& first = limits.segments[order[i]];
+    const Limits::Segment& first = limits.segments[order[i]];
     uint64_t largest = 0, segments = 0, interpolated = 0;
-    for (; i < order.size() && limits.segments[order[i]].is_alike(first); ++i, ++segments) {
-      const format::Limits::Segment& s = limits.segments[order[i]];
-      const bool keyframes = s.kind == format::BasisKind::kKeyframes;
+    for (; i < order.size() && limits.segments[order[i]].same_track(first); ++i, ++segments) {
+      const Limits::Segment& s = limits.segments[order[i]];
+      const bool keyframes = s.kind == BasisKind::kKeyframes;
       const uint64_t components =
           keyframes ? s.components : wanted_components(quality, s.components);
-      const uint64_t channels = s.kind == format::BasisKind::kEigentrajectories ? 3 : 1;
+      const uint64_t channels = s.kind == BasisKind::kEigentrajectories ? 3 : 1;
       largest = std::max(largest, channels * components);
-      if (s.reconstruction == format::Reconstruction::kMsgi) {
+      if (s.reconstruction == Reconstruction::kMsgi) {
         ++interpolated;
         scratch = std::max(scratch, shape_scratch_bytes(s.components, s.msgi_frame_bytes));
       }
     }
-    if (first.attribute == format::kPositions)
+    if (first.attribute == kPositions)
       has_track[first.mesh] = 1;
     bytes += track_bytes(largest, segments, interpolated,
                          3 * sizeof(float) * limits.meshes[first.mesh].coded_vertices);
@@ -204,16 +202,16 @@ anic_status anic_get_requirements(const void* head, size_t size, const anic_opti
     Memory memory = memory_of(options ? &options->allocator : nullptr);
     const MemoryScope scope(&memory);
     const ByteView bytes(static_cast<const uint8_t*>(head), size);
-    format::ContainerReader file;
-    out->head_bytes = format::ContainerReader::head_bytes(bytes);
+    ContainerReader file;
+    out->head_bytes = ContainerReader::head_bytes(bytes);
     if (size == 0)
       return {Status::kTruncated, 0, 0, "nothing to look at"};
     if (Failure failure = file.open_prefix(bytes); !failure.ok())
       return failure;
     out->file_bytes = file.file_size();
-    if (const format::Chunk* limits_chunk = file.find("LIMI"))
+    if (const Chunk* limits_chunk = file.find("LIMI"))
       out->head_bytes = std::max(out->head_bytes, limits_chunk->offset + limits_chunk->size);
-    format::Limits limits;
+    Limits limits;
     const OpenOptions opening = open_options(options, file.file_size());
     if (Failure failure = read_limits(file, opening, &limits); !failure.ok())
       return failure;
@@ -266,7 +264,7 @@ void anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
   if (!asset || !out)
     return;
   const Clip& clip = asset->clip;
-  const format::ClipRecord& record = clip.record();
+  const ClipRecord& record = clip.record();
   const Clock clock(record, clip.frame_count());
   *out = {};
   out->mesh_count = static_cast<uint32_t>(clip.meshes().size());

@@ -63,7 +63,7 @@ anic_status find_attribute(const anic_context* context, uint32_t mesh, uint32_t 
     return status;
   const Vector<MeshAttribute>& attributes = context->asset->clip.meshes()[mesh].attributes;
   if (attribute >= attributes.size() ||
-      attributes[attribute].header.domain != format::AttributeDomain::kVertex)
+      attributes[attribute].header.domain != AttributeDomain::kVertex)
     return ANIC_E_ARGUMENT;
   *out = &attributes[attribute];
   return status;
@@ -160,7 +160,7 @@ void compute_boxes(anic_asset* asset) {
   const size_t row = size_t{clip.frame_count()} + 1;
   asset->boxes.assign(row * clip.meshes().size(), kNothing);
   for (const Segment& s : clip.segments()) {
-    if (s.attribute != format::kPositions)
+    if (s.attribute != kPositions)
       continue;
     anic_box* boxes = asset->boxes.data() + row * s.mesh;
     Vector<float> shapes(4 * shape_size(s)), scratch(shape_scratch_size(s));
@@ -268,9 +268,9 @@ anic_status anic_forget_previous(anic_context* context) {
     // Weights that are the segment's stay where they are; interpolated ones and shapes move along.
     for (uint32_t p = 0; p < to.samples[t].count; ++p) {
       FrameState& part = to.samples[t].parts[p];
-      for (const float** own : {&part.weights, &part.shape}) {
-        if (*own >= from.weights + begin && *own < from.weights + begin + count)
-          *own = to.weights + (*own - from.weights);
+      for (const float** values : {&part.weights, &part.shape}) {
+        if (*values >= from.weights + begin && *values < from.weights + begin + count)
+          *values = to.weights + (*values - from.weights);
       }
     }
     begin += count;
@@ -308,7 +308,7 @@ anic_status anic_write_attribute(const anic_context* context, uint32_t mesh, uin
   if (Status status = ValueOutput::make(out, components, count, &output); status != Status::kOk)
     return c_status(status);
   const auto [begin, end] = clip.attribute_tracks(mesh, attribute);
-  float values[kValueRange * format::kMaxAttributeComponents];
+  float values[kValueRange * kMaxAttributeComponents];
   for (uint32_t v = first; v < first + count; v += kValueRange) {
     const uint32_t n = std::min(first + count - v, kValueRange);
     std::copy_n(found->values.data() + size_t{components} * v, size_t{components} * n, values);

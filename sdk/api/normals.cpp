@@ -20,7 +20,7 @@ namespace {
 const Vector<uint32_t>* source_edges(const Mesh& mesh) {
   const auto found =
       std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [](const MeshAttribute& a) {
-        return a.header.kind == format::AttributeKind::kNormal && a.header.components() == 0;
+        return a.header.kind == AttributeKind::kNormal && a.header.components() == 0;
       });
   return found == mesh.attributes.end() ? nullptr : &found->labels;
 }

@@ -10,9 +10,9 @@ struct anic_stream {
   explicit anic_stream(const anic_options& wanted) : options(wanted) {}
 
   anic_options options;
-  anicodec::format::Bytes bytes;
-  anicodec::format::ContainerReader file;  ///< of `bytes`
-  bool has_table = false;                  ///< header and table are there
+  anicodec::Bytes bytes;
+  anicodec::ContainerReader file;  ///< of `bytes`
+  bool has_table = false;          ///< header and table are there
   bool has_limits = false;
   size_t arrived = 0;  ///< chunks, from the front of the table
   /// Chunks that have not arrived: those that all segments need, those that a segment needs.
@@ -29,11 +29,8 @@ struct anic_stream {
 namespace anicodec {
 namespace {
 
-using format::Chunk;
-using format::chunk_type;
-
 /// Takes more bytes; room is made as they come, so that a header's word for the size costs nothing.
-void append(const void* bytes, size_t size, uint64_t file_bytes, format::Bytes* to) {
+void append(const void* bytes, size_t size, uint64_t file_bytes, Bytes* to) {
   const size_t wanted = to->size() + size;
   if (wanted > to->capacity()) {
     const bool ends_soon = file_bytes >= wanted && file_bytes / 2 < wanted;
@@ -50,7 +47,7 @@ template <class Visit>
 void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
   for (size_t i = begin; i < end; ++i) {
     const Chunk& chunk = stream->file.chunks()[i];
-    if (chunk.segment == format::kNoSegment) {
+    if (chunk.segment == kNoSegment) {
       if (chunk.required)
         visit(&stream->common_missing);
     } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("CORR")) {
@@ -64,7 +61,7 @@ void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
 
 /// Reads header and table once they are there, then the limits.
 Failure read_head(anic_stream* stream) {
-  format::ContainerReader& file = stream->file;
+  ContainerReader& file = stream->file;
   anic_stream_info& info = stream->info;
   if (!stream->has_table) {
     Failure failure = file.open_prefix(stream->bytes);
@@ -80,7 +77,7 @@ Failure read_head(anic_stream* stream) {
   const Chunk* chunk = file.find("LIMI");
   if (chunk && !file.has(*chunk))
     return {};
-  format::Limits limits;
+  Limits limits;
   const OpenOptions options = open_options(&stream->options, info.file_bytes);
   if (Failure failure = read_limits(file, options, &limits); !failure.ok())
     return failure;
@@ -89,8 +86,8 @@ Failure read_head(anic_stream* stream) {
   stream->missing.assign(segments, 0);
   stream->layered.assign(segments, 0);
   stream->of_positions.reserve(segments);
-  for (const format::Limits::Segment& s : limits.segments)
-    stream->of_positions.push_back(s.attribute == format::kPositions);
+  for (const Limits::Segment& s : limits.segments)
+    stream->of_positions.push_back(s.attribute == kPositions);
   each_needed(stream, 0, chunks, [](uint32_t* missing) { ++*missing; });
   stream->layered.assign(segments, 0);
   info.segment_count = static_cast<uint32_t>(segments);
@@ -101,14 +98,14 @@ Failure read_head(anic_stream* stream) {
 
 /// Checks the payloads that have arrived since the last time, and counts them.
 Failure take_chunks(anic_stream* stream) {
-  const format::ContainerReader& file = stream->file;
+  const ContainerReader& file = stream->file;
   anic_stream_info& info = stream->info;
   const size_t before = stream->arrived;
   for (; stream->arrived < file.chunks().size(); ++stream->arrived) {
     const Chunk& chunk = file.chunks()[stream->arrived];
     if (!file.has(chunk))
       break;
-    format::ByteView payload;
+    ByteView payload;
     if (Failure failure = file.payload(chunk, &payload); !failure.ok())
       return failure;
     info.arrived_layers += chunk.type == chunk_type("BASI");
@@ -148,7 +145,7 @@ Failure push(anic_stream* stream, const void* bytes, size_t size) {
 
 /// Reads a whole file into `to`: its head first, so that limits are checked before the rest.
 Failure read_file(const anic_reader& reader, uint64_t size, const anic_options* options,
-                  format::Bytes* to) {
+                  Bytes* to) {
   if (size > SIZE_MAX / 2)
     return {Status::kLimit, 0, 0, "a file that fits no memory"};
   auto read_to = [&](uint64_t end) {
@@ -174,9 +171,9 @@ Failure read_file(const anic_reader& reader, uint64_t size, const anic_options* 
   }
   // What is wrong with the head, opening will say; what it says of the limits comes before the
   // rest.
-  format::ContainerReader file;
+  ContainerReader file;
   if (Failure failure = file.open_prefix(*to); failure.ok()) {
-    format::Limits limits;
+    Limits limits;
     const OpenOptions opening = open_options(options, size);
     if (Failure f = read_limits(file, opening, &limits); f.status == Status::kLimit)
       return f;
@@ -202,7 +199,7 @@ anic_status anic_open_asset_from_reader(const anic_reader* reader, uint64_t file
   auto open = [&]() -> Failure {
     Memory memory = memory_of(options ? &options->allocator : nullptr);
     const MemoryScope scope(&memory);
-    format::Bytes bytes;
+    Bytes bytes;
     if (Failure f = read_file(*reader, file_size, options, &bytes); !f.ok())
       return f;
     return open_asset(bytes, options, false, out);

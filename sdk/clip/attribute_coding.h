@@ -105,11 +105,11 @@ struct AttributeEntries {
 template <class Coder>
 class AttributeCoding {
  public:
-  AttributeCoding(Coder& coder, const CornerGraph& graph, format::AttributeDomain domain,
+  AttributeCoding(Coder& coder, const CornerGraph& graph, AttributeDomain domain,
                   uint32_t components, const int32_t* truth, AttributeEntries* out)
       : coder_(coder),
         graph_(graph),
-        per_corner_(domain == format::AttributeDomain::kCorner),
+        per_corner_(domain == AttributeDomain::kCorner),
         components_(components),
         truth_(truth),
         entry_(out->of_element),

@@ -10,9 +10,6 @@
 namespace anicodec {
 namespace {
 
-using format::AttributeDomain;
-using format::AttributeHeader;
-
 Status decode_values(BinaryDecoder& decoder, const CornerGraph& graph, MeshAttribute* out) {
   const AttributeHeader& header = out->header;
   if (header.domain == AttributeDomain::kPolygon) {
@@ -79,7 +76,7 @@ Vector<uint32_t> inverse(const Vector<uint32_t>& permutation) {
 
 }  // namespace
 
-Status decode_attributes(const format::AttributeRecord& record, const format::Limits::Mesh& sizes,
+Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& sizes,
                          const Topology& topology, Vector<MeshAttribute>* out) {
   if (attribute_bytes(record.attributes, sizes) != sizes.attribute_bytes)
     return Status::kRecord;

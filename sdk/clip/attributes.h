@@ -14,7 +14,7 @@ namespace anicodec {
 
 /// A decoded attribute of a mesh that does not move.
 struct MeshAttribute {
-  format::AttributeHeader header;
+  AttributeHeader header;
   Vector<float> values;     ///< elements x components
   Vector<uint32_t> labels;  ///< of polygons: 0 none, else one more than the number of a label.
                             ///< Without components: elements of one number share a value
@@ -22,7 +22,7 @@ struct MeshAttribute {
 
 /// Decodes the attributes of a mesh in canonical order. Cost: O(corners log corners + numbers),
 /// memory 40 bytes for each corner and 8 for each vertex beside the result, for a moment.
-Status decode_attributes(const format::AttributeRecord& record, const format::Limits::Mesh& sizes,
+Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& sizes,
                          const Topology& topology, Vector<MeshAttribute>* out);
 
 /// Reorders the values of vertices as apply_vertex_map() does the vertices.

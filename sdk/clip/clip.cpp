@@ -13,10 +13,6 @@
 namespace anicodec {
 namespace {
 
-using format::ByteView;
-using format::Chunk;
-using format::chunk_type;
-
 Failure at(const Chunk& chunk, Status status, const char* detail) {
   return {status, chunk.offset, chunk.type, detail};
 }
@@ -44,38 +40,36 @@ const KnownChunk* known(const Chunk& chunk) {
 }
 
 /// Unknown chunks are skipped, unless required; only layers of a basis may occur twice.
-Failure check_chunks(const format::ContainerReader& file) {
+Failure check_chunks(const ContainerReader& file) {
   for (const Chunk& chunk : file.chunks()) {
     if (chunk.required && !known(chunk))
       return at(chunk, Status::kChunkUnknown, "the file needs a chunk this reader does not know");
   }
   for (size_t i = 1; i < file.by_key().size(); ++i) {
     const Chunk &a = file.chunks()[file.by_key()[i - 1]], &b = file.chunks()[file.by_key()[i]];
-    if (key(a) == key(b) && b.type != chunk_type("BASI") && known(b))
+    if (chunk_key(a) == chunk_key(b) && b.type != chunk_type("BASI") && known(b))
       return at(b, Status::kChunkDuplicate, "a chunk occurs twice");
   }
   return {};
 }
 
 /// Known chunks are where the limits and the order of the vertices want them, and nowhere else.
-Failure check_places(const format::ContainerReader& file, const format::Limits& limits,
-                     format::OrderMode order) {
-  using format::BasisKind;
+Failure check_places(const ContainerReader& file, const Limits& limits, OrderMode order) {
   auto fits = [&](const Chunk& chunk, Owner owner) {
-    const bool of_segment = chunk.segment != format::kNoSegment;
+    const bool of_segment = chunk.segment != kNoSegment;
     if (owner == Owner::kClip)
-      return chunk.mesh == format::kNoMesh && !of_segment;
+      return chunk.mesh == kNoMesh && !of_segment;
     if (chunk.mesh >= limits.meshes.size() || (owner == Owner::kMesh && of_segment) ||
         (owner == Owner::kSegment && !of_segment))
       return false;
     if (chunk.type == chunk_type("ATTR"))
       return limits.meshes[chunk.mesh].attribute_bytes > 0;
     if (!of_segment)
-      return (chunk.type != chunk_type("VMAP") || order != format::OrderMode::kFree) &&
-             (chunk.type != chunk_type("FMAP") || order == format::OrderMode::kAll);
+      return (chunk.type != chunk_type("VMAP") || order != OrderMode::kFree) &&
+             (chunk.type != chunk_type("FMAP") || order == OrderMode::kAll);
     if (chunk.segment >= limits.segments.size())
       return false;
-    const format::Limits::Segment& segment = limits.segments[chunk.segment];
+    const Limits::Segment& segment = limits.segments[chunk.segment];
     if (segment.mesh != chunk.mesh)
       return false;
     if (chunk.type == chunk_type("CORR"))
@@ -109,7 +103,7 @@ bool agree(const DracoMesh& draco, const Vector<uint32_t>& point_vertex) {
 }
 
 /// The payload of a chunk that must be there.
-Failure required(const format::ContainerReader& file, const char (&type)[5], uint16_t mesh,
+Failure required(const ContainerReader& file, const char (&type)[5], uint16_t mesh,
                  uint32_t segment, const Chunk** chunk, ByteView* out) {
   *chunk = file.find(type, mesh, segment);
   if (!*chunk)
@@ -117,13 +111,13 @@ Failure required(const format::ContainerReader& file, const char (&type)[5], uin
   return file.payload(**chunk, out);
 }
 
-Failure read_pose(const format::ContainerReader& file, const Chunk& chunk, const Topology& topology,
+Failure read_pose(const ContainerReader& file, const Chunk& chunk, const Topology& topology,
                   const DracoMesh& draco, PoseGrid* out) {
   ByteView payload;
   if (Failure f = file.payload(chunk, &payload); !f.ok())
     return f;
-  format::PoseRecord record;
-  Status s = format::PoseRecord::read(payload, &record);
+  PoseRecord record;
+  Status s = PoseRecord::read(payload, &record);
   if (s == Status::kOk)
     s = open_pose(record, topology, draco, out);
   return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
@@ -131,8 +125,8 @@ Failure read_pose(const format::ContainerReader& file, const Chunk& chunk, const
 
 /// Whether what a segment cannot do without is there: its record, its pose, and a layer if it has
 /// any.
-bool has_arrived(const format::ContainerReader& file, const format::Limits::Segment& sizes,
-                 uint32_t number, const Vector<const Chunk*>& layers) {
+bool has_arrived(const ContainerReader& file, const Limits::Segment& sizes, uint32_t number,
+                 const Vector<const Chunk*>& layers) {
   const Chunk* record = file.find("SEGM", sizes.mesh, number);
   const Chunk* pose = file.find("POSE", sizes.mesh, number);
   if (!pose)
@@ -143,17 +137,15 @@ bool has_arrived(const format::ContainerReader& file, const format::Limits::Segm
 
 }  // namespace
 
-Failure read_limits(const format::ContainerReader& file, const OpenOptions& options,
-                    format::Limits* out) {
+Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out) {
   if (Failure failure = check_chunks(file); !failure.ok())
     return failure;
 
   const Chunk* chunk;
   ByteView payload;
-  if (Failure f = required(file, "LIMI", format::kNoMesh, format::kNoSegment, &chunk, &payload);
-      !f.ok())
+  if (Failure f = required(file, "LIMI", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
-  if (Status s = format::Limits::read(payload, out); s != Status::kOk)
+  if (Status s = Limits::read(payload, out); s != Status::kOk)
     return at(*chunk, s, "the limits are malformed");
   // Even a mesh that is all alike takes some thousandth of a bit per vertex.
   const uint64_t plausible = std::min(file.file_size(), UINT64_MAX >> 22) << 16;
@@ -170,7 +162,7 @@ Failure read_limits(const format::ContainerReader& file, const OpenOptions& opti
   for (const auto& s : out->segments) {
     if (s.components > options.limits.components)
       return at(*chunk, Status::kLimit, "more components than allowed");
-    uint64_t channels = s.kind == format::BasisKind::kEigentrajectories ? 1 : 3;
+    uint64_t channels = s.kind == BasisKind::kEigentrajectories ? 1 : 3;
     uint64_t coefficients = channels * s.components * out->meshes[s.mesh].coded_vertices;
     uint64_t weights = uint64_t{4} * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
@@ -183,17 +175,16 @@ Failure read_limits(const format::ContainerReader& file, const OpenOptions& opti
 
 Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   *this = Clip();
-  format::ContainerReader file;
+  ContainerReader file;
   if (Failure failure = options.prefix ? file.open_prefix(bytes) : file.open(bytes); !failure.ok())
     return failure;
   if (Failure failure = read_limits(file, options, &limits_); !failure.ok())
     return failure;
   const Chunk* chunk;
   ByteView payload;
-  if (Failure f = required(file, "CLIP", format::kNoMesh, format::kNoSegment, &chunk, &payload);
-      !f.ok())
+  if (Failure f = required(file, "CLIP", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
-  if (Status s = format::ClipRecord::read(payload, limits_.frames, &record_); s != Status::kOk)
+  if (Status s = ClipRecord::read(payload, limits_.frames, &record_); s != Status::kOk)
     return at(*chunk, s, "the clip record is malformed");
   if (Failure f = check_places(file, limits_, record_.order); !f.ok())
     return f;
@@ -215,18 +206,17 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   return failure;
 }
 
-Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh,
-                        const OpenOptions& options) {
-  const format::Limits::Mesh& sizes = limits_.meshes[mesh];
+Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOptions& options) {
+  const Limits::Mesh& sizes = limits_.meshes[mesh];
   const Chunk* chunk;
   ByteView payload;
-  if (Failure f = required(file, "MESH", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+  if (Failure f = required(file, "MESH", mesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
-  format::MeshRecord record;
-  if (Status s = format::MeshRecord::read(payload, &record); s != Status::kOk)
+  MeshRecord record;
+  if (Status s = MeshRecord::read(payload, &record); s != Status::kOk)
     return at(*chunk, s, "the mesh record is malformed");
   DracoMesh& draco = draco_[mesh];
-  if (record.coder == format::CoderId::kDraco) {
+  if (record.coder == CoderId::kDraco) {
     if (record.connectivity.size != sizes.draco_bytes)
       return at(*chunk, Status::kRecord, "the Draco bitstream is not as long as the limits say");
     Status s = decode_draco_mesh(record.connectivity, sizes.points, sizes.triangles,
@@ -252,15 +242,15 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh,
     return at(*chunk, Status::kDraco, "points of one vertex have different values");
   if (Failure f = open_attributes(file, mesh, options); !f.ok())
     return f;
-  if (record_.order == format::OrderMode::kFree)
+  if (record_.order == OrderMode::kFree)
     return {};
-  if (Failure f = required(file, "VMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+  if (Failure f = required(file, "VMAP", mesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
   Vector<uint32_t> map;
   if (Status s = decode_vertex_map(payload, out.topology, &map); s != Status::kOk)
     return at(*chunk, s, "the vertex map is damaged");
-  if (record_.order == format::OrderMode::kAll) {
-    if (Failure f = required(file, "FMAP", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+  if (record_.order == OrderMode::kAll) {
+    if (Failure f = required(file, "FMAP", mesh, kNoSegment, &chunk, &payload); !f.ok())
       return f;
     Vector<uint32_t> place, first;
     if (Status s = decode_face_map(payload, out.topology, &place, &first); s != Status::kOk)
@@ -273,7 +263,7 @@ Failure Clip::open_mesh(const format::ContainerReader& file, uint16_t mesh,
   return {};
 }
 
-Failure Clip::open_attributes(const format::ContainerReader& file, uint16_t mesh,
+Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
                               const OpenOptions& options) {
   if (limits_.meshes[mesh].attribute_bytes == 0)
     return {};
@@ -283,10 +273,10 @@ Failure Clip::open_attributes(const format::ContainerReader& file, uint16_t mesh
     return {};
   }
   ByteView payload;
-  if (Failure f = required(file, "ATTR", mesh, format::kNoSegment, &chunk, &payload); !f.ok())
+  if (Failure f = required(file, "ATTR", mesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
-  format::AttributeRecord record;
-  Status s = format::AttributeRecord::read(payload, &record);
+  AttributeRecord record;
+  Status s = AttributeRecord::read(payload, &record);
   if (s == Status::kOk)
     s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology,
                           &meshes_[mesh].attributes);
@@ -296,7 +286,7 @@ Failure Clip::open_attributes(const format::ContainerReader& file, uint16_t mesh
 void Clip::list_tracks() {
   segments_.resize(limits_.segments.size());
   for (uint32_t i = 0; i < segments_.size(); ++i) {
-    const format::Limits::Segment& sizes = limits_.segments[i];
+    const Limits::Segment& sizes = limits_.segments[i];
     segments_[i].mesh = sizes.mesh;
     segments_[i].attribute = sizes.attribute;
     segments_[i].first_component = sizes.first_component;
@@ -307,18 +297,18 @@ void Clip::list_tracks() {
   for (uint32_t m = 0; m < tracks_.size(); ++m)
     tracks_[m].mesh = m;
   for (uint32_t i = 0; i < by_frame_.size(); ++i) {
-    const format::Limits::Segment& s = limits_.segments[by_frame_[i]];
-    const bool is_new = i == 0 || !s.is_alike(limits_.segments[by_frame_[i - 1]]);
-    if (is_new && s.attribute != format::kPositions)
+    const Limits::Segment& s = limits_.segments[by_frame_[i]];
+    const bool is_new = i == 0 || !s.same_track(limits_.segments[by_frame_[i - 1]]);
+    if (is_new && s.attribute != kPositions)
       tracks_.push_back({s.mesh, s.attribute, s.first_component, i, i});
-    Track& track = s.attribute == format::kPositions ? tracks_[s.mesh] : tracks_.back();
+    Track& track = s.attribute == kPositions ? tracks_[s.mesh] : tracks_.back();
     if (is_new)
       track.begin = i;
     track.end = i + 1;
   }
 }
 
-Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptions& options) {
+Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& options) {
   list_tracks();
   // Layers by segment, in file order, in one pass.
   Vector<Vector<const Chunk*>> layers(segments_.size());
@@ -345,27 +335,26 @@ Failure Clip::open_segments(const format::ContainerReader& file, const OpenOptio
   return {};
 }
 
-Failure Clip::open_segment(const format::ContainerReader& file, uint32_t number,
+Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
                            const Vector<const Chunk*>& layers, const Vector<PoseGrid>& poses,
                            const OpenOptions& options) {
-  const format::Limits::Segment& sizes = limits_.segments[number];
+  const Limits::Segment& sizes = limits_.segments[number];
   const Chunk* chunk;
   ByteView payload;
   if (Failure f = required(file, "SEGM", sizes.mesh, number, &chunk, &payload); !f.ok())
     return f;
-  format::SegmentRecord record;
-  Status s = format::SegmentRecord::read(payload, &record);
+  SegmentRecord record;
+  Status s = SegmentRecord::read(payload, &record);
   if (s == Status::kOk && record.kind != sizes.kind)
     s = Status::kSegment;
   if (s != Status::kOk)
     return at(*chunk, s, "the segment record is malformed");
-  if (sizes.attribute != format::kPositions) {
+  if (sizes.attribute != kPositions) {
     const Vector<MeshAttribute>& attributes = meshes_[sizes.mesh].attributes;
     const bool unknown = attributes.empty() && options.prefix;  // not there yet
-    if (!unknown &&
-        !(sizes.attribute < attributes.size() &&
-          attributes[sizes.attribute].header.domain == format::AttributeDomain::kVertex &&
-          sizes.first_component < attributes[sizes.attribute].header.components()))
+    if (!unknown && !(sizes.attribute < attributes.size() &&
+                      attributes[sizes.attribute].header.domain == AttributeDomain::kVertex &&
+                      sizes.first_component < attributes[sizes.attribute].header.components()))
       return at(*chunk, Status::kIndexRange, "the segment is of no attribute of the vertices");
   }
   SegmentContext context;
@@ -374,12 +363,13 @@ Failure Clip::open_segment(const format::ContainerReader& file, uint32_t number,
   context.topology = &meshes_[sizes.mesh].topology;
   context.vertex_coded = &context.topology->vertex_coded;
   context.draco = &draco_[sizes.mesh];
-  PoseGrid own;
+  PoseGrid segment_pose;
   context.pose = &poses[sizes.mesh];
   if (const Chunk* of_pose = file.find("POSE", sizes.mesh, number)) {
-    if (Failure f = read_pose(file, *of_pose, *context.topology, *context.draco, &own); !f.ok())
+    if (Failure f = read_pose(file, *of_pose, *context.topology, *context.draco, &segment_pose);
+        !f.ok())
       return f;
-    context.pose = &own;
+    context.pose = &segment_pose;
   }
   if (context.pose->points.empty())
     context.pose = nullptr;
@@ -456,7 +446,7 @@ Status Clip::attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame,
   if (frame >= frame_count())
     return Status::kFrameRange;
   if (mesh >= meshes_.size() || attribute >= meshes_[mesh].attributes.size() ||
-      meshes_[mesh].attributes[attribute].header.domain != format::AttributeDomain::kVertex)
+      meshes_[mesh].attributes[attribute].header.domain != AttributeDomain::kVertex)
     return Status::kArgument;
   const MeshAttribute& still = meshes_[mesh].attributes[attribute];
   std::copy(still.values.begin(), still.values.end(), out);

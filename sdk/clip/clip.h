@@ -36,8 +36,7 @@ struct OpenOptions {
 /// Checks the chunks of a file, reads its limits and checks them against the host's and against
 /// what a file of its size can hold. The first step of opening it. Cost: O(chunks + meshes +
 /// segments).
-Failure read_limits(const format::ContainerReader& file, const OpenOptions& options,
-                    format::Limits* out);
+Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out);
 
 /// One mesh of a clip. Its topology keeps what a player needs: polygons, and the coded vertex of
 /// each vertex.
@@ -50,11 +49,11 @@ struct Mesh {
 /// What moves by segments of its own: the positions of a mesh, or three components of an attribute.
 struct Track {
   uint32_t mesh = 0;
-  uint32_t attribute = format::kPositions;
+  uint32_t attribute = kPositions;
   uint32_t first_component = 0;
   uint32_t begin = 0, end = 0;  ///< its segments in Clip::by_frame()
 
-  bool is_attribute() const { return attribute != format::kPositions; }
+  bool is_attribute() const { return attribute != kPositions; }
 };
 
 /// An opened file: immutable, so any number of threads may play it. Owns all it needs; the file's
@@ -64,11 +63,11 @@ class Clip {
   /// Opens a file in memory. On failure the clip is empty and the failure says where; kTruncated
   /// for a prefix of which too little is there. Throws std::bad_alloc. Cost: entropy decoding of
   /// all coefficients once; afterwards every frame costs the same.
-  Failure open(format::ByteView file, const OpenOptions& options = {});
+  Failure open(ByteView file, const OpenOptions& options = {});
 
-  const format::Limits& limits() const { return limits_; }
+  const Limits& limits() const { return limits_; }
 
-  const format::ClipRecord& record() const { return record_; }
+  const ClipRecord& record() const { return record_; }
 
   const Vector<Mesh>& meshes() const { return meshes_; }
 
@@ -114,17 +113,16 @@ class Clip {
   Failure check_hashes() const;
 
  private:
-  Failure open_mesh(const format::ContainerReader& file, uint16_t mesh, const OpenOptions& options);
+  Failure open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
   void list_tracks();
-  Failure open_attributes(const format::ContainerReader& file, uint16_t mesh,
-                          const OpenOptions& options);
-  Failure open_segments(const format::ContainerReader& file, const OpenOptions& options);
-  Failure open_segment(const format::ContainerReader& file, uint32_t number,
-                       const Vector<const format::Chunk*>& layers, const Vector<PoseGrid>& poses,
+  Failure open_attributes(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
+  Failure open_segments(const ContainerReader& file, const OpenOptions& options);
+  Failure open_segment(const ContainerReader& file, uint32_t number,
+                       const Vector<const Chunk*>& layers, const Vector<PoseGrid>& poses,
                        const OpenOptions& options);
 
-  format::Limits limits_;
-  format::ClipRecord record_;
+  Limits limits_;
+  ClipRecord record_;
   Vector<Mesh> meshes_;
   Vector<DracoMesh> draco_;  ///< while opening
   Vector<Segment> segments_;

@@ -30,7 +30,7 @@ struct FrameMix {
 class Clock {
  public:
   /// `record` must outlive the clock; frames > 0.
-  Clock(const format::ClipRecord& record, uint32_t frames) : record_(record), frames_(frames) {}
+  Clock(const ClipRecord& record, uint32_t frames) : record_(record), frames_(frames) {}
 
   /// Seconds, start time included; frames behind the last count as the last.
   double time(uint32_t frame) const { return record_.start_time + since_start(frame); }
@@ -50,7 +50,7 @@ class Clock {
   /// Frames before the loop begins again.
   uint32_t loop_frames() const { return record_.closed && frames_ > 1 ? frames_ - 1 : frames_; }
 
-  const format::ClipRecord& record_;
+  const ClipRecord& record_;
   uint32_t frames_;
 };
 

@@ -10,9 +10,6 @@
 namespace anicodec {
 namespace {
 
-using format::BasisKind;
-using format::Limits;
-
 constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
 constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
 constexpr uint64_t kStructure = 512;             // of a mesh or segment
@@ -21,7 +18,7 @@ constexpr uint64_t kSymbol = 12;                 // bytes that Draco keeps of on
 constexpr uint64_t kZstd = uint64_t{1} << 17;    // what zstd decodes in
 
 /// A sum that stays at its end instead of wrapping.
-class Sum {
+class CheckedSum {
  public:
   void add(uint64_t x) { total_ += std::min(x, UINT64_MAX - total_); }
 
@@ -67,7 +64,7 @@ uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
       bytes += kMatrix * frames + 12 * n + 2 * n * integers + 12 * frames * components;
       break;
   }
-  if (s.reconstruction == format::Reconstruction::kMsgi)
+  if (s.reconstruction == Reconstruction::kMsgi)
     bytes += s.msgi_bytes + uint64_t{4} * mesh.source_vertices;
   if (s.corrections > 0)
     bytes += uint64_t{16} * s.corrections + 4 * (frames + 1);
@@ -108,7 +105,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
   const uint64_t n = mesh.coded_vertices, frames = s.frames, components = s.components;
   // Key-frames as floats, faces and patches, and the fronts of the factorisation.
   uint64_t msgi = 0;
-  if (s.reconstruction == format::Reconstruction::kMsgi)
+  if (s.reconstruction == Reconstruction::kMsgi)
     msgi = 12 * n * components + uint64_t{1000} * mesh.triangles + 2 * s.msgi_bytes;
   if (s.kind == BasisKind::kKeyframes)
     return 36 * n * components + 4 * frames * components + 28 * frames + kModels + msgi;
@@ -121,7 +118,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
 
 MemoryEstimate estimate_memory(const Limits& limits, double quality) {
   MemoryEstimate estimate;
-  Sum open, until_open;
+  CheckedSum open, until_open;
   uint64_t largest = 0;
   for (const Limits::Mesh& m : limits.meshes) {
     open.add(resident(m));

@@ -18,7 +18,7 @@ struct MemoryEstimate {
 };
 
 /// `quality` as in OpenOptions. O(meshes + segments).
-MemoryEstimate estimate_memory(const format::Limits& limits, double quality = 1);
+MemoryEstimate estimate_memory(const Limits& limits, double quality = 1);
 
 }  // namespace anicodec
 

@@ -20,7 +20,7 @@
 namespace anicodec {
 
 /// What a decoder knows about the truth: nothing.
-struct NoTruth {
+struct DetailsDecoderSource {
   bool is_repeated_point(uint32_t) { return false; }
 
   uint32_t coded_vertex_of(uint32_t) { return 0; }
@@ -74,7 +74,7 @@ inline constexpr uint32_t kMaxJoinedCorners = 1024;
 template <class Coder, class Source>
 class DetailsCoding {
  public:
-  DetailsCoding(Coder& coder, Source& source, const format::Limits::Mesh& sizes,
+  DetailsCoding(Coder& coder, Source& source, const Limits::Mesh& sizes,
                 const Vector<uint32_t>& triangles, Topology* topology)
       : coder_(coder), source_(source), sizes_(sizes), triangles_(triangles), t_(*topology) {}
 
@@ -273,7 +273,7 @@ class DetailsCoding {
 
   Coder& coder_;
   Source& source_;
-  const format::Limits::Mesh& sizes_;
+  const Limits::Mesh& sizes_;
   const Vector<uint32_t>& triangles_;
   Topology& t_;
   Vector<uint32_t> first_copy_, used_, recent_;

@@ -6,7 +6,7 @@
 
 namespace anicodec {
 
-Status decode_draco_mesh(format::ByteView, uint32_t, uint32_t, uint32_t, DracoMesh*) {
+Status decode_draco_mesh(ByteView, uint32_t, uint32_t, uint32_t, DracoMesh*) {
   return Status::kCoder;
 }
 

@@ -24,8 +24,8 @@ struct DracoMesh {
 /// components are concatenated. The counts must be the ones
 /// the caller knows from the limits, else kDraco; kCoder in a build without Draco. Never throws:
 /// Draco's exceptions are caught here. Only this file of the decoder calls Draco.
-Status decode_draco_mesh(format::ByteView bytes, uint32_t points, uint32_t triangles,
-                         uint32_t components, DracoMesh* out);
+Status decode_draco_mesh(ByteView bytes, uint32_t points, uint32_t triangles, uint32_t components,
+                         DracoMesh* out);
 
 }  // namespace anicodec
 

@@ -17,22 +17,21 @@ uint32_t unfolded(uint32_t x) {
 
 }  // namespace
 
-format::Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride) {
+Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride) {
   size_t n = values.size();
-  format::Bytes planes(4 * n);
+  Bytes planes(4 * n);
   for (size_t i = 0; i < n; ++i) {
     auto before = i < stride ? 0U : static_cast<uint32_t>(values[i - stride]);
     uint32_t x = folded(static_cast<uint32_t>(values[i]) - before);
     for (size_t b = 0; b < 4; ++b)
       planes[b * n + i] = static_cast<uint8_t>(x >> (8 * b));
   }
-  return format::zstd_compress(planes);
+  return zstd_compress(planes);
 }
 
-Status decode_plain_integers(format::ByteView bytes, size_t count, size_t stride,
-                             Vector<int32_t>* values) {
-  format::Bytes planes;
-  if (Status s = format::zstd_decompress(bytes, 4 * count, &planes); s != Status::kOk)
+Status decode_plain_integers(ByteView bytes, size_t count, size_t stride, Vector<int32_t>* values) {
+  Bytes planes;
+  if (Status s = zstd_decompress(bytes, 4 * count, &planes); s != Status::kOk)
     return s;
   values->resize(count);
   for (size_t i = 0; i < count; ++i) {
@@ -45,11 +44,11 @@ Status decode_plain_integers(format::ByteView bytes, size_t count, size_t stride
   return Status::kOk;
 }
 
-format::Bytes encode_plain_triangles(const Vector<uint32_t>& triangles) {
+Bytes encode_plain_triangles(const Vector<uint32_t>& triangles) {
   return encode_plain_integers({triangles.begin(), triangles.end()}, 3);
 }
 
-Status decode_plain_triangles(format::ByteView bytes, size_t count, Vector<uint32_t>* triangles) {
+Status decode_plain_triangles(ByteView bytes, size_t count, Vector<uint32_t>* triangles) {
   Vector<int32_t> values;
   if (Status s = decode_plain_integers(bytes, 3 * count, 3, &values); s != Status::kOk)
     return s;

@@ -13,13 +13,12 @@ namespace anicodec {
 
 /// Coder 0: integers as differences, folded to unsigned, split into four byte planes, one zstd
 /// frame (spec/07-topology.md). The differences are taken between entries `stride` apart.
-format::Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride);
-Status decode_plain_integers(format::ByteView bytes, size_t count, size_t stride,
-                             Vector<int32_t>* values);
+Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride);
+Status decode_plain_integers(ByteView bytes, size_t count, size_t stride, Vector<int32_t>* values);
 
 /// Triangles are plain integers of stride 3.
-format::Bytes encode_plain_triangles(const Vector<uint32_t>& triangles);
-Status decode_plain_triangles(format::ByteView bytes, size_t count, Vector<uint32_t>* triangles);
+Bytes encode_plain_triangles(const Vector<uint32_t>& triangles);
+Status decode_plain_triangles(ByteView bytes, size_t count, Vector<uint32_t>* triangles);
 
 }  // namespace anicodec
 

@@ -10,29 +10,28 @@
 
 namespace anicodec {
 
-Status decode_details(format::ByteView details, const format::Limits::Mesh& sizes,
+Status decode_details(ByteView details, const Limits::Mesh& sizes,
                       const Vector<uint32_t>& triangles, Topology* out) {
   for (uint32_t p : triangles) {
     if (p >= sizes.points)
       return Status::kIndexRange;
   }
   BinaryDecoder decoder(details.data, details.size);
-  NoTruth none;
-  DetailsCoding<BinaryDecoder, NoTruth> coding(decoder, none, sizes, triangles, out);
+  DetailsDecoderSource none;
+  DetailsCoding<BinaryDecoder, DetailsDecoderSource> coding(decoder, none, sizes, triangles, out);
   if (Status status = coding.run(); status != Status::kOk)
     return status;
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
-Status decode_vertex_map(format::ByteView bytes, const Topology& topology,
-                         Vector<uint32_t>* source) {
+Status decode_vertex_map(ByteView bytes, const Topology& topology, Vector<uint32_t>* source) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   if (!VertexWalk(topology).code(decoder, source))
     return decoder.ok() ? Status::kIndexRange : Status::kEntropy;
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
-Status decode_face_map(format::ByteView bytes, const Topology& topology, Vector<uint32_t>* place,
+Status decode_face_map(ByteView bytes, const Topology& topology, Vector<uint32_t>* place,
                        Vector<uint32_t>* first) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   auto count = static_cast<uint32_t>(topology.polygon_offsets.size() - 1);

@@ -31,17 +31,16 @@ struct Topology {
 
 /// Decodes the details of a mesh record: splits, welds, polygons, faces kept apart. `triangles` are
 /// over points, as the connectivity coder gave them. Cost: O(corners log corners).
-Status decode_details(format::ByteView details, const format::Limits::Mesh& sizes,
+Status decode_details(ByteView details, const Limits::Mesh& sizes,
                       const Vector<uint32_t>& triangles, Topology* out);
 
 /// Decodes a vertex map (chunk VMAP): `source[i]` is the place, in the source's order, of vertex i
 /// of the canonical order, in which `topology` is; a permutation, else kIndexRange.
-Status decode_vertex_map(format::ByteView bytes, const Topology& topology,
-                         Vector<uint32_t>* source);
+Status decode_vertex_map(ByteView bytes, const Topology& topology, Vector<uint32_t>* source);
 
 /// Decodes a face map (chunk FMAP): polygon i of the canonical order is number place[i] of the
 /// source, whose first corner is corner first[i] of it.
-Status decode_face_map(format::ByteView bytes, const Topology& topology, Vector<uint32_t>* place,
+Status decode_face_map(ByteView bytes, const Topology& topology, Vector<uint32_t>* place,
                        Vector<uint32_t>* first);
 
 /// Renumbers vertices into the source's order.

@@ -55,7 +55,7 @@ void store_value(float x, anic_value_format format, unsigned char* to) {
 Status ValueOutput::make(const anic_value_output* out, uint32_t components, uint32_t count,
                          ValueOutput* result) {
   if (!out || out->format < ANIC_VALUE_FLOAT32 || out->format > ANIC_VALUE_UNORM16 ||
-      (!out->data && count > 0) || out->components > format::kMaxAttributeComponents)
+      (!out->data && count > 0) || out->components > kMaxAttributeComponents)
     return Status::kArgument;
   result->given_ = components;
   result->stored_ = out->components == 0 ? components : out->components;

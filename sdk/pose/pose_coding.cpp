@@ -33,14 +33,14 @@ void code_pose(Coder& coder, const Topology& topology, Vector<int32_t>& pose) {
 
 }  // namespace
 
-format::Bytes encode_pose(const Topology& topology, const Vector<int32_t>& pose) {
+Bytes encode_pose(const Topology& topology, const Vector<int32_t>& pose) {
   Vector<int32_t> copy = pose;
   BinaryEncoder encoder;
   code_pose(encoder, topology, copy);
   return encoder.finish();
 }
 
-Status decode_pose(format::ByteView stream, const Topology& topology, Vector<int32_t>* pose) {
+Status decode_pose(ByteView stream, const Topology& topology, Vector<int32_t>* pose) {
   pose->assign(size_t{3} * topology.coded_vertices, 0);
   BinaryDecoder decoder(stream.data, stream.size);
   code_pose(decoder, topology, *pose);

@@ -16,10 +16,10 @@ namespace anicodec {
 
 /// Codes a pose of coded_vertices x 3 integers, losslessly. Any triangles do: they only serve to
 /// predict. About 15 microseconds and 500 bytes per vertex.
-format::Bytes encode_pose(const Topology& topology, const Vector<int32_t>& pose);
+Bytes encode_pose(const Topology& topology, const Vector<int32_t>& pose);
 
 /// Decodes it. kEntropy when the stream is not one of encode_pose() for this topology.
-Status decode_pose(format::ByteView stream, const Topology& topology, Vector<int32_t>* pose);
+Status decode_pose(ByteView stream, const Topology& topology, Vector<int32_t>* pose);
 
 }  // namespace anicodec
 

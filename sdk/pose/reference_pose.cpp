@@ -16,14 +16,14 @@ uint32_t vertices_in_triangles(const Topology& topology) {
   return count;
 }
 
-Status open_pose(const format::PoseRecord& record, const Topology& topology, const DracoMesh& draco,
+Status open_pose(const PoseRecord& record, const Topology& topology, const DracoMesh& draco,
                  PoseGrid* out) {
   std::copy_n(record.origin, 3, out->origin);
   out->step = record.step;
   size_t n = topology.coded_vertices;
-  if (record.coder == format::CoderId::kPlain)
+  if (record.coder == CoderId::kPlain)
     return decode_plain_integers(record.stream, 3 * n, 3, &out->points);
-  if (record.coder == format::CoderId::kPredictive)
+  if (record.coder == CoderId::kPredictive)
     return decode_pose(record.stream, topology, &out->points);
   if (draco.components < 3)
     return Status::kSegment;

@@ -24,7 +24,7 @@ struct PoseGrid {
 uint32_t vertices_in_triangles(const Topology& topology);
 
 /// Decodes a reference pose (spec/09a-segments.md).
-Status open_pose(const format::PoseRecord& record, const Topology& topology, const DracoMesh& draco,
+Status open_pose(const PoseRecord& record, const Topology& topology, const DracoMesh& draco,
                  PoseGrid* out);
 
 }  // namespace anicodec

@@ -16,9 +16,9 @@
 
 namespace anicodec {
 
-/// Predicts one component after the other, with the numbers that Reconstruction computes, so that
-/// the encoder quantises against what a decoder will see. It lives beside the decoder to share its
-/// arithmetic.
+/// Predicts one component after the other, with the numbers that CoefficientReconstruction
+/// computes, so that the encoder quantises against what a decoder will see. It lives beside the
+/// decoder to share its arithmetic.
 ///
 ///   for each component: for each rank: for each channel: predict(), then commit() its integer;
 ///                       update(0, block_count(), omega); next_component().
@@ -26,7 +26,7 @@ namespace anicodec {
 /// Memory: 4 (m(m+1)/2 + 3m + channels + 3) bytes per vertex: 800 for m = 16.
 class EncoderPredictor {
  public:
-  /// order must outlive this object. Arguments and errors as for Reconstruction::init().
+  /// order must outlive this object. Arguments and errors as for CoefficientReconstruction::init().
   Status init(const VertexOrder& order, const int32_t* positions,
               const PredictionParameters& parameters, size_t components);
 

@@ -78,7 +78,7 @@ ANICODEC_INLINE void transpose(V* r) {
 
 /// Prior weights, normal equations and refit of W vertices with M neighbours each.
 template <size_t W, size_t M>
-struct WeightSolver {
+struct RefitSolver {
   using Float = typename LaneTypes<W>::Float;
 
   Float A[M][M];  // sum of omega x x', lower triangle
@@ -279,7 +279,7 @@ class BatchDecoder {
 
  private:
   using Float = typename LaneTypes<W>::Float;
-  static constexpr size_t kWindow = WeightSolver<W, M>::kMaxSamples;
+  static constexpr size_t kWindow = RefitSolver<W, M>::kMaxSamples;
 
   const float* row(size_t lane, size_t a) const {
     const size_t r = first_ + (lane < count_ ? lane : count_ - 1);
@@ -359,7 +359,7 @@ class BatchDecoder {
 
   const PredictionJob& job_;
   size_t first_ = 0, count_ = 0;
-  WeightSolver<W, M> solver_;
+  RefitSolver<W, M> solver_;
   Float x_[kWindow + W][M], y_[kWindow], residual_[kWindow];
 };
 
@@ -424,10 +424,10 @@ class EncoderBlock {
     float omega[3];
     for (size_t c = 0; c < job_.channels; ++c) {
       const float* y = job_.y + c * (job_.vertices + 1);
-      Float own, p0{};
+      Float value, p0{};
       for (size_t l = 0; l < W; ++l) {
         const size_t r = first_ + (l < count_ ? l : count_ - 1);
-        own[l] = y[r];
+        value[l] = y[r];
         for (size_t a = 0; a < M; ++a) {
           const int32_t b = job_.neighbours[r * M + a];
           x[c][a][l] = y[b < 0 ? job_.vertices : static_cast<size_t>(b)];
@@ -435,7 +435,7 @@ class EncoderBlock {
       }
       for (size_t a = 0; a < M; ++a)
         p0 += solver_.prior[a] * x[c][a];
-      residual[c] = own - p0;
+      residual[c] = value - p0;
       omega[c] = job_.omega;
     }
     solver_.accumulate(x, residual, omega, job_.channels);
@@ -477,7 +477,7 @@ class EncoderBlock {
   const EncoderJob& job_;
   size_t first_, count_;
   float* state_;
-  WeightSolver<W, M> solver_;
+  RefitSolver<W, M> solver_;
 };
 
 template <size_t W, size_t M>

@@ -82,9 +82,9 @@ void ranked_positions(const VertexOrder& order, const int32_t* positions, Vector
       (*out)[3 * r + d] = static_cast<float>(positions[3 * size_t{order.order[r]} + d]);
 }
 
-Status Reconstruction::init(const VertexOrder& order, const int32_t* positions,
-                            const PredictionParameters& parameters,
-                            const PredictionResiduals& residuals, float* y) {
+Status CoefficientReconstruction::init(const VertexOrder& order, const int32_t* positions,
+                                       const PredictionParameters& parameters,
+                                       const PredictionResiduals& residuals, float* y) {
   if (Status s = check_prediction(order, parameters); s != Status::kOk)
     return s;
   const size_t n = order.vertex_count();
@@ -119,12 +119,12 @@ Status Reconstruction::init(const VertexOrder& order, const int32_t* positions,
   return Status::kOk;
 }
 
-void Reconstruction::run(size_t first, size_t last) const {
+void CoefficientReconstruction::run(size_t first, size_t last) const {
   const FloatControl control;
   prediction_kernels().reconstruct(job_, first, last);
 }
 
-void Reconstruction::run_all() const {
+void CoefficientReconstruction::run_all() const {
   for (size_t l = 0; l < order_->level_count(); ++l)
     run(order_->level_start[l], order_->level_start[l + 1]);
 }

@@ -71,7 +71,7 @@ struct PredictionResiduals {
 ///
 /// Call init() once, then run() for all ranks in ascending order of levels. Ranges within one level
 /// do not depend on each other and may run at the same time. Allocates 12 bytes per vertex.
-class Reconstruction {
+class CoefficientReconstruction {
  public:
   /// @param order       from make_vertex_order() with 8, 12, 16, 20 or 24 neighbours
   /// @param positions   reference positions by vertex, x 3, as the order was made from

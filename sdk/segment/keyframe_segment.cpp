@@ -36,12 +36,12 @@ bool rigid_motion(const double q[4], const double t[3], Affine* map) {
 }
 
 /// Key-frames as integers, coded vertices x 3 each, before the differences are undone.
-Status read_poses(const format::SegmentRecord& record, const SegmentContext& context,
+Status read_poses(const SegmentRecord& record, const SegmentContext& context,
                   const KeyframeParameters& parameters, Vector<Vector<int32_t>>* poses) {
   size_t n = context.topology->coded_vertices;
   size_t k = context.sizes->components;
   Vector<int32_t> plain;
-  if (parameters.coder == format::CoderId::kPlain) {
+  if (parameters.coder == CoderId::kPlain) {
     if (Status s = decode_plain_integers(record.pose, 3 * n * k, 3, &plain); s != Status::kOk)
       return s;
     for (size_t j = 0; j < k; ++j)
@@ -71,8 +71,8 @@ Status read_poses(const format::SegmentRecord& record, const SegmentContext& con
   return Status::kOk;
 }
 
-Status read_motions(format::ByteView bytes, const KeyframeParameters& parameters,
-                    format::IntegerHash* hash, Segment* out) {
+Status read_motions(ByteView bytes, const KeyframeParameters& parameters, IntegerHash* hash,
+                    Segment* out) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   SeriesCoding coding;
   Vector<int32_t> series[7];
@@ -130,8 +130,8 @@ Status set_up_msgi(const KeyframeParameters& parameters, const Vector<Vector<int
 
 }  // namespace
 
-format::Bytes KeyframeParameters::write() const {
-  format::ByteWriter w;
+Bytes KeyframeParameters::write() const {
+  ByteWriter w;
   w.u8(static_cast<uint8_t>((sum_to_one ? kSumToOne : 0) | (rigid ? kRigid : 0) |
                             (leaf_faces > 0 ? kPatches : 0)));
   w.u8(static_cast<uint8_t>(coder));
@@ -155,13 +155,12 @@ format::Bytes KeyframeParameters::write() const {
   return std::move(w.bytes());
 }
 
-Status KeyframeParameters::read(format::ByteView bytes, uint32_t components,
-                                uint32_t segment_frames) {
-  format::ByteReader r(bytes);
+Status KeyframeParameters::read(ByteView bytes, uint32_t components, uint32_t segment_frames) {
+  ByteReader r(bytes);
   uint8_t flags = r.u8(), id = r.u8();
   sum_to_one = flags & kSumToOne;
   rigid = flags & kRigid;
-  coder = static_cast<format::CoderId>(id);
+  coder = static_cast<CoderId>(id);
   bool finite = true;
   for (double& x : origin) {
     x = r.f64();
@@ -189,7 +188,7 @@ Status KeyframeParameters::read(format::ByteView bytes, uint32_t components,
     parents[j] = r.varint32(j);
   if (!r.finished() || (flags & ~(kSumToOne | kRigid | kPatches)))
     return Status::kRecord;
-  if (id > static_cast<uint8_t>(format::CoderId::kDraco))
+  if (id > static_cast<uint8_t>(CoderId::kDraco))
     return Status::kCoder;
   if (!finite || !std::isfinite(step) || step <= 0 || weight_bits > 24 || rotation_bits > 27 ||
       !std::isfinite(translation_step) || translation_step <= 0)
@@ -197,15 +196,15 @@ Status KeyframeParameters::read(format::ByteView bytes, uint32_t components,
   return Status::kOk;
 }
 
-Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                             format::IntegerHash& hash, Segment* out) {
+Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& context,
+                             IntegerHash& hash, Segment* out) {
   KeyframeParameters parameters;
   uint32_t k = context.sizes->components;
   if (k == 0)
     return Status::kSegment;
   if (Status s = parameters.read(record.parameters, k, out->frames); s != Status::kOk)
     return s;
-  const bool msgi = out->reconstruction == format::Reconstruction::kMsgi;
+  const bool msgi = out->reconstruction == Reconstruction::kMsgi;
   if (out->reconstruction != context.sizes->reconstruction)
     return Status::kSegment;
   if (msgi != (parameters.leaf_faces > 0) || (msgi && !parameters.sum_to_one))

@@ -19,7 +19,7 @@ namespace anicodec {
 struct KeyframeParameters {
   bool sum_to_one = false;  ///< the weight of key-frame 0 is what the others leave of one
   bool rigid = false;       ///< there is a motion M_f
-  format::CoderId coder = format::CoderId::kPlain;
+  CoderId coder = CoderId::kPlain;
   double origin[3] = {0, 0, 0};
   double step = 1;
   uint8_t weight_bits = 12;
@@ -29,12 +29,12 @@ struct KeyframeParameters {
   Vector<uint32_t> frames;   ///< of each key-frame in the segment, ascending
   Vector<uint32_t> parents;  ///< 0, or one more than the earlier key-frame it is coded against
 
-  format::Bytes write() const;
-  Status read(format::ByteView bytes, uint32_t components, uint32_t segment_frames);
+  Bytes write() const;
+  Status read(ByteView bytes, uint32_t components, uint32_t segment_frames);
 };
 
-Status open_keyframe_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                             format::IntegerHash& hash, Segment* out);
+Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& context,
+                             IntegerHash& hash, Segment* out);
 
 }  // namespace anicodec
 

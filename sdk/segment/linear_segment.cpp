@@ -17,9 +17,8 @@ namespace {
 constexpr uint8_t kAffineFlag = 1;
 
 /// Time weights: those of the affine base become maps of the pose, the others stay integers.
-Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
-                    const PoseGrid& pose, format::IntegerHash* hash, Segment* out,
-                    Vector<int32_t>* weights) {
+Status read_weights(ByteView bytes, const LinearParameters& parameters, const PoseGrid& pose,
+                    IntegerHash* hash, Segment* out, Vector<int32_t>* weights) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   TimeWeightModel model(out->frames);
   size_t frames = out->frames;
@@ -67,30 +66,29 @@ Status read_weights(format::ByteView bytes, const LinearParameters& parameters,
 }
 
 /// Components in layers; no more than there can be.
-uint32_t components_in(const Vector<format::ByteView>& layers, uint32_t components) {
+uint32_t components_in(const Vector<ByteView>& layers, uint32_t components) {
   uint32_t count = 0;
-  for (format::ByteView layer : layers)
-    count += format::ByteReader(layer).varint32(components - count);
+  for (ByteView layer : layers)
+    count += ByteReader(layer).varint32(components - count);
   return count;
 }
 
 /// Residuals of the components in the layers, components x channels x vertices in decoding order;
 /// stops after `wanted` components.
-Status read_residuals(const Vector<format::ByteView>& layers, const VertexOrder& order,
-                      uint32_t channels, uint32_t components, uint32_t wanted,
-                      Vector<int32_t>* residuals) {
+Status read_residuals(const Vector<ByteView>& layers, const VertexOrder& order, uint32_t channels,
+                      uint32_t components, uint32_t wanted, Vector<int32_t>* residuals) {
   auto n = static_cast<uint32_t>(order.vertex_count());
   CoefficientModel model(n, channels, order.neighbours.data(),
                          static_cast<uint32_t>(order.neighbour_count));
   residuals->resize(size_t{wanted} * channels * n);
   Vector<int32_t> interleaved(channels == 1 ? 0 : size_t{channels} * n);
   uint32_t j = 0;
-  for (format::ByteView layer : layers) {
-    format::ByteReader reader(layer);
+  for (ByteView layer : layers) {
+    ByteReader reader(layer);
     uint32_t count = reader.varint32(components - j);
     if (!reader.ok())
       return Status::kRecord;
-    format::ByteView stream = reader.raw(reader.remaining());
+    ByteView stream = reader.raw(reader.remaining());
     BinaryDecoder decoder(stream.data, stream.size);
     for (uint32_t end = j + count; j < end; ++j) {
       if (j == wanted)
@@ -112,7 +110,7 @@ Status read_residuals(const Vector<format::ByteView>& layers, const VertexOrder&
 
 /// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample.
 Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ranks, size_t samples,
-                                format::IntegerHash& hash) {
+                                IntegerHash& hash) {
   Vector<int32_t> exact(samples);
   Vector<float> largest(samples, 0.F);
   for (size_t i = 0; i < ranks; ++i) {
@@ -183,8 +181,8 @@ int32_t LinearParameters::sigma_eighths(double sigma) {
   return static_cast<int32_t>(std::lround(8 * std::log2(sigma)));
 }
 
-format::Bytes LinearParameters::write() const {
-  format::ByteWriter w;
+Bytes LinearParameters::write() const {
+  ByteWriter w;
   w.u8(affine ? kAffineFlag : 0);
   w.f64(basis_step);
   w.f64(weight_step);
@@ -204,8 +202,8 @@ format::Bytes LinearParameters::write() const {
   return std::move(w.bytes());
 }
 
-Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
-  format::ByteReader r(bytes);
+Status LinearParameters::read(ByteView bytes, uint32_t components) {
+  ByteReader r(bytes);
   uint8_t flags = r.u8();
   affine = flags & kAffineFlag;
   basis_step = r.f64();
@@ -222,7 +220,7 @@ Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
       neighbours > kMaxNeighbours || neighbours % 4 != 0 || colours == 0 || colours > kMaxColours ||
       radius == 0 || id >= kRefitScheduleCount)
     return Status::kQuantizer;
-  format::ByteView stream = r.raw(r.remaining());
+  ByteView stream = r.raw(r.remaining());
   BinaryDecoder decoder(stream.data, stream.size);
   SymbolModel<> omega_model, sigma_model;
   int32_t last_omega = 128, last_sigma = 0;
@@ -241,8 +239,8 @@ Status LinearParameters::read(format::ByteView bytes, uint32_t components) {
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
-Status open_linear_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                           format::IntegerHash& hash, Segment* out) {
+Status open_linear_segment(const SegmentRecord& record, const SegmentContext& context,
+                           IntegerHash& hash, Segment* out) {
   LinearParameters parameters;
   uint32_t components = context.sizes->components;
   if (Status s = parameters.read(record.parameters, components); s != Status::kOk)
@@ -291,7 +289,7 @@ Status open_linear_segment(const format::SegmentRecord& record, const SegmentCon
   input.omega = parameters.omega.data();
   size_t samples = size_t{wanted} * channels;
   Vector<float> y(coefficient_buffer_size(n, samples));
-  Reconstruction reconstruction;
+  CoefficientReconstruction reconstruction;
   if (Status s = reconstruction.init(order, pose.points.data(), prediction, input, y.data());
       s != Status::kOk)
     return s;

@@ -32,8 +32,8 @@ struct LinearParameters {
   Vector<uint8_t> omega;  ///< see omega_value()
   Vector<int32_t> sigma;  ///< in eighths of an octave: sigma(j) = 2^(sigma / 8)
 
-  format::Bytes write() const;
-  Status read(format::ByteView bytes, uint32_t components);
+  Bytes write() const;
+  Status read(ByteView bytes, uint32_t components);
 
   /// 2^(eighths / 8).
   static double sigma_value(int32_t eighths);
@@ -44,8 +44,8 @@ struct LinearParameters {
 /// Largest number of fraction bits with which coefficients stay resident.
 inline constexpr int kFractionBits = 6;
 
-Status open_linear_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                           format::IntegerHash& hash, Segment* out);
+Status open_linear_segment(const SegmentRecord& record, const SegmentContext& context,
+                           IntegerHash& hash, Segment* out);
 
 }  // namespace anicodec
 

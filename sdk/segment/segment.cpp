@@ -98,15 +98,15 @@ struct Copies {
   Vector<uint32_t> begin, vertices;
 };
 
-Status read_corrections(const SegmentContext& context, format::IntegerHash& hash, Segment* out) {
+Status read_corrections(const SegmentContext& context, IntegerHash& hash, Segment* out) {
   const uint32_t total = context.sizes->corrections;
   if (context.corrections.size == 0)
     return total == 0 || context.partial ? Status::kOk : Status::kChunkMissing;
-  format::ByteReader reader(context.corrections);
+  ByteReader reader(context.corrections);
   double step = reader.f64();
   if (!reader.ok() || !std::isfinite(step) || step <= 0)
     return Status::kQuantizer;
-  format::ByteView stream = reader.raw(reader.remaining());
+  ByteView stream = reader.raw(reader.remaining());
   BinaryDecoder decoder(stream.data, stream.size);
   const uint32_t coded_vertices = context.topology->coded_vertices;
   const Copies copies(context.topology->vertex_coded, coded_vertices);
@@ -152,9 +152,8 @@ uint32_t wanted_components(double quality, uint32_t components) {
   return std::min(static_cast<uint32_t>(std::ceil(quality * components)), components);
 }
 
-Status open_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                    Segment* out) {
-  const format::Limits::Segment& sizes = *context.sizes;
+Status open_segment(const SegmentRecord& record, const SegmentContext& context, Segment* out) {
+  const Limits::Segment& sizes = *context.sizes;
   out->kind = record.kind;
   out->reconstruction = record.reconstruction;
   out->mesh = sizes.mesh;
@@ -166,8 +165,8 @@ Status open_segment(const format::SegmentRecord& record, const SegmentContext& c
   out->wide_components = sizes.wide_components;
   out->stored_hash = record.hash;
   const FloatControl control;
-  format::IntegerHash hash;
-  Status status = record.kind == format::BasisKind::kKeyframes
+  IntegerHash hash;
+  Status status = record.kind == BasisKind::kKeyframes
                       ? open_keyframe_segment(record, context, hash, out)
                       : open_linear_segment(record, context, hash, out);
   if (status == Status::kOk)

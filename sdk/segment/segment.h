@@ -36,11 +36,11 @@ struct Affine {
 /// with A_f affine, M_f rigid, both optional. Its vertices are those of the user, in the user's
 /// order, or the coded ones (SegmentContext::vertex_coded).
 struct Segment {
-  format::BasisKind kind = format::BasisKind::kKeyframes;
-  format::Reconstruction reconstruction = format::Reconstruction::kLinear;
+  BasisKind kind = BasisKind::kKeyframes;
+  Reconstruction reconstruction = Reconstruction::kLinear;
   uint32_t mesh = 0;
-  uint32_t attribute = format::kPositions;  ///< that it moves, else the positions
-  uint32_t first_component = 0;             ///< of the attribute: x(v, f) is added to three of them
+  uint32_t attribute = kPositions;  ///< that it moves, else the positions
+  uint32_t first_component = 0;     ///< of the attribute: x(v, f) is added to three of them
   uint32_t first_frame = 0;
   uint32_t frames = 0;
   uint32_t vertices = 0;
@@ -49,7 +49,7 @@ struct Segment {
 
   /// Scalars per vertex of a component: 3 (a vector; one weight per frame) or, for trajectories, 1
   /// (and three weights per frame).
-  uint32_t channels() const { return kind == format::BasisKind::kEigentrajectories ? 1 : 3; }
+  uint32_t channels() const { return kind == BasisKind::kEigentrajectories ? 1 : 3; }
 
   uint32_t weight_channels() const { return channels() == 1 ? 3 : 1; }
 
@@ -88,15 +88,15 @@ struct Segment {
 
 /// What opening a segment needs to know besides its own record.
 struct SegmentContext {
-  const format::Limits::Segment* sizes = nullptr;
-  const format::Limits::Mesh* mesh_sizes = nullptr;
+  const Limits::Segment* sizes = nullptr;
+  const Limits::Mesh* mesh_sizes = nullptr;
   const Topology* topology = nullptr;
   /// Coded vertex of each vertex of the opened segment; null: it holds the coded vertices.
   const Vector<uint32_t>* vertex_coded = nullptr;
   const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
   const DracoMesh* draco = nullptr;  ///< null when the connectivity is plain
-  Vector<format::ByteView> layers;   ///< chunks BASI in file order
-  format::ByteView corrections;      ///< chunk CORR, empty when there is none
+  Vector<ByteView> layers;           ///< chunks BASI in file order
+  ByteView corrections;              ///< chunk CORR, empty when there is none
   double quality = 1;                ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;
@@ -107,8 +107,7 @@ uint32_t wanted_components(double quality, uint32_t components);
 
 /// Opens a segment of any kind. The counts in `context` have been checked against the host's
 /// limits.
-Status open_segment(const format::SegmentRecord& record, const SegmentContext& context,
-                    Segment* out);
+Status open_segment(const SegmentRecord& record, const SegmentContext& context, Segment* out);
 
 }  // namespace anicodec
 

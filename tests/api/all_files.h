@@ -19,10 +19,10 @@
 namespace anicodec {
 
 /// A clip in two segments.
-inline format::Bytes two_segments(const MeshSequence& clip) {
-  EncoderInput input(clip, format::CoderId::kDraco);
+inline Bytes two_segments(const MeshSequence& clip) {
+  EncoderInput input(clip, CoderId::kDraco);
   LinearAnalysis analysis(input.frames());
-  LinearCoder whole(input, analysis, format::BasisKind::kEigenshapes, 1, 1);
+  LinearCoder whole(input, analysis, BasisKind::kEigenshapes, 1, 1);
   const double rmse = 0.0005 * diagonal(clip);
   std::optional<Part> one = whole.at_rmse(rmse);
   TimeSegmentation segmentation(input, whole, one->encoded.reference, rmse);
@@ -34,19 +34,19 @@ inline format::Bytes two_segments(const MeshSequence& clip) {
     part->encoded.sizes.first_frame = first;
     parts.push_back(std::move(*part));
   }
-  return clip_file(format::ClipRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
+  return clip_file(ClipRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
 }
 
-inline const format::Bytes& cut_clip() {
-  static const format::Bytes file = two_segments(corpus::make_scaled("limb", 300, 48));
+inline const Bytes& cut_clip() {
+  static const Bytes file = two_segments(corpus::make_scaled("limb", 300, 48));
   return file;
 }
 
 /// By name: clips of every basis, in two segments, and the valid files of tests/conformance, with
 /// corrections, rigid motions, layers.
-inline const std::map<std::string, format::Bytes>& all_files() {
-  static const std::map<std::string, format::Bytes> all = [] {
-    std::map<std::string, format::Bytes> files;
+inline const std::map<std::string, Bytes>& all_files() {
+  static const std::map<std::string, Bytes> all = [] {
+    std::map<std::string, Bytes> files;
     for (const auto& [clip, basis] : cases())
       files[clip] = encoded_clip(clip, basis);
     files["two_segments"] = cut_clip();

@@ -158,10 +158,10 @@ TEST(AnicAsset, GivesTheAttributesOfTheSource) {
 }
 
 TEST(AnicAsset, SaysWhereAFileIsDamaged) {
-  format::Bytes file = encoded_clip("cloth", BasisChoice::kEigenshapes);
-  format::ContainerReader reader;
+  Bytes file = encoded_clip("cloth", BasisChoice::kEigenshapes);
+  ContainerReader reader;
   ASSERT_TRUE(reader.open(file).ok());
-  const format::Chunk chunk = *reader.find("SEGM", 0, 0);
+  const Chunk chunk = *reader.find("SEGM", 0, 0);
   file[chunk.offset + 5] ^= 1;
   anic_asset* asset = nullptr;
   anic_failure failure;
@@ -179,7 +179,7 @@ TEST(AnicAsset, SaysWhereAFileIsDamaged) {
 }
 
 TEST(AnicAsset, RefusesWhatTheHostDoesNotAllow) {
-  const format::Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
+  const Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
   anic_requirements r;
   ASSERT_EQ(anic_get_requirements(file.data(), file.size(), nullptr, &r), ANIC_OK);
   auto status = [&](auto set) {
@@ -205,7 +205,7 @@ TEST(AnicAsset, RefusesWhatTheHostDoesNotAllow) {
 }
 
 TEST(AnicAsset, IsCoarserAndSmallerAtLowerQuality) {
-  const format::Bytes& file = encoded_clip("limb", BasisChoice::kEigentrajectories);
+  const Bytes& file = encoded_clip("limb", BasisChoice::kEigentrajectories);
   const Asset whole = open(file);
   anic_options options = {};
   options.quality = 0.4;
@@ -226,7 +226,7 @@ TEST(AnicAsset, IsCoarserAndSmallerAtLowerQuality) {
 }
 
 TEST(AnicQuery, SaysHowManyBytesItNeeds) {
-  const format::Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
+  const Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
   size_t given = 0;
   anic_requirements r;
   for (int calls = 0; anic_get_requirements(file.data(), given, nullptr, &r) == ANIC_E_TRUNCATED;
@@ -345,7 +345,7 @@ TEST(AnicMemory, FailsWithoutALeakWhicheverAllocationFails) {
 TEST(AnicMemory, FitsABlockOfTheHost) {
   for (const auto& [clip, basis] : cases()) {
     SCOPED_TRACE(clip);
-    const format::Bytes& file = encoded_clip(clip, basis);
+    const Bytes& file = encoded_clip(clip, basis);
     anic_requirements r;
     ASSERT_EQ(anic_get_requirements(file.data(), file.size(), nullptr, &r), ANIC_OK);
     std::vector<unsigned char> block(r.block_bytes + r.context_bytes);

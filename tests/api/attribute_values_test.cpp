@@ -22,7 +22,7 @@ const MeshSequence& source() {
   return clip;
 }
 
-const format::Bytes& heated() {
+const Bytes& heated() {
   return encoded_clip("heated", BasisChoice::kEigentrajectories);
 }
 

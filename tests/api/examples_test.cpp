@@ -48,7 +48,7 @@ class AnicExamples : public testing::Test {
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
     for (const auto& [clip, basis] : cases()) {
-      const format::Bytes& file = encoded_clip(clip, basis);
+      const Bytes& file = encoded_clip(clip, basis);
       std::ofstream(path(clip), std::ios::binary)
           .write(reinterpret_cast<const char*>(file.data()),
                  static_cast<std::streamsize>(file.size()));

@@ -17,7 +17,7 @@ namespace {
 struct Entry {
   std::string file;
   int status = 0;
-  format::Bytes bytes;
+  Bytes bytes;
 };
 
 /// What tests/conformance/MANIFEST lists: "valid", "invalid" or "limit".
@@ -42,7 +42,7 @@ std::vector<Entry> listed(const std::string& wanted) {
 }
 
 /// Opens and compares hashes; what opens is played. Nothing is kept.
-anic_status tried(const format::Bytes& file, CountingMemory* memory) {
+anic_status tried(const Bytes& file, CountingMemory* memory) {
   anic_options options = {};
   options.allocator = memory->allocator();
   options.limits.bytes = 8 << 20;
@@ -71,7 +71,7 @@ anic_status tried(const format::Bytes& file, CountingMemory* memory) {
   return status;
 }
 
-anic_status tried(const format::Bytes& file) {
+anic_status tried(const Bytes& file) {
   CountingMemory memory;
   return tried(file, &memory);
 }
@@ -103,7 +103,7 @@ TEST(Hostile, GreedyFilesTakeNothing) {
 TEST(Hostile, EveryPrefixIsRefused) {
   for (const Entry& entry : listed("valid")) {
     for (size_t size = 0; size < entry.bytes.size(); ++size) {
-      const format::Bytes prefix(entry.bytes.begin(), entry.bytes.begin() + size);
+      const Bytes prefix(entry.bytes.begin(), entry.bytes.begin() + size);
       const anic_status status = tried(prefix);
       ASSERT_EQ(status, size == 0 ? ANIC_E_MAGIC : ANIC_E_TRUNCATED) << entry.file << " " << size;
     }

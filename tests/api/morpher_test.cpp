@@ -16,9 +16,9 @@
 namespace anicodec {
 namespace {
 
-const format::Bytes& interpolated_clip(const std::string& name) {
-  static std::map<std::string, format::Bytes> files;
-  format::Bytes& file = files[name];
+const Bytes& interpolated_clip(const std::string& name) {
+  static std::map<std::string, Bytes> files;
+  Bytes& file = files[name];
   if (file.empty()) {
     EncodeOptions options;
     options.keyframes = 4;
@@ -37,7 +37,7 @@ constexpr const char* kClips[] = {"helix", "soup", "nonmanifold", "leftovers", "
 TEST(AnicInterpolated, SeeksFramesInAnyOrderWithTheSameBits) {
   for (const char* name : kClips) {
     SCOPED_TRACE(name);
-    const format::Bytes& file = interpolated_clip(name);
+    const Bytes& file = interpolated_clip(name);
     Clip clip;
     ASSERT_TRUE(clip.open(file).ok());
     anic_options options = {};
@@ -124,7 +124,7 @@ TEST(AnicInterpolated, GivesAGpuTheShape) {
 TEST(AnicInterpolated, TakesTheMemoryThatTheQueryToldAndNoMore) {
   for (const char* name : {"large", "helix", "soup", "nonmanifold", "leftovers"}) {
     SCOPED_TRACE(name);
-    const format::Bytes& file = interpolated_clip(name);
+    const Bytes& file = interpolated_clip(name);
     anic_requirements r;
     ASSERT_EQ(
         anic_get_requirements(file.data(), 4096 < file.size() ? 4096 : file.size(), nullptr, &r),
@@ -158,10 +158,10 @@ TEST(AnicInterpolated, FailsWithoutALeakWhicheverAllocationFails) {
 
 TEST(AnicInterpolated, RefusesDamagedFilesWithoutALeak) {
   // Checksums are made right again by nobody here: what gets through them is tested by fuzzing.
-  const format::Bytes& file = interpolated_clip("nonmanifold");
+  const Bytes& file = interpolated_clip("nonmanifold");
   std::mt19937 random(5);
   for (int i = 0; i < 300; ++i) {
-    format::Bytes damaged = file;
+    Bytes damaged = file;
     damaged[random() % damaged.size()] ^= static_cast<uint8_t>(1 + random() % 255);
     CountingMemory memory;
     anic_options options = {};

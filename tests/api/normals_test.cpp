@@ -36,7 +36,7 @@ std::vector<float> compute(const Normals& normals, const std::vector<float>& pos
 /// A clip of one frame twice, kept exactly enough.
 Asset still(MeshSequence clip) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kMaxError, 1e-3, true};
+  options.target = {ErrorMetric::kMaxError, 1e-3, true};
   options.basis = BasisChoice::kKeyframes;
   options.effort = 1;
   return open(encode(clip, options).file);

@@ -21,13 +21,12 @@
 namespace anicodec {
 
 /// A corpus clip as a file, encoded once per run of the tests.
-inline const format::Bytes& encoded_clip(const std::string& clip, BasisChoice basis,
-                                         uint32_t frames = 0) {
-  static std::map<std::tuple<std::string, BasisChoice, uint32_t>, format::Bytes> files;
-  format::Bytes& file = files[{clip, basis, frames}];
+inline const Bytes& encoded_clip(const std::string& clip, BasisChoice basis, uint32_t frames = 0) {
+  static std::map<std::tuple<std::string, BasisChoice, uint32_t>, Bytes> files;
+  Bytes& file = files[{clip, basis, frames}];
   if (file.empty()) {
     EncodeOptions options;
-    options.target = {format::ErrorMetric::kMaxError, 1, true};
+    options.target = {ErrorMetric::kMaxError, 1, true};
     options.basis = basis;
     options.effort = 1;
     file = encode(frames > 0 ? corpus::make_scaled(clip, 300, frames) : corpus::make_clip(clip),
@@ -83,7 +82,7 @@ struct ContextDestroyer {
 
 using Context = std::unique_ptr<anic_context, ContextDestroyer>;
 
-inline Asset open(const format::Bytes& file, const anic_options* options = nullptr) {
+inline Asset open(const Bytes& file, const anic_options* options = nullptr) {
   anic_asset* asset = nullptr;
   anic_failure failure;
   EXPECT_EQ(anic_open_asset(file.data(), file.size(), options, &asset, &failure), ANIC_OK)
@@ -93,7 +92,7 @@ inline Asset open(const format::Bytes& file, const anic_options* options = nullp
 
 /// Opens a file and makes a context again and again, each time with another allocation that fails,
 /// until none does: no memory may stay behind. Returns about how many allocations there are.
-inline size_t expect_no_leak_whichever_allocation_fails(const format::Bytes& file) {
+inline size_t expect_no_leak_whichever_allocation_fails(const Bytes& file) {
   anic_status status = ANIC_E_MEMORY;
   size_t n = 0;
   for (; status != ANIC_OK && n < 10000000; n += n < 200 ? 1 : n / 20) {

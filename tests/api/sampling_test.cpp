@@ -23,7 +23,7 @@ void seek(const Context& context, double seconds, anic_sampling interpolation,
 TEST(AnicSampling, GivesThePositionsOfTheClip) {
   for (const auto& [name, basis] : cases()) {
     SCOPED_TRACE(name);
-    const format::Bytes& file = encoded_clip(name, basis);
+    const Bytes& file = encoded_clip(name, basis);
     Clip clip;
     ASSERT_TRUE(clip.open(file).ok());
     const Asset asset = open(file);
@@ -77,8 +77,8 @@ TEST(AnicSampling, AnyOrderGivesTheSameBits) {
 }
 
 TEST(AnicSampling, RangesAndThreadsGiveTheSameBits) {
-  const format::Bytes cut = cut_clip();
-  for (const format::Bytes* file : {&cut, &encoded_clip("limb", BasisChoice::kEigentrajectories)}) {
+  const Bytes cut = cut_clip();
+  for (const Bytes* file : {&cut, &encoded_clip("limb", BasisChoice::kEigentrajectories)}) {
     const Asset asset = open(*file);
     const Context context = context_of(asset);
     const uint32_t n = vertices_of(asset);
@@ -231,7 +231,7 @@ MeshSequence moving_sheet(uint32_t frames, std::vector<double> times, double (*c
 
 Asset opened(const MeshSequence& clip) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kMaxError, 1e-4, true};
+  options.target = {ErrorMetric::kMaxError, 1e-4, true};
   options.basis = BasisChoice::kEigenshapes;
   options.effort = 1;
   return open(encode(clip, options).file);
@@ -319,7 +319,7 @@ TEST(AnicSampling, RigidMotionsTurnTheShorterWay) {
   EncodeOptions options;
   options.keyframes = 1;
   options.basis = BasisChoice::kKeyframes;
-  const format::Bytes file = encode(clip, options).file;
+  const Bytes file = encode(clip, options).file;
   Clip inside;
   ASSERT_TRUE(inside.open(file).ok());
   ASSERT_FALSE(inside.segments()[0].motions.empty());
@@ -380,8 +380,7 @@ TEST(AnicSampling, RemembersWhatWasShownBefore) {
 TEST(AnicSampling, FindsBoxes) {
   anic_options options = {};
   options.flags = ANIC_OPEN_BOUNDS;
-  for (const format::Bytes& file :
-       {cut_clip(), encoded_clip("points", BasisChoice::kEigenshapes)}) {
+  for (const Bytes& file : {cut_clip(), encoded_clip("points", BasisChoice::kEigenshapes)}) {
     const Asset asset = open(file, &options);
     const Context context = context_of(asset);
     anic_box clip, box, table, around = {{1e9F, 1e9F, 1e9F}, {-1e9F, -1e9F, -1e9F}};
@@ -453,10 +452,10 @@ void shade(const anic_basis& basis, const anic_part& part, uint32_t v, double (&
 }
 
 TEST(AnicSampling, BasisAndWeightsMakeTheSameFrame) {
-  std::vector<format::Bytes> files = {cut_clip()};
+  std::vector<Bytes> files = {cut_clip()};
   for (const auto& [name, basis] : cases())
     files.push_back(encoded_clip(name, basis));
-  for (const format::Bytes& file : files) {
+  for (const Bytes& file : files) {
     const Asset asset = open(file);
     const Context context = context_of(asset);
     for (double f : {0.0, 3.0, 4.5, 23.4}) {

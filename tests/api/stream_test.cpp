@@ -44,7 +44,7 @@ void expect_same(const Asset& a, const Asset& b) {
 }
 
 TEST(AnicStream, TakesAFileByteByByte) {
-  const format::Bytes& file = encoded_clip("limb", BasisChoice::kEigentrajectories);
+  const Bytes& file = encoded_clip("limb", BasisChoice::kEigentrajectories);
   const Stream stream = new_stream();
   bool was_playable = false;
   uint32_t layers = 0;
@@ -70,15 +70,15 @@ TEST(AnicStream, TakesAFileByteByByte) {
 }
 
 TEST(AnicStream, PlaysEachLayerThatArrives) {
-  const format::Bytes& file = encoded_clip("limb", BasisChoice::kEigentrajectories);
+  const Bytes& file = encoded_clip("limb", BasisChoice::kEigentrajectories);
   const Asset whole = open(file);
-  format::ContainerReader reader;
+  ContainerReader reader;
   ASSERT_TRUE(reader.open(file).ok());
   const Stream stream = new_stream();
   size_t at = 0;
   double error = 1e30;
   uint32_t coarser = 0;
-  for (const format::Chunk& chunk : reader.chunks()) {
+  for (const Chunk& chunk : reader.chunks()) {
     const size_t end = chunk.offset + chunk.size;
     ASSERT_EQ(anic_push_bytes(stream.get(), file.data() + at, end - at), ANIC_OK);
     at = end;
@@ -106,7 +106,7 @@ TEST(AnicStream, PlaysEachLayerThatArrives) {
 TEST(AnicStream, GivesWhatAWholeFileGives) {
   for (const auto& [name, basis] : cases()) {
     SCOPED_TRACE(name);
-    const format::Bytes& file = encoded_clip(name, basis);
+    const Bytes& file = encoded_clip(name, basis);
     const Asset whole = open(file);
     for (size_t piece : {size_t{7}, size_t{1000}, file.size()}) {
       CountingMemory memory;
@@ -129,7 +129,7 @@ TEST(AnicStream, GivesWhatAWholeFileGives) {
 TEST(AnicStream, SegmentsThatAreNotThereAreNotPlayed) {
   // As it stands, cut before the last chunk that a segment needs.
   for (const auto& [name, basis] : cases()) {
-    const format::Bytes& file = encoded_clip(name, basis);
+    const Bytes& file = encoded_clip(name, basis);
     for (size_t cut = 0; cut < file.size(); cut += 1 + file.size() / 60) {
       const Stream stream = new_stream();
       ASSERT_EQ(anic_push_bytes(stream.get(), file.data(), cut), ANIC_OK);
@@ -155,10 +155,10 @@ TEST(AnicStream, SegmentsThatAreNotThereAreNotPlayed) {
 }
 
 TEST(AnicStream, FailsAsSoonAsAChunkIsDamaged) {
-  format::Bytes file = encoded_clip("cloth", BasisChoice::kEigenshapes);
-  format::ContainerReader reader;
+  Bytes file = encoded_clip("cloth", BasisChoice::kEigenshapes);
+  ContainerReader reader;
   ASSERT_TRUE(reader.open(file).ok());
-  const format::Chunk chunk = *reader.find("MESH", 0);
+  const Chunk chunk = *reader.find("MESH", 0);
   file[chunk.offset] ^= 1;
   const Stream stream = new_stream();
   EXPECT_EQ(anic_push_bytes(stream.get(), file.data(), chunk.offset + 3), ANIC_OK);
@@ -181,11 +181,11 @@ TEST(AnicStream, FailsAsSoonAsAChunkIsDamaged) {
 }
 
 TEST(AnicStream, ChecksThePaddingToo) {
-  format::Bytes file = encoded_clip("cloth", BasisChoice::kEigenshapes);
-  format::ContainerReader reader;
+  Bytes file = encoded_clip("cloth", BasisChoice::kEigenshapes);
+  ContainerReader reader;
   ASSERT_TRUE(reader.open(file).ok());
   size_t at = 0;
-  for (const format::Chunk& chunk : reader.chunks()) {
+  for (const Chunk& chunk : reader.chunks()) {
     if (at != 0 && chunk.offset > at)
       break;
     at = chunk.offset + chunk.size;
@@ -197,7 +197,7 @@ TEST(AnicStream, ChecksThePaddingToo) {
 }
 
 struct FileInMemory {
-  const format::Bytes& file;
+  const Bytes& file;
   uint64_t fail_from = UINT64_MAX;
   uint64_t read = 0;
 
@@ -215,7 +215,7 @@ struct FileInMemory {
 
 TEST(AnicReader, OpensThroughACallback) {
   for (const auto& [name, basis] : cases()) {
-    const format::Bytes& file = encoded_clip(name, basis);
+    const Bytes& file = encoded_clip(name, basis);
     FileInMemory source{file};
     const anic_reader reader = source.reader();
     CountingMemory memory;
@@ -232,10 +232,10 @@ TEST(AnicReader, OpensThroughACallback) {
 
 TEST(AnicReader, ChecksLimitsBeforeItReadsTheRest) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kMaxError, 0.01, true};
+  options.target = {ErrorMetric::kMaxError, 0.01, true};
   options.basis = BasisChoice::kEigenshapes;
   options.effort = 1;
-  const format::Bytes file = encode(corpus::make_clip("cloth"), options).file;
+  const Bytes file = encode(corpus::make_clip("cloth"), options).file;
   ASSERT_GT(file.size(), 8192U);
   FileInMemory source{file};
   const anic_reader reader = source.reader();

@@ -22,7 +22,7 @@ static_assert(std::is_convertible_v<std::vector<float>&, anic::Span<const float>
 static_assert(!std::is_convertible_v<const std::vector<float>&, anic::Span<float>>);
 static_assert(!std::is_convertible_v<std::vector<float>&, anic::Span<const int>>);
 
-const format::Bytes& limb() {
+const Bytes& limb() {
   return encoded_clip("limb", BasisChoice::kEigentrajectories);
 }
 
@@ -126,7 +126,7 @@ TEST(AnicWrapper, HandlesMoveAndClose) {
 }
 
 TEST(AnicWrapper, OpensThroughAFunction) {
-  const format::Bytes& file = limb();
+  const Bytes& file = limb();
   size_t calls = 0;
   auto read = [&](uint64_t offset, void* to, size_t size) {
     ++calls;
@@ -142,7 +142,7 @@ TEST(AnicWrapper, OpensThroughAFunction) {
 }
 
 TEST(AnicWrapper, StreamsAndQueries) {
-  const format::Bytes& file = limb();
+  const Bytes& file = limb();
   anic_requirements needs;
   ASSERT_TRUE(anic::get_requirements(file, &needs));
   anic::Stream stream;

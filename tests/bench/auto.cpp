@@ -14,8 +14,6 @@
 namespace anicodec::bench {
 
 Table run_auto(const BenchOptions& options, double kg) {
-  using format::BasisKind;
-
   struct Kind {
     BasisChoice choice;
     BasisKind kind;
@@ -33,7 +31,7 @@ Table run_auto(const BenchOptions& options, double kg) {
                {"excess_percent", "auto over best %", "{:.2f}"},
                {"auto_seconds", "auto s", "{:.1f}"},
                {"auto_cpu_seconds", "CPU s", "{:.1f}"}});
-  Target target{format::ErrorMetric::kKg, kg, false};
+  Target target{ErrorMetric::kKg, kg, false};
   for (const std::string& clip : options.clips) {
     MeshSequence sequence = load_clip(clip);
     nlohmann::ordered_json row{{"clip", clip}};

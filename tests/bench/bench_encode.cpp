@@ -21,10 +21,10 @@ void require(bool ok) {
     throw Error(ErrorKind::kInternal, "the encoded file cannot be read");
 }
 
-void add_mesh(const format::MeshRecord& record, const MeshSequence& sequence,
-              format::CoderId mesh_coder, ByteShares& shares) {
+void add_mesh(const MeshRecord& record, const MeshSequence& sequence, CoderId mesh_coder,
+              ByteShares& shares) {
   uint64_t bare = record.connectivity.size;
-  if (record.coder == format::CoderId::kDraco)
+  if (record.coder == CoderId::kDraco)
     bare = std::min<uint64_t>(bare, lay_out_mesh(sequence, mesh_coder).connectivity.size());
   shares.pose += record.connectivity.size - bare;
   shares.mesh += bare + record.details.size + record.name.size();
@@ -32,24 +32,22 @@ void add_mesh(const format::MeshRecord& record, const MeshSequence& sequence,
 
 }  // namespace
 
-ByteShares byte_shares(format::ByteView file, const MeshSequence& sequence,
-                       format::CoderId mesh_coder) {
-  using format::chunk_type;
-  format::ContainerReader container;
+ByteShares byte_shares(ByteView file, const MeshSequence& sequence, CoderId mesh_coder) {
+  ContainerReader container;
   require(container.open(file).ok());
   ByteShares shares;
-  for (const format::Chunk& chunk : container.chunks()) {
-    format::ByteView payload;
+  for (const Chunk& chunk : container.chunks()) {
+    ByteView payload;
     require(container.payload(chunk, &payload).ok());
     if (chunk.type == chunk_type("MESH")) {
-      format::MeshRecord record;
-      require(format::MeshRecord::read(payload, &record) == Status::kOk);
+      MeshRecord record;
+      require(MeshRecord::read(payload, &record) == Status::kOk);
       add_mesh(record, sequence, mesh_coder, shares);
     } else if (chunk.type == chunk_type("POSE")) {
       shares.pose += chunk.size;
     } else if (chunk.type == chunk_type("SEGM")) {
-      format::SegmentRecord record;
-      require(format::SegmentRecord::read(payload, &record) == Status::kOk);
+      SegmentRecord record;
+      require(SegmentRecord::read(payload, &record) == Status::kOk);
       shares.pose += record.pose.size;
       shares.weights += record.weights.size;
       shares.basis += record.parameters.size;
@@ -65,7 +63,7 @@ ByteShares byte_shares(format::ByteView file, const MeshSequence& sequence,
 }
 
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
-                         bool verbose, format::OrderMode order) {
+                         bool verbose, OrderMode order) {
   EncodeOptions options;
   options.target = target;
   options.basis = basis;

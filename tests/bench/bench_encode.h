@@ -23,8 +23,7 @@ struct ByteShares {
 };
 
 /// A pose inside the mesh's Draco bitstream counts as what it adds to the bare connectivity.
-ByteShares byte_shares(format::ByteView file, const MeshSequence& sequence,
-                       format::CoderId mesh_coder);
+ByteShares byte_shares(ByteView file, const MeshSequence& sequence, CoderId mesh_coder);
 
 /// An encoding with what it took.
 struct TimedEncode {
@@ -38,7 +37,7 @@ struct TimedEncode {
 /// Encodes with the program's defaults but for these; with `verbose` the trials and stages go to
 /// stderr.
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
-                         bool verbose, format::OrderMode order = format::OrderMode::kFree);
+                         bool verbose, OrderMode order = OrderMode::kFree);
 
 /// Bits per frame and vertex.
 double bpfv(uint64_t bytes, const MeshSequence& sequence);

@@ -16,7 +16,7 @@
 namespace anicodec::bench {
 namespace {
 
-void open(const format::Bytes& file, Clip& clip) {
+void open(const Bytes& file, Clip& clip) {
   if (Failure failure = clip.open(file); !failure.ok())
     tools::fail_clip("the encoded clip", failure);
 }
@@ -56,7 +56,7 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
                {"ratio", "Draco : ours", "{:.2f}"}});
   for (const std::string& name : options.clips) {
     MeshSequence sequence = load_clip(name);
-    Target target{format::ErrorMetric::kKg, kg, false};
+    Target target{ErrorMetric::kKg, kg, false};
     TimedEncode timed =
         encode_timed(sequence, target, options.basis, options.effort, options.verbose);
     DracoFrames draco = draco_at_kg(sequence, fan_triangles(sequence.polygons), kg);
@@ -115,7 +115,7 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
   constexpr int kBits = 11;
   std::vector<char> draco = draco_frame(sequence, fan_triangles(sequence.polygons), 0, kBits);
   uint64_t raw = sequence.positions.size() * sizeof(float);
-  TimedEncode timed = encode_timed(std::move(sequence), {format::ErrorMetric::kKg, kKg, false},
+  TimedEncode timed = encode_timed(std::move(sequence), {ErrorMetric::kKg, kKg, false},
                                    BasisChoice::kEigenshapes, options.effort, options.verbose);
   uint64_t peak = peak_memory();
   double opening = median_thread_seconds(runs, [&] {

@@ -121,7 +121,7 @@ uint64_t raw_bytes(const GltfDocument& document, const std::string& animation) {
 
 /// Faces, texture coordinates and hard edges as our decoder gets them: its faces have an order of
 /// their own.
-void take_decoded_mesh(const format::Bytes& file, MeshSequence& sequence) {
+void take_decoded_mesh(const Bytes& file, MeshSequence& sequence) {
   Clip clip;
   if (!clip.open(file).ok())
     throw Error(ErrorKind::kInternal, "the encoded file cannot be opened");
@@ -143,9 +143,8 @@ ordered_json measure(const std::string& word, const BenchOptions& options, doubl
   });
   static_cast<MeshDetails&>(sequence) = {};
   sequence.attributes = std::move(kept);
-  const TimedEncode timed =
-      encode_timed(sequence, {format::ErrorMetric::kKg, kg, false}, options.basis, options.effort,
-                   options.verbose, format::OrderMode::kVertices);
+  const TimedEncode timed = encode_timed(sequence, {ErrorMetric::kKg, kg, false}, options.basis,
+                                         options.effort, options.verbose, OrderMode::kVertices);
   const EncodeResult& result = timed.result;
   const auto bytes = static_cast<double>(result.file.size());
   ordered_json row{{"clip", fs::path(file).filename().string()},

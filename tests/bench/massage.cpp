@@ -31,10 +31,10 @@ constexpr uint64_t kSeed = 7;
 
 EncodeOptions options_at(const BenchOptions& bench, double kg) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kKg, kg, false};
+  options.target = {ErrorMetric::kKg, kg, false};
   options.effort = bench.effort;
   options.basis = bench.basis;
-  options.order = format::OrderMode::kFree;
+  options.order = OrderMode::kFree;
   return options;
 }
 
@@ -50,7 +50,7 @@ void shorten(MeshSequence* clip, uint32_t frames) {
 /// frames.
 uint64_t newly_turned(const MeshSequence& surfaces, const MeshSequence& before,
                       const MeshSequence& after) {
-  const WeldedClip clip(surfaces);
+  const WeldedSurface clip(surfaces);
   uint64_t sum = 0;
   for (uint32_t f = 0; f < surfaces.frame_count; ++f) {
     const Surface surface(clip.topology, clip.frame(surfaces.frame(f)));
@@ -183,7 +183,7 @@ Table run_massage_fit(const BenchOptions& options) {
     const SurfaceFrame coarse = decimated(clip, 0, 0.25).mesh;
     SurfaceFrame fine{clip.polygons, {clip.frame(0).begin(), clip.frame(0).end()}};
     const Stopwatch watch(CLOCK_PROCESS_CPUTIME_ID);
-    const MeshFit fit = fit_mesh(coarse, fine);
+    const RemeshFit fit = fit_remesh(coarse, fine);
     table.add({{"clip", word},
                {"vertices", coarse.positions.size() / 3},
                {"mean_ratio", fit.after.mean() / fit.before.mean()},

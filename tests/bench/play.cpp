@@ -31,7 +31,7 @@ double median(std::vector<double> x) {
 
 /// A segment with narrow components only and a moving base, and somewhere to play four frames to.
 struct Stage {
-  Stage(format::BasisKind kind, uint32_t vertices, uint32_t components) {
+  Stage(BasisKind kind, uint32_t vertices, uint32_t components) {
     segment.kind = kind;
     segment.vertices = vertices;
     segment.components = components;
@@ -140,9 +140,8 @@ Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertice
                {"draco_four", "Draco : 4", "{:.1f}"}});
   std::vector<double> eigen_ratios;
   const std::vector<Peer> all = draco_peers(options, vertices);
-  for (format::BasisKind kind :
-       {format::BasisKind::kEigentrajectories, format::BasisKind::kEigenshapes}) {
-    const bool trajectories = kind == format::BasisKind::kEigentrajectories;
+  for (BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
+    const bool trajectories = kind == BasisKind::kEigentrajectories;
     for (uint32_t k : components) {
       for (const Peer& peer : all) {
         const uint32_t v = peer.vertices;

@@ -25,7 +25,7 @@ double ratio(uint64_t other, uint64_t ours) {
 ordered_json describe(const std::string& clip, const MeshSequence& sequence,
                       const TimedEncode& timed) {
   const EncodeResult& result = timed.result;
-  ByteShares shares = byte_shares(result.file, sequence, format::CoderId::kDraco);
+  ByteShares shares = byte_shares(result.file, sequence, CoderId::kDraco);
   return {{"clip", clip},
           {"vertices", sequence.vertex_count},
           {"frames", sequence.frame_count},
@@ -87,7 +87,7 @@ Table run_rate(const BenchOptions& options, const std::vector<double>& targets) 
     std::vector<uint32_t> triangles = fan_triangles(sequence.polygons);
     const RawCacheSize cache = raw_cache_size(sequence);
     for (double kg : targets) {
-      Target target{format::ErrorMetric::kKg, kg, false};
+      Target target{ErrorMetric::kKg, kg, false};
       TimedEncode timed =
           encode_timed(sequence, target, options.basis, options.effort, options.verbose);
       uint64_t bytes = timed.result.file.size();
@@ -134,7 +134,7 @@ Table run_near(const BenchOptions& options, double max_error_percent) {
                                    {"deltas_ratio", "ratio", "{:.2f}"}}));
   for (const std::string& clip : options.clips) {
     MeshSequence sequence = load_clip(clip);
-    Target target{format::ErrorMetric::kMaxError, max_error_percent, true};
+    Target target{ErrorMetric::kMaxError, max_error_percent, true};
     TimedEncode timed =
         encode_timed(sequence, target, options.basis, options.effort, options.verbose);
     // Half the diagonal of a cell is the largest error.

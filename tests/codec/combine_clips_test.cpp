@@ -34,7 +34,7 @@ std::vector<float> played(const PlayKernels& kernels, const std::vector<FrameSta
 
 void expect_all_kernels_within_tolerance(const MeshSequence& sequence, BasisChoice basis) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kMaxError, 0.05, true};
+  options.target = {ErrorMetric::kMaxError, 0.05, true};
   options.basis = basis;
   options.effort = 1;
   Clip clip;

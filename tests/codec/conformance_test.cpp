@@ -26,7 +26,7 @@ struct Vector {
   uint32_t vertices = 0, frames = 0;  ///< when it is scaled
 };
 
-format::Bytes read(const std::string& path) {
+Bytes read(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
@@ -56,7 +56,7 @@ TEST_P(Conformance, DecodesAsTheFileSays) {
     }
   }
   EXPECT_NEAR(largest, clip.record().max_error, 1e-4 * clip.record().max_error);
-  for (const format::AttributeError& error : clip.record().attribute_errors) {
+  for (const AttributeError& error : clip.record().attribute_errors) {
     const MeshAttribute& stored = clip.meshes()[0].attributes[error.attribute];
     const auto of = std::ranges::find(source.attributes, stored.header.kind, &Attribute::kind);
     ASSERT_NE(of, source.attributes.end());
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ConformanceExample, IsTheFileThatTheSpecificationShows) {
   std::ifstream page(kSource + "/spec/A-examples.md");
   const std::regex bytes_of_line(R"(^([0-9a-f]{4}) +((?:[0-9a-f]{2} )+) .*)");
-  format::Bytes shown;
+  Bytes shown;
   std::string line;
   while (std::getline(page, line)) {
     std::smatch match;

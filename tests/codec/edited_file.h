@@ -16,19 +16,19 @@ namespace anicodec {
 /// A file taken apart, to be changed and put together with checksums that fit.
 struct EditedFile {
   struct Part {
-    format::Chunk chunk;
-    format::Bytes payload;
+    Chunk chunk;
+    Bytes payload;
   };
 
   std::vector<Part> parts;
 
   /// Leaves out what cannot be read.
-  explicit EditedFile(const format::Bytes& file) {
-    format::ContainerReader reader;
+  explicit EditedFile(const Bytes& file) {
+    ContainerReader reader;
     if (!reader.open(file).ok())
       return;
-    for (const format::Chunk& chunk : reader.chunks()) {
-      format::ByteView view;
+    for (const Chunk& chunk : reader.chunks()) {
+      ByteView view;
       if (reader.payload(chunk, &view).ok())
         parts.push_back({chunk, {view.data, view.data + view.size}});
     }
@@ -37,23 +37,23 @@ struct EditedFile {
   /// The first part of a type; there must be one.
   Part& part(const char (&type)[5]) {
     return *std::find_if(parts.begin(), parts.end(),
-                         [&](const Part& p) { return p.chunk.type == format::chunk_type(type); });
+                         [&](const Part& p) { return p.chunk.type == chunk_type(type); });
   }
 
   template <class Change>
   void change_limits(Change change) {
-    format::Limits limits;
-    format::Limits::read(part("LIMI").payload, &limits);
+    Limits limits;
+    Limits::read(part("LIMI").payload, &limits);
     change(limits);
     part("LIMI").payload = limits.write();
   }
 
   template <class Change>
   void change_clip(Change change) {
-    format::Limits limits;
-    format::Limits::read(part("LIMI").payload, &limits);
-    format::ClipRecord record;
-    format::ClipRecord::read(part("CLIP").payload, limits.frames, &record);
+    Limits limits;
+    Limits::read(part("LIMI").payload, &limits);
+    ClipRecord record;
+    ClipRecord::read(part("CLIP").payload, limits.frames, &record);
     change(record);
     part("CLIP").payload = record.write();
   }
@@ -61,17 +61,17 @@ struct EditedFile {
   /// `change(record)` of a record whose views lie in the old payload.
   template <class Record, class Change>
   void change_record(const char (&type)[5], Change change) {
-    const format::Bytes old = part(type).payload;
+    const Bytes old = part(type).payload;
     Record record;
     Record::read(old, &record);
     change(record);
     part(type).payload = record.write();
   }
 
-  format::Bytes bytes() const {
-    format::ContainerWriter writer;
+  Bytes bytes() const {
+    ContainerWriter writer;
     for (const Part& p : parts) {
-      std::string type = format::chunk_name(p.chunk.type);
+      std::string type = chunk_name(p.chunk.type);
       const char name[5] = {type[0], type[1], type[2], type[3], 0};
       writer.add(name, p.chunk.required, p.chunk.mesh, p.chunk.segment, p.payload);
     }

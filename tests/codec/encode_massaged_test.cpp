@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode_massaged.h"
+
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "sdk/clip/clip.h"
@@ -12,12 +13,12 @@ namespace {
 
 EncodeOptions at_kg(double kg) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kKg, kg, false};
+  options.target = {ErrorMetric::kKg, kg, false};
   options.effort = 1;
   return options;
 }
 
-format::ClipRecord record_of(const EncodeResult& result) {
+ClipRecord record_of(const EncodeResult& result) {
   Clip clip;
   EXPECT_TRUE(clip.open(result.file).ok());
   return clip.record();
@@ -28,7 +29,7 @@ TEST(EncodeMassaged, RecordsThatAndHowFarTheSurfaceMoved) {
   const EncodeResult result = encode_massaged(corpus::make_scaled("sliding", 400, 8),
                                               MassageMode::kOn, {}, at_kg(0.1), &verdict);
   ASSERT_TRUE(verdict.change);
-  const format::ClipRecord record = record_of(result);
+  const ClipRecord record = record_of(result);
   EXPECT_TRUE(record.massaged);
   EXPECT_EQ(record.surface_error, verdict.change->max);
   EXPECT_EQ(record.surface_error_mean, verdict.change->mean);

@@ -21,7 +21,7 @@ namespace anicodec {
 namespace {
 
 Target max_error(double percent) {
-  return {format::ErrorMetric::kMaxError, percent, true};
+  return {ErrorMetric::kMaxError, percent, true};
 }
 
 EncodeOptions asking(const Target& target, BasisChoice basis) {
@@ -46,7 +46,7 @@ std::vector<std::vector<uint32_t>> cycles(const Numbers& offsets, const Numbers&
   return all;
 }
 
-MeshSequence decoded(const format::Bytes& file, const MeshSequence& like) {
+MeshSequence decoded(const Bytes& file, const MeshSequence& like) {
   Clip clip;
   Failure failure = clip.open(file);
   EXPECT_TRUE(failure.ok()) << status_string(failure.status) << ": " << failure.detail;
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Encode, IsAFunctionOfItsInput) {
   MeshSequence source = corpus::make_clip(corpus::clip_names()[0]);
   for (BasisChoice basis : {BasisChoice::kKeyframes, BasisChoice::kEigenshapes}) {
-    format::Bytes first = encode(source, asking(max_error(0.1), basis)).file;
+    Bytes first = encode(source, asking(max_error(0.1), basis)).file;
     tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(encode(source, asking(max_error(0.1), basis)).file, first);
   }
@@ -117,15 +117,14 @@ TEST(Encode, IsAFunctionOfItsInput) {
 
 TEST(Encode, FreeOrderLeavesOutTheVertexMapAndNothingElse) {
   for (const char* clip : {"limb", "nonmanifold"}) {
-    EncodeOptions options = asking({format::ErrorMetric::kKg, 0.5, false}, BasisChoice::kAuto);
+    EncodeOptions options = asking({ErrorMetric::kKg, 0.5, false}, BasisChoice::kAuto);
     options.effort = 1;
     EditedFile ordered(encode(corpus::make_clip(clip), options).file);
-    options.order = format::OrderMode::kFree;
+    options.order = OrderMode::kFree;
     EditedFile free(encode(corpus::make_clip(clip), options).file);
-    ASSERT_EQ(ordered.part("VMAP").chunk.type, format::chunk_type("VMAP"));
-    std::erase_if(ordered.parts,
-                  [](const auto& p) { return p.chunk.type == format::chunk_type("VMAP"); });
-    ordered.change_clip([](format::ClipRecord& r) { r.order = format::OrderMode::kFree; });
+    ASSERT_EQ(ordered.part("VMAP").chunk.type, chunk_type("VMAP"));
+    std::erase_if(ordered.parts, [](const auto& p) { return p.chunk.type == chunk_type("VMAP"); });
+    ordered.change_clip([](ClipRecord& r) { r.order = OrderMode::kFree; });
     EXPECT_EQ(ordered.bytes(), free.bytes()) << clip;
   }
 }
@@ -156,7 +155,7 @@ TEST(Encode, RefusesWhatCannotBe) {
   EXPECT_THAT(fault(asking(max_error(-1), BasisChoice::kKeyframes)), testing::HasSubstr("greater"));
   EXPECT_THAT(fault(asking(max_error(1e-9), BasisChoice::kKeyframes)),
               testing::HasSubstr("smallest possible"));
-  EncodeOptions few = asking({format::ErrorMetric::kKg, 0.001, false}, BasisChoice::kKeyframes);
+  EncodeOptions few = asking({ErrorMetric::kKg, 0.001, false}, BasisChoice::kKeyframes);
   few.keyframes = 2;
   EXPECT_THAT(fault(few), testing::HasSubstr("the best is"));
 }
@@ -166,13 +165,13 @@ TEST(Encode, SizeTargetIsKept) {
   EncodeResult all = encode(source, asking(max_error(0.05), BasisChoice::kKeyframes));
   double budget = 0.7 * static_cast<double>(all.file.size());
   EncodeResult small =
-      encode(source, asking({format::ErrorMetric::kSize, budget, false}, BasisChoice::kKeyframes));
+      encode(source, asking({ErrorMetric::kSize, budget, false}, BasisChoice::kKeyframes));
   EXPECT_LE(static_cast<double>(small.file.size()), budget);
   EXPECT_GT(small.rmse, all.rmse);
 }
 
 /// An exactly sized copy on the heap, so that a sanitizer sees a read past its end.
-Status open_status(const format::Bytes& bytes) {
+Status open_status(const Bytes& bytes) {
   std::unique_ptr<uint8_t[]> copy(new uint8_t[bytes.size()]);
   std::copy(bytes.begin(), bytes.end(), copy.get());
   Clip clip;
@@ -195,20 +194,18 @@ Status open_status(const format::Bytes& bytes) {
 class HostileFile : public testing::TestWithParam<BasisChoice> {};
 
 TEST_P(HostileFile, EveryTruncationIsRefused) {
-  format::Bytes file =
-      encode(corpus::make_clip("nonmanifold"), asking(max_error(1), GetParam())).file;
+  Bytes file = encode(corpus::make_clip("nonmanifold"), asking(max_error(1), GetParam())).file;
   ASSERT_EQ(open_status(file), Status::kOk);
   for (size_t n = 0; n < file.size(); ++n)
     EXPECT_NE(open_status({file.begin(), file.begin() + static_cast<ptrdiff_t>(n)}), Status::kOk);
 }
 
 TEST_P(HostileFile, TruncatedAndChangedPayloadsDoNoHarm) {
-  format::Bytes file =
-      encode(corpus::make_clip("nonmanifold"), asking(max_error(1), GetParam())).file;
+  Bytes file = encode(corpus::make_clip("nonmanifold"), asking(max_error(1), GetParam())).file;
   const EditedFile whole(file);
   std::mt19937 random(5);
   for (size_t i = 0; i < whole.parts.size(); ++i) {
-    const format::Bytes& payload = whole.parts[i].payload;
+    const Bytes& payload = whole.parts[i].payload;
     EditedFile edited = whole;
     // A cut stream may be another valid one: only checksums and hashes tell.
     for (size_t n = 0; n < payload.size(); n += 1 + payload.size() / 50) {

@@ -37,14 +37,14 @@ void open(const EncodeResult& result, Clip& clip) {
 TEST(MsgiEncode, PlaysWhatTheEncoderMeasured) {
   for (const char* name : {"helix", "limb", "soup", "nonmanifold", "leftovers", "polygons"}) {
     const MeshSequence source = corpus::make_clip(name);
-    for (format::CoderId coder : {format::CoderId::kDraco, format::CoderId::kPlain}) {
+    for (CoderId coder : {CoderId::kDraco, CoderId::kPlain}) {
       EncodeOptions options = keyframe_options(4, InterpolationChoice::kMsgi);
       options.mesh_coder = coder;
       const EncodeResult result = encode(source, options);
       Clip clip;
       open(result, clip);
       ASSERT_EQ(clip.segments().size(), 1U);
-      EXPECT_EQ(clip.segments()[0].reconstruction, format::Reconstruction::kMsgi);
+      EXPECT_EQ(clip.segments()[0].reconstruction, Reconstruction::kMsgi);
       EXPECT_TRUE(clip.check_hashes().ok());
       MeshSequence played = source;
       for (uint32_t f = 0; f < source.frame_count; ++f)
@@ -76,13 +76,13 @@ TEST(MsgiEncode, ReachesAnErrorAndKeepsABound) {
   EncodeOptions options;
   options.basis = BasisChoice::kKeyframes;
   options.interpolation = InterpolationChoice::kMsgi;
-  options.target = {format::ErrorMetric::kKg, 0.5, false};
+  options.target = {ErrorMetric::kKg, 0.5, false};
   const EncodeResult msgi = encode(helix, options);
   EXPECT_LE(msgi.kg, 0.5);
   options.interpolation = InterpolationChoice::kLinear;
   EXPECT_LT(msgi.file.size(), encode(helix, options).file.size());
   options.interpolation = InterpolationChoice::kAuto;
-  options.target = {format::ErrorMetric::kMaxError, 0.5, true};
+  options.target = {ErrorMetric::kMaxError, 0.5, true};
   const EncodeResult bounded = encode(helix, options);
   EXPECT_LE(bounded.max_error, 0.005 * bounded.diagonal);
 }
@@ -143,7 +143,7 @@ TEST(MsgiEncode, KnowsItsMemory) {
 
 TEST(MsgiEncode, NeedsKeyframes) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kKg, 1, false};
+  options.target = {ErrorMetric::kKg, 1, false};
   options.interpolation = InterpolationChoice::kMsgi;
   EXPECT_THROW(encode(corpus::make_clip("limb"), options), Error);
 }

@@ -17,7 +17,7 @@ TEST(PoseCodingOfCorpus, EveryClipsFirstFrameComesBack) {
   for (const std::string& name : corpus::clip_names()) {
     SCOPED_TRACE(name);
     MeshSequence s = corpus::make_clip(name);
-    MeshLayout layout = lay_out_mesh(s, format::CoderId::kDraco);
+    MeshLayout layout = lay_out_mesh(s, CoderId::kDraco);
     float largest = 0;
     for (size_t i = 0; i < size_t{3} * s.vertex_count; ++i)
       largest = std::max(largest, std::fabs(s.positions[i]));
@@ -27,7 +27,7 @@ TEST(PoseCodingOfCorpus, EveryClipsFirstFrameComesBack) {
         pose.push_back(static_cast<int32_t>(
             std::lround(8191 * s.positions[size_t{3} * v + i] / (largest > 0 ? largest : 1))));
     }
-    format::Bytes bytes = encode_pose(layout.topology, pose);
+    Bytes bytes = encode_pose(layout.topology, pose);
     Vector<int32_t> decoded;
     ASSERT_EQ(decode_pose(bytes, layout.topology, &decoded), Status::kOk);
     EXPECT_EQ(decoded, pose);

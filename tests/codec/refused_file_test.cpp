@@ -18,14 +18,10 @@
 namespace anicodec {
 namespace {
 
-using format::BasisKind;
-using format::Limits;
-
-format::Bytes encoded(const char* clip, BasisChoice basis,
-                      format::OrderMode order = format::OrderMode::kVertices,
-                      format::CoderId coder = format::CoderId::kDraco) {
+Bytes encoded(const char* clip, BasisChoice basis, OrderMode order = OrderMode::kVertices,
+              CoderId coder = CoderId::kDraco) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kMaxError, 1, true};
+  options.target = {ErrorMetric::kMaxError, 1, true};
   options.basis = basis;
   options.effort = 1;
   options.order = order;
@@ -34,14 +30,14 @@ format::Bytes encoded(const char* clip, BasisChoice basis,
 }
 
 Status status_of(const EditedFile& file, uint64_t resident_bytes = uint64_t{1} << 30) {
-  format::Bytes bytes = file.bytes();
+  Bytes bytes = file.bytes();
   Clip clip;
   OpenOptions options;
   options.limits.resident_bytes = resident_bytes;
   return clip.open(bytes, options).status;
 }
 
-uint32_t components(const format::Bytes& bytes) {
+uint32_t components(const Bytes& bytes) {
   EditedFile file(bytes);
   Limits limits;
   Limits::read(file.part("LIMI").payload, &limits);
@@ -50,13 +46,13 @@ uint32_t components(const format::Bytes& bytes) {
 
 class RefusedFile : public testing::Test {
  protected:
-  const format::Bytes keyframes_ = encoded("nonmanifold", BasisChoice::kKeyframes);
-  const format::Bytes shapes_ = encoded("nonmanifold", BasisChoice::kEigenshapes);
-  format::Bytes changed_;  // what a record refers to
+  const Bytes keyframes_ = encoded("nonmanifold", BasisChoice::kKeyframes);
+  const Bytes shapes_ = encoded("nonmanifold", BasisChoice::kEigenshapes);
+  Bytes changed_;  // what a record refers to
 };
 
 TEST_F(RefusedFile, UnchangedOpens) {
-  for (const format::Bytes& bytes : {keyframes_, shapes_}) {
+  for (const Bytes& bytes : {keyframes_, shapes_}) {
     EXPECT_EQ(EditedFile(bytes).bytes(), bytes);
     EXPECT_EQ(status_of(EditedFile(bytes)), Status::kOk);
   }
@@ -73,8 +69,8 @@ TEST_F(RefusedFile, NeedsNoMoreMemoryThanAllowed) {
   ASSERT_TRUE(clip.open(shapes_).ok());
   EXPECT_LE(clip.resident_bytes(), estimate.resident);
   // Sums that do not fit 64 bits do not wrap.
-  limits.meshes[0].source_vertices = limits.meshes[0].coded_vertices = format::kMaxVertices;
-  limits.segments[0].components = format::kMaxComponents;
+  limits.meshes[0].source_vertices = limits.meshes[0].coded_vertices = kMaxVertices;
+  limits.segments[0].components = kMaxComponents;
   limits.segments.resize(1 << 16, limits.segments[0]);
   EXPECT_EQ(estimate_memory(limits).opening, UINT64_MAX);
 }
@@ -87,24 +83,22 @@ TEST_F(RefusedFile, SegmentsOverlap) {
 
 TEST_F(RefusedFile, MoreTrianglesThanCornersCanBeNumbered) {
   EditedFile file(keyframes_);
-  file.change_limits(
-      [](Limits& limits) { limits.meshes[0].triangles = format::kMaxTriangles + 1; });
+  file.change_limits([](Limits& limits) { limits.meshes[0].triangles = kMaxTriangles + 1; });
   EXPECT_EQ(status_of(file), Status::kRecord);
 }
 
 TEST_F(RefusedFile, UnknownReconstruction) {
   EditedFile file(keyframes_);
-  file.change_record<format::SegmentRecord>("SEGM", [](format::SegmentRecord& record) {
-    record.reconstruction = static_cast<format::Reconstruction>(2);
+  file.change_record<SegmentRecord>("SEGM", [](SegmentRecord& record) {
+    record.reconstruction = static_cast<Reconstruction>(2);
   });
   EXPECT_EQ(status_of(file), Status::kFeature);
 }
 
 TEST_F(RefusedFile, ReconstructionThatTheLimitsDoNotTell) {
   EditedFile file(keyframes_);
-  file.change_record<format::SegmentRecord>("SEGM", [](format::SegmentRecord& record) {
-    record.reconstruction = format::Reconstruction::kMsgi;
-  });
+  file.change_record<SegmentRecord>(
+      "SEGM", [](SegmentRecord& record) { record.reconstruction = Reconstruction::kMsgi; });
   EXPECT_EQ(status_of(file), Status::kSegment);
 }
 
@@ -112,7 +106,7 @@ TEST_F(RefusedFile, MoreMemoryThanTheLimitsTell) {
   EncodeOptions options;
   options.keyframes = 3;
   options.interpolation = InterpolationChoice::kMsgi;
-  const format::Bytes bytes = encode(corpus::make_clip("nonmanifold"), options).file;
+  const Bytes bytes = encode(corpus::make_clip("nonmanifold"), options).file;
   for (uint64_t Limits::Segment::*size :
        {&Limits::Segment::msgi_bytes, &Limits::Segment::msgi_frame_bytes}) {
     EditedFile file(bytes);
@@ -123,37 +117,35 @@ TEST_F(RefusedFile, MoreMemoryThanTheLimitsTell) {
 }
 
 TEST_F(RefusedFile, DracoBytesWithoutDraco) {
-  EditedFile file(encoded("nonmanifold", BasisChoice::kKeyframes, format::OrderMode::kVertices,
-                          format::CoderId::kPlain));
+  EditedFile file(
+      encoded("nonmanifold", BasisChoice::kKeyframes, OrderMode::kVertices, CoderId::kPlain));
   ASSERT_EQ(status_of(file), Status::kOk);
   file.change_limits([](Limits& limits) { limits.meshes[0].draco_bytes = 1; });
   EXPECT_EQ(status_of(file), Status::kRecord);
 }
 
 TEST_F(RefusedFile, StrayChunks) {
-  auto with = [](const format::Bytes& bytes, const char(&like)[5], auto change) {
+  auto with = [](const Bytes& bytes, const char(&like)[5], auto change) {
     EditedFile file(bytes);
     EditedFile::Part part = file.part(like);
     change(part);
     file.parts.push_back(part);
     return status_of(file);
   };
-  for (const format::Bytes& bytes : {keyframes_, shapes_}) {
+  for (const Bytes& bytes : {keyframes_, shapes_}) {
     auto of_another_mesh = [](auto& part) { part.chunk.mesh = 1; };
     EXPECT_EQ(with(bytes, "MESH", of_another_mesh), Status::kIndexRange);
     EXPECT_EQ(with(bytes, "VMAP", of_another_mesh), Status::kIndexRange);
     EXPECT_EQ(with(bytes, "SEGM", of_another_mesh), Status::kIndexRange);
     EXPECT_EQ(with(bytes, "SEGM", [](auto& part) { part.chunk.segment = 1; }), Status::kIndexRange);
     EXPECT_EQ(with(bytes, "CLIP", [](auto& part) { part.chunk.mesh = 0; }), Status::kIndexRange);
-    EXPECT_EQ(with(bytes, "SEGM", [](auto& part) { part.chunk.type = format::chunk_type("FMAP"); }),
+    EXPECT_EQ(with(bytes, "SEGM", [](auto& part) { part.chunk.type = chunk_type("FMAP"); }),
               Status::kIndexRange);
   }
-  EXPECT_EQ(
-      with(keyframes_, "SEGM", [](auto& part) { part.chunk.type = format::chunk_type("BASI"); }),
-      Status::kIndexRange);
-  EXPECT_EQ(
-      with(keyframes_, "SEGM", [](auto& part) { part.chunk.type = format::chunk_type("POSE"); }),
-      Status::kIndexRange);
+  EXPECT_EQ(with(keyframes_, "SEGM", [](auto& part) { part.chunk.type = chunk_type("BASI"); }),
+            Status::kIndexRange);
+  EXPECT_EQ(with(keyframes_, "SEGM", [](auto& part) { part.chunk.type = chunk_type("POSE"); }),
+            Status::kIndexRange);
   EXPECT_EQ(with(shapes_, "BASI", [](auto& part) { part.chunk.mesh = 1; }), Status::kIndexRange);
   EditedFile optional(shapes_);
   optional.part("VMAP").chunk.required = false;
@@ -162,32 +154,30 @@ TEST_F(RefusedFile, StrayChunks) {
 }
 
 TEST_F(RefusedFile, DracoBitstreamThatAnnouncesTooMuch) {
-  const format::Bytes stream = [&] {
+  const Bytes stream = [&] {
     EditedFile file(keyframes_);
-    format::MeshRecord record;
-    format::MeshRecord::read(file.part("MESH").payload, &record);
-    return format::Bytes(record.connectivity.data,
-                         record.connectivity.data + record.connectivity.size);
+    MeshRecord record;
+    MeshRecord::read(file.part("MESH").payload, &record);
+    return Bytes(record.connectivity.data, record.connectivity.data + record.connectivity.size);
   }();
   // Version, geometry, method, flags, traversal, and the counts up to the split symbols.
   for (size_t at : {0, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}) {
-    format::Bytes changed = stream;
+    Bytes changed = stream;
     changed[at] ^= 0x7F;
     EditedFile file(keyframes_);
-    file.change_record<format::MeshRecord>(
-        "MESH", [&](format::MeshRecord& record) { record.connectivity = changed; });
+    file.change_record<MeshRecord>("MESH",
+                                   [&](MeshRecord& record) { record.connectivity = changed; });
     EXPECT_EQ(status_of(file), Status::kDraco) << at;
   }
 }
 
 TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
   EditedFile file(shapes_);
-  for (const format::Bytes& frame :
-       {format::Bytes{0x50, 0x2A, 0x4D, 0x18, 0, 0, 0, 0},           // skippable, empty
-        format::Bytes{0x28, 0xB5, 0x2F, 0xFD, 0x00, 0x58, 1, 0, 0},  // states no size
-        format::Bytes{}}) {
-    file.change_record<format::PoseRecord>("POSE", [&](format::PoseRecord& record) {
-      record.coder = format::CoderId::kPlain;
+  for (const Bytes& frame : {Bytes{0x50, 0x2A, 0x4D, 0x18, 0, 0, 0, 0},  // skippable, empty
+                             Bytes{0x28, 0xB5, 0x2F, 0xFD, 0x00, 0x58, 1, 0, 0},  // states no size
+                             Bytes{}}) {
+    file.change_record<PoseRecord>("POSE", [&](PoseRecord& record) {
+      record.coder = CoderId::kPlain;
       record.stream = frame;
     });
     EXPECT_EQ(status_of(file), Status::kZstd);
@@ -197,12 +187,11 @@ TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
 TEST_F(RefusedFile, NumbersTooLargeToPlay) {
   for (double huge : {1e20, 1e300}) {
     EditedFile file(shapes_);
-    file.change_record<format::PoseRecord>(
-        "POSE", [&](format::PoseRecord& record) { record.origin[1] = -huge; });
+    file.change_record<PoseRecord>("POSE", [&](PoseRecord& record) { record.origin[1] = -huge; });
     EXPECT_EQ(status_of(file), Status::kNonFinite);
   }
   EditedFile file(keyframes_);
-  file.change_record<format::SegmentRecord>("SEGM", [&](format::SegmentRecord& record) {
+  file.change_record<SegmentRecord>("SEGM", [&](SegmentRecord& record) {
     KeyframeParameters parameters;
     ASSERT_EQ(parameters.read(record.parameters, components(keyframes_), 1 << 20), Status::kOk);
     parameters.step = 1e300;
@@ -213,14 +202,14 @@ TEST_F(RefusedFile, NumbersTooLargeToPlay) {
 }
 
 TEST_F(RefusedFile, HashCoversCorrections) {
-  const format::Bytes bytes = encoded("soup", BasisChoice::kKeyframes);
+  const Bytes bytes = encoded("soup", BasisChoice::kKeyframes);
   EditedFile file(bytes);
   Limits limits;
   Limits::read(file.part("LIMI").payload, &limits);
   ASSERT_GT(limits.segments[0].corrections, 0U);
   file.change_limits([](Limits& l) { l.segments[0].corrections = 0; });
   file.parts.erase(file.parts.begin() + (&file.part("CORR") - file.parts.data()));
-  const format::Bytes without = file.bytes();
+  const Bytes without = file.bytes();
   Clip clip;
   ASSERT_TRUE(clip.open(bytes).ok());
   EXPECT_TRUE(clip.check_hashes().ok());
@@ -229,10 +218,10 @@ TEST_F(RefusedFile, HashCoversCorrections) {
 }
 
 TEST_F(RefusedFile, MapThatRunsOut) {
-  EditedFile file(encoded("large", BasisChoice::kKeyframes, format::OrderMode::kAll));
+  EditedFile file(encoded("large", BasisChoice::kKeyframes, OrderMode::kAll));
   ASSERT_EQ(status_of(file), Status::kOk);
   for (size_t i = 0; i < file.parts.size(); ++i) {
-    if (file.parts[i].chunk.type == format::chunk_type("VMAP")) {
+    if (file.parts[i].chunk.type == chunk_type("VMAP")) {
       EditedFile cut = file;
       cut.parts[i].payload.resize(cut.parts[i].payload.size() - 1);
       Status status = status_of(cut);
@@ -258,9 +247,9 @@ TEST(LongPolygon, ComesBackJoinedOrApart) {
     for (uint32_t v = 0; v < corners; ++v)
       source.polygons.corners.push_back(v);
     EncodeOptions options;
-    options.target = {format::ErrorMetric::kMaxError, 1, true};
+    options.target = {ErrorMetric::kMaxError, 1, true};
     options.basis = BasisChoice::kKeyframes;
-    const format::Bytes bytes = encode(source, options).file;
+    const Bytes bytes = encode(source, options).file;
     Clip clip;
     ASSERT_TRUE(clip.open(bytes).ok());
     const Topology& t = clip.meshes()[0].topology;

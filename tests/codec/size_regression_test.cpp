@@ -50,7 +50,7 @@ TEST(SlowSizes, AreAsStated) {
     const MeshSequence sequence = corpus::make_clip(clip);
     for (const Preset& preset : kPresets) {
       EncodeOptions options;
-      options.target = {format::ErrorMetric::kKg, preset.kg, false};
+      options.target = {ErrorMetric::kKg, preset.kg, false};
       options.basis = preset.choice;
       options.effort = 1;
       options.encoder = "anicodec";

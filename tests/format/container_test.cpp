@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace anicodec::format {
+namespace anicodec {
 namespace {
 
 Bytes text(const char* s) {
@@ -124,4 +124,4 @@ TEST(ByteReader, RefusesWhatIsMissingOrNotShortest) {
 }
 
 }  // namespace
-}  // namespace anicodec::format
+}  // namespace anicodec

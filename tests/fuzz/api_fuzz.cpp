@@ -12,12 +12,12 @@ using namespace anicodec;
 namespace {
 
 /// Opens through a callback.
-anic_status open_reader(const format::Bytes& file, const anic_options& options, anic_asset** out,
+anic_status open_reader(const Bytes& file, const anic_options& options, anic_asset** out,
                         anic_failure* failure) {
   anic_reader reader = {};
-  reader.user = const_cast<format::Bytes*>(&file);
+  reader.user = const_cast<Bytes*>(&file);
   reader.read = [](void* user, uint64_t offset, void* to, size_t size) {
-    const auto& bytes = *static_cast<const format::Bytes*>(user);
+    const auto& bytes = *static_cast<const Bytes*>(user);
     require(size > 0 && offset <= bytes.size() && size <= bytes.size() - offset);
     std::copy_n(bytes.data() + offset, size, static_cast<uint8_t*>(to));
     return 0;
@@ -30,8 +30,7 @@ anic_status open_reader(const format::Bytes& file, const anic_options& options, 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Script script = script_of(data, size);
   const uint32_t mode = script.byte();
-  const format::Bytes file =
-      mode % 8 == 7 ? format::Bytes(data, data + size) : repaired({data, size});
+  const Bytes file = mode % 8 == 7 ? Bytes(data, data + size) : repaired({data, size});
   CappedMemory memory;
   anic_options options = memory.options();
   options.quality = mode % 4 == 2 ? 0.5 : 0;

@@ -14,8 +14,8 @@ using namespace anicodec;
 namespace {
 
 struct Part {
-  format::Chunk chunk;
-  format::Bytes payload;
+  Chunk chunk;
+  Bytes payload;
 };
 
 /// A file for each kind of chunk and coder.
@@ -26,12 +26,12 @@ const std::vector<std::vector<Part>>& files() {
          {"triangle", "nonmanifold_keyframes", "polygons_all", "quad_box_corrected", "soup_plain",
           "limb_small", "far_rigid", "uneven_times", "painted_box", "heated"}) {
       std::ifstream in(std::string(ANICODEC_CONFORMANCE) + "/" + name + ".anic", std::ios::binary);
-      const format::Bytes file(std::istreambuf_iterator<char>(in), {});
-      format::ContainerReader reader;
+      const Bytes file(std::istreambuf_iterator<char>(in), {});
+      ContainerReader reader;
       require(reader.open(file).ok());
       std::vector<Part>& parts = result.emplace_back();
-      for (const format::Chunk& chunk : reader.chunks()) {
-        format::ByteView view;
+      for (const Chunk& chunk : reader.chunks()) {
+        ByteView view;
         require(reader.payload(chunk, &view).ok());
         parts.push_back({chunk, {view.data, view.data + view.size}});
       }
@@ -47,16 +47,15 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2)
     return 0;
   const std::vector<Part>& parts = files()[data[0] % files().size()];
-  format::ContainerWriter writer;
+  ContainerWriter writer;
   for (size_t i = 0; i < parts.size(); ++i) {
-    const format::Chunk& chunk = parts[i].chunk;
-    const std::string type = format::chunk_name(chunk.type);
+    const Chunk& chunk = parts[i].chunk;
+    const std::string type = chunk_name(chunk.type);
     const char name[5] = {type[0], type[1], type[2], type[3], 0};
-    writer.add(
-        name, chunk.required, chunk.mesh, chunk.segment,
-        i == data[1] % parts.size() ? format::Bytes(data + 2, data + size) : parts[i].payload);
+    writer.add(name, chunk.required, chunk.mesh, chunk.segment,
+               i == data[1] % parts.size() ? Bytes(data + 2, data + size) : parts[i].payload);
   }
-  const format::Bytes file = writer.finish();
+  const Bytes file = writer.finish();
   CappedMemory memory;
   const anic_options options = memory.options();
   anic_asset* asset = nullptr;

@@ -23,7 +23,7 @@ void require(bool condition) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const format::Bytes file = repaired({data, size});
+  const Bytes file = repaired({data, size});
   OpenOptions options;
   options.limits.vertices = 20000;
   options.limits.resident_bytes = 64 << 20;

@@ -14,12 +14,12 @@ namespace anicodec {
 
 /// The same chunks with what the table says of them made right, so that what is inside them gets
 /// decoded; as it is if there is no table.
-inline format::Bytes repaired(format::ByteView file) {
-  format::ByteReader r(file);
+inline Bytes repaired(ByteView file) {
+  ByteReader r(file);
   r.raw(12);
   uint32_t count = r.u32();
-  r.raw(format::kHeaderBytes - 16);
-  if (!r.ok() || count > r.remaining() / format::kEntryBytes)
+  r.raw(kHeaderBytes - 16);
+  if (!r.ok() || count > r.remaining() / kEntryBytes)
     return {file.data, file.data + file.size};
 
   struct Entry {
@@ -32,7 +32,7 @@ inline format::Bytes repaired(format::ByteView file) {
   std::vector<Entry> entries;
   for (uint32_t i = 0; i < count; ++i) {
     Entry e;
-    e.type = format::chunk_name(r.u32());
+    e.type = chunk_name(r.u32());
     e.flags = r.u16();
     e.mesh = r.u16();
     e.segment = r.u32();
@@ -41,7 +41,7 @@ inline format::Bytes repaired(format::ByteView file) {
     e.size = r.u64();
     entries.push_back(e);
   }
-  format::ContainerWriter writer;
+  ContainerWriter writer;
   size_t at = r.position();
   for (const Entry& e : entries) {
     at = std::min((at + 7) / 8 * 8, file.size);

@@ -8,8 +8,7 @@ using namespace anicodec;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Script script = script_of(data, size);
-  const format::Bytes file =
-      script.byte() % 8 == 7 ? format::Bytes(data, data + size) : repaired({data, size});
+  const Bytes file = script.byte() % 8 == 7 ? Bytes(data, data + size) : repaired({data, size});
   CappedMemory memory, whole_memory;
   const anic_options options = memory.options(), whole_options = whole_memory.options();
   anic_asset* whole = nullptr;

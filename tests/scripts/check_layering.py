@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 """Checks that every module includes only what it may (tools -> codec -> sdk -> format), that rooms,
-the folders of a module, use one another in one direction only, and that each room is described and small.
+the folders of a module, use one another in one direction only, that each room is described and small, and that
+no two units share a name.
 
 usage: check_layering.py CHECKOUT      one line for every fault; exit status 1 if there is any
 """
@@ -15,6 +16,7 @@ SIMD = ["<immintrin.h>", "<xmmintrin.h>", "<emmintrin.h>", "<arm_neon.h>", "<was
 STREAMS = {"<iostream>", "<fstream>", "<sstream>", "<filesystem>", "<istream>", "<ostream>", "<streambuf>"}
 POSIX = ["<fcntl.h>", "<glob.h>", "<spawn.h>", "<sys/stat.h>", "<sys/wait.h>", "<unistd.h>"]
 
+MODULES = ("format", "sdk", "codec", "corpus", "tools")
 # Prefixes of what a module may include beside the standard library.
 ALLOWED = {
     "format": ['"format/', "<zstd.h>", "<xxhash.h>", *SIMD],
@@ -123,7 +125,7 @@ def module_of(name):
 
 def include_faults(checkout):
     found_any = False
-    for module in ("format", "sdk", "codec", "corpus", "tools"):
+    for module in MODULES:
         for path in sources(checkout / module):
             found_any = True
             name = path.relative_to(checkout).as_posix()
@@ -168,9 +170,23 @@ def room_faults(checkout):
             yield f"{folder} has {len(names)} units, more than {MAX_UNITS}"
 
 
+def name_faults(checkout):
+    """Base names that stand in two folders: whoever reads an include or an object's name would not know which."""
+    folders = {}
+    for module in MODULES:
+        for path in sources(checkout / module):
+            folder, _, base = path.relative_to(checkout).as_posix().rpartition("/")
+            if folder not in NOT_ROOMS and not folder.startswith("sdk/draco_headers"):
+                folders.setdefault(base.partition(".")[0], set()).add(folder)
+    for base, where in sorted(folders.items()):
+        if len(where) > 1:
+            yield f"{base} is the name of a unit in {' and in '.join(sorted(where))}"
+
+
 def faults(checkout):
     yield from include_faults(checkout)
     yield from room_faults(checkout)
+    yield from name_faults(checkout)
 
 
 def main():

@@ -93,7 +93,7 @@ inline uint64_t reconstruction_hash(const PredictionCase& c) {
   parameters.radius = c.radius;
   parameters.schedule = c.schedule;
   std::vector<float> y(coefficient_buffer_size(n, samples));
-  Reconstruction reconstruction;
+  CoefficientReconstruction reconstruction;
   if (reconstruction.init(order, clip.positions.data(), parameters,
                           {c.components, 0, nullptr, clip.q.data(), clip.omega.data()},
                           y.data()) != Status::kOk)

@@ -58,6 +58,18 @@ TEST(Layering, FindsArrowsBetweenRoomsThatPointBack) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("algebra")));
 }
 
+TEST(Layering, FindsUnitsOfOneName) {
+  TemporaryFolder folder;
+  folder.write("sdk/play/memory.h", "");
+  folder.write("sdk/play/memory.cpp", "");
+  folder.write("format/memory.h", "");
+  folder.write("format/bytes.h", "");
+  Outcome outcome = check_layering(folder / "");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("memory is the name of a unit in format and in sdk/play"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("bytes is the name")));
+}
+
 TEST(Documents, PointToWhatExists) {
   Outcome outcome = run_program(
       {"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_links.py", ANICODEC_SOURCE_DIR});

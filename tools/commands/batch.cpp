@@ -45,14 +45,14 @@ class ContentHash {
   }
 
   uint64_t digest() const {
-    return format::xxh64(
+    return xxh64(
         {reinterpret_cast<const uint8_t*>(parts_.data()), parts_.size() * sizeof(uint64_t)});
   }
 
  private:
   void add(const void* data, size_t size) {
     parts_.push_back(size);
-    parts_.push_back(format::xxh64({static_cast<const uint8_t*>(data), size}));
+    parts_.push_back(xxh64({static_cast<const uint8_t*>(data), size}));
   }
 
   std::vector<uint64_t> parts_;
@@ -136,7 +136,7 @@ struct Taken {
 };
 
 uint64_t hash_of(std::string_view bytes) {
-  return format::xxh64({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+  return xxh64({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
 }
 
 std::string hashes(uint64_t content, uint64_t output) {

@@ -7,7 +7,7 @@
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/load_sequence.h"
 #include "tools/report/report.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
 #include <algorithm>

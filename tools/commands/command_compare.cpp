@@ -10,7 +10,7 @@
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/words/names.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
 #include <array>

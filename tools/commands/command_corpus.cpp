@@ -4,7 +4,7 @@
 #include "corpus/clips.h"
 #include "tools/commands/command.h"
 #include "tools/io/write_sequence.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 
 #include <memory>
 #include <string>

@@ -6,7 +6,7 @@
 #include "tools/inputs/clip_input.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/write_sequence.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
 #include <memory>
@@ -61,14 +61,14 @@ bool is_written_by_frame(const std::string& path) {
 }
 
 /// Frames that are written together, and the meshes that they show.
-struct Run {
+struct DecodeRun {
   FrameRange frames;
   std::vector<uint32_t> meshes;
 };
 
 /// Some frames of a clip, cut where what they show changes; those that show nothing are left out.
-std::vector<Run> runs_of(const Clip& clip, const FrameRange& range) {
-  std::vector<Run> runs;
+std::vector<DecodeRun> runs_of(const Clip& clip, const FrameRange& range) {
+  std::vector<DecodeRun> runs;
   for (uint32_t i = 0; i < range.size(); ++i) {
     const uint32_t f = range.first + i * range.step;
     std::vector<uint32_t> shown = meshes_of(clip);
@@ -77,7 +77,7 @@ std::vector<Run> runs_of(const Clip& clip, const FrameRange& range) {
       runs.push_back({{f, f + 1, range.step}, std::move(shown)});
     runs.back().frames.end = f + 1;
   }
-  std::erase_if(runs, [](const Run& run) { return run.meshes.empty(); });
+  std::erase_if(runs, [](const DecodeRun& run) { return run.meshes.empty(); });
   return runs;
 }
 
@@ -111,7 +111,7 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
                             command.output, command.input, clip.meshes().size()));
   std::vector<std::string> written;
   for (const auto& [own, meshes] :
-       by_frame ? runs_of(clip, range) : std::vector<Run>{{range, meshes_of(clip)}}) {
+       by_frame ? runs_of(clip, range) : std::vector<DecodeRun>{{range, meshes_of(clip)}}) {
     MeshSequence description = describe_clip(clip, meshes);
     if (own.size() < clip.frame_count())
       take_frames(own, description);

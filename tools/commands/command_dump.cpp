@@ -24,7 +24,7 @@ void run(const std::string& path) {
     fail_clip(path, {Status::kTruncated, 0, 0, "the file is empty"});
   for (const ListedField& field : list_fields(view_of(bytes)))
     fmt::print("{:08x} {:>9}  {:<28} {}\n", field.offset, field.size, field.name, field.value);
-  format::ContainerReader reader;
+  ContainerReader reader;
   if (Failure failure = reader.open(view_of(bytes)); !failure.ok())
     fail_clip(path, failure);
 }

@@ -11,7 +11,7 @@
 #include "tools/inputs/massage_transfer.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/load_sequence.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
 #include <algorithm>

@@ -39,26 +39,26 @@ struct InfoCommand {
 struct Contents {
   uint64_t bytes = 0;
   anic_requirements memory = {};  ///< as the SDK announces it
-  format::ContainerReader container;
+  ContainerReader container;
   Clip clip;
 };
 
-double percent(const format::ClipRecord& record) {
+double percent(const ClipRecord& record) {
   return record.max_error == 0 ? 0 : 100 * record.max_error / record.diagonal;
 }
 
 double positions(const Clip& clip) {
   double count = 0;
-  for (const format::Limits::Segment& s : clip.limits().segments) {
-    if (s.attribute == format::kPositions)
+  for (const Limits::Segment& s : clip.limits().segments) {
+    if (s.attribute == kPositions)
       count += static_cast<double>(clip.vertex_count(s.mesh)) * s.frames;
   }
   return count;
 }
 
 /// What a segment moves.
-std::string moved_by(const format::Limits::Segment& s) {
-  return s.attribute == format::kPositions
+std::string moved_by(const Limits::Segment& s) {
+  return s.attribute == kPositions
              ? std::string("positions")
              : fmt::format("attribute {} from component {}", s.attribute, s.first_component);
 }
@@ -71,10 +71,10 @@ bool moves(const Clip& clip, uint32_t mesh, uint32_t attribute) {
 /// Bytes of the segments of an attribute.
 uint64_t moving_bytes(const Contents& c, uint32_t mesh, uint32_t attribute) {
   uint64_t bytes = 0;
-  for (const format::Chunk& chunk : c.container.chunks()) {
-    if (chunk.segment == format::kNoSegment)
+  for (const Chunk& chunk : c.container.chunks()) {
+    if (chunk.segment == kNoSegment)
       continue;
-    const format::Limits::Segment& s = c.clip.limits().segments[chunk.segment];
+    const Limits::Segment& s = c.clip.limits().segments[chunk.segment];
     if (s.mesh == mesh && s.attribute == attribute)
       bytes += chunk.size;
   }
@@ -82,9 +82,8 @@ uint64_t moving_bytes(const Contents& c, uint32_t mesh, uint32_t attribute) {
 }
 
 /// What the encoder measured of an attribute that moves, if it did.
-const format::AttributeError* error_of(const format::ClipRecord& record, uint32_t mesh,
-                                       uint32_t attribute) {
-  for (const format::AttributeError& e : record.attribute_errors) {
+const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t attribute) {
+  for (const AttributeError& e : record.attribute_errors) {
     if (e.mesh == mesh && e.attribute == attribute)
       return &e;
   }
@@ -92,8 +91,8 @@ const format::AttributeError* error_of(const format::ClipRecord& record, uint32_
 }
 
 void print_json(const std::string& path, const Contents& c) {
-  const format::ClipRecord& record = c.clip.record();
-  const format::Limits& limits = c.clip.limits();
+  const ClipRecord& record = c.clip.record();
+  const Limits& limits = c.clip.limits();
   nlohmann::ordered_json json;
   json["file"] = path;
   json["bytes"] = c.bytes;
@@ -151,7 +150,7 @@ void print_json(const std::string& path, const Contents& c) {
                                       {"components", a.header.components()},
                                       {"labels", a.header.labels},
                                       {"moves", moves(c.clip, m, i)}};
-      if (const format::AttributeError* error = error_of(record, m, i)) {
+      if (const AttributeError* error = error_of(record, m, i)) {
         entry["bytes"] = moving_bytes(c, m, i);
         entry["max_error"] = error->max_error;
         entry["rmse"] = error->rmse;
@@ -160,7 +159,7 @@ void print_json(const std::string& path, const Contents& c) {
     }
   }
   json["segments"] = nlohmann::ordered_json::array();
-  for (const format::Limits::Segment& s : limits.segments)
+  for (const Limits::Segment& s : limits.segments)
     json["segments"].push_back({{"mesh", s.mesh},
                                 {"basis", name_of(s.kind)},
                                 {"of", moved_by(s)},
@@ -170,42 +169,39 @@ void print_json(const std::string& path, const Contents& c) {
                                 {"components", s.components},
                                 {"corrections", s.corrections}});
   json["chunks"] = nlohmann::ordered_json::array();
-  for (const format::Chunk& chunk : c.container.chunks()) {
-    nlohmann::ordered_json entry = {{"type", format::chunk_name(chunk.type)},
-                                    {"offset", chunk.offset},
-                                    {"size", chunk.size},
-                                    {"required", chunk.required},
-                                    {"mesh", nullptr},
-                                    {"segment", nullptr}};
-    if (chunk.mesh != format::kNoMesh)
+  for (const Chunk& chunk : c.container.chunks()) {
+    nlohmann::ordered_json entry = {
+        {"type", chunk_name(chunk.type)}, {"offset", chunk.offset}, {"size", chunk.size},
+        {"required", chunk.required},     {"mesh", nullptr},        {"segment", nullptr}};
+    if (chunk.mesh != kNoMesh)
       entry["mesh"] = chunk.mesh;
-    if (chunk.segment != format::kNoSegment)
+    if (chunk.segment != kNoSegment)
       entry["segment"] = chunk.segment;
     json["chunks"].push_back(entry);
   }
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-std::string asked_text(const format::ClipRecord& record) {
+std::string asked_text(const ClipRecord& record) {
   double value = record.asked_value;
   switch (record.asked) {
-    case format::ErrorMetric::kNone:
+    case ErrorMetric::kNone:
       return "a number of key-frames";
-    case format::ErrorMetric::kKg:
+    case ErrorMetric::kKg:
       return fmt::format("KG error of at most {:.4g} %", value);
-    case format::ErrorMetric::kMaxError:
+    case ErrorMetric::kMaxError:
       return fmt::format("max error of at most {:.4g}", value);
-    case format::ErrorMetric::kRmse:
+    case ErrorMetric::kRmse:
       return fmt::format("RMSE of at most {:.4g}", value);
-    case format::ErrorMetric::kSize:
+    case ErrorMetric::kSize:
       return fmt::format("at most {} bytes", grouped(static_cast<uint64_t>(value)));
-    case format::ErrorMetric::kBpfv:
+    case ErrorMetric::kBpfv:
       return fmt::format("at most {:.4g} bits per frame and vertex", value);
   }
   return "unknown";
 }
 
-std::string rate_text(const format::ClipRecord& record) {
+std::string rate_text(const ClipRecord& record) {
   double value = static_cast<double>(record.rate_numerator) / record.rate_denominator;
   return fmt::format("{:.6g} fps{}{}", value, record.rate_assumed ? " (assumed)" : "",
                      record.times.empty() ? "" : ", uneven times");
@@ -217,19 +213,19 @@ void print_chunks(const Contents& c) {
   };
   fmt::print("\n{:<6} {:>5} {:>8} {:>12} {:>12} {:>7}\n", "chunk", "mesh", "segment", "offset",
              "bytes", "share");
-  for (const format::Chunk& chunk : c.container.chunks()) {
-    fmt::print("{:<6} {:>5} {:>8} {:>12} {:>12} {:>5.1f} %\n", format::chunk_name(chunk.type),
-               number(chunk.mesh, format::kNoMesh), number(chunk.segment, format::kNoSegment),
-               chunk.offset, grouped(chunk.size),
+  for (const Chunk& chunk : c.container.chunks()) {
+    fmt::print("{:<6} {:>5} {:>8} {:>12} {:>12} {:>5.1f} %\n", chunk_name(chunk.type),
+               number(chunk.mesh, kNoMesh), number(chunk.segment, kNoSegment), chunk.offset,
+               grouped(chunk.size),
                100 * static_cast<double>(chunk.size) / static_cast<double>(c.bytes));
   }
 }
 
-std::string attribute_text(const format::AttributeHeader& a) {
+std::string attribute_text(const AttributeHeader& a) {
   std::string text = fmt::format("{} of {}", name_of(a.kind), name_of(a.domain));
   if (!a.name.empty())
     text += fmt::format(" \"{}\"", printable(a.name));
-  if (a.domain == format::AttributeDomain::kPolygon)
+  if (a.domain == AttributeDomain::kPolygon)
     return text + fmt::format(", {} names", a.labels.size());
   if (a.components() == 0)
     return text + ": hard edges";
@@ -243,7 +239,7 @@ void row(const char* name, const std::string& value) {
 
 /// The meshes, where there are several, and what they have beside positions.
 void print_meshes(const Contents& c) {
-  const format::Limits& limits = c.clip.limits();
+  const Limits& limits = c.clip.limits();
   for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
     const Mesh& mesh = c.clip.meshes()[m];
     if (limits.meshes.size() > 1) {
@@ -258,7 +254,7 @@ void print_meshes(const Contents& c) {
     }
     for (uint32_t i = 0; i < mesh.attributes.size(); ++i) {
       row("attribute", attribute_text(mesh.attributes[i].header));
-      if (const format::AttributeError* error = error_of(c.clip.record(), m, i))
+      if (const AttributeError* error = error_of(c.clip.record(), m, i))
         row("", fmt::format("{}, {} bytes, max error {:.4g}, RMSE {:.4g}",
                             moves(c.clip, m, i) ? "moves" : "as in frame 0",
                             grouped(moving_bytes(c, m, i)), error->max_error, error->rmse));
@@ -266,21 +262,20 @@ void print_meshes(const Contents& c) {
   }
 }
 
-void print_segments(const format::Limits& limits) {
-  for (const format::Limits::Segment& s : limits.segments)
+void print_segments(const Limits& limits) {
+  for (const Limits::Segment& s : limits.segments)
     row("segment",
         fmt::format("{}{}frames {}:{}, {} {}{}, {} corrections",
                     limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
-                    s.attribute == format::kPositions ? "" : moved_by(s) + ", ", s.first_frame,
+                    s.attribute == kPositions ? "" : moved_by(s) + ", ", s.first_frame,
                     s.first_frame + s.frames, s.components, components_of(s.kind),
-                    s.reconstruction == format::Reconstruction::kMsgi ? " by msgi" : "",
-                    s.corrections));
+                    s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "", s.corrections));
 }
 
 void print_text(const std::string& path, const Contents& c) {
-  const format::ClipRecord& record = c.clip.record();
-  const format::Limits& limits = c.clip.limits();
-  const format::Limits::Mesh& mesh = limits.meshes[0];
+  const ClipRecord& record = c.clip.record();
+  const Limits& limits = c.clip.limits();
+  const Limits::Mesh& mesh = limits.meshes[0];
   row("file", path);
   row("name", printable(record.name));
   row("format", fmt::format("{}.{}, written by {}", c.container.version_major(),

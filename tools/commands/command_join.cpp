@@ -40,7 +40,7 @@ void run(const JoinCommand& command, const CommonOptions& common) {
     files.push_back(read_bytes(path));
     parts.push_back({path, view_of(files.back())});
   }
-  const format::Bytes joined = join_clips(parts);
+  const Bytes joined = join_clips(parts);
   output.write({reinterpret_cast<const char*>(joined.data()), joined.size()});
   output.commit();
   if (!common.quiet)

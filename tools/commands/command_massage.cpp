@@ -9,7 +9,7 @@
 #include "tools/inputs/massage_transfer.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
 #include <algorithm>
@@ -118,9 +118,9 @@ void run_fit(const MassageCommand& command, const CommonOptions& common) {
   write_options.overwrite = common.overwrite;
   check_sequence_output(command.output, 1, write_options);
   line.show("fitting", 0);
-  MeshFit fit;
+  RemeshFit fit;
   try {
-    fit = fit_mesh(mesh, surface);
+    fit = fit_remesh(mesh, surface);
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("{} and {}: {}", command.fit, command.to, e.what()));
   }

@@ -5,7 +5,7 @@
 #include "sdk/clip/clip.h"
 #include "tools/commands/command.h"
 #include "tools/inputs/clip_input.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
 #include <cmath>
@@ -24,11 +24,11 @@ needed.)";
 
 /// Checksums of all chunks, those included that this version does not know. Returns their number.
 size_t check_chunks(const std::string& path, const std::string& bytes) {
-  format::ContainerReader reader;
+  ContainerReader reader;
   if (Failure failure = reader.open(view_of(bytes)); !failure.ok())
     fail_clip(path, failure);
-  for (const format::Chunk& chunk : reader.chunks()) {
-    format::ByteView payload;
+  for (const Chunk& chunk : reader.chunks()) {
+    ByteView payload;
     if (Failure failure = reader.payload(chunk, &payload); !failure.ok())
       fail_clip(path, failure);
   }

@@ -82,7 +82,7 @@ void fail_clip(const std::string& path, const Failure& failure) {
   if (failure.status != Status::kMagic)
     text += fmt::format("offset {:#x}", failure.offset);
   if (failure.chunk != 0)
-    text += ", chunk " + format::chunk_name(failure.chunk);
+    text += ", chunk " + chunk_name(failure.chunk);
   text += failure.status != Status::kMagic ? ": " : "";
   text += status_string(failure.status);
   if (*failure.detail)
@@ -143,7 +143,7 @@ MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes
   MeshSequence sequence = described.size() == 1 && described[0].mesh_name.empty()
                               ? std::move(described[0])
                               : merge_meshes(described);
-  const format::ClipRecord& record = clip.record();
+  const ClipRecord& record = clip.record();
   sequence.name.assign(record.name.begin(), record.name.end());
   sequence.frame_count = clip.frame_count();
   sequence.rate = {record.rate_numerator, record.rate_denominator, record.rate_assumed};
@@ -170,7 +170,7 @@ FrameSource play(const std::string& path, const Clip& clip, const std::vector<ui
   auto positions = std::make_shared<std::vector<float>>(count);
   return [path, &clip, parts, positions](uint32_t frame) -> std::span<const float> {
     for (const Part& part : parts) {
-      const uint32_t shown = shown_frame(part.there, frame);
+      const uint32_t shown = shown_frame(part.present_in, frame);
       const std::span<float> own(positions->data() + part.first, part.count);
       const Status status = clip.positions(part.mesh, shown, own.data());
       if (status != Status::kOk)

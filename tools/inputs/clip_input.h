@@ -30,7 +30,7 @@ ErrorKind error_kind(Status status);
 /// The bytes of a file, or of the standard input if the path is "-". Throws Error(kInput).
 std::string read_bytes(const std::string& path);
 
-inline format::ByteView view_of(const std::string& bytes) {
+inline ByteView view_of(const std::string& bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 

@@ -58,7 +58,7 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
 }
 
 bool ComparedClip::has_free_order() const {
-  return clip_ && clip_->record().order == format::OrderMode::kFree;
+  return clip_ && clip_->record().order == OrderMode::kFree;
 }
 
 FrameSource ComparedClip::frames() const {

@@ -33,8 +33,8 @@ struct EncodeArguments {
   uint32_t keyframes = 0;
   KeyframeMethod select = KeyframeMethod::kPivot;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;
-  format::OrderMode order = format::OrderMode::kVertices;
-  format::CoderId mesh_coder = format::CoderId::kDraco;
+  OrderMode order = OrderMode::kVertices;
+  CoderId mesh_coder = CoderId::kDraco;
   int effort = 5;
   Topology topology = Topology::kOne;
   Meshes meshes = Meshes::kOne;

@@ -391,7 +391,7 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
       static_cast<MeshDetails&>(run) = std::move(details);
       run.vertex_count = static_cast<uint32_t>(mesh->vertex_count());
       run.polygons = mesh->polygons;
-      runs.back().there = {{f, 0}};
+      runs.back().present_in = {{f, 0}};
     } else {
       add_frame(details.attributes, runs.back().sequence.frame_count,
                 runs.back().sequence.attributes);
@@ -399,7 +399,7 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
     MeshSequence& run = runs.back().sequence;
     run.positions.insert(run.positions.end(), mesh->positions.begin(), mesh->positions.end());
     ++run.frame_count;
-    ++runs.back().there[0].count;
+    ++runs.back().present_in[0].count;
     report(options.progress, f + 1, paths.size());
   }
   return scene;

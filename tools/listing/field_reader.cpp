@@ -91,7 +91,7 @@ void FieldReader::text(std::string_view name) {
 
 void FieldReader::hex(std::string_view name, uint64_t size) {
   uint64_t begin = reader_.position();
-  format::ByteView view = reader_.raw(size);
+  ByteView view = reader_.raw(size);
   std::string value;
   for (size_t i = 0; i < view.size && i < kShownBytes; ++i)
     value += fmt::format("{}{:02x}", i > 0 ? " " : "", view.data[i]);

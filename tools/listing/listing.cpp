@@ -13,10 +13,6 @@
 namespace anicodec::tools {
 namespace {
 
-using format::ByteView;
-using format::Chunk;
-using format::chunk_type;
-
 constexpr const char* kUnread = "(not understood)";
 
 void list_limits(FieldReader& r) {
@@ -33,7 +29,7 @@ void list_limits(FieldReader& r) {
     constexpr uint8_t kMsgi = 16, kAttribute = 32;
     const uint8_t code = r.u8(fmt::format("segment {} basis", i));
     const auto kind = static_cast<uint8_t>(code & ~kAttribute);
-    r.explain((kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<format::BasisKind>(kind))) +
+    r.explain((kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<BasisKind>(kind))) +
               std::string(code & kAttribute ? ", of an attribute" : ""));
     for (const char* name :
          {"first frame", "frames", "components", "wide components", "corrections"})
@@ -70,12 +66,12 @@ void list_clip(FieldReader& r, uint32_t frames) {
   if (!meaning.empty())
     r.explain(meaning);
   r.explain(up_name(r.u8("up axis")));
-  r.explain(name_of(static_cast<format::OrderMode>(r.u8("order"))));
+  r.explain(name_of(static_cast<OrderMode>(r.u8("order"))));
   r.f64("start time");
   r.f32("metres per unit");
   for (uint32_t f = 0; (flags & kTimes) && f < frames && r.ok(); ++f)
     r.f64(fmt::format("time of frame {}", f));
-  r.explain(name_of(static_cast<format::ErrorMetric>(r.u8("asked"))));
+  r.explain(name_of(static_cast<ErrorMetric>(r.u8("asked"))));
   for (const char* name : {"asked value", "max error", "RMSE", "KG", "diagonal"})
     r.f64(name);
   if (flags & kMassaged) {
@@ -93,21 +89,21 @@ void list_clip(FieldReader& r, uint32_t frames) {
 
 void list_mesh(FieldReader& r) {
   r.text("name");
-  r.explain(name_of(static_cast<format::CoderId>(r.u8("coder"))));
+  r.explain(name_of(static_cast<CoderId>(r.u8("coder"))));
   r.block("connectivity");
   r.block("details");
 }
 
 void list_pose(FieldReader& r) {
-  r.explain(name_of(static_cast<format::CoderId>(r.u8("coder"))));
+  r.explain(name_of(static_cast<CoderId>(r.u8("coder"))));
   for (const char* name : {"origin x", "origin y", "origin z", "step"})
     r.f64(name);
   r.bytes("coordinates", r.remaining());
 }
 
 void list_segment(FieldReader& r) {
-  r.explain(name_of(static_cast<format::BasisKind>(r.u8("basis"))));
-  r.explain(name_of(static_cast<format::Reconstruction>(r.u8("reconstruction"))));
+  r.explain(name_of(static_cast<BasisKind>(r.u8("basis"))));
+  r.explain(name_of(static_cast<Reconstruction>(r.u8("reconstruction"))));
   r.hex64("hash of the integers");
   for (const char* name : {"parameters", "pose", "motion", "weights"})
     r.block(name);
@@ -117,11 +113,11 @@ void list_attributes(FieldReader& r) {
   const uint64_t count = r.varint("attributes");
   for (uint64_t i = 0; i < count && r.ok(); ++i) {
     auto name = [i](std::string_view field) { return fmt::format("attribute {} {}", i, field); };
-    r.explain(name_of(static_cast<format::AttributeKind>(r.u8(name("kind")))));
-    const auto domain = static_cast<format::AttributeDomain>(r.u8(name("domain")));
+    r.explain(name_of(static_cast<AttributeKind>(r.u8(name("kind")))));
+    const auto domain = static_cast<AttributeDomain>(r.u8(name("domain")));
     r.explain(name_of(domain));
     r.text(name("name"));
-    const bool has_labels = domain == format::AttributeDomain::kPolygon;
+    const bool has_labels = domain == AttributeDomain::kPolygon;
     const uint64_t entries = r.varint(name(has_labels ? "labels" : "components"));
     for (uint64_t k = 0; k < entries && r.ok(); ++k) {
       if (has_labels) {
@@ -158,7 +154,7 @@ void list_payload(const Chunk& chunk, ByteView payload, uint32_t frames,
 /// Header and table; the chunks as the table has them.
 std::vector<Chunk> list_table(ByteView file, std::vector<ListedField>& out) {
   FieldReader r(file, 0, out);
-  r.hex("magic", sizeof format::kMagic);
+  r.hex("magic", sizeof kMagic);
   r.u16("major version");
   r.u16("minor version");
   uint32_t count = r.u32("chunks");
@@ -170,14 +166,14 @@ std::vector<Chunk> list_table(ByteView file, std::vector<ListedField>& out) {
   for (uint32_t i = 0; i < count && r.ok(); ++i) {
     Chunk chunk;
     chunk.type = r.hex32(fmt::format("chunk {} type", i));
-    r.explain(format::chunk_name(chunk.type));
+    r.explain(chunk_name(chunk.type));
     if (r.u16(fmt::format("chunk {} flags", i)) & 1)
       r.explain("required");
     chunk.mesh = r.u16(fmt::format("chunk {} mesh", i));
-    if (chunk.mesh == format::kNoMesh)
+    if (chunk.mesh == kNoMesh)
       r.explain("none");
     chunk.segment = r.u32(fmt::format("chunk {} segment", i));
-    if (chunk.segment == format::kNoSegment)
+    if (chunk.segment == kNoSegment)
       r.explain("none");
     chunk.checksum = r.hex32(fmt::format("chunk {} checksum", i));
     chunk.offset = r.u64(fmt::format("chunk {} offset", i));
@@ -192,7 +188,7 @@ uint32_t frame_count(ByteView file, const std::vector<Chunk>& chunks) {
   for (const Chunk& chunk : chunks) {
     if (chunk.type == chunk_type("LIMI") && chunk.offset <= file.size &&
         chunk.size <= file.size - chunk.offset) {
-      format::ByteReader r({file.data + chunk.offset, static_cast<size_t>(chunk.size)});
+      ByteReader r({file.data + chunk.offset, static_cast<size_t>(chunk.size)});
       return r.varint32();
     }
   }
@@ -218,7 +214,7 @@ std::vector<ListedField> list_fields(ByteView file) {
     size_t begin = out.size();
     list_payload(chunk, {file.data + chunk.offset, static_cast<size_t>(chunk.size)}, frames, out);
     for (size_t i = begin; i < out.size(); ++i)
-      out[i].name = format::chunk_name(chunk.type) + " " + out[i].name;
+      out[i].name = chunk_name(chunk.type) + " " + out[i].name;
     at = chunk.offset + chunk.size;
   }
   gap_to(file.size, kUnread);

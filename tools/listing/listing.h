@@ -25,7 +25,7 @@ struct ListedField {
 class FieldReader {
  public:
   /// `offset` is where the view stands in the file.
-  FieldReader(format::ByteView view, uint64_t offset, std::vector<ListedField>& out)
+  FieldReader(ByteView view, uint64_t offset, std::vector<ListedField>& out)
       : reader_(view), offset_(offset), out_(out) {}
 
   uint8_t u8(std::string_view name);
@@ -59,7 +59,7 @@ class FieldReader {
   Value listed(std::string_view name, uint64_t begin, Value x);
   void line(std::string_view name, uint64_t begin, std::string value);
 
-  format::ByteReader reader_;
+  ByteReader reader_;
   uint64_t offset_;
   std::vector<ListedField>& out_;
 };
@@ -67,7 +67,7 @@ class FieldReader {
 /// Every byte of an .anic file, in file order, without gaps: header, table, the fields of the
 /// records, the streams by their size. Reads as far as it can: whatever does not parse is listed as
 /// bytes.
-std::vector<ListedField> list_fields(format::ByteView file);
+std::vector<ListedField> list_fields(ByteView file);
 
 }  // namespace anicodec::tools
 

@@ -117,7 +117,7 @@ class ReportMaker {
   void add_encoding(const std::string& codec, BasisChoice basis, double kg) {
     begin("encoding");
     EncodeOptions options;
-    options.target = {format::ErrorMetric::kKg, kg, false};
+    options.target = {ErrorMetric::kKg, kg, false};
     options.basis = basis;
     options.effort = options_.effort;
     options.attributes.keep = false;  // the other codecs have positions and faces alone, too
@@ -145,7 +145,7 @@ class ReportMaker {
     }
   }
 
-  void add_shares(const format::Bytes& file) {
+  void add_shares(const Bytes& file) {
     static const std::map<std::string, std::string> kNames = {{"MESH", "connectivity and poses"},
                                                               {"POSE", "reference pose"},
                                                               {"SEGM", "time weights"},
@@ -153,13 +153,13 @@ class ReportMaker {
                                                               {"CORR", "corrections"},
                                                               {"VMAP", "vertex order"},
                                                               {"FMAP", "order of faces"}};
-    format::ContainerReader reader;
+    ContainerReader reader;
     if (!reader.open(file).ok())
       return;
     std::map<std::string, uint64_t> bytes;
     uint64_t known = 0;
-    for (const format::Chunk& chunk : reader.chunks()) {
-      const auto found = kNames.find(format::chunk_name(chunk.type));
+    for (const Chunk& chunk : reader.chunks()) {
+      const auto found = kNames.find(chunk_name(chunk.type));
       if (found == kNames.end())
         continue;
       bytes[found->second] += chunk.size;

@@ -27,9 +27,9 @@ std::vector<double> component_errors(const MeshSequence& sequence) {
 
 uint64_t size_at(const MeshSequence& sequence, double kg, int effort, const Progress& progress) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kKg, kg, false};
+  options.target = {ErrorMetric::kKg, kg, false};
   options.effort = effort;
-  options.order = format::OrderMode::kFree;
+  options.order = OrderMode::kFree;
   return encode(sequence, options, progress).file.size();
 }
 

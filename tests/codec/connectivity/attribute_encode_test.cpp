@@ -58,7 +58,7 @@ MeshSequence detailed(const std::string& name) {
   return clip;
 }
 
-MeshSequence decoded(const format::Bytes& file) {
+MeshSequence decoded(const Bytes& file) {
   Clip clip;
   EXPECT_EQ(clip.open(file).status, Status::kOk);
   MeshSequence out;
@@ -70,7 +70,7 @@ MeshSequence decoded(const format::Bytes& file) {
   return out;
 }
 
-EncodeOptions quick(format::OrderMode order) {
+EncodeOptions quick(OrderMode order) {
   EncodeOptions options;
   options.keyframes = 2;
   options.basis = BasisChoice::kKeyframes;
@@ -96,7 +96,7 @@ class Attributes : public testing::TestWithParam<const char*> {};
 
 TEST_P(Attributes, ComeBackInTheOrderOfTheSource) {
   const MeshSequence clip = detailed(GetParam());
-  const MeshSequence back = decoded(encode(clip, quick(format::OrderMode::kAll)).file);
+  const MeshSequence back = decoded(encode(clip, quick(OrderMode::kAll)).file);
   ASSERT_EQ(back.polygons.corners, clip.polygons.corners);
   EXPECT_EQ(back.materials, clip.materials);
   EXPECT_EQ(back.parts, clip.parts);
@@ -116,7 +116,7 @@ TEST_P(Attributes, ComeBackInTheOrderOfTheSource) {
 
 TEST_P(Attributes, KeepTheHardEdges) {
   const MeshSequence clip = detailed(GetParam());
-  const MeshSequence back = decoded(encode(clip, quick(format::OrderMode::kAll)).file);
+  const MeshSequence back = decoded(encode(clip, quick(OrderMode::kAll)).file);
   EXPECT_EQ(find(back, AttributeKind::kNormal), nullptr);
   ASSERT_EQ(back.shared_normals.size(), clip.polygons.corners.size());
   const std::vector<size_t> first = sets(back.shared_normals);
@@ -138,7 +138,7 @@ TEST_P(Attributes, KeepTheHardEdges) {
 TEST_P(Attributes, FollowThePolygonsInEveryOrder) {
   MeshSequence clip = detailed(GetParam());
   clip.attributes.resize(2);
-  for (format::OrderMode order : {format::OrderMode::kVertices, format::OrderMode::kFree}) {
+  for (OrderMode order : {OrderMode::kVertices, OrderMode::kFree}) {
     const MeshSequence back = decoded(encode(clip, quick(order)).file);
     const Attribute *uv = find(back, AttributeKind::kUv),
                     *colour = find(back, AttributeKind::kColour);
@@ -167,8 +167,8 @@ INSTANTIATE_TEST_SUITE_P(Clips, Attributes, testing::Values("limb", "quad_box", 
 
 TEST(AttributeEncode, LeavesFilesWithoutAttributesAsTheyWere) {
   MeshSequence clip = corpus::make_clip("quad_box");
-  const format::Bytes plain = encode(clip, quick(format::OrderMode::kVertices)).file;
-  EncodeOptions without = quick(format::OrderMode::kVertices);
+  const Bytes plain = encode(clip, quick(OrderMode::kVertices)).file;
+  EncodeOptions without = quick(OrderMode::kVertices);
   without.attributes.keep = false;
   EXPECT_EQ(encode(detailed("quad_box"), without).file, plain);
 }
@@ -179,7 +179,7 @@ TEST(AttributeEncode, KeepsTangentsWithNormalsOnly) {
   for (uint32_t v = 0; v < clip.vertex_count; ++v)
     tangents.values.insert(tangents.values.end(), {0.6F, 0, 0.8F, v % 2 == 0 ? 1.0F : -1.0F});
   clip.attributes = {tangents};
-  EncodeOptions options = quick(format::OrderMode::kAll);
+  EncodeOptions options = quick(OrderMode::kAll);
   EXPECT_TRUE(decoded(encode(clip, options).file).attributes.empty());
   options.attributes.normals = 0.05;
   const MeshSequence back = decoded(encode(clip, options).file);
@@ -190,7 +190,7 @@ TEST(AttributeEncode, KeepsTangentsWithNormalsOnly) {
 }
 
 TEST(AttributeEncode, StoresNormalsWhereAsked) {
-  EncodeOptions options = quick(format::OrderMode::kAll);
+  EncodeOptions options = quick(OrderMode::kAll);
   options.attributes.normals = 0.05;
   const MeshSequence clip = detailed("quad_box");
   const MeshSequence back = decoded(encode(clip, options).file);
@@ -212,9 +212,9 @@ TEST(AttributeEncode, KeepsDirectionsWithinTheAngle) {
   clip.attributes = {normals};
   size_t coarse = 0;
   for (double angle : {5.0, 0.5, 0.01}) {
-    EncodeOptions options = quick(format::OrderMode::kVertices);
+    EncodeOptions options = quick(OrderMode::kVertices);
     options.attributes.normals = angle;
-    const format::Bytes file = encode(clip, options).file;
+    const Bytes file = encode(clip, options).file;
     EXPECT_GT(file.size(), coarse);
     coarse = file.size();
     const MeshSequence back = decoded(file);
@@ -233,7 +233,7 @@ TEST(AttributeEncode, RefusesWhatDoesNotFit) {
   auto fails = [](auto change) {
     MeshSequence clip = detailed("quad_box");
     change(clip);
-    EXPECT_THROW(encode(clip, quick(format::OrderMode::kVertices)), Error);
+    EXPECT_THROW(encode(clip, quick(OrderMode::kVertices)), Error);
   };
   fails([](MeshSequence& c) { c.attributes[0].values.pop_back(); });
   fails([](MeshSequence& c) { c.attributes[0].values[3] = NAN; });
@@ -245,23 +245,23 @@ TEST(AttributeEncode, RefusesWhatDoesNotFit) {
 }
 
 TEST(AttributeDecode, SurvivesDamagedStreams) {
-  const format::Bytes file = encode(detailed("limb"), quick(format::OrderMode::kVertices)).file;
-  format::ContainerReader reader;
+  const Bytes file = encode(detailed("limb"), quick(OrderMode::kVertices)).file;
+  ContainerReader reader;
   ASSERT_EQ(reader.open(file).status, Status::kOk);
-  format::ByteView payload;
+  ByteView payload;
   ASSERT_EQ(reader.payload(*reader.find("ATTR", 0), &payload).status, Status::kOk);
   Clip clip;  // in the order of the file, which is all that decode_attributes() needs
   ASSERT_EQ(clip.open(file).status, Status::kOk);
   std::mt19937 random(1);
   int refused = 0;
   for (int i = 0; i < 400; ++i) {
-    format::Bytes bytes(payload.data, payload.data + payload.size);
+    Bytes bytes(payload.data, payload.data + payload.size);
     if (i % 2 == 0)
       bytes.resize(random() % bytes.size());
     else
       bytes[random() % bytes.size()] ^= static_cast<uint8_t>(1 + random() % 255);
-    format::AttributeRecord record;
-    Status status = format::AttributeRecord::read(bytes, &record);
+    AttributeRecord record;
+    Status status = AttributeRecord::read(bytes, &record);
     Vector<MeshAttribute> out;
     if (status == Status::kOk)
       status = decode_attributes(record, clip.limits().meshes[0], clip.meshes()[0].topology, &out);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/connectivity/mesh_layout.h"
 
-#include "codec/connectivity/coded_mesh.h"
+#include "codec/connectivity/manifold_mesh.h"
 #include "sdk/mesh/draco_mesh.h"
 #include "sdk/mesh/plain_coding.h"
 
@@ -57,7 +57,7 @@ MeshSequence grid(uint32_t n, bool quads, unsigned seed) {
 /// What a decoder rebuilds from the chunks of a layout.
 Topology decoded(const MeshLayout& layout, bool vertices, bool faces) {
   Vector<uint32_t> triangles;
-  if (layout.coder == format::CoderId::kDraco) {
+  if (layout.coder == CoderId::kDraco) {
     DracoMesh draco;
     EXPECT_EQ(decode_draco_mesh(layout.connectivity, layout.sizes.points, layout.sizes.triangles, 4,
                                 &draco),
@@ -97,7 +97,7 @@ Faces cycles(const Numbers& offsets, const Numbers& corners) {
   return faces;
 }
 
-void expect_round_trip(const MeshSequence& s, format::CoderId coder) {
+void expect_round_trip(const MeshSequence& s, CoderId coder) {
   MeshLayout layout = lay_out_mesh(s, coder);
   if (layout.sizes.triangles > 0) {
     EXPECT_EQ(layout.coder, coder);
@@ -114,7 +114,7 @@ void expect_round_trip(const MeshSequence& s, format::CoderId coder) {
   EXPECT_TRUE(std::is_sorted(free.vertex_coded.begin(), free.vertex_coded.end()));
 }
 
-class MeshLayoutOf : public testing::TestWithParam<format::CoderId> {};
+class MeshLayoutOf : public testing::TestWithParam<CoderId> {};
 
 TEST_P(MeshLayoutOf, RoundTripsGrids) {
   expect_round_trip(grid(9, false, 1), GetParam());
@@ -157,8 +157,7 @@ TEST_P(MeshLayoutOf, RoundTripsRandomPolygonSoups) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Coders, MeshLayoutOf,
-                         testing::Values(format::CoderId::kPlain, format::CoderId::kDraco));
+INSTANTIATE_TEST_SUITE_P(Coders, MeshLayoutOf, testing::Values(CoderId::kPlain, CoderId::kDraco));
 
 TEST(MeshLayout, SplitsMakeEveryDirectedEdgeUnique) {
   MeshSequence s = mesh_of(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
@@ -173,12 +172,12 @@ TEST(MeshLayout, SplitsMakeEveryDirectedEdgeUnique) {
 }
 
 TEST(MeshLayout, TruncatedDetailsAreRefused) {
-  MeshLayout layout = lay_out_mesh(grid(6, true, 3), format::CoderId::kPlain);
+  MeshLayout layout = lay_out_mesh(grid(6, true, 3), CoderId::kPlain);
   Vector<uint32_t> triangles;
   ASSERT_EQ(decode_plain_triangles(layout.connectivity, layout.sizes.triangles, &triangles),
             Status::kOk);
   for (size_t n = 0; n < layout.details.size(); ++n) {
-    format::Bytes cut(layout.details.begin(), layout.details.begin() + n);
+    Bytes cut(layout.details.begin(), layout.details.begin() + n);
     Topology t;
     EXPECT_NE(decode_details(cut, layout.sizes, triangles, &t), Status::kOk) << n;
   }

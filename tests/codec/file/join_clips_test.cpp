@@ -20,16 +20,16 @@ namespace {
 
 using testing::HasSubstr;
 
-EncodeOptions options_of(format::ErrorMetric metric, double value) {
+EncodeOptions options_of(ErrorMetric metric, double value) {
   EncodeOptions options;
-  options.target = {metric, value, metric == format::ErrorMetric::kMaxError};
+  options.target = {metric, value, metric == ErrorMetric::kMaxError};
   options.effort = 1;
   return options;
 }
 
-std::vector<format::Bytes> parts_of(const MeshSequence& clip, std::vector<uint32_t> cuts,
-                                    EncodeOptions options) {
-  std::vector<format::Bytes> files;
+std::vector<Bytes> parts_of(const MeshSequence& clip, std::vector<uint32_t> cuts,
+                            EncodeOptions options) {
+  std::vector<Bytes> files;
   cuts.push_back(clip.frame_count);
   uint32_t first = 0;
   for (uint32_t end : cuts) {
@@ -40,14 +40,14 @@ std::vector<format::Bytes> parts_of(const MeshSequence& clip, std::vector<uint32
   return files;
 }
 
-format::Bytes joined(const std::vector<format::Bytes>& files) {
+Bytes joined(const std::vector<Bytes>& files) {
   std::vector<ClipPart> parts;
   for (size_t i = 0; i < files.size(); ++i)
     parts.push_back({"part " + std::to_string(i), files[i]});
   return join_clips(parts);
 }
 
-std::string fault_of(const std::vector<format::Bytes>& files) {
+std::string fault_of(const std::vector<Bytes>& files) {
   try {
     joined(files);
   } catch (const Error& e) {
@@ -60,9 +60,9 @@ TEST(JoinClips, MakesOneClipThatKeepsThePromiseOfItsParts) {
   for (const char* name : {"limb", "cuts", "leftovers", "soup", "quad_box"}) {
     SCOPED_TRACE(name);
     const MeshSequence source = corpus::make_clip(name);
-    const EncodeOptions options = options_of(format::ErrorMetric::kMaxError, 0.1);
-    const std::vector<format::Bytes> files = parts_of(source, {7, 12}, options);
-    const format::Bytes file = joined(files);
+    const EncodeOptions options = options_of(ErrorMetric::kMaxError, 0.1);
+    const std::vector<Bytes> files = parts_of(source, {7, 12}, options);
+    const Bytes file = joined(files);
     Clip clip;
     ASSERT_TRUE(clip.open(file).ok());
     ASSERT_EQ(clip.frame_count(), source.frame_count);
@@ -84,7 +84,7 @@ TEST(JoinClips, MakesOneClipThatKeepsThePromiseOfItsParts) {
     EXPECT_NEAR(clip.record().rmse, std::sqrt(squared / source.vertex_count / source.frame_count),
                 1e-6 * largest);
     size_t together = 0;
-    for (const format::Bytes& part : files)
+    for (const Bytes& part : files)
       together += part.size();
     EXPECT_LT(file.size(), together) << "the mesh is stored once";
   }
@@ -92,9 +92,9 @@ TEST(JoinClips, MakesOneClipThatKeepsThePromiseOfItsParts) {
 
 TEST(JoinClips, KeepsTimesAndErrorsOfTheWhole) {
   const MeshSequence source = corpus::make_clip("uneven");
-  const EncodeOptions options = options_of(format::ErrorMetric::kKg, 0.5);
+  const EncodeOptions options = options_of(ErrorMetric::kKg, 0.5);
   Clip clip;
-  const format::Bytes file = joined(parts_of(source, {10}, options));
+  const Bytes file = joined(parts_of(source, {10}, options));
   ASSERT_TRUE(clip.open(file).ok());
   ASSERT_EQ(clip.record().times.size(), source.times.size());
   for (size_t f = 0; f < source.times.size(); ++f)
@@ -104,9 +104,9 @@ TEST(JoinClips, KeepsTimesAndErrorsOfTheWhole) {
 }
 
 TEST(JoinClips, RefusesPartsThatDoNotFit) {
-  const EncodeOptions options = options_of(format::ErrorMetric::kMaxError, 0.5);
+  const EncodeOptions options = options_of(ErrorMetric::kMaxError, 0.5);
   const MeshSequence limb = corpus::make_clip("limb");
-  std::vector<format::Bytes> files = parts_of(limb, {8, 16}, options);
+  std::vector<Bytes> files = parts_of(limb, {8, 16}, options);
   EXPECT_THAT(fault_of({files[0], files[2]}), HasSubstr("part 1: starts at"));
   EXPECT_THAT(fault_of({files[1], files[0]}), HasSubstr("does not follow part 0"));
 
@@ -119,7 +119,7 @@ TEST(JoinClips, RefusesPartsThatDoNotFit) {
 }
 
 TEST(JoinClips, PartsAreOfTheClipAndWithoutKeyframes) {
-  EncodeOptions options = options_of(format::ErrorMetric::kMaxError, 0.5);
+  EncodeOptions options = options_of(ErrorMetric::kMaxError, 0.5);
   const MeshSequence limb = corpus::make_clip("limb");
   options.part = FrameRun{0, limb.frame_count + 1};
   EXPECT_THROW(encode(limb, options), Error);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/massage/massage.h"
 
-#include "codec/connectivity/coded_mesh.h"
+#include "codec/connectivity/manifold_mesh.h"
 #include "codec/massage/distance_limit.h"
 #include "codec/massage/massage_quality.h"
 #include "codec/massage/shape_fit.h"
@@ -85,7 +85,7 @@ TEST(SlidingSolver, SlidesTheBoundaryAlongItself) {
   EXPECT_EQ(v(0, 1), 0);
 }
 
-TEST(SurfaceFitter, UniformWeightsEvenOutASheet) {
+TEST(ShapeFit, UniformWeightsEvenOutASheet) {
   const TestMesh even = flat_sheet(10);  // its inner vertices are the means of their neighbours
   TestMesh mesh = even;
   shake(&mesh, 0.3);
@@ -93,59 +93,59 @@ TEST(SurfaceFitter, UniformWeightsEvenOutASheet) {
   Surface surface(mesh.topology, mesh.positions);
   surface.build_index();
   Positions v = mesh.positions;
-  SurfaceFitter fitter(mesh.topology, shape);
-  SurfaceFitOptions options;
+  ShapeFit fitter(mesh.topology, shape);
+  ShapeFitOptions options;
   options.lambda = 0.05;
   options.rounds = 30;
-  const SurfaceFitReport report = fitter.run(surface, options, &v);
+  const ShapeFitReport report = fitter.run(surface, options, &v);
   EXPECT_TRUE(report.convergence.converged);
   EXPECT_LT((v - even.positions).norm(), 0.5 * (mesh.positions - even.positions).norm());
   EXPECT_LT(v.col(2).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(SurfaceFitter, DoesNotShrinkASphere) {
+TEST(ShapeFit, DoesNotShrinkASphere) {
   const TestMesh ball = sphere(8);
   const RowMatrix shape = shape_matrix(ball.topology, ball.positions, ShapeWeights::kMeanValue);
   Surface surface(ball.topology, ball.positions);
   surface.build_index();
   Positions v = ball.positions;
-  SurfaceFitter fitter(ball.topology, shape);
-  SurfaceFitOptions options;
+  ShapeFit fitter(ball.topology, shape);
+  ShapeFitOptions options;
   options.lambda = 0.1;
   fitter.run(surface, options, &v);
   EXPECT_LT((v - ball.positions).rowwise().norm().maxCoeff(), 2e-3);
 }
 
-TEST(SurfaceFitter, IterativeAndDirectSolversAgree) {
+TEST(ShapeFit, IterativeAndDirectSolversAgree) {
   TestMesh mesh = flat_sheet(8);
   shake(&mesh, 0.2);
   const RowMatrix shape = shape_matrix(mesh.topology, mesh.positions, ShapeWeights::kUniform);
   Surface surface(mesh.topology, mesh.positions);
   surface.build_index();
   Positions direct = mesh.positions, iterative = mesh.positions;
-  SurfaceFitOptions options;
+  ShapeFitOptions options;
   options.rounds = 2;
   options.lambda = std::nextafter(0.5, 0);
-  SurfaceFitter(mesh.topology, shape).run(surface, options, &direct);
+  ShapeFit(mesh.topology, shape).run(surface, options, &direct);
   options.lambda = 0.5;
-  SurfaceFitter(mesh.topology, shape).run(surface, options, &iterative);
+  ShapeFit(mesh.topology, shape).run(surface, options, &iterative);
   EXPECT_LT((direct - iterative).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-TEST(SurfaceFitter, LawsonLowersTheLargestDistance) {
+TEST(ShapeFit, LawsonLowersTheLargestDistance) {
   // A coarse sphere fitted to a fine one.
   const TestMesh coarse = sphere(4), fine = sphere(16);
   const RowMatrix shape = shape_matrix(coarse.topology, coarse.positions, ShapeWeights::kUniform);
   Surface surface(fine.topology, fine.positions);
   surface.build_index();
-  SurfaceFitOptions options;
+  ShapeFitOptions options;
   options.lambda = 0.9;
   options.rounds = 20;
   options.tolerance = 0;
   Positions plain = coarse.positions, weighted = coarse.positions;
-  const SurfaceFitReport a = SurfaceFitter(coarse.topology, shape).run(surface, options, &plain);
+  const ShapeFitReport a = ShapeFit(coarse.topology, shape).run(surface, options, &plain);
   options.lawson = 0.5;
-  const SurfaceFitReport b = SurfaceFitter(coarse.topology, shape).run(surface, options, &weighted);
+  const ShapeFitReport b = ShapeFit(coarse.topology, shape).run(surface, options, &weighted);
   EXPECT_LT(b.residuals.max, a.residuals.max);
 }
 

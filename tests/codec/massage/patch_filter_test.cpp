@@ -4,7 +4,7 @@
 
 #include "codec/massage/denoise.h"
 #include "codec/massage/normal_fit.h"
-#include "codec/massage/sliding_solve.h"
+#include "codec/massage/sliding_solver.h"
 #include "codec/massage/untangle.h"
 #include "codec/massage/welded_surface.h"
 #include "codec/surface/mesh_quality.h"
@@ -101,22 +101,22 @@ TEST(PatchFilter, KnowsTheMedianOfNoise) {
   EXPECT_NEAR(4 / std::sqrt(3 * marchenko_pastur_median(1)), 2.858, 1e-3);
 }
 
-TEST(FrameNoise, LeavesFewFramesAlone) {
+TEST(Denoise, LeavesFewFramesAlone) {
   const MeshSequence clip = corpus::make_scaled("sliding", 400, 7);
-  const WeldedClip welded(clip);
+  const WeldedSurface welded(clip);
   const std::vector<uint8_t> freedom(welded.topology.vertex_count, 2);
   MeshSequence massaged = clip;
-  EXPECT_EQ(remove_frame_noise(clip, welded, freedom, {}, &massaged).components, 0);
+  EXPECT_EQ(denoise(clip, welded, freedom, {}, &massaged).components, 0);
   EXPECT_EQ(massaged.positions, clip.positions);
 }
 
-TEST(FrameNoise, KeepsTheBoundaryInPlace) {
+TEST(Denoise, KeepsTheBoundaryInPlace) {
   const TestMesh sheet = flat_sheet(kSide);
   const MeshSequence noisy = bending_sheet(sheet, 0.02);
-  const WeldedClip welded(noisy);
+  const WeldedSurface welded(noisy);
   MeshSequence massaged = noisy;
   const std::vector<uint8_t> freedom = sliding_freedom(welded.topology, sheet.positions);
-  remove_frame_noise(noisy, welded, freedom, {}, &massaged);
+  denoise(noisy, welded, freedom, {}, &massaged);
   for (uint32_t f = 0; f < kFrames; ++f) {
     const Positions before = welded.frame(noisy.frame(f)), after = welded.frame(massaged.frame(f));
     for (uint32_t corner : {0U, kSide - 1, kSide * kSide - 1})
@@ -131,7 +131,7 @@ TEST(HeightFit, BringsPolygonsToTheCurvedSurface) {
   Positions v = ball.positions;
   for (Index i = 0; i < v.rows(); ++i)
     v.row(i) *= 1 + 0.02 * std::sin(3.0 * static_cast<double>(i));
-  fit_heights(surface, 2, &v);
+  fit_normals(surface, 2, &v);
   for (Index i = 0; i < v.rows(); ++i)
     EXPECT_NEAR(v.row(i).norm(), 1, 0.006) << i;
 }
@@ -142,7 +142,7 @@ TEST(HeightFit, LeavesTheBoundary) {
   Positions v = sheet.positions;
   v(0, 2) = 0.1;
   v(14, 2) = 0.1;
-  fit_heights(surface, 1, &v);
+  fit_normals(surface, 1, &v);
   EXPECT_EQ(v(0, 2), 0.1);
   EXPECT_LT(std::abs(v(14, 2)), 0.02);
 }

@@ -22,13 +22,13 @@ namespace {
 
 EncodeOptions coarse(BasisChoice basis = BasisChoice::kEigentrajectories) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kMaxError, 0.5, true};
+  options.target = {ErrorMetric::kMaxError, 0.5, true};
   options.basis = basis;
   options.effort = 1;
   return options;
 }
 
-Clip opened(const format::Bytes& file) {
+Clip opened(const Bytes& file) {
   Clip clip;
   EXPECT_EQ(clip.open(file).status, Status::kOk);
   return clip;
@@ -50,14 +50,14 @@ double largest_error(const Clip& clip, uint32_t number, const Attribute& source,
 }
 
 /// Bytes of the segments of attributes.
-size_t attribute_segment_bytes(const format::Bytes& file) {
-  format::ContainerReader reader;
+size_t attribute_segment_bytes(const Bytes& file) {
+  ContainerReader reader;
   EXPECT_TRUE(reader.open(file).ok());
   const Clip clip = opened(file);
   size_t bytes = 0;
-  for (const format::Chunk& chunk : reader.chunks()) {
-    if (chunk.segment != format::kNoSegment &&
-        clip.limits().segments[chunk.segment].attribute != format::kPositions)
+  for (const Chunk& chunk : reader.chunks()) {
+    if (chunk.segment != kNoSegment &&
+        clip.limits().segments[chunk.segment].attribute != kPositions)
       bytes += chunk.size;
   }
   return bytes;
@@ -113,12 +113,12 @@ TEST(SlowMovingAttributes, KeepToTheErrorThatIsAskedFor) {
 
 TEST(MovingAttributes, LeavePositionsAsTheyAre) {
   MeshSequence clip = corpus::make_clip("heated");
-  const format::Bytes with = encode(clip, coarse()).file;
+  const Bytes with = encode(clip, coarse()).file;
   for (Attribute& a : clip.attributes) {
     a.values.resize(a.values.size() / a.frames);
     a.frames = 1;
   }
-  const format::Bytes without = encode(clip, coarse()).file;
+  const Bytes without = encode(clip, coarse()).file;
   EXPECT_EQ(attribute_segment_bytes(without), 0U);
   const Clip a = opened(with), b = opened(without);
   std::vector<float> x(size_t{3} * clip.vertex_count), y(x.size());
@@ -179,7 +179,7 @@ TEST(MovingAttributes, WithinTheirErrorTakeNoSegment) {
 TEST(MovingAttributes, HaveTheirValuesInAFileOfFreeOrder) {
   const MeshSequence clip = corpus::make_clip("heated");
   EncodeOptions options = coarse();
-  options.order = format::OrderMode::kFree;
+  options.order = OrderMode::kFree;
   for (const AttributeResult& a : encode(clip, options).attributes) {
     EXPECT_TRUE(a.kept);
     EXPECT_LE(a.max_error, a.asked);
@@ -191,7 +191,7 @@ TEST(SlowMovingAttributes, CountForASizeThatIsAskedFor) {
   EncodeOptions options = coarse();
   const EncodeResult loose = encode(clip, options);
   const auto allowed = static_cast<double>(loose.file.size() + 400);
-  options.target = {format::ErrorMetric::kSize, allowed, false};
+  options.target = {ErrorMetric::kSize, allowed, false};
   const EncodeResult result = encode(clip, options);
   EXPECT_LE(result.file.size(), allowed);
   EXPECT_GT(result.file.size(), loose.file.size());
@@ -202,7 +202,7 @@ TEST(SlowMovingAttributes, CountForASizeThatIsAskedFor) {
 
 TEST(SlowMovingAttributes, AreJoinedFromParts) {
   const MeshSequence clip = corpus::make_clip("heated");
-  std::vector<format::Bytes> files;
+  std::vector<Bytes> files;
   for (FrameRun part : {FrameRun{0, 14}, FrameRun{14, 10}}) {
     EncodeOptions options = coarse();
     options.part = part;

@@ -32,9 +32,9 @@ MeshSequence two_takes() {
 
 TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
   MeshSequence clip = two_takes();
-  EncoderInput input(clip, format::CoderId::kDraco);
+  EncoderInput input(clip, CoderId::kDraco);
   LinearAnalysis analysis(input.frames());
-  LinearCoder whole(input, analysis, format::BasisKind::kEigentrajectories, 1, 1);
+  LinearCoder whole(input, analysis, BasisKind::kEigentrajectories, 1, 1);
   double rmse = 0.0005 * diagonal(clip);
   std::optional<Part> one = whole.at_rmse(rmse);
   ASSERT_TRUE(one);
@@ -47,8 +47,7 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
     parts.push_back(std::move(*part));
   }
   Clip opened;
-  format::Bytes file =
-      clip_file(format::ClipRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
+  Bytes file = clip_file(ClipRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
   ASSERT_TRUE(opened.open(file).ok());
   EXPECT_TRUE(opened.check_hashes().ok());
   ASSERT_EQ(opened.segments().size(), 2U);
@@ -68,7 +67,7 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
 TEST(TimeSegmentation, LeavesOneMotionInOnePiece) {
   MeshSequence clip = corpus::make_clip("limb");
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kKg, 0.1, false};
+  options.target = {ErrorMetric::kKg, 0.1, false};
   options.effort = 1;
   Clip opened;
   ASSERT_TRUE(opened.open(encode(clip, options).file).ok());

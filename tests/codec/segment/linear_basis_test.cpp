@@ -84,7 +84,6 @@ TEST(LinearBasis, HasOrthonormalComponentsWithTheEnergiesOfTheClip) {
   const size_t frames = 17, n = 301;
   const std::vector<float> x = clip(frames, n);
   const LinearAnalysis analysis(FrameView(x.data(), frames, n));
-  using format::BasisKind;
   for (const auto pose : {ReferencePose::kMean, ReferencePose::kFrame, ReferencePose::kRankThree})
     for (const auto base : {Base::kPose, Base::kAffine})
       for (const auto kind : {BasisKind::kEigenshapes, BasisKind::kEigentrajectories}) {
@@ -127,8 +126,8 @@ TEST(LinearBasis, LeavesNothingOfAnAffineMotion) {
         x.push_back(p[3 * v + c] * (1 + 0.1f * static_cast<float>(f)) +
                     0.2f * static_cast<float>(f) * p[3 * v + (c + 1) % 3]);
   const LinearAnalysis analysis(FrameView(x.data(), frames, n));
-  const LinearBasis b = analysis.basis(format::BasisKind::kEigentrajectories, ReferencePose::kFrame,
-                                       Base::kAffine, 10, 1e-6);
+  const LinearBasis b =
+      analysis.basis(BasisKind::kEigentrajectories, ReferencePose::kFrame, Base::kAffine, 10, 1e-6);
   EXPECT_LT(b.base_energy, 1e-6);
   EXPECT_EQ(b.energies.size(), 0);
 }
@@ -141,7 +140,7 @@ TEST(LinearBasis, AcceptsFlatAndStillClips) {
   const std::vector<float> still(4 * 30 * 3, 2.5f);
   const LinearAnalysis constant(FrameView(still.data(), 4, 30));
   for (const auto pose : {ReferencePose::kMean, ReferencePose::kFrame, ReferencePose::kRankThree}) {
-    const auto kind = format::BasisKind::kEigentrajectories;
+    const auto kind = BasisKind::kEigentrajectories;
     EXPECT_TRUE(flat.basis(kind, pose, Base::kAffine, 9, 1e-9).time.allFinite());
     const LinearBasis b = constant.basis(kind, pose, Base::kAffine, 9, 1e-9);
     EXPECT_TRUE(b.pose.allFinite());
@@ -154,8 +153,8 @@ TEST(LinearBasis, IsTheSameForAnyNumberOfThreads) {
   const std::vector<float> x = clip(frames, n);
   const auto make = [&] {
     const LinearAnalysis analysis(FrameView(x.data(), frames, n));
-    return analysis.basis(format::BasisKind::kEigentrajectories, ReferencePose::kRankThree,
-                          Base::kAffine, 20, 0);
+    return analysis.basis(BasisKind::kEigentrajectories, ReferencePose::kRankThree, Base::kAffine,
+                          20, 0);
   };
   const LinearBasis many = make();
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

@@ -26,8 +26,8 @@ TEST(Scene, IsASequenceTakenApart) {
   EXPECT_EQ(scene.clip.frame_count, kBoxFrames);
   EXPECT_EQ(scene.meshes[0].sequence.mesh_name, "turning");
   EXPECT_EQ(scene.meshes[1].sequence.mesh_name, "still");
-  EXPECT_EQ(scene.meshes[0].there, (std::vector<FrameRun>{{0, kBoxFrames}}));
-  EXPECT_EQ(scene.meshes[1].there, (std::vector<FrameRun>{{0, 4}, {8, 4}}));
+  EXPECT_EQ(scene.meshes[0].present_in, (std::vector<FrameRun>{{0, kBoxFrames}}));
+  EXPECT_EQ(scene.meshes[1].present_in, (std::vector<FrameRun>{{0, 4}, {8, 4}}));
   EXPECT_EQ(scene.meshes[1].sequence.frame_count, 8U);
   const uint32_t half = whole.vertex_count / 2;
   for (uint32_t v = 0; v < half; ++v)
@@ -53,7 +53,7 @@ TEST(Scene, WithoutPartsIsOneMesh) {
   const Scene scene = split_parts(whole);
   ASSERT_EQ(scene.meshes.size(), 1U);
   EXPECT_EQ(scene.meshes[0].sequence.positions, whole.positions);
-  EXPECT_EQ(scene.meshes[0].there, (std::vector<FrameRun>{{0, kBoxFrames}}));
+  EXPECT_EQ(scene.meshes[0].present_in, (std::vector<FrameRun>{{0, kBoxFrames}}));
 }
 
 TEST(Scene, SharedAndUnusedVerticesGoWithTheirParts) {
@@ -93,7 +93,7 @@ TEST(Scene, ThatIsNoSequenceIsRefused) {
 TEST(EncodeScene, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
   const MeshSequence whole = two_boxes();
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kKg, 0.1, false};
+  options.target = {ErrorMetric::kKg, 0.1, false};
   const EncodeResult result = encode_scene(split_parts(whole), options);
   EXPECT_LE(result.kg, 0.1);
   EXPECT_EQ(result.vertices, whole.vertex_count);
@@ -102,7 +102,7 @@ TEST(EncodeScene, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
   ASSERT_EQ(clip.meshes().size(), 2U);
   EXPECT_EQ(clip.meshes()[0].name, "turning");
   // A box that only turns and moves is a key-frame with a rigid motion.
-  EXPECT_EQ(clip.limits().segments[0].kind, format::BasisKind::kKeyframes);
+  EXPECT_EQ(clip.limits().segments[0].kind, BasisKind::kKeyframes);
   EXPECT_EQ(clip.limits().segments[0].components, 1U);
   std::vector<float> positions(size_t{3} * whole.vertex_count);
   double worst = 0;
@@ -127,7 +127,7 @@ TEST(EncodeScene, NamesTheMeshThatFails) {
   Scene scene = split_parts(two_boxes());
   scene.meshes[1].sequence.positions[5] = NAN;
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kMaxError, 0.1, true};
+  options.target = {ErrorMetric::kMaxError, 0.1, true};
   try {
     encode_scene(std::move(scene), options);
     FAIL();
@@ -138,7 +138,7 @@ TEST(EncodeScene, NamesTheMeshThatFails) {
 
 TEST(EncodeScene, RefusesATargetSize) {
   EncodeOptions options;
-  options.target = {format::ErrorMetric::kSize, 1e6, false};
+  options.target = {ErrorMetric::kSize, 1e6, false};
   EXPECT_THROW(encode_scene(split_parts(two_boxes()), options), Error);
 }
 

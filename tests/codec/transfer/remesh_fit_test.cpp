@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/sequence/error.h"
 #include "codec/transfer/remesh_fit.h"
+
+#include "codec/sequence/error.h"
 #include "tests/codec/massage_meshes.h"
 
 #include <string>
@@ -22,8 +23,8 @@ SurfaceFrame frame_of(const TestMesh& mesh, const Eigen::Vector3d& by = Eigen::V
   return frame;
 }
 
-TEST(MeshFit, BringsACoarseBallCloserToAFineOne) {
-  const MeshFit fit = fit_mesh(frame_of(sphere(5)), frame_of(sphere(20)));
+TEST(RemeshFit, BringsACoarseBallCloserToAFineOne) {
+  const RemeshFit fit = fit_remesh(frame_of(sphere(5)), frame_of(sphere(20)));
   EXPECT_TRUE(fit.improved);
   EXPECT_LT(fit.after.mean(), 0.55 * fit.before.mean());
   EXPECT_LT(fit.after.max(), 0.6 * fit.before.max());
@@ -31,7 +32,7 @@ TEST(MeshFit, BringsACoarseBallCloserToAFineOne) {
   EXPECT_EQ(fit.positions.size(), frame_of(sphere(5)).positions.size());
 }
 
-TEST(MeshFit, TurnsTrianglesThatWereTurned) {
+TEST(RemeshFit, TurnsTrianglesThatWereTurned) {
   TestMesh ball = sphere(6);
   // A vertex beyond the far side of its ring.
   const uint32_t end = ball.topology.ring[40][0];
@@ -39,22 +40,22 @@ TEST(MeshFit, TurnsTrianglesThatWereTurned) {
       (row(ball.positions, 40) + 1.6 * (row(ball.positions, end) - row(ball.positions, 40)))
           .normalized()
           .transpose();
-  const MeshFit fit = fit_mesh(frame_of(ball), frame_of(sphere(20)));
+  const RemeshFit fit = fit_remesh(frame_of(ball), frame_of(sphere(20)));
   EXPECT_GT(fit.turned_before, 0U);
   EXPECT_TRUE(fit.improved);
   EXPECT_EQ(fit.turned_after, 0U);
 }
 
-TEST(MeshFit, LeavesAMeshThatIsTheSurface) {
+TEST(RemeshFit, LeavesAMeshThatIsTheSurface) {
   const SurfaceFrame ball = frame_of(sphere(6));
-  const MeshFit fit = fit_mesh(ball, ball);
+  const RemeshFit fit = fit_remesh(ball, ball);
   EXPECT_FALSE(fit.improved);
   EXPECT_EQ(fit.positions, ball.positions);
 }
 
 void expect_refused(const SurfaceFrame& mesh, const SurfaceFrame& surface, const char* text) {
   try {
-    fit_mesh(mesh, surface);
+    fit_remesh(mesh, surface);
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kInput);
@@ -62,12 +63,12 @@ void expect_refused(const SurfaceFrame& mesh, const SurfaceFrame& surface, const
   }
 }
 
-TEST(MeshFit, RefusesAnOpenMeshForAClosedSurface) {
+TEST(RemeshFit, RefusesAnOpenMeshForAClosedSurface) {
   expect_refused(frame_of(flat_sheet(6)), frame_of(sphere(6)), "is open");
   expect_refused(frame_of(sphere(6)), frame_of(flat_sheet(6)), "is closed");
 }
 
-TEST(MeshFit, RefusesAComponentWithoutCounterpart) {
+TEST(RemeshFit, RefusesAComponentWithoutCounterpart) {
   SurfaceFrame two = frame_of(sphere(6));
   const SurfaceFrame far = frame_of(sphere(6), {5, 0, 0});
   const auto shift = static_cast<uint32_t>(two.positions.size() / 3);
@@ -81,7 +82,7 @@ TEST(MeshFit, RefusesAComponentWithoutCounterpart) {
   expect_refused(frame_of(sphere(8)), two, "component of the surface");
 }
 
-TEST(MeshFit, RefusesPoints) {
+TEST(RemeshFit, RefusesPoints) {
   SurfaceFrame points = frame_of(sphere(6));
   points.polygons = {};
   expect_refused(points, frame_of(sphere(6)), "without triangles");

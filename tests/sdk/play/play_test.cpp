@@ -19,7 +19,7 @@ namespace anicodec {
 namespace {
 
 struct Shape {
-  format::BasisKind kind = format::BasisKind::kEigenshapes;
+  BasisKind kind = BasisKind::kEigenshapes;
   uint32_t vertices = 0, components = 0, wide = 0;
   bool pose = false, motions = false, corrections = false;
 
@@ -33,8 +33,8 @@ struct Shape {
 
 std::vector<Shape> shapes() {
   std::vector<Shape> all;
-  for (format::BasisKind kind : {format::BasisKind::kKeyframes, format::BasisKind::kEigenshapes,
-                                 format::BasisKind::kEigentrajectories}) {
+  for (BasisKind kind :
+       {BasisKind::kKeyframes, BasisKind::kEigenshapes, BasisKind::kEigentrajectories}) {
     for (uint32_t vertices : {1u, 16u, 37u, 160u}) {
       for (uint32_t components : {0u, 1u, 7u, 43u}) {
         for (uint32_t wide : {0u, 3u, components}) {
@@ -206,7 +206,7 @@ TEST(Play, GivesTheSameBitsForAnyNumberOfFrames) {
 }
 
 TEST(Play, PlaysAnInterpolatedState) {
-  Segment s = random_segment({format::BasisKind::kEigentrajectories, 40, 9, 2, true}, 1);
+  Segment s = random_segment({BasisKind::kEigentrajectories, 40, 9, 2, true}, 1);
   FrameState a = frame_state(s, 2), b = frame_state(s, 3), middle = a;
   std::vector<float> weights(size_t{s.components} * 3);
   for (size_t i = 0; i < weights.size(); ++i)
@@ -225,7 +225,7 @@ TEST(Play, PlaysAnInterpolatedState) {
 /// A segment that is its pose: vertex v is at (x[3 v], x[3 v + 1], x[3 v + 2]).
 Segment still_segment(const std::vector<float>& x) {
   Segment s;
-  s.kind = format::BasisKind::kEigenshapes;
+  s.kind = BasisKind::kEigenshapes;
   s.frames = 1;
   s.vertices = static_cast<uint32_t>(x.size() / 3);
   s.pose.resize(size_t{block_count(s.vertices)} * 3 * kBlock);
@@ -341,7 +341,7 @@ TEST(Play, StoresNormalisedIntegersClamped) {
 }
 
 TEST(Play, WritesOnlyTheBytesOfTheFormat) {
-  Segment s = random_segment({format::BasisKind::kEigenshapes, 75, 5, 1, true, false, true}, 3);
+  Segment s = random_segment({BasisKind::kEigenshapes, 75, 5, 1, true, false, true}, 3);
   FrameState state = frame_state(s, 0);
   for (const PlayKernels* k : kernels()) {
     for (uint32_t id = 0; id < kVertexFormatCount; ++id) {
@@ -376,7 +376,7 @@ TEST(Play, WritesOnlyTheBytesOfTheFormat) {
 }
 
 TEST(Play, StoresThePositionsOfFloatsInEveryFormat) {
-  Segment s = random_segment({format::BasisKind::kEigentrajectories, 75, 5, 1, true, true}, 3);
+  Segment s = random_segment({BasisKind::kEigentrajectories, 75, 5, 1, true, true}, 3);
   FrameState state = frame_state(s, 0);
   for (const PlayKernels* k : kernels()) {
     std::vector<float> plain = floats(*k, state, 0, s.vertices), four(size_t{4} * s.vertices);

@@ -46,7 +46,7 @@ Sample random_sample(uint32_t vertices, size_t triangles, int32_t range, unsigne
 }
 
 void expect_round_trip(const Sample& s) {
-  format::Bytes bytes = encode_pose(s.topology, s.pose);
+  Bytes bytes = encode_pose(s.topology, s.pose);
   Vector<int32_t> decoded;
   ASSERT_EQ(decode_pose(bytes, s.topology, &decoded), Status::kOk);
   EXPECT_EQ(decoded, s.pose);
@@ -97,7 +97,7 @@ TEST(PoseCoding, AVertexOfVeryManyTrianglesTakesBoundedTime) {
 
 TEST(PoseCoding, TruncatedStreamsAreRefused) {
   Sample s = sheet(12);
-  format::Bytes bytes = encode_pose(s.topology, s.pose);
+  Bytes bytes = encode_pose(s.topology, s.pose);
   Vector<int32_t> decoded;
   for (size_t size = 0; size < bytes.size(); ++size) {
     Status status = decode_pose({bytes.data(), size}, s.topology, &decoded);
@@ -116,7 +116,7 @@ TEST(PoseCoding, ArbitraryBytesDoNoHarm) {
   std::mt19937 random(5);
   Vector<int32_t> decoded;
   for (int round = 0; round < 200; ++round) {
-    format::Bytes bytes(random() % 600);
+    Bytes bytes(random() % 600);
     for (uint8_t& b : bytes)
       b = static_cast<uint8_t>(round % 3 == 0 ? 255 : random());
     decode_pose(bytes, s.topology, &decoded);

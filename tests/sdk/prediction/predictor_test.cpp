@@ -65,7 +65,7 @@ std::vector<float> decoded(const PredictionCase& c, const PredictionClip& clip,
                            size_t wide_components = 0) {
   const size_t n = order.vertex_count(), samples = c.components * static_cast<size_t>(c.channels);
   std::vector<float> y(coefficient_buffer_size(n, samples), 123.0f);
-  Reconstruction reconstruction;
+  CoefficientReconstruction reconstruction;
   const size_t skip = wide_components * static_cast<size_t>(c.channels) * n;
   EXPECT_EQ(reconstruction.init(order, clip.positions.data(), parameters_of(c),
                                 {c.components, wide_components, wide.data(), clip.q.data() + skip,
@@ -107,7 +107,7 @@ TEST(Predictor, DecodesTheRangesOfALevelInAnyOrder) {
   const VertexOrder order = order_of(clip, c.neighbours, c.colours);
   const size_t n = order.vertex_count(), stride = coefficient_stride(c.components);
   std::vector<float> y(coefficient_buffer_size(n, c.components), -1.0f);
-  Reconstruction reconstruction;
+  CoefficientReconstruction reconstruction;
   ASSERT_EQ(
       reconstruction.init(order, clip.positions.data(), parameters_of(c),
                           {c.components, 0, nullptr, clip.q.data(), clip.omega.data()}, y.data()),

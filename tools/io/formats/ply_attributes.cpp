@@ -43,7 +43,7 @@ PlyAttributes::PlyAttributes(const PlyElement& vertices) : places_(vertices.prop
   for (uint32_t i = 0; i < places_.size(); ++i) {
     const PlyProperty& p = vertices.properties[i];
     const bool is_axis = p.name == "x" || p.name == "y" || p.name == "z";
-    if (p.list || is_axis || takes(i) || attributes_.size() == format::kMaxAttributes / 2)
+    if (p.list || is_axis || takes(i) || attributes_.size() == kMaxAttributes / 2)
       continue;
     places_[i].attribute = static_cast<uint32_t>(attributes_.size());
     attributes_.push_back(

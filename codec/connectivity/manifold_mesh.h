@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_CONNECTIVITY_CODED_MESH_H_
-#define ANICODEC_CODEC_CONNECTIVITY_CODED_MESH_H_
+#ifndef ANICODEC_CODEC_CONNECTIVITY_MANIFOLD_MESH_H_
+#define ANICODEC_CODEC_CONNECTIVITY_MANIFOLD_MESH_H_
 
 #include "codec/sequence/mesh_sequence.h"
 
@@ -38,4 +38,4 @@ ManifoldMesh make_manifold(const Polygons& polygons, std::span<const uint32_t> w
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_CONNECTIVITY_CODED_MESH_H_
+#endif  // ANICODEC_CODEC_CONNECTIVITY_MANIFOLD_MESH_H_

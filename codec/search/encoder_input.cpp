@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/search/segment_coder.h"
+#include "codec/search/encoder_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace anicodec {
 
-EncoderInput::EncoderInput(MeshSequence source, format::CoderId mesh_coder,
+EncoderInput::EncoderInput(MeshSequence source, CoderId mesh_coder,
                            const std::optional<FrameRun>& part)
     : sequence(std::move(source)), layout(lay_out_mesh(sequence, mesh_coder)) {
   const size_t n = layout.sizes.coded_vertices;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_TOOLS_WORDS_PROGRESS_H_
-#define ANICODEC_TOOLS_WORDS_PROGRESS_H_
+#ifndef ANICODEC_TOOLS_WORDS_PROGRESS_LINE_H_
+#define ANICODEC_TOOLS_WORDS_PROGRESS_LINE_H_
 
 #include "codec/sequence/progress.h"
 
@@ -49,4 +49,4 @@ class ProgressLine {
 
 }  // namespace anicodec::tools
 
-#endif  // ANICODEC_TOOLS_WORDS_PROGRESS_H_
+#endif  // ANICODEC_TOOLS_WORDS_PROGRESS_LINE_H_

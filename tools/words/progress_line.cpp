@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 
 #include <algorithm>
 #include <chrono>

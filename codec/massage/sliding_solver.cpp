@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/massage/sliding_solve.h"
+#include "codec/massage/sliding_solver.h"
 
 #include "codec/massage/fold_guard.h"
 
@@ -48,10 +48,10 @@ void set_tangents(Place* place) {
 }
 
 /// One frame being slid.
-class Slide {
+class SlidingFrame {
  public:
-  Slide(const SurfaceTopology& topology, const RigidShape& shape,
-        const std::vector<uint8_t>& freedom, const Surface& surface, Positions* v)
+  SlidingFrame(const SurfaceTopology& topology, const RigidShape& shape,
+               const std::vector<uint8_t>& freedom, const Surface& surface, Positions* v)
       : topology_(topology),
         shape_(shape),
         freedom_(freedom),
@@ -65,7 +65,7 @@ class Slide {
         places_[i].triangle = topology_.star[i][0];
       else
         places_[i].triangle = i;
-      put(i, row(v_, i));
+      place_vertex(i, row(v_, i));
     }
   }
 
@@ -78,8 +78,9 @@ class Slide {
       if (length > most)
         step.row(static_cast<Index>(i)) *= most / length;
     }
-    guarded_step(
-        topology_, old, std::move(step), [this](uint32_t i, const Vector3d& q) { put(i, q); },
+    fold_guarded_step(
+        topology_, old, std::move(step),
+        [this](uint32_t i, const Vector3d& q) { place_vertex(i, q); },
         [this](uint32_t t) -> Vector3d {
           const SurfaceTopology::Triangle& corner = topology_.triangles[t];
           return places_[corner[0]].normal + places_[corner[1]].normal + places_[corner[2]].normal;
@@ -89,8 +90,8 @@ class Slide {
   }
 
  private:
-  /// Puts vertex i on the surface near q.
-  void put(uint32_t i, const Vector3d& q) {
+  /// Places vertex i on the surface near q.
+  void place_vertex(uint32_t i, const Vector3d& q) {
     Place& place = places_[i];
     Vector3d to = q;
     if (freedom_[i] == 2) {
@@ -175,7 +176,7 @@ SlidingSolver::SlidingSolver(const SurfaceTopology& topology, const Positions& r
 
 Convergence SlidingSolver::run(const Surface& surface, const SlidingOptions& options,
                                Positions* v) const {
-  Slide slide(*topology_, shape_, freedom_, surface, v);
+  SlidingFrame slide(*topology_, shape_, freedom_, surface, v);
   const double edge = mean_edge(*topology_, surface.positions());
   Convergence result;
   while (result.rounds < options.rounds && !result.converged) {

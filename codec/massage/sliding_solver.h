@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_MASSAGE_SLIDING_SOLVE_H_
-#define ANICODEC_CODEC_MASSAGE_SLIDING_SOLVE_H_
+#ifndef ANICODEC_CODEC_MASSAGE_SLIDING_SOLVER_H_
+#define ANICODEC_CODEC_MASSAGE_SLIDING_SOLVER_H_
 
 #include "codec/massage/rigid_shape.h"
 #include "codec/surface/surface.h"
@@ -55,4 +55,4 @@ std::vector<uint8_t> sliding_freedom(const SurfaceTopology& topology, const Posi
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_MASSAGE_SLIDING_SOLVE_H_
+#endif  // ANICODEC_CODEC_MASSAGE_SLIDING_SOLVER_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/connectivity/coded_mesh.h"
+#include "codec/connectivity/manifold_mesh.h"
 
 #include "sdk/base/disjoint_sets.h"
 #include "sdk/mesh/details_coding.h"

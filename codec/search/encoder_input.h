@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_ENCODER_INPUT_H_
+#define ANICODEC_CODEC_SEARCH_ENCODER_INPUT_H_
+
+#include "codec/connectivity/mesh_layout.h"
+#include "codec/segment/encoded_segment.h"
+#include "codec/sequence/frame_view.h"
+#include "codec/sequence/mesh_sequence.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace anicodec {
+
+/// What all ways of coding share: the clip by coded vertices, and how it leads back to the source.
+struct EncoderInput {
+  /// Takes the positions over: they are put into coded order in place. Of a part, only its frames
+  /// remain, of a mesh that serves all parts.
+  EncoderInput(MeshSequence source, CoderId mesh_coder, const std::optional<FrameRun>& part = {});
+
+  /// Other trajectories over the same mesh: as many frames, frames x coded vertices x 3.
+  EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories);
+
+  FrameView frames(size_t first, size_t count) const { return frames().frames(first, count); }
+
+  FrameView frames() const {
+    return {coded.data(), sequence.frame_count, layout.sizes.coded_vertices};
+  }
+
+  /// Root mean square over the source's vertices and some frames.
+  double rmse(double squared, size_t frames) const;
+
+  double rmse(double squared) const { return rmse(squared, sequence.frame_count); }
+
+  /// `first_pose` around its centre, which goes to `origin`.
+  Eigen::MatrixXd centred_first_pose(Eigen::Vector3d* origin) const;
+
+  MeshSequence sequence;  ///< the source without its positions
+  MeshLayout layout;
+  std::vector<float> coded;       ///< frames x coded vertices x 3
+  std::vector<uint32_t> copies;   ///< source vertices of each coded one
+  double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0
+  double largest_coordinate = 0;  ///< in magnitude
+  std::vector<float> first_pose;  ///< coded vertices x 3: frame 0 of the source, before any cut
+  std::shared_ptr<const EncodedPose> pose;  ///< what a part must refer to, else null
+
+  /// Called by coders before every trial, which is what takes time; may be empty.
+  std::function<void()> on_trial;
+
+  void begin_trial() const {
+    if (on_trial)
+      on_trial();
+  }
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_ENCODER_INPUT_H_
