@@ -36,9 +36,9 @@ std::vector<MeshSequence> describe_meshes(const Clip& clip, const std::vector<ui
 }
 
 /// The frame, or where it does not show a mesh the last one before that does, or the first.
-uint32_t shown_frame(const std::vector<FrameRun>& there, uint32_t frame) {
-  uint32_t shown = there.empty() ? frame : there[0].first;
-  for (const FrameRun& run : there) {
+uint32_t shown_frame(const std::vector<FrameRun>& present_in, uint32_t frame) {
+  uint32_t shown = present_in.empty() ? frame : present_in[0].first;
+  for (const FrameRun& run : present_in) {
     if (run.first <= frame)
       shown = std::min(frame, run.first + run.count - 1);
   }
@@ -157,7 +157,7 @@ MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes
 FrameSource play(const std::string& path, const Clip& clip, const std::vector<uint32_t>& meshes) {
   struct Part {
     uint32_t mesh;
-    std::vector<FrameRun> there;
+    std::vector<FrameRun> present_in;
     size_t first, count;  // floats
   };
 
@@ -189,13 +189,14 @@ AttributeSource play_attributes(const Clip& clip, const std::vector<uint32_t>& m
   });
   if (!moves)
     return {};
-  std::vector<std::vector<FrameRun>> there;
+  std::vector<std::vector<FrameRun>> present_in;
   for (uint32_t mesh : meshes)
-    there.push_back(frames_of_mesh(clip, mesh));
-  return [&clip, meshes, there, described = describe_meshes(clip, meshes)](uint32_t frame) mutable {
+    present_in.push_back(frames_of_mesh(clip, mesh));
+  return [&clip, meshes, present_in,
+          described = describe_meshes(clip, meshes)](uint32_t frame) mutable {
     for (size_t m = 0; m < meshes.size(); ++m) {
       const Vector<MeshAttribute>& decoded = clip.meshes()[meshes[m]].attributes;
-      const uint32_t shown = shown_frame(there[m], frame);
+      const uint32_t shown = shown_frame(present_in[m], frame);
       size_t restored = 0;
       for (uint32_t i = 0; i < decoded.size(); ++i) {
         if (decoded[i].header.components() == 0)
