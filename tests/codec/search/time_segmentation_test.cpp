@@ -36,12 +36,12 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
   LinearAnalysis analysis(input.frames());
   LinearCoder whole(input, analysis, BasisKind::kEigentrajectories, 1, 1);
   double rmse = 0.0005 * diagonal(clip);
-  std::optional<Part> one = whole.at_rmse(rmse);
+  std::optional<CodedPart> one = whole.at_rmse(rmse);
   ASSERT_TRUE(one);
   TimeSegmentation segmentation(input, whole, one->encoded.reference, rmse);
-  std::vector<Part> parts;
+  std::vector<CodedPart> parts;
   for (uint32_t first : {0U, 70U}) {
-    std::optional<Part> part = segmentation.coded({first, 70});
+    std::optional<CodedPart> part = segmentation.coded({first, 70});
     ASSERT_TRUE(part);
     part->encoded.sizes.first_frame = first;
     parts.push_back(std::move(*part));
