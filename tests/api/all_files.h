@@ -24,12 +24,12 @@ inline Bytes two_segments(const MeshSequence& clip) {
   LinearAnalysis analysis(input.frames());
   LinearCoder whole(input, analysis, BasisKind::kEigenshapes, 1, 1);
   const double rmse = 0.0005 * diagonal(clip);
-  std::optional<Part> one = whole.at_rmse(rmse);
+  std::optional<CodedPart> one = whole.at_rmse(rmse);
   TimeSegmentation segmentation(input, whole, one->encoded.reference, rmse);
   const uint32_t half = clip.frame_count / 2;
-  std::vector<Part> parts;
+  std::vector<CodedPart> parts;
   for (uint32_t first : {0U, half}) {
-    std::optional<Part> part =
+    std::optional<CodedPart> part =
         segmentation.coded({first, first == 0 ? half : clip.frame_count - half});
     part->encoded.sizes.first_frame = first;
     parts.push_back(std::move(*part));

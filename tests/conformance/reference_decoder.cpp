@@ -152,7 +152,7 @@ std::string mesh_facts(const Clip& clip, uint32_t mesh, const Positions& frames)
 }
 
 std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
-  const format::ClipRecord& r = clip.record();
+  const ClipRecord& r = clip.record();
   Object out;
   out.add("name", quoted(r.name)).add("encoder", quoted(r.encoder));
   out.add("rate", list(std::vector<uint64_t>{r.rate_numerator, r.rate_denominator}, integer));
@@ -174,7 +174,7 @@ std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
                                    {"surface_error", r.surface_error},
                                    {"surface_error_mean", r.surface_error_mean}})
     out.add(key, number(value));
-  out.add("attribute_errors", list(r.attribute_errors, [](const format::AttributeError& e) {
+  out.add("attribute_errors", list(r.attribute_errors, [](const AttributeError& e) {
             return "[" + integer(e.mesh) + "," + integer(e.attribute) + "," + number(e.max_error) +
                    "," + number(e.rmse) + "]";
           }));
