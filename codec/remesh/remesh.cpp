@@ -62,7 +62,7 @@ RemeshResult remesh(const SurfaceFrame& mesh, const RemeshOptions& options,
     progress("fitting", 0);
   if (options.fit) {
     try {
-      result.fit = fit_mesh(result.mesh, surface);
+      result.fit = fit_remesh(result.mesh, surface);
     } catch (const Error& e) {
       result.no_fit = e.what();
     }

@@ -31,12 +31,12 @@ struct RemeshResult {
   SurfaceFrame mesh;  ///< triangles
   RemeshMethod method = RemeshMethod::kDecimate;
   MeshRepairs repairs;
-  MeshFit fit;         ///< distances from the surface before and after fitting
+  RemeshFit fit;       ///< distances from the surface before and after fitting
   std::string no_fit;  ///< why the mesh could not be fitted; empty if it was, or was not asked to
 };
 
 /// Another connectivity for a surface (thesis section 3.3.2): changes the number of vertices, then
-/// fits the result to the surface with fit_mesh(). For kLoop the surface is the subdivided one.
+/// fits the result to the surface with fit_remesh(). For kLoop the surface is the subdivided one.
 /// Reaches the number exactly unless the shape does not allow it: a closed component keeps four
 /// vertices, creases and boundaries keep their corners. Attributes and labels are not kept. Throws
 /// as decimate(), remesh_isotropic() and subdivide().

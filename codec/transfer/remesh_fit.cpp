@@ -35,13 +35,13 @@ struct FittedPair {
 
   const SurfaceFrame& mesh;
   const SurfaceFrame& surface;
-  WeldedClip moving, fixed;
+  WeldedSurface moving, fixed;
   Positions start;
   Surface target;
 };
 
-MeshFit measured(const FittedPair& pair) {
-  MeshFit fit;
+RemeshFit measured(const FittedPair& pair) {
+  RemeshFit fit;
   fit.positions = pair.mesh.positions;
   fit.before = fit.after = pair.distance(pair.mesh.positions);
   fit.ratio_before = fit.ratio_after = radius_ratio(pair.moving.topology, pair.start);
@@ -53,15 +53,15 @@ MeshFit measured(const FittedPair& pair) {
 
 }  // namespace
 
-MeshFit measure_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface) {
+RemeshFit measure_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface) {
   return measured(FittedPair(mesh, surface));
 }
 
-MeshFit fit_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
-                 const DistanceFitOptions& options) {
+RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
+                     const DistanceFitOptions& options) {
   const FittedPair pair(mesh, surface);
   check_surfaces_match(pair.moving.topology, pair.start, pair.target);
-  MeshFit fit = measured(pair);
+  RemeshFit fit = measured(pair);
   Positions v = pair.start;
   const RigidShape shape(pair.moving.topology, pair.start);
   fit.convergence = fit_distance(pair.moving.topology, shape, pair.target, options, &v);

@@ -6,7 +6,7 @@
 #ifndef ANICODEC_CODEC_TRANSFER_REMESH_FIT_H_
 #define ANICODEC_CODEC_TRANSFER_REMESH_FIT_H_
 
-#include "codec/massage/sliding_solve.h"
+#include "codec/massage/sliding_solver.h"
 #include "codec/metrics/hausdorff.h"
 #include "codec/surface/mesh_quality.h"
 #include "codec/surface/surface_frame.h"
@@ -17,7 +17,7 @@
 
 namespace anicodec {
 
-struct MeshFit {
+struct RemeshFit {
   std::vector<float> positions;  ///< of the mesh, vertices x 3
   HausdorffDistance before, after;
   double diagonal = 0;  ///< of the box around the surface
@@ -31,12 +31,12 @@ struct MeshFit {
 /// Vertices at the same place move together. If the mean distance did not fall, the mesh stays as
 /// it was. Throws Error(kInput) if a mesh has no triangles, if one is open and the other closed,
 /// and for a component of one that has no counterpart in the other.
-MeshFit fit_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
-                 const DistanceFitOptions& options = {});
+RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
+                     const DistanceFitOptions& options = {});
 
 /// The distances of a mesh from a surface as if it had been fitted in vain. Throws Error(kInput) if
 /// one has no triangles.
-MeshFit measure_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface);
+RemeshFit measure_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface);
 
 }  // namespace anicodec
 

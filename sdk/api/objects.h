@@ -136,8 +136,7 @@ void bounding_boxes(const FrameState* states, uint32_t frames, anic_box* out);
 void compute_boxes(anic_asset* asset);
 
 /// Opens an asset: what anic_open_asset() does, for prefixes too. Throws std::bad_alloc.
-Failure open_asset(format::ByteView bytes, const anic_options* options, bool prefix,
-                   anic_asset** out);
+Failure open_asset(ByteView bytes, const anic_options* options, bool prefix, anic_asset** out);
 
 }  // namespace anicodec
 

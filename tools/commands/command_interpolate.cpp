@@ -7,7 +7,7 @@
 #include "tools/commands/command.h"
 #include "tools/inputs/interpolation_input.h"
 #include "tools/io/write_sequence.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 
 #include <algorithm>
 #include <memory>

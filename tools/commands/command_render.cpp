@@ -10,7 +10,7 @@
 #include "tools/render/shaded_view.h"
 #include "tools/render/video.h"
 #include "tools/words/names.h"
-#include "tools/words/progress.h"
+#include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
 #include <algorithm>

@@ -15,7 +15,6 @@ namespace anicodec::tools {
 namespace {
 
 void set_target(const EncodeArguments& command, EncodeOptions& options) {
-  using format::ErrorMetric;
   std::vector<Target> targets;
   if (!command.kg.empty())
     targets.push_back({ErrorMetric::kKg, parse_positive(command.kg, "--kg"), false});
@@ -60,7 +59,7 @@ constexpr Word<Massage> kMassages[] = {{Massage::kOff, "off"},
                                        {Massage::kAuto, "auto"},
                                        {Massage::kTransfer, "transfer"}};
 /// Coders that an encoder can be asked for.
-constexpr WordTable<format::CoderId> kMeshCoders = WordTable<format::CoderId>(kCoders).first(2);
+constexpr WordTable<CoderId> kMeshCoders = WordTable<CoderId>(kCoders).first(2);
 
 void add_target(Options& options, EncodeArguments& a) {
   options.group("Target");
@@ -76,7 +75,7 @@ void add_target(Options& options, EncodeArguments& a) {
 void add_method(Options& options, EncodeArguments& a) {
   options.group("Method");
   options.choice("--basis", a.basis, {kBases}, "Kind of basis (default auto: the smallest file)");
-  options.number("--keyframes", a.keyframes, "K", {1, format::kMaxFrames},
+  options.number("--keyframes", a.keyframes, "K", {1, kMaxFrames},
                  "Number of key-frames (default: as few as do)");
   options.choice("--select", a.select, {kSelections}, "How key-frames are chosen (default pivot)");
   options.choice("--interpolation", a.interpolation, {kInterpolations},

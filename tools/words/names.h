@@ -26,66 +26,63 @@ inline std::string printable(std::string_view name) {
   return text;
 }
 
-inline constexpr Word<format::BasisKind> kBasisKinds[] = {
-    {format::BasisKind::kKeyframes, "keyframes"},
-    {format::BasisKind::kEigenshapes, "eigenshapes"},
-    {format::BasisKind::kEigentrajectories, "eigentrajectories"}};
+inline constexpr Word<BasisKind> kBasisKinds[] = {
+    {BasisKind::kKeyframes, "keyframes"},
+    {BasisKind::kEigenshapes, "eigenshapes"},
+    {BasisKind::kEigentrajectories, "eigentrajectories"}};
 
-inline constexpr Word<format::CoderId> kCoders[] = {{format::CoderId::kDraco, "draco"},
-                                                    {format::CoderId::kPlain, "plain"},
-                                                    {format::CoderId::kPredictive, "predictive"}};
+inline constexpr Word<CoderId> kCoders[] = {
+    {CoderId::kDraco, "draco"}, {CoderId::kPlain, "plain"}, {CoderId::kPredictive, "predictive"}};
 
-inline constexpr Word<format::Reconstruction> kReconstructions[] = {
-    {format::Reconstruction::kLinear, "linear"}, {format::Reconstruction::kMsgi, "msgi"}};
+inline constexpr Word<Reconstruction> kReconstructions[] = {{Reconstruction::kLinear, "linear"},
+                                                            {Reconstruction::kMsgi, "msgi"}};
 
-inline constexpr Word<format::OrderMode> kOrderModes[] = {
-    {format::OrderMode::kVertices, "vertices"},
-    {format::OrderMode::kFree, "free"},
-    {format::OrderMode::kAll, "all"}};
+inline constexpr Word<OrderMode> kOrderModes[] = {
+    {OrderMode::kVertices, "vertices"}, {OrderMode::kFree, "free"}, {OrderMode::kAll, "all"}};
 
-inline constexpr Word<format::ErrorMetric> kErrorMetrics[] = {
-    {format::ErrorMetric::kNone, "none"},          {format::ErrorMetric::kKg, "kg"},
-    {format::ErrorMetric::kMaxError, "max_error"}, {format::ErrorMetric::kRmse, "rmse"},
-    {format::ErrorMetric::kSize, "size"},          {format::ErrorMetric::kBpfv, "bpfv"}};
+inline constexpr Word<ErrorMetric> kErrorMetrics[] = {
+    {ErrorMetric::kNone, "none"},          {ErrorMetric::kKg, "kg"},
+    {ErrorMetric::kMaxError, "max_error"}, {ErrorMetric::kRmse, "rmse"},
+    {ErrorMetric::kSize, "size"},          {ErrorMetric::kBpfv, "bpfv"}};
 
-inline constexpr Word<format::AttributeKind> kAttributeKinds[] = {
-    {format::AttributeKind::kUv, "uv"},           {format::AttributeKind::kNormal, "normal"},
-    {format::AttributeKind::kTangent, "tangent"}, {format::AttributeKind::kColour, "colour"},
-    {format::AttributeKind::kCustom, "custom"},   {format::AttributeKind::kMaterial, "material"},
-    {format::AttributeKind::kPart, "part"}};
+inline constexpr Word<AttributeKind> kAttributeKinds[] = {
+    {AttributeKind::kUv, "uv"},           {AttributeKind::kNormal, "normal"},
+    {AttributeKind::kTangent, "tangent"}, {AttributeKind::kColour, "colour"},
+    {AttributeKind::kCustom, "custom"},   {AttributeKind::kMaterial, "material"},
+    {AttributeKind::kPart, "part"}};
 
-inline constexpr Word<format::AttributeDomain> kAttributeDomains[] = {
-    {format::AttributeDomain::kVertex, "vertices"},
-    {format::AttributeDomain::kCorner, "corners"},
-    {format::AttributeDomain::kPolygon, "faces"}};
+inline constexpr Word<AttributeDomain> kAttributeDomains[] = {
+    {AttributeDomain::kVertex, "vertices"},
+    {AttributeDomain::kCorner, "corners"},
+    {AttributeDomain::kPolygon, "faces"}};
 
 inline constexpr Word<UpAxis> kUpAxes[] = {{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}};
 
-inline const char* name_of(format::BasisKind kind) {
+inline const char* name_of(BasisKind kind) {
   return word_of(kBasisKinds, kind);
 }
 
-inline const char* name_of(format::CoderId coder) {
+inline const char* name_of(CoderId coder) {
   return word_of(kCoders, coder);
 }
 
-inline const char* name_of(format::Reconstruction reconstruction) {
+inline const char* name_of(Reconstruction reconstruction) {
   return word_of(kReconstructions, reconstruction);
 }
 
-inline const char* name_of(format::OrderMode order) {
+inline const char* name_of(OrderMode order) {
   return word_of(kOrderModes, order);
 }
 
-inline const char* name_of(format::ErrorMetric metric) {
+inline const char* name_of(ErrorMetric metric) {
   return word_of(kErrorMetrics, metric);
 }
 
-inline const char* name_of(format::AttributeKind kind) {
+inline const char* name_of(AttributeKind kind) {
   return word_of(kAttributeKinds, kind);
 }
 
-inline const char* name_of(format::AttributeDomain domain) {
+inline const char* name_of(AttributeDomain domain) {
   return word_of(kAttributeDomains, domain);
 }
 
@@ -99,8 +96,8 @@ inline const char* up_name(uint8_t up) {
 }
 
 /// What the components of a basis are, in the plural, for people.
-inline const char* components_of(format::BasisKind kind) {
-  return kind == format::BasisKind::kKeyframes ? "key-frames" : name_of(kind);
+inline const char* components_of(BasisKind kind) {
+  return kind == BasisKind::kKeyframes ? "key-frames" : name_of(kind);
 }
 
 }  // namespace anicodec::tools
