@@ -25,22 +25,20 @@
 namespace anicodec {
 namespace {
 
-using format::ByteView;
-
 ByteView rest_of(const draco::DecoderBuffer& buffer) {
   return {reinterpret_cast<const uint8_t*>(buffer.data_head()),
           static_cast<size_t>(buffer.remaining_size())};
 }
 
 /// Streams that say of so many edges that none is a seam, one after the other.
-format::Bytes streams_without_seams(uint32_t streams, uint64_t edges) {
+Bytes streams_without_seams(uint32_t streams, uint64_t edges) {
   draco::RAnsBitEncoder encoder;
   encoder.StartEncoding();
   for (uint64_t e = 0; e < edges; ++e)
     encoder.EncodeBit(false);
   draco::EncoderBuffer buffer;
   encoder.EndEncoding(&buffer);
-  format::Bytes result;
+  Bytes result;
   for (uint32_t i = 0; i < streams; ++i)
     result.insert(result.end(), buffer.data(), buffer.data() + buffer.size());
   return result;
@@ -136,7 +134,7 @@ Status decode(ByteView bytes, uint32_t points, uint32_t triangles, uint32_t comp
     return Status::kDraco;
   // Seams would grow Draco's tables, and are refused; but only its tables tell how many edges there
   // are. So it decodes without seams, and those of the bitstream are looked at then.
-  format::Bytes plain = streams_without_seams(seams.streams, uint64_t{3} * triangles / 2);
+  Bytes plain = streams_without_seams(seams.streams, uint64_t{3} * triangles / 2);
   plain.insert(plain.begin(), bytes.data, bytes.data + seams.begin);
   plain.insert(plain.end(), bytes.data + seams.end, bytes.data + bytes.size);
   draco::DecoderBuffer buffer;
@@ -177,8 +175,8 @@ Status decode(ByteView bytes, uint32_t points, uint32_t triangles, uint32_t comp
 
 }  // namespace
 
-Status decode_draco_mesh(format::ByteView bytes, uint32_t points, uint32_t triangles,
-                         uint32_t components, DracoMesh* out) {
+Status decode_draco_mesh(ByteView bytes, uint32_t points, uint32_t triangles, uint32_t components,
+                         DracoMesh* out) {
   try {
     return decode(bytes, points, triangles, components, out);
   } catch (const std::bad_alloc&) {

@@ -7,8 +7,6 @@
 namespace anicodec {
 namespace {
 
-using format::ByteReader;
-
 constexpr uint8_t kTriangles = 1, kEdgebreaker = 1;
 constexpr uint8_t kStandardTraversal = 0, kValenceTraversal = 2;
 constexpr uint8_t kPosition = 0, kGeneric = 4;  // kinds of attribute
@@ -63,10 +61,10 @@ uint32_t draco_table_bits(uint64_t values) {
   return std::clamp(3 * alphabet_bits(values) / 2, 12U, 20U);
 }
 
-bool read_draco_head(format::ByteView bytes, const DracoCounts& counts, DracoSeams* seams) {
+bool read_draco_head(ByteView bytes, const DracoCounts& counts, DracoSeams* seams) {
   constexpr uint8_t kHead[] = {'D', 'R', 'A', 'C', 'O', 2, 2, kTriangles, kEdgebreaker};
   ByteReader r(bytes);
-  const format::ByteView head = r.raw(sizeof kHead);
+  const ByteView head = r.raw(sizeof kHead);
   if (!r.ok() || !std::equal(kHead, kHead + sizeof kHead, head.data) || r.u16() != 0)
     return false;
   const uint8_t traversal = r.u8();
@@ -90,7 +88,7 @@ bool read_draco_head(format::ByteView bytes, const DracoCounts& counts, DracoSea
   return r.ok();
 }
 
-bool check_draco_attributes(format::ByteView rest, const DracoCounts& counts, uint32_t attributes) {
+bool check_draco_attributes(ByteView rest, const DracoCounts& counts, uint32_t attributes) {
   ByteReader r(rest);
   if (r.u8() != attributes)
     return false;
@@ -113,7 +111,7 @@ bool check_draco_attributes(format::ByteView rest, const DracoCounts& counts, ui
   return r.ok() && components == counts.components;
 }
 
-bool check_draco_symbols(format::ByteView rest, uint64_t values) {
+bool check_draco_symbols(ByteView rest, uint64_t values) {
   ByteReader r(rest);
   const uint8_t coding = r.u8();
   if (coding == kByLength)
@@ -123,7 +121,7 @@ bool check_draco_symbols(format::ByteView rest, uint64_t values) {
          r.ok();
 }
 
-bool check_draco_values(format::ByteView rest, uint64_t values) {
+bool check_draco_values(ByteView rest, uint64_t values) {
   ByteReader r(rest);
   const uint8_t prediction = r.u8();
   return (prediction == kParallelogram || prediction == kSeveral) && r.u8() == kWrap &&

@@ -39,17 +39,17 @@ struct DracoSeams {
 
 /// Checks the header of a bitstream and everything up to the end of the seams, and says where those
 /// are. False for what is not of the profile. Cost: O(bytes).
-bool read_draco_head(format::ByteView bytes, const DracoCounts& counts, DracoSeams* seams);
+bool read_draco_head(ByteView bytes, const DracoCounts& counts, DracoSeams* seams);
 
 /// Checks the descriptions of `attributes` attributes, with which `rest` begins.
-bool check_draco_attributes(format::ByteView rest, const DracoCounts& counts, uint32_t attributes);
+bool check_draco_attributes(ByteView rest, const DracoCounts& counts, uint32_t attributes);
 
 /// Checks the alphabet of a list of so many symbols, with which `rest` begins.
-bool check_draco_symbols(format::ByteView rest, uint64_t values);
+bool check_draco_symbols(ByteView rest, uint64_t values);
 
 /// Checks how the values of an attribute are coded, with which `rest` begins: their prediction and
 /// their alphabet. `values`: points x components.
-bool check_draco_values(format::ByteView rest, uint64_t values);
+bool check_draco_values(ByteView rest, uint64_t values);
 
 }  // namespace anicodec
 

@@ -21,8 +21,8 @@ namespace {
 
 struct Bitstream {
   std::string name;
-  format::Limits::Mesh sizes;
-  format::Bytes bytes;
+  Limits::Mesh sizes;
+  Bytes bytes;
 };
 
 MeshLayout layout_of(const TriangleList& list) {
@@ -34,7 +34,7 @@ MeshLayout layout_of(const TriangleList& list) {
   for (size_t i = 0; i < list.triangles.size(); i += 3)
     s.polygons.add(std::vector<uint32_t>(list.triangles.begin() + static_cast<ptrdiff_t>(i),
                                          list.triangles.begin() + static_cast<ptrdiff_t>(i + 3)));
-  return lay_out_mesh(s, format::CoderId::kDraco);
+  return lay_out_mesh(s, CoderId::kDraco);
 }
 
 /// Triangles that touch each other nowhere, here and there, or everywhere.
@@ -62,7 +62,7 @@ Bitstream with_poses(const MeshLayout& layout, uint32_t count, uint32_t size,
 
 /// Decodes; the heap keeps within what is announced.
 Status tried(const Bitstream& stream) {
-  format::Limits limits;
+  Limits limits;
   limits.meshes.push_back(stream.sizes);
   const auto announced = static_cast<size_t>(estimate_memory(limits, 1).draco);
   Memory memory;
@@ -99,7 +99,7 @@ TEST(SlowDracoBounds, LetThroughWhatTheEncoderWrites) {
   size_t tried_count = 0;
   for (const TriangleList& list : lists(random)) {
     const MeshLayout layout = layout_of(list);
-    if (layout.coder != format::CoderId::kDraco)
+    if (layout.coder != CoderId::kDraco)
       continue;
     for (const uint32_t count : {0U, 1U, 2U, 5U, 70U}) {
       if (count == 70 && layout.sizes.triangles > 1000)
@@ -138,7 +138,7 @@ TEST(DracoBounds, HoldForDamagedBitstreams) {
 }
 
 /// Bytes from which a description begins: of attributes, and of the coding of values.
-size_t find(const format::Bytes& bytes, std::initializer_list<uint8_t> wanted) {
+size_t find(const Bytes& bytes, std::initializer_list<uint8_t> wanted) {
   const auto at = std::search(bytes.begin(), bytes.end(), wanted.begin(), wanted.end());
   return static_cast<size_t>(at - bytes.begin());
 }

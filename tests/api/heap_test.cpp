@@ -15,7 +15,7 @@ struct Taken {
   int64_t left = 0;
 };
 
-Taken taken_by(const format::Bytes& file) {
+Taken taken_by(const Bytes& file) {
   CountingMemory memory;
   anic_options options = {};
   options.allocator = memory.allocator();

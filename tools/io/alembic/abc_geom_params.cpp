@@ -96,7 +96,7 @@ void AbcGeomParams::add_arbitrary(const AbcProperty& property, const AbcNote& no
   const AbcProperty* values = indexed ? compound.find(".vals") : &property;
   if (values == nullptr || !is_number(*values))
     return note("is left out: it is no number");
-  if (values->extent > format::kMaxAttributeComponents)
+  if (values->extent > kMaxAttributeComponents)
     return note("is left out: it has " + std::to_string(values->extent) + " numbers per element");
   const std::string_view told = metadata_value(property.metadata, "interpretation");
   const std::string_view meaning =
