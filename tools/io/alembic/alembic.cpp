@@ -126,14 +126,14 @@ SceneMesh mesh_of(AlembicBake& bake, const AbcShown& shown, uint32_t topology) {
   for (uint32_t f = first; f < shown.topology.size(); ++f) {
     if (shown.topology[f] != topology)
       continue;
-    if (out.there.empty() || out.there.back().first + out.there.back().count != f)
-      out.there.push_back({f, 0});
-    ++out.there.back().count;
+    if (out.present_in.empty() || out.present_in.back().first + out.present_in.back().count != f)
+      out.present_in.push_back({f, 0});
+    ++out.present_in.back().count;
     ++out.sequence.frame_count;
   }
   reserve_positions(bake, out.sequence);
   uint32_t own = 0;
-  for (const FrameRun& run : out.there) {
+  for (const FrameRun& run : out.present_in) {
     for (uint32_t f = run.first; f < run.first + run.count; ++f, ++own) {
       bake.read_positions(shown, bake.places(f)[shown.node], f, out.sequence.frame(own));
       if (own > 0 && AlembicBake::has_moving_attributes(shown))

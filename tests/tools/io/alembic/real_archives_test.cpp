@@ -177,7 +177,7 @@ void check_clip(const ByteSource& source, const std::string& path, const Json& e
   for (const SceneMesh& mesh : scene.meshes) {
     EXPECT_EQ(mesh.sequence.mesh_name, path);
     uint32_t own = 0;
-    for (const FrameRun& run : mesh.there) {
+    for (const FrameRun& run : mesh.present_in) {
       for (uint32_t f = run.first; f < run.first + run.count; ++f, ++own) {
         const std::string frame = "frame " + std::to_string(f);
         SCOPED_TRACE(frame);
