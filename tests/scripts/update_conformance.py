@@ -3,9 +3,8 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Makes tests/conformance/, seeds of tests/fuzz/ and the listing of spec/A-examples.md anew, after the format has changed.
 
-usage: update_conformance.py ANICODEC LIBANICODEC REFERENCE_DECODER
-  the built command, shared library and decoder of the tests, as build/dev/tools/anicodec
-  build/dev/sdk/package/libanicodec.so build/dev/tests/reference_decoder
+usage: update_conformance.py BUILD
+  a folder that all has been built in, as build/dev
 """
 import ctypes
 import hashlib
@@ -41,6 +40,8 @@ VECTORS = [
 ]
 # Clips whose attributes move: they go by PLY frames.
 MOVING = ["heated"]
+# Clips whose frames have times: they go by MDD.
+TIMED = ["uneven"]
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 # Codes that a file can cause, with the names of spec/12-errors.md.
 CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
@@ -232,21 +233,29 @@ def write_seeds(folder):
 
 
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
-    command, library = str(pathlib.Path(sys.argv[1]).resolve()), Library(pathlib.Path(sys.argv[2]).resolve())
-    decoder = pathlib.Path(sys.argv[3]).resolve()
+    build = pathlib.Path(sys.argv[1]).resolve()
+    command, library = str(build / "tools/anicodec"), Library(build / "sdk/package/libanicodec.so")
+    decoder, special = build / "tests/reference_decoder", build / "tests/special_vectors"
     lines = []
 
     def add(kind, path, *fields):
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         lines.append(" ".join([kind, path.relative_to(FOLDER).as_posix(), digest, *fields]))
 
+    def add_valid(path, out):
+        for old in out.parent.glob(out.name + ".*"):
+            old.unlink()
+        subprocess.run([decoder, path, out], check=True)
+        add("valid", path)
+        conformance_facts.write(conformance_facts.facts_of(out), FOLDER / "facts" / f"{path.stem}.json")
+
     shutil.rmtree(FOLDER / "facts", ignore_errors=True)
     (FOLDER / "facts").mkdir()
     with tempfile.TemporaryDirectory() as name:
         for file, clip, options in VECTORS:
-            cache = pathlib.Path(name) / (pathlib.Path(file).stem + ".pc2")
+            cache = pathlib.Path(name) / (pathlib.Path(file).stem + (".mdd" if clip in TIMED else ".pc2"))
             inputs = [cache.with_suffix(".obj"), cache]
             if clip in MOVING:
                 subprocess.run([command, "corpus", clip, "-q", "-f", "-o",
@@ -256,11 +265,10 @@ def main():
                 subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
             subprocess.run([command, "encode", "-q", "-f", *inputs, "-o", FOLDER / file] + options.split(),
                            check=True)
-            out = pathlib.Path(name) / "decoded"
-            subprocess.run([decoder, FOLDER / file, out], check=True)
-            add("valid", FOLDER / file)
-            conformance_facts.write(conformance_facts.facts_of(out),
-                                    FOLDER / "facts" / f"{pathlib.Path(file).stem}.json")
+            add_valid(FOLDER / file, pathlib.Path(name) / "decoded")
+        for what in subprocess.run([special], check=True, capture_output=True, text=True).stdout.split():
+            subprocess.run([special, what, FOLDER / f"{what}.anic"], check=True)
+            add_valid(FOLDER / f"{what}.anic", pathlib.Path(name) / "decoded")
 
     for folder in ("invalid", "limits"):
         shutil.rmtree(FOLDER / folder, ignore_errors=True)

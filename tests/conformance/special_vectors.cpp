@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Files that the encoder never writes, so that the conformance files need every branch of a decoder:
+// rare parameters, streams of numbers without meaning, metadata at its limits.
+//
+// usage: special_vectors NAME FILE.anic      (without arguments: lists the names)
+#include "codec/encode_scene.h"
+#include "codec/file/clip_file.h"
+#include "codec/file/clip_record.h"
+#include "codec/metrics/metrics.h"
+#include "codec/search/encoder_input.h"
+#include "codec/segment/linear_segment_encode.h"
+#include "codec/sequence/error.h"
+#include "corpus/clips.h"
+#include "format/binary_coder.h"
+#include "format/bytes.h"
+#include "format/coefficient_coder.h"
+#include "format/time_weights.h"
+#include "sdk/clip/clip.h"
+#include "sdk/prediction/vertex_order.h"
+#include "sdk/segment/keyframe_segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace anicodec {
+namespace {
+
+/// Numbers that look random, the same everywhere.
+class Numbers {
+ public:
+  uint32_t below(uint32_t count) {
+    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<uint32_t>((state_ >> 33) % count);
+  }
+
+  int32_t within(int32_t limit) {
+    return static_cast<int32_t>(below(2 * static_cast<uint32_t>(limit) + 1)) - limit;
+  }
+
+ private:
+  uint64_t state_ = 1;
+};
+
+/// How a range of frames is coded.
+struct Recipe {
+  uint32_t frames = 0;
+  BasisKind kind = BasisKind::kEigentrajectories;
+  LinearSettings settings;
+  /// Changes the streams before the segment is opened and hashed.
+  std::function<void(EncodedSegment&, const EncoderInput&)> change = {};
+};
+
+/// A file of one mesh, one segment after the other, each over a reference pose that is in the file
+/// for it alone. Its errors are measured.
+Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
+              const std::function<void(ClipRecord&)>& describe = {}) {
+  const double clip_diagonal = diagonal(clip);
+  const MeshSequence source = clip;
+  ClipRecord record = clip_record(clip, {}, {}, clip_diagonal);
+  const EncoderInput input(std::move(clip), CoderId::kPlain);
+  std::vector<EncodedSegment> segments;
+  uint32_t first = 0;
+  for (const Recipe& recipe : recipes) {
+    const FrameView frames = input.frames(first, recipe.frames);
+    const LinearAnalysis analysis(frames);
+    const bool shapes = recipe.kind == BasisKind::kEigenshapes;
+    const LinearBasis basis =
+        analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
+                       shapes ? Base::kPose : Base::kAffine, 1000, 0);
+    EncodedSegment& segment =
+        segments.emplace_back(encode_linear(frames, basis, recipe.settings, input.layout));
+    segment.sizes.first_frame = first;
+    if (recipe.change)
+      recipe.change(segment, input);
+    open_encoded(segment, input.layout);
+    first += recipe.frames;
+  }
+  std::vector<const EncodedSegment*> list;
+  for (const EncodedSegment& segment : segments)
+    list.push_back(&segment);
+  if (describe)
+    describe(record);
+  Clip opened;
+  if (Failure f = opened.open(clip_file(record, input.layout, list)); !f.ok())
+    throw Error(ErrorKind::kInternal, f.detail);
+  MeshSequence shown = source;
+  for (uint32_t f = 0; f < source.frame_count; ++f)
+    opened.positions(0, f, shown.frame(f).data());
+  CompareOptions options;
+  options.sted = false;
+  const Comparison measured = compare(source, shown, options);
+  record.max_error = measured.max_error;
+  record.rmse = measured.rmse;
+  record.kg = measured.kg;
+  return clip_file(record, input.layout, list);
+}
+
+Recipe recipe(uint32_t frames, BasisKind kind, double step, uint8_t neighbours, uint8_t passes,
+              uint8_t radius, RefitSchedule schedule) {
+  Recipe r;
+  r.frames = frames;
+  r.kind = kind;
+  r.settings.step = step;
+  r.settings.neighbours = neighbours;
+  r.settings.passes_per_level = passes;
+  r.settings.radius = radius;
+  r.settings.schedule = schedule;
+  return r;
+}
+
+/// All schedules of refits, numbers of neighbours and passes; a reference pose for each segment.
+Bytes schedules() {
+  const MeshSequence clip = corpus::make_scaled("limb", 220, 40);
+  const double step = 0.002 * diagonal(clip);
+  return file_of(
+      clip, {recipe(10, BasisKind::kEigenshapes, step, 8, 1, 1, RefitSchedule::kNone),
+             recipe(10, BasisKind::kEigentrajectories, step, 12, 8, 255, RefitSchedule::kSparse),
+             recipe(10, BasisKind::kEigenshapes, step, 24, 4, 12, RefitSchedule::kMedium),
+             recipe(10, BasisKind::kEigentrajectories, step, 20, 2, 5, RefitSchedule::kDense)});
+}
+
+/// A vertex of more than 32 neighbours, vertices without any, and a pose finer than the grid that
+/// orders them: every rule of the vertex order has to act.
+MeshSequence hub() {
+  constexpr uint32_t kSpokes = 70, kLoose = 90, kFrames = 9;
+  MeshSequence clip;
+  clip.name = "hub";
+  clip.vertex_count = 2 * kSpokes + 1 + kLoose;
+  clip.frame_count = kFrames;
+  for (uint32_t i = 0; i < kSpokes; ++i) {
+    const uint32_t a = 1 + i, b = 1 + (i + 1) % kSpokes;
+    clip.polygons.add(std::vector<uint32_t>{0, a, b});
+    clip.polygons.add(std::vector<uint32_t>{a, a + kSpokes, b + kSpokes, b});
+  }
+  Numbers numbers;
+  std::vector<float> rest;
+  for (uint32_t v = 0; v < clip.vertex_count; ++v) {
+    const double angle = 2 * 3.14159265358979 * (v - 1) / kSpokes, r = v == 0        ? 0
+                                                                       : v > kSpokes ? 2
+                                                                                     : 1;
+    const bool loose = v > 2 * kSpokes;
+    const double places[3] = {loose ? numbers.within(2000) / 1000.0 : r * std::cos(angle),
+                              loose ? numbers.within(2000) / 1000.0 : r * std::sin(angle),
+                              loose ? numbers.within(2000) / 1000.0 : 0.25 * r};
+    for (const double x : places)
+      rest.push_back(static_cast<float>(std::round(x * 4096) / 4096));
+  }
+  for (uint32_t f = 0; f < kFrames; ++f) {
+    for (size_t i = 0; i < rest.size(); ++i) {
+      const double swing =
+          0.05 * numbers.within(100) / 100.0 + 0.01 * f * static_cast<double>(i % 5);
+      clip.positions.push_back(rest[i] + static_cast<float>(std::round(swing * 4096) / 4096));
+    }
+  }
+  return clip;
+}
+
+Bytes vertex_order() {
+  Recipe r = recipe(9, BasisKind::kEigentrajectories, 0.004, 16, 3, 12, RefitSchedule::kDense);
+  r.settings.pose_factor = 0.02;  // the grid of the order shifts it
+  return file_of(hub(), {r}, [](ClipRecord& record) {
+    record.name = String("tab\there \"quoted\" \xff");
+    record.rate_numerator = 30000;
+    record.rate_denominator = 1001;
+    record.rate_assumed = false;
+    record.loop = record.massaged = true;
+    record.up = 2;
+    record.start_time = -1.5;
+    record.metres_per_unit = 0.01;
+    record.surface_error = 0.25;
+    record.surface_error_mean = 0.125;
+  });
+}
+
+/// Weights in time by each predictor, of numbers that suit none.
+void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
+  const uint32_t frames = segment.sizes.frames;
+  const uint32_t rows = segment.sizes.kind == BasisKind::kEigentrajectories ? 3 : 1;
+  Numbers numbers;
+  BinaryEncoder encoder;
+  TimeWeightModel model(frames);
+  std::vector<int32_t> decoded(size_t{3} * frames);
+  for (uint32_t j = 0; j < 4 + segment.sizes.components; ++j) {
+    const uint32_t channels = j < 4 ? 3 : rows;
+    std::vector<double> x(size_t{channels} * frames);
+    for (size_t i = 0; i < x.size(); ++i)
+      x[i] = 300 * std::sin(0.05 * static_cast<double>(i % frames) * (1 + j % 3) + j) +
+             numbers.within(10 << (j % 7)) + (i % 41 == 0 ? 20000 : 0);
+    model.encode(encoder, channels, x.data(), 0, decoded.data(), 1u << (j % kWeightPredictors));
+  }
+  segment.weights = encoder.finish();
+}
+
+Bytes weights_in_time() {
+  const MeshSequence clip = corpus::make_scaled("waves", 100, 300);
+  const double step = 0.01 * diagonal(clip);
+  Recipe shapes =
+      recipe(170, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kSparse);
+  Recipe short_one =
+      recipe(130, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kNone);
+  for (Recipe* r : {&shapes, &short_one}) {
+    r->settings.components = 9;
+    r->change = scramble_weights;
+  }
+  return file_of(clip, {shapes, short_one});
+}
+
+/// Residuals at their limits: predictions saturate, refits see numbers that are not finite.
+void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
+  LinearParameters parameters;
+  if (parameters.read(segment.parameters, segment.sizes.components) != Status::kOk)
+    throw Error(ErrorKind::kInternal, "the parameters cannot be read");
+  Numbers numbers;
+  for (uint8_t& omega : parameters.omega)
+    omega = static_cast<uint8_t>(numbers.below(256));
+  segment.parameters = parameters.write();
+  const Topology& topology = input.layout.topology;
+  VertexOrder order;
+  make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3,
+                    segment.reference->grid.points.data(), topology.coded_vertices,
+                    parameters.neighbours, parameters.colours, &order);
+  const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
+  CoefficientModel model(topology.coded_vertices, channels, order.neighbours.data(),
+                         static_cast<uint32_t>(order.neighbour_count));
+  BinaryEncoder encoder;
+  std::vector<int32_t> q(size_t{channels} * topology.coded_vertices);
+  for (uint32_t j = 0; j < segment.sizes.components; ++j) {
+    for (int32_t& x : q)
+      x = j % 3 == 0 ? numbers.within(3) : numbers.within(1 << (j * 2 % 24));
+    model.code_component(encoder, q.data());
+  }
+  ByteWriter writer;
+  writer.varint(segment.sizes.components);
+  writer.raw(encoder.finish());
+  segment.layers = {writer.bytes()};
+  segment.sizes.wide_components = segment.sizes.components;
+}
+
+Bytes saturated() {
+  const MeshSequence clip = corpus::make_scaled("limb", 120, 16);
+  const double step = 0.001 * diagonal(clip);
+  Recipe shapes = recipe(8, BasisKind::kEigenshapes, step, 16, 1, 12, RefitSchedule::kDense);
+  Recipe curves = recipe(8, BasisKind::kEigentrajectories, step, 16, 2, 12, RefitSchedule::kDense);
+  for (Recipe* r : {&shapes, &curves}) {
+    r->settings.components = 7;
+    r->change = scramble_coefficients;
+  }
+  return file_of(clip, {shapes, curves});
+}
+
+/// Several meshes that come and go, several segments of one of them.
+Bytes scene() {
+  Scene whole;
+  whole.clip.name = "scene";
+  whole.clip.frame_count = 12;
+  const MeshSequence box = corpus::make_clip("quad_box"),
+                     triangle = corpus::make_clip("one_triangle");
+  auto shown = [](const MeshSequence& clip, std::vector<FrameRun> runs, const char* name) {
+    MeshSequence part = clip;
+    part.mesh_name = name;
+    part.frame_count = 0;
+    for (const FrameRun& run : runs)
+      part.frame_count += run.count;
+    part.positions.resize(size_t{3} * part.vertex_count * part.frame_count);
+    for (uint32_t f = 0; f < part.frame_count; ++f)
+      std::ranges::copy(clip.frame(f % clip.frame_count), part.frame(f).begin());
+    part.times.clear();
+    return SceneMesh{part, std::move(runs)};
+  };
+  whole.meshes.push_back(shown(box, {{0, 12}}, "box"));
+  whole.meshes.push_back(shown(triangle, {{1, 3}, {7, 2}}, "triangle"));
+  EncodeOptions options;
+  options.target = {ErrorMetric::kKg, 1, false};
+  return encode_scene(whole, options).file;
+}
+
+/// Two shapes in turns: a key-frame is nearest to the one before the last.
+Bytes other_parents() {
+  MeshSequence clip = hub();
+  Numbers numbers;
+  std::vector<float> away(size_t{3} * clip.vertex_count);
+  for (float& x : away)
+    x = static_cast<float>(numbers.within(64)) / 64;
+  for (uint32_t f = 1; f < clip.frame_count; f += 2)
+    std::ranges::transform(clip.frame(f), away, clip.frame(f).begin(), std::plus<>());
+  EncodeOptions options;
+  options.basis = BasisChoice::kKeyframes;
+  options.keyframes = 6;
+  return encode(clip, options).file;
+}
+
+struct Vector {
+  const char* name;
+  Bytes (*make)();
+};
+
+constexpr Vector kVectors[] = {{"schedules", schedules},
+                               {"vertex_order", vertex_order},
+                               {"weights_in_time", weights_in_time},
+                               {"saturated", saturated},
+                               {"other_parents", other_parents},
+                               {"scene", scene}};
+
+int run(int argc, char** argv) {
+  for (const Vector& vector : kVectors) {
+    if (argc == 1)
+      std::printf("%s\n", vector.name);
+    if (argc != 3 || std::string(argv[1]) != vector.name)
+      continue;
+    const Bytes bytes = vector.make();
+    std::ofstream file(argv[2], std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    return file.good() ? 0 : 1;
+  }
+  return argc == 1 ? 0 : 2;
+}
+
+}  // namespace
+}  // namespace anicodec
+
+int main(int argc, char** argv) {
+  try {
+    return anicodec::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "special_vectors: %s\n", error.what());
+    return 1;
+  }
+}
