@@ -90,7 +90,7 @@ void check_same_mesh(const OpenPart& first, const OpenPart& next) {
     if (!equal(first.of_mesh(*type), next.of_mesh(*type)))
       fail(next.part, ErrorKind::kInput,
            "does not have the connectivity, welds and reference pose of " + first.part.name +
-               "; parts are encoded from the whole clip, with --frames and the same target");
+               "; parts are encoded from the whole clip, with --part and the same target");
   }
 }
 

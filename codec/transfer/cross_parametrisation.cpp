@@ -2,15 +2,17 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/transfer/cross_parametrisation.h"
 
+#include "codec/algebra/rigid_motion.h"
 #include "codec/massage/shape_fit.h"
 #include "codec/massage/shape_weights.h"
 #include "codec/sequence/error.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 namespace anicodec {
 namespace {
@@ -44,6 +46,49 @@ RowMatrix held_at(const RowMatrix& shape, const std::vector<Landmark>& landmarks
   RowMatrix result(shape.rows(), shape.cols());
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
+}
+
+/// Whether points, given relative to their mean, lie on a line.
+bool on_a_line(const std::vector<Vector3d>& points) {
+  Vector3d farthest = Vector3d::Zero();
+  double size = 0;
+  for (const Vector3d& p : points) {
+    size += p.squaredNorm();
+    if (p.squaredNorm() > farthest.squaredNorm())
+      farthest = p;
+  }
+  const double limit = 1e-6 * std::sqrt(size);
+  return std::all_of(points.begin(), points.end(), [&](const Vector3d& p) {
+    return p.cross(farthest).norm() <= limit * farthest.norm();
+  });
+}
+
+/// The shape turned, scaled and moved so that its landmarks come as near to their places as they
+/// can (Umeyama, "Least-squares estimation of transformation parameters between two point
+/// patterns", PAMI 1991).
+Positions laid_on(const std::vector<Landmark>& landmarks, const Positions& shape) {
+  if (landmarks.size() < 3)
+    throw Error(ErrorKind::kUsage, "a map needs three landmarks at least");
+  Vector3d from_mean = Vector3d::Zero(), to_mean = Vector3d::Zero();
+  for (const Landmark& l : landmarks) {
+    from_mean += row(shape, l.vertex) / static_cast<double>(landmarks.size());
+    to_mean += l.position / static_cast<double>(landmarks.size());
+  }
+  std::vector<Vector3d> from;
+  double size = 0;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Landmark& l : landmarks) {
+    from.emplace_back(row(shape, l.vertex) - from_mean);
+    size += from.back().squaredNorm();
+    covariance += (l.position - to_mean) * from.back().transpose();
+  }
+  if (on_a_line(from))
+    throw Error(ErrorKind::kUsage, "the landmarks of a map must not lie on a line");
+  const Eigen::Matrix3d rotation = best_rotation(covariance);
+  const double scale = (rotation.transpose() * covariance).trace() / size;
+  Positions laid = (shape.rowwise() - from_mean.transpose()) * (scale * rotation.transpose());
+  laid.rowwise() += to_mean.transpose();
+  return laid;
 }
 
 }  // namespace
@@ -81,20 +126,7 @@ CrossParametrisation improve_map(const SurfaceTopology& mesh, const Positions& s
 Positions map_by_landmarks(const SurfaceTopology& mesh, const Positions& shape,
                            const Surface& surface, const std::vector<Landmark>& landmarks) {
   check_fits(mesh, surface, landmarks);
-  const auto count = static_cast<Index>(landmarks.size());
-  Eigen::Matrix3Xd from(3, count), to(3, count);
-  for (Index k = 0; k < count; ++k) {
-    from.col(k) = row(shape, landmarks[static_cast<size_t>(k)].vertex);
-    to.col(k) = landmarks[static_cast<size_t>(k)].position;
-  }
-  if (count < 3)
-    throw Error(ErrorKind::kUsage, "a map needs three landmarks at least");
-  const Eigen::Matrix3Xd centred = from.colwise() - from.rowwise().mean().eval();
-  if (centred.jacobiSvd().singularValues()[1] < 1e-6 * centred.norm())
-    throw Error(ErrorKind::kUsage, "the landmarks of a map must not lie on a line");
-  const Eigen::Matrix4d similarity = Eigen::umeyama(from, to, true);
-  const Positions laid = (shape * similarity.topLeftCorner<3, 3>().transpose()).rowwise() +
-                         similarity.topRightCorner<3, 1>().transpose();
+  const Positions laid = landmarks.empty() ? shape : laid_on(landmarks, shape);
   const RigidShape rigid(mesh, laid);
   RegistrationOptions options;
   options.first_stiffness = 20;

@@ -39,8 +39,9 @@ CrossParametrisation improve_map(const SurfaceTopology& mesh, const Positions& s
                                  const CrossParametrisationOptions& options);
 
 /// A rough map from landmarks alone, at least three that are not on a line: the mesh is laid onto
-/// them by the best similarity and deformed onto the surface by Registration. Throws as
-/// improve_map(), and Error(kUsage) for too few landmarks.
+/// them by the best similarity and deformed onto the surface by Registration. Without landmarks the
+/// mesh must lie over the surface as it is. Throws as improve_map(), and Error(kUsage) for too few
+/// landmarks.
 Positions map_by_landmarks(const SurfaceTopology& mesh, const Positions& shape,
                            const Surface& surface, const std::vector<Landmark>& landmarks);
 

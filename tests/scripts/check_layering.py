@@ -46,7 +46,7 @@ ROOMS = {
     "codec/metrics": ["codec/sequence", "codec/surface"],
     "codec/connectivity": ["codec/sequence"],
     "codec/massage": ["codec/sequence", "codec/algebra", "codec/surface", "codec/connectivity"],
-    "codec/transfer": ["codec/sequence", "codec/surface", "codec/metrics", "codec/massage"],
+    "codec/transfer": ["codec/sequence", "codec/algebra", "codec/surface", "codec/metrics", "codec/massage"],
     "codec/remesh": ["codec/sequence", "codec/surface", "codec/connectivity", "codec/transfer"],
     "codec/interpolation": ["codec/sequence", "codec/algebra", "codec/surface"],
     "codec/keyframes": ["codec/sequence", "codec/algebra", "codec/interpolation"],

@@ -28,7 +28,7 @@ VECTORS = [
     ("quad_box_corrected.anic", "quad_box", "--kg 1 --max-error 0.5% --basis eigentrajectories"),
     ("soup_plain.anic", "soup", "--kg 0.5 --mesh-coder plain --basis eigentrajectories"),
     ("limb_effort9.anic", "limb", "--kg 0.2 --effort 9 --basis eigenshapes"),
-    ("limb_small.anic", "limb --vertices 100 --frames 8", "--kg 0.5 --effort 9 --basis eigenshapes"),
+    ("limb_small.anic", "limb --vertices 100 --frame-count 8", "--kg 0.5 --effort 9 --basis eigenshapes"),
     ("far_rigid.anic", "far", "--keyframes 1"),
     ("uneven_times.anic", "uneven", "--kg 0.5 --basis eigentrajectories"),
     ("leftovers_plain.anic", "leftovers", "--kg 0.5 --order all --mesh-coder plain --basis keyframes"),

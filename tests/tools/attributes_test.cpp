@@ -111,7 +111,7 @@ TEST_F(AttributesOfFiles, AreLeftOutWhereAsked) {
 TEST_F(AttributesOfFiles, FollowPartsThatAreJoined) {
   for (const char* range : {"0:10", "10:24"})
     ASSERT_EQ(anicodec({"encode", folder_ / "a.pc2", "-o",
-                        folder_ / (std::string(range, 2) + ".anic"), "--frames", range})
+                        folder_ / (std::string(range, 2) + ".anic"), "--part", range})
                   .status,
               0);
   ASSERT_EQ(

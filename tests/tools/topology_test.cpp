@@ -39,8 +39,9 @@ class Topologies : public testing::Test {
   }
 
   Outcome encode(std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments{"encode",     folder_ / "in/*.obj", "-o", folder_ / "a.anic",
-                                       "--topology", "segments",           "-f"};
+    std::vector<std::string> arguments{
+        "encode", folder_ / "in/*.obj", "-o", folder_ / "a.anic", "--topology-changes", "keep",
+        "-f"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return anicodec(arguments);
   }
@@ -101,14 +102,14 @@ TEST_F(Topologies, AreRefusedWhereOneIsWanted) {
   EXPECT_THAT(cache.err, HasSubstr("write a file per frame"));
   EXPECT_EQ(anicodec({"compare", folder_ / "a.anic", folder_ / "a.anic"}).status, 4);
   EXPECT_EQ(encode({"--size", "10k"}).status, 1);
-  EXPECT_EQ(encode({"--frames", "0:3"}).status, 1);
+  EXPECT_EQ(encode({"--part", "0:3"}).status, 1);
   EXPECT_EQ(encode({"--massage", "on"}).status, 1);
 }
 
 TEST_F(Topologies, OfOneKindAreAPlainClip) {
   ASSERT_EQ(anicodec({"encode", folder_ / "in/f_0[0-5].obj", "-o", folder_ / "a.anic"}).status, 0);
-  ASSERT_EQ(anicodec({"encode", folder_ / "in/f_0[0-5].obj", "-o", folder_ / "b.anic", "--topology",
-                      "segments"})
+  ASSERT_EQ(anicodec({"encode", folder_ / "in/f_0[0-5].obj", "-o", folder_ / "b.anic",
+                      "--topology-changes", "keep"})
                 .status,
             0);
   EXPECT_EQ(folder_.read("a.anic"), folder_.read("b.anic"));

@@ -31,7 +31,7 @@ enum CommonOption : unsigned {
 
 /// Texts of a command's help.
 struct CommandHelp {
-  std::string name;         ///< "encode"
+  std::string name;         ///< "encode", or of a command's mode "massage fit"
   std::string usage;        ///< what follows the name
   std::string description;  ///< one line
   std::string footer;       ///< examples and anything that needs more words
@@ -62,6 +62,9 @@ void add_compare(Commands& commands, CommonOptions& common);
 void add_analyze(Commands& commands, CommonOptions& common);
 void add_interpolate(Commands& commands, CommonOptions& common);
 void add_massage(Commands& commands, CommonOptions& common);
+void add_massage_fit(Commands& commands, CommonOptions& common);
+void add_massage_transfer(Commands& commands, CommonOptions& common);
+void add_massage_map(Commands& commands, CommonOptions& common);
 void add_dump(Commands& commands, CommonOptions& common);
 void add_render(Commands& commands, CommonOptions& common);
 void add_corpus(Commands& commands, CommonOptions& common);

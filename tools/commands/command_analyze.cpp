@@ -44,7 +44,7 @@ not installed), shown_kg, shown_bytes, shares, frame_errors (rmse, max_error), b
 k, kg, rmse), shape_spaces (space, k, kg, numbers, bytes, residual_percent). With -o x.svg the
 curves of size against KG error alone.
 
---massage measures instead what anicodec massage does to the clip: KG errors in K principal
+--massage-study measures instead what anicodec massage does to the clip: KG errors in K principal
 components and sizes, of the clip as it is and massaged, how far the surface moved, and the shapes
 of the triangles. With --csv: series,x,original,massaged, where series is pca (x components, KG
 errors) or bytes (x KG error); with --json components (k, original, massaged), sizes (kg, original,
@@ -219,7 +219,7 @@ void add_analyze(Commands& commands, CommonOptions& common) {
   options.number("--effort", c->effort, "N", {1, 9},
                  "Of the report's encodings, 1 to 9 (default 3)");
   options.flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
-  options.flag("--massage", c->massage, "What Mesh Massage does to the clip");
+  options.flag("--massage-study", c->massage, "Measure what Mesh Massage does to the clip instead");
   options.flag("--csv", c->csv, "Print comma-separated values");
   options.flag("--json", c->json, "Print all numbers of the report");
   options.exclude({"--csv", "--json"});

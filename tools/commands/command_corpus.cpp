@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   anicodec corpus --list
   anicodec corpus limb -o limb.pc2
-  anicodec corpus cloth -o cloth/frame_%04d.obj --vertices 20000 --frames 100)";
+  anicodec corpus cloth -o cloth/frame_%04d.obj --vertices 20000 --frame-count 100)";
 
 struct CorpusCommand {
   std::string name, output;
@@ -63,7 +63,7 @@ void add_corpus(Commands& commands, CommonOptions& common) {
   options.flag("--list", c->list, "List the clips");
   options.number("--vertices", c->vertices, "N", {1U, (1U << 31) - 1},
                  "About as many vertices (scalable clips)");
-  options.number("--frames", c->frames, "N", {1U, (1U << 24) - 1},
+  options.number("--frame-count", c->frames, "N", {1U, (1U << 24) - 1},
                  "As many frames (scalable clips)");
 }
 

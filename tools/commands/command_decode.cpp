@@ -36,7 +36,7 @@ Examples:
 struct DecodeCommand {
   std::string input, output, frames, quality;
   uint32_t start = 0;
-  bool ascii = false, step = false;
+  bool ascii = false, hold = false;
 };
 
 /// Timing of every step-th frame of a clip.
@@ -99,7 +99,7 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
   WriteOptions options;
   options.overwrite = common.overwrite;
   options.ascii = command.ascii;
-  options.step = command.step;
+  options.step = command.hold;
   options.first_number = command.start;
   options.progress = line.callback();
   check_sequence_output(command.output, range.size(), options);
@@ -150,7 +150,7 @@ void add_decode(Commands& commands, CommonOptions& common) {
   options.option("--frames", c->frames, "A:B[:STEP]",
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");
-  options.flag("--step", c->step, "GLB: frames stand until the next, without in-betweens");
+  options.flag("--hold", c->hold, "GLB: hold each frame until the next, without in-betweens");
   options.flag("--ascii", c->ascii, "PLY and STL as text");
   options.option("--quality", c->quality, "Q", "Share of the components to use, above 0 to 1");
 }

@@ -41,12 +41,16 @@ A scene is baked: skins, morph targets and moving nodes become vertices that mov
 or numbers the clip; without it the first one that moves anything is taken, --clip none takes none.
 An archive has a frame for each of its samples (or at --fps); --mesh takes one mesh by its path.
 
---meshes apart makes each object of the input (node of a scene, o of an OBJ) a mesh of its own with
-its name. One that only turns and moves is stored as that where it is smaller; one whose vertices
-are all at one point in a frame, as those of hidden objects are, is not there in that frame.
+--split-objects stores each object of the input (node of a scene, o of an OBJ) as a mesh with its
+name. A rigid object is stored as one motion where that is smaller; an object whose vertices all lie
+at one point in a frame, as those of hidden objects do, is absent from that frame.
 
---frames A:B encodes some frames of a long clip, on one of several machines perhaps; every machine
-reads the whole clip, and join makes one file of the parts.
+--topology-changes keep stores frames whose faces change, as of a fluid, with a mesh for each run of
+equal faces. --topology-changes transfer instead moves the faces of the first frame over the
+surfaces of all others (anicodec massage transfer), for scans of one body.
+
+--part A:B encodes some frames of a long clip, so that several machines can share the work; every
+machine reads the whole clip, and join makes one file of the parts.
 
 --batch encodes many clips to the folder -o, -j of them side by side: of a folder every scene, every
 vertex cache with its mesh, and every run of numbered frames, of a list a clip per line, its inputs
@@ -68,8 +72,7 @@ keeps lengths and volume where limbs swing far; auto takes what does better. Bot
 
 --massage on moves the vertices of every frame along its surface before coding (anicodec massage);
 errors are then those against the moved clip, and the file records how far the surface moved. auto
-does so only where the file becomes smaller. transfer takes meshes whose faces differ and gives them
-those of the first one.
+does so only where the file becomes smaller.
 
 Examples:
   anicodec encode dance.obj dance.pc2 -o dance.anic --fps 30
@@ -83,7 +86,7 @@ MeshSequence load(const EncodeArguments& command, const Progress& progress,
                   EncodeOptions* encode_options) {
   const LoadOptions options = load_options(command, progress);
   MeshSequence sequence;
-  if (command.massage == Massage::kTransfer) {
+  if (command.topology_changes == TopologyChanges::kTransfer) {
     sequence = transfer_to_one(command.inputs, progress, &encode_options->surface_change.emplace());
     if (options.rate)
       sequence.rate = *options.rate;
@@ -98,8 +101,8 @@ EncodeResult encode_as_asked(const EncodeArguments& command, MeshSequence sequen
                              const EncodeOptions& options, MassageVerdict* massage,
                              const Progress& progress) {
   const MassageOptions options_of_massage = massage_options(command, sequence);
-  return encode_massaged(std::move(sequence), massage_mode(command), options_of_massage, options,
-                         massage, progress);
+  return encode_massaged(std::move(sequence), command.massage, options_of_massage, options, massage,
+                         progress);
 }
 
 /// Half of what the machine has.
@@ -109,18 +112,15 @@ uint64_t default_memory() {
 }
 
 void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
-  if (!command.frames.empty())
-    throw Error(ErrorKind::kUsage, "--frames takes a part of one clip, --batch has many");
-  if (command.topology == Topology::kSegments)
-    throw Error(ErrorKind::kUsage, "--topology segments goes with one clip, --batch has many");
+  if (!command.part.empty())
+    throw Error(ErrorKind::kUsage, "--part takes a part of one clip, --batch has many");
+  if (command.topology_changes != TopologyChanges::kRefuse)
+    throw Error(ErrorKind::kUsage, "--topology-changes goes with one clip, --batch has many");
   if (!command.inputs.empty())
     throw Error(ErrorKind::kUsage, command.inputs[0] + ": --batch takes its inputs from " +
                                        command.batch + ", no others");
-  if (command.meshes == Meshes::kApart && command.massage != Massage::kOff)
-    throw Error(ErrorKind::kUsage, "--meshes apart goes without --massage");
-  if (command.massage == Massage::kTransfer)
-    throw Error(ErrorKind::kUsage,
-                "--massage transfer takes the frames of one clip, --batch has many");
+  if (command.split_objects && command.massage != MassageMode::kOff)
+    throw Error(ErrorKind::kUsage, "--split-objects goes without --massage");
   EncodeOptions options = encode_options(command);
   BatchOptions batch;
   batch.folder = command.output;
@@ -138,7 +138,7 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
         return load(one, {}, &options);
       },
       [&](MeshSequence sequence) {
-        if (command.meshes == Meshes::kApart)
+        if (command.split_objects)
           return encode_scene(split_parts(std::move(sequence)), options);
         MassageVerdict massage;
         return encode_as_asked(command, std::move(sequence), options, &massage, {});
@@ -148,15 +148,12 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
 /// Encodes several meshes: objects of a scene, or frames whose connectivity changes.
 EncodeResult encode_meshes(const EncodeArguments& command, EncodeOptions options,
                            const Progress& progress) {
-  const bool segments = command.topology == Topology::kSegments;
-  if (segments && command.meshes == Meshes::kApart)
-    throw Error(ErrorKind::kUsage, "--topology segments goes without --meshes apart");
-  if (!command.frames.empty() || command.massage != Massage::kOff)
-    throw Error(ErrorKind::kUsage,
-                fmt::format("{} goes without --frames and --massage",
-                            segments ? "--topology segments" : "--meshes apart"));
+  const bool changes = command.topology_changes == TopologyChanges::kKeep;
+  if (!command.part.empty() || command.massage != MassageMode::kOff)
+    throw Error(ErrorKind::kUsage, fmt::format("{} goes without --part and --massage",
+                                               changes ? "--topology-changes" : "--split-objects"));
   Scene scene;
-  if (segments) {
+  if (changes) {
     scene = load_topologies(command.inputs, load_options(command, progress));
     set_metadata(command, scene.clip);
   } else {
@@ -177,16 +174,15 @@ EncodeResult encode_clip(const EncodeArguments& command, EncodeOptions options,
     throw Error(ErrorKind::kUsage,
                 fmt::format("--keyframes {}: {} has only {} frames", *options.keyframes,
                             command.inputs[0], sequence.frame_count));
-  if (!command.frames.empty()) {
-    const FrameRange range = parse_frames(command.frames, "--frames", sequence.frame_count);
+  if (!command.part.empty()) {
+    const FrameRange range = parse_frames(command.part, "--part", sequence.frame_count);
     if (range.step != 1)
-      throw Error(ErrorKind::kUsage,
-                  "--frames: a part has all frames from A to B - 1, without step");
+      throw Error(ErrorKind::kUsage, "--part: a part has all frames from A to B - 1, without step");
     options.part = FrameRun{range.first, range.size()};
   }
   try {
     EncodeResult result = encode_as_asked(command, std::move(sequence), options, massage, progress);
-    if (command.massage == Massage::kTransfer)
+    if (command.topology_changes == TopologyChanges::kTransfer)
       massage->change = options.surface_change;
     return result;
   } catch (const Error& e) {
@@ -210,6 +206,11 @@ void run(EncodeArguments command, const CommonOptions& common) {
     return encode_batch(command, common);
   if (command.inputs.empty())
     throw Error(ErrorKind::kUsage, "encode: INPUT is required, or --batch");
+  if (command.topology_changes != TopologyChanges::kRefuse && command.split_objects)
+    throw Error(ErrorKind::kUsage, "--topology-changes goes without --split-objects");
+  if (command.topology_changes == TopologyChanges::kTransfer &&
+      command.massage != MassageMode::kOff)
+    throw Error(ErrorKind::kUsage, "--topology-changes goes without --massage");
   EncodeOptions options = encode_options(command);
   if (is_sequence_input(command.output))
     throw Error(
@@ -224,9 +225,9 @@ void run(EncodeArguments command, const CommonOptions& common) {
   if (!common.quiet)
     command.note = notes_above(line);
   MassageVerdict massage;
-  EncodeResult result = command.topology == Topology::kSegments || command.meshes == Meshes::kApart
-                            ? encode_meshes(command, options, progress)
-                            : encode_clip(command, options, &massage, progress);
+  const bool several = command.topology_changes == TopologyChanges::kKeep || command.split_objects;
+  EncodeResult result = several ? encode_meshes(command, options, progress)
+                                : encode_clip(command, options, &massage, progress);
   line.clear();
   if (to_standard_output) {
     if (std::fwrite(result.file.data(), 1, result.file.size(), stdout) != result.file.size())
@@ -235,7 +236,7 @@ void run(EncodeArguments command, const CommonOptions& common) {
   }
   output->write({reinterpret_cast<const char*>(result.file.data()), result.file.size()});
   output->commit();
-  const EncodeReport report{command.output, result, massage, command.massage == Massage::kAuto};
+  const EncodeReport report{command.output, result, massage, command.massage == MassageMode::kAuto};
   if (command.json)
     report.print_json();
   else if (!common.quiet)

@@ -48,15 +48,15 @@ method comes near, in about a second for each step, frame and 7000 vertices.
 weights ask for, means over the frames; then -o may be left out.
 
 Examples:
-  anicodec interpolate a.obj b.obj -o between.pc2 --frames 25
-  anicodec interpolate dance.pc2@0 dance.pc2@40 -o f_%02d.obj --frames 9 --range -0.5:1.5
+  anicodec interpolate a.obj b.obj -o between.pc2 --frame-count 25
+  anicodec interpolate dance.pc2@0 dance.pc2@40 -o f_%02d.obj --frame-count 9 --range -0.5:1.5
   anicodec interpolate a.obj b.obj c.obj -o mix.pc2 --weights weights.txt --method pml
-  anicodec interpolate a.obj b.obj --frames 9 --compare)";
+  anicodec interpolate a.obj b.obj --frame-count 9 --compare)";
 
 struct InterpolateCommand {
   std::vector<std::string> inputs;
   std::string output, mesh, weights, range, pin;
-  uint32_t frames = 0, leaf = 0;
+  uint32_t frames = 0, patch_faces = 0;
   int sweeps = -1, refine = 0;
   InterpolationMethod method = InterpolationMethod::kMsgi;
   bool compare = false;
@@ -76,11 +76,12 @@ WordTable<InterpolationMethod> method_words() {
 WeightRows weights_of(const InterpolateCommand& command, size_t meshes) {
   if (!command.weights.empty()) {
     if (command.frames > 0 || !command.range.empty())
-      throw Error(ErrorKind::kUsage, "interpolate: --weights stands without --frames and --range");
+      throw Error(ErrorKind::kUsage,
+                  "interpolate: --weights stands without --frame-count and --range");
     return read_weights(command.weights, meshes);
   }
   if (command.frames == 0)
-    throw Error(ErrorKind::kUsage, "interpolate: --frames N or --weights FILE is needed");
+    throw Error(ErrorKind::kUsage, "interpolate: --frame-count N or --weights FILE is needed");
   double first = 0, last = static_cast<double>(meshes - 1);
   if (!command.range.empty())
     std::tie(first, last) = parse_range(command.range, "--range");
@@ -143,7 +144,7 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
     inputs.push_back(std::as_const(poses).frame(i));
   InterpolationOptions options;
   options.method = command.method;
-  options.leaf_faces = command.leaf;
+  options.leaf_faces = command.patch_faces;
   options.refinement_steps = command.refine;
   if (command.sweeps >= 0)
     options.sweeps = static_cast<uint32_t>(command.sweeps);
@@ -190,17 +191,17 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
 void add_interpolate(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<InterpolateCommand>();
   Options& options = add_command(commands, common, kForce | kQuiet | kThreads,
-                                 {"interpolate", "A B [C...] -o OUT --frames N [options]",
+                                 {"interpolate", "A B [C...] -o OUT --frame-count N [options]",
                                   "Make a clip between meshes of one connectivity", kFooter},
                                  [c, &common] { run(*c, common); });
   options.arguments("A B", c->inputs, "The meshes").required();
   options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl");
-  options.number("--frames", c->frames, "N", {1U, (1U << 24) - 1}, "Frames to make");
+  options.number("--frame-count", c->frames, "N", {1U, (1U << 24) - 1}, "Frames to make");
   options.option("--range", c->range, "FROM:TO", "From where to where (default: A to the last)");
   options.option("--weights", c->weights, "FILE", "Weights of every frame");
   options.choice("--method", c->method, method_words(), "Default msgi");
   options.option("--pin", c->pin, "VERTICES=FILE", "Hold vertices at positions");
-  options.number("--leaf", c->leaf, "N", {1, 255},
+  options.number("--patch-faces", c->patch_faces, "N", {1, 255},
                  "Faces of a patch (msgi; default: 8 or fewer, by trial)");
   options.number("--sweeps", c->sweeps, "N", {0, 1000},
                  "Rounds of refitting the patches (default 0; 10 with --pin)");

@@ -18,13 +18,13 @@ namespace anicodec::tools {
 namespace {
 
 constexpr const char* kFooter =
-    R"(PART are .anic files that encode --frames made of one clip with the same options, in the order of
+    R"(PART are .anic files that encode --part made of one clip with the same options, in the order of
 time and without gaps; together they need not be the whole clip. Nothing is coded again: the mesh
 and the reference pose, which all parts share, are stored once.
 
 Examples:
-  anicodec encode walk.obj walk.pc2 --kg 0.1 --frames 0:500    -o a.anic     # on one machine
-  anicodec encode walk.obj walk.pc2 --kg 0.1 --frames 500:1000 -o b.anic     # on another
+  anicodec encode walk.obj walk.pc2 --kg 0.1 --part 0:500    -o a.anic     # on one machine
+  anicodec encode walk.obj walk.pc2 --kg 0.1 --part 500:1000 -o b.anic     # on another
   anicodec join a.anic b.anic -o walk.anic)";
 
 struct JoinCommand {

@@ -56,7 +56,8 @@ int status_of(ErrorKind kind) {
 Commands all_commands(CommonOptions& common) {
   Commands commands;
   for (auto add : {add_encode, add_decode, add_join, add_info, add_verify, add_compare, add_analyze,
-                   add_interpolate, add_massage, add_dump, add_render, add_corpus})
+                   add_interpolate, add_massage, add_massage_fit, add_massage_transfer,
+                   add_massage_map, add_dump, add_render, add_corpus})
     add(commands, common);
   return commands;
 }
@@ -76,10 +77,18 @@ void print_help(const Commands& commands) {
              help_row("--version", "Print the version"), kFooter);
 }
 
-void print_help(const Command& command) {
+void print_help(const Commands& commands, const Command& command) {
   const CommandHelp& help = command.help;
-  fmt::print("Usage: anicodec {} {}\n{}\n{}", help.name, help.usage, help.description,
-             help_text(command.options));
+  fmt::print("Usage: anicodec {} {}\n{}\n", help.name, help.usage, help.description);
+  const std::string prefix = help.name + " ";
+  std::string modes;
+  for (const Command& other : commands) {
+    if (other.help.name.starts_with(prefix))
+      modes += help_row(other.help.name.substr(prefix.size()), other.help.description);
+  }
+  if (!modes.empty())
+    fmt::print("\nModes, each with options and --help:\n{}", modes);
+  fmt::print("{}", help_text(command.options));
   if (!help.footer.empty())
     fmt::print("\n{}\n", help.footer);
 }
@@ -95,7 +104,21 @@ void print_help(const Command& command) {
                                         : fmt::format("; did you mean {}?", meant)));
 }
 
-void run_command(Command& command, const CommonOptions& common,
+/// The command that the first words name: one of two words before one of one word. Removes them.
+Command& take_command(Commands& commands, std::vector<std::string>& words) {
+  for (size_t length = std::min<size_t>(words.size(), 2); length > 0; --length) {
+    const std::string name = length == 2 ? words[0] + " " + words[1] : words[0];
+    for (Command& command : commands) {
+      if (command.help.name != name)
+        continue;
+      words.erase(words.begin(), words.begin() + static_cast<ptrdiff_t>(length));
+      return command;
+    }
+  }
+  fail_unknown(commands, words[0]);
+}
+
+void run_command(const Commands& commands, Command& command, const CommonOptions& common,
                  const std::vector<std::string>& words) {
   try {
     parse_options(command.options, words);
@@ -103,7 +126,7 @@ void run_command(Command& command, const CommonOptions& common,
     throw Error(e.kind(), fmt::format("{}: {}", command.help.name, e.what()));
   }
   if (command.asks_help)
-    return print_help(command);
+    return print_help(commands, command);
   if (command.asks_version)
     return print_version();
   using tbb::global_control;
@@ -114,7 +137,7 @@ void run_command(Command& command, const CommonOptions& common,
   command.run();
 }
 
-void parse_and_run(const std::vector<std::string>& words) {
+void parse_and_run(std::vector<std::string> words) {
   CommonOptions common;
   Commands commands = all_commands(common);
   if (words.empty())
@@ -124,11 +147,8 @@ void parse_and_run(const std::vector<std::string>& words) {
   } else if (words[0] == "--version") {
     print_version();
   } else {
-    const auto command = std::find_if(commands.begin(), commands.end(),
-                                      [&](const Command& c) { return c.help.name == words[0]; });
-    if (command == commands.end())
-      fail_unknown(commands, words[0]);
-    run_command(*command, common, {words.begin() + 1, words.end()});
+    Command& command = take_command(commands, words);
+    run_command(commands, command, common, words);
   }
   if (std::fflush(stdout) != 0)
     throw Error(ErrorKind::kInternal, "the standard output cannot be written");

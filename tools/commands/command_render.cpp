@@ -35,17 +35,19 @@ is one).
 
 Views stand side by side in the order of --view: clip, original, and error, which colours each
 vertex by its distance from the original, from grey (none) over yellow and red to black (the largest
-of the frames drawn, or --scale). Without --against the view is clip, with it original,clip,error.
+of the frames drawn, or --error-range). Without --against the view is clip, with it
+original,clip,error.
 
 Examples:
   anicodec render dance.anic -o dance.gif --frames 0:200:4
   anicodec render dance.anic --against dance.pc2 -o frame_%04d.png --frames 0:10
-  anicodec render face.anic -o face.png --frames 20 --camera 0,10 --size 800x800)";
+  anicodec render face.anic -o face.png --frames 20 --camera 0,10 --resolution 800x800)";
 
 enum class View : uint8_t { kClip, kOriginal, kError };
 
 struct RenderCommand {
-  std::string input, against, mesh, output, frames, views, size = "480x480", camera, scale;
+  std::string input, against, mesh, output, frames, views, resolution = "480x480", camera,
+                                                           error_range;
   UpAxis up = UpAxis::kUnknown;
   bool turntable = false;
 };
@@ -100,9 +102,9 @@ class Drawing {
   Drawing(const RenderCommand& command, const Progress& progress)
       : command_(command), views_(parse_views(command)) {
     double width, height;
-    if (!parse_pair(command.size, 'x', &width, &height) || width < 16 || height < 16 ||
+    if (!parse_pair(command.resolution, 'x', &width, &height) || width < 16 || height < 16 ||
         width > 8192 || height > 8192)
-      throw Error(ErrorKind::kUsage, "--size: WIDTHxHEIGHT, each 16 to 8192");
+      throw Error(ErrorKind::kUsage, "--resolution: WIDTHxHEIGHT, each 16 to 8192");
     width_ = static_cast<uint32_t>(width);
     height_ = static_cast<uint32_t>(height);
     if (!command.camera.empty() &&
@@ -142,8 +144,8 @@ class Drawing {
         for (float d : distances(positions, from))
           largest_ = std::max(largest_, d);
     }
-    if (!command_.scale.empty())
-      largest_ = static_cast<float>(parse_positive(command_.scale, "--scale"));
+    if (!command_.error_range.empty())
+      largest_ = static_cast<float>(parse_positive(command_.error_range, "--error-range"));
     const MeshSequence& sequence = clip_->sequence();
     clip_view_.emplace(sequence.polygons, sequence.vertex_count, box, width_, height_);
     if (original_)
@@ -299,11 +301,12 @@ void add_render(Commands& commands, CommonOptions& common) {
   options.option("--frames", c->frames, "A:B[:STEP]",
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.option("--view", c->views, "VIEW,...", "clip, original, error, separated by commas");
-  options.option("--size", c->size, "WxH", "Pixels of each view (default 480x480)");
+  options.option("--resolution", c->resolution, "WxH", "Pixels of each view (default 480x480)");
   options.option("--camera", c->camera, "AZ,EL",
                  "Degrees about the up axis and above (default 30,15)");
   options.flag("--turntable", c->turntable, "Turn the camera once while the clip plays");
-  options.option("--scale", c->scale, "LEN", "Error that is black, in scene units");
+  options.option("--error-range", c->error_range, "LEN",
+                 "Error that is drawn black, in scene units (default: the largest)");
   options.choice("--up", c->up, {kUpAxes}, "Axis that points up (default: the clip's, else y)");
 }
 

@@ -51,13 +51,11 @@ constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
 constexpr Word<InterpolationChoice> kInterpolations[] = {{InterpolationChoice::kLinear, "linear"},
                                                          {InterpolationChoice::kMsgi, "msgi"},
                                                          {InterpolationChoice::kAuto, "auto"}};
-constexpr Word<Topology> kTopologies[] = {{Topology::kOne, "one"},
-                                          {Topology::kSegments, "segments"}};
-constexpr Word<Meshes> kMeshes[] = {{Meshes::kOne, "one"}, {Meshes::kApart, "apart"}};
-constexpr Word<Massage> kMassages[] = {{Massage::kOff, "off"},
-                                       {Massage::kOn, "on"},
-                                       {Massage::kAuto, "auto"},
-                                       {Massage::kTransfer, "transfer"}};
+constexpr Word<TopologyChanges> kTopologyChanges[] = {{TopologyChanges::kRefuse, "refuse"},
+                                                      {TopologyChanges::kKeep, "keep"},
+                                                      {TopologyChanges::kTransfer, "transfer"}};
+constexpr Word<MassageMode> kMassageModes[] = {
+    {MassageMode::kOff, "off"}, {MassageMode::kOn, "on"}, {MassageMode::kAuto, "auto"}};
 /// Coders that an encoder can be asked for.
 constexpr WordTable<CoderId> kMeshCoders = WordTable<CoderId>(kCoders).first(2);
 
@@ -77,18 +75,18 @@ void add_method(Options& options, EncodeArguments& a) {
   options.choice("--basis", a.basis, {kBases}, "Kind of basis (default auto: the smallest file)");
   options.number("--keyframes", a.keyframes, "K", {1, kMaxFrames},
                  "Number of key-frames (default: as few as do)");
-  options.choice("--select", a.select, {kSelections}, "How key-frames are chosen (default pivot)");
+  options.choice("--keyframe-selection", a.selection, {kSelections},
+                 "How key-frames are chosen (default pivot)");
   options.choice("--interpolation", a.interpolation, {kInterpolations},
                  "How frames come from key-frames (default linear)");
   options.choice("--order", a.order, {kOrderModes},
                  "Source order kept: vertices (default), none, faces too");
-  options.choice("--topology", a.topology, {kTopologies},
-                 "Frames of another connectivity: an error (default one), or segments of the file "
-                 "with meshes of their own");
-  options.choice(
-      "--meshes", a.meshes, {kMeshes},
-      "Objects of the input: parts of one mesh (default), or each a mesh of its own that "
-      "is there only in frames that show it");
+  options.choice("--topology-changes", a.topology_changes, {kTopologyChanges},
+                 "Frames whose faces differ: refuse them (default), keep them as meshes of the "
+                 "file, or transfer the faces of the first frame to all");
+  options.flag("--split-objects", a.split_objects,
+               "Store each object of the input as a mesh, present only in the frames that show it "
+               "(default: as parts of one mesh)");
   options.choice("--mesh-coder", a.mesh_coder, kMeshCoders,
                  "Coder of faces and key-frames (default draco)");
   options.number("--effort", a.effort, "N", {1, 9},
@@ -97,7 +95,7 @@ void add_method(Options& options, EncodeArguments& a) {
 
 void add_massage_options(Options& options, EncodeArguments& a) {
   options.group("Massage");
-  options.choice("--massage", a.massage, {kMassages},
+  options.choice("--massage", a.massage, {kMassageModes},
                  "Move vertices along their surface first (default off)");
   options.number("--massage-strength", a.massage_strength, "X", {},
                  "Of shape against distance, between 0 and 1 (default 0.5)");
@@ -142,8 +140,7 @@ void add_arguments(Options& options, EncodeArguments& a) {
       "Mesh of a lone vertex cache (default: same stem beside it), or the name of one in "
       "a scene (default: all)");
   options.option("--clip", a.clip, "NAME|INDEX", "Animation of a scene, or none");
-  options.option("--frames", a.frames, "A:B",
-                 "Encode a part, A to B - 1, to be joined with others");
+  options.option("--part", a.part, "A:B", "Encode only frames A to B - 1, as a part for join");
   options.option("--batch", a.batch, "DIR|LIST",
                  "Encode all clips in a folder, or in a list with a clip per line");
   options.option("--memory", a.memory, "BYTES",
@@ -165,7 +162,7 @@ EncodeOptions encode_options(const EncodeArguments& command) {
     options.keyframes = command.keyframes;
     options.basis = BasisChoice::kKeyframes;
   }
-  options.select = command.select;
+  options.select = command.selection;
   if (command.interpolation != InterpolationChoice::kLinear &&
       options.basis != BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage, "--interpolation goes with --basis keyframes or --keyframes");
@@ -208,13 +205,6 @@ MassageOptions massage_options(const EncodeArguments& command, const MeshSequenc
   return options;
 }
 
-MassageMode massage_mode(const EncodeArguments& command) {
-  const Massage massage = command.massage;
-  return massage == Massage::kOn     ? MassageMode::kOn
-         : massage == Massage::kAuto ? MassageMode::kAuto
-                                     : MassageMode::kOff;
-}
-
 void set_metadata(const EncodeArguments& command, MeshSequence& sequence) {
   if (command.up != UpAxis::kUnknown)
     sequence.up = command.up;
@@ -227,9 +217,9 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
   nlohmann::ordered_json settings{c.kg,   c.max_error, c.rmse,   c.size,
                                   c.bpfv, c.keyframes, c.effort, options.encoder};
   for (int choice :
-       {static_cast<int>(c.basis), static_cast<int>(c.select), static_cast<int>(c.order),
+       {static_cast<int>(c.basis), static_cast<int>(c.selection), static_cast<int>(c.order),
         static_cast<int>(c.mesh_coder), static_cast<int>(c.interpolation),
-        static_cast<int>(c.massage), static_cast<int>(c.meshes)})
+        static_cast<int>(c.massage), static_cast<int>(c.split_objects)})
     settings.push_back(choice);
   settings.push_back(c.massage_strength);
   settings.push_back(c.massage_tolerance);

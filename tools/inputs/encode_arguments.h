@@ -16,29 +16,25 @@
 
 namespace anicodec::tools {
 
-/// What frames of another connectivity are: a mistake, or segments of their own.
-enum class Topology { kOne, kSegments };
-
-/// What the objects of the input are: parts of one mesh, or each a mesh.
-enum class Meshes { kOne, kApart };
-
-enum class Massage { kOff, kOn, kAuto, kTransfer };
+/// What becomes of frames whose faces differ: an error, meshes of one file, or one mesh that has
+/// the faces of the first frame.
+enum class TopologyChanges { kRefuse, kKeep, kTransfer };
 
 /// What the command line asks of encode.
 struct EncodeArguments {
   std::vector<std::string> inputs;
-  std::string output, mesh, clip, batch, memory, frames;
+  std::string output, mesh, clip, batch, memory, part;
   std::string kg, max_error, rmse, size, bpfv;
   BasisChoice basis = BasisChoice::kAuto;
   uint32_t keyframes = 0;
-  KeyframeMethod select = KeyframeMethod::kPivot;
+  KeyframeMethod selection = KeyframeMethod::kPivot;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;
   OrderMode order = OrderMode::kVertices;
   CoderId mesh_coder = CoderId::kDraco;
   int effort = 5;
-  Topology topology = Topology::kOne;
-  Meshes meshes = Meshes::kOne;
-  Massage massage = Massage::kOff;
+  TopologyChanges topology_changes = TopologyChanges::kRefuse;
+  bool split_objects = false;
+  MassageMode massage = MassageMode::kOff;
   double massage_strength = 0.5;
   std::string massage_tolerance;
   std::string rate, unit;
@@ -63,7 +59,6 @@ LoadOptions load_options(const EncodeArguments& arguments, const Progress& progr
 
 /// What they mean to massage(), for a clip.
 MassageOptions massage_options(const EncodeArguments& arguments, const MeshSequence& sequence);
-MassageMode massage_mode(const EncodeArguments& arguments);
 
 /// Axes, unit and loop that they give a clip.
 void set_metadata(const EncodeArguments& arguments, MeshSequence& sequence);

@@ -5,6 +5,7 @@
 #include "codec/sequence/error.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/compared_clip.h"
+#include "tools/inputs/number_rows.h"
 
 #include <algorithm>
 #include <charconv>
@@ -40,40 +41,6 @@ std::pair<std::string, std::optional<uint32_t>> split_frame(const std::string& a
       return {argument.substr(0, at), frame};
   }
   return {argument, std::nullopt};
-}
-
-struct Row {
-  size_t line;  ///< from 1
-  std::vector<double> numbers;
-};
-
-/// The lines of a file that hold numbers.
-std::vector<Row> read_rows(const std::string& path) {
-  const std::string text = read_bytes(path);
-  std::vector<Row> rows;
-  size_t line = 0;
-  for (size_t begin = 0; begin < text.size();) {
-    size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view rest = std::string_view(text).substr(begin, end - begin);
-    begin = end + 1;
-    Row row{++line, {}};
-    rest = rest.substr(0, rest.find('#'));
-    while (true) {
-      rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r,"), rest.size()));
-      if (rest.empty())
-        break;
-      const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r,"));
-      rest.remove_prefix(word.size());
-      const auto value = number<double>(word);
-      if (!value || !std::isfinite(*value))
-        throw Error(ErrorKind::kInput,
-                    fmt::format("{}:{}: '{}' is not a number", path, line, word));
-      row.numbers.push_back(*value);
-    }
-    if (!row.numbers.empty())
-      rows.push_back(std::move(row));
-  }
-  return rows;
 }
 
 std::vector<uint32_t> parse_vertices(std::string_view text) {
@@ -137,7 +104,7 @@ MeshSequence load_poses(std::span<const std::string> arguments, const std::strin
 
 WeightRows read_weights(const std::string& path, size_t meshes) {
   WeightRows rows;
-  for (Row& row : read_rows(path)) {
+  for (NumberRow& row : read_number_rows(path)) {
     double sum = 0;
     for (double w : row.numbers)
       sum += w;
@@ -198,7 +165,7 @@ Pins read_pins(const std::string& text, uint32_t vertex_count, size_t frames) {
                   fmt::format("--pin: there is no vertex {}, the meshes have {}", v, vertex_count));
   }
   size_t rows = 0;
-  for (const Row& row : read_rows(path)) {
+  for (const NumberRow& row : read_number_rows(path)) {
     if (row.numbers.size() != 3)
       throw Error(ErrorKind::kInput, fmt::format("{}:{}: {} coordinates instead of 3", path,
                                                  row.line, row.numbers.size()));

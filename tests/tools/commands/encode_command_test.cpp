@@ -63,7 +63,7 @@ TEST_F(EncodeCommand, KeepsEveryKindOfTarget) {
 
 TEST_F(EncodeCommand, UsesTheNumberOfKeyframesAskedFor) {
   for (const char* select : {"gas", "pivot", "uniform"}) {
-    Outcome outcome = encode({"--keyframes", "7", "--select", select, "--json", "-f"});
+    Outcome outcome = encode({"--keyframes", "7", "--keyframe-selection", select, "--json", "-f"});
     ASSERT_EQ(outcome.status, 0) << outcome;
     EXPECT_EQ(outcome.json()["components"], 7) << select;
     EXPECT_EQ(outcome.json()["basis"], "keyframes");
@@ -123,7 +123,7 @@ TEST_F(EncodeCommand, RefusesImpossibleOptionsAndLeavesNoFile) {
       {"--keyframes", "2", "--kg", "0.01"},
       {"--basis", "magic"},
       {"--basis", "eigenshapes", "--keyframes", "5"},
-      {"--select", "best"},
+      {"--keyframe-selection", "best"},
       {"--order", "none"},
       {"--fps", "0"},
       {"--fps", "24/0"},

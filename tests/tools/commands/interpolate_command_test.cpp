@@ -36,8 +36,8 @@ TEST(InterpolateCommand, GoesFromMeshToMesh) {
   const MeshSequence limb = write_limb(folder);
   for (const char* method : {"linear", "gradients", "bfs", "pml", "pmln", "msgi"}) {
     Outcome outcome = anicodec({"interpolate", folder / "limb.pc2@0", folder / "limb.pc2@9",
-                                folder / "limb.pc2@20", "-f", "-o", folder / "out.pc2", "--frames",
-                                "5", "--method", method});
+                                folder / "limb.pc2@20", "-f", "-o", folder / "out.pc2",
+                                "--frame-count", "5", "--method", method});
     ASSERT_EQ(outcome.status, 0) << outcome;
     const std::string files[] = {folder / "out.pc2"};
     const MeshSequence out = load_sequence(files);
@@ -71,9 +71,9 @@ TEST(InterpolateCommand, HoldsPins) {
   TemporaryFolder folder;
   write_limb(folder);
   folder.write("pins.txt", "0 0 0\n0.5 0 0\n1 2 3\n");
-  Outcome outcome =
-      anicodec({"interpolate", folder / "limb.pc2@0", folder / "limb.pc2@9", "-o",
-                folder / "out.pc2", "--frames", "2", "--pin", "4,7-8=" + (folder / "pins.txt")});
+  Outcome outcome = anicodec({"interpolate", folder / "limb.pc2@0", folder / "limb.pc2@9", "-o",
+                              folder / "out.pc2", "--frame-count", "2", "--pin",
+                              "4,7-8=" + (folder / "pins.txt")});
   ASSERT_EQ(outcome.status, 0) << outcome;
   const std::string files[] = {folder / "out.pc2"};
   const MeshSequence out = load_sequence(files);
@@ -86,8 +86,8 @@ TEST(InterpolateCommand, HoldsPins) {
 TEST(InterpolateCommand, ComparesAllMethods) {
   TemporaryFolder folder;
   write_limb(folder);
-  Outcome outcome = anicodec(
-      {"interpolate", folder / "limb.pc2@0", folder / "limb.pc2@9", "--frames", "3", "--compare"});
+  Outcome outcome = anicodec({"interpolate", folder / "limb.pc2@0", folder / "limb.pc2@9",
+                              "--frame-count", "3", "--compare"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   for (const char* word :
        {"length", "linear", "gradients", "bfs", "pml", "pmln", "msgi-v", "msgi "})
@@ -99,7 +99,7 @@ TEST(InterpolateCommand, RefinesLengthsAndAngles) {
   write_limb(folder);
   auto length_error = [&](const std::string& steps) {
     Outcome outcome = anicodec({"interpolate", folder / "limb.pc2@0", folder / "limb.pc2@9",
-                                "--frames", "3", "--compare", "--refine", steps});
+                                "--frame-count", "3", "--compare", "--refine", steps});
     EXPECT_EQ(outcome.status, 0) << outcome;
     return std::stod(outcome.out.substr(outcome.out.find("msgi ") + 4));
   };
@@ -124,25 +124,25 @@ TEST(InterpolateCommand, SaysWhatIsWrong) {
     EXPECT_THAT(outcome.err, HasSubstr(text));
     EXPECT_FALSE(std::filesystem::exists(folder / "out.pc2"));
   };
-  expect({a, "--frames", "3"}, 1, "two meshes");
-  expect({a, folder / "limb.pc2", "--frames", "3"}, 1, "24 frames");
-  expect({a, folder / "limb.pc2@24", "--frames", "3"}, 1, "no frame 24");
-  expect({a, folder / "cloth.pc2@0", "--frames", "3"}, 2, "vertices");
-  expect({a, b}, 1, "--frames");
-  expect({a, b, "--frames", "3", "--range", "1"}, 1, "FROM:TO");
+  expect({a, "--frame-count", "3"}, 1, "two meshes");
+  expect({a, folder / "limb.pc2", "--frame-count", "3"}, 1, "24 frames");
+  expect({a, folder / "limb.pc2@24", "--frame-count", "3"}, 1, "no frame 24");
+  expect({a, folder / "cloth.pc2@0", "--frame-count", "3"}, 2, "vertices");
+  expect({a, b}, 1, "--frame-count");
+  expect({a, b, "--frame-count", "3", "--range", "1"}, 1, "FROM:TO");
   expect({a, b, "--weights", folder / "sum.txt"}, 2, "sum.txt:2: the weights sum to 1.1");
   expect({a, b, "--weights", folder / "few.txt"}, 2, "few.txt:1: 1 weights for 2");
   expect({a, b, "--weights", folder / "junk.txt"}, 2, "junk.txt:1: 'x'");
-  expect({a, b, "--frames", "3", "--pin", "9999=" + (folder / "pin.txt")}, 1, "vertex 9999");
-  expect({a, b, "--frames", "3", "--pin", "7-3=" + (folder / "pin.txt")}, 1, "7-3");
-  expect({a, b, "--frames", "3", "--pin", "7=" + (folder / "pin.txt")}, 2, "pin.txt:1");
+  expect({a, b, "--frame-count", "3", "--pin", "9999=" + (folder / "pin.txt")}, 1, "vertex 9999");
+  expect({a, b, "--frame-count", "3", "--pin", "7-3=" + (folder / "pin.txt")}, 1, "7-3");
+  expect({a, b, "--frame-count", "3", "--pin", "7=" + (folder / "pin.txt")}, 2, "pin.txt:1");
   folder.write("pin.txt", "0 0 0\n");
-  expect({a, b, "--frames", "3", "--pin", "7,7=" + (folder / "pin.txt")}, 2, "1 positions");
+  expect({a, b, "--frame-count", "3", "--pin", "7,7=" + (folder / "pin.txt")}, 2, "1 positions");
   folder.write("pin.txt", "0 0 0\n0 0 0\n");
-  expect({a, b, "--frames", "3", "--pin", "7,7=" + (folder / "pin.txt")}, 1, "twice");
-  expect({a, b, "--frames", "3", "--method", "pml", "--pin", "7,8=" + (folder / "pin.txt")}, 1,
+  expect({a, b, "--frame-count", "3", "--pin", "7,7=" + (folder / "pin.txt")}, 1, "twice");
+  expect({a, b, "--frame-count", "3", "--method", "pml", "--pin", "7,8=" + (folder / "pin.txt")}, 1,
          "only msgi");
-  expect({a, b, "--frames", "3", "--method", "spline"}, 1, "spline");
+  expect({a, b, "--frame-count", "3", "--method", "spline"}, 1, "spline");
 }
 
 }  // namespace

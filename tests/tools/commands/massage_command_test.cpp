@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "corpus/clips.h"
 #include "tests/tools/command_testing.h"
+#include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 
 #include <string>
@@ -65,7 +66,7 @@ TEST(MassageCommand, TransfersOneConnectivity) {
   TemporaryFolder folder;
   write_scans(folder, 4);
   Outcome outcome = anicodec(
-      {"massage", "--transfer", folder / "scan_*.obj", "-o", folder / "fitted.pc2", "--json"});
+      {"massage", "transfer", folder / "scan_*.obj", "-o", folder / "fitted.pc2", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   const nlohmann::json json = outcome.json();
   ASSERT_EQ(json["files"].size(), 1U) << outcome;
@@ -79,7 +80,7 @@ TEST(MassageCommand, WritesAFileForEverySegment) {
   write_scans(folder, 3);
   write_inside_out(folder / "scan_3.obj");
   Outcome outcome = anicodec(
-      {"massage", "--transfer", folder / "scan_*.obj", "-o", folder / "fitted.pc2", "--json"});
+      {"massage", "transfer", folder / "scan_*.obj", "-o", folder / "fitted.pc2", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   const nlohmann::json json = outcome.json();
   ASSERT_EQ(json["files"].size(), 2U) << outcome;
@@ -96,8 +97,8 @@ TEST(MassageCommand, FitsAMeshToAnother) {
     limb.positions.resize(size_t{3} * limb.vertex_count);
     write_sequence(folder / (std::string(name) + ".obj"), limb);
   }
-  Outcome outcome = anicodec({"massage", "--fit", folder / "coarse.obj", "--to",
-                              folder / "fine.obj", "-o", folder / "fitted.obj", "--json"});
+  Outcome outcome = anicodec({"massage", "fit", folder / "coarse.obj", folder / "fine.obj", "-o",
+                              folder / "fitted.obj", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   const nlohmann::json json = outcome.json();
   EXPECT_TRUE(json["improved"]);
@@ -105,14 +106,80 @@ TEST(MassageCommand, FitsAMeshToAnother) {
   EXPECT_EQ(json["after"]["turned"], 0);
 }
 
-TEST(MassageCommand, RefusesModesThatContradict) {
+/// A ball of about as many vertices, drawn out along x.
+void write_ball(const std::string& path, uint32_t vertices, float stretch) {
+  MeshSequence ball = corpus::make_scaled("limb", vertices, 2);
+  ball.frame_count = 1;
+  ball.times.clear();
+  ball.positions.resize(size_t{3} * ball.vertex_count);
+  for (size_t i = 0; i < ball.positions.size(); i += 3)
+    ball.positions[i] *= stretch;
+  write_sequence(path, ball);
+}
+
+TEST(MassageCommand, MapsAMeshToAnother) {
+  TemporaryFolder folder;
+  write_ball(folder / "a.obj", 600, 1);
+  write_ball(folder / "b.obj", 2000, 1.1F);
+  Outcome outcome = anicodec({"massage", "map", folder / "a.obj", folder / "b.obj", "-o",
+                              folder / "mapped.obj", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const nlohmann::json json = outcome.json();
+  EXPECT_LT(json["hausdorff_mean_percent"], 0.5) << outcome;
+  EXPECT_LT(json["after"]["conformal_mean"], 1.2);
+  EXPECT_EQ(json["turned"], 0);
+  const nlohmann::json compared =
+      anicodec({"compare", folder / "b.obj", folder / "mapped.obj", "--surface", "--json"}).json();
+  EXPECT_NEAR(compared["hausdorff_mean"], json["hausdorff_mean"], 1e-6);
+}
+
+TEST(MassageCommand, MapsByLandmarks) {
+  TemporaryFolder folder;
+  write_ball(folder / "a.obj", 600, 1);
+  MeshSequence moved = load_sequence(std::vector<std::string>{folder / "a.obj"}, {});
+  for (size_t i = 0; i < moved.positions.size(); i += 3) {  // a quarter turn about z, and away
+    std::swap(moved.positions[i], moved.positions[i + 1]);
+    moved.positions[i] = 5 - moved.positions[i];
+  }
+  write_sequence(folder / "b.obj", moved);
+  folder.write("pairs.txt", "# A B\n0 0\n100 100\n200, 200\n300 300\n");
+  Outcome outcome = anicodec({"massage", "map", folder / "a.obj", folder / "b.obj", "--landmarks",
+                              folder / "pairs.txt", "-o", folder / "mapped.obj", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_LT(outcome.json()["hausdorff_percent"], 1) << outcome;
+  EXPECT_LT(outcome.json()["after"]["conformal_mean"], 1.01);
+}
+
+TEST(MassageCommand, RefusesBadLandmarks) {
+  TemporaryFolder folder;
+  write_ball(folder / "a.obj", 200, 1);
+  auto map = [&](const std::string& pairs) {
+    folder.write("pairs.txt", pairs);
+    return anicodec({"massage", "map", folder / "a.obj", folder / "a.obj", "--landmarks",
+                     folder / "pairs.txt", "-o", folder / "b.obj"});
+  };
+  EXPECT_EQ(map("").status, 2);
+  EXPECT_THAT(map("0 0\n1 2 3\n").err, HasSubstr("pairs.txt:2: "));
+  EXPECT_THAT(map("0 0\n1 1.5\n").err, HasSubstr("pairs.txt:2: "));
+  EXPECT_THAT(map("0 0\n1 1\n").err, HasSubstr("three landmarks"));
+  EXPECT_THAT(map("0 0\n1 1\n2 99999\n").err, HasSubstr("vertex 99999 of the surface"));
+  EXPECT_THAT(map("0 0\n0 0\n0 0\n").err, HasSubstr("on a line"));
+}
+
+TEST(MassageCommand, HelpListsItsModes) {
+  const Outcome help = anicodec({"massage", "--help"});
+  for (const char* mode : {"  fit ", "  transfer ", "  map "})
+    EXPECT_THAT(help.out, HasSubstr(mode));
+  EXPECT_THAT(anicodec({"massage", "fit", "--help"}).out,
+              HasSubstr("Usage: anicodec massage fit MESH SURFACE"));
+}
+
+TEST(MassageCommand, RefusesWhatIsMissing) {
   TemporaryFolder folder;
   EXPECT_EQ(anicodec({"massage", "-o", folder / "b.pc2"}).status, 1);
-  EXPECT_EQ(anicodec({"massage", "--fit", "a.obj", "-o", folder / "b.obj"}).status, 1);
-  EXPECT_EQ(
-      anicodec({"massage", "--fit", "a.obj", "--to", "b.obj", "--transfer", "-o", folder / "b.obj"})
-          .status,
-      1);
+  EXPECT_EQ(anicodec({"massage", "fit", "a.obj", "-o", folder / "b.obj"}).status, 1);
+  EXPECT_EQ(anicodec({"massage", "transfer", "-o", folder / "b.obj"}).status, 1);
+  EXPECT_EQ(anicodec({"massage", "a.obj", "--fit", "b.obj", "-o", folder / "b.obj"}).status, 1);
 }
 
 TEST(EncodeMassage, RecordsWhatItDid) {
@@ -135,8 +202,8 @@ TEST(EncodeMassage, TransfersMeshesOfOtherFaces) {
   EXPECT_EQ(
       anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--effort", "1"}).status,
       2);
-  Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--massage",
-                              "transfer", "--effort", "1", "--json"});
+  Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic",
+                              "--topology-changes", "transfer", "--effort", "1", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   EXPECT_EQ(outcome.json()["frames"], 3);
   EXPECT_TRUE(outcome.json()["massaged"]);
@@ -146,8 +213,8 @@ TEST(EncodeMassage, NamesTheFrameThatCannotBeFollowed) {
   TemporaryFolder folder;
   write_scans(folder, 2);
   write_inside_out(folder / "scan_2.obj");
-  Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic", "--massage",
-                              "transfer", "--effort", "1"});
+  Outcome outcome = anicodec({"encode", folder / "scan_*.obj", "-o", folder / "a.anic",
+                              "--topology-changes", "transfer", "--effort", "1"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("frame 2 cannot be given the connectivity of frame 0"));
   EXPECT_THAT(outcome.err, HasSubstr("scan_2.obj: "));

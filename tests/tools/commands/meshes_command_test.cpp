@@ -24,7 +24,7 @@ class Meshes : public testing::Test {
   void SetUp() override {
     write_sequence(folder_ / "in/f_%02d.obj", two_boxes(), {});
     const Outcome outcome = anicodec({"encode", folder_ / "in/*.obj", "-o", folder_ / "a.anic",
-                                      "--meshes", "apart", "--kg", "0.1", "--fps", "25"});
+                                      "--split-objects", "--kg", "0.1", "--fps", "25"});
     ASSERT_EQ(outcome.status, 0) << outcome;
   }
 
@@ -64,9 +64,9 @@ TEST_F(Meshes, CompareAsOne) {
 
 TEST_F(Meshes, GoWithoutMassageAndParts) {
   for (const std::vector<std::string>& more :
-       {std::vector<std::string>{"--massage", "on"}, {"--frames", "0:3"}, {"--size", "10k"}}) {
-    std::vector<std::string> arguments{"encode",           folder_ / "in/*.obj", "-o",
-                                       folder_ / "b.anic", "--meshes",           "apart"};
+       {std::vector<std::string>{"--massage", "on"}, {"--part", "0:3"}, {"--size", "10k"}}) {
+    std::vector<std::string> arguments{"encode", folder_ / "in/*.obj", "-o", folder_ / "b.anic",
+                                       "--split-objects"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(anicodec(arguments).status, 1);
   }

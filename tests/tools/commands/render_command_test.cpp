@@ -25,8 +25,8 @@ class RenderCommand : public testing::Test {
   }
 
   Outcome render(const std::string& output, std::vector<std::string> options) {
-    std::vector<std::string> arguments = {
-        "render", folder_ / "limb.anic", "-o", folder_ / output, "--size", "64x48"};
+    std::vector<std::string> arguments = {"render",         folder_ / "limb.anic", "-o",
+                                          folder_ / output, "--resolution",        "64x48"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     return anicodec(arguments);
   }
@@ -69,7 +69,7 @@ TEST_F(RenderCommand, SaysWhatItCannotDo) {
   EXPECT_THAT(render("x.jpg", {}).err, HasSubstr("x.jpg: is of unknown kind"));
   EXPECT_THAT(render("x.png", {}).err, HasSubstr("need a pattern with a number"));
   EXPECT_THAT(render("x.gif", {"--view", "error"}).err, HasSubstr("needs --against"));
-  EXPECT_EQ(render("x.gif", {"--size", "9x9"}).status, 1);
+  EXPECT_EQ(render("x.gif", {"--resolution", "9x9"}).status, 1);
   EXPECT_EQ(render("x.gif", {"--camera", "0,90"}).status, 1);
   write_sequence(folder_ / "points.pc2", corpus::make_clip("points"));
   Outcome outcome = anicodec({"render", folder_ / "points.pc2", "-o", folder_ / "p.gif"});

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/error.h"
+#include "codec/transfer/remesh_fit.h"
+#include "tools/commands/command.h"
+#include "tools/inputs/mesh_input.h"
+#include "tools/io/write_sequence.h"
+#include "tools/words/progress_line.h"
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Moves the vertices of MESH so that it lies closer to SURFACE, a mesh of any faces. The faces stay
+the same. Where no closer position is found the mesh is written as it was.
+
+--json prints one object: file, vertices, faces, improved, before and after: hausdorff,
+hausdorff_percent, hausdorff_mean, hausdorff_mean_percent, radius_ratio, turned.
+
+Example:
+  anicodec massage fit coarse.obj fine.obj -o fitted.obj)";
+
+struct FitCommand {
+  std::string mesh, surface, output;
+  bool json = false;
+};
+
+nlohmann::ordered_json json_of(const HausdorffDistance& distance, double diagonal,
+                               const RadiusRatio& ratio, uint32_t turned) {
+  return {{"hausdorff", distance.max()},
+          {"hausdorff_percent", 100 * distance.max() / diagonal},
+          {"hausdorff_mean", distance.mean()},
+          {"hausdorff_mean_percent", 100 * distance.mean() / diagonal},
+          {"radius_ratio", ratio.mean},
+          {"turned", turned}};
+}
+
+void run(const FitCommand& command, const CommonOptions& common) {
+  ProgressLine line(common.quiet);
+  const SurfaceFrame mesh = load_mesh(command.mesh, line.callback());
+  const SurfaceFrame surface = load_mesh(command.surface, line.callback());
+  WriteOptions write_options;
+  write_options.overwrite = common.overwrite;
+  check_sequence_output(command.output, 1, write_options);
+  line.show("fitting", 0);
+  RemeshFit fit;
+  try {
+    fit = fit_remesh(mesh, surface);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{} and {}: {}", command.mesh, command.surface, e.what()));
+  }
+  const MeshSequence result = with_positions(mesh, fit.positions);
+  write_sequence(command.output, result, write_options);
+  line.clear();
+  if (command.json) {
+    nlohmann::ordered_json json;
+    json["file"] = command.output;
+    json["vertices"] = result.vertex_count;
+    json["faces"] = result.polygons.size();
+    json["improved"] = fit.improved;
+    json["before"] = json_of(fit.before, fit.diagonal, fit.ratio_before, fit.turned_before);
+    json["after"] = json_of(fit.after, fit.diagonal, fit.ratio_after, fit.turned_after);
+    fmt::print("{}\n", json.dump(2));
+  } else if (!common.quiet) {
+    if (!fit.improved)
+      fmt::print("{}: no closer position was found, the mesh is as it was\n", command.output);
+    fmt::print("{:<10} {:>12} {:>12} {:>13} {:>8}\n", "", "mean %", "max %", "radius ratio",
+               "turned");
+    auto row = [&fit](const char* name, const HausdorffDistance& d, const RadiusRatio& ratio,
+                      uint32_t turned) {
+      fmt::print("{:<10} {:>12.5f} {:>12.5f} {:>13.4f} {:>8}\n", name,
+                 100 * d.mean() / fit.diagonal, 100 * d.max() / fit.diagonal, ratio.mean, turned);
+    };
+    row("before", fit.before, fit.ratio_before, fit.turned_before);
+    row("after", fit.after, fit.ratio_after, fit.turned_after);
+  }
+}
+
+}  // namespace
+
+void add_massage_fit(Commands& commands, CommonOptions& common) {
+  auto c = std::make_shared<FitCommand>();
+  Options& options = add_command(commands, common, kForce | kQuiet | kThreads,
+                                 {"massage fit", "MESH SURFACE -o OUT [options]",
+                                  "Lay a coarse mesh on a fine surface", kFooter},
+                                 [c, &common] { run(*c, common); });
+  options.argument("MESH", c->mesh, "The mesh to move").required();
+  options.argument("SURFACE", c->surface, "The surface to lie on").required();
+  options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
+  options.flag("--json", c->json, "Print one JSON object");
+}
+
+}  // namespace anicodec::tools

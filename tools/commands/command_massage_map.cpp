@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/error.h"
+#include "codec/transfer/mesh_map.h"
+#include "tools/commands/command.h"
+#include "tools/inputs/mesh_input.h"
+#include "tools/inputs/number_rows.h"
+#include "tools/io/write_sequence.h"
+#include "tools/words/progress_line.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace anicodec::tools {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Maps mesh A to the surface of B with little distortion, and writes the shape of B with the faces of
+A (cross-parametrisation, thesis section 3.3.3). The faces of B may be any.
+
+--landmarks names a text file: a line for each landmark with a vertex of A and the vertex of B that
+it belongs to, counted from 0; # begins a comment. At least three that are not on a line. Without
+landmarks A and B must lie over each other.
+
+Distortion compares each triangle of A with its image, before and after the map is improved:
+conformal (of its angles) and area, 1 if nothing changes, means weighted by area.
+
+--json prints one object: file, vertices, faces, converged, turned (triangles), before and after:
+conformal_mean, conformal_max, area_mean, area_max; hausdorff, hausdorff_percent, hausdorff_mean,
+hausdorff_mean_percent (between the result and B).
+
+Examples:
+  anicodec massage map sphere.obj egg.obj -o egg_of_sphere.obj
+  anicodec massage map horse.obj camel.obj --landmarks pairs.txt -o camel_of_horse.obj)";
+
+struct MapCommand {
+  std::string mesh, surface, landmarks, output;
+  bool json = false;
+};
+
+/// "12 40" on every line.
+std::vector<VertexPair> read_landmarks(const std::string& path) {
+  std::vector<VertexPair> pairs;
+  for (const NumberRow& row : read_number_rows(path)) {
+    auto is_vertex = [](double x) { return x >= 0 && x <= UINT32_MAX && x == std::floor(x); };
+    if (row.numbers.size() != 2 || !is_vertex(row.numbers[0]) || !is_vertex(row.numbers[1]))
+      throw Error(ErrorKind::kInput,
+                  fmt::format("{}:{}: a landmark is a vertex of A and one of B", path, row.line));
+    pairs.push_back({static_cast<uint32_t>(row.numbers[0]), static_cast<uint32_t>(row.numbers[1])});
+  }
+  if (pairs.empty())
+    throw Error(ErrorKind::kInput, path + ": holds no landmarks");
+  return pairs;
+}
+
+nlohmann::ordered_json json_of(const Distortion& d) {
+  return {{"conformal_mean", d.conformal_mean},
+          {"conformal_max", d.conformal_max},
+          {"area_mean", d.area_mean},
+          {"area_max", d.area_max}};
+}
+
+void print_json(const std::string& file, const MeshSequence& result, const MeshMap& map) {
+  nlohmann::ordered_json json;
+  json["file"] = file;
+  json["vertices"] = result.vertex_count;
+  json["faces"] = result.polygons.size();
+  json["converged"] = map.converged;
+  json["turned"] = map.turned;
+  json["before"] = json_of(map.before);
+  json["after"] = json_of(map.after);
+  json["hausdorff"] = map.distance.max();
+  json["hausdorff_percent"] = 100 * map.distance.max() / map.diagonal;
+  json["hausdorff_mean"] = map.distance.mean();
+  json["hausdorff_mean_percent"] = 100 * map.distance.mean() / map.diagonal;
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_text(const std::string& file, const MeshMap& map) {
+  fmt::print("{}: {:.3g} % of the diagonal from the surface on average, {:.3g} % at most\n", file,
+             100 * map.distance.mean() / map.diagonal, 100 * map.distance.max() / map.diagonal);
+  fmt::print("{:<10} {:>10} {:>10} {:>10} {:>10}\n", "distortion", "conformal", "largest", "area",
+             "largest");
+  auto print_row = [](const char* name, const Distortion& d) {
+    fmt::print("{:<10} {:>10.4f} {:>10.4f} {:>10.4f} {:>10.4f}\n", name, d.conformal_mean,
+               d.conformal_max, d.area_mean, d.area_max);
+  };
+  print_row("before", map.before);
+  print_row("after", map.after);
+  if (map.turned > 0)
+    fmt::print("{} triangles face against the surface\n", map.turned);
+}
+
+void run(const MapCommand& command, const CommonOptions& common) {
+  ProgressLine line(common.quiet);
+  const SurfaceFrame mesh = load_mesh(command.mesh, line.callback());
+  const SurfaceFrame surface = load_mesh(command.surface, line.callback());
+  std::vector<VertexPair> landmarks;
+  if (!command.landmarks.empty())
+    landmarks = read_landmarks(command.landmarks);
+  WriteOptions write_options;
+  write_options.overwrite = common.overwrite;
+  check_sequence_output(command.output, 1, write_options);
+  line.show("mapping", 0);
+  MeshMap map;
+  try {
+    map = map_mesh(mesh, surface, landmarks);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{} and {}: {}", command.mesh, command.surface, e.what()));
+  }
+  const MeshSequence result = with_positions(mesh, map.positions);
+  write_sequence(command.output, result, write_options);
+  line.clear();
+  if (command.json)
+    print_json(command.output, result, map);
+  else if (!common.quiet)
+    print_text(command.output, map);
+}
+
+}  // namespace
+
+void add_massage_map(Commands& commands, CommonOptions& common) {
+  auto c = std::make_shared<MapCommand>();
+  Options& options = add_command(
+      commands, common, kForce | kQuiet | kThreads,
+      {"massage map", "A B -o OUT [options]", "Give mesh A the shape of mesh B", kFooter},
+      [c, &common] { run(*c, common); });
+  options.argument("A", c->mesh, "The mesh whose faces are kept").required();
+  options.argument("B", c->surface, "The mesh whose shape is taken").required();
+  options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
+  options.option("--landmarks", c->landmarks, "FILE", "Vertices of A and B that belong together");
+  options.flag("--json", c->json, "Print one JSON object");
+}
+
+}  // namespace anicodec::tools
