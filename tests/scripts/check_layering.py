@@ -14,7 +14,8 @@ import sys
 # Vectors of the machine.
 SIMD = ["<immintrin.h>", "<xmmintrin.h>", "<emmintrin.h>", "<arm_neon.h>", "<wasm_simd128.h>", "<cpuid.h>"]
 STREAMS = {"<iostream>", "<fstream>", "<sstream>", "<filesystem>", "<istream>", "<ostream>", "<streambuf>"}
-POSIX = ["<fcntl.h>", "<glob.h>", "<spawn.h>", "<sys/stat.h>", "<sys/wait.h>", "<unistd.h>"]
+POSIX = ["<fcntl.h>", "<glob.h>", "<poll.h>", "<spawn.h>", "<sys/file.h>", "<sys/prctl.h>", "<sys/resource.h>",
+         "<sys/stat.h>", "<sys/wait.h>", "<unistd.h>"]
 
 MODULES = ("format", "sdk", "codec", "corpus", "tools")
 # Prefixes of what a module may include beside the standard library.
@@ -57,10 +58,10 @@ ROOMS = {
     "codec/search": ["codec/sequence", "codec/algebra", "codec/connectivity", "codec/keyframes", "codec/segment",
                      "codec/file"],
     "codec": ["codec/sequence", "codec/metrics", "codec/massage", "codec/segment", "codec/file", "codec/search"],
+    "tools/io/base": [],
     "tools/words": [],
     "tools/options": ["tools/words"],
-    "tools/listing": ["tools/words"],
-    "tools/io/base": [],
+    "tools/listing": ["tools/words", "tools/io/base"],
     "tools/io/files": ["tools/io/base"],
     "tools/io/formats": ["tools/io/base", "tools/io/files"],
     "tools/io/gltf": ["tools/io/base"],
@@ -71,7 +72,7 @@ ROOMS = {
     "tools/peers": ["tools/io/files", "tools/io/gltf"],
     "tools/render": ["tools/io/files"],
     "tools/inputs": ["tools/words", "tools/options", "tools/io", "tools/io/base", "tools/io/files"],
-    "tools/report": ["tools/words", "tools/peers", "tools/render", "tools/inputs"],
+    "tools/report": ["tools/words", "tools/io/base", "tools/peers", "tools/render", "tools/inputs"],
     "tools/commands": ["tools/words", "tools/options", "tools/listing", "tools/io", "tools/io/base", "tools/io/files",
                        "tools/render", "tools/inputs", "tools/report"],
     "tools": ["tools/commands"],

@@ -4,6 +4,7 @@
 
 #include "codec/sequence/error.h"
 #include "format/checksum.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/output_folder.h"
@@ -23,6 +24,7 @@
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 namespace anicodec::tools {
 namespace {
@@ -58,8 +60,9 @@ class ContentHash {
   std::vector<uint64_t> parts_;
 };
 
-/// What has been done: a line "content output name" of two hashes for each clip, the last one
-/// counts. Lines are only ever appended, so that runs may share the file.
+/// What is done as soon as a file of that hash is there: a line "content output name" of two
+/// hashes for each clip, the last one counts. Lines are only ever appended, so that runs may share
+/// the file.
 class Journal {
  public:
   explicit Journal(const std::string& folder)
@@ -67,6 +70,8 @@ class Journal {
     std::string text, line;
     if (fs::exists(path_))
       read_file(path_, text);
+    torn_ = !text.empty() && text.back() != '\n';
+    text.erase(text.rfind('\n') + 1);
     for (std::istringstream lines(text); std::getline(lines, line);) {
       const size_t first = line.find(' '), second = line.find(' ', first + 1);
       if (second != std::string::npos)
@@ -81,12 +86,18 @@ class Journal {
 
   bool knows(const std::string& name) const { return done_.contains(name); }
 
+  /// Has the line on disk when it returns.
   void add(const std::string& name, const std::string& hashes) {
     const std::lock_guard lock(mutex_);
     std::FILE* file = std::fopen(path_.c_str(), "a");
-    bool ok = file && std::fputs((hashes + " " + name + "\n").c_str(), file) >= 0;
-    if (file)
+    // The line of a run that was killed may have no end.
+    const std::string line = (torn_ ? "\n" : "") + hashes + " " + name + "\n";
+    bool ok = file && std::fputs(line.c_str(), file) >= 0 && std::fflush(file) == 0;
+    if (file) {
+      ::fsync(::fileno(file));
       ok &= std::fclose(file) == 0;
+    }
+    torn_ = false;
     if (!ok)
       throw Error(ErrorKind::kInternal, path_ + ": cannot be written");
   }
@@ -94,6 +105,7 @@ class Journal {
  private:
   std::string path_;
   std::map<std::string, std::string> done_;
+  bool torn_ = false;
   std::mutex mutex_;
 };
 
@@ -196,7 +208,7 @@ class Batch {
     const std::lock_guard lock(print_);
     ++finished_;
     if (!quiet) {
-      fmt::print("[{}/{}] {}: {}\n", finished_, clips_.size(), clips_[i].name, text);
+      fmt::print("[{}/{}] {}: {}\n", finished_, clips_.size(), clips_[i].name, printable(text));
       std::fflush(stdout);
     }
   }
@@ -231,9 +243,11 @@ class Batch {
     const std::string_view file(reinterpret_cast<const char*>(result.file.data()),
                                 result.file.size());
     output.write(file);
+    output.close();
+    // First: a run that is killed in between must not take its own output for a stranger's.
+    journal_.add(clip.name, hashes(content, hash_of(file)));
     output.commit();
     folder.keep();
-    journal_.add(clip.name, hashes(content, hash_of(file)));
     ++encoded_;
     output_bytes_ += file.size();
     return fmt::format(

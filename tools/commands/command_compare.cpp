@@ -9,6 +9,7 @@
 #include "tools/inputs/compared_clip.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
+#include "tools/io/base/printable.h"
 #include "tools/words/names.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"

@@ -5,6 +5,7 @@
 #include "sdk/clip/clip.h"
 #include "tools/commands/command.h"
 #include "tools/inputs/clip_input.h"
+#include "tools/io/base/printable.h"
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
 

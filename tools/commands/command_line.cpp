@@ -4,6 +4,7 @@
 
 #include "codec/sequence/error.h"
 #include "tools/commands/command.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/files/cleanup.h"
 #include "tools/options/help_text.h"
 #include "tools/options/nearest_word.h"
@@ -46,7 +47,7 @@ void print_error(std::string_view text) {
   std::string line(text);
   line.erase(line.find_last_not_of(" \n") + 1);
   std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "anicodec: {}\n", line);
+  fmt::print(stderr, "anicodec: {}\n", printable(line));
 }
 
 int status_of(ErrorKind kind) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/commands/encode_report.h"
 
+#include "tools/io/base/printable.h"
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
 

@@ -5,6 +5,7 @@
 #include "codec/sequence/error.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
 
@@ -103,7 +104,8 @@ std::vector<BatchClip> find_clips(const std::string& source) {
   if (clips.empty())
     fail_input(source, "no clip is found in it");
   std::map<std::string, std::string> input_of;
-  for (const BatchClip& clip : clips) {
+  for (BatchClip& clip : clips) {
+    clip.name = printable(clip.name);  // names a file, and a line of the list of what is done
     auto [other, is_new] = input_of.emplace(clip.name, clip.inputs[0]);
     if (!is_new)
       throw Error(ErrorKind::kUsage, clip.inputs[0] + ": would be written to " + clip.name +

@@ -11,6 +11,8 @@
 #include "tools/io/base/mesh.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
+#include "tools/io/files/staging.h"
+#include "tools/io/formats/cache_record.h"
 #include "tools/io/formats/obj.h"
 #include "tools/io/formats/off.h"
 #include "tools/io/formats/ply.h"
@@ -21,6 +23,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <new>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -100,6 +103,9 @@ class MeshReader {
     }
     return mesh_;
   }
+
+  /// The bytes of the file that was read last.
+  std::string_view text() const { return bytes_; }
 
  private:
   std::string bytes_;
@@ -213,6 +219,7 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
     if (mesh.vertex_count() != cache.vertex_count)
       fail_input(cache_path, std::to_string(cache.vertex_count) + " vertices, but the mesh " +
                                  mesh_path + " has " + std::to_string(mesh.vertex_count()));
+    check_cache_record(reader.text(), mesh_path, source);
     sequence.polygons = mesh.polygons;
   }
   sequence.vertex_count = cache.vertex_count;
@@ -284,8 +291,28 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
   sequence.positions = std::move(mesh.positions);
 }
 
+/// Throws when a run was killed while it replaced some of these files together with others, and
+/// this one may not finish that.
+void check_complete(const std::vector<std::string>& paths) {
+  std::set<fs::path> folders, pending;
+  for (const std::string& path : paths) {
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folders.insert(folder).second)
+      continue;
+    for (const std::string& name : recover_folder(folder.string()))
+      pending.insert(folder / name);
+  }
+  for (const std::string& path : paths) {
+    if (pending.contains(path))
+      fail_input(path,
+                 "was to be replaced together with other files by a run that was killed; write "
+                 "there or repeat that run to finish it");
+  }
+}
+
 void load(const std::vector<std::string>& paths, const LoadOptions& options,
           MeshSequence& sequence) {
+  check_complete(paths);
   for (const std::string& path : paths) {
     if (is_whole_clip(kind_of(path)) && paths.size() > 1)
       fail_usage(path + ": is a whole clip, but " + std::to_string(paths.size()) +

@@ -9,6 +9,7 @@
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/files/name_pattern.h"
 #include "tools/io/files/output_folder.h"
+#include "tools/io/formats/cache_record.h"
 #include "tools/io/formats/obj.h"
 #include "tools/io/formats/off.h"
 #include "tools/io/formats/ply.h"
@@ -97,6 +98,7 @@ void write_cache(const std::string& path, const MeshSequence& clip, const Frames
 
   bool is_pc2 = kind_of(path) == FileKind::kPc2;
   std::string bytes;
+  CacheHash hash;
   if (is_pc2)
     append_pc2_header(clip.vertex_count, clip.frame_count, bytes);
   else
@@ -104,16 +106,17 @@ void write_cache(const std::string& path, const MeshSequence& clip, const Frames
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
     std::span<const float> positions = frames(f);
     append_positions(positions, is_pc2 ? std::endian::little : std::endian::big, bytes);
+    hash.add(bytes);
     files[0].write(bytes);
     bytes.clear();
     if (f == 0) {
       const ObjDetails details(clip);
       append_obj(clip.polygons, positions, bytes, &details);
       files[1].write(bytes);
-      files[1].close();
       bytes.clear();
     }
   }
+  files[1].write(cache_record(path, hash.digest()));
   commit_all(files);
 }
 

@@ -23,7 +23,8 @@ struct WriteOptions {
 };
 
 /// Writes a clip, one frame in memory at a time:
-///   - clip.pc2, clip.mdd: a vertex cache, with the mesh of frame 0 beside it as clip.obj,
+///   - clip.pc2, clip.mdd: a vertex cache, with the mesh of frame 0 beside it as clip.obj, which
+///   names the cache's content so that another's is told apart,
 ///   - clip.glb: a mesh with a morph target per frame and its animation, see GlbOutput,
 ///   - frame_%04d.obj, .ply, .off, .stl: a file per frame, its %d or %0Nd counting from
 ///   first_number.

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/report/chart.h"
 
+#include "tools/io/base/printable.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -90,7 +92,7 @@ svg text{fill:var(--quiet);font:12px system-ui,sans-serif}.grid{stroke:var(--rul
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (char c : text) {
+  for (char c : printable(text)) {
     switch (c) {
       case '<':
         out += "&lt;";
@@ -104,8 +106,11 @@ std::string escaped(const std::string& text) {
       case '"':
         out += "&quot;";
         break;
+      case '\'':
+        out += "&#39;";
+        break;
       default:
-        out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+        out += c;
     }
   }
   return out;

@@ -16,16 +16,6 @@
 
 namespace anicodec::tools {
 
-/// Unprintable characters as '?': a file may hold any name.
-inline std::string printable(std::string_view name) {
-  std::string text(name);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-      c = '?';
-  }
-  return text;
-}
-
 inline constexpr Word<BasisKind> kBasisKinds[] = {
     {BasisKind::kKeyframes, "keyframes"},
     {BasisKind::kEigenshapes, "eigenshapes"},

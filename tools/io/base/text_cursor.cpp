@@ -3,6 +3,7 @@
 #include "tools/io/base/text_cursor.h"
 
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/printable.h"
 
 #include <algorithm>
 
@@ -124,10 +125,13 @@ void TextCursor::fail(const std::string& reason) const {
 }
 
 std::string shown(std::string_view text) {
-  std::string out(text.substr(0, 40));
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text.size() > 40 ? out + "..." : out;
+  constexpr size_t kLongest = 40;
+  if (text.size() <= kLongest)
+    return printable(text);
+  size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+    --end;  // not within a character
+  return printable(text.substr(0, end)) + "...";
 }
 
 }  // namespace anicodec::tools

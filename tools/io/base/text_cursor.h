@@ -156,7 +156,7 @@ class TextCursor {
   size_t line_;
 };
 
-/// A text made fit for a message: unprintable characters as '?', at most 40 characters.
+/// A text made fit for a message: printable(), at most 40 bytes of it.
 std::string shown(std::string_view text);
 
 }  // namespace anicodec::tools

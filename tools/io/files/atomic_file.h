@@ -3,7 +3,7 @@
 #ifndef ANICODEC_TOOLS_IO_FILES_ATOMIC_FILE_H_
 #define ANICODEC_TOOLS_IO_FILES_ATOMIC_FILE_H_
 
-#include "tools/io/files/cleanup.h"
+#include "tools/io/files/staging.h"
 
 #include <memory>
 #include <string>
@@ -12,13 +12,16 @@
 
 namespace anicodec::tools {
 
+struct Replacement;
+
 /// Throws Error(kUsage) when the path exists and overwrite is false or is not a regular file. Lets
 /// a long computation fail before it starts.
 void check_output(const std::string& path, bool overwrite);
 
-/// An output that appears under its name whole or not at all: written beside it under a temporary
-/// name, renamed by commit(), removed by the destructor otherwise and by signals
-/// (install_cleanup_on_signal). Writes through symbolic links.
+/// An output that appears under its name whole or not at all: written to a hidden folder beside it,
+/// renamed by commit() once the disk has it, removed by the destructor otherwise and by signals
+/// (install_cleanup_on_signal). What it replaces stays until then, and gives it its mode. Writes
+/// through symbolic links.
 class AtomicFile {
  public:
   /// Throws like check_output, and Error(kUsage) when the file cannot be created.
@@ -30,34 +33,39 @@ class AtomicFile {
   /// Throws Error(kInternal) naming the file when the disk is full.
   void write(std::string_view bytes);
 
-  /// Ends writing, so that many files can wait for commit() without a descriptor each.
+  /// Ends writing, so that many files can wait for commit() without a descriptor each. The disk
+  /// has the bytes afterwards.
   void close();
 
   /// Closes and renames. Throws Error(kUsage) when the path has come to exist and overwrite is
-  /// false.
+  /// false, Error(kInternal) when what is there cannot be replaced; it stays then.
   void commit();
-
-  /// Removes what commit() has put in place.
-  void undo();
 
   const std::string& path() const { return path_; }
 
  private:
+  friend class CommitAll;
+
   void write_all(std::string_view bytes);
+  void keep_mode();
+  void keep_old(Replacement& replacement) const;
+  void place();
   [[noreturn]] void fail_writing() const;
 
   std::string path_;       ///< as given
   std::string target_;     ///< behind symbolic links
-  std::string temporary_;  ///< in the same folder
+  std::string temporary_;  ///< empty when renamed or moved from
   bool overwrite_;
+  std::shared_ptr<Staging> staging_;
+  uint32_t number_ = 0;
   struct Descriptor;
   std::unique_ptr<Descriptor> file_;
-  std::unique_ptr<RemoveOnSignal> remove_on_signal_;
   std::string buffer_;
 };
 
-/// Commits all or none: when one fails, removes those that it has put in place (but cannot bring
-/// back what they replaced).
+/// Commits all or none: when one fails, puts back what the others have replaced. A run that is
+/// killed in between leaves a record by which the next run that reads or writes there renames the
+/// rest.
 void commit_all(std::vector<AtomicFile>& files);
 
 }  // namespace anicodec::tools

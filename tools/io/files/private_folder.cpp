@@ -4,20 +4,20 @@
 
 #include "codec/sequence/error.h"
 
-#include <cstdlib>
 #include <filesystem>
+#include <system_error>
 
 namespace anicodec::tools {
 
-PrivateFolder::PrivateFolder()
-    : path_((std::filesystem::temp_directory_path() / "anicodec_XXXXXX").string()) {
-  if (mkdtemp(path_.data()) == nullptr)
-    throw Error(ErrorKind::kInternal, path_ + ": cannot be created");
-}
-
-PrivateFolder::~PrivateFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+PrivateFolder::PrivateFolder() {
+  const std::string parent = std::filesystem::temp_directory_path().string();
+  constexpr const char* kPrefix = ".anicodec-private-";
+  remove_abandoned_folders(parent, kPrefix);
+  try {
+    folder_.emplace(parent, kPrefix);
+  } catch (const std::system_error& e) {
+    throw Error(ErrorKind::kInternal, parent + ": " + e.code().message());
+  }
 }
 
 }  // namespace anicodec::tools

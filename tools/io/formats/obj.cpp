@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/formats/obj.h"
 
+#include "tools/io/base/printable.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/base/text_output.h"
 
@@ -313,9 +314,10 @@ void ObjDetails::set_attributes(const std::vector<Attribute>& attributes) {
 
 ObjDetails::Names ObjDetails::names(const char* keyword, const PolygonLabels& labels) {
   Names result;
-  for (std::string name : labels.names) {
-    std::ranges::replace_if(
-        name, [](char c) { return c == '\n' || c == '\r' || c == '\\' || c == '#'; }, '_');
+  for (const std::string& label : labels.names) {
+    std::string name = printable(label);
+    // One joins lines, the other begins a comment.
+    std::ranges::replace_if(name, [](char c) { return c == '\\' || c == '#'; }, '_');
     result.lines.push_back(std::string(keyword) + " " + name + "\n");
   }
   result.none = std::string(keyword) + " " + std::string(kNoName) + "\n";

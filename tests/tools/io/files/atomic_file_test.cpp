@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -131,7 +132,7 @@ TEST(AtomicFile, CommitsAllOrNone) {
 }
 
 TEST(AtomicFile, IsRemovedBySignals) {
-  for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGABRT}) {
     TemporaryFolder folder;
     pid_t child = ::fork();
     if (child == 0) {
@@ -150,6 +151,76 @@ TEST(AtomicFile, IsRemovedBySignals) {
     EXPECT_EQ(WTERMSIG(status), signal);
     EXPECT_THAT(folder.files(), ElementsAre("b"));
   }
+}
+
+TEST(AtomicFile, IgnoresTheSignalOfAFileThatIsTooLarge) {
+  TemporaryFolder folder;
+  pid_t child = ::fork();
+  if (child == 0) {
+    install_cleanup_on_signal();
+    const rlimit small = {1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    try {
+      AtomicFile file(folder / "a", false);
+      file.write(std::string(2000, 'x'));
+      file.commit();
+    } catch (const Error&) {
+      ::_exit(7);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  EXPECT_THAT(folder.files(), IsEmpty());
+}
+
+TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
+  TemporaryFolder folder;
+  const std::string path = folder.write("a", "before");
+  ::chmod(path.c_str(), 0640);
+  AtomicFile file(path, true);
+  file.write("after");
+  file.commit();
+  EXPECT_EQ(folder.read("a"), "after");
+  struct stat status;
+  ::stat(path.c_str(), &status);
+  EXPECT_EQ(status.st_mode & 07777U, 0640U);
+}
+
+/// A folder under the name of an output cannot be replaced by a file.
+void put_folder_in_the_way(const TemporaryFolder& folder, const std::string& name) {
+  std::filesystem::remove(folder / name);
+  std::filesystem::create_directory(folder / name);
+  folder.write(name + "/in it", "");
+}
+
+TEST(AtomicFile, PutsBackWhatItReplacedWhenOneOfASetFails) {
+  TemporaryFolder folder;
+  folder.write("a", "old a");
+  folder.write("c", "old c");
+  {
+    std::vector<AtomicFile> files;
+    for (const char* name : {"a", "b", "c", "d"}) {
+      files.emplace_back(folder / name, true);
+      files.back().write("new");
+    }
+    put_folder_in_the_way(folder, "d");
+    EXPECT_THAT(fault([&] { commit_all(files); }, ErrorKind::kInternal),
+                HasSubstr("/d: cannot be "));
+  }
+  EXPECT_THAT(folder.files(), ElementsAre("a", "c", "d"));
+  EXPECT_EQ(folder.read("a"), "old a");
+  EXPECT_EQ(folder.read("c"), "old c");
+}
+
+TEST(AtomicFile, KeepsWhatASingleFailedCommitWouldReplace) {
+  TemporaryFolder folder;
+  folder.write("a", "old");
+  AtomicFile file(folder / "a", true);
+  put_folder_in_the_way(folder, "a");
+  EXPECT_THAT(fault([&] { file.commit(); }, ErrorKind::kInternal), HasSubstr("cannot be replaced"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a/in it"));
 }
 
 }  // namespace

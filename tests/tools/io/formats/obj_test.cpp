@@ -101,7 +101,7 @@ TEST(Obj, RejectsJunkNamingTheLine) {
   EXPECT_EQ(obj_fault("v 0 0"), "a.obj:1: the file ends where a coordinate is expected");
   EXPECT_THAT(obj_fault("v 0 0 0 1 1\n"), HasSubstr("a.obj:1: vertex 0 has 5 numbers"));
   EXPECT_THAT(obj_fault("v 0 0 0 red\n"), HasSubstr("'red' is not a number"));
-  EXPECT_THAT(obj_fault(std::string_view("v 0 0 \0\n", 8)), HasSubstr("a.obj:1: '?' is not"));
+  EXPECT_THAT(obj_fault(std::string_view("v 0 0 \0\n", 8)), HasSubstr(R"(a.obj:1: '\x00' is not)"));
 }
 
 TEST(Obj, RejectsBadFacesNamingTheLine) {
