@@ -38,6 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const GltfResolver resolve = [](const std::string&) { return std::string(64, '\1'); };
   GltfOptions options;
   options.memory_limit = 1 << 20;
+  options.isolate = false;  // a fault is to be found, not contained
   try {
     const MeshSequence sequence = parse_gltf(as_text(data, size), "fuzz", resolve, options);
     if (sequence.frame_count <= 64)

@@ -22,7 +22,6 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace anicodec::tools {
 namespace {
@@ -105,12 +104,6 @@ EncodeResult encode_as_asked(const EncodeArguments& command, MeshSequence sequen
                          progress);
 }
 
-/// Half of what the machine has.
-uint64_t default_memory() {
-  const auto pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
-  return static_cast<uint64_t>(pages) * static_cast<uint64_t>(size) / 2;
-}
-
 void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
   if (!command.part.empty())
     throw Error(ErrorKind::kUsage, "--part takes a part of one clip, --batch has many");
@@ -126,7 +119,7 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
   batch.folder = command.output;
   batch.jobs = common.threads > 0 ? static_cast<unsigned>(common.threads)
                                   : std::max(1U, std::thread::hardware_concurrency());
-  batch.memory = command.memory.empty() ? default_memory() : parse_size(command.memory, "--memory");
+  batch.memory = command.memory.empty() ? half_of_machine() : parse_size(command.memory, "--memory");
   batch.overwrite = common.overwrite;
   batch.quiet = common.quiet;
   batch.settings = settings_of(command, options);

@@ -143,8 +143,13 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.option("--part", a.part, "A:B", "Encode only frames A to B - 1, as a part for join");
   options.option("--batch", a.batch, "DIR|LIST",
                  "Encode all clips in a folder, or in a list with a clip per line");
-  options.option("--memory", a.memory, "BYTES",
-                 "Of --batch: for clips side by side (default: half)");
+  options.option(
+      "--memory", a.memory, "BYTES",
+      "For what scenes and archives make of few bytes; of --batch, for clips side by side "
+      "(default: half of the machine)");
+  options.flag("--allow-outside", a.allow_outside,
+               "Let a scene name files outside its folder: those of strangers then choose what is "
+               "read");
   options.flag("--json", a.json, "Print the result as JSON");
   add_target(options, a);
   add_method(options, a);
@@ -189,6 +194,9 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   options.mesh = command.mesh;
   options.clip = command.clip;
   options.progress = progress;
+  options.allow_outside = command.allow_outside;
+  if (!command.memory.empty() && command.batch.empty())
+    options.memory = parse_size(command.memory, "--memory");
   options.note = command.note;
   if (!command.rate.empty())
     options.rate = parse_frame_rate(command.rate);

@@ -40,6 +40,7 @@ struct EncodeArguments {
   std::string rate, unit;
   UpAxis up = UpAxis::kUnknown;
   bool loop = false;
+  bool allow_outside = false;
   bool no_attributes = false;
   AttributeOptions attributes;
   std::string attribute_error, normal_error;

@@ -234,9 +234,16 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
   }
 }
 
-void load_scene(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
+GltfOptions scene_options(const LoadOptions& options) {
   GltfOptions scene{.rate = options.rate, .mesh = options.mesh, .clip = options.clip};
+  scene.memory_limit = options.memory;
+  scene.allow_outside = options.allow_outside;
   scene.progress = options.progress;
+  return scene;
+}
+
+void load_scene(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
+  const GltfOptions scene = scene_options(options);
   const std::string stem = sequence.name;
   std::string bytes;
   read_file(path, bytes);
@@ -252,6 +259,7 @@ void load_scene(const std::string& path, const LoadOptions& options, MeshSequenc
 
 AlembicOptions alembic_options(const LoadOptions& options) {
   AlembicOptions archive{.rate = options.rate, .mesh = options.mesh};
+  archive.memory_limit = options.memory;
   archive.progress = options.progress;
   archive.note = options.note;
   return archive;
@@ -269,13 +277,12 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
   read_standard_input(bytes);
   const size_t begin = bytes.find_first_not_of(" \t\r\n");
   if (bytes.starts_with("glTF") || (begin != std::string::npos && bytes[begin] == '{')) {
-    GltfOptions scene{.rate = options.rate, .mesh = options.mesh, .clip = options.clip};
     sequence = parse_gltf(
         bytes, "-",
         [](const std::string& name) -> std::string {
           fail_input(name, "a scene from the standard input has no other files");
         },
-        scene);
+        scene_options(options));
     return;
   }
   Mesh mesh;

@@ -6,7 +6,9 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
 #include "codec/sequence/scene.h"
+#include "tools/io/base/machine_memory.h"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -26,6 +28,11 @@ struct LoadOptions {
   std::string clip = {};
   /// See StlWeld.
   bool weld_stl = true;
+  /// Most bytes that may be taken for what a file announces and does not hold: decompressed data,
+  /// instances, frames of a scene.
+  uint64_t memory = half_of_machine();
+  /// Scenes may name files outside their folder.
+  bool allow_outside = false;
   /// Stage "reading".
   Progress progress = {};
   /// Told what of a file is left out, where that is not plain from its kind.

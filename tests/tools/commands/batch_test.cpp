@@ -111,6 +111,20 @@ TEST_F(BatchCommand, GoesOnAfterAFailureAndTellsIt) {
   EXPECT_FALSE(fs::exists(folder_ / "out/broken.anic"));
 }
 
+// A document that is its own part, which the library that reads it follows until its stack ends.
+TEST_F(BatchCommand, GoesOnAfterALibraryCrashes) {
+  folder_.write("in/endless.dae",
+                R"(<?xml version="1.0"?><COLLADA version="1.4.1"><library_nodes><node id="n">)"
+                R"(<instance_node url="#n"/></node></library_nodes><library_visual_scenes>)"
+                R"(<visual_scene id="v"><node><instance_node url="#n"/></node></visual_scene>)"
+                R"(</library_visual_scenes><scene><instance_visual_scene url="#v"/></scene>)"
+                R"(</COLLADA>)");
+  const Outcome outcome = batch();
+  EXPECT_THAT(outcome.out, HasSubstr("endless: FAILED: "));
+  EXPECT_THAT(outcome.out, HasSubstr("3 encoded, 0 done before, 1 failed"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 4 clips failed, the first is endless"));
+}
+
 TEST_F(BatchCommand, LeavesFilesThatItDidNotWrite) {
   folder_.write("out/limb.anic", "mine");
   Outcome outcome = batch();

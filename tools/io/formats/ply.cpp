@@ -178,7 +178,8 @@ void read_vertices(const PlyElement& element, std::string_view name, Body& body,
     fail_input(name, std::to_string(element.count) + " vertices; at most 2^31 - 1 are possible");
   if (element.count > 0) {
     body.begin_element(element, 0);
-    body.expect(element.count * 3, PlyType::kInt8);
+    // A list has at least its count.
+    body.expect(element.count * element.properties.size(), PlyType::kInt8);
   }
 
   mesh.positions.resize(element.count * 3);

@@ -6,6 +6,8 @@
 #include "tools/io/base/text_cursor.h"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 namespace anicodec::tools {
 namespace {
@@ -46,17 +48,17 @@ PlyEncoding parse_format(TextCursor& in) {
   in.fail("unknown format '" + shown(encoding) + "'");
 }
 
-template <typename Named>
-void refuse_second(const std::vector<Named>& all, std::string_view name, TextCursor& in) {
-  auto same = [name](const Named& known) { return known.name == name; };
-  if (std::any_of(all.begin(), all.end(), same))
+using Names = std::set<std::string, std::less<>>;
+
+void refuse_second(std::string_view name, Names& before, TextCursor& in) {
+  if (!before.emplace(name).second)
     in.fail("'" + shown(name) + "' is declared twice");
 }
 
-PlyElement parse_element(const std::vector<PlyElement>& before, TextCursor& in) {
+PlyElement parse_element(Names& before, TextCursor& in) {
   PlyElement element;
   element.name = in.word("name");
-  refuse_second(before, element.name, in);
+  refuse_second(element.name, before, in);
   int64_t count = in.integer("count");
   if (count < 0)
     in.fail("the count " + std::to_string(count) + " is negative");
@@ -64,7 +66,7 @@ PlyElement parse_element(const std::vector<PlyElement>& before, TextCursor& in) 
   return element;
 }
 
-PlyProperty parse_property(const std::vector<PlyProperty>& before, TextCursor& in) {
+PlyProperty parse_property(Names& before, TextCursor& in) {
   PlyProperty property;
   if (TextCursor ahead = in; ahead.word("type") == "list") {
     in.word("type");
@@ -75,7 +77,7 @@ PlyProperty parse_property(const std::vector<PlyProperty>& before, TextCursor& i
   }
   property.type = parse_type(in);
   property.name = in.word("name");
-  refuse_second(before, property.name, in);
+  refuse_second(property.name, before, in);
   return property;
 }
 
@@ -96,6 +98,7 @@ PlyHeader parse_ply_header(std::string_view bytes, std::string_view name) {
     fail_input(name, "is not a PLY file: it does not begin with a line 'ply'");
 
   PlyHeader header;
+  Names elements, properties;  // those of the last element
   bool has_format = false;
   size_t offset = 3 + newline.size();
   for (size_t line = 2;; ++line) {
@@ -115,12 +118,12 @@ PlyHeader parse_ply_header(std::string_view bytes, std::string_view name) {
       header.encoding = parse_format(in);
       has_format = true;
     } else if (keyword == "element") {
-      header.elements.push_back(parse_element(header.elements, in));
+      header.elements.push_back(parse_element(elements, in));
+      properties.clear();
     } else if (keyword == "property") {
       if (header.elements.empty())
         in.fail("a property comes before the first element");
-      auto& properties = header.elements.back().properties;
-      properties.push_back(parse_property(properties, in));
+      header.elements.back().properties.push_back(parse_property(properties, in));
     } else if (keyword == "end_header") {
       in.end_line();
       if (!has_format)

@@ -45,35 +45,32 @@ uint32_t named_animation(const GltfDocument& document, const std::string& clip) 
                                      "'; the clips are: " + listed(names));
 }
 
-bool has_length(const GltfClip& clip) {
-  return clip.last_time() > clip.first_time();
+[[noreturn]] void fail_empty(const GltfDocument& document, uint32_t animation) {
+  fail_gltf(document, animation_path(animation),
+            "the animation has no channel that moves a vertex, and so no keys; --clip none takes "
+            "the pose without");
 }
 
-[[noreturn]] void fail_length(const GltfDocument& document, uint32_t animation,
-                              const GltfClip& clip) {
-  fail_gltf(
-      document, animation_path(animation),
-      document.animations[animation].channels.empty()
-          ? "the animation has no channel and so no length; --clip none takes the pose without"
-          : "the animation has no length: all its keys are at " +
-                std::to_string(clip.first_time()) + " s; --clip none takes the pose without");
-}
-
-/// The first animation that moves what is baked, else the first with a length.
-uint32_t first_animation(const GltfDocument& document, const std::vector<bool>& nodes) {
-  uint32_t first = kGltfNone;
+/// The first animation that moves what is baked, else the first with a length, else the first with
+/// keys, which has one frame.
+uint32_t first_animation(const GltfDocument& document, const std::vector<bool>& nodes,
+                         uint64_t memory_limit) {
+  uint32_t longest = kGltfNone, any = kGltfNone;
   for (uint32_t i = 0; i < document.animations.size(); ++i) {
-    GltfClip clip(document, i);
-    if (!has_length(clip))
+    if (document.animations[i].channels.empty())
       continue;
-    if (clip.moves(nodes))
+    const GltfClip clip(document, i, memory_limit);
+    const bool has_length = clip.last_time() > clip.first_time();
+    if (has_length && clip.moves(nodes))
       return i;
-    if (first == kGltfNone)
-      first = i;
+    if (has_length && longest == kGltfNone)
+      longest = i;
+    if (any == kGltfNone)
+      any = i;
   }
-  if (first == kGltfNone)
-    fail_length(document, 0, GltfClip(document, 0));
-  return first;
+  if (any == kGltfNone)
+    fail_empty(document, 0);
+  return longest != kGltfNone ? longest : any;
 }
 
 FrameRate default_rate(const GltfAnimation& animation, const GltfClip& clip) {
@@ -107,21 +104,24 @@ uint32_t count_frames(const GltfDocument& document, uint32_t animation, const Gl
 
 MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
                         const GltfOptions& options) {
-  return bake_gltf(parse_gltf_document(bytes, name, resolve, options.memory_limit), options);
+  return bake_gltf(
+      parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside),
+      options);
 }
 
 MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options) {
-  GltfBake bake(document, options.mesh);
+  GltfBake bake(document, options);
   MeshSequence out = bake.still();
   if (options.clip == "none" || (options.clip.empty() && document.animations.empty())) {
     bake.add_frames(nullptr, 1, options, out);
     return out;
   }
-  const uint32_t animation = options.clip.empty() ? first_animation(document, bake.moving_nodes())
-                                                  : named_animation(document, options.clip);
-  const GltfClip clip(document, animation);
-  if (!has_length(clip))
-    fail_length(document, animation, clip);
+  const uint32_t animation =
+      options.clip.empty() ? first_animation(document, bake.moving_nodes(), options.memory_limit)
+                           : named_animation(document, options.clip);
+  if (document.animations[animation].channels.empty())
+    fail_empty(document, animation);
+  const GltfClip clip(document, animation, options.memory_limit);
   out.rate = options.rate ? *options.rate : default_rate(document.animations[animation], clip);
   out.start_time = clip.first_time();
   if (document.animations.size() > 1)

@@ -22,8 +22,12 @@ struct GltfOptions {
   /// Name or number of the animation, "none" for the pose without; empty: the first that moves
   /// something.
   std::string clip = {};
-  /// Most bytes that positions and decompressed buffers may take, each.
+  /// Most bytes that decompressed buffers, keys, geometry, and frames may take, each.
   uint64_t memory_limit = uint64_t{1} << 36;
+  /// Buffers may stand outside the folder of the file, by URIs that climb with "..".
+  bool allow_outside = false;
+  /// Draco decodes in a process with limits (run_guarded); false: here, for tests of it.
+  bool isolate = true;
   /// Stage "reading".
   Progress progress = {};
 };

@@ -82,10 +82,27 @@ void for_all_elements(const GltfDocument& document, const GltfAccessor& accessor
                    [&](uint32_t i, const char* bytes) { take(indices[i], bytes); });
 }
 
+/// Zeros need no bytes, but those that belong to vertices have company that does.
+void check_zeros(const GltfDocument& document, uint32_t index, const std::string& path) {
+  constexpr uint64_t kMostForAByte = 16;
+  const GltfAccessor& accessor = document.accessors[index];
+  if (accessor.view == kGltfNone && accessor.count > kMostForAByte * document.bytes)
+    fail_gltf(document, path,
+              "/accessors/" + std::to_string(index) + " has " + std::to_string(accessor.count) +
+                  " elements and no buffer view, but the document has only " +
+                  std::to_string(document.bytes) + " bytes");
+}
+
 }  // namespace
+
+uint64_t bytes_as_floats(const GltfDocument& document, uint32_t accessor) {
+  const GltfAccessor& a = document.accessors[accessor];
+  return uint64_t{a.count} * a.components * sizeof(float);
+}
 
 std::vector<float> read_floats(const GltfDocument& document, uint32_t index,
                                const std::string& path) {
+  check_zeros(document, index, path);
   const GltfAccessor& accessor = document.accessors[index];
   std::vector<float> out(size_t{accessor.count} * accessor.components);
   const size_t size = size_of(accessor.type);
@@ -109,6 +126,7 @@ std::vector<uint32_t> read_unsigned(const GltfDocument& document, uint32_t index
       accessor.type != GltfComponent::kUint32)
     fail_gltf(document, path,
               "/accessors/" + std::to_string(index) + " does not hold unsigned integers");
+  check_zeros(document, index, path);
   std::vector<uint32_t> out(size_t{accessor.count} * accessor.components);
   const size_t size = size_of(accessor.type);
   for_all_elements(document, accessor, path, [&](uint32_t i, const char* bytes) {

@@ -30,13 +30,21 @@ GltfPose pose_at_rest(const GltfDocument& document) {
   return pose;
 }
 
-GltfClip::GltfClip(const GltfDocument& document, uint32_t animation) {
+GltfClip::GltfClip(const GltfDocument& document, uint32_t animation, uint64_t memory_limit) {
+  uint64_t bytes = 0;
   const GltfAnimation& source = document.animations[animation];
   const std::string path = "/animations/" + std::to_string(animation);
   first_time_ = last_time_ = 0;
   for (const GltfChannel& channel : source.channels) {
     const GltfSampler& sampler = source.samplers[channel.sampler];
     const std::string place = path + "/samplers/" + std::to_string(channel.sampler);
+    bytes += bytes_as_floats(document, sampler.input) + bytes_as_floats(document, sampler.output);
+    if (bytes > memory_limit)
+      fail_gltf(document, path,
+                "the keys take " + std::to_string(bytes) +
+                    " bytes of memory, more "
+                    "than the " +
+                    std::to_string(memory_limit) + " that are allowed");
     Track track{.node = channel.node,
                 .path = channel.path,
                 .interpolation = sampler.interpolation,

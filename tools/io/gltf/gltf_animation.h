@@ -27,7 +27,7 @@ GltfPose pose_at_rest(const GltfDocument& document);
 class GltfClip {
  public:
   /// Throws Error(kInput) naming the sampler.
-  GltfClip(const GltfDocument& document, uint32_t animation);
+  GltfClip(const GltfDocument& document, uint32_t animation, uint64_t memory_limit);
 
   double first_time() const { return first_time_; }
 

@@ -70,6 +70,15 @@ std::vector<bool> never_shown(const GltfDocument& document) {
   return hidden;
 }
 
+/// Bytes of a primitive in a clip, but for its frames.
+uint64_t bytes_of(const GltfGeometry& geometry, bool with_vertices) {
+  constexpr uint64_t kOfTriangle = 3 * 4 + 4 + 4 + 4;       // corners, offset, material, part
+  constexpr uint64_t kUv = 8, kColour = 16, kNormals = 28;  // of a vertex, with tangents
+  const GltfVertices& v = geometry.vertices;
+  const uint64_t of_vertex = kUv * v.uvs.size() + kColour * v.colours.size() + kNormals;
+  return geometry.triangles.size() / 3 * kOfTriangle + (with_vertices ? of_vertex * v.count : 0);
+}
+
 }  // namespace
 
 /// A primitive shown by a node.
@@ -89,7 +98,9 @@ struct GltfBake::Worlds {
 
 GltfBake::~GltfBake() = default;
 
-GltfBake::GltfBake(const GltfDocument& document, const std::string& mesh) : document_(document) {
+GltfBake::GltfBake(const GltfDocument& document, const GltfOptions& options)
+    : document_(document), options_(options), memory_left_(options.memory_limit) {
+  const std::string& mesh = options.mesh;
   std::vector<uint32_t> open(document.roots.rbegin(), document.roots.rend());
   const std::vector<bool> hidden = never_shown(document);
   std::set<std::string> names;
@@ -150,34 +161,60 @@ GltfBake::GltfBake(const GltfDocument& document, const std::string& mesh) : docu
   }
 }
 
+void GltfBake::take_memory(uint64_t bytes, const std::string& path) {
+  if (bytes > memory_left_)
+    fail_gltf(document_, path,
+              "the geometry takes " + std::to_string(bytes) + " bytes of memory; " +
+                  std::to_string(memory_left_) + " are left of the " +
+                  std::to_string(options_.memory_limit) + " that are allowed");
+  memory_left_ -= bytes;
+}
+
+std::shared_ptr<const GltfGeometry> GltfBake::geometry_of(uint32_t mesh, size_t p) {
+  std::shared_ptr<const GltfGeometry>& geometry = geometries_[{mesh, p}];
+  if (geometry)
+    return geometry;
+  const GltfPrimitive& primitive = document_.meshes[mesh].primitives[p];
+  uint64_t bytes = 0;
+  auto add = [&](const std::map<std::string, uint32_t>& attributes) {
+    for (const auto& [name, accessor] : attributes)
+      bytes += bytes_as_floats(document_, accessor);
+  };
+  add(primitive.attributes);
+  for (const auto& target : primitive.targets)
+    add(target);
+  // Strips and fans become lists.
+  if (primitive.indices != kGltfNone)
+    bytes += 3 * bytes_as_floats(document_, primitive.indices);
+  take_memory(bytes, primitive_path(mesh, p));
+  geometry = std::make_shared<const GltfGeometry>(read_geometry(document_, mesh, p, options_));
+  return geometry;
+}
+
 void GltfBake::add_node(uint32_t n) {
   const GltfNode& node = document_.nodes[n];
   const GltfMesh& mesh = document_.meshes[node.mesh];
   size_t polygons = 0;
   const size_t first_piece = pieces_.size();
+  // Primitives with the same accessors share their vertices.
+  using Accessors = std::map<std::string, uint32_t>;
+  std::map<std::pair<Accessors, std::vector<Accessors>>, uint32_t> vertices_of;
   for (size_t p = 0; p < mesh.primitives.size(); ++p) {
     const GltfPrimitive& primitive = mesh.primitives[p];
     if (primitive.mode < kFirstTriangleMode || !primitive.attributes.contains("POSITION"))
       continue;
-    Piece piece{.node = n, .mesh = node.mesh, .primitive = p, .geometry = nullptr};
-    for (const Piece& other : pieces_) {
-      if (other.mesh == node.mesh && other.primitive == p)
-        piece.geometry = other.geometry;
-    }
-    if (!piece.geometry)
-      piece.geometry = std::make_shared<const GltfGeometry>(read_geometry(document_, node.mesh, p));
+    Piece piece{
+        .node = n, .mesh = node.mesh, .primitive = p, .geometry = geometry_of(node.mesh, p)};
     piece.first_vertex = static_cast<uint32_t>(vertex_count_);
-    for (size_t q = first_piece; q < pieces_.size() && !primitive.draco; ++q) {
-      const GltfPrimitive& earlier = mesh.primitives[pieces_[q].primitive];
-      if (!earlier.draco && earlier.attributes == primitive.attributes &&
-          earlier.targets == primitive.targets) {
-        piece.first_vertex = pieces_[q].first_vertex;
-        piece.owns_vertices = false;
-        break;
-      }
+    if (!primitive.draco) {
+      const auto [same, is_new] =
+          vertices_of.try_emplace({primitive.attributes, primitive.targets}, piece.first_vertex);
+      piece.first_vertex = same->second;
+      piece.owns_vertices = is_new;
     }
     if (piece.owns_vertices)
       vertex_count_ += piece.geometry->vertices.count;
+    take_memory(bytes_of(*piece.geometry, piece.owns_vertices), primitive_path(node.mesh, p));
     polygons += piece.geometry->triangles.size() / 3;
     pieces_.push_back(std::move(piece));
   }
@@ -395,6 +432,11 @@ void GltfBake::move_attributes(uint32_t frames, const std::function<GltfPose(uin
     if (!moves)
       continue;
     const size_t n = attribute.components, row = attribute.values.size();
+    if (row > options_.memory_limit / sizeof(float) / frames)
+      fail_input(document_.name, shown(attribute.name) + " in " + std::to_string(frames) +
+                                     " frames takes more than the " +
+                                     std::to_string(options_.memory_limit) +
+                                     " bytes of memory that are allowed");
     const std::vector<float> base = attribute.values;
     attribute.values.resize(row * frames);
     attribute.frames = frames;
@@ -425,7 +467,9 @@ void GltfBake::add_frames(const GltfClip* clip, uint32_t frames, const GltfOptio
   const std::string size =
       std::to_string(out.vertex_count) + " vertices x " + std::to_string(frames) + " frames";
   if (bytes > options.memory_limit)
-    fail_input(document_.name, size + " take more memory than is allowed");
+    fail_input(document_.name, size + " take " + std::to_string(bytes) +
+                                   " bytes of memory, more than the " +
+                                   std::to_string(options.memory_limit) + " that are allowed");
   try {
     out.positions.resize(bytes / sizeof(float));
   } catch (const std::exception&) {

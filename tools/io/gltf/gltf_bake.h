@@ -10,8 +10,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace anicodec::tools {
@@ -19,10 +21,10 @@ namespace anicodec::tools {
 /// The meshes of a document's scene as one, moved by an animation.
 class GltfBake {
  public:
-  /// Takes the meshes of the scene, or those where mesh or node has the given name, but for hidden
-  /// ones that no animation shows. The document must outlive it. Throws Error(kUsage) when there is
-  /// none of that name, Error(kInput) for faults of the geometry.
-  GltfBake(const GltfDocument& document, const std::string& mesh);
+  /// Takes the meshes of the scene, or those where mesh or node has the name that is asked for, but
+  /// for hidden ones that no animation shows. The document must outlive it. Throws Error(kUsage)
+  /// when there is none of that name, Error(kInput) for faults of the geometry.
+  GltfBake(const GltfDocument& document, const GltfOptions& options);
   GltfBake(const GltfBake&) = delete;
   GltfBake& operator=(const GltfBake&) = delete;
   ~GltfBake();
@@ -44,6 +46,8 @@ class GltfBake {
   struct Piece;
   struct Worlds;
 
+  std::shared_ptr<const GltfGeometry> geometry_of(uint32_t mesh, size_t primitive);
+  void take_memory(uint64_t bytes, const std::string& path);
   void add_node(uint32_t node);
   bool is_skinned(const Piece& piece) const;
   Worlds worlds_of(const GltfPose& pose) const;
@@ -53,6 +57,9 @@ class GltfBake {
   void add_normals(const GltfPose& pose, const Worlds& worlds, MeshSequence& out) const;
 
   const GltfDocument& document_;
+  const GltfOptions& options_;
+  uint64_t memory_left_;
+  std::map<std::pair<uint32_t, size_t>, std::shared_ptr<const GltfGeometry>> geometries_;
   std::vector<uint32_t> order_;  ///< nodes, parents first
   std::vector<Piece> pieces_;
   std::vector<std::vector<float>> inverse_binds_;  ///< of each skin, joints x 16

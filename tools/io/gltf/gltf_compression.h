@@ -40,11 +40,20 @@ struct DracoPrimitive {
   std::map<std::string, Values> attributes;
 };
 
-/// Decodes the attributes asked for, name -> unique id; nothing when the bitstream is damaged or
-/// lacks one, or has other than the given counts.
-std::optional<DracoPrimitive> decode_draco(std::string_view bytes,
-                                           const std::map<std::string, uint32_t>& attributes,
-                                           uint32_t points, uint32_t indices);
+/// A Draco bitstream, and what the document says of it.
+struct DracoSource {
+  std::string_view bytes;
+  const std::map<std::string, uint32_t>& attributes;  ///< those asked for, name -> unique id
+  uint32_t points = 0, indices = 0;
+};
+
+/// Nothing when the bitstream is damaged or lacks an attribute, or has other than the given counts.
+std::optional<DracoPrimitive> decode_draco(const DracoSource& source);
+
+/// The same in a process that may take as much memory and time as such a bitstream can need. Throws
+/// Error(kInput) "name: reason" when that is not enough, and for more points than it can hold.
+std::optional<DracoPrimitive> decode_draco_guarded(const DracoSource& source,
+                                                   const std::string& name, uint64_t memory_limit);
 
 }  // namespace anicodec::tools
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace anicodec::tools {
@@ -120,7 +121,7 @@ std::vector<char> decode_data_uri(std::string_view uri, const JsonNode& node) {
   return out;
 }
 
-std::string path_of_uri(std::string_view uri, const JsonNode& node) {
+std::string path_of_uri(std::string_view uri, const JsonNode& node, bool allow_outside) {
   if (uri.find("://") != std::string_view::npos || uri.starts_with("/") || uri.starts_with("file:"))
     node.fail("'" + shown(uri) + "' is not relative to the file; only such buffers are read");
   std::string path;
@@ -136,7 +137,13 @@ std::string path_of_uri(std::string_view uri, const JsonNode& node) {
   }
   if (path.find('\0') != std::string::npos)
     node.fail("the URI has a zero byte");
-  return path;
+  // Normalised as text, so that a link to a folder is no way out either.
+  const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
+  if (!allow_outside && (normal.is_absolute() || (!normal.empty() && *normal.begin() == "..")))
+    node.fail("'" + shown(path) +
+              "' leads out of the folder of the file; --allow-outside reads it, "
+              "and with it whatever file the document names");
+  return normal.string();
 }
 
 }  // namespace anicodec::tools

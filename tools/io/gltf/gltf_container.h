@@ -29,9 +29,10 @@ bool is_data_uri(std::string_view uri);
 /// Bytes of a base64 data URI. Throws at the node.
 std::vector<char> decode_data_uri(std::string_view uri, const JsonNode& node);
 
-/// A relative URI as a path: percent signs decoded. Throws at the node for URIs with a scheme and
-/// absolute paths.
-std::string path_of_uri(std::string_view uri, const JsonNode& node);
+/// A relative URI as a path without detours: percent signs decoded. Throws at the node for URIs
+/// with a scheme and absolute paths, and for those that climb out of the folder unless
+/// `allow_outside`.
+std::string path_of_uri(std::string_view uri, const JsonNode& node, bool allow_outside);
 
 }  // namespace anicodec::tools
 

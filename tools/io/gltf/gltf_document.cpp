@@ -47,11 +47,13 @@ uint32_t index_or_none(const JsonNode& node, const char* key, size_t count, cons
 class Reader {
  public:
   Reader(const GltfContainer& container, std::string_view name, const GltfResolver& resolve,
-         uint64_t memory_limit)
+         uint64_t memory_limit, bool allow_outside)
       : container_(container),
         root_(container.document, name),
         resolve_(resolve),
-        memory_left_(memory_limit) {
+        memory_limit_(memory_limit),
+        memory_left_(memory_limit),
+        allow_outside_(allow_outside) {
     out_.name = name;
   }
 
@@ -114,7 +116,7 @@ class Reader {
     } else if (std::string text = uri->text(); is_data_uri(text)) {
       bytes = decode_data_uri(text, *uri);
     } else {
-      const std::string path = path_of_uri(text, *uri);
+      const std::string path = path_of_uri(text, *uri, allow_outside_);
       try {
         const std::string file = resolve_(path);
         bytes.assign(file.begin(), file.end());
@@ -126,6 +128,7 @@ class Reader {
       node.fail("the buffer has " + std::to_string(bytes.size()) + " bytes of the " +
                 std::to_string(length) + " of its byteLength");
     bytes.resize(length);
+    out_.bytes += length;
   }
 
   std::string_view range_of_buffer(const JsonNode& node) {
@@ -152,6 +155,7 @@ class Reader {
       source.filter = text_or_empty(*packed, "filter");
       take_memory(uint64_t{source.count} * source.stride, *packed);
       view.decompressed = decode_meshopt(source, *packed);
+      out_.bytes += view.decompressed.size();
       view.bytes = {view.decompressed.data(), view.decompressed.size()};
     } else {
       view.bytes = range_of_buffer(node);
@@ -161,7 +165,9 @@ class Reader {
 
   void take_memory(uint64_t bytes, const JsonNode& node) {
     if (bytes > memory_left_)
-      node.fail("needs " + std::to_string(bytes) + " bytes of memory, more than is allowed");
+      node.fail("needs " + std::to_string(bytes) + " bytes of memory; " +
+                std::to_string(memory_left_) + " are left of the " + std::to_string(memory_limit_) +
+                " that are allowed");
     memory_left_ -= bytes;
   }
 
@@ -522,7 +528,8 @@ class Reader {
   const GltfContainer& container_;
   JsonNode root_;
   const GltfResolver& resolve_;
-  uint64_t memory_left_;
+  uint64_t memory_limit_, memory_left_;
+  bool allow_outside_;
   GltfDocument out_;
 };
 
@@ -544,9 +551,12 @@ uint32_t size_of(GltfComponent component) {
 }
 
 GltfDocument parse_gltf_document(std::string_view bytes, std::string_view name,
-                                 const GltfResolver& resolve, uint64_t memory_limit) {
+                                 const GltfResolver& resolve, uint64_t memory_limit,
+                                 bool allow_outside) {
   const GltfContainer container = open_gltf(bytes, name);
-  return Reader(container, name, resolve, memory_limit).read();
+  GltfDocument document = Reader(container, name, resolve, memory_limit, allow_outside).read();
+  document.bytes += bytes.size();
+  return document;
 }
 
 void fail_gltf(const GltfDocument& document, const std::string& path, const std::string& reason) {

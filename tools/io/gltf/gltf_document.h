@@ -124,7 +124,8 @@ struct GltfDocument {
   GltfDocument(GltfDocument&&) = default;
   GltfDocument& operator=(GltfDocument&&) = default;
 
-  std::string name;  ///< of the file, for messages
+  std::string name;    ///< of the file, for messages
+  uint64_t bytes = 0;  ///< of the file and its buffers, decompressed
   std::vector<std::vector<char>> buffers;
   std::vector<GltfView> views;
   std::vector<GltfAccessor> accessors;
@@ -140,10 +141,12 @@ struct GltfDocument {
 using GltfResolver = std::function<std::string(const std::string& path)>;
 
 /// Reads a .gltf or .glb, told apart by their first bytes. `memory_limit` bounds what decompressed
-/// buffer views may take. Throws Error(kInput) "name: /json/pointer: reason", Error(kUnsupported)
+/// buffer views may take; buffers outside the folder of the file are refused unless
+/// `allow_outside`. Throws Error(kInput) "name: /json/pointer: reason", Error(kUnsupported)
 /// for extensions that are required and not known.
 GltfDocument parse_gltf_document(std::string_view bytes, std::string_view name,
-                                 const GltfResolver& resolve, uint64_t memory_limit);
+                                 const GltfResolver& resolve, uint64_t memory_limit,
+                                 bool allow_outside = false);
 
 /// Throws Error(kInput) "name: path: reason".
 [[noreturn]] void fail_gltf(const GltfDocument& document, const std::string& path,

@@ -104,9 +104,8 @@ bool take_values(const draco::PointAttribute& attribute, uint32_t points,
   return true;
 }
 
-std::optional<DracoPrimitive> decode(std::string_view bytes,
-                                     const std::map<std::string, uint32_t>& attributes,
-                                     uint32_t points, uint32_t indices) {
+std::optional<DracoPrimitive> decode(const DracoSource& source) {
+  const auto& [bytes, attributes, points, indices] = source;
   if (indices % 3 != 0 || !is_plausible(bytes, points, indices / 3))
     return std::nullopt;
   draco::DecoderBuffer buffer;
@@ -137,11 +136,9 @@ std::optional<DracoPrimitive> decode(std::string_view bytes,
 
 }  // namespace
 
-std::optional<DracoPrimitive> decode_draco(std::string_view bytes,
-                                           const std::map<std::string, uint32_t>& attributes,
-                                           uint32_t points, uint32_t indices) {
+std::optional<DracoPrimitive> decode_draco(const DracoSource& source) {
   try {
-    return decode(bytes, attributes, points, indices);
+    return decode(source);
   } catch (const std::exception&) {
     return std::nullopt;
   }

@@ -18,7 +18,8 @@ constexpr uint32_t kTriangles = 4, kFan = 6;  // 5: strip
 /// Reads the attributes of one primitive, from accessors or from a Draco bitstream.
 class AttributeReader {
  public:
-  AttributeReader(const GltfDocument& document, uint32_t mesh, size_t primitive)
+  AttributeReader(const GltfDocument& document, uint32_t mesh, size_t primitive,
+                  const GltfOptions& options)
       : document_(document),
         primitive_(document.meshes[mesh].primitives[primitive]),
         path_(primitive_path(mesh, primitive)) {
@@ -27,9 +28,12 @@ class AttributeReader {
     if (primitive_.indices == kGltfNone)
       fail_gltf(document, path_, "a Draco bitstream without an accessor of indices");
     const uint32_t position = primitive_.attributes.at("POSITION");
-    draco_ = decode_draco(document.views[primitive_.draco->view].bytes,
-                          primitive_.draco->attributes, document.accessors[position].count,
-                          document.accessors[primitive_.indices].count);
+    const DracoSource source{document.views[primitive_.draco->view].bytes,
+                             primitive_.draco->attributes, document.accessors[position].count,
+                             document.accessors[primitive_.indices].count};
+    draco_ = options.isolate
+                 ? decode_draco_guarded(source, document.name + ": " + path_, options.memory_limit)
+                 : decode_draco(source);
     if (!draco_)
       fail_gltf(document, path_ + "/extensions/KHR_draco_mesh_compression",
                 "the Draco bitstream is damaged, or is not what the accessors say");
@@ -225,9 +229,10 @@ std::string primitive_path(uint32_t mesh, size_t primitive) {
   return "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(primitive);
 }
 
-GltfGeometry read_geometry(const GltfDocument& document, uint32_t mesh, size_t index) {
+GltfGeometry read_geometry(const GltfDocument& document, uint32_t mesh, size_t index,
+                           const GltfOptions& options) {
   const GltfPrimitive& primitive = document.meshes[mesh].primitives[index];
-  const AttributeReader in(document, mesh, index);
+  const AttributeReader in(document, mesh, index, options);
   GltfGeometry out;
   out.vertices = read_vertices(document, in, primitive);
 

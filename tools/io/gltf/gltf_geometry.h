@@ -3,6 +3,7 @@
 #ifndef ANICODEC_TOOLS_IO_GLTF_GLTF_GEOMETRY_H_
 #define ANICODEC_TOOLS_IO_GLTF_GLTF_GEOMETRY_H_
 
+#include "tools/io/gltf/gltf.h"
 #include "tools/io/gltf/gltf_document.h"
 
 #include <cstdint>
@@ -40,7 +41,8 @@ struct GltfGeometry {
 
 /// Reads a primitive of triangles; strips and fans become lists. Throws Error(kInput) naming the
 /// attribute.
-GltfGeometry read_geometry(const GltfDocument& document, uint32_t mesh, size_t primitive);
+GltfGeometry read_geometry(const GltfDocument& document, uint32_t mesh, size_t primitive,
+                           const GltfOptions& options);
 
 /// "/meshes/M/primitives/P".
 std::string primitive_path(uint32_t mesh, size_t primitive);

@@ -11,7 +11,27 @@ namespace anicodec::tools {
 
 #ifdef ANICODEC_MESHOPTIMIZER
 
+namespace {
+
+/// Refuses counts that the compressed bytes cannot hold, before there is memory for them. A block
+/// of 256 vertices takes at least two bits for each byte of a vertex; an index or triangle one
+/// byte.
+void check_count(const MeshoptView& view, const JsonNode& node) {
+  constexpr uint64_t kMostForAByte = 1024;
+  const uint64_t bytes = view.bytes.size();
+  const bool attributes = view.mode == "ATTRIBUTES";
+  const uint64_t least = attributes ? uint64_t{view.count} * view.stride / kMostForAByte
+                         : view.mode == "TRIANGLES" ? view.count / 3
+                                                    : view.count;
+  if (least > bytes)
+    node.fail(std::to_string(view.count) + " elements of " + std::to_string(view.stride) +
+              " bytes cannot come from " + std::to_string(bytes) + " compressed bytes");
+}
+
+}  // namespace
+
 std::vector<char> decode_meshopt(const MeshoptView& view, const JsonNode& node) {
+  check_count(view, node);
   std::vector<char> out(size_t{view.count} * view.stride);
   const auto* source = reinterpret_cast<const unsigned char*>(view.bytes.data());
   const bool attributes = view.mode == "ATTRIBUTES";

@@ -443,10 +443,21 @@ TEST(GltfFaults, NameNumbersThatAreNotFinite) {
   EXPECT_THAT(gltf_fault(scene), HasSubstr("/attributes/POSITION: element 2 is not finite"));
 }
 
-TEST(GltfFaults, NameAnimationsWithoutLength) {
+TEST(Gltf, TakesAnAnimationOfOneTimeAsOneFrame) {
+  GltfScene scene = triangle_scene();
+  scene.animate(0, "translation", {1}, scene.vectors({7, 0, 0}));
+  const MeshSequence one = parse(scene);
+  EXPECT_EQ(one.frame_count, 1U);
+  EXPECT_EQ(one.start_time, 1);
+  EXPECT_THAT(vertex(one, 0, 0), ElementsAre(7, 0, 0));
+  // One with a length comes first.
+  scene.animate(0, "translation", {0, 1}, scene.vectors({1, 0, 0, 2, 0, 0}), "LINEAR", "walk");
+  EXPECT_EQ(parse(scene, at_rate(1)).frame_count, 2U);
+}
+
+TEST(GltfFaults, NameAnimationsWithoutKeys) {
   GltfScene scene = triangle_scene();
   scene.animate(0, "translation", {1}, scene.vectors({1, 0, 0}));
-  EXPECT_THAT(gltf_fault(scene), HasSubstr("a.glb: /animations/0: the animation has no length"));
   GltfOptions options;
   options.clip = "none";
   EXPECT_EQ(parse(scene, options).frame_count, 1U);
@@ -514,7 +525,63 @@ TEST(GltfFaults, TellWhenTheBakeIsTooLarge) {
   GltfOptions options;
   options.memory_limit = 1000000;
   EXPECT_EQ(gltf_fault(scene, options),
-            "a.glb: 3 vertices x 30001 frames take more memory than is allowed");
+            "a.glb: 3 vertices x 30001 frames take 1080036 bytes of memory, more than the 1000000 "
+            "that are allowed");
+}
+
+TEST(GltfFaults, TellWhenInstancesAreTooMany) {
+  GltfScene scene = triangle_scene();
+  const nlohmann::json node = scene.document["nodes"][0];
+  for (uint32_t i = 1; i < 1000; ++i) {
+    scene.document["nodes"].push_back(node);
+    scene.document["scenes"][0]["nodes"].push_back(i);
+  }
+  EXPECT_EQ(parse(scene).vertex_count, 3000U);
+  GltfOptions options;
+  options.memory_limit = 10000;
+  EXPECT_THAT(gltf_fault(scene, options), HasSubstr("are left of the 10000 that are allowed"));
+}
+
+TEST(GltfFaults, NameCountsThatNoByteBacks) {
+  GltfScene scene = triangle_scene();
+  nlohmann::json& accessor = scene.document["accessors"][0];
+  accessor.erase("bufferView");
+  EXPECT_EQ(parse(scene).vertex_count, 3U);
+  accessor["count"] = 1000000;
+  scene.primitive()["attributes"] = {{"POSITION", 0}};
+  scene.primitive().erase("indices");
+  EXPECT_THAT(gltf_fault(scene),
+              HasSubstr("/accessors/0 has 1000000 elements and no buffer view, but the document"));
+}
+
+TEST(GltfFaults, NameCompressedViewsThatCannotHoldWhatTheySay) {
+  GltfScene scene = triangle_scene();
+  scene.document["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
+      {"buffer", 0},      {"byteOffset", 0},   {"byteLength", 16},
+      {"byteStride", 12}, {"count", 50000000}, {"mode", "ATTRIBUTES"}};
+  EXPECT_THAT(gltf_fault(scene),
+              HasSubstr("50000000 elements of 12 bytes cannot come from 16 compressed bytes"));
+}
+
+TEST(GltfFaults, NameBuffersOutsideTheFolder) {
+  for (const char* uri : {"../a.bin", "sub/../../a.bin", "%2e%2e/a.bin", "./.././a.bin"}) {
+    GltfScene scene = triangle_scene();
+    scene.document["buffers"].push_back({{"byteLength", 1}, {"uri", uri}});
+    const auto some = [](const std::string&) { return std::string("x"); };
+    EXPECT_THAT(fault([&] { parse_gltf(scene.glb(), "a.glb", some); }),
+                HasSubstr("a.glb: /buffers/1/uri: '"));
+    GltfOptions options;
+    options.allow_outside = true;
+    EXPECT_EQ(parse_gltf(scene.glb(), "a.glb", some, options).vertex_count, 3U);
+  }
+  GltfScene scene = triangle_scene();
+  scene.document["buffers"].push_back({{"byteLength", 1}, {"uri", "sub/../a.bin"}});
+  std::string opened;
+  parse_gltf(scene.glb(), "a.glb", [&](const std::string& path) {
+    opened = path;
+    return std::string("x");
+  });
+  EXPECT_EQ(opened, "a.bin");
 }
 
 }  // namespace
