@@ -16,6 +16,8 @@ const char* status_string(Status status) {
       return "buffer too small";
     case Status::kFrameRange:
       return "frame out of range";
+    case Status::kAbsent:
+      return "the mesh is not there at this time";
     case Status::kMagic:
       return "not an anicodec file";
     case Status::kVersion:
@@ -72,6 +74,8 @@ const char* status_string(Status status) {
       return "out of memory";
     case Status::kRead:
       return "read callback failed";
+    case Status::kCancelled:
+      return "cancelled by the caller";
     case Status::kInternal:
       return "internal error";
   }

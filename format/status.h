@@ -17,6 +17,7 @@ enum class Status : int32_t {
   kState = 2,
   kBufferSize = 3,
   kFrameRange = 4,
+  kAbsent = 5,
   // 10-19: not this format, version or feature
   kMagic = 10,
   kVersion = 11,
@@ -47,9 +48,10 @@ enum class Status : int32_t {
   kHash = 49,
   // 60-69: limits
   kLimit = 60,
-  // 70-79: memory, I/O callback
+  // 70-79: the host: memory, callbacks
   kMemory = 70,
   kRead = 71,
+  kCancelled = 72,
   // 90-: internal
   kInternal = 90,
 };

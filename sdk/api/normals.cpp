@@ -28,19 +28,19 @@ const Vector<uint32_t>* source_edges(const Mesh& mesh) {
 }  // namespace
 
 anic_status anic_create_normal_plan(const anic_asset* asset, uint32_t mesh,
-                                    const anic_normal_options* options,
+                                    const anic_normal_plan_options* options,
                                     const anic_allocator* allocator, anic_normal_plan** out) {
   if (out)
     *out = nullptr;
-  const anic_normal_options wanted = options ? *options : anic_normal_options{};
-  if (!asset || !out || mesh >= asset->clip.meshes().size() ||
+  anic_normal_plan_options wanted;
+  if (!take(options, &wanted) || !asset || !out || mesh >= asset->clip.meshes().size() ||
       (allocator && !allocator->allocate != !allocator->release) || !(wanted.crease_angle >= 0))
     return ANIC_E_ARGUMENT;
   const Clip& clip = asset->clip;
   if (wanted.reference_frame >= clip.frame_count())
     return ANIC_E_FRAME_RANGE;
   if (!clip.segment_at(mesh, wanted.reference_frame))
-    return ANIC_E_SEGMENT;
+    return ANIC_E_ABSENT;
   auto make = [&]() -> Failure {
     Memory memory = allocator ? memory_of(allocator) : memory_of_object(asset);
     memory.held = memory.peak = 0;

@@ -5,6 +5,7 @@
 #ifndef ANICODEC_SDK_API_OBJECTS_H_
 #define ANICODEC_SDK_API_OBJECTS_H_
 
+#include "sdk/api/versioned.h"
 #include "sdk/clip/clip.h"
 #include "sdk/clip/sample.h"
 
@@ -22,19 +23,27 @@ inline anic_status c_status(Status status) {
   return static_cast<anic_status>(status);
 }
 
-/// Whether options make sense; null does.
-bool is_valid_options(const anic_options* options);
+/// Takes the options that a host gives; null: the defaults. False when they make no sense.
+bool take_options(const anic_options* host, anic_options* out);
 
-/// Fills a failure, if there is one to fill, and returns its status.
+/// What every opening function answers when an argument makes no sense.
+inline constexpr Failure kBadArgument = {Status::kArgument, 0, 0, "an argument makes no sense"};
+
+/// Whether a failure may be written to: null is none to write.
+inline bool is_failure(const anic_failure* failure) {
+  return !failure || is_sized(failure);
+}
+
+/// Fills a failure, if there is one to fill (is_failure()), and returns its status.
 anic_status report(const Failure& failure, anic_failure* out);
 
 /// The memory of a host's allocator; null, or without functions: malloc() and free().
 Memory memory_of(const anic_allocator* allocator);
 
-/// The options that a caller gave, or none; for a file of this size.
-OpenOptions open_options(const anic_options* options, uint64_t file_size);
+/// What the decoder is told of the options, for a file of this size.
+OpenOptions open_options(const anic_options& options, uint64_t file_size);
 
-/// A stride of 0 and scales of 0 replaced; false when it makes no sense or does not hold `count`
+/// A stride of 0 and scales of 0 replaced. Errors: kArgument; kBufferSize: it does not hold `count`
 /// elements.
 Status check_output(const anic_output* out, uint32_t count, VertexOutput* result);
 
@@ -114,7 +123,7 @@ struct anic_asset {
 struct anic_context {
   struct State {
     anicodec::Sample* samples;  ///< by track
-    float* weights;             ///< sample_buffer_size() of the tracks one after another
+    float* weights;             ///< SampleSize::buffer() of the tracks one after another
   };
 
   const anic_asset* asset;
@@ -126,17 +135,17 @@ struct anic_context {
 
 namespace anicodec {
 
-/// Bytes behind a context: samples and weights, twice, and what samples are made in.
-size_t context_extra(const Clip& clip);
+/// The sample that a call is about, after checking what all of them check. ANIC_E_ABSENT comes with
+/// the sample.
+anic_status find_sample(const anic_context* context, uint32_t mesh, anic_when when,
+                        const Sample** out);
 
-/// The box of positions in states, which are of one mesh; as many as play() likes.
-void bounding_boxes(const FrameState* states, uint32_t frames, anic_box* out);
-
-/// Fills asset->boxes.
-void compute_boxes(anic_asset* asset);
+/// The attribute of vertices that a call is about, if the mesh is there.
+anic_status find_attribute(const anic_context* context, uint32_t mesh, uint32_t attribute,
+                           anic_when when, const MeshAttribute** out);
 
 /// Opens an asset: what anic_open_asset() does, for prefixes too. Throws std::bad_alloc.
-Failure open_asset(ByteView bytes, const anic_options* options, bool prefix, anic_asset** out);
+Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, anic_asset** out);
 
 }  // namespace anicodec
 

@@ -23,7 +23,7 @@ struct anic_stream {
   anicodec::Vector<uint32_t> missing;
   anicodec::Vector<uint8_t> layered;  ///< whether the first layer of a segment has been counted
   anicodec::Failure failure;
-  anic_stream_info info = {};
+  anic_stream_info info = ANIC_INIT(anic_stream_info);
 };
 
 namespace anicodec {
@@ -78,7 +78,7 @@ Failure read_head(anic_stream* stream) {
   if (chunk && !file.has(*chunk))
     return {};
   Limits limits;
-  const OpenOptions options = open_options(&stream->options, info.file_bytes);
+  const OpenOptions options = open_options(stream->options, info.file_bytes);
   if (Failure failure = read_limits(file, options, &limits); !failure.ok())
     return failure;
   stream->has_limits = true;
@@ -144,7 +144,7 @@ Failure push(anic_stream* stream, const void* bytes, size_t size) {
 }
 
 /// Reads a whole file into `to`: its head first, so that limits are checked before the rest.
-Failure read_file(const anic_reader& reader, uint64_t size, const anic_options* options,
+Failure read_file(const anic_reader& reader, uint64_t size, const anic_options& options,
                   Bytes* to) {
   if (size > SIZE_MAX / 2)
     return {Status::kLimit, 0, 0, "a file that fits no memory"};
@@ -160,9 +160,9 @@ Failure read_file(const anic_reader& reader, uint64_t size, const anic_options* 
     return failed;
   // Until the limits are checked, only as much is read as they are known to need.
   for (;;) {
-    anic_requirements requirements;
+    anic_requirements requirements = ANIC_INIT(anic_requirements);
     const anic_status status =
-        anic_get_requirements(to->data(), to->size(), options, &requirements);
+        anic_get_requirements(to->data(), to->size(), &options, &requirements);
     if (status != ANIC_E_TRUNCATED || requirements.head_bytes > size ||
         requirements.head_bytes <= to->size())
       break;
@@ -194,15 +194,18 @@ anic_status anic_open_asset_from_reader(const anic_reader* reader, uint64_t file
                                         anic_failure* failure) {
   if (out)
     *out = nullptr;
-  if (!reader || !reader->read || !out || !is_valid_options(options))
-    return report({Status::kArgument, 0, 0, "an argument makes no sense"}, failure);
+  if (!is_failure(failure))
+    return ANIC_E_ARGUMENT;
+  anic_options wanted;
+  if (!reader || !reader->read || !out || !take_options(options, &wanted))
+    return report(kBadArgument, failure);
   auto open = [&]() -> Failure {
-    Memory memory = memory_of(options ? &options->allocator : nullptr);
+    Memory memory = memory_of(&wanted.allocator);
     const MemoryScope scope(&memory);
     Bytes bytes;
-    if (Failure f = read_file(*reader, file_size, options, &bytes); !f.ok())
+    if (Failure f = read_file(*reader, file_size, wanted, &bytes); !f.ok())
       return f;
-    return open_asset(bytes, options, false, out);
+    return open_asset(bytes, wanted, false, out);
   };
   return report(guarded(open), failure);
 }
@@ -210,10 +213,10 @@ anic_status anic_open_asset_from_reader(const anic_reader* reader, uint64_t file
 anic_status anic_create_stream(const anic_options* options, anic_stream** out) {
   if (out)
     *out = nullptr;
-  if (!out || !is_valid_options(options))
+  anic_options wanted;
+  if (!out || !take_options(options, &wanted))
     return ANIC_E_ARGUMENT;
   auto make = [&]() -> Failure {
-    const anic_options wanted = options ? *options : anic_options{};
     *out = create<anic_stream>(memory_of(&wanted.allocator), 0, wanted);
     return {};
   };
@@ -232,28 +235,34 @@ anic_status anic_push_bytes(anic_stream* stream, const void* bytes, size_t size)
   return c_status(stream->failure.status);
 }
 
-void anic_get_stream_info(const anic_stream* stream, anic_stream_info* out) {
-  if (stream && out)
-    *out = stream->info;
+anic_status anic_get_stream_info(const anic_stream* stream, anic_stream_info* out) {
+  if (!stream || !is_sized(out))
+    return ANIC_E_ARGUMENT;
+  give(stream->info, out);
+  return ANIC_OK;
 }
 
-void anic_get_stream_failure(const anic_stream* stream, anic_failure* out) {
-  if (stream && out)
-    report(stream->failure, out);
+anic_status anic_get_stream_failure(const anic_stream* stream, anic_failure* out) {
+  if (!stream || !is_sized(out))
+    return ANIC_E_ARGUMENT;
+  report(stream->failure, out);
+  return ANIC_OK;
 }
 
 anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
                                         anic_failure* failure) {
   if (out)
     *out = nullptr;
+  if (!is_failure(failure))
+    return ANIC_E_ARGUMENT;
   if (!stream || !out)
-    return report({Status::kArgument, 0, 0, "an argument makes no sense"}, failure);
+    return report(kBadArgument, failure);
   if (!stream->failure.ok())
     return report(stream->failure, failure);
   if (!stream->info.playable)
     return report({Status::kState, stream->bytes.size(), 0, "nothing can be played yet"}, failure);
   Failure what = guarded(
-      [&] { return open_asset(stream->bytes, &stream->options, !stream->info.complete, out); });
+      [&] { return open_asset(stream->bytes, stream->options, !stream->info.complete, out); });
   // A prefix may be too short for what the whole file is allowed.
   if (what.status == Status::kLimit && !stream->info.complete)
     what = {Status::kState, stream->bytes.size(), what.chunk, "too little has arrived"};

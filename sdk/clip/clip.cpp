@@ -102,6 +102,24 @@ bool agree(const DracoMesh& draco, const Vector<uint32_t>& point_vertex) {
   return true;
 }
 
+double mesh_work(const Limits::Mesh& mesh) {
+  return static_cast<double>(uint64_t{mesh.source_vertices} + mesh.corners);
+}
+
+/// What opening a clip costs, about, in coefficients to decode.
+double opening_work(const Limits& limits, double quality) {
+  double work = 0;
+  for (const Limits::Mesh& mesh : limits.meshes)
+    work += mesh_work(mesh);
+  for (const Limits::Segment& s : limits.segments)
+    work += segment_work(s, limits.meshes[s.mesh], quality);
+  return work;
+}
+
+Failure stopped() {
+  return {Status::kCancelled, 0, 0, "the host stopped the opening"};
+}
+
 /// The payload of a chunk that must be there.
 Failure required(const ContainerReader& file, const char (&type)[5], uint16_t mesh,
                  uint32_t segment, const Chunk** chunk, ByteView* out) {
@@ -188,12 +206,21 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
     return at(*chunk, s, "the clip record is malformed");
   if (Failure f = check_places(file, limits_, record_.order); !f.ok())
     return f;
+  if (options.progress) {
+    options.progress->begin(opening_work(limits_, options.quality), options.progress_end);
+    if (!options.progress->advance(0))
+      return stopped();
+  }
 
   meshes_.resize(limits_.meshes.size());
   draco_.resize(limits_.meshes.size());
   Failure failure;
-  for (size_t m = 0; m < meshes_.size() && failure.ok(); ++m)
+  for (size_t m = 0; m < meshes_.size() && failure.ok(); ++m) {
     failure = open_mesh(file, static_cast<uint16_t>(m), options);
+    if (failure.ok() && options.progress &&
+        !options.progress->advance(mesh_work(limits_.meshes[m])))
+      failure = stopped();
+  }
   if (failure.ok())
     failure = open_segments(file, options);
   draco_ = Vector<DracoMesh>();
@@ -392,7 +419,10 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
       return f;
   }
   partial_ |= context.partial;
+  context.progress = options.progress;
   s = anicodec::open_segment(record, context, &segments_[number]);
+  if (s == Status::kCancelled)
+    return stopped();
   return s == Status::kOk ? Failure{} : at(*chunk, s, "the segment cannot be opened");
 }
 
@@ -464,7 +494,7 @@ Status Clip::positions(uint32_t mesh, uint32_t frame, float* out) const {
     return Status::kFrameRange;
   const Segment* segment = segment_at(mesh, frame);
   if (!segment)
-    return Status::kSegment;
+    return Status::kAbsent;
   FrameState state = frame_state(*segment, frame - segment->first_frame);
   Vector<float> shape(shape_size(*segment)), scratch(shape_scratch_size(*segment));
   make_shape(&state, shape.data(), scratch.data());

@@ -7,6 +7,7 @@
 #include "format/memory.h"
 #include "format/records.h"
 #include "format/status.h"
+#include "sdk/base/host_progress.h"
 #include "sdk/clip/attributes.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/segment/segment.h"
@@ -31,6 +32,10 @@ struct OpenOptions {
   /// Whether the bytes may be the first ones of a file: what has arrived is opened, with as many
   /// components as are there (spec/05-file-layout.md, section 7).
   bool prefix = false;
+  /// Told after every mesh, level of the vertices and component; may end the opening with
+  /// kCancelled. Null: nobody.
+  HostProgress* progress = nullptr;
+  double progress_end = 1;  ///< share of the host's call that is done once the clip is open
 };
 
 /// Checks the chunks of a file, reads its limits and checks them against the host's and against
@@ -92,7 +97,7 @@ class Clip {
   const Segment* segment_at(uint32_t track, uint32_t frame) const;
 
   /// Positions of all vertices of a mesh in one frame, in the order of the clip, three floats each.
-  /// Errors: kFrameRange; kSegment when no segment of the mesh holds the frame. Cost: O(vertices x
+  /// Errors: kFrameRange; kAbsent when no segment of the mesh holds the frame. Cost: O(vertices x
   /// components), the same for every frame. Allocates nothing, but in a segment of MSGI; where
   /// frames are played one after the other, make_sample() allocates nothing there either.
   Status positions(uint32_t mesh, uint32_t frame, float* out) const;

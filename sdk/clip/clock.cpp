@@ -50,7 +50,7 @@ double Clock::loop_duration() const {
 FrameMix Clock::at(double seconds, Sampling sampling, Wrap wrap) const {
   FrameMix mix;
   const double first = since_start(0), span = since_start(frames_ - 1) - first;
-  double t = seconds - record_.start_time - first;
+  double t = seconds;
   if (frames_ == 1) {
     mix.add(0, 1);
     return mix;

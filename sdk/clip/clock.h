@@ -25,21 +25,24 @@ struct FrameMix {
   void add(uint32_t frame, double weight);
 };
 
-/// When the frames of a clip are (spec/04-coordinates.md, section 2; spec/10-seeking.md, section
-/// 2).
+/// When the frames of a clip are, from its first frame on (spec/04-coordinates.md, section 2;
+/// spec/10-seeking.md, section 2).
 class Clock {
  public:
   /// `record` must outlive the clock; frames > 0.
   Clock(const ClipRecord& record, uint32_t frames) : record_(record), frames_(frames) {}
 
-  /// Seconds, start time included; frames behind the last count as the last.
-  double time(uint32_t frame) const { return record_.start_time + since_start(frame); }
+  /// Seconds from frame 0 on; frames behind the last count as the last.
+  double time(uint32_t frame) const { return since_start(frame) - since_start(0); }
+
+  /// When frame 0 is on the clock of the source, in seconds.
+  double start() const { return record_.start_time + since_start(0); }
 
   /// Seconds of one turn of a loop: up to the next frame 0.
   double loop_duration() const;
 
-  /// The frames that make up a time, which must be finite. O(1), O(log frames) with a table of
-  /// times.
+  /// The frames that make up a time, which must be finite; 0 is frame 0. O(1), O(log frames) with a
+  /// table of times.
   FrameMix at(double seconds, Sampling sampling, Wrap wrap) const;
 
  private:

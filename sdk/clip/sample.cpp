@@ -13,9 +13,6 @@ namespace {
 /// Vertices whose parts are added up at a time.
 constexpr uint32_t kRange = 16 * kBlock;
 
-/// Parts that are made of several frames: any two of four frames can be in one segment.
-constexpr size_t kMixedParts = 2;
-
 size_t weight_count(const Segment& s) {
   return size_t{s.components} * s.weight_channels();
 }
@@ -73,27 +70,6 @@ FrameState mean_state(const Group& group, float* weights) {
 }
 
 }  // namespace
-
-size_t sample_buffer_size(const Clip& clip, uint32_t track) {
-  const Track& t = clip.tracks()[track];
-  size_t weights = 0, shape = 0, shapes = 0;
-  for (uint32_t i = t.begin; i < t.end; ++i) {
-    const Segment& s = clip.segments()[clip.by_frame()[i]];
-    weights = std::max(weights, weight_count(s));
-    shape = std::max(shape, shape_size(s));
-    shapes += !s.msgi.empty();
-  }
-  return weights * std::min(size_t{t.end - t.begin}, kMixedParts) +
-         shape * std::min(shapes, size_t{Sample::kMaxParts});
-}
-
-size_t sample_scratch_size(const Clip& clip, uint32_t track) {
-  const Track& t = clip.tracks()[track];
-  size_t largest = 0;
-  for (uint32_t i = t.begin; i < t.end; ++i)
-    largest = std::max(largest, shape_scratch_size(clip.segments()[clip.by_frame()[i]]));
-  return largest;
-}
 
 Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float* buffer,
                    float* scratch) {

@@ -31,15 +31,9 @@ struct Sample {
   void add_motion(uint32_t components, uint32_t first, uint32_t vertices, float* values) const;
 };
 
-/// Floats of the interpolated weights of a sample of a track, and of the shapes in segments of
-/// MSGI. O(segments of the track).
-size_t sample_buffer_size(const Clip& clip, uint32_t track);
-
-/// Floats that make_sample() works in and leaves to others afterwards.
-size_t sample_scratch_size(const Clip& clip, uint32_t track);
-
-/// Combines what depends on time. `buffer` holds sample_buffer_size() floats and must outlive the
-/// sample, as the clip must; `scratch` holds sample_scratch_size(). Rigid motions turn the shorter
+/// Combines what depends on time. `buffer` holds sample_size().buffer() floats and must outlive the
+/// sample, as the clip must; `scratch` holds sample_size().scratch
+/// bytes. Rigid motions turn the shorter
 /// way; corrections are there when the mix is one frame. Frames in which the mesh is missing drop
 /// out; without the first one, the sample is empty. Frames without an attribute's segment add
 /// nothing. Cost: O(components) per frame; in a segment of

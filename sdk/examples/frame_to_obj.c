@@ -15,15 +15,16 @@ int main(int argc, char** argv) {
   anic_reader reader = {file, read_file};
   anic_asset* clip;
   anic_context* player;
-  anic_failure why;
+  anic_failure why = ANIC_INIT(anic_failure);
   if (anic_open_asset_from_reader(&reader, (uint64_t)ftell(file), NULL, &clip, &why) != ANIC_OK)
     return fprintf(stderr, "%s: %s\n", anic_get_status_text(why.status), why.detail), 1;
-  anic_mesh mesh;
-  anic_polygons faces;
+  anic_mesh mesh = ANIC_INIT(anic_mesh);
+  anic_polygons faces = ANIC_INIT(anic_polygons);
   anic_get_mesh(clip, 0, &mesh);
   anic_get_polygons(clip, 0, &faces);
-  float* p = malloc(mesh.vertex_count * 3 * sizeof(float) + 1);
-  anic_output out = {p, mesh.vertex_count * 3 * sizeof(float), 0, ANIC_FORMAT_FLOAT32X3, {0}, {0}};
+  anic_output out = ANIC_INIT(anic_output);
+  out.size = mesh.vertex_count * 3 * sizeof(float);
+  float* p = out.data = malloc(out.size + 1);
   if (p == NULL || anic_create_context(clip, NULL, &player) != ANIC_OK ||
       anic_seek_frame(player, 10) != ANIC_OK ||
       anic_write_positions(player, 0, ANIC_WHEN_CURRENT, 0, mesh.vertex_count, &out) != ANIC_OK)
@@ -31,10 +32,9 @@ int main(int argc, char** argv) {
   for (uint32_t v = 0; v < mesh.vertex_count; ++v)
     printf("v %.9g %.9g %.9g\n", p[3 * v], p[3 * v + 1], p[3 * v + 2]);
   for (uint32_t f = 0; f < faces.polygon_count; ++f) {
-    printf("f");
     for (uint32_t c = faces.offsets[f]; c < faces.offsets[f + 1]; ++c)
-      printf(" %u", (unsigned)(faces.corners[c] + 1));
-    printf("\n");
+      printf(c == faces.offsets[f] ? "f %u" : " %u", (unsigned)(faces.corners[c] + 1));
+    puts("");
   }
   anic_destroy_context(player);
   anic_close_asset(clip);

@@ -4,10 +4,12 @@
  * What a vertex shader does, done here: the basis of a segment lies in buffers, a frame is a
  * handful of weights. The result is compared with what the library itself makes of the frame.
  *
- *   // GLSL; basis in 16 bits, two to a uint; an instance's weights and matrices in a buffer of
- * their own vec3 x = (pose_map * vec4(pose(v), 1.0)).xyz; for (uint j = 0u; j < components; ++j) x
- * += weights[j] * basis(j, v);          // channels 1: vec3 weights times one number x = (motion *
- * vec4(x + origin, 1.0)).xyz;
+ * In GLSL, with the basis in 16 bits, two to a uint, and weights and matrices of an instance in a
+ * buffer; with one channel a weight is a vec3 and basis(j, v) one number:
+ *
+ * - vec3 x = (pose_map * vec4(pose(v), 1.0)).xyz;
+ * - for (uint j = 0u; j < components; ++j) x += weights[j] * basis(j, v);
+ * - x = (motion * vec4(x + origin, 1.0)).xyz;
  */
 #include <anicodec/anicodec.h>
 
@@ -75,39 +77,38 @@ int main(int argc, char** argv) {
   fclose(file);
   free(bytes);
 
-  anic_asset_info info;
-  anic_mesh mesh;
+  anic_asset_info info = ANIC_INIT(anic_asset_info);
+  anic_mesh mesh = ANIC_INIT(anic_mesh);
   anic_get_asset_info(asset, &info);
   anic_get_mesh(asset, 0, &mesh);
-  anic_output out = {0};
+  anic_output out = ANIC_INIT(anic_output);
   out.size = 3 * sizeof(float) * mesh.vertex_count;
   float* expected = out.data = malloc(out.size);
   float* made = malloc(out.size);
   double worst = 0;
-  for (double t = info.start_time; t <= info.end_time; t += 0.05) {
-    anic_part parts[ANIC_MAX_PARTS];
-    uint32_t count = 0;
+  for (double t = 0; t <= info.duration; t += 0.05) {
+    anic_parts shown = ANIC_INIT(anic_parts);
     if (anic_seek_time(context, t, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP) != ANIC_OK ||
         anic_write_positions(context, 0, ANIC_WHEN_CURRENT, 0, mesh.vertex_count, &out) !=
             ANIC_OK ||
-        anic_get_parts(context, 0, ANIC_WHEN_CURRENT, parts, &count) != ANIC_OK)
+        anic_get_parts(context, 0, ANIC_WHEN_CURRENT, &shown) != ANIC_OK)
       return 1;
     for (uint32_t v = 0; v < 3 * mesh.vertex_count; ++v)
       made[v] = 0;
-    for (uint32_t p = 0; p < count; ++p) {
-      anic_basis basis;
-      if (anic_get_basis(asset, parts[p].segment, &basis) != ANIC_OK)
+    for (uint32_t p = 0; p < shown.count; ++p) {
+      const anic_part* part = &shown.parts[p];
+      anic_basis basis = ANIC_INIT(anic_basis);
+      if (anic_get_basis(asset, part->segment, &basis) != ANIC_OK)
         return 1;
       for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
         float x[3];
-        shade(&basis, &parts[p], v, x);
+        shade(&basis, part, v, x);
         for (int c = 0; c < 3; ++c)
-          made[3 * v + c] += parts[p].share * x[c];
+          made[3 * v + c] += part->share * x[c];
       }
-      for (uint32_t k = 0; k < parts[p].correction_count; ++k) { /* few: a second, small buffer */
+      for (uint32_t k = 0; k < part->correction_count; ++k) { /* few: a second, small buffer */
         for (int c = 0; c < 3; ++c)
-          made[3 * parts[p].corrections[k].vertex + c] +=
-              parts[p].share * parts[p].corrections[k].delta[c];
+          made[3 * part->corrections[k].vertex + c] += part->share * part->corrections[k].delta[c];
       }
     }
     for (uint32_t v = 0; v < 3 * mesh.vertex_count; ++v)

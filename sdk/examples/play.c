@@ -25,7 +25,7 @@ static int fail(const char* what, anic_status status) {
  * be write-combined. */
 static anic_status tick(anic_context* context, const anic_normal_plan* normals, double seconds,
                         vertex* vertices, uint32_t count) {
-  anic_output out = {0};
+  anic_output out = ANIC_INIT(anic_output);
   out.size = count * sizeof(vertex);
   out.stride = sizeof(vertex);
   anic_status status = anic_seek_time(context, seconds, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP);
@@ -61,17 +61,17 @@ int main(int argc, char** argv) {
   fclose(file);
 
   /* What may a file ask for, and what does this one ask for? */
-  anic_options options = {0};
-  options.limits.vertices = 1000000;
-  options.limits.bytes = (uint64_t)1 << 30;
-  anic_requirements needs;
+  anic_options options = ANIC_INIT(anic_options);
+  options.max_vertices = 1000000;
+  options.max_bytes = (uint64_t)1 << 30;
+  anic_requirements needs = ANIC_INIT(anic_requirements);
   anic_status status = anic_get_requirements(bytes, size, &options, &needs);
   if (status != ANIC_OK)
     return fail(argv[1], status);
   const size_t block_size = (size_t)(needs.block_bytes + 2 * needs.context_bytes);
   void* block = malloc(block_size);
   anic_asset* asset;
-  anic_failure failure;
+  anic_failure failure = ANIC_INIT(anic_failure);
   anic_init_block_allocator(block, block_size, &options.allocator);
   if (anic_open_asset(bytes, size, &options, &asset, &failure) != ANIC_OK) {
     fprintf(stderr, "%s: byte %llu, chunk '%s': %s (%s)\n", argv[1],
@@ -81,8 +81,8 @@ int main(int argc, char** argv) {
   }
   free(bytes);
 
-  anic_asset_info info;
-  anic_mesh mesh;
+  anic_asset_info info = ANIC_INIT(anic_asset_info);
+  anic_mesh mesh = ANIC_INIT(anic_mesh);
   const anic_allocator heap = {0};
   anic_normal_plan* normals;
   anic_context* instance[2];
@@ -104,8 +104,7 @@ int main(int argc, char** argv) {
     const double elapsed = t / 60.0;
     for (int i = 0; i < 2 && status == ANIC_OK; ++i) {
       const double speed = i == 0 ? 1 : -2;
-      status = tick(instance[i], normals, info.start_time + speed * elapsed, vertices,
-                    mesh.vertex_count);
+      status = tick(instance[i], normals, speed * elapsed, vertices, mesh.vertex_count);
       if (t % 20 == 0 && status == ANIC_OK) {
         anic_box box;
         anic_compute_bounds(instance[i], 0, ANIC_WHEN_CURRENT, &box);

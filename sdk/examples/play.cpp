@@ -40,9 +40,9 @@ int main(int argc, char** argv) {
     return 1;
   }
   const File file(argv[1]);
-  anic_options options = {};
+  anic_options options = ANIC_INIT(anic_options);
   options.flags = ANIC_OPEN_BOUNDS;
-  anic_failure failure = {};
+  anic_failure failure = ANIC_INIT(anic_failure);
   anic::Asset clip;
   if (!file.handle || !clip.open(file.size(), file, &options, &failure)) {
     std::fprintf(stderr, "%s: %s\n", argv[1], anic_get_status_text(failure.status));
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
   }
   std::vector<uint16_t> points(size_t{4} * vertices);
   const anic_asset_info info = clip.info();
-  for (double t = info.start_time; t < info.end_time; t += 0.1) {
+  for (double t = 0; t < info.duration; t += 0.1) {
     if (!context.seek(t, ANIC_SAMPLE_CUBIC, ANIC_WRAP_PING_PONG))
       return 1;
     // Any thread may make any range; multiples of 16 are best.

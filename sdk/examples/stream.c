@@ -12,13 +12,12 @@
 /* The middle of the clip, as it looks so far. */
 static anic_status show(const anic_asset* asset, const anic_stream_info* arrived) {
   anic_context* context;
-  anic_asset_info info;
+  anic_asset_info info = ANIC_INIT(anic_asset_info);
   anic_box box;
   anic_get_asset_info(asset, &info);
   anic_status status = anic_create_context(asset, NULL, &context);
   if (status == ANIC_OK)
-    status = anic_seek_time(context, (info.start_time + info.end_time) / 2, ANIC_SAMPLE_STEP,
-                            ANIC_WRAP_CLAMP);
+    status = anic_seek_time(context, info.duration / 2, ANIC_SAMPLE_STEP, ANIC_WRAP_CLAMP);
   if (status == ANIC_OK)
     status = anic_compute_bounds(context, 0, ANIC_WHEN_CURRENT, &box);
   printf("%llu of %llu bytes, %u of %u layers: ", (unsigned long long)arrived->received_bytes,
@@ -28,9 +27,9 @@ static anic_status show(const anic_asset* asset, const anic_stream_info* arrived
     printf("%s, from %.6g %.6g %.6g to %.6g %.6g %.6g\n", info.partial ? "coarse" : "whole",
            box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]);
   else
-    printf("%s\n", status == ANIC_E_SEGMENT ? "not there yet" : anic_get_status_text(status));
+    printf("%s\n", status == ANIC_E_ABSENT ? "not there yet" : anic_get_status_text(status));
   anic_destroy_context(context);
-  return status == ANIC_E_SEGMENT ? ANIC_OK : status;
+  return status == ANIC_E_ABSENT ? ANIC_OK : status;
 }
 
 int main(int argc, char** argv) {
@@ -41,7 +40,7 @@ int main(int argc, char** argv) {
   }
   anic_stream* stream;
   anic_asset* asset = NULL;
-  anic_stream_info info;
+  anic_stream_info info = ANIC_INIT(anic_stream_info);
   anic_status status = anic_create_stream(NULL, &stream);
   uint32_t shown = 0;
   unsigned char packet[64];

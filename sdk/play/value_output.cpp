@@ -45,30 +45,28 @@ void store_value(float x, anic_value_format format, unsigned char* to) {
       std::memcpy(to, &bits, sizeof bits);
       break;
     }
-    case ANIC_VALUE_FORMAT_MAX:
-      break;
   }
 }
 
 }  // namespace
 
-Status ValueOutput::make(const anic_value_output* out, uint32_t components, uint32_t count,
+Status ValueOutput::make(const anic_value_output& out, uint32_t components, uint32_t count,
                          ValueOutput* result) {
-  if (!out || out->format < ANIC_VALUE_FLOAT32 || out->format > ANIC_VALUE_UNORM16 ||
-      (!out->data && count > 0) || out->components > kMaxAttributeComponents)
+  if (out.format < ANIC_VALUE_FLOAT32 || out.format > ANIC_VALUE_UNORM16 ||
+      (!out.data && count > 0) || out.components > kMaxAttributeComponents)
     return Status::kArgument;
   result->given_ = components;
-  result->stored_ = out->components == 0 ? components : out->components;
-  result->format_ = out->format;
-  const size_t element = size_t{value_size(out->format)} * result->stored_;
-  result->stride_ = out->stride == 0 ? element : out->stride;
+  result->stored_ = out.components == 0 ? components : out.components;
+  result->format_ = out.format;
+  const size_t element = size_t{value_size(out.format)} * result->stored_;
+  result->stride_ = out.stride == 0 ? element : out.stride;
   if (result->stride_ < element)
     return Status::kArgument;
   // size >= stride * (count - 1) + element, without wrapping
   if (count > 0 &&
-      (out->size < element || (out->size - element) / result->stride_ < size_t{count} - 1))
+      (out.size < element || (out.size - element) / result->stride_ < size_t{count} - 1))
     return Status::kBufferSize;
-  result->at_ = static_cast<unsigned char*>(out->data);
+  result->at_ = static_cast<unsigned char*>(out.data);
   return Status::kOk;
 }
 

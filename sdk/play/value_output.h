@@ -17,7 +17,7 @@ namespace anicodec {
 class ValueOutput {
  public:
   /// Of `count` elements of an attribute of so many components. Errors: kArgument, kBufferSize.
-  static Status make(const anic_value_output* out, uint32_t components, uint32_t count,
+  static Status make(const anic_value_output& out, uint32_t components, uint32_t count,
                      ValueOutput* result);
 
   /// Stores count x components values.

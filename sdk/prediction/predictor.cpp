@@ -124,9 +124,4 @@ void CoefficientReconstruction::run(size_t first, size_t last) const {
   prediction_kernels().reconstruct(job_, first, last);
 }
 
-void CoefficientReconstruction::run_all() const {
-  for (size_t l = 0; l < order_->level_count(); ++l)
-    run(order_->level_start[l], order_->level_start[l + 1]);
-}
-
 }  // namespace anicodec

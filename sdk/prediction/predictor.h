@@ -87,9 +87,6 @@ class CoefficientReconstruction {
   /// the caller's.
   void run(size_t first, size_t last) const;
 
-  /// Everything, on this thread.
-  void run_all() const;
-
  private:
   PredictionJob job_;
   const VertexOrder* order_ = nullptr;

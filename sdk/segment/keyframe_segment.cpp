@@ -220,6 +220,8 @@ Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& 
                                            static_cast<uint32_t>(parent[i]));
     }
     hash.add(poses[j].data(), poses[j].size());
+    if (!context.advance(poses[j].size()))
+      return Status::kCancelled;
   }
   BinaryDecoder decoder(record.weights.data, record.weights.size);
   SeriesCoding coding;

@@ -75,7 +75,7 @@ uint32_t components_in(const Vector<ByteView>& layers, uint32_t components) {
 
 /// Residuals of the components in the layers, components x channels x vertices in decoding order;
 /// stops after `wanted` components.
-Status read_residuals(const Vector<ByteView>& layers, const VertexOrder& order, uint32_t channels,
+Status read_residuals(const SegmentContext& context, const VertexOrder& order, uint32_t channels,
                       uint32_t components, uint32_t wanted, Vector<int32_t>* residuals) {
   auto n = static_cast<uint32_t>(order.vertex_count());
   CoefficientModel model(n, channels, order.neighbours.data(),
@@ -83,7 +83,7 @@ Status read_residuals(const Vector<ByteView>& layers, const VertexOrder& order, 
   residuals->resize(size_t{wanted} * channels * n);
   Vector<int32_t> interleaved(channels == 1 ? 0 : size_t{channels} * n);
   uint32_t j = 0;
-  for (ByteView layer : layers) {
+  for (ByteView layer : context.layers) {
     ByteReader reader(layer);
     uint32_t count = reader.varint32(components - j);
     if (!reader.ok())
@@ -101,6 +101,8 @@ Status read_residuals(const Vector<ByteView>& layers, const VertexOrder& order, 
         for (uint32_t c = 0; c < channels; ++c)
           to[size_t{c} * n + i] = interleaved[size_t{i} * channels + c];
       }
+      if (!context.advance(size_t{channels} * n))
+        return Status::kCancelled;
     }
     if (!decoder.finish())
       return Status::kEntropy;
@@ -275,7 +277,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     return s;
   uint32_t channels = out->channels();
   Vector<int32_t> residuals;
-  if (Status s = read_residuals(context.layers, order, channels, components, wanted, &residuals);
+  if (Status s = read_residuals(context, order, channels, components, wanted, &residuals);
       s != Status::kOk)
     return s;
 
@@ -293,7 +295,12 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   if (Status s = reconstruction.init(order, pose.points.data(), prediction, input, y.data());
       s != Status::kOk)
     return s;
-  reconstruction.run_all();
+  for (size_t l = 0; l < order.level_count(); ++l) {
+    const size_t first = order.level_start[l], last = order.level_start[l + 1];
+    reconstruction.run(first, last);
+    if (!context.advance(samples * (last - first)))
+      return Status::kCancelled;
+  }
 
   size_t stride = coefficient_stride(samples);
   const Vector<float> largest = hash_coefficients(y, stride, n, samples, hash);

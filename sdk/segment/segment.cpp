@@ -152,6 +152,15 @@ uint32_t wanted_components(double quality, uint32_t components) {
   return std::min(static_cast<uint32_t>(std::ceil(quality * components)), components);
 }
 
+double segment_work(const Limits::Segment& segment, const Limits::Mesh& mesh, double quality) {
+  const bool keyframes = segment.kind == BasisKind::kKeyframes;
+  const uint32_t components =
+      keyframes ? segment.components : wanted_components(quality, segment.components);
+  const double coefficients = static_cast<double>(mesh.coded_vertices) * components *
+                              (segment.kind == BasisKind::kEigentrajectories ? 1 : 3);
+  return keyframes ? coefficients : 2 * coefficients;  // read, then predicted
+}
+
 Status open_segment(const SegmentRecord& record, const SegmentContext& context, Segment* out) {
   const Limits::Segment& sizes = *context.sizes;
   out->kind = record.kind;

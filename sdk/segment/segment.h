@@ -6,6 +6,7 @@
 #include "format/memory.h"
 #include "format/records.h"
 #include "format/status.h"
+#include "sdk/base/host_progress.h"
 #include "sdk/mesh/draco_mesh.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/msgi/msgi.h"
@@ -100,13 +101,22 @@ struct SegmentContext {
   double quality = 1;                ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;
+  HostProgress* progress = nullptr;  ///< gets segment_work() in all; may be null
+
+  /// Tells the host of coefficients that were decoded; false when it wants to stop.
+  bool advance(size_t coefficients) const {
+    return !progress || progress->advance(static_cast<double>(coefficients));
+  }
 };
 
 /// How many of its components are opened at a quality in (0, 1].
 uint32_t wanted_components(double quality, uint32_t components);
 
-/// Opens a segment of any kind. The counts in `context` have been checked against the host's
-/// limits.
+/// What opening a segment costs, about, in coefficients to decode.
+double segment_work(const Limits::Segment& segment, const Limits::Mesh& mesh, double quality);
+
+/// Opens a segment of any kind. Errors: kCancelled by the host; others are the file's. The counts
+/// in `context` have been checked against the host's limits.
 Status open_segment(const SegmentRecord& record, const SegmentContext& context, Segment* out);
 
 }  // namespace anicodec

@@ -45,6 +45,8 @@ TEST(Statuses, HaveTheNumbersOfTheFormat) {
                                                   {ANIC_E_NON_FINITE, Status::kNonFinite},
                                                   {ANIC_E_DRACO, Status::kDraco},
                                                   {ANIC_E_SEGMENT, Status::kSegment},
+                                                  {ANIC_E_ABSENT, Status::kAbsent},
+                                                  {ANIC_E_CANCELLED, Status::kCancelled},
                                                   {ANIC_E_HASH, Status::kHash},
                                                   {ANIC_E_LIMIT, Status::kLimit},
                                                   {ANIC_E_MEMORY, Status::kMemory},
@@ -67,11 +69,11 @@ TEST(AnicAsset, TellsWhatIsInIt) {
   EXPECT_EQ(info.frame_count, source.frame_count);
   EXPECT_EQ(info.rate_numerator, 24U);
   EXPECT_EQ(info.start_time, 0);
-  EXPECT_DOUBLE_EQ(info.end_time, (source.frame_count - 1) / 24.0);
+  EXPECT_DOUBLE_EQ(info.duration, (source.frame_count - 1) / 24.0);
   EXPECT_FALSE(info.partial);
   EXPECT_EQ(anic_verify_asset(asset.get()), ANIC_OK);
 
-  anic_mesh mesh;
+  anic_mesh mesh = ANIC_INIT(anic_mesh);
   ASSERT_EQ(anic_get_mesh(asset.get(), 0, &mesh), ANIC_OK);
   EXPECT_EQ(mesh.vertex_count, source.vertex_count);
   EXPECT_EQ(mesh.polygon_count, source.polygons.size());
@@ -82,8 +84,8 @@ TEST(AnicAsset, TellsWhatIsInIt) {
 
 TEST(AnicAsset, CutsPolygonsIntoFans) {
   const Asset asset = open(encoded_clip("polygons", BasisChoice::kKeyframes));
-  anic_mesh mesh;
-  anic_polygons polygons;
+  anic_mesh mesh = ANIC_INIT(anic_mesh);
+  anic_polygons polygons = ANIC_INIT(anic_polygons);
   ASSERT_EQ(anic_get_mesh(asset.get(), 0, &mesh), ANIC_OK);
   ASSERT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
   std::vector<uint32_t> expected;
@@ -106,7 +108,7 @@ TEST(AnicAsset, CutsPolygonsIntoFans) {
 
 TEST(AnicAsset, TellsWhichVerticesMoveTogether) {
   const Asset asset = open(encoded_clip("soup", BasisChoice::kAuto));
-  anic_mesh mesh;
+  anic_mesh mesh = ANIC_INIT(anic_mesh);
   const uint32_t* coded = nullptr;
   ASSERT_EQ(anic_get_mesh(asset.get(), 0, &mesh), ANIC_OK);
   ASSERT_EQ(anic_get_coded_vertices(asset.get(), 0, &coded), ANIC_OK);
@@ -124,7 +126,7 @@ TEST(AnicAsset, TellsWhichVerticesMoveTogether) {
 TEST(AnicAsset, GivesTheAttributesOfTheSource) {
   const MeshSequence source = corpus::make_clip("painted_box");
   const Asset asset = open(encoded_clip("painted_box", BasisChoice::kKeyframes));
-  anic_mesh mesh;
+  anic_mesh mesh = ANIC_INIT(anic_mesh);
   ASSERT_EQ(anic_get_mesh(asset.get(), 0, &mesh), ANIC_OK);
   ASSERT_EQ(mesh.attribute_count, 5U);
   const anic_attribute_kind kinds[] = {ANIC_ATTRIBUTE_UV, ANIC_ATTRIBUTE_COLOUR,
@@ -133,7 +135,7 @@ TEST(AnicAsset, GivesTheAttributesOfTheSource) {
   const uint32_t counts[] = {mesh.corner_count, mesh.vertex_count, mesh.corner_count,
                              mesh.polygon_count, mesh.polygon_count};
   const uint32_t components[] = {2, 3, 0, 0, 0};
-  anic_attribute a;
+  anic_attribute a = ANIC_INIT(anic_attribute);
   for (uint32_t i = 0; i < 5; ++i) {
     SCOPED_TRACE(i);
     ASSERT_EQ(anic_get_attribute(asset.get(), 0, i, &a), ANIC_OK);
@@ -164,7 +166,7 @@ TEST(AnicAsset, SaysWhereAFileIsDamaged) {
   const Chunk chunk = *reader.find("SEGM", 0, 0);
   file[chunk.offset + 5] ^= 1;
   anic_asset* asset = nullptr;
-  anic_failure failure;
+  anic_failure failure = ANIC_INIT(anic_failure);
   EXPECT_EQ(anic_open_asset(file.data(), file.size(), nullptr, &asset, &failure),
             ANIC_E_CHUNK_CHECKSUM);
   EXPECT_EQ(asset, nullptr);
@@ -180,13 +182,13 @@ TEST(AnicAsset, SaysWhereAFileIsDamaged) {
 
 TEST(AnicAsset, RefusesWhatTheHostDoesNotAllow) {
   const Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
-  anic_requirements r;
+  anic_requirements r = ANIC_INIT(anic_requirements);
   ASSERT_EQ(anic_get_requirements(file.data(), file.size(), nullptr, &r), ANIC_OK);
   auto status = [&](auto set) {
     CountingMemory memory;
-    anic_options options = {};
+    anic_options options = ANIC_INIT(anic_options);
     options.allocator = memory.allocator();
-    set(options.limits);
+    set(options);
     anic_asset* asset = nullptr;
     const anic_status result = anic_open_asset(file.data(), file.size(), &options, &asset, nullptr);
     anic_close_asset(asset);
@@ -196,18 +198,19 @@ TEST(AnicAsset, RefusesWhatTheHostDoesNotAllow) {
     }
     return result;
   };
-  EXPECT_EQ(status([&](anic_limits& l) { l.vertices = r.max_vertices; }), ANIC_OK);
-  EXPECT_EQ(status([&](anic_limits& l) { l.vertices = r.max_vertices - 1; }), ANIC_E_LIMIT);
-  EXPECT_EQ(status([&](anic_limits& l) { l.frames = r.frame_count - 1; }), ANIC_E_LIMIT);
-  EXPECT_EQ(status([&](anic_limits& l) { l.components = r.max_components - 1; }), ANIC_E_LIMIT);
-  EXPECT_EQ(status([&](anic_limits& l) { l.bytes = r.opening_bytes; }), ANIC_OK);
-  EXPECT_EQ(status([&](anic_limits& l) { l.bytes = r.resident_bytes; }), ANIC_E_LIMIT);
+  EXPECT_EQ(status([&](anic_options& o) { o.max_vertices = r.max_vertices; }), ANIC_OK);
+  EXPECT_EQ(status([&](anic_options& o) { o.max_vertices = r.max_vertices - 1; }), ANIC_E_LIMIT);
+  EXPECT_EQ(status([&](anic_options& o) { o.max_frames = r.frame_count - 1; }), ANIC_E_LIMIT);
+  EXPECT_EQ(status([&](anic_options& o) { o.max_components = r.max_components - 1; }),
+            ANIC_E_LIMIT);
+  EXPECT_EQ(status([&](anic_options& o) { o.max_bytes = r.opening_bytes; }), ANIC_OK);
+  EXPECT_EQ(status([&](anic_options& o) { o.max_bytes = r.resident_bytes; }), ANIC_E_LIMIT);
 }
 
 TEST(AnicAsset, IsCoarserAndSmallerAtLowerQuality) {
   const Bytes& file = encoded_clip("limb", BasisChoice::kEigentrajectories);
   const Asset whole = open(file);
-  anic_options options = {};
+  anic_options options = ANIC_INIT(anic_options);
   options.quality = 0.4;
   const Asset coarse = open(file, &options);
   EXPECT_LT(info_of(coarse).resident_bytes, info_of(whole).resident_bytes);
@@ -215,7 +218,7 @@ TEST(AnicAsset, IsCoarserAndSmallerAtLowerQuality) {
   EXPECT_GT(difference, 0);
   EXPECT_LT(difference, 0.2 * info_of(whole).diagonal);
   EXPECT_EQ(anic_verify_asset(coarse.get()), ANIC_E_STATE);
-  anic_requirements r;
+  anic_requirements r = ANIC_INIT(anic_requirements);
   ASSERT_EQ(anic_get_requirements(file.data(), file.size(), &options, &r), ANIC_OK);
   EXPECT_NEAR(static_cast<double>(info_of(coarse).resident_bytes),
               static_cast<double>(r.resident_bytes),
@@ -228,7 +231,7 @@ TEST(AnicAsset, IsCoarserAndSmallerAtLowerQuality) {
 TEST(AnicQuery, SaysHowManyBytesItNeeds) {
   const Bytes& file = encoded_clip("cloth", BasisChoice::kEigenshapes);
   size_t given = 0;
-  anic_requirements r;
+  anic_requirements r = ANIC_INIT(anic_requirements);
   for (int calls = 0; anic_get_requirements(file.data(), given, nullptr, &r) == ANIC_E_TRUNCATED;
        ++calls) {
     ASSERT_GT(r.head_bytes, given);
@@ -249,10 +252,10 @@ TEST(AnicQuery, KnowsTheMemoryInAdvance) {
     SCOPED_TRACE(name);
     for (uint32_t flags : {0U, uint32_t{ANIC_OPEN_BOUNDS}}) {
       CountingMemory memory;
-      anic_options options = {};
+      anic_options options = ANIC_INIT(anic_options);
       options.allocator = memory.allocator();
       options.flags = flags;
-      anic_requirements r;
+      anic_requirements r = ANIC_INIT(anic_requirements);
       ASSERT_EQ(anic_get_requirements(file.data(), file.size(), &options, &r), ANIC_OK);
       EXPECT_EQ(memory.held, 0U);
       const Asset asset = open(file, &options);
@@ -271,7 +274,7 @@ TEST(AnicMemory, AllComesFromTheHostAndGoesBack) {
   for (const auto& [name, file] : all_files()) {
     SCOPED_TRACE(name);
     CountingMemory memory;
-    anic_options options = {};
+    anic_options options = ANIC_INIT(anic_options);
     options.allocator = memory.allocator();
     {
       const Asset asset = open(file, &options);
@@ -292,9 +295,8 @@ void expect_no_allocation(const Asset& asset, const CountingMemory& memory) {
   const uint32_t n = vertices_of(asset), frames = info_of(asset).frame_count;
   std::vector<float> out(size_t{3} * n);
   const anic_output output = floats(out);
-  anic_part parts[ANIC_MAX_PARTS];
+  anic_parts parts = ANIC_INIT(anic_parts);
   anic_box box;
-  uint32_t count;
   const size_t calls = memory.calls;
   const size_t heap = mallinfo2().uordblks;
   for (uint32_t f = 0; f < frames; ++f) {
@@ -304,7 +306,7 @@ void expect_no_allocation(const Asset& asset, const CountingMemory& memory) {
     anic_write_positions(context.get(), 0, ANIC_WHEN_PREVIOUS, 0, n, &output);
     anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, 0, n, &output);
     anic_compute_bounds(context.get(), 0, ANIC_WHEN_CURRENT, &box);
-    anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count);
+    anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, &parts);
     anic_forget_previous(context.get());
     anic_write_frames(asset.get(), 0, &f, 1, 0, n, &output);
   }
@@ -316,14 +318,14 @@ TEST(AnicMemory, NothingIsAllocatedAfterOpening) {
   for (const auto& [name, file] : all_files()) {
     SCOPED_TRACE(name);
     CountingMemory memory;
-    anic_options options = {};
+    anic_options options = ANIC_INIT(anic_options);
     options.allocator = memory.allocator();
     expect_no_allocation(open(file, &options), memory);
 
     // Of a stream, when it becomes playable.
     anic_stream* stream = nullptr;
     ASSERT_EQ(anic_create_stream(&options, &stream), ANIC_OK);
-    anic_stream_info info = {};
+    anic_stream_info info = ANIC_INIT(anic_stream_info);
     for (size_t i = 0; i < file.size() && !info.playable; ++i) {
       ASSERT_EQ(anic_push_bytes(stream, &file[i], 1), ANIC_OK);
       anic_get_stream_info(stream, &info);
@@ -346,10 +348,10 @@ TEST(AnicMemory, FitsABlockOfTheHost) {
   for (const auto& [clip, basis] : cases()) {
     SCOPED_TRACE(clip);
     const Bytes& file = encoded_clip(clip, basis);
-    anic_requirements r;
+    anic_requirements r = ANIC_INIT(anic_requirements);
     ASSERT_EQ(anic_get_requirements(file.data(), file.size(), nullptr, &r), ANIC_OK);
     std::vector<unsigned char> block(r.block_bytes + r.context_bytes);
-    anic_options options = {};
+    anic_options options = ANIC_INIT(anic_options);
     ASSERT_EQ(anic_init_block_allocator(block.data() + 3, block.size() - 3, &options.allocator),
               ANIC_OK);
     const Asset asset = open(file, &options);

@@ -28,7 +28,7 @@ const Bytes& heated() {
 
 std::vector<float> values(const Asset& asset, const Context& context, uint32_t attribute,
                           anic_when when = ANIC_WHEN_CURRENT) {
-  anic_attribute about;
+  anic_attribute about = ANIC_INIT(anic_attribute);
   EXPECT_EQ(anic_get_attribute(asset.get(), 0, attribute, &about), ANIC_OK);
   std::vector<float> out(size_t{about.components} * about.count);
   const anic_value_output to = anic::value_output(out);
@@ -79,21 +79,23 @@ TEST(AnicAttributeValues, AreInterpolatedAsTheSeekSays) {
 TEST(AnicAttributeValues, OfOthersStandStillAndSayWhetherTheyMove) {
   const Asset asset = open(heated());
   for (uint32_t a : {kUv, kColour, kHeat}) {
-    anic_attribute about;
+    anic_attribute about = ANIC_INIT(anic_attribute);
     ASSERT_EQ(anic_get_attribute(asset.get(), 0, a, &about), ANIC_OK);
     EXPECT_EQ(about.moves, 1);
   }
   const Asset box = open(encoded_clip("painted_box", BasisChoice::kKeyframes));
   const Context context = context_of(box);
   ASSERT_EQ(anic_seek_frame(context.get(), 3), ANIC_OK);
-  anic_attribute paint;
+  anic_attribute paint = ANIC_INIT(anic_attribute);
   ASSERT_EQ(anic_get_attribute(box.get(), 0, 1, &paint), ANIC_OK);
   EXPECT_EQ(paint.moves, 0);
   const std::vector<float> shown = values(box, context, 1);
   EXPECT_TRUE(std::equal(shown.begin(), shown.end(), paint.values));
   // Of corners there is no value for each vertex.
   float x = 0;
-  const anic_value_output to = {&x, sizeof x, 0, ANIC_VALUE_FLOAT32, 0};
+  anic_value_output to = ANIC_INIT(anic_value_output);
+  to.data = &x;
+  to.size = sizeof x;
   EXPECT_EQ(anic_write_attribute(context.get(), 0, 0, ANIC_WHEN_CURRENT, 0, 1, &to),
             ANIC_E_ARGUMENT);
 }
@@ -106,7 +108,12 @@ TEST(AnicAttributeValues, ComeInAnyFormatStrideAndRange) {
   const std::vector<float> heat = values(asset, context, kHeat);
   constexpr uint32_t kFirst = 70, kCount = 160;
   std::vector<unsigned char> bytes(size_t{kCount} * 7, 0xEE);
-  anic_value_output out = {bytes.data(), bytes.size(), 7, ANIC_VALUE_UNORM8, 3};
+  anic_value_output out = ANIC_INIT(anic_value_output);
+  out.data = bytes.data();
+  out.size = bytes.size();
+  out.stride = 7;
+  out.format = ANIC_VALUE_UNORM8;
+  out.components = 3;
   ASSERT_EQ(
       anic_write_attribute(context.get(), 0, kColour, ANIC_WHEN_CURRENT, kFirst, kCount, &out),
       ANIC_OK);
@@ -119,14 +126,18 @@ TEST(AnicAttributeValues, ComeInAnyFormatStrideAndRange) {
   }
   // Missing components are 0, the fourth 1.
   std::vector<float> wide(size_t{kCount} * 4);
-  out = {wide.data(), wide.size() * sizeof(float), 0, ANIC_VALUE_FLOAT32, 4};
+  out = anic::value_output(wide);
+  out.components = 4;
   ASSERT_EQ(anic_write_attribute(context.get(), 0, kHeat, ANIC_WHEN_CURRENT, kFirst, kCount, &out),
             ANIC_OK);
   EXPECT_EQ(wide[40], heat[kFirst + 10]);
   EXPECT_EQ(wide[41], 0);
   EXPECT_EQ(wide[43], 1);
   std::vector<uint16_t> halves(size_t{kCount} * 4);
-  out = {halves.data(), halves.size() * 2, 0, ANIC_VALUE_FLOAT16, 0};
+  out.data = halves.data();
+  out.size = halves.size() * 2;
+  out.format = ANIC_VALUE_FLOAT16;
+  out.components = 0;
   ASSERT_EQ(
       anic_write_attribute(context.get(), 0, kColour, ANIC_WHEN_CURRENT, kFirst, kCount, &out),
       ANIC_OK);
@@ -170,36 +181,32 @@ TEST(AnicAttributeValues, ComeFromTheBasisAsPositionsDo) {
   const Context context = context_of(asset);
   ASSERT_EQ(anic_seek_time(context.get(), 0.77, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP), ANIC_OK);
   const std::vector<float> shown = values(asset, context, kColour);
-  anic_attribute about;
+  anic_attribute about = ANIC_INIT(anic_attribute);
   ASSERT_EQ(anic_get_attribute(asset.get(), 0, kColour, &about), ANIC_OK);
   std::vector<float> made(about.values, about.values + shown.size());
-  anic_part parts[ANIC_MAX_PARTS];
-  uint32_t count = 0;
+  anic_parts parts = ANIC_INIT(anic_parts);
   // Alpha rests.
-  ASSERT_EQ(
-      anic_get_attribute_parts(context.get(), 0, kColour, 3, ANIC_WHEN_CURRENT, parts, &count),
-      ANIC_OK);
-  EXPECT_EQ(count, 0U);
-  EXPECT_EQ(
-      anic_get_attribute_parts(context.get(), 0, kColour, 1, ANIC_WHEN_CURRENT, parts, &count),
-      ANIC_E_ARGUMENT);
-  EXPECT_EQ(
-      anic_get_attribute_parts(context.get(), 0, kColour, 6, ANIC_WHEN_CURRENT, parts, &count),
-      ANIC_E_ARGUMENT);
-  ASSERT_EQ(
-      anic_get_attribute_parts(context.get(), 0, kColour, 0, ANIC_WHEN_CURRENT, parts, &count),
-      ANIC_OK);
-  ASSERT_GT(count, 0U);
-  for (uint32_t p = 0; p < count; ++p) {
-    anic_basis basis;
-    ASSERT_EQ(anic_get_basis(asset.get(), parts[p].segment, &basis), ANIC_OK);
+  ASSERT_EQ(anic_get_attribute_parts(context.get(), 0, kColour, 3, ANIC_WHEN_CURRENT, &parts),
+            ANIC_OK);
+  EXPECT_EQ(parts.count, 0U);
+  EXPECT_EQ(anic_get_attribute_parts(context.get(), 0, kColour, 1, ANIC_WHEN_CURRENT, &parts),
+            ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_get_attribute_parts(context.get(), 0, kColour, 6, ANIC_WHEN_CURRENT, &parts),
+            ANIC_E_ARGUMENT);
+  ASSERT_EQ(anic_get_attribute_parts(context.get(), 0, kColour, 0, ANIC_WHEN_CURRENT, &parts),
+            ANIC_OK);
+  ASSERT_GT(parts.count, 0U);
+  for (uint32_t p = 0; p < parts.count; ++p) {
+    anic_basis basis = ANIC_INIT(anic_basis);
+    ASSERT_EQ(anic_get_basis(asset.get(), parts.parts[p].segment, &basis), ANIC_OK);
+    EXPECT_EQ(basis.target, ANIC_TARGET_ATTRIBUTE);
     EXPECT_EQ(basis.attribute, kColour);
     EXPECT_EQ(basis.first_component, 0U);
     ASSERT_EQ(basis.channels, 1U);
     for (uint32_t v = 0; v < basis.vertex_count; ++v) {
       const uint32_t b = v / ANIC_BLOCK_VERTICES, i = v % ANIC_BLOCK_VERTICES;
       for (uint32_t c = 0; c < 3; ++c) {
-        const float* m = parts[p].pose_map + size_t{4} * c;
+        const float* m = parts.parts[p].pose_map + size_t{4} * c;
         double x = double{m[3]};
         for (uint32_t d = 0; d < 3; ++d)
           x += double{m[d]} * double{basis.pose[(size_t{b} * 3 + d) * ANIC_BLOCK_VERTICES + i]};
@@ -214,24 +221,24 @@ TEST(AnicAttributeValues, ComeFromTheBasisAsPositionsDo) {
                                       basis.wide_components) *
                                          ANIC_BLOCK_VERTICES +
                                      i])};
-          x += double{parts[p].weights[3 * j + c]} * r;
+          x += double{parts.parts[p].weights[3 * j + c]} * r;
         }
-        made[size_t{4} * v + c] += static_cast<float>(double{parts[p].share} * x);
+        made[size_t{4} * v + c] += static_cast<float>(double{parts.parts[p].share} * x);
       }
     }
-    EXPECT_EQ(parts[p].correction_count, 0U);
+    EXPECT_EQ(parts.parts[p].correction_count, 0U);
   }
   EXPECT_LE(largest_difference(shown, made), 1e-5);
   for (uint32_t s = 0, of_positions = 0; s < info_of(asset).segment_count; ++s) {
-    anic_basis basis;
+    anic_basis basis = ANIC_INIT(anic_basis);
     ASSERT_EQ(anic_get_basis(asset.get(), s, &basis), ANIC_OK);
-    of_positions += basis.attribute == ANIC_POSITIONS;
+    of_positions += basis.target == ANIC_TARGET_POSITIONS;
     EXPECT_EQ(of_positions, 1U);
   }
 }
 
 TEST(AnicAttributeValues, AreCoarserAtLowerQualityAndOfTheFirstFrameUntilTheyArrive) {
-  anic_options options = {};
+  anic_options options = ANIC_INIT(anic_options);
   options.quality = 0.5;
   const Asset coarse = open(heated(), &options);
   const Context context = context_of(coarse);

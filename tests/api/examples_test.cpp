@@ -108,7 +108,7 @@ TEST_F(AnicExamples, FrameToObj) {
     }
     ++written;
     EXPECT_EQ(result.status, 0) << result.out;
-    anic_polygons polygons;
+    anic_polygons polygons = ANIC_INIT(anic_polygons);
     ASSERT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
     std::vector<float> points;
     std::vector<uint32_t> corners, offsets = {0};

@@ -17,10 +17,10 @@ struct Taken {
 
 Taken taken_by(const Bytes& file) {
   CountingMemory memory;
-  anic_options options = {};
+  anic_options options = ANIC_INIT(anic_options);
   options.allocator = memory.allocator();
   Taken taken;
-  anic_requirements needs;
+  anic_requirements needs = ANIC_INIT(anic_requirements);
   {
     const HeapCount heap;
     EXPECT_EQ(anic_get_requirements(file.data(), file.size(), &options, &needs), ANIC_OK);

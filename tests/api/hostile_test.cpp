@@ -43,11 +43,11 @@ std::vector<Entry> listed(const std::string& wanted) {
 
 /// Opens and compares hashes; what opens is played. Nothing is kept.
 anic_status tried(const Bytes& file, CountingMemory* memory) {
-  anic_options options = {};
+  anic_options options = ANIC_INIT(anic_options);
   options.allocator = memory->allocator();
-  options.limits.bytes = 8 << 20;
+  options.max_bytes = 8 << 20;
   anic_asset* raw = nullptr;
-  anic_failure failure;
+  anic_failure failure = ANIC_INIT(anic_failure);
   anic_status status = anic_open_asset(file.data(), file.size(), &options, &raw, &failure);
   EXPECT_EQ(failure.status, status);
   {
@@ -113,14 +113,14 @@ TEST(Hostile, EveryPrefixIsRefused) {
 TEST(Hostile, EveryPrefixOfAStreamPlaysOrWaits) {
   for (const Entry& entry : listed("valid")) {
     CountingMemory memory;
-    anic_options options = {};
+    anic_options options = ANIC_INIT(anic_options);
     options.allocator = memory.allocator();
     anic_stream* stream = nullptr;
     ASSERT_EQ(anic_create_stream(&options, &stream), ANIC_OK);
     size_t opened = 0;
     for (size_t i = 0; i < entry.bytes.size(); ++i) {
       ASSERT_EQ(anic_push_bytes(stream, &entry.bytes[i], 1), ANIC_OK) << entry.file << " " << i;
-      anic_stream_info info;
+      anic_stream_info info = ANIC_INIT(anic_stream_info);
       anic_get_stream_info(stream, &info);
       anic_asset* asset = nullptr;
       if (info.playable && opened++ % 50 != 0 && !info.complete)

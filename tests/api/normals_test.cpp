@@ -17,7 +17,7 @@ struct NormalsDestroyer {
 using Normals = std::unique_ptr<anic_normal_plan, NormalsDestroyer>;
 
 Normals plan(const Asset& asset, double crease, bool per_corner) {
-  anic_normal_options options = {};
+  anic_normal_plan_options options = ANIC_INIT(anic_normal_plan_options);
   options.crease_angle = crease;
   options.per_corner = per_corner;
   anic_normal_plan* normals = nullptr;
@@ -84,7 +84,7 @@ TEST(AnicNormals, ACubeIsSmoothOrHard) {
       EXPECT_NEAR(n[i], p[i] / std::sqrt(3.0F), 2e-3);
     // Hard: along the axes, away from the middle, one of each corner's three.
     n = compute(plan(asset, 30, true), p);
-    anic_polygons polygons;
+    anic_polygons polygons = ANIC_INIT(anic_polygons);
     ASSERT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
     ASSERT_EQ(n.size(), 72U);
     for (uint32_t q = 0; q < 6; ++q) {
@@ -122,7 +122,7 @@ TEST(AnicNormals, RangesFormatsAndStridesAgree) {
   const uint32_t n = anic_get_normal_count(normals.get());
   for (uint32_t first : {0U, 5U, 300U}) {
     std::vector<int16_t> out(size_t{4} * (n - first));
-    anic_output output = {};
+    anic_output output = ANIC_INIT(anic_output);
     output.data = out.data();
     output.size = 2 * out.size();
     output.format = ANIC_FORMAT_SNORM16X4;
@@ -135,21 +135,21 @@ TEST(AnicNormals, RangesFormatsAndStridesAgree) {
       }
     }
   }
-  const anic_output output = {};
+  const anic_output output = ANIC_INIT(anic_output);
   EXPECT_EQ(anic_write_normals(normals.get(), p.data(), 6, 0, 1, &output), ANIC_E_ARGUMENT);
   EXPECT_EQ(anic_write_normals(normals.get(), p.data(), 0, n, 1, &output), ANIC_E_ARGUMENT);
 }
 
 TEST(AnicNormals, AreHardWhereTheSourceWas) {
   const Asset asset = open(encoded_clip("painted_box", BasisChoice::kKeyframes));
-  anic_normal_options options = {};
+  anic_normal_plan_options options = ANIC_INIT(anic_normal_plan_options);
   options.per_corner = 1;
   auto distinct = [&] {
     anic_normal_plan* made = nullptr;
     EXPECT_EQ(anic_create_normal_plan(asset.get(), 0, &options, nullptr, &made), ANIC_OK);
     const Normals normals(made);
     const std::vector<float> n = compute(normals, frame(asset, 0));
-    anic_polygons polygons;
+    anic_polygons polygons = ANIC_INIT(anic_polygons);
     EXPECT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
     std::set<std::vector<float>> of_vertex;
     for (uint32_t c = 0; c < anic_get_normal_count(normals.get()); ++c)
@@ -179,7 +179,7 @@ TEST(AnicNormals, AreUnitVectorsForAnyMesh) {
   const std::vector<float> n = compute(plan(points, 0, false), frame(points, 1));
   EXPECT_EQ(n[0], 0);
   EXPECT_EQ(n[2], 1);
-  anic_normal_options options = {};
+  anic_normal_plan_options options = ANIC_INIT(anic_normal_plan_options);
   options.reference_frame = 30;
   anic_normal_plan* none = nullptr;
   EXPECT_EQ(anic_create_normal_plan(points.get(), 0, &options, nullptr, &none), ANIC_E_FRAME_RANGE);

@@ -84,7 +84,7 @@ using Context = std::unique_ptr<anic_context, ContextDestroyer>;
 
 inline Asset open(const Bytes& file, const anic_options* options = nullptr) {
   anic_asset* asset = nullptr;
-  anic_failure failure;
+  anic_failure failure = ANIC_INIT(anic_failure);
   EXPECT_EQ(anic_open_asset(file.data(), file.size(), options, &asset, &failure), ANIC_OK)
       << failure.detail << " at " << failure.offset << " in " << failure.chunk;
   return Asset(asset);
@@ -98,7 +98,7 @@ inline size_t expect_no_leak_whichever_allocation_fails(const Bytes& file) {
   for (; status != ANIC_OK && n < 10000000; n += n < 200 ? 1 : n / 20) {
     CountingMemory memory;
     memory.fail_at = n;
-    anic_options options = {};
+    anic_options options = ANIC_INIT(anic_options);
     options.allocator = memory.allocator();
     options.flags = ANIC_OPEN_BOUNDS;
     anic_asset* asset = nullptr;
@@ -124,19 +124,19 @@ inline Context context_of(const Asset& asset) {
 }
 
 inline anic_asset_info info_of(const Asset& asset) {
-  anic_asset_info info;
+  anic_asset_info info = ANIC_INIT(anic_asset_info);
   anic_get_asset_info(asset.get(), &info);
   return info;
 }
 
 inline uint32_t vertices_of(const Asset& asset, uint32_t mesh = 0) {
-  anic_mesh info;
+  anic_mesh info = ANIC_INIT(anic_mesh);
   EXPECT_EQ(anic_get_mesh(asset.get(), mesh, &info), ANIC_OK);
   return info.vertex_count;
 }
 
 inline anic_output floats(std::vector<float>& to) {
-  anic_output output = {};
+  anic_output output = ANIC_INIT(anic_output);
   output.data = to.data();
   output.size = to.size() * sizeof(float);
   return output;

@@ -98,7 +98,7 @@ TEST(AnicSampling, RangesAndThreadsGiveTheSameBits) {
     for (uint32_t t = 0; t < 4; ++t) {
       threads.emplace_back([&, t] {
         const uint32_t first = n * t / 4, end = n * (t + 1) / 4;
-        anic_output output = {};
+        anic_output output = ANIC_INIT(anic_output);
         output.data = together.data() + size_t{3} * first;
         output.size = size_t{12} * (end - first);
         anic_write_positions(context.get(), 0, ANIC_WHEN_CURRENT, first, end - first, &output);
@@ -117,7 +117,7 @@ TEST(AnicSampling, WritesAnyFormatAndStrideAndNothingElse) {
   seek(context, 0.2, ANIC_SAMPLE_LINEAR);
   const std::vector<float> p = positions(asset, context);
   std::vector<unsigned char> bytes(size_t{n} * 20, 0xAB);
-  anic_output output = {};
+  anic_output output = ANIC_INIT(anic_output);
   output.data = bytes.data() + 1;
   output.stride = 20;
   output.size = size_t{20} * (n - 1) + 8;
@@ -177,11 +177,10 @@ TEST(AnicSampling, LinearInterpolationIsThatOfPositions) {
     for (uint32_t f : {0U, 7U, 20U}) {
       for (double t : {0.25, 0.5, 0.9}) {
         seek(context, (f + t) / 24, ANIC_SAMPLE_LINEAR);
-        anic_part parts[ANIC_MAX_PARTS];
-        uint32_t count = 0;
-        ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
-        EXPECT_EQ(count, 1U);
-        EXPECT_EQ(parts[0].correction_count, 0U);
+        anic_parts shown = ANIC_INIT(anic_parts);
+        ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, &shown), ANIC_OK);
+        EXPECT_EQ(shown.count, 1U);
+        EXPECT_EQ(shown.parts[0].correction_count, 0U);
         const std::vector<float> a = frame(asset, f), b = frame(asset, f + 1);
         const double correction = 2 * info_of(asset).max_error;  // corrections are left out
         EXPECT_LE(largest_difference(positions(asset, context), mixed(a, b, t)), correction);
@@ -196,21 +195,20 @@ TEST(AnicSampling, FramesOfTwoSegmentsAreBothMade) {
   const Asset asset = open(cut_clip());
   const Context context = context_of(asset);
   ASSERT_EQ(info_of(asset).segment_count, 2U);
-  anic_part parts[ANIC_MAX_PARTS];
-  uint32_t count = 0;
+  anic_parts shown = ANIC_INIT(anic_parts);
   for (double t : {0.1, 0.5, 0.8}) {
     seek(context, (23 + t) / 24, ANIC_SAMPLE_LINEAR);
-    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
-    ASSERT_EQ(count, 2U);
-    EXPECT_FLOAT_EQ(parts[0].share, static_cast<float>(1 - t));
+    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, &shown), ANIC_OK);
+    ASSERT_EQ(shown.count, 2U);
+    EXPECT_FLOAT_EQ(shown.parts[0].share, static_cast<float>(1 - t));
     const std::vector<float> expected = mixed(frame(asset, 23), frame(asset, 24), t);
     EXPECT_LE(largest_difference(positions(asset, context), expected),
               1e-5 * diagonal(corpus::make_scaled("limb", 300, 48)) + 2e-2);
     // A smooth curve passes close by, and has two frames in each.
     seek(context, (23 + t) / 24, ANIC_SAMPLE_CUBIC);
-    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
-    EXPECT_EQ(count, 2U);
-    EXPECT_FLOAT_EQ(parts[0].share + parts[1].share, 1);
+    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, &shown), ANIC_OK);
+    EXPECT_EQ(shown.count, 2U);
+    EXPECT_FLOAT_EQ(shown.parts[0].share + shown.parts[1].share, 1);
     EXPECT_LE(largest_difference(positions(asset, context), expected),
               largest_difference(frame(asset, 22), frame(asset, 25)));
   }
@@ -273,10 +271,11 @@ TEST(AnicSampling, WrapsTime) {
   const Context context = context_of(asset);
   const anic_asset_info info = info_of(asset);
   EXPECT_EQ(info.start_time, 2);
-  EXPECT_DOUBLE_EQ(info.end_time, 2 + 8 / 24.0);
+  EXPECT_DOUBLE_EQ(info.duration, 8 / 24.0);
+  EXPECT_EQ(anic_get_frame_time(asset.get(), 0), 0);
   EXPECT_DOUBLE_EQ(info.loop_duration, 9 / 24.0);
   auto x = [&](double frames, anic_wrap wrap) {
-    seek(context, 2 + frames / 24, ANIC_SAMPLE_LINEAR, wrap);
+    seek(context, frames / 24, ANIC_SAMPLE_LINEAR, wrap);
     return 24 * static_cast<double>(positions(asset, context)[0] - clip.frame(0)[0]) / 10;
   };
   const double e = 0.02;  // frames
@@ -327,17 +326,16 @@ TEST(AnicSampling, RigidMotionsTurnTheShorterWay) {
   const Context context = context_of(asset);
   for (double f = 0.5; f < 23; f += 1) {
     seek(context, f / 24, ANIC_SAMPLE_LINEAR);
-    anic_part parts[ANIC_MAX_PARTS];
-    uint32_t count = 0;
-    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
+    anic_parts shown = ANIC_INIT(anic_parts);
+    ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, &shown), ANIC_OK);
     // Half of the turn: the same angle, and less than a quarter, from either side.
     double cosine[2] = {0, 0};
     for (int side = 0; side < 2; ++side) {
       const float* m = inside.segments()[0].motions[static_cast<size_t>(f) + side].m;
       for (int i = 0; i < 12; ++i)
-        cosine[side] +=
-            i % 4 == 3 ? 0
-                       : static_cast<double>(m[i]) * static_cast<double>(parts[0].motion[i]) / 2;
+        cosine[side] += i % 4 == 3 ? 0
+                                   : static_cast<double>(m[i]) *
+                                         static_cast<double>(shown.parts[0].motion[i]) / 2;
       cosine[side] -= 0.5;
     }
     EXPECT_NEAR(cosine[0], cosine[1], 1e-5);
@@ -346,8 +344,8 @@ TEST(AnicSampling, RigidMotionsTurnTheShorterWay) {
       for (int s = 0; s < 3; ++s) {
         double dot = 0;
         for (int i = 0; i < 3; ++i)
-          dot += static_cast<double>(parts[0].motion[4 * r + i]) *
-                 static_cast<double>(parts[0].motion[4 * s + i]);
+          dot += static_cast<double>(shown.parts[0].motion[4 * r + i]) *
+                 static_cast<double>(shown.parts[0].motion[4 * s + i]);
         EXPECT_NEAR(dot, r == s ? 1 : 0, 1e-5);
       }
     }
@@ -378,7 +376,7 @@ TEST(AnicSampling, RemembersWhatWasShownBefore) {
 }
 
 TEST(AnicSampling, FindsBoxes) {
-  anic_options options = {};
+  anic_options options = ANIC_INIT(anic_options);
   options.flags = ANIC_OPEN_BOUNDS;
   for (const Bytes& file : {cut_clip(), encoded_clip("points", BasisChoice::kEigenshapes)}) {
     const Asset asset = open(file, &options);
@@ -460,17 +458,16 @@ TEST(AnicSampling, BasisAndWeightsMakeTheSameFrame) {
     const Context context = context_of(asset);
     for (double f : {0.0, 3.0, 4.5, 23.4}) {
       seek(context, f / 24, ANIC_SAMPLE_LINEAR);
-      anic_part parts[ANIC_MAX_PARTS];
-      uint32_t count = 0;
-      ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, parts, &count), ANIC_OK);
+      anic_parts shown = ANIC_INIT(anic_parts);
+      ASSERT_EQ(anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, &shown), ANIC_OK);
       const std::vector<float> expected = positions(asset, context);
       double largest = 0, size = 0;
       for (uint32_t v = 0; v < vertices_of(asset); ++v) {
         double x[3] = {0, 0, 0};
-        for (uint32_t p = 0; p < count; ++p) {
-          anic_basis basis;
-          ASSERT_EQ(anic_get_basis(asset.get(), parts[p].segment, &basis), ANIC_OK);
-          shade(basis, parts[p], v, x);
+        for (uint32_t p = 0; p < shown.count; ++p) {
+          anic_basis basis = ANIC_INIT(anic_basis);
+          ASSERT_EQ(anic_get_basis(asset.get(), shown.parts[p].segment, &basis), ANIC_OK);
+          shade(basis, shown.parts[p], v, x);
         }
         for (size_t c = 0; c < 3; ++c) {
           largest = std::max(largest, std::abs(x[c] - static_cast<double>(expected[3 * v + c])));

@@ -10,6 +10,7 @@
 #include "sdk/clip/clip.h"
 #include "sdk/clip/memory_estimate.h"
 #include "sdk/clip/sample.h"
+#include "sdk/clip/sample_size.h"
 
 #include <cmath>
 #include <string>
@@ -92,7 +93,8 @@ TEST(MsgiEncode, SamplesBetweenFrames) {
   const EncodeResult result = encode(helix, keyframe_options(6, InterpolationChoice::kMsgi));
   Clip clip;
   open(result, clip);
-  std::vector<float> buffer(sample_buffer_size(clip, 0)), scratch(sample_scratch_size(clip, 0)),
+  std::vector<float> buffer(sample_size(clip, 0).buffer()),
+      scratch(sample_size(clip, 0).scratch / sizeof(float)),
       whole(3 * size_t{helix.vertex_count}), x = whole, before = whole, after = whole;
   auto sample_at = [&](FrameMix mix, std::vector<float>& out) {
     const Sample sample = make_sample(clip, 0, mix, buffer.data(), scratch.data());

@@ -209,7 +209,7 @@ int decode(const char* path, const std::string& out) {
     for (uint32_t f = 0; f < clip.frame_count(); ++f) {
       std::vector<float>& frame = positions[m].emplace_back(size_t{3} * clip.vertex_count(m));
       const Status s = clip.positions(m, f, frame.data());
-      if (s == Status::kSegment)
+      if (s == Status::kAbsent)
         std::fill(frame.begin(), frame.end(), std::numeric_limits<float>::quiet_NaN());
       else if (s != Status::kOk)
         return refused({s, 0, 0, "a frame cannot be played"});

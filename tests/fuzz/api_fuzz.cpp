@@ -36,18 +36,18 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   options.quality = mode % 4 == 2 ? 0.5 : 0;
   options.flags = mode % 4 == 1 ? ANIC_OPEN_BOUNDS : 0;
   if (options.flags)
-    options.limits.frames = 50;  // bounds cost playing all of them
+    options.max_frames = 50;  // bounds cost playing all of them
 
-  anic_requirements needs;
+  anic_requirements needs = ANIC_INIT(anic_requirements);
   const anic_status query = anic_get_requirements(file.data(), file.size(), &options, &needs);
-  anic_requirements of_prefix;
+  anic_requirements of_prefix = ANIC_INIT(anic_requirements);
   const anic_status early = anic_get_requirements(
       file.data(), script.below(static_cast<uint32_t>(file.size()) + 1), &options, &of_prefix);
   require(early != ANIC_E_INTERNAL);
   require(memory.held == 0);
   memory.peak = 0;
   anic_asset* asset = nullptr;
-  anic_failure failure;
+  anic_failure failure = ANIC_INIT(anic_failure);
   const bool by_reader = mode % 4 == 3;
   const anic_status status =
       by_reader ? open_reader(file, options, &asset, &failure)

@@ -54,11 +54,11 @@ struct CappedMemory {
   }
 
   anic_options options() {
-    anic_options o = {};
-    o.limits.vertices = 20000;
-    o.limits.frames = 5000;
-    o.limits.components = 4096;
-    o.limits.bytes = cap / 2;
+    anic_options o = ANIC_INIT(anic_options);
+    o.max_vertices = 20000;
+    o.max_frames = 5000;
+    o.max_components = 4096;
+    o.max_bytes = cap / 2;
     o.allocator = allocator();
     return o;
   }
@@ -103,13 +103,13 @@ class GuardedOutput {
  private:
   static constexpr size_t kGuard = 32;
   std::vector<unsigned char> bytes_;
-  anic_output out_ = {};
+  anic_output out_ = ANIC_INIT(anic_output);
   size_t element_ = 0, size_ = 0;
 };
 
 /// What a host does with an asset, some of it wrong; nothing of it allocates.
 inline void sample(const anic_asset* asset, CappedMemory* memory, Script script) {
-  anic_asset_info info;
+  anic_asset_info info = ANIC_INIT(anic_asset_info);
   anic_get_asset_info(asset, &info);
   require(info.mesh_count > 0 && info.frame_count > 0);
   anic_context* context = nullptr;
@@ -118,17 +118,17 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
   const size_t calls = memory->calls;
   for (int step = 0; step < 6; ++step) {
     const uint32_t mesh = script.below(info.mesh_count);
-    anic_mesh sizes;
+    anic_mesh sizes = ANIC_INIT(anic_mesh);
     require(anic_get_mesh(asset, mesh, &sizes) == ANIC_OK);
     if (script.byte() % 2) {
       const anic_status status = anic_seek_frame(context, script.below(info.frame_count + 1));
       require(status == ANIC_OK || status == ANIC_E_FRAME_RANGE);
     } else {
-      const double span = info.end_time - info.start_time + 1;
-      const double time = info.start_time + span * (script.below(1000) / 300.0 - 1);
-      const auto interpolation = static_cast<anic_sampling>(script.byte() % 4);
-      const auto wrap = static_cast<anic_wrap>(script.byte() % 4);
-      anic_seek_time(context, time, interpolation, wrap);
+      const double span = info.duration + 1;
+      const double time = span * (script.below(1000) / 300.0 - 1);
+      const auto sampling = static_cast<anic_sampling>(static_cast<int32_t>(script.byte() % 5) - 1);
+      const auto wrap = static_cast<anic_wrap>(static_cast<int32_t>(script.byte() % 5) - 1);
+      anic_seek_time(context, time, sampling, wrap);
     }
     const auto when = static_cast<anic_when>(script.byte() % 2);
     const uint32_t first = script.below(sizes.vertex_count + 1);
@@ -145,32 +145,34 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
     }
     const uint32_t attribute = script.below(sizes.attribute_count + 1);
     std::vector<unsigned char> values(size_t{16} * count * 2);
-    const anic_value_output value_out = {values.data(), values.size(), 0,
-                                         static_cast<anic_value_format>(script.byte() % 5),
-                                         script.below(18)};
+    anic_value_output value_out = ANIC_INIT(anic_value_output);
+    value_out.data = values.data();
+    value_out.size = values.size();
+    value_out.format = static_cast<anic_value_format>(script.byte() % 5);
+    value_out.components = script.below(18);
     anic_write_attribute(context, mesh, attribute, when, first, count, &value_out);
     anic_box box;
     if (anic_compute_bounds(context, mesh, when, &box) == ANIC_OK && sizes.vertex_count > 0)
       require(box.min[0] <= box.max[0] && std::isfinite(box.min[2]));
-    anic_part parts[ANIC_MAX_PARTS];
-    uint32_t part_count = 0;
-    if (anic_get_parts(context, mesh, when, parts, &part_count) == ANIC_OK) {
-      for (uint32_t p = 0; p < part_count; ++p) {
-        anic_basis basis;
-        require(anic_get_basis(asset, parts[p].segment, &basis) == ANIC_OK);
+    anic_parts shown = ANIC_INIT(anic_parts);
+    if (anic_get_parts(context, mesh, when, &shown) == ANIC_OK) {
+      for (uint32_t p = 0; p < shown.count; ++p) {
+        anic_basis basis = ANIC_INIT(anic_basis);
+        require(anic_get_basis(asset, shown.parts[p].segment, &basis) == ANIC_OK);
         require(basis.vertex_count == sizes.vertex_count);
-        for (uint32_t k = 0; k < parts[p].correction_count; ++k)
-          require(parts[p].corrections[k].vertex < sizes.vertex_count);
+        for (uint32_t k = 0; k < shown.parts[p].correction_count; ++k)
+          require(shown.parts[p].corrections[k].vertex < sizes.vertex_count);
         for (uint32_t j = 0; j < basis.components * basis.weight_channels; ++j)
-          require(std::isfinite(parts[p].weights[j]));
+          require(std::isfinite(shown.parts[p].weights[j]));
       }
     }
-    if (anic_get_attribute_parts(context, mesh, attribute, 3 * script.below(6), when, parts,
-                                 &part_count) == ANIC_OK) {
-      for (uint32_t p = 0; p < part_count; ++p) {
-        anic_basis basis;
-        require(anic_get_basis(asset, parts[p].segment, &basis) == ANIC_OK);
-        require(basis.attribute == attribute && basis.mesh == mesh);
+    if (anic_get_attribute_parts(context, mesh, attribute, 3 * script.below(6), when, &shown) ==
+        ANIC_OK) {
+      for (uint32_t p = 0; p < shown.count; ++p) {
+        anic_basis basis = ANIC_INIT(anic_basis);
+        require(anic_get_basis(asset, shown.parts[p].segment, &basis) == ANIC_OK);
+        require(basis.target == ANIC_TARGET_ATTRIBUTE && basis.attribute == attribute &&
+                basis.mesh == mesh);
       }
     }
     anic_forget_previous(context);
@@ -181,11 +183,11 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
 
 /// The parts of an asset that do not move.
 inline void look(const anic_asset* asset, Script script) {
-  anic_asset_info info;
+  anic_asset_info info = ANIC_INIT(anic_asset_info);
   anic_get_asset_info(asset, &info);
   for (uint32_t m = 0; m < info.mesh_count; ++m) {
-    anic_mesh sizes;
-    anic_polygons polygons;
+    anic_mesh sizes = ANIC_INIT(anic_mesh);
+    anic_polygons polygons = ANIC_INIT(anic_polygons);
     const uint32_t* copies = nullptr;
     require(anic_get_mesh(asset, m, &sizes) == ANIC_OK);
     require(anic_get_polygons(asset, m, &polygons) == ANIC_OK);
@@ -193,7 +195,7 @@ inline void look(const anic_asset* asset, Script script) {
     for (uint32_t v = 0; v < sizes.vertex_count; ++v)
       require(copies[v] < sizes.coded_vertex_count);
     for (uint32_t i = 0; i < sizes.attribute_count; ++i) {
-      anic_attribute a;
+      anic_attribute a = ANIC_INIT(anic_attribute);
       require(anic_get_attribute(asset, m, i, &a) == ANIC_OK);
       require(a.components > 0 ? a.values != nullptr : a.labels != nullptr || a.count == 0);
       for (uint32_t k = 0; k < a.label_count; ++k)
@@ -213,7 +215,7 @@ inline void look(const anic_asset* asset, Script script) {
     for (const uint32_t v : indices)
       require(v < sizes.vertex_count);
 
-    anic_normal_options wanted = {};
+    anic_normal_plan_options wanted = ANIC_INIT(anic_normal_plan_options);
     wanted.crease_angle = script.byte() % 3 * 30;
     wanted.per_corner = script.byte() % 2;
     wanted.reference_frame = script.below(info.frame_count);

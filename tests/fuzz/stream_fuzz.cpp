@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 
   anic_stream* stream = nullptr;
   require(anic_create_stream(&options, &stream) == ANIC_OK);
-  anic_stream_info info = {};
+  anic_stream_info info = ANIC_INIT(anic_stream_info);
   int opened = 0;
   for (size_t at = 0; at < file.size();) {
     const size_t piece = std::min<size_t>(1 + script.below(2048), file.size() - at);
@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       continue;
     ++opened;
     anic_asset* asset = nullptr;
-    anic_failure failure;
+    anic_failure failure = ANIC_INIT(anic_failure);
     const anic_status open = anic_open_asset_from_stream(stream, &asset, &failure);
     require(open != ANIC_E_INTERNAL && open != ANIC_E_MEMORY);
     if (info.complete)

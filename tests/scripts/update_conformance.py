@@ -71,7 +71,7 @@ class Library:
 
     class Failure(ctypes.Structure):
         """anic_failure"""
-        _fields_ = [("status", ctypes.c_int), ("chunk", ctypes.c_char * 8), ("offset", ctypes.c_uint64),
+        _fields_ = [("struct_size", ctypes.c_size_t), ("status", ctypes.c_int32), ("chunk", ctypes.c_char * 8), ("offset", ctypes.c_uint64),
                     ("detail", ctypes.c_char_p)]
 
     def __init__(self, path):
@@ -81,7 +81,7 @@ class Library:
 
     def status(self, data):
         """Status and what it says of the place."""
-        asset, failure = ctypes.c_void_p(), self.Failure()
+        asset, failure = ctypes.c_void_p(), self.Failure(struct_size=ctypes.sizeof(self.Failure))
         status = self.functions.anic_open_asset(data, ctypes.c_size_t(len(data)), None, ctypes.byref(asset),
                                                 ctypes.byref(failure))
         if status == 0:

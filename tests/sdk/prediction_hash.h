@@ -98,7 +98,8 @@ inline uint64_t reconstruction_hash(const PredictionCase& c) {
                           {c.components, 0, nullptr, clip.q.data(), clip.omega.data()},
                           y.data()) != Status::kOk)
     return 0;
-  reconstruction.run_all();
+  for (size_t l = 0; l < order.level_count(); ++l)
+    reconstruction.run(order.level_start[l], order.level_start[l + 1]);
   uint64_t hash = 0xcbf29ce484222325;
   for (size_t r = 0; r < n; ++r)
     for (size_t s = 0; s < samples; ++s) {

@@ -39,7 +39,7 @@ struct InfoCommand {
 
 struct Contents {
   uint64_t bytes = 0;
-  anic_requirements memory = {};  ///< as the SDK announces it
+  anic_requirements memory = ANIC_INIT(anic_requirements);  ///< as the SDK announces it
   ContainerReader container;
   Clip clip;
 };
@@ -320,8 +320,8 @@ void run(const InfoCommand& command) {
   open_clip(command.input, bytes, {}, contents.clip, Topologies::kAny);
   if (Failure failure = contents.container.open(view_of(bytes)); !failure.ok())
     fail_clip(command.input, failure);
-  anic_options options = {};
-  options.limits.bytes = UINT64_MAX;
+  anic_options options = ANIC_INIT(anic_options);
+  options.max_bytes = UINT64_MAX;
   anic_get_requirements(bytes.data(), bytes.size(), &options,
                         &contents.memory);  // it is open: nothing fails
   if (command.json)

@@ -1,34 +1,63 @@
 /* SPDX-License-Identifier: Apache-2.0
  * SPDX-FileCopyrightText: The anicodec authors
  *
- * anicodec: plays compressed animated meshes (.anic files). This header is all a host needs; it is
- * C99.
+ * anicodec plays compressed animated meshes (.anic files). A host needs this header alone. It is
+ * C99 and C++11.
  *
  *   anic_asset* asset;
  *   anic_context* context;
- *   anic_open_asset(bytes, size, NULL, &asset, NULL);        an opened clip: immutable, shared
- *   anic_create_context(asset, NULL, &context);              an instance of it: small
- *   anic_seek_time(context, seconds, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP);
+ *   anic_output output = ANIC_INIT(anic_output);
+ *   anic_open_asset(bytes, size, NULL, &asset, NULL);       an opened file: immutable, shared
+ *   anic_create_context(asset, NULL, &context);             an instance of it: small
+ *   anic_seek_time(context, seconds, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP);      0 is the first frame
+ *   output.data = points;
+ *   output.size = sizeof points;
  *   anic_write_positions(context, 0, ANIC_WHEN_CURRENT, 0, vertex_count, &output);
  *
- * Conventions of all functions
- *   Status   every function that can fail returns an anic_status. What it was to fill is then
- * unspecified, handles are set to NULL, and every object stays usable. Files    any bytes may be
- * given as a file: damaged and hostile ones are refused with a status. Threads  the library starts
- * none and has no global state. An asset may be used by any number of threads. Functions that take
- * a const anic_context may run at the same time; one that takes a context that is not const needs
- * it to itself. Different contexts are independent. Memory   all comes from the allocator of
- * anic_options. Functions that take a context, other than creating and destroying it, allocate
- * nothing. Floats   the functions compute in the caller's floating-point environment, except while
- * opening. Units    positions are in the units and axes of the clip's source (anic_asset_info says
- * what is known of them); times are in seconds. Spec     sections refer to the folder spec/ of the
- * project.
+ * Names
+ * - Functions begin with a verb, types are nouns. anic_get_...() looks something up and is cheap;
+ *   anic_write_...() computes and fills a buffer of the host.
+ * - The constants of an enumeration share a prefix. Enumerations are 32-bit integers: a number that
+ *   is not in the list is refused with ANIC_E_ARGUMENT.
+ *
+ * Structs and versions
+ * - A struct that begins with struct_size may get more fields at its end in later versions. The
+ *   host sets struct_size to the size that its header gives: ANIC_INIT(type) does, and sets
+ *   everything else to 0. The library touches no byte behind struct_size.
+ * - A host with an older header has smaller structs: the library leaves out the fields that the
+ *   host does not know, and takes those that the host does not give as 0.
+ * - A host with a newer header has larger structs: the library sets the fields that it does not
+ *   know to 0, and refuses those that the host gives, unless they are 0, with ANIC_E_ARGUMENT.
+ * - ANIC_E_ARGUMENT also answers a struct_size below sizeof(size_t) or above 4096: it was not set.
+ * - All other structs are fixed for good.
+ *
+ * Conventions
+ * - Status: every function that can fail returns an anic_status. After a failure the content of
+ *   what it was to fill is unspecified, handles are NULL, and every object stays usable.
+ * - Files: any bytes may be given as a file. A damaged or hostile file is refused with a status.
+ * - Threads: the library starts none and has no global state. Any number of threads may use an
+ *   asset. Functions that take a const anic_context may run at the same time; a function that takes
+ *   a context that is not const needs it to itself. Different contexts are independent.
+ * - Memory: all of it comes from the allocator in anic_options. Functions that take a context,
+ *   apart from creating and destroying it, allocate nothing.
+ * - Floats: functions compute in the caller's floating-point environment, except while opening.
+ * - Space: positions are in the axes and the unit of the clip's source; anic_asset_info tells what
+ *   is known of them. Axes are right-handed, and a polygon shows its front to a viewer who sees its
+ *   corners run counter-clockwise. A host with the y axis up takes (x, z, -y) of a clip with the z
+ *   axis up; a host with z up takes (x, -z, y) of a clip with y up. A left-handed host negates one
+ *   axis and either swaps two corners of each triangle or culls the other side. Multiplying by
+ *   metres_per_unit gives metres.
+ * - Time: seconds, and 0 is the first frame of the clip.
+ * - "Spec" names a section in the folder spec/ of the project.
  */
 #ifndef ANICODEC_ANICODEC_H_
 #define ANICODEC_ANICODEC_H_
 
 #include <stddef.h>
 #include <stdint.h>
+#ifdef __cplusplus
+#include <string.h>
+#endif
 
 #if defined(_WIN32) && defined(ANIC_SHARED)
 #if defined(ANIC_BUILDING)
@@ -42,12 +71,36 @@
 #define ANIC_API
 #endif
 
+/* Enumerations are int32_t in C; in C++ they are types of 32 bits that take any number. */
+#ifdef __cplusplus
+#define ANIC_INT32 : int32_t
+#else
+#define ANIC_INT32
+typedef int32_t anic_status, anic_up_axis, anic_order, anic_attribute_kind, anic_domain,
+    anic_sampling, anic_wrap, anic_when, anic_format, anic_value_format, anic_basis_kind,
+    anic_target, anic_reconstruction;
+#endif
+
+/* ANIC_INIT(type): a struct with its struct_size, and 0 in every other field. */
+#ifdef __cplusplus
+template <class Struct>
+inline Struct anic_init() {
+  Struct result;
+  memset(&result, 0, sizeof result);
+  result.struct_size = sizeof(Struct);
+  return result;
+}
+
+#define ANIC_INIT(type) anic_init<type>()
+#else
+#define ANIC_INIT(type) ((type){.struct_size = sizeof(type)})
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* ------------------------------------------------------------------------------------------------
- * version */
+/* ---- version --------------------------------------------------------------------------------- */
 
 #define ANIC_VERSION_MAJOR 0
 #define ANIC_VERSION_MINOR 1
@@ -56,18 +109,18 @@ extern "C" {
 /** Version of the library that is linked: major << 16 | minor << 8 | patch. */
 ANIC_API uint32_t anic_get_version(void);
 
-/* -------------------------------------------------------------------------------------------------
- * status */
+/* ---- status ---------------------------------------------------------------------------------- */
 
-/** Numbers are fixed for good: none is ever given another meaning. Spec: 12. */
-typedef enum anic_status {
+/** A number keeps its meaning for good. Spec: 12. */
+enum anic_status ANIC_INT32 {
   ANIC_OK = 0,
 
   /* the caller's */
-  ANIC_E_ARGUMENT = 1, /**< an argument makes no sense */
-  ANIC_E_STATE = 2,    /**< the call is not possible now: nothing sampled, not enough of a stream */
+  ANIC_E_ARGUMENT = 1,    /**< an argument makes no sense */
+  ANIC_E_STATE = 2,       /**< the call is not possible now */
   ANIC_E_BUFFER_SIZE = 3, /**< a buffer of the caller is too small */
   ANIC_E_FRAME_RANGE = 4, /**< there is no such frame */
+  ANIC_E_ABSENT = 5,      /**< the mesh is not there at this time */
 
   /* not this format, version or feature */
   ANIC_E_MAGIC = 10,
@@ -97,40 +150,41 @@ typedef enum anic_status {
   ANIC_E_QUANTIZER = 45,
   ANIC_E_NON_FINITE = 46,
   ANIC_E_DRACO = 47,
-  ANIC_E_SEGMENT =
-      48, /**< of a segment; from a sampling function: the mesh is not there at that time */
+  ANIC_E_SEGMENT = 48, /**< a segment contradicts its counts or its mesh */
   ANIC_E_HASH = 49,
 
-  ANIC_E_LIMIT = 60, /**< more than anic_limits allow */
+  ANIC_E_LIMIT = 60, /**< more than anic_options allow */
 
-  ANIC_E_MEMORY = 70, /**< the allocator had no memory */
-  ANIC_E_READ = 71,   /**< the read callback failed */
+  /* the host's callbacks */
+  ANIC_E_MEMORY = 70,    /**< the allocator had no memory */
+  ANIC_E_READ = 71,      /**< the read callback failed */
+  ANIC_E_CANCELLED = 72, /**< the progress callback stopped the call */
 
-  ANIC_E_INTERNAL = 90,        /**< a defect of the library */
-  ANIC_STATUS_MAX = 0x7FFFFFFF /**< none: any number may be given */
-} anic_status;
+  ANIC_E_INTERNAL = 90 /**< a defect of the library */
+};
 
 /** English text of a status without a full stop. Static; never NULL, for any number. */
 ANIC_API const char* anic_get_status_text(anic_status status);
 
-/** What was wrong with a file, and where. */
+/** Tells what was wrong with a file, and where. */
 typedef struct anic_failure {
+  size_t struct_size;
   anic_status status;
-  char chunk[8];      /**< type of the chunk, four characters and a 0; empty outside any chunk */
+  char chunk[8];      /**< type of the chunk: four characters and a 0; empty outside any chunk */
   uint64_t offset;    /**< byte offset in the file, as exact as is known */
   const char* detail; /**< static English text; may be empty, never NULL */
 } anic_failure;
 
-/* -------------------------------------------------------------------------------------------------
- * memory */
+/* ---- the host's memory and threads ----------------------------------------------------------- */
 
 /**
  * Where memory comes from. All zero: malloc() and free().
  *
  * allocate() returns `size` bytes (never 0) at a multiple of `alignment` (a power of two, at most
- * 16), or NULL; then the call that needed it fails with ANIC_E_MEMORY and gives back what it had.
- * release() gets what allocate() returned and the size it was asked for. Both are called only by
- * functions that open, create, push, destroy or close, on their thread, and must return.
+ * 16), or NULL. After NULL the call that needed the memory gives back what it had and fails with
+ * ANIC_E_MEMORY. release() gets what allocate() returned and the size that was asked for. Functions
+ * that open, create, push, destroy or close call both, on the thread that called them; no other
+ * function does. Both must return.
  */
 typedef struct anic_allocator {
   void* user;
@@ -139,55 +193,81 @@ typedef struct anic_allocator {
 } anic_allocator;
 
 /**
- * Makes an allocator that serves from one block of the host's and from nowhere else.
+ * Makes an allocator that serves from one block of the host and from nowhere else.
  *
- * The block belongs to the allocator until everything made with it is destroyed; then the block may
- * simply be dropped. Best fit, neighbours joined when released; sizes are rounded up to 16 bytes;
- * O(free pieces) for each allocation. One thread at a time.
+ * The block belongs to the allocator until everything made with it is destroyed; then the host may
+ * simply drop the block. The search is best fit, neighbours are joined when they are released, and
+ * sizes are rounded up to 16 bytes. An allocation costs O(free pieces). One thread at a time.
  *
- * Errors  ANIC_E_ARGUMENT: a pointer is NULL; ANIC_E_BUFFER_SIZE: less than 256 bytes.
+ * - Errors: ANIC_E_ARGUMENT: a pointer is NULL; ANIC_E_BUFFER_SIZE: less than 256 bytes
  */
 ANIC_API anic_status anic_init_block_allocator(void* block, size_t size, anic_allocator* out);
 
-/* ------------------------------------------------------------------------------------------------
- * opening */
+/**
+ * Threads of the host. All zero: the calling thread alone.
+ *
+ * run() calls body(context, i) once for every i below count, in any order and from any thread, and
+ * returns when all calls have returned. No result depends on the number of threads.
+ */
+typedef struct anic_threads {
+  void* user;
+  void (*run)(void* user, size_t count, void (*body)(void* context, size_t i), void* context);
+} anic_threads;
 
 /**
- * What a file may ask for, checked before anything that depends on a count is allocated:
- * ANIC_E_LIMIT. A field of 0 has the default in brackets.
+ * Follows and stops an opening. All zero: nobody does.
+ *
+ * report() gets the share of the work that is done, from 0 to 1 and never less than before, on the
+ * thread that opens. The calls come at least after every mesh, segment and component that was
+ * decoded. Anything but 0 from report() stops the opening, which gives everything back and fails
+ * with ANIC_E_CANCELLED.
  */
-typedef struct anic_limits {
-  uint64_t vertices;   /**< of a mesh [2^31 - 1] */
-  uint64_t frames;     /**< [2^24 - 1] */
-  uint64_t components; /**< of a segment [2^20] */
-  uint64_t bytes; /**< anic_requirements.opening_bytes [2^28 + 2^14 for each byte of the file] */
-} anic_limits;
+typedef struct anic_progress {
+  void* user;
+  int (*report)(void* user, double done);
+} anic_progress;
+
+/* ---- opening --------------------------------------------------------------------------------- */
 
 enum {
-  /** Computes the box of every frame while opening: anic_get_frame_bounds(),
-   * anic_get_clip_bounds(). Costs playing the clip once, and 24 bytes for each frame and mesh. */
-  ANIC_OPEN_BOUNDS = 1u
+  /** Computes the box of every frame while opening, for anic_get_frame_bounds() and
+   * anic_get_clip_bounds(). This costs what playing all frames once does, and 24 bytes for each
+   * frame and mesh. */
+  ANIC_OPEN_BOUNDS = 1
 };
 
-/** How to open a file. All zero, or a NULL pointer to it: everything by default. */
+/**
+ * How to open a file. A NULL pointer, or 0 in every field: everything by default.
+ *
+ * A file that asks for more than a limit is refused with ANIC_E_LIMIT, before anything that depends
+ * on a count is allocated. A limit of 0 stands for the default in brackets.
+ */
 typedef struct anic_options {
-  anic_limits limits;
+  size_t struct_size;
+  uint64_t max_vertices;   /**< of one mesh [2^31 - 1] */
+  uint64_t max_frames;     /**< [2^24 - 1] */
+  uint64_t max_components; /**< of one segment [2^20] */
+  uint64_t max_bytes; /**< opening_bytes of anic_requirements [2^28, and 2^14 for each byte of the
+                         file] */
   anic_allocator allocator; /**< copied; `user` must outlive what is made with it */
-  double quality; /**< share of the components to open, in (0, 1]; 0 means 1. Less is coarser,
-                     smaller, and faster to open and to play. Spec: 09a, section 4 */
-  uint32_t flags; /**< ANIC_OPEN_... */
+  anic_threads threads;     /**< the boxes of ANIC_OPEN_BOUNDS are computed on them; everything else
+                               runs on the thread that opens */
+  anic_progress progress;
+  double quality; /**< share of the components to open, in (0, 1]; 0 means 1. Fewer components are
+                     coarser, smaller, and faster to open and to play. Spec: 09a, section 4 */
+  uint64_t flags; /**< ANIC_OPEN_... */
 } anic_options;
 
-/** What a file takes, known from its first bytes. Spec: 11, section 3. */
+/** What opening a file takes, known from its first bytes. Spec: 11, section 3. */
 typedef struct anic_requirements {
+  size_t struct_size;
   uint64_t head_bytes;     /**< first bytes of the file that anic_get_requirements() has to see */
   uint64_t file_bytes;     /**< the whole file; 0 while its header is not seen */
   uint64_t resident_bytes; /**< held while the asset is open; within 5 % or 4096 bytes */
-  uint64_t
-      opening_bytes; /**< held at most while it opens, resident ones included, the file excluded */
-  uint64_t draco_bytes; /**< of those, what Draco may take from the global heap at most */
-  uint64_t
-      block_bytes; /**< a block for anic_init_block_allocator() in which the asset can be opened */
+  uint64_t opening_bytes;  /**< held at most while the file opens, resident bytes included, the
+                              bytes of the file excluded */
+  uint64_t draco_bytes;    /**< part of opening_bytes that Draco may take from the global heap */
+  uint64_t block_bytes; /**< a block for anic_init_block_allocator() in which the asset can open */
   uint64_t context_bytes; /**< of one context, at most */
   uint32_t mesh_count;
   uint32_t segment_count;
@@ -197,15 +277,16 @@ typedef struct anic_requirements {
 } anic_requirements;
 
 /**
- * Tells what a file will take, from its first bytes.
+ * Tells what a file will take.
  *
- * `head` holds the first `size` bytes of the file: header, chunk table and the first chunk; a few
- * hundred bytes for most files. If they do not suffice, head_bytes says how many will (or how many
- * will tell).
+ * `head` holds the first `size` bytes of the file: header, chunk table and first chunk, which are a
+ * few hundred bytes in most files. If they do not suffice, head_bytes says how many will, or how
+ * many will tell.
  *
- * Errors   ANIC_E_TRUNCATED: head_bytes are needed; others: anic_open_asset() refuses the file too
- * Memory   32 bytes per chunk, mesh and segment for a moment, from options->allocator. Cost
- * O(them). Spec     05, section 7
+ * - Errors: ANIC_E_TRUNCATED: head_bytes are needed; others: anic_open_asset() refuses the file too
+ * - Memory: 32 bytes for each chunk, mesh and segment for a moment, from options->allocator
+ * - Cost: O(chunks + meshes + segments)
+ * - Spec: 05, section 7
  */
 ANIC_API anic_status anic_get_requirements(const void* head, size_t size,
                                            const anic_options* options, anic_requirements* out);
@@ -216,17 +297,18 @@ typedef struct anic_asset anic_asset;
 /**
  * Opens a whole file in memory. The bytes are not needed afterwards.
  *
- * Params   options and failure may be NULL. `failure` is written in any case.
- * Errors   any that concern the file (spec/12); ANIC_E_LIMIT, ANIC_E_MEMORY, ANIC_E_ARGUMENT
- * Memory   anic_requirements; less than opening_bytes at any time
- * Cost     decodes all coefficients once: microseconds per vertex (spec/10)
+ * - Params: options and failure may be NULL. `failure` is written in any case
+ * - Errors: any that concern the file (spec/12); ANIC_E_LIMIT, ANIC_E_MEMORY, ANIC_E_CANCELLED,
+ *   ANIC_E_ARGUMENT
+ * - Memory: less than opening_bytes of anic_requirements at any time
+ * - Cost: decodes all coefficients once: microseconds per vertex (spec/10)
  */
 ANIC_API anic_status anic_open_asset(const void* file, size_t size, const anic_options* options,
                                      anic_asset** out, anic_failure* failure);
 
 /**
- * Reads a file. read() puts `size` bytes from `offset` on to `to` and returns 0, or anything else
- * when it cannot: the opening then fails with ANIC_E_READ.
+ * Reads a file. read() copies the `size` bytes at `offset` to `to` and returns 0. It returns
+ * anything else when it cannot, or when opening is to stop: opening then fails with ANIC_E_READ.
  */
 typedef struct anic_reader {
   void* user;
@@ -234,10 +316,11 @@ typedef struct anic_reader {
 } anic_reader;
 
 /**
- * Opens a file through a callback. Reads its head, checks the limits, then reads the rest.
+ * Opens a file of file_size bytes through a callback: reads its head, checks the limits, then reads
+ * the rest.
  *
- * file_size is the length of the file. Memory: file_size more than anic_open_asset() while it
- * opens.
+ * - Errors: as anic_open_asset(), and ANIC_E_READ
+ * - Memory: file_size more than anic_open_asset() while it opens
  */
 ANIC_API anic_status anic_open_asset_from_reader(const anic_reader* reader, uint64_t file_size,
                                                  const anic_options* options, anic_asset** out,
@@ -247,136 +330,153 @@ ANIC_API anic_status anic_open_asset_from_reader(const anic_reader* reader, uint
 ANIC_API void anic_close_asset(anic_asset* asset);
 
 /**
- * Compares the hashes in the file with what was decoded: ANIC_E_HASH if this library decodes other
- * integers than the encoder meant. ANIC_E_STATE for an asset that is not complete or of lower
- * quality.
+ * Compares the hashes in the file with what was decoded.
+ *
+ * - Errors: ANIC_E_HASH: this library decodes other integers than the encoder meant; ANIC_E_STATE:
+ *   the asset is not complete or was opened at lower quality; ANIC_E_ARGUMENT
  */
 ANIC_API anic_status anic_verify_asset(const anic_asset* asset);
 
-/* ------------------------------------------------------------------------------------------- what
- * is in it */
+/* ---- what is in an asset --------------------------------------------------------------------- */
 
-typedef enum anic_up_axis { ANIC_UP_UNKNOWN = 0, ANIC_UP_Y = 1, ANIC_UP_Z = 2 } anic_up_axis;
+/** The axis that points up. */
+enum anic_up_axis ANIC_INT32 { ANIC_UP_UNKNOWN = 0, ANIC_UP_Y = 1, ANIC_UP_Z = 2 };
 
-/** What of the source's order came back. Every source vertex is there in any case. Spec: 06,
+/** How much of the source's order the file keeps. It has every source vertex in any case. Spec: 06,
  * section 5. */
-typedef enum anic_order {
+enum anic_order ANIC_INT32 {
   ANIC_ORDER_VERTICES = 0, /**< vertices are numbered as in the source */
-  ANIC_ORDER_FREE = 1,     /**< vertices and polygons are in an order of the encoder's */
+  ANIC_ORDER_FREE = 1,     /**< the encoder chose the order of vertices and polygons */
   ANIC_ORDER_ALL = 2       /**< vertices, polygons and their first corners as in the source */
-} anic_order;
+};
 
 /** Spec: 04 (time, coordinates, promise), 06 section 3. Strings belong to the asset. */
 typedef struct anic_asset_info {
+  size_t struct_size;
+  const char* name;
+  const char* encoder;
   uint32_t mesh_count;
   uint32_t segment_count;
   uint32_t frame_count;
   uint32_t rate_numerator; /**< frames per second = numerator / denominator; a hint if `uneven` */
   uint32_t rate_denominator;
-  uint8_t rate_assumed; /**< the source told no rate */
-  uint8_t uneven;       /**< frames have a table of times: anic_get_frame_time() */
-  uint8_t loop;         /**< meant to be played with ANIC_WRAP_LOOP */
-  uint8_t closed;       /**< the last frame repeats the first */
-  uint8_t massaged;     /**< the mesh was changed before coding: surface_error */
-  uint8_t partial;      /**< a stream that was not complete: some of it is missing, or coarser */
   anic_up_axis up;
   anic_order order;
-  double start_time;      /**< of frame 0, seconds */
-  double end_time;        /**< of the last frame */
+  uint8_t rate_assumed;   /**< the source told no rate */
+  uint8_t uneven;         /**< frames have a table of times: anic_get_frame_time() */
+  uint8_t loop;           /**< meant to be played with ANIC_WRAP_LOOP */
+  uint8_t closed;         /**< the last frame repeats the first */
+  uint8_t massaged;       /**< the mesh was changed before coding: see surface_error */
+  uint8_t partial;        /**< made from a stream that was not complete: parts are missing or
+                             coarser */
+  double start_time;      /**< of frame 0 on the clock of the source, seconds: for tools alone.
+                             Times in this interface count from frame 0 */
+  double duration;        /**< from frame 0 to the last frame, seconds */
   double loop_duration;   /**< of one turn of ANIC_WRAP_LOOP, seconds */
   double metres_per_unit; /**< 0: unknown */
   double diagonal;        /**< of the box around all frames of the source */
-  double max_error;       /**< errors that the encoder measured, at full quality, scene units */
-  double rmse;
-  double kg; /**< per cent */
-  double surface_error;
-  double surface_error_mean;
-  const char* name;
-  const char* encoder;
-  uint64_t resident_bytes; /**< held by this asset */
-  uint64_t context_bytes;  /**< held by each context */
+  double max_error;       /**< largest distance of a vertex from its place in the source, at full
+                             quality, as the encoder measured it; in units of the clip */
+  double rmse;            /**< root of the mean squared error, in units of the clip */
+  double kg;              /**< KG error, per cent */
+  double surface_error;   /**< largest distance from the source's surface, in units of the clip */
+  double surface_error_mean; /**< mean distance from it */
+  uint64_t resident_bytes;   /**< held by this asset */
+  uint64_t context_bytes;    /**< held by each context */
 } anic_asset_info;
 
-ANIC_API void anic_get_asset_info(const anic_asset* asset, anic_asset_info* out);
+/** - Errors: ANIC_E_ARGUMENT */
+ANIC_API anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out);
 
+/** A mesh. The string belongs to the asset. */
 typedef struct anic_mesh {
+  size_t struct_size;
   const char* name;
   uint32_t vertex_count;       /**< of the source, each once */
-  uint32_t coded_vertex_count; /**< distinct among them: the others are copies that move along */
+  uint32_t coded_vertex_count; /**< distinct vertices: the others are copies that move along */
   uint32_t polygon_count;
   uint32_t corner_count;    /**< of all polygons */
-  uint32_t triangle_count;  /**< when polygons are cut into fans: anic_write_indices() */
+  uint32_t triangle_count;  /**< after anic_write_indices() has cut polygons into fans */
   uint32_t attribute_count; /**< anic_get_attribute() */
 } anic_mesh;
 
-/** Errors: ANIC_E_ARGUMENT, no such mesh. */
+/** - Errors: ANIC_E_ARGUMENT: there is no such mesh */
 ANIC_API anic_status anic_get_mesh(const anic_asset* asset, uint32_t mesh, anic_mesh* out);
 
-/** Polygons as in the source; the arrays belong to the asset. */
+/** Polygons as in the source. The arrays belong to the asset. */
 typedef struct anic_polygons {
-  uint32_t polygon_count;
-  const uint32_t* offsets; /**< polygon p has corners offsets[p] .. offsets[p + 1] - 1 */
+  size_t struct_size;
+  const uint32_t* offsets; /**< polygon p has the corners offsets[p] .. offsets[p + 1] - 1 */
   const uint32_t* corners; /**< vertex of each corner */
+  uint32_t polygon_count;
 } anic_polygons;
 
+/** - Errors: ANIC_E_ARGUMENT: there is no such mesh */
 ANIC_API anic_status anic_get_polygons(const anic_asset* asset, uint32_t mesh, anic_polygons* out);
 
 /**
- * Writes an index buffer: every polygon as a fan from its first corner, in order; polygons with
- * fewer than three corners have none. Counter-clockwise as in the source.
+ * Writes an index buffer: every polygon as a fan from its first corner, in order. Polygons with
+ * fewer than three corners give no triangle. Triangles run as the polygons do: counter-clockwise
+ * seen from the front.
  *
- * Shapes   out: triangle_count x 3 indices of index_bytes (2 or 4) each; size: bytes at out
- * Errors   ANIC_E_ARGUMENT: no such mesh, or more than 65536 vertices for 2 bytes;
- * ANIC_E_BUFFER_SIZE
+ * - Shapes: out: triangle_count x 3 indices of index_bytes (2 or 4) each; size: bytes at out
+ * - Errors: ANIC_E_ARGUMENT: no such mesh, or more than 65536 vertices for 2 bytes;
+ *   ANIC_E_BUFFER_SIZE
  */
 ANIC_API anic_status anic_write_indices(const anic_asset* asset, uint32_t mesh,
                                         uint32_t index_bytes, void* out, size_t size);
 
 /**
- * Which coded vertex each vertex is a copy of: vertices with the same number have the same position
- * in every frame. vertex_count numbers below coded_vertex_count, in *out; they belong to the asset.
- * Spec: 07.
+ * Tells which coded vertex each vertex is a copy of: vertices with the same number have the same
+ * position in every frame. *out receives vertex_count numbers below coded_vertex_count, which
+ * belong to the asset. Spec: 07.
+ *
+ * - Errors: ANIC_E_ARGUMENT: there is no such mesh
  */
 ANIC_API anic_status anic_get_coded_vertices(const anic_asset* asset, uint32_t mesh,
                                              const uint32_t** out);
 
 /** What an attribute means. Numbers are fixed. Spec: 06, section 10. */
-typedef enum anic_attribute_kind {
-  ANIC_ATTRIBUTE_UV =
-      0, /**< v upwards: (0, 0) is the lower left corner of an image; some APIs want 1 - v */
-  ANIC_ATTRIBUTE_NORMAL = 1, /**< of the first frame; without components: which corners share one,
-                      that is, hard edges */
+enum anic_attribute_kind ANIC_INT32 {
+  ANIC_ATTRIBUTE_UV = 0,     /**< v upwards: (0, 0) is the lower left corner of an image; some
+                                  graphics interfaces want 1 - v */
+  ANIC_ATTRIBUTE_NORMAL = 1, /**< of the first frame. Without components: labels that say which
+                                corners share a normal, that is, which edges are hard */
   ANIC_ATTRIBUTE_TANGENT = 2,
   ANIC_ATTRIBUTE_COLOUR = 3, /**< RGB or RGBA, 0 to 1 */
   ANIC_ATTRIBUTE_CUSTOM = 4,
   ANIC_ATTRIBUTE_MATERIAL = 5, /**< of polygons: names of materials */
   ANIC_ATTRIBUTE_PART = 6      /**< of polygons: names of the meshes or objects of the source */
-} anic_attribute_kind;
+};
 
-/** What has a value each: vertices, corners or polygons, as anic_get_polygons() numbers them. */
-typedef enum anic_domain {
+/** The elements that have a value each, as anic_get_polygons() numbers them. */
+enum anic_domain ANIC_INT32 {
   ANIC_DOMAIN_VERTICES = 0,
   ANIC_DOMAIN_CORNERS = 1,
   ANIC_DOMAIN_POLYGONS = 2
-} anic_domain;
+};
 
 /** An attribute, as in frame 0. Strings and arrays belong to the asset. */
 typedef struct anic_attribute {
+  size_t struct_size;
   const char* name; /**< as in the source, may be empty */
   anic_attribute_kind kind;
   anic_domain domain;
   uint32_t count;         /**< elements: vertices, corners or polygons */
   uint32_t components;    /**< numbers of an element; 0: it has `labels` */
-  uint32_t label_count;   /**< ANIC_DOMAIN_POLYGONS: names, anic_get_label_name() */
   const float* values;    /**< count x components; NULL without components */
-  const uint32_t* labels; /**< count; of polygons 0 for none, else one more than the number of a
-                             name; of corners, those at a vertex with the same number share a value.
-                             NULL with components */
-  uint8_t
-      moves; /**< of ANIC_DOMAIN_VERTICES: other frames have other values, anic_write_attribute() */
+  const uint32_t* labels; /**< count; NULL with components. A polygon has 0 for none, or one more
+                             than the number of a name. Corners at a vertex with the same label
+                             share a value */
+  uint32_t label_count;   /**< names of ANIC_DOMAIN_POLYGONS: anic_get_label_name() */
+  uint8_t moves; /**< of ANIC_DOMAIN_VERTICES: other frames have other values, for which there is
+                    anic_write_attribute() */
 } anic_attribute;
 
-/** Errors: ANIC_E_ARGUMENT, no such mesh or attribute. O(1). */
+/**
+ * - Errors: ANIC_E_ARGUMENT: there is no such mesh or attribute
+ * - Cost: O(1)
+ */
 ANIC_API anic_status anic_get_attribute(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
                                         anic_attribute* out);
 
@@ -384,18 +484,21 @@ ANIC_API anic_status anic_get_attribute(const anic_asset* asset, uint32_t mesh, 
 ANIC_API const char* anic_get_label_name(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
                                          uint32_t label);
 
-/** Time of a frame in seconds; frames behind the last count as the last. Spec: 04, section 2. */
+/** Time of a frame in seconds; 0 for frame 0. Frames behind the last count as the last. Spec: 04,
+ * section 2. */
 ANIC_API double anic_get_frame_time(const anic_asset* asset, uint32_t frame);
 
-/* ------------------------------------------------------------------------------------------------
- * sampling */
+/* ---- sampling -------------------------------------------------------------------------------- */
 
-/** An instance of an asset: what is shown now, and what was shown before. */
+/** An instance of an asset: it knows what is shown now, and what was shown before. */
 typedef struct anic_context anic_context;
 
 /**
- * Makes a context; allocates context_bytes at once and nothing afterwards. `allocator` may be NULL:
- * the asset's. Many contexts may share an asset.
+ * Makes a context; allocates context_bytes at once and nothing afterwards. Many contexts may share
+ * an asset.
+ *
+ * - Params: allocator may be NULL: the asset's
+ * - Errors: ANIC_E_MEMORY, ANIC_E_ARGUMENT
  */
 ANIC_API anic_status anic_create_context(const anic_asset* asset, const anic_allocator* allocator,
                                          anic_context** out);
@@ -404,69 +507,65 @@ ANIC_API anic_status anic_create_context(const anic_asset* asset, const anic_all
 ANIC_API void anic_destroy_context(anic_context* context);
 
 /** What is shown between two frames. Spec: 10, section 2. */
-typedef enum anic_sampling {
+enum anic_sampling ANIC_INT32 {
   ANIC_SAMPLE_STEP = 0,   /**< the frame before */
-  ANIC_SAMPLE_LINEAR = 1, /**< between the frames before and after */
-  ANIC_SAMPLE_CUBIC =
-      2, /**< a smooth curve through four frames (Catmull-Rom, for uneven times too) */
-  ANIC_SAMPLE_MAX_ENUM = 0x7FFFFFFF /**< none: any number may be given */
-} anic_sampling;
+  ANIC_SAMPLE_LINEAR = 1, /**< a straight line from the frame before to the frame after */
+  ANIC_SAMPLE_CUBIC = 2 /**< a smooth curve through four frames (Catmull-Rom; knows uneven times) */
+};
 
-/** What is shown outside the clip. Any speed, and backwards, is a matter of the time asked for. */
-typedef enum anic_wrap {
-  ANIC_WRAP_CLAMP = 0,       /**< the first and the last frame stay */
-  ANIC_WRAP_LOOP = 1,        /**< frame 0 follows the last frame; if info.closed, they are one */
-  ANIC_WRAP_PING_PONG = 2,   /**< backwards after the last frame, forwards after the first */
-  ANIC_WRAP_MAX = 0x7FFFFFFF /**< none: any number may be given */
-} anic_wrap;
+/** What is shown outside the clip. */
+enum anic_wrap ANIC_INT32 {
+  ANIC_WRAP_CLAMP = 0,    /**< the first and the last frame stay */
+  ANIC_WRAP_LOOP = 1,     /**< frame 0 follows the last frame; if info.closed, they are one */
+  ANIC_WRAP_PING_PONG = 2 /**< backwards after the last frame, forwards after the first */
+};
 
 /**
- * Chooses a frame. What was chosen before becomes ANIC_WHEN_PREVIOUS.
+ * Chooses a frame. The frame or time chosen before becomes ANIC_WHEN_PREVIOUS.
  *
- * Errors   ANIC_E_FRAME_RANGE
- * Cost     O(log segments), the same for every frame. Spec: 10. In segments of
- * ANIC_RECONSTRUCTION_MSGI the shape is made here: O(vertices x log vertices)
+ * - Errors: ANIC_E_FRAME_RANGE, ANIC_E_ARGUMENT
+ * - Cost: O(log segments), the same for every frame. In segments of ANIC_RECONSTRUCTION_MSGI the
+ *   shape is made here: O(vertices x log vertices). Spec: 10
  */
 ANIC_API anic_status anic_seek_frame(anic_context* context, uint32_t frame);
 
 /**
- * Chooses a time in seconds; frame 0 is at info.start_time. What was chosen before becomes
- * ANIC_WHEN_PREVIOUS.
+ * Chooses a time in seconds; 0 is frame 0. The frame or time chosen before becomes
+ * ANIC_WHEN_PREVIOUS. To play at another speed or backwards, ask for other times.
  *
- * Weights and maps are interpolated, not positions, so that a frame in between costs what a whole
- * one does; rigid motions turn the shorter way. Where the frames are in different segments, each is
- * made and their positions are interpolated: twice the cost. Corrections of single vertices are
- * applied at whole frames only; a time within 1/1024 of the way from a frame to the next is that
- * frame.
+ * Weights and maps are interpolated, not positions: a time between frames costs what a whole frame
+ * does, and rigid motions turn the shorter way. Frames in different segments are each made and
+ * their positions interpolated, at twice the cost. Corrections of single vertices are applied at
+ * whole frames only; a time within 1/1024 of the way from one frame to the next is a whole frame.
  *
- * Errors   ANIC_E_ARGUMENT: a time that is not finite
- * Cost     O(components + log segments); with a table of times + O(log frames). In segments of
- *          ANIC_RECONSTRUCTION_MSGI the shape is made here
+ * - Errors: ANIC_E_ARGUMENT: a time that is not finite, an enumerator that does not exist
+ * - Cost: O(components + log segments); with a table of times O(log frames) more. In segments of
+ *   ANIC_RECONSTRUCTION_MSGI the shape is made here: O(vertices x log vertices)
  */
 ANIC_API anic_status anic_seek_time(anic_context* context, double seconds, anic_sampling sampling,
                                     anic_wrap wrap);
 
 /**
  * Makes ANIC_WHEN_PREVIOUS the same as ANIC_WHEN_CURRENT: no motion, after a cut.
- * Errors: ANIC_E_STATE, nothing is chosen yet.
+ *
+ * - Errors: ANIC_E_STATE: nothing is chosen yet
  */
 ANIC_API anic_status anic_forget_previous(anic_context* context);
 
-/** Which of the two times that a context knows. */
-typedef enum anic_when {
-  ANIC_WHEN_CURRENT = 0, /**< what the last seek chose */
-  ANIC_WHEN_PREVIOUS =
-      1, /**< what the one before chose, for motion vectors; the same after the first seek */
-  ANIC_WHEN_MAX = 0x7FFFFFFF /**< none: any number may be given */
-} anic_when;
+/** One of the two times that a context knows. */
+enum anic_when ANIC_INT32 {
+  ANIC_WHEN_CURRENT = 0, /**< chosen by the last seek */
+  ANIC_WHEN_PREVIOUS = 1 /**< chosen by the seek before, for motion vectors; the same as the
+                            current time after the first seek */
+};
 
 /**
- * How a position or normal is stored, in the machine's byte order. The formats of four components
- * write 1 as the last one. The 16-bit formats store t = (x - offset) / scale: as IEEE binary16,
- * rounded to nearest; as round(65535 t), clamped to t = 0 .. 1; as round(32767 t), clamped to t =
- * -1 .. 1.
+ * How a position or normal is stored, in the machine's byte order. Formats of four components have
+ * 1 as the last one. The 16-bit formats store t = (x - offset) / scale: FLOAT16 as IEEE binary16,
+ * rounded to nearest; UNORM16 as round(65535 t), t clamped to 0 .. 1; SNORM16 as round(32767 t), t
+ * clamped to -1 .. 1.
  */
-typedef enum anic_format {
+enum anic_format ANIC_INT32 {
   ANIC_FORMAT_FLOAT32X3 = 0,
   ANIC_FORMAT_FLOAT32X4 = 1,
   ANIC_FORMAT_FLOAT16X3 = 2,
@@ -474,15 +573,15 @@ typedef enum anic_format {
   ANIC_FORMAT_UNORM16X3 = 4,
   ANIC_FORMAT_UNORM16X4 = 5,
   ANIC_FORMAT_SNORM16X3 = 6,
-  ANIC_FORMAT_SNORM16X4 = 7,
-  ANIC_FORMAT_MAX = 0x7FFFFFFF /**< none: any number may be given */
-} anic_format;
+  ANIC_FORMAT_SNORM16X4 = 7
+};
 
 /**
  * Where to write positions or normals. Every component is written once, at ascending addresses, and
  * nothing is read: the memory may be write-combined. Bytes between elements stay untouched.
  */
 typedef struct anic_output {
+  size_t struct_size;
   void* data;    /**< of the first element asked for; any alignment */
   size_t size;   /**< bytes that may be written from data on */
   size_t stride; /**< bytes from an element to the next; 0: packed */
@@ -495,41 +594,42 @@ typedef struct anic_output {
  * Writes positions of the vertices first .. first + count - 1 of a mesh. Threads may write disjoint
  * ranges at the same time; the result does not depend on how a mesh is cut into ranges.
  *
- * Errors   ANIC_E_STATE: nothing chosen yet; ANIC_E_ARGUMENT; ANIC_E_BUFFER_SIZE; ANIC_E_SEGMENT:
- * the mesh is not there at that time Cost     O(count x components), the same for every frame;
- * ranges that begin at multiples of 16 are best Spec     09a, section 1; tolerance: 09a, section 7
+ * - Errors: ANIC_E_STATE: nothing is chosen yet; ANIC_E_ABSENT: the mesh is not there at this time;
+ *   ANIC_E_ARGUMENT; ANIC_E_BUFFER_SIZE
+ * - Cost: O(count x components), the same for every frame. Begin ranges at multiples of 16
+ * - Spec: 09a, section 1; tolerance: 09a, section 7
  */
 ANIC_API anic_status anic_write_positions(const anic_context* context, uint32_t mesh,
                                           anic_when when, uint32_t first, uint32_t count,
                                           const anic_output* out);
 
 /** How a value of an attribute is stored, in the machine's byte order. */
-typedef enum anic_value_format {
+enum anic_value_format ANIC_INT32 {
   ANIC_VALUE_FLOAT32 = 0,
-  ANIC_VALUE_FLOAT16 = 1,            /**< IEEE binary16, rounded to nearest */
-  ANIC_VALUE_UNORM8 = 2,             /**< round(255 x), clamped to x = 0 .. 1 */
-  ANIC_VALUE_UNORM16 = 3,            /**< round(65535 x), clamped to x = 0 .. 1 */
-  ANIC_VALUE_FORMAT_MAX = 0x7FFFFFFF /**< none: any number may be given */
-} anic_value_format;
+  ANIC_VALUE_FLOAT16 = 1, /**< IEEE binary16, rounded to nearest */
+  ANIC_VALUE_UNORM8 = 2,  /**< round(255 x), x clamped to 0 .. 1 */
+  ANIC_VALUE_UNORM16 = 3  /**< round(65535 x), x clamped to 0 .. 1 */
+};
 
 /** Where to write values of an attribute; written as anic_output is. */
 typedef struct anic_value_output {
+  size_t struct_size;
   void* data;    /**< of the first element asked for; any alignment */
   size_t size;   /**< bytes that may be written from data on */
   size_t stride; /**< bytes from an element to the next; 0: packed */
   anic_value_format format;
   uint32_t components; /**< to be written of each element, at most 16; 0: as many as the attribute
-                          has. Those that it does not have are 0, the fourth 1 */
+                          has. A component that it does not have is 0, or 1 if it is the fourth */
 } anic_value_output;
 
 /**
- * Writes values of an attribute of vertices, moving or not, at the time chosen: of the vertices
- * first .. first + count - 1 of a mesh. Between frames they are interpolated as the seek said,
- * positions and values alike.
+ * Writes values of an attribute at the time chosen, of the vertices first .. first + count - 1 of a
+ * mesh; the attribute need not move. Between frames values are interpolated as positions are.
  *
- * Errors   ANIC_E_ARGUMENT: no such attribute, or not one of ANIC_DOMAIN_VERTICES with components;
- * others as anic_write_positions() Cost     O(count x components of its segments), the same for
- * every frame Spec 09a, section 8
+ * - Errors: ANIC_E_ARGUMENT: no such attribute, or not one of ANIC_DOMAIN_VERTICES with components;
+ *   others as anic_write_positions()
+ * - Cost: O(count x components of its segments), the same for every frame
+ * - Spec: 09a, section 8
  */
 ANIC_API anic_status anic_write_attribute(const anic_context* context, uint32_t mesh,
                                           uint32_t attribute, anic_when when, uint32_t first,
@@ -539,127 +639,147 @@ ANIC_API anic_status anic_write_attribute(const anic_context* context, uint32_t 
 #define ANIC_MAX_FRAMES 16
 
 /**
- * Writes positions in several whole frames, without a context: to outputs[i] those of frames[i].
- * Consecutive frames, four and four, take about half the time of one by one, and come out the same.
+ * Writes positions in several whole frames, without a context: those of frames[i] to outputs[i].
+ * Consecutive frames, four at a time, take about half the time of single ones, and come out the
+ * same.
  *
- * Shapes   frames, outputs: frame_count, at most ANIC_MAX_FRAMES; outputs must not overlap
- * Errors   ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE, ANIC_E_FRAME_RANGE, ANIC_E_SEGMENT; ANIC_E_STATE: a
- *          segment of ANIC_RECONSTRUCTION_MSGI, which needs the memory of a context
+ * - Shapes: frames, outputs: frame_count, at most ANIC_MAX_FRAMES; the outputs have one struct_size
+ *   and must not overlap
+ * - Errors: ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE, ANIC_E_FRAME_RANGE, ANIC_E_ABSENT; ANIC_E_STATE: a
+ *   segment of ANIC_RECONSTRUCTION_MSGI, which needs the memory of a context
  */
 ANIC_API anic_status anic_write_frames(const anic_asset* asset, uint32_t mesh,
                                        const uint32_t* frames, uint32_t frame_count, uint32_t first,
                                        uint32_t count, const anic_output* outputs);
 
-/* --------------------------------------------------------------------------------------------------
- * bounds */
+/* ---- bounds ---------------------------------------------------------------------------------- */
 
+/** An axis-aligned box. */
 typedef struct anic_box {
   float min[3], max[3];
 } anic_box;
 
-/** The exact box of what is chosen. Costs what anic_write_positions() does. Errors as there. */
+/**
+ * Computes the exact box of a mesh at the time chosen.
+ *
+ * - Errors: as anic_write_positions()
+ * - Cost: that of anic_write_positions()
+ */
 ANIC_API anic_status anic_compute_bounds(const anic_context* context, uint32_t mesh, anic_when when,
                                          anic_box* out);
 
 /**
- * The exact box of a whole frame, from a table: O(1).
- * Errors: ANIC_E_STATE: opened without ANIC_OPEN_BOUNDS; ANIC_E_ARGUMENT; ANIC_E_FRAME_RANGE;
- * ANIC_E_SEGMENT: the mesh is not there in this frame.
+ * Looks up the exact box of a whole frame.
+ *
+ * - Errors: ANIC_E_STATE: opened without ANIC_OPEN_BOUNDS; ANIC_E_ABSENT: the mesh is not there in
+ *   this frame; ANIC_E_ARGUMENT; ANIC_E_FRAME_RANGE
+ * - Cost: O(1)
  */
 ANIC_API anic_status anic_get_frame_bounds(const anic_asset* asset, uint32_t mesh, uint32_t frame,
                                            anic_box* out);
 
 /**
- * The box around all frames. Positions between frames may leave it a little with ANIC_SAMPLE_CUBIC,
- * or where a segment turns; step and linear interpolation of clips without rigid motions never do,
- * but for rounding.
+ * Looks up the box around all frames. Between frames, positions may leave it a little with
+ * ANIC_SAMPLE_CUBIC, and in segments with rigid motions; with ANIC_SAMPLE_STEP and
+ * ANIC_SAMPLE_LINEAR all other positions stay inside, up to rounding.
+ *
+ * - Errors: ANIC_E_STATE: opened without ANIC_OPEN_BOUNDS; ANIC_E_ABSENT: the mesh is in no frame;
+ *   ANIC_E_ARGUMENT
+ * - Cost: O(1)
  */
 ANIC_API anic_status anic_get_clip_bounds(const anic_asset* asset, uint32_t mesh, anic_box* out);
 
-/* -------------------------------------------------------------------------------------------------
- * normals */
+/* ---- normals --------------------------------------------------------------------------------- */
 
 /** How to make normals of a mesh: which corners a normal is averaged over. Immutable, shared. */
 typedef struct anic_normal_plan anic_normal_plan;
 
-typedef struct anic_normal_options {
-  double crease_angle; /**< degrees; edges whose polygons' normals are further apart are hard. 0:
-                          none is; a small one, such as 0.001, shades flat what is not coplanar */
-  uint32_t reference_frame; /**< the frame in which the angles are looked at, for all frames */
+/** A NULL pointer, or 0 in every field: everything by default. */
+typedef struct anic_normal_plan_options {
+  size_t struct_size;
+  double crease_angle;      /**< degrees; an edge is hard if the normals of its polygons are further
+                               apart. 0: no edge is hard. A small angle, such as 0.001, gives flat
+                               shading wherever polygons are not coplanar */
+  uint32_t reference_frame; /**< the frame in which the angles are measured, for all frames */
   uint8_t per_corner;       /**< normals for each corner (anic_polygons) instead of each vertex */
-  uint8_t source_edges; /**< edges are hard where they are in the source, whatever the angle, if the
+  uint8_t source_edges; /**< edges are hard that are hard in the source, whatever the angle, if the
                            file tells (ANIC_ATTRIBUTE_NORMAL without components); else by
                            crease_angle */
-} anic_normal_options;
+} anic_normal_plan_options;
 
 /**
- * Prepares normals that are recomputed from positions; normals that a file holds are an attribute,
- * ANIC_ATTRIBUTE_NORMAL. They are smooth across copies of a vertex (anic_get_coded_vertices()), so
+ * Prepares normals that are recomputed from positions. Normals that a file holds are an attribute
+ * instead: ANIC_ATTRIBUTE_NORMAL. Copies of a vertex (anic_get_coded_vertices()) share a normal, so
  * that seams of the source do not show unless they are creases.
  *
- * A normal is the sum of the cross products of the edges at the corners it is averaged over, so
- * that larger faces count more, of length one; (0, 0, 1) where that sum is 0. With per_corner = 0,
- * all corners of a vertex share one, hard edges between them or not.
+ * A normal is the sum of the cross products of the edges at the corners it is averaged over,
+ * scaled to length one, so that larger faces count more; it is (0, 0, 1) if that sum is 0. It
+ * points to the side from which the corners run counter-clockwise. With per_corner = 0 all corners
+ * of a vertex share one normal, even across hard edges.
  *
- * Params   options may be NULL; allocator may be NULL: the asset's
- * Memory   4 bytes for each element and 8 to 20 for each corner; 40 more while it is made. Does not
- * refer to the asset. Errors   ANIC_E_ARGUMENT, ANIC_E_FRAME_RANGE, ANIC_E_SEGMENT, ANIC_E_MEMORY
+ * - Params: options may be NULL; allocator may be NULL: the asset's
+ * - Memory: 4 bytes for each element and 8 to 20 for each corner; 40 more while it is made. The
+ *   plan does not refer to the asset
+ * - Errors: ANIC_E_ARGUMENT, ANIC_E_FRAME_RANGE, ANIC_E_MEMORY; ANIC_E_ABSENT: the mesh is not
+ *   there in the reference frame
  */
 ANIC_API anic_status anic_create_normal_plan(const anic_asset* asset, uint32_t mesh,
-                                             const anic_normal_options* options,
+                                             const anic_normal_plan_options* options,
                                              const anic_allocator* allocator,
                                              anic_normal_plan** out);
 
 /** NULL is allowed. */
-ANIC_API void anic_destroy_normal_plan(anic_normal_plan* normals);
+ANIC_API void anic_destroy_normal_plan(anic_normal_plan* plan);
 
-/** Vertices, or corners: how many normals there are. */
-ANIC_API uint32_t anic_get_normal_count(const anic_normal_plan* normals);
+/** How many normals there are: one for each vertex, or one for each corner. */
+ANIC_API uint32_t anic_get_normal_count(const anic_normal_plan* plan);
 
 /**
- * Writes the normals first .. first + count - 1 of a mesh in a pose. ANIC_FORMAT_SNORM16X4 with no
- * offset and no scale suits them.
+ * Writes the normals first .. first + count - 1 of a mesh in a pose. ANIC_FORMAT_SNORM16X4 with
+ * offset 0 and scale 1 suits them. Allocates nothing.
  *
- * Shapes   positions: vertex_count x 3 float32, `stride` bytes from a vertex to the next (0: 12),
- * as anic_write_positions() writes; multiples of four bytes Errors   ANIC_E_ARGUMENT,
- * ANIC_E_BUFFER_SIZE. Cost  O(corners averaged over).   Allocates nothing.
+ * - Shapes: positions: vertex_count x 3 float32, as anic_write_positions() writes them; `stride`:
+ *   bytes from a vertex to the next, a multiple of four (0: 12)
+ * - Errors: ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE
+ * - Cost: O(corners averaged over)
  */
-ANIC_API anic_status anic_write_normals(const anic_normal_plan* normals, const float* positions,
+ANIC_API anic_status anic_write_normals(const anic_normal_plan* plan, const float* positions,
                                         size_t stride, uint32_t first, uint32_t count,
                                         const anic_output* out);
 
-/* -------------------------------------------------------------------------------------------
- * interpolation */
+/* ---- morphing meshes of the host ------------------------------------------------------------- */
 
 /**
- * Interpolates between meshes of one connectivity, without a file: lengths, angles and volume keep
- * where limbs turn far (multi-scale geometry interpolation; spec: 09d says how). Immutable, shared
- * by threads.
+ * Blends meshes of one connectivity that the host gives, without a file, by multi-scale geometry
+ * interpolation (MSGI): lengths, angles and volume keep even if limbs turn far. Immutable, shared
+ * by threads. Spec: 09d.
  */
 typedef struct anic_morpher anic_morpher;
 
-/** All zero, or a NULL pointer to it: everything by default. */
+/** A NULL pointer, or 0 in every field: everything by default. */
 typedef struct anic_morpher_options {
-  uint32_t leaf_faces; /**< faces of the smallest patches, 1 to 255; 0 means 8 */
-  uint32_t
-      sweeps; /**< rounds that adapt the patches' rotations to what they are pulled to: none for
-                 plain interpolation; 1 or 2 may help far outside the meshes, 5 to 20 with pins */
+  size_t struct_size;
+  uint64_t max_bytes;   /**< ANIC_E_LIMIT when more would be held; 0 means 2^32 */
   const uint32_t* pins; /**< vertices whose positions anic_morph() is given; each at most once */
   uint32_t pin_count;
-  uint64_t bytes; /**< ANIC_E_LIMIT when more would be held; 0 means 2^32 */
+  uint32_t leaf_faces; /**< faces of the smallest patches, 1 to 255; 0 means 8 */
+  uint32_t sweeps;     /**< rounds that adapt the patches' rotations to their neighbours. 0 is plain
+                          MSGI; 1 or 2 may help far outside the meshes, 5 to 20 with pins */
 } anic_morpher_options;
 
 /**
- * Prepares the interpolation. Nothing that is given is kept.
+ * Prepares a morpher. It keeps nothing of what it is given.
  *
  * Any triangles will do: holes, several parts, duplicate and degenerate faces, edges of many faces.
- * Parts that share no vertex are interpolated apart; vertices of no triangle move on straight
- * lines.
+ * Parts that share no vertex move independently; vertices of no triangle move on straight lines.
  *
- * Shapes   triangles: triangle_count x 3; meshes: mesh_count (2 or more) pointers to vertex_count x
- * 3 Errors   ANIC_E_ARGUMENT; ANIC_E_INDEX_RANGE: a corner is no vertex; ANIC_E_NON_FINITE: a
- * coordinate; ANIC_E_LIMIT; ANIC_E_MEMORY; ANIC_E_FEATURE: a build without it Cost     O(vertices x
- * log vertices + vertices x meshes) and factoring a sparse matrix, O(vertices^1.5)
+ * - Shapes: triangles: triangle_count x 3; meshes: mesh_count (2 or more) pointers to vertex_count
+ *   x 3
+ * - Params: options may be NULL; allocator may be NULL: malloc() and free()
+ * - Errors: ANIC_E_ARGUMENT; ANIC_E_INDEX_RANGE: a corner is no vertex; ANIC_E_NON_FINITE: a
+ *   coordinate; ANIC_E_LIMIT; ANIC_E_MEMORY; ANIC_E_FEATURE: a build without MSGI
+ * - Cost: O(vertices x log vertices + vertices x meshes) and factoring a sparse matrix,
+ *   O(vertices^1.5)
  */
 ANIC_API anic_status anic_create_morpher(const uint32_t* triangles, uint32_t triangle_count,
                                          uint32_t vertex_count, const float* const* meshes,
@@ -670,99 +790,99 @@ ANIC_API anic_status anic_create_morpher(const uint32_t* triangles, uint32_t tri
 ANIC_API void anic_destroy_morpher(anic_morpher* morpher);
 
 typedef struct anic_morpher_info {
-  uint32_t vertex_count;
-  uint32_t mesh_count;
+  size_t struct_size;
   uint64_t resident_bytes;
   uint64_t scratch_bytes; /**< that anic_morph() works in */
-  double largest_turn;    /**< radians between neighbouring patches, in any mesh against the first:
-                             above a    right angle, smaller patches may do better */
+  double largest_turn;    /**< radians between neighbouring patches, in any mesh against the first.
+                             Above a right angle, smaller patches may do better */
+  uint32_t vertex_count;
+  uint32_t mesh_count;
 } anic_morpher_info;
 
-ANIC_API void anic_get_morpher_info(const anic_morpher* morpher, anic_morpher_info* out);
+/** - Errors: ANIC_E_ARGUMENT */
+ANIC_API anic_status anic_get_morpher_info(const anic_morpher* morpher, anic_morpher_info* out);
 
 /**
- * Threads of the host. run() calls body(context, i) once for every i below count, in any order and
- * from any thread, and returns when all calls have.
- */
-typedef struct anic_threads {
-  void (*run)(void* host, size_t count, void (*body)(void* context, size_t i), void* context);
-  void* host;
-} anic_threads;
-
-/**
- * Writes the mesh at some weights, which sum to one; outside [0, 1] they extrapolate. At the
- * weights of one mesh it is that mesh, to rounding.
+ * Writes the mesh at some weights, which sum to one; weights outside [0, 1] extrapolate. At the
+ * weights of one mesh it is that mesh, up to rounding. Allocates nothing.
  *
- * Shapes   weights: mesh_count; pin_positions: pin_count x 3, may be NULL without pins; out:
- * vertex_count x 3; scratch: scratch_bytes at a multiple of 8. threads may be NULL; the result does
- * not depend on them Errors   ANIC_E_ARGUMENT: weights that are not finite or do not sum to one
- * within 1e-5, pins missing; ANIC_E_BUFFER_SIZE: scratch too small Cost     O(vertices x (log
- * vertices + meshes of a weight other than 0)). Allocates nothing.
+ * - Shapes: weights: mesh_count; pin_positions: pin_count x 3, may be NULL without pins; out:
+ *   vertex_count x 3; scratch: scratch_bytes at a multiple of 8
+ * - Params: threads may be NULL
+ * - Errors: ANIC_E_ARGUMENT: weights that are not finite or do not sum to one within 1e-5, pins
+ *   missing; ANIC_E_BUFFER_SIZE: scratch too small
+ * - Cost: O(vertices x (log vertices + meshes of a weight other than 0))
  */
 ANIC_API anic_status anic_morph(const anic_morpher* morpher, const double* weights,
                                 const float* pin_positions, const anic_threads* threads,
                                 void* scratch, size_t scratch_size, float* out);
 
-/* -----------------------------------------------------------------------------------------------------
- * GPU */
+/* ---- GPU ------------------------------------------------------------------------------------- */
 
-typedef enum anic_basis_kind {
+/** How the basis of a segment was found. */
+enum anic_basis_kind ANIC_INT32 {
   ANIC_BASIS_KEYFRAMES = 0,
   ANIC_BASIS_EIGENSHAPES = 1,
   ANIC_BASIS_EIGENTRAJECTORIES = 2
-} anic_basis_kind;
+};
 
-/** In place of the number of an attribute: the positions. */
-#define ANIC_POSITIONS UINT32_MAX
+/** What a basis moves. */
+enum anic_target ANIC_INT32 {
+  ANIC_TARGET_POSITIONS = 0, /**< the positions of a mesh */
+  ANIC_TARGET_ATTRIBUTE = 1  /**< three components of an attribute of its vertices, or fewer */
+};
 
 /** How positions come from a basis. */
-typedef enum anic_reconstruction {
+enum anic_reconstruction ANIC_INT32 {
   ANIC_RECONSTRUCTION_LINEAR = 0, /**< a linear combination */
-  ANIC_RECONSTRUCTION_MSGI =
-      1 /**< multi-scale geometry interpolation between key-frames: anic_part.shape. Spec: 09d */
-} anic_reconstruction;
+  ANIC_RECONSTRUCTION_MSGI = 1    /**< multi-scale geometry interpolation between key-frames, see
+                                     anic_part.shape. Spec: 09d */
+};
 
-/** Vertices are stored in blocks of this many: one number of all of them lies together. */
+/** Vertices of a block: blocks store the same coefficient of all their vertices side by side. */
 #define ANIC_BLOCK_VERTICES 16
 
 /**
- * The basis of a segment, to be uploaded once. The arrays belong to the asset. With b = v / 16, i =
- * v % 16:
+ * The basis of a segment, to be uploaded once. The arrays belong to the asset. With b = v / 16 and
+ * i = v % 16:
+ * - pose(v)[c] = pose[(b * 3 + c) * 16 + i]
+ * - basis(j, v)[c] = wide[((b * wide_components + j) * channels + c) * 16 + i] for j below
+ *   wide_components
+ * - basis(j, v)[c] = narrow[((b * n + j - wide_components) * channels + c) * 16 + i] for the other
+ *   j, with n = components - wide_components
  *
- *   pose(v)[c]     = pose[(b * 3 + c) * 16 + i]
- *   basis(j, v)[c] = wide[((b * wide_components + j) * channels + c) * 16 + i]           j <
- * wide_components narrow[((b * (components - wide_components) + j - wide_components)
- *                            * channels + c) * 16 + i]                                    otherwise
- *
- * Vertices behind the last one fill the last block with zeros. Spec: 09a, sections 1 and 5.
+ * Zeros fill the last block behind the last vertex. Spec: 09a, sections 1 and 5.
  */
 typedef struct anic_basis {
+  size_t struct_size;
   anic_basis_kind kind;
+  anic_reconstruction reconstruction;
+  anic_target target;
   uint32_t mesh;
+  uint32_t attribute; /**< of ANIC_TARGET_ATTRIBUTE: its number. The x of anic_part is to be added
+                         to anic_attribute.values */
+  uint32_t first_component; /**< of ANIC_TARGET_ATTRIBUTE: the basis moves this component and the
+                               two after it, if the attribute has them */
   uint32_t first_frame;
   uint32_t frame_count;
   uint32_t vertex_count;
   uint32_t components;
   uint32_t wide_components;
-  uint32_t channels; /**< 3: a vector, one weight; 1: a number, a weight for each of x, y, z */
+  uint32_t channels; /**< 3: basis(j, v) is a vector, with one weight; 1: it is a number, with
+                        a weight for each of x, y, z */
   uint32_t weight_channels; /**< weights of a component: 1 for vectors, 3 for numbers */
+  float origin[3];          /**< of ANIC_BASIS_KEYFRAMES: added to every vertex before the motion */
   const float* pose;        /**< NULL: none */
   const int32_t* wide;
   const int16_t* narrow;
   size_t pose_count; /**< elements of the arrays */
   size_t wide_count;
   size_t narrow_count;
-  float origin[3]; /**< of kind 0: added to every vertex before the motion */
-  anic_reconstruction reconstruction;
-  const uint32_t* vertex_shape; /**< of ANIC_RECONSTRUCTION_MSGI: point of the shape that each
-                                   vertex is; NULL: its own */
-  uint32_t attribute; /**< ANIC_POSITIONS, or the attribute of the mesh that it moves: x of
-                         anic_part is then to be added to anic_attribute.values, */
-  uint32_t
-      first_component; /**< three components of it, or as many as there are, from this one on */
+  const uint32_t* vertex_shape; /**< of ANIC_RECONSTRUCTION_MSGI: the point of the shape that each
+                                   vertex is; NULL: vertex v is point v */
 } anic_basis;
 
-/** Errors: ANIC_E_ARGUMENT: no such segment; ANIC_E_SEGMENT: it has not arrived yet. */
+/** - Errors: ANIC_E_ARGUMENT: there is no such segment; ANIC_E_STATE: it has not arrived yet */
 ANIC_API anic_status anic_get_basis(const anic_asset* asset, uint32_t segment, anic_basis* out);
 
 /** Moves one vertex in one frame, after everything else. */
@@ -772,15 +892,14 @@ typedef struct anic_correction {
 } anic_correction;
 
 /**
- * What a shader needs for one time beside the basis of a segment:
+ * What a shader needs for one time, beside the basis of a segment:
+ * - x = pose_map * (pose(v), 1) + sum over j of weights[j * weight_channels + c] * basis(j, v)[c]
+ * - x = motion * (x + origin, 1)
+ * - x = x + delta of the corrections of v, which are few and ascending by vertex
  *
- *   x = pose_map * (pose(v), 1) + sum over j of weights[j * weight_channels + c] * basis(j, v)[c]
- *       (channels 1: basis(j, v) times each of the three weights)
- *   x = motion * (x + origin, 1)            then the corrections, which are few: ascending by
- * vertex
- *
- * With ANIC_RECONSTRUCTION_MSGI, the first line and the origin are replaced: x =
- * shape(vertex_shape(v)), three floats for each point, which the seek has made.
+ * With one channel, basis(j, v) is multiplied by each of the three weights. With
+ * ANIC_RECONSTRUCTION_MSGI the first line and the origin give way to x = shape(vertex_shape(v)),
+ * three floats for each point, which the seek has made.
  *
  * Matrices are 3 x 4, row-major. Pointers are good until the next but one seek of the context.
  */
@@ -798,38 +917,58 @@ typedef struct anic_part {
 /** A time has at most this many parts; one, unless it lies between two segments. */
 #define ANIC_MAX_PARTS 4
 
-/** What is chosen, for the GPU. *count receives the number of parts. Errors as
- * anic_write_positions(). O(1). */
-ANIC_API anic_status anic_get_parts(const anic_context* context, uint32_t mesh, anic_when when,
-                                    anic_part out[ANIC_MAX_PARTS], uint32_t* count);
+/** The parts of one time. */
+typedef struct anic_parts {
+  size_t struct_size;
+  uint32_t count;
+  anic_part parts[ANIC_MAX_PARTS];
+} anic_parts;
 
 /**
- * The same for an attribute: the value of components first_component .. first_component + 2 (a
- * multiple of 3) is that of frame 0 (anic_attribute.values) and the sum of share * x over the
- * parts. No parts: it is as in frame 0. Errors: as anic_write_attribute().
+ * Gives the parts of a mesh at the time chosen, for the GPU.
+ *
+ * - Errors: as anic_write_positions()
+ * - Cost: O(1)
+ */
+ANIC_API anic_status anic_get_parts(const anic_context* context, uint32_t mesh, anic_when when,
+                                    anic_parts* out);
+
+/**
+ * Gives the parts of three components of an attribute at the time chosen: the value of components
+ * first_component .. first_component + 2 is the value in frame 0 (anic_attribute.values) and the
+ * sum of share * x over the parts. No parts: the value is that of frame 0.
+ *
+ * - Params: first_component: a multiple of 3
+ * - Errors: as anic_write_attribute()
+ * - Cost: O(log segments)
  */
 ANIC_API anic_status anic_get_attribute_parts(const anic_context* context, uint32_t mesh,
                                               uint32_t attribute, uint32_t first_component,
-                                              anic_when when, anic_part out[ANIC_MAX_PARTS],
-                                              uint32_t* count);
+                                              anic_when when, anic_parts* out);
 
-/* -------------------------------------------------------------------------------------------------
- * streams */
+/* ---- streams --------------------------------------------------------------------------------- */
 
 /** A file that arrives from the front, piece by piece. Spec: 05, section 7. */
 typedef struct anic_stream anic_stream;
 
-/** options: as for anic_open_asset(), kept for the assets that are made. */
+/**
+ * Makes a stream.
+ *
+ * - Params: options: as for anic_open_asset(), kept for the assets that are made; may be NULL
+ * - Errors: ANIC_E_MEMORY, ANIC_E_ARGUMENT
+ */
 ANIC_API anic_status anic_create_stream(const anic_options* options, anic_stream** out);
 
 /** NULL is allowed. Assets made from the stream live on. */
 ANIC_API void anic_destroy_stream(anic_stream* stream);
 
+/** How much of a file has arrived. */
 typedef struct anic_stream_info {
+  size_t struct_size;
   uint64_t received_bytes;
   uint64_t file_bytes;        /**< 0 while the header is not there */
   uint32_t segment_count;     /**< 0 while the head is not there */
-  uint32_t playable_segments; /**< those that can be opened, coarsely at least */
+  uint32_t playable_segments; /**< segments that can be opened, coarsely at least */
   uint32_t layers;            /**< of all segments: chunks with components of their bases */
   uint32_t arrived_layers;
   uint8_t playable; /**< anic_open_asset_from_stream() gives an asset that plays at least one
@@ -838,29 +977,35 @@ typedef struct anic_stream_info {
 } anic_stream_info;
 
 /**
- * Takes the next bytes of the file. Checks what can be checked as soon as it is there: a stream
- * that cannot become a good file, or that breaks the limits, fails at once and stays failed.
+ * Takes the next bytes of the file, and checks everything as soon as it is there: a stream that
+ * cannot become a good file, or that breaks the limits, fails at once and stays failed.
  *
- * Errors   those of anic_open_asset() that concern header, table, limits and checksums;
- *          ANIC_E_TRAILING_BYTES: more than the file has
- * Memory   file_bytes, once its head is there. Cost O(size), checksums included.
+ * - Errors: those of anic_open_asset() that concern header, table, limits and checksums;
+ *   ANIC_E_TRAILING_BYTES: more than the file has
+ * - Memory: file_bytes, once the head is there
+ * - Cost: O(size), checksums included
  */
 ANIC_API anic_status anic_push_bytes(anic_stream* stream, const void* bytes, size_t size);
 
-ANIC_API void anic_get_stream_info(const anic_stream* stream, anic_stream_info* out);
-
-/** What went wrong, as for anic_open_asset(). */
-ANIC_API void anic_get_stream_failure(const anic_stream* stream, anic_failure* out);
+/** - Errors: ANIC_E_ARGUMENT */
+ANIC_API anic_status anic_get_stream_info(const anic_stream* stream, anic_stream_info* out);
 
 /**
- * Opens what has arrived: segments of which everything needed for their first layer is there, with
- * all layers that follow without a gap. info.partial tells whether anything is missing. An asset of
- * a complete stream is the same, bit for bit, as one of the whole file. Assets that were made
- * before stay as they are: replace them when their contexts can be replaced.
+ * Tells what went wrong, as anic_open_asset() does; out->status is ANIC_OK if nothing did.
  *
- * Errors   ANIC_E_STATE: nothing playable yet; others as anic_open_asset()
- * Cost     that of opening what is there, from the beginning: do it when it is worth it, not at
- * every push
+ * - Errors: ANIC_E_ARGUMENT
+ */
+ANIC_API anic_status anic_get_stream_failure(const anic_stream* stream, anic_failure* out);
+
+/**
+ * Opens what has arrived: the segments whose first layer can be decoded, with all layers that
+ * follow without a gap. info.partial tells whether anything is missing. The asset of a complete
+ * stream is the same, bit for bit, as that of the whole file. Assets that were made before stay as
+ * they are: replace them when their contexts can be replaced.
+ *
+ * - Errors: ANIC_E_STATE: nothing is playable yet; others as anic_open_asset()
+ * - Cost: that of opening what is there, from the beginning: do it when it is worth it, not at
+ *   every push
  */
 ANIC_API anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
                                                  anic_failure* failure);

@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // C++17 over anicodec.h: handles that clean up behind themselves, ranges instead of pointers and
-// sizes. Header only; throws nothing and allocates nothing of its own. What the functions do is
-// said in anicodec.h.
+// sizes. Header only; throws nothing and allocates nothing. anicodec.h describes the functions.
 #ifndef ANICODEC_ANICODEC_HPP_
 #define ANICODEC_ANICODEC_HPP_
 
@@ -69,7 +68,7 @@ class Span {
 
 /// An output of packed float32 points.
 inline anic_output output(Span<float> points) {
-  anic_output out = {};
+  anic_output out = ANIC_INIT(anic_output);
   out.data = points.data();
   out.size = points.size_bytes();
   return out;
@@ -77,7 +76,7 @@ inline anic_output output(Span<float> points) {
 
 /// An output of any format, from `data` on.
 inline anic_output output(void* data, size_t size, anic_format format, size_t stride = 0) {
-  anic_output out = {};
+  anic_output out = ANIC_INIT(anic_output);
   out.data = data;
   out.size = size;
   out.format = format;
@@ -87,7 +86,7 @@ inline anic_output output(void* data, size_t size, anic_format format, size_t st
 
 /// An output of packed float32 values of an attribute.
 inline anic_value_output value_output(Span<float> values) {
-  anic_value_output out = {};
+  anic_value_output out = ANIC_INIT(anic_value_output);
   out.data = values.data();
   out.size = values.size_bytes();
   return out;
@@ -147,15 +146,15 @@ class Stream {
   }
 
   anic_stream_info info() const {
-    anic_stream_info info = {};
-    anic_get_stream_info(get(), &info);
+    anic_stream_info info = ANIC_INIT(anic_stream_info);
+    (void)anic_get_stream_info(get(), &info);
     return info;
   }
 
   anic_failure failure() const {
-    anic_failure failure = {};
+    anic_failure failure = ANIC_INIT(anic_failure);
     failure.detail = "";
-    anic_get_stream_failure(get(), &failure);
+    (void)anic_get_stream_failure(get(), &failure);
     return failure;
   }
 
@@ -202,30 +201,27 @@ class Asset {
   anic_asset* get() const { return handle_.get(); }
 
   anic_asset_info info() const {
-    anic_asset_info info = {};
-    anic_get_asset_info(get(), &info);
+    anic_asset_info info = ANIC_INIT(anic_asset_info);
+    (void)anic_get_asset_info(get(), &info);
     return info;
   }
 
   anic_mesh mesh(uint32_t mesh = 0) const {
-    anic_mesh info = {};
-    if (anic_get_mesh(get(), mesh, &info) != ANIC_OK)
-      info = {};
+    anic_mesh info = ANIC_INIT(anic_mesh);
+    (void)anic_get_mesh(get(), mesh, &info);
     return info;
   }
 
   anic_polygons polygons(uint32_t mesh = 0) const {
-    anic_polygons polygons = {};
-    if (anic_get_polygons(get(), mesh, &polygons) != ANIC_OK)
-      polygons = {};
+    anic_polygons polygons = ANIC_INIT(anic_polygons);
+    (void)anic_get_polygons(get(), mesh, &polygons);
     return polygons;
   }
 
   /// Texture coordinates, colours, materials and the like; mesh().attribute_count of them.
   anic_attribute attribute(uint32_t number, uint32_t mesh = 0) const {
-    anic_attribute attribute = {};
-    if (anic_get_attribute(get(), mesh, number, &attribute) != ANIC_OK)
-      attribute = {};
+    anic_attribute attribute = ANIC_INIT(anic_attribute);
+    (void)anic_get_attribute(get(), mesh, number, &attribute);
     return attribute;
   }
 
@@ -316,21 +312,14 @@ class Context {
     return anic_compute_bounds(get(), mesh, when, out);
   }
 
-  /// At most ANIC_MAX_PARTS.
-  Status parts(Span<anic_part> out, uint32_t* count, anic_when when = ANIC_WHEN_CURRENT,
-               uint32_t mesh = 0) const {
-    return out.size() < ANIC_MAX_PARTS ? Status(ANIC_E_BUFFER_SIZE)
-                                       : anic_get_parts(get(), mesh, when, out.data(), count);
+  Status parts(anic_parts* out, anic_when when = ANIC_WHEN_CURRENT, uint32_t mesh = 0) const {
+    return anic_get_parts(get(), mesh, when, out);
   }
 
-  /// Of three components of an attribute; at most ANIC_MAX_PARTS.
-  Status attribute_parts(uint32_t attribute, uint32_t first_component, Span<anic_part> out,
-                         uint32_t* count, anic_when when = ANIC_WHEN_CURRENT,
-                         uint32_t mesh = 0) const {
-    return out.size() < ANIC_MAX_PARTS
-               ? Status(ANIC_E_BUFFER_SIZE)
-               : anic_get_attribute_parts(get(), mesh, attribute, first_component, when, out.data(),
-                                          count);
+  /// Of three components of an attribute.
+  Status attribute_parts(uint32_t attribute, uint32_t first_component, anic_parts* out,
+                         anic_when when = ANIC_WHEN_CURRENT, uint32_t mesh = 0) const {
+    return anic_get_attribute_parts(get(), mesh, attribute, first_component, when, out);
   }
 
  private:
@@ -340,10 +329,10 @@ class Context {
 /// How to make normals of a mesh; independent of the asset once made.
 class NormalPlan {
  public:
-  Status create(const Asset& asset, const anic_normal_options& options = {}, uint32_t mesh = 0,
-                const anic_allocator* allocator = nullptr) {
+  Status create(const Asset& asset, const anic_normal_plan_options* options = nullptr,
+                uint32_t mesh = 0, const anic_allocator* allocator = nullptr) {
     return detail::receive<anic_normal_plan>(&handle_, [&](anic_normal_plan** out) {
-      return anic_create_normal_plan(asset.get(), mesh, &options, allocator, out);
+      return anic_create_normal_plan(asset.get(), mesh, options, allocator, out);
     });
   }
 

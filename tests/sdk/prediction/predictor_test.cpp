@@ -72,7 +72,8 @@ std::vector<float> decoded(const PredictionCase& c, const PredictionClip& clip,
                                  clip.omega.data()},
                                 y.data()),
             Status::kOk);
-  reconstruction.run_all();
+  for (size_t l = 0; l < order.level_count(); ++l)
+    reconstruction.run(order.level_start[l], order.level_start[l + 1]);
   std::vector<float> packed(n * samples);
   for (size_t r = 0; r < n; ++r)
     std::copy_n(y.data() + r * coefficient_stride(samples), samples, packed.data() + r * samples);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The C interface: what a GPU needs.
+#include "sdk/api/objects.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace anicodec {
+namespace {
+
+static_assert(sizeof(anic_correction) == sizeof(Segment::Correction) &&
+              offsetof(anic_correction, vertex) == offsetof(Segment::Correction, vertex) &&
+              offsetof(anic_correction, delta) == offsetof(Segment::Correction, delta));
+static_assert(ANIC_MAX_PARTS == Sample::kMaxParts && ANIC_BLOCK_VERTICES == kBlock);
+
+/// Tells the host what a sample consists of.
+void give_parts(const Clip& clip, const Sample& sample, anic_parts* host) {
+  anic_parts parts = ANIC_INIT(anic_parts);
+  parts.count = sample.count;
+  for (uint32_t p = 0; p < sample.count; ++p) {
+    const FrameState& state = sample.parts[p];
+    anic_part& part = parts.parts[p];
+    part.segment = static_cast<uint32_t>(state.segment - clip.segments().data());
+    part.share = sample.share[p];
+    part.weights = state.weights;
+    part.shape = state.shape;
+    std::copy_n(state.pose_map.m, 12, part.pose_map);
+    std::copy_n(state.motion.m, 12, part.motion);
+    part.corrections = reinterpret_cast<const anic_correction*>(state.corrections);
+    part.correction_count = state.correction_count;
+  }
+  give(parts, host);
+}
+
+}  // namespace
+}  // namespace anicodec
+
+using namespace anicodec;
+
+anic_status anic_get_basis(const anic_asset* asset, uint32_t segment, anic_basis* out) {
+  if (!asset || !is_sized(out) || segment >= asset->clip.segments().size())
+    return ANIC_E_ARGUMENT;
+  const Segment& s = asset->clip.segments()[segment];
+  if (s.frames == 0)
+    return ANIC_E_STATE;
+  anic_basis filled = ANIC_INIT(anic_basis);
+  filled.kind = static_cast<anic_basis_kind>(s.kind);
+  filled.mesh = s.mesh;
+  filled.first_frame = s.first_frame;
+  filled.frame_count = s.frames;
+  filled.vertex_count = s.vertices;
+  filled.components = s.components;
+  filled.wide_components = s.wide_components;
+  filled.channels = s.channels();
+  filled.weight_channels = s.weight_channels();
+  filled.pose = s.pose.empty() ? nullptr : s.pose.data();
+  filled.wide = s.wide.data();
+  filled.narrow = s.narrow.data();
+  filled.pose_count = s.pose.size();
+  filled.wide_count = s.wide.size();
+  filled.narrow_count = s.narrow.size();
+  if (s.attribute != kPositions) {
+    filled.target = ANIC_TARGET_ATTRIBUTE;
+    filled.attribute = s.attribute;
+    filled.first_component = s.first_component;
+  }
+  filled.vertex_shape = s.vertex_coded.empty() ? nullptr : s.vertex_coded.data();
+  filled.reconstruction = s.msgi.empty() ? ANIC_RECONSTRUCTION_LINEAR : ANIC_RECONSTRUCTION_MSGI;
+  for (size_t i = 0; i < 3; ++i)
+    filled.origin[i] = static_cast<float>(s.origin[i]);
+  give(filled, out);
+  return ANIC_OK;
+}
+
+anic_status anic_get_parts(const anic_context* context, uint32_t mesh, anic_when when,
+                           anic_parts* out) {
+  const Sample* sample = nullptr;
+  if (!is_sized(out))
+    return ANIC_E_ARGUMENT;
+  if (anic_status status = find_sample(context, mesh, when, &sample); status != ANIC_OK)
+    return status;
+  give_parts(context->asset->clip, *sample, out);
+  return ANIC_OK;
+}
+
+anic_status anic_get_attribute_parts(const anic_context* context, uint32_t mesh, uint32_t attribute,
+                                     uint32_t first_component, anic_when when, anic_parts* out) {
+  const MeshAttribute* found = nullptr;
+  if (!is_sized(out) || first_component % 3 != 0)
+    return ANIC_E_ARGUMENT;
+  if (anic_status status = find_attribute(context, mesh, attribute, when, &found);
+      status != ANIC_OK)
+    return status;
+  if (first_component >= found->header.components())
+    return ANIC_E_ARGUMENT;
+  const Clip& clip = context->asset->clip;
+  const auto [first, last] = clip.attribute_tracks(mesh, attribute);
+  const Sample none;
+  const Sample* sample = &none;
+  for (uint32_t t = first; t < last; ++t) {
+    if (clip.tracks()[t].first_component == first_component)
+      sample = &context->states[when].samples[t];
+  }
+  give_parts(clip, *sample, out);
+  return ANIC_OK;
+}

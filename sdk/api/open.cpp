@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The C interface: statuses, memory, and opening.
+#include "sdk/api/bounds.h"
+#include "sdk/api/objects.h"
+#include "sdk/clip/memory_estimate.h"
+#include "sdk/clip/sample_size.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace anicodec {
+namespace {
+
+void* allocate_default(void*, size_t size, size_t) {
+  return std::malloc(size);  // aligned for anything up to 16 bytes
+}
+
+void release_default(void*, void* memory, size_t) {
+  std::free(memory);
+}
+
+/// Bytes that any file may take while it opens, and more for each byte of it: a kilobyte does not
+/// get a gigabyte unless the host says so.
+constexpr uint64_t kBytesAtLeast = uint64_t{1} << 28, kBytesPerByte = uint64_t{1} << 14;
+
+/// The share of an opening that decoding takes, where boxes of all frames follow.
+constexpr double kShareBeforeBoxes = 0.75;
+
+/// What a block allocator may lose to fragmentation and bookkeeping: measured, with room to spare.
+uint64_t block_bytes(uint64_t opening) {
+  const uint64_t slack = opening / 4 + 65536;
+  return opening + std::min(slack, UINT64_MAX - opening);
+}
+
+/// Triangles of fans.
+uint32_t triangle_count(const Topology& t) {
+  uint64_t count = 0;
+  for (size_t p = 0; p + 1 < t.polygon_offsets.size(); ++p) {
+    const uint32_t corners = t.polygon_offsets[p + 1] - t.polygon_offsets[p];
+    count += corners < 3 ? 0 : corners - 2;
+  }
+  return static_cast<uint32_t>(count);
+}
+
+uint64_t box_bytes(const Limits& limits) {
+  return sizeof(anic_box) * (uint64_t{limits.frames} + 1) * limits.meshes.size();
+}
+
+/// Fills as much of `out` as the first bytes of a file tell.
+Failure find_requirements(ByteView head, const anic_options& options, anic_requirements* out) {
+  Memory memory = memory_of(&options.allocator);
+  const MemoryScope scope(&memory);
+  ContainerReader file;
+  out->head_bytes = ContainerReader::head_bytes(head);
+  if (head.size == 0)
+    return {Status::kTruncated, 0, 0, "nothing to look at"};
+  if (Failure failure = file.open_prefix(head); !failure.ok())
+    return failure;
+  out->file_bytes = file.file_size();
+  if (const Chunk* limits_chunk = file.find("LIMI"))
+    out->head_bytes = std::max(out->head_bytes, limits_chunk->offset + limits_chunk->size);
+  Limits limits;
+  const OpenOptions opening = open_options(options, file.file_size());
+  if (Failure failure = read_limits(file, opening, &limits); !failure.ok())
+    return failure;
+  const MemoryEstimate estimate = estimate_memory(limits, opening.quality);
+  const bool boxes = options.flags & ANIC_OPEN_BOUNDS;
+  const uint64_t more =
+      object_bytes<anic_asset>() + 4 * limits.meshes.size() + (boxes ? box_bytes(limits) : 0);
+  out->resident_bytes = estimate.resident + more;
+  out->opening_bytes = estimate.opening + more;
+  out->draco_bytes = estimate.draco;
+  out->block_bytes = block_bytes(out->opening_bytes);
+  out->context_bytes = object_bytes<anic_context>() + context_size(limits, opening.quality).bytes();
+  out->mesh_count = static_cast<uint32_t>(limits.meshes.size());
+  out->segment_count = static_cast<uint32_t>(limits.segments.size());
+  out->frame_count = limits.frames;
+  for (const auto& mesh : limits.meshes)
+    out->max_vertices = std::max(out->max_vertices, mesh.source_vertices);
+  for (const auto& s : limits.segments)
+    out->max_components = std::max(out->max_components, s.components);
+  return {};
+}
+
+}  // namespace
+
+bool take_options(const anic_options* host, anic_options* out) {
+  return take(host, out) && out->quality >= 0 && out->quality <= 1 &&
+         (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS)) == 0 &&
+         !out->allocator.allocate == !out->allocator.release;
+}
+
+anic_status report(const Failure& failure, anic_failure* out) {
+  if (out) {
+    anic_failure ours = ANIC_INIT(anic_failure);
+    ours.status = c_status(failure.status);
+    ours.offset = failure.offset;
+    ours.detail = failure.detail;
+    for (int i = 0; i < 4 && failure.chunk; ++i)
+      ours.chunk[i] = static_cast<char>(failure.chunk >> (8 * i));
+    give(ours, out);
+  }
+  return c_status(failure.status);
+}
+
+Memory memory_of(const anic_allocator* allocator) {
+  Memory memory;
+  memory.allocate = allocate_default;
+  memory.release = release_default;
+  if (allocator && allocator->allocate) {
+    memory.user = allocator->user;
+    memory.allocate = allocator->allocate;
+    memory.release = allocator->release;
+  }
+  return memory;
+}
+
+OpenOptions open_options(const anic_options& options, uint64_t file_size) {
+  OpenOptions result;
+  HostLimits& limits = result.limits;
+  limits.resident_bytes =
+      kBytesAtLeast +
+      std::min(file_size, (UINT64_MAX - kBytesAtLeast) / kBytesPerByte) * kBytesPerByte;
+  auto set = [](uint64_t value, uint64_t* limit) {
+    if (value != 0)
+      *limit = value;
+  };
+  set(options.max_vertices, &limits.vertices);
+  set(options.max_frames, &limits.frames);
+  set(options.max_components, &limits.components);
+  set(options.max_bytes, &limits.resident_bytes);
+  if (options.quality > 0)
+    result.quality = options.quality;
+  return result;
+}
+
+Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, anic_asset** out) {
+  // Of a stream, the bytes that have arrived count for the limit.
+  OpenOptions opening = open_options(options, bytes.size);
+  HostProgress progress(options.progress.report, options.progress.user);
+  const bool boxes = options.flags & ANIC_OPEN_BOUNDS;
+  opening.prefix = prefix;
+  opening.progress = &progress;
+  opening.progress_end = boxes ? kShareBeforeBoxes : 1;
+  anic_asset* asset = create<anic_asset>(memory_of(&options.allocator), 0);
+  try {
+    const MemoryScope scope(&memory_of_object(asset));
+    Failure failure = asset->clip.open(bytes, opening);
+    if (failure.ok()) {
+      const Clip& clip = asset->clip;
+      asset->quality = opening.quality;
+      asset->context_bytes = object_bytes<anic_context>(context_size(clip).bytes());
+      asset->triangle_counts.reserve(clip.meshes().size());
+      for (const Mesh& mesh : clip.meshes())
+        asset->triangle_counts.push_back(triangle_count(mesh.topology));
+      const HostThreads threads = {options.threads.run, options.threads.user};
+      if (boxes && !compute_boxes(asset, threads, &progress))
+        failure = {Status::kCancelled, 0, 0, "the host stopped the opening"};
+    }
+    if (!failure.ok()) {
+      destroy(asset);
+      return failure;
+    }
+    asset->resident_bytes = memory_of_object(asset).held;
+  } catch (...) {
+    destroy(asset);
+    throw;
+  }
+  *out = asset;
+  return {};
+}
+
+}  // namespace anicodec
+
+using namespace anicodec;
+
+uint32_t anic_get_version(void) {
+  return ANIC_VERSION_MAJOR << 16 | ANIC_VERSION_MINOR << 8 | ANIC_VERSION_PATCH;
+}
+
+const char* anic_get_status_text(anic_status status) {
+  return status_string(static_cast<Status>(status));
+}
+
+anic_status anic_get_requirements(const void* head, size_t size, const anic_options* options,
+                                  anic_requirements* out) {
+  anic_options wanted;
+  if (!is_sized(out) || (!head && size > 0) || !take_options(options, &wanted))
+    return ANIC_E_ARGUMENT;
+  anic_requirements needs = ANIC_INIT(anic_requirements);
+  const Failure failure = guarded([&] {
+    return find_requirements({static_cast<const uint8_t*>(head), size}, wanted, &needs);
+  });
+  give(needs, out);
+  return c_status(failure.status);
+}
+
+anic_status anic_open_asset(const void* file, size_t size, const anic_options* options,
+                            anic_asset** out, anic_failure* failure) {
+  if (out)
+    *out = nullptr;
+  if (!is_failure(failure))
+    return ANIC_E_ARGUMENT;
+  anic_options wanted;
+  if (!out || (!file && size > 0) || !take_options(options, &wanted))
+    return report(kBadArgument, failure);
+  return report(guarded([&] {
+                  return open_asset({static_cast<const uint8_t*>(file), size}, wanted, false, out);
+                }),
+                failure);
+}
+
+void anic_close_asset(anic_asset* asset) {
+  destroy(asset);
+}
+
+anic_status anic_verify_asset(const anic_asset* asset) {
+  if (!asset)
+    return ANIC_E_ARGUMENT;
+  if (asset->clip.is_partial() || asset->quality < 1)
+    return ANIC_E_STATE;
+  return c_status(asset->clip.check_hashes().status);
+}
