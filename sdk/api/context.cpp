@@ -3,7 +3,6 @@
 //
 // The C interface: contexts, seeking, positions, and values of attributes.
 #include "sdk/api/objects.h"
-#include "sdk/clip/sample_size.h"
 #include "sdk/play/attribute_values.h"
 #include "sdk/play/value_output.h"
 
@@ -27,7 +26,7 @@ void choose(anic_context* context, const FrameMix& mix) {
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
     context->states[ANIC_WHEN_CURRENT].samples[t] =
         make_sample(clip, t, mix, weights, context->scratch);
-    weights += sample_size(clip, t).buffer();
+    weights += context->asset->buffers[t];
   }
 }
 
@@ -98,9 +97,8 @@ anic_status anic_create_context(const anic_asset* asset, const anic_allocator* a
     // The asset's memory may be in use by other threads: only where it comes from is taken.
     Memory memory = allocator ? memory_of(allocator) : memory_of_object(asset);
     memory.held = memory.peak = 0;
-    const Clip& clip = asset->clip;
-    const auto extra = static_cast<size_t>(context_size(clip).bytes());
-    const size_t tracks = clip.tracks().size();
+    const size_t extra = asset->context_bytes - object_bytes<anic_context>();
+    const size_t tracks = asset->clip.tracks().size();
     auto* context = create<anic_context>(memory, extra);
     context->asset = asset;
     context->extra = extra;
@@ -114,7 +112,7 @@ anic_status anic_create_context(const anic_asset* asset, const anic_allocator* a
     for (anic_context::State& state : context->states) {
       state.weights = reinterpret_cast<float*>(behind);
       for (uint32_t t = 0; t < tracks; ++t)
-        behind += sizeof(float) * sample_size(clip, t).buffer();
+        behind += sizeof(float) * asset->buffers[t];
     }
     context->scratch = reinterpret_cast<float*>(behind);
     *out = context;
@@ -168,7 +166,7 @@ anic_status anic_forget_previous(anic_context* context) {
                             &to = context->states[ANIC_WHEN_PREVIOUS];
   size_t begin = 0;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
-    const auto count = sample_size(clip, t).buffer();
+    const size_t count = context->asset->buffers[t];
     std::copy_n(from.weights + begin, count, to.weights + begin);
     to.samples[t] = from.samples[t];
     // Weights that are the segment's stay where they are; interpolated ones and shapes move along.

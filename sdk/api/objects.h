@@ -116,6 +116,7 @@ struct anic_asset {
   size_t resident_bytes = 0;
   size_t context_bytes = 0;
   anicodec::Vector<uint32_t> triangle_counts;  ///< by mesh
+  anicodec::Vector<size_t> buffers;            ///< by track: SampleSize::buffer()
   /// By mesh and frame, then one more for each mesh: around all frames. Empty when not asked for.
   anicodec::Vector<anic_box> boxes;
 };
@@ -123,7 +124,7 @@ struct anic_asset {
 struct anic_context {
   struct State {
     anicodec::Sample* samples;  ///< by track
-    float* weights;             ///< SampleSize::buffer() of the tracks one after another
+    float* weights;             ///< anic_asset::buffers of the tracks one after another
   };
 
   const anic_asset* asset;

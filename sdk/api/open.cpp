@@ -67,13 +67,14 @@ Failure find_requirements(ByteView head, const anic_options& options, anic_requi
     return failure;
   const MemoryEstimate estimate = estimate_memory(limits, opening.quality);
   const bool boxes = options.flags & ANIC_OPEN_BOUNDS;
-  const uint64_t more =
-      object_bytes<anic_asset>() + 4 * limits.meshes.size() + (boxes ? box_bytes(limits) : 0);
+  const ContextSize context = context_size(limits, opening.quality);
+  const uint64_t more = object_bytes<anic_asset>() + sizeof(uint32_t) * limits.meshes.size() +
+                        sizeof(size_t) * context.tracks + (boxes ? box_bytes(limits) : 0);
   out->resident_bytes = estimate.resident + more;
   out->opening_bytes = estimate.opening + more;
   out->draco_bytes = estimate.draco;
   out->block_bytes = block_bytes(out->opening_bytes);
-  out->context_bytes = object_bytes<anic_context>() + context_size(limits, opening.quality).bytes();
+  out->context_bytes = object_bytes<anic_context>() + context.bytes();
   out->mesh_count = static_cast<uint32_t>(limits.meshes.size());
   out->segment_count = static_cast<uint32_t>(limits.segments.size());
   out->frame_count = limits.frames;
@@ -151,7 +152,11 @@ Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, ani
     if (failure.ok()) {
       const Clip& clip = asset->clip;
       asset->quality = opening.quality;
-      asset->context_bytes = object_bytes<anic_context>(context_size(clip).bytes());
+      const ContextSize context = context_size(clip);
+      asset->context_bytes = object_bytes<anic_context>(static_cast<size_t>(context.bytes()));
+      asset->buffers.reserve(clip.tracks().size());
+      for (uint32_t t = 0; t < clip.tracks().size(); ++t)
+        asset->buffers.push_back(static_cast<size_t>(sample_size(clip, t).buffer()));
       asset->triangle_counts.reserve(clip.meshes().size());
       for (const Mesh& mesh : clip.meshes())
         asset->triangle_counts.push_back(triangle_count(mesh.topology));

@@ -71,8 +71,8 @@ class Library:
 
     class Failure(ctypes.Structure):
         """anic_failure"""
-        _fields_ = [("struct_size", ctypes.c_size_t), ("status", ctypes.c_int32), ("chunk", ctypes.c_char * 8), ("offset", ctypes.c_uint64),
-                    ("detail", ctypes.c_char_p)]
+        _fields_ = [("struct_size", ctypes.c_size_t), ("status", ctypes.c_int32), ("chunk", ctypes.c_char * 8),
+                    ("offset", ctypes.c_uint64), ("detail", ctypes.c_char_p)]
 
     def __init__(self, path):
         self.functions = ctypes.CDLL(str(path))

@@ -67,7 +67,9 @@ ErrorKind error_kind(Status status) {
     case Status::kState:
     case Status::kBufferSize:
     case Status::kFrameRange:
+    case Status::kAbsent:
     case Status::kMemory:
+    case Status::kCancelled:
     case Status::kInternal:
       return ErrorKind::kInternal;
     case Status::kRead:
