@@ -4,6 +4,7 @@
 
 #include "sdk/base/disjoint_sets.h"
 #include "sdk/mesh/details_coding.h"
+#include "sdk/mesh/half_edges.h"
 
 #include <algorithm>
 #include <cstring>
@@ -17,46 +18,12 @@ uint64_t mixed(uint64_t h, uint32_t x) {
   return h ^ (h >> 29);
 }
 
-/// A directed edge of a triangle, sortable so that both directions of an edge are neighbours.
-struct HalfEdge {
-  uint64_t edge;    ///< smaller end, larger end
-  uint32_t corner;  ///< triangle * 3 + i; the edge leads from this corner to the next one
-  bool forward;     ///< from the smaller end to the larger
-
-  bool operator<(const HalfEdge& other) const {
-    return edge != other.edge ? edge < other.edge : corner < other.corner;
-  }
-};
-
-uint32_t next_corner(uint32_t corner) {
-  return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-
-/// `ends[corner]` is the vertex (or point) at a corner.
-std::vector<HalfEdge> sorted_half_edges(std::span<const uint32_t> ends) {
-  std::vector<HalfEdge> edges(ends.size());
-  for (uint32_t c = 0; c < ends.size(); ++c) {
-    uint32_t a = ends[c], b = ends[next_corner(c)];
-    edges[c] = {uint64_t{std::min(a, b)} << 32 | std::max(a, b), c, a < b};
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-/// Calls visit(first, last) for each run of half-edges on the same undirected edge.
-template <class Visit>
-void for_each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
-  for (size_t first = 0, last; first < edges.size(); first = last) {
-    for (last = first + 1; last < edges.size() && edges[last].edge == edges[first].edge; ++last) {
-    }
-    visit(first, last);
-  }
-}
-
-/// Whether the half-edges first..last-1 are one border edge or two oppositely directed ones.
-bool is_manifold(const std::vector<HalfEdge>& edges, size_t first, size_t last) {
+/// Whether the half-edges of an edge are one border or two that lead opposite ways. `vertices`: at
+/// each corner.
+bool is_manifold(std::span<const uint32_t> vertices, const HalfEdges::Item* first,
+                 const HalfEdges::Item* last) {
   return last - first == 1 ||
-         (last - first == 2 && edges[first].forward != edges[first + 1].forward);
+         (last - first == 2 && vertices[first->corner] != vertices[first[1].corner]);
 }
 
 /// Marks polygons that no triangle mesh can hold as such: too few corners or too many, a repeated
@@ -140,6 +107,7 @@ Weld weld_trajectories(const MeshSequence& sequence) {
 
 ManifoldMesh make_manifold(const Polygons& polygons, std::span<const uint32_t> welded) {
   std::vector<bool> apart = degenerate_or_duplicate(polygons, welded);
+  const size_t weld_count = welded.empty() ? 0 : size_t{std::ranges::max(welded)} + 1;
   ManifoldMesh mesh;
   for (bool settled = false; !settled;) {
     settled = true;
@@ -161,24 +129,23 @@ ManifoldMesh make_manifold(const Polygons& polygons, std::span<const uint32_t> w
     };
 
     DisjointSets points(vertices.size());  // of corners
-    std::vector<HalfEdge> edges = sorted_half_edges(vertices);
-    for_each_edge(edges, [&](size_t first, size_t last) {
-      if (!is_manifold(edges, first, last)) {
-        // A polygon with such an edge between two of its own triangles could not be put together
-        // again.
-        for (size_t i = first; i < last; ++i) {
-          for (size_t j = first; j < i; ++j) {
-            if (mesh.triangle_polygon[edges[i].corner / 3] ==
-                mesh.triangle_polygon[edges[j].corner / 3])
-              set_apart(edges[i].corner);
+    const auto visit_edge = [&](uint32_t, uint32_t, const HalfEdges::Item* first,
+                                const HalfEdges::Item* last) {
+      if (!is_manifold(vertices, first, last)) {
+        // A polygon with such an edge between two of its triangles could not be put together again.
+        for (const HalfEdges::Item* i = first; i != last; ++i) {
+          for (const HalfEdges::Item* j = first; j != i; ++j) {
+            if (mesh.triangle_polygon[i->corner / 3] == mesh.triangle_polygon[j->corner / 3])
+              set_apart(i->corner);
           }
         }
       } else if (last - first == 2) {
-        uint32_t c = edges[first].corner, d = edges[first + 1].corner;
+        uint32_t c = first[0].corner, d = first[1].corner;
         points.join(c, next_corner(d));
         points.join(next_corner(c), d);
       }
-    });
+    };
+    HalfEdges(weld_count, vertices).for_each_edge(visit_edge);
     if (!settled)
       continue;
 
@@ -194,11 +161,12 @@ ManifoldMesh make_manifold(const Polygons& polygons, std::span<const uint32_t> w
       }
     }
     // Fans that meet again around a vertex can bring the same points back to a cut edge.
-    edges = sorted_half_edges(mesh.triangles);
-    for_each_edge(edges, [&](size_t first, size_t last) {
-      if (!is_manifold(edges, first, last))
-        set_apart(edges[last - 1].corner);
-    });
+    HalfEdges(mesh.point_vertex.size(), mesh.triangles)
+        .for_each_edge([&](uint32_t, uint32_t, const HalfEdges::Item* first,
+                           const HalfEdges::Item* last) {
+          if (!is_manifold(mesh.triangles, first, last))
+            set_apart(last[-1].corner);
+        });
   }
   mesh.points = static_cast<uint32_t>(mesh.point_vertex.size());
   for (uint32_t p = 0; p < polygons.size(); ++p) {

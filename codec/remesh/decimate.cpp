@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/remesh/decimate.h"
 
-#include "codec/remesh/half_edges.h"
+#include "codec/remesh/open_mesh.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>

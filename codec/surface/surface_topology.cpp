@@ -3,46 +3,12 @@
 #include "codec/surface/surface_topology.h"
 
 #include "codec/sequence/error.h"
+#include "sdk/mesh/half_edges.h"
 
 #include <algorithm>
 #include <string>
 
 namespace anicodec {
-namespace {
-
-/// An edge as a triangle sees it.
-struct Side {
-  uint32_t low, high;  ///< its ends
-  uint32_t triangle;
-  uint8_t corner;  ///< opposite to it
-  bool forward;    ///< the triangle runs from low to high
-
-  bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
-
-  bool operator<(const Side& other) const {
-    if (low != other.low)
-      return low < other.low;
-    if (high != other.high)
-      return high < other.high;
-    return triangle < other.triangle;
-  }
-};
-
-std::vector<Side> sorted_sides(const std::vector<SurfaceTopology::Triangle>& triangles) {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    for (uint8_t k = 0; k < 3; ++k) {
-      uint32_t a = triangles[t][(k + 1U) % 3], b = triangles[t][(k + 2U) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
-
-}  // namespace
-
 IndexLists::IndexLists(std::span<const std::array<uint32_t, 2>> sorted, uint32_t list_count)
     : first_(size_t{list_count} + 1, 0) {
   items_.reserve(sorted.size());
@@ -79,27 +45,28 @@ SurfaceTopology::SurfaceTopology(std::span<const uint32_t> corners, uint32_t ver
   std::vector<uint32_t> boundary_edges(vertices, 0);
   std::vector<bool> pinned(vertices, false);
   pairs.clear();
-  std::vector<Side> sides = sorted_sides(triangles);
-  for (size_t i = 0, j = 0; i < sides.size(); i = j) {
-    while (j < sides.size() && sides[j].same_edge(sides[i]))
-      ++j;
-    const Side& a = sides[i];
-    pairs.push_back({a.low, a.high});
-    pairs.push_back({a.high, a.low});
-    if (j - i == 1) {
-      for (auto [from, to] : {std::pair(a.low, a.high), std::pair(a.high, a.low)}) {
-        if (boundary_edges[from] < 2)
-          boundary_neighbours[from][boundary_edges[from]] = to;
-        ++boundary_edges[from];
-      }
-    } else if (j - i == 2 && a.forward != sides[i + 1].forward) {
-      const Side& b = sides[i + 1];
-      across[a.triangle][a.corner] = b.triangle;
-      across[b.triangle][b.corner] = a.triangle;
-    } else {
-      pinned[a.low] = pinned[a.high] = true;
-    }
-  }
+  std::vector<uint32_t> kept;  // corners of the triangles
+  for (const Triangle& t : triangles)
+    kept.insert(kept.end(), t.begin(), t.end());
+  HalfEdges(vertices, kept)
+      .for_each_edge([&](uint32_t low, uint32_t high, const HalfEdges::Item* first,
+                         const HalfEdges::Item* last) {
+        pairs.push_back({low, high});
+        pairs.push_back({high, low});
+        if (last - first == 1) {
+          for (auto [from, to] : {std::pair(low, high), std::pair(high, low)}) {
+            if (boundary_edges[from] < 2)
+              boundary_neighbours[from][boundary_edges[from]] = to;
+            ++boundary_edges[from];
+          }
+        } else if (last - first == 2 && kept[first[0].corner] != kept[first[1].corner]) {
+          const uint32_t a = previous_corner(first[0].corner), b = previous_corner(first[1].corner);
+          across[a / 3][a % 3] = b / 3;
+          across[b / 3][b % 3] = a / 3;
+        } else {
+          pinned[low] = pinned[high] = true;
+        }
+      });
   std::sort(pairs.begin(), pairs.end());
   ring = IndexLists(pairs, vertices);
   for (uint32_t v = 0; v < vertices; ++v) {

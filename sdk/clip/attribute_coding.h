@@ -11,6 +11,7 @@
 #include "format/memory.h"
 #include "format/status.h"
 #include "format/symbol_model.h"
+#include "sdk/mesh/half_edges.h"
 #include "sdk/mesh/topology.h"
 
 #include <algorithm>
@@ -23,36 +24,23 @@ namespace anicodec {
 /// The corners of a mesh in canonical order, and what lies across their edges.
 class CornerGraph {
  public:
-  static constexpr uint32_t kNone = UINT32_MAX;
+  static constexpr uint32_t kNone = HalfEdges::kNone;
 
   /// Keeps a reference to the topology. Cost: O(corners log corners).
   explicit CornerGraph(const Topology& topology)
       : topology_(topology),
-        polygon_(topology.polygon_corners.size()),
-        across_(topology.polygon_corners.size(), kNone) {
+        polygon_(topology.polygon_corners.size()) {
     for (uint32_t p = 0; p < polygon_count(); ++p) {
       for (uint32_t c = begin(p); c < end(p); ++c)
         polygon_[c] = p;
     }
-
-    struct Edge {
-      uint32_t from, to, corner;
-    };
-
-    Vector<Edge> edges(across_.size());
-    for (uint32_t c = 0; c < edges.size(); ++c)
-      edges[c] = {coded(c), coded(next(c)), c};
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.from, a.to, a.corner) < std::tie(b.from, b.to, b.corner);
-    });
-    for (const Edge& e : edges) {
-      const auto found =
-          std::lower_bound(edges.begin(), edges.end(), e, [](const Edge& a, const Edge& b) {
-            return a.from != b.to ? a.from < b.to : a.to < b.from;  // b the other way round
-          });
-      if (found != edges.end() && found->from == e.to && found->to == e.from &&
-          polygon_[found->corner] < polygon_[e.corner])
-        across_[e.corner] = found->corner;
+    const auto coded_at = [this](uint32_t corner) { return coded(corner); };
+    across_ = HalfEdges(topology.coded_vertices, corner_count(), coded_at,
+                        [this](uint32_t corner) { return next(corner); })
+                  .opposites(coded_at);
+    for (uint32_t c = 0; c < corner_count(); ++c) {
+      if (across_[c] != kNone && polygon_[across_[c]] >= polygon_[c])
+        across_[c] = kNone;
     }
   }
 

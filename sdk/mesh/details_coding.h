@@ -11,6 +11,7 @@
 #include "format/memory.h"
 #include "format/records.h"
 #include "format/symbol_model.h"
+#include "sdk/mesh/half_edges.h"
 #include "sdk/mesh/topology.h"
 
 #include <algorithm>
@@ -39,33 +40,6 @@ struct DetailsDecoderSource {
   uint32_t apart_corners(uint32_t) { return 0; }
 
   uint32_t apart_vertex(uint32_t, uint32_t) { return 0; }
-};
-
-/// For each corner of a triangle list, the triangle across the edge that leads from that corner to
-/// the next one; kNone at a border. Of several candidates the first in sorted order is taken.
-class OppositeTriangles {
- public:
-  static constexpr uint32_t kNone = UINT32_MAX;
-
-  explicit OppositeTriangles(const Vector<uint32_t>& triangles) : opposite_(triangles.size()) {
-    Vector<std::pair<uint64_t, uint32_t>> edges(triangles.size());
-    for (uint32_t c = 0; c < triangles.size(); ++c)
-      edges[c] = {uint64_t{triangles[c]} << 32 | triangles[next(c)], c};
-    std::sort(edges.begin(), edges.end());
-    for (uint32_t c = 0; c < triangles.size(); ++c) {
-      std::pair<uint64_t, uint32_t> wanted{uint64_t{triangles[next(c)]} << 32 | triangles[c], 0};
-      auto found = std::lower_bound(edges.begin(), edges.end(), wanted);
-      opposite_[c] = found != edges.end() && found->first == wanted.first ? found->second : kNone;
-    }
-  }
-
-  static uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-
-  /// Corner at which the opposite edge starts, or kNone.
-  uint32_t operator[](uint32_t corner) const { return opposite_[corner]; }
-
- private:
-  Vector<uint32_t> opposite_;
 };
 
 /// Polygons with more corners are kept apart: joining takes time quadratic in a polygon's corners.
@@ -159,7 +133,9 @@ class DetailsCoding {
       }
       return alive(0) ? Status::kOk : Status::kEntropy;
     }
-    OppositeTriangles opposite(triangles_);
+    // Across the edge that leads from a corner to the next one: the first such triangle.
+    const Vector<uint32_t> opposite = HalfEdges(sizes_.points, triangles_)
+                                          .opposites([this](uint32_t c) { return triangles_[c]; });
     Vector<bool> used(count, false);
     Vector<uint32_t> border;  // corners: where each border edge of the polygon starts
     uint32_t size_before = 0;
@@ -174,7 +150,7 @@ class DetailsCoding {
         uint32_t options = 0, wanted = size;
         for (uint32_t e = 0; e < size; ++e) {
           uint32_t o = opposite[border[e]];
-          bool open = o != OppositeTriangles::kNone && !used[o / 3];
+          bool open = o != HalfEdges::kNone && !used[o / 3];
           options += open;
           if (open && wanted == size && source_.same_polygon(t, o / 3))
             wanted = e;
@@ -185,7 +161,7 @@ class DetailsCoding {
         uint32_t rank = 0;
         for (uint32_t e = 0; e < size && taken == size; ++e) {
           uint32_t o = opposite[border[e]];
-          if (o == OppositeTriangles::kNone || used[o / 3])
+          if (o == HalfEdges::kNone || used[o / 3])
             continue;
           if (++rank == options ||
               coder_.bit(edge_[std::min(size, 7U)][std::min(e, 7U)], e == wanted))
@@ -193,9 +169,9 @@ class DetailsCoding {
         }
         uint32_t o = opposite[border[taken]];
         used[o / 3] = true;
-        border[taken] = OppositeTriangles::next(o);
+        border[taken] = next_corner(o);
         border.insert(border.begin() + static_cast<ptrdiff_t>(taken) + 1,
-                      OppositeTriangles::next(OppositeTriangles::next(o)));
+                      next_corner(next_corner(o)));
         if (!alive(t))
           return Status::kEntropy;
       }

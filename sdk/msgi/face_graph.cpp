@@ -3,17 +3,13 @@
 #include "sdk/msgi/face_graph.h"
 
 #include "sdk/base/disjoint_sets.h"
+#include "sdk/mesh/half_edges.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace anicodec {
 namespace {
-
-struct HalfEdge {
-  uint32_t to;    ///< the larger vertex
-  uint32_t side;  ///< 3 * face + k
-};
 
 /// Turns counts, in element i + 1, into beginnings.
 void accumulate(Vector<uint32_t>& counts) {
@@ -25,40 +21,20 @@ using Pairs = Vector<std::pair<uint32_t, uint32_t>>;
 
 /// Finds the edges and the hinges between their faces.
 Pairs find_edges(FaceGraph& graph) {
-  Vector<uint32_t> begin(size_t{graph.vertex_count} + 1);
-  auto ends = [&](size_t side) {
-    uint32_t a = graph.corners[side];
-    uint32_t b = graph.corners[side % 3 == 2 ? side - 2 : side + 1];
-    return std::pair(std::min(a, b), std::max(a, b));
-  };
-  size_t sides = graph.corners.size();
-  for (size_t side = 0; side < sides; ++side) {
-    auto [low, high] = ends(side);
-    begin[low + 1] += low != high;
-  }
-  accumulate(begin);
-  Vector<HalfEdge> half(begin.back());
-  Vector<uint32_t> at(begin.begin(), begin.end() - 1);
-  for (size_t side = 0; side < sides; ++side) {
-    auto [low, high] = ends(side);
-    if (low != high)
-      half[at[low]++] = {high, static_cast<uint32_t>(side)};
-  }
-  graph.face_edges.assign(sides, kNoIndex);
+  graph.face_edges.assign(graph.corners.size(), kNoIndex);
   Pairs hinges;
-  for (uint32_t v = 0; v < graph.vertex_count; ++v) {
-    auto first = half.begin() + begin[v], last = half.begin() + begin[v + 1];
-    std::sort(first, last, [](const HalfEdge& p, const HalfEdge& q) {
-      return p.to != q.to ? p.to < q.to : p.side < q.side;
-    });
-    for (auto h = first; h != last; ++h) {
-      if (h == first || h->to != (h - 1)->to)
-        graph.edges.push_back({v, h->to});
-      else if (h->side / 3 != (h - 1)->side / 3)
-        hinges.emplace_back((h - 1)->side / 3, h->side / 3);
-      graph.face_edges[h->side] = static_cast<uint32_t>(graph.edges.size() - 1);
+  const HalfEdges half_edges(graph.vertex_count, graph.corners);
+  half_edges.for_each_edge([&](uint32_t low, uint32_t high, const HalfEdges::Item* first,
+                               const HalfEdges::Item* last) {
+    if (low == high)
+      return;
+    for (const HalfEdges::Item* item = first; item != last; ++item) {
+      graph.face_edges[item->corner] = static_cast<uint32_t>(graph.edges.size());
+      if (item != first && item[0].corner / 3 != item[-1].corner / 3)
+        hinges.emplace_back(item[-1].corner / 3, item[0].corner / 3);
     }
-  }
+    graph.edges.push_back({low, high});
+  });
   return hinges;
 }
 

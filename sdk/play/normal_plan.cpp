@@ -3,6 +3,7 @@
 #include "sdk/play/normal_plan.h"
 
 #include "sdk/base/disjoint_sets.h"
+#include "sdk/mesh/half_edges.h"
 #include "sdk/play/play.h"
 
 #include <algorithm>
@@ -105,33 +106,25 @@ Vector<Direction> polygon_normals(const Topology& t, const float* pose) {
 /// is compared with the next one.
 void join_across_edges(const Topology& topology, const Corners& corners, const float* pose,
                        double crease_cosine, DisjointSets* sets) {
-  struct Edge {
-    uint32_t low, high, corner;  // coded vertices, and the corner at which it starts
-  };
-
   const Vector<Direction> normals = polygon_normals(topology, pose);
-  Vector<Edge> edges(corners.count());
-  for (uint32_t c = 0; c < corners.count(); ++c) {
-    const uint32_t a = corners.coded(c), b = corners.coded(corners.next(c));
-    edges[c] = {std::min(a, b), std::max(a, b), c};
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-  });
-  for (size_t i = 1; i < edges.size(); ++i) {
-    const Edge &a = edges[i - 1], &b = edges[i];
-    if (a.low != b.low || a.high != b.high || a.low == a.high)
-      continue;
-    const Direction &x = normals[corners.polygon(a.corner)],
-                    &y = normals[corners.polygon(b.corner)];
+  const auto join_unless_crease = [&](uint32_t a, uint32_t b) {
+    const Direction &x = normals[corners.polygon(a)], &y = normals[corners.polygon(b)];
     if (!x.is_zero() && !y.is_zero() && x.dot(y) < crease_cosine)
-      continue;
-    uint32_t first = b.corner, second = corners.next(b.corner);
-    if (corners.coded(first) != corners.coded(a.corner))
+      return;
+    uint32_t first = b, second = corners.next(b);
+    if (corners.coded(first) != corners.coded(a))
       std::swap(first, second);
-    sets->join(a.corner, first);
-    sets->join(corners.next(a.corner), second);
-  }
+    sets->join(a, first);
+    sets->join(corners.next(a), second);
+  };
+  const HalfEdges half_edges(
+      topology.coded_vertices, corners.count(), [&](uint32_t c) { return corners.coded(c); },
+      [&](uint32_t c) { return corners.next(c); });
+  half_edges.for_each_edge(
+      [&](uint32_t low, uint32_t high, const HalfEdges::Item* first, const HalfEdges::Item* last) {
+        for (const HalfEdges::Item* item = first; low != high && item + 1 != last; ++item)
+          join_unless_crease(item[0].corner, item[1].corner);
+      });
 }
 
 /// Joins the corners that have the same key, below `keys`.

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Between our meshes and half-edge meshes of OpenMesh's kind, whose headers stay in the sources.
-#ifndef ANICODEC_CODEC_REMESH_HALF_EDGES_H_
-#define ANICODEC_CODEC_REMESH_HALF_EDGES_H_
+#ifndef ANICODEC_CODEC_REMESH_OPEN_MESH_H_
+#define ANICODEC_CODEC_REMESH_OPEN_MESH_H_
 
 #include "codec/sequence/error.h"
 #include "codec/surface/surface.h"
@@ -77,4 +77,4 @@ Positions positions_of(const Mesh& mesh, const std::vector<uint32_t>& vertices) 
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_REMESH_HALF_EDGES_H_
+#endif  // ANICODEC_CODEC_REMESH_OPEN_MESH_H_
