@@ -21,13 +21,6 @@ double smooth_step(double x) {
   return x * x * (3 - 2 * x);
 }
 
-uint64_t SplitMix64::next() {
-  uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31);
-}
-
 void Mesh::triangle(uint32_t a, uint32_t b, uint32_t c) {
   const uint32_t corners[] = {a, b, c};
   polygons.add(corners);

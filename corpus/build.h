@@ -4,6 +4,7 @@
 #define ANICODEC_CORPUS_BUILD_H_
 
 #include "codec/sequence/mesh_sequence.h"
+#include "codec/sequence/random.h"
 
 #include <cmath>
 #include <cstdint>
@@ -42,22 +43,6 @@ Vec3 rotated(const Vec3& p, const Vec3& axis, double angle);
 
 /// 0 below 0, 1 above 1, 3 x^2 - 2 x^3 between.
 double smooth_step(double x);
-
-/// The generator of Steele, Lea and Flood (2014): the same numbers on every machine.
-class SplitMix64 {
- public:
-  explicit SplitMix64(uint64_t seed) : state_(seed) {}
-
-  uint64_t next();
-
-  /// In [low, high), a multiple of (high - low) / 2^32.
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(next() >> 32) / 4294967296.0;
-  }
-
- private:
-  uint64_t state_;
-};
 
 /// A rest pose and its faces.
 struct Mesh {

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/algebra/leading_eigenpairs.h"
 
+#include "codec/sequence/random.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -53,11 +55,9 @@ Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double
   const Index limit = n / 2 / kBlock * kBlock;
   MatrixXd space(n, limit), image(n, limit);
   MatrixXd start(n, kBlock);
-  uint64_t seed = 1;
-  for (double& x : start.reshaped()) {
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    x = static_cast<double>(seed >> 40) / (1 << 23) - 1;
-  }
+  LinearCongruence random(1);
+  for (double& x : start.reshaped())
+    x = random.symmetric();
   MatrixXd next = orthonormal(start, space.leftCols(0));
   Index size = 0, check = 4 * kBlock;
   while (size < limit) {

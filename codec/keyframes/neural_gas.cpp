@@ -3,6 +3,7 @@
 #include "codec/keyframes/neural_gas.h"
 
 #include "codec/algebra/gram.h"
+#include "codec/sequence/random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,14 +28,6 @@ constexpr double kNegligible = 1e-12;
 // Neighbourhood below which only the nearest prototype moves: once still, always still.
 constexpr double kLastNeighbourhood = 0.03;
 
-// SplitMix64 (Steele, Lea and Flood 2014).
-uint64_t next_random(uint64_t& state) {
-  uint64_t z = state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
 // Frames where the prototypes start: the middles of equal parts of the clip, or drawn at random.
 std::vector<size_t> start_frames(size_t frames, size_t count, uint64_t seed) {
   std::vector<size_t> start(count);
@@ -44,10 +37,11 @@ std::vector<size_t> start_frames(size_t frames, size_t count, uint64_t seed) {
     }
     return start;
   }
+  SplitMix64 random(seed);
   std::vector<size_t> all(frames);
   std::iota(all.begin(), all.end(), size_t{0});
   for (size_t i = 0; i < count; i++) {
-    std::swap(all[i], all[i + next_random(seed) % (frames - i)]);
+    std::swap(all[i], all[i + random.next() % (frames - i)]);
     start[i] = all[i];
   }
   return start;

@@ -4,6 +4,7 @@
 #define ANICODEC_TESTS_CODEC_MOVING_POINTS_H_
 
 #include "codec/sequence/frame_view.h"
+#include "tests/random.h"
 
 #include <cmath>
 #include <cstddef>
@@ -28,15 +29,12 @@ struct MovingPoints {
 /// Uniform in -1..1, the same everywhere.
 class Noise {
  public:
-  explicit Noise(uint32_t seed) : state_(seed * 2654435761u + 12345u) {}
+  explicit Noise(uint32_t seed) : random_(seed * 2654435761u + 12345u) {}
 
-  double next() {
-    state_ = state_ * 1664525u + 1013904223u;
-    return static_cast<double>(state_ >> 8) / (1 << 23) - 1;
-  }
+  double next() { return random_.symmetric(); }
 
  private:
-  uint32_t state_;
+  SmallRandom random_;
 };
 
 /// Every coordinate of every frame at random, plus an offset.

@@ -3,7 +3,7 @@
 #include "format/binary_coder.h"
 
 #include "format/symbol_model.h"
-#include "tests/format/random.h"
+#include "tests/random.h"
 
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/coefficient_coder.h"
 
-#include "tests/format/random.h"
+#include "tests/random.h"
 
 #include <cstdint>
 #include <string>

@@ -3,7 +3,7 @@
 #include "format/time_weights.h"
 
 #include "format/cosine_transform.h"
-#include "tests/format/random.h"
+#include "tests/random.h"
 
 #include <cmath>
 #include <cstdint>

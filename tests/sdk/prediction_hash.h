@@ -8,6 +8,7 @@
 
 #include "sdk/prediction/predictor.h"
 #include "sdk/prediction/vertex_order.h"
+#include "tests/random.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -47,11 +48,8 @@ struct PredictionClip {
 inline PredictionClip prediction_clip(size_t components, size_t channels) {
   constexpr uint32_t width = 41, height = 29;
   PredictionClip clip;
-  uint32_t seed = 12345;
-  const auto random = [&](uint32_t range) {
-    seed = seed * 1664525 + 1013904223;
-    return static_cast<int32_t>((uint64_t{seed} * range) >> 32);
-  };
+  SmallRandom numbers(12345);
+  const auto random = [&](uint32_t range) { return static_cast<int32_t>(numbers.below(range)); };
   for (int32_t y = 0; y < int32_t{height}; ++y)
     for (int32_t x = 0; x < int32_t{width}; ++x) {
       const int32_t p[] = {190 * x + random(40), 210 * y + random(40),

@@ -4,6 +4,7 @@
 
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
+#include "tests/random.h"
 
 #include <cmath>
 #include <cstdio>
@@ -35,11 +36,9 @@ MeshSequence square(uint32_t frames) {
 
 /// Pseudo-random offsets of up to `size`.
 MeshSequence disturbed(MeshSequence s, float size) {
-  uint32_t state = 1;
-  for (float& x : s.positions) {
-    state = state * 1664525U + 1013904223U;
-    x += size * (static_cast<float>(state >> 8) / 8388608.F - 1);
-  }
+  SmallRandom random(1);
+  for (float& x : s.positions)
+    x += size * static_cast<float>(random.symmetric());
   return s;
 }
 

@@ -3,6 +3,7 @@
 #include "codec/metrics/sted.h"
 
 #include "corpus/clips.h"
+#include "tests/random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -214,11 +215,9 @@ TEST_P(StedOfClips, AgreesWithTheDefinition) {
     p.frame_count = std::min(frames, p.frame_count);
     p.positions.resize(size_t{3} * p.vertex_count * p.frame_count);
     MeshSequence q = p;
-    uint32_t state = 1;
-    for (float& x : q.positions) {
-      state = state * 1664525U + 1013904223U;
-      x += 0.01F * (static_cast<float>(state >> 8) / 8388608.F - 1);
-    }
+    SmallRandom random(1);
+    for (float& x : q.positions)
+      x += 0.01F * static_cast<float>(random.symmetric());
     Sted expected = by_definition(p, q), got = sted_of(p, q);
     EXPECT_GT(got.spatial, 0);
     EXPECT_NEAR(got.spatial, expected.spatial, 1e-12 * expected.spatial);

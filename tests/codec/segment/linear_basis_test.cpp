@@ -4,6 +4,7 @@
 
 #include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/trajectory_gram.h"
+#include "tests/random.h"
 
 #include <cmath>
 #include <vector>
@@ -23,10 +24,9 @@ using Eigen::VectorXd;
 
 std::vector<float> noise(size_t count, uint32_t seed) {
   std::vector<float> out(count);
-  for (float& x : out) {
-    seed = seed * 1664525 + 1013904223;
-    x = static_cast<float>(seed >> 8) / static_cast<float>(1 << 23) - 1;
-  }
+  SmallRandom random(seed);
+  for (float& x : out)
+    x = static_cast<float>(random.symmetric());
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "sdk/prediction/predictor.h"
 
 #include "sdk/prediction/encoder_predictor.h"
+#include "tests/random.h"
 #include "tests/sdk/prediction_hash.h"
 
 #include <algorithm>
@@ -164,13 +165,11 @@ TEST(Predictor, LearnsWeightsThatThePriorDoesNotHave) {
     EncoderPredictor predictor;
     EXPECT_EQ(predictor.init(order, clip.positions.data(), parameters, components), Status::kOk);
     double sum = 0;
-    uint32_t seed = 1;
+    SmallRandom random(1);
     for (size_t j = 0; j < components; ++j) {
       double a[2];
-      for (double& x : a) {
-        seed = seed * 1664525 + 1013904223;
-        x = 60.0 * (static_cast<double>(seed >> 8) / (1 << 23) - 1);
-      }
+      for (double& x : a)
+        x = 60.0 * random.symmetric();
       double energy = 0;
       for (size_t r = 0; r < n; ++r) {
         const bool part = clip.positions[3 * size_t{order.order[r]}] % 2 != 0;
@@ -192,12 +191,12 @@ TEST(Predictor, SurvivesHostileInput) {
   const PredictionCase c{16, 2, 3, 20, 12, RefitSchedule::kDense, 0};
   PredictionClip clip = prediction_clip(c.components, 3);
   std::vector<int32_t> q(clip.q.begin(), clip.q.end());
-  uint32_t seed = 9;
+  SmallRandom random(9);
   for (int32_t& x : q) {
-    seed = seed * 1664525 + 1013904223;
-    x = seed % 3 == 0   ? std::numeric_limits<int32_t>::min()
-        : seed % 3 == 1 ? std::numeric_limits<int32_t>::max()
-                        : 0;
+    const uint32_t kind = random.bits() % 3;
+    x = kind == 0   ? std::numeric_limits<int32_t>::min()
+        : kind == 1 ? std::numeric_limits<int32_t>::max()
+                    : 0;
   }
   for (size_t j = 0; j < c.components; ++j)
     clip.omega[j] = j % 2 ? 255 : 0;
