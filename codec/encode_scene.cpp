@@ -4,7 +4,7 @@
 
 #include "codec/file/clip_record.h"
 #include "codec/file/join_clips.h"
-#include "codec/search/rate_control.h"
+#include "codec/file/target.h"
 #include "codec/sequence/error.h"
 #include "format/container.h"
 

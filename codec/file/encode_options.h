@@ -4,6 +4,7 @@
 #define ANICODEC_CODEC_FILE_ENCODE_OPTIONS_H_
 
 #include "codec/connectivity/attribute_encode.h"
+#include "codec/file/target.h"
 #include "codec/keyframes/keyframe_selection.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "format/records.h"
@@ -26,13 +27,6 @@ enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
 struct SurfaceChange {
   double mean = 0;
   double max = 0;
-};
-
-/// What the file must keep to.
-struct Target {
-  ErrorMetric metric = ErrorMetric::kNone;
-  double value = 0;      ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
-  bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames
 };
 
 struct EncodeOptions {

@@ -77,4 +77,13 @@ double EncoderInput::rmse(double squared, size_t frames) const {
   return std::sqrt(squared / sequence.vertex_count / static_cast<double>(frames));
 }
 
+double EncoderInput::rmse_of_kg(double kg) const {
+  return kg / 100 * std::sqrt(kg_reference / sequence.vertex_count / sequence.frame_count);
+}
+
+double EncoderInput::smallest_bound() const {
+  // A position is rounded a few times on its way: four units in the last place.
+  return std::max(largest_coordinate * 0x1p-21, 1e-30);
+}
+
 }  // namespace anicodec

@@ -39,6 +39,12 @@ struct EncoderInput {
 
   double rmse(double squared) const { return rmse(squared, sequence.frame_count); }
 
+  /// The root mean square error, scene units, of a KG error in per cent.
+  double rmse_of_kg(double kg) const;
+
+  /// The smallest maximum error that float32 keeps at these coordinates, scene units.
+  double smallest_bound() const;
+
   /// `first_pose` around its centre, which goes to `origin`.
   Eigen::MatrixXd centred_first_pose(Eigen::Vector3d* origin) const;
 

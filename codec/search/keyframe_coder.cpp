@@ -4,6 +4,7 @@
 
 #include "codec/keyframes/keyframe_count.h"
 #include "codec/segment/keyframe_segment_encode.h"
+#include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,15 +91,18 @@ const MsgiFit& KeyframeCoder::fit(double rmse) {
   return interpolated(enough);
 }
 
-CodedPart KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
+std::optional<CodedPart> KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
   input_.begin_trial();
   double finest = input_.largest_coordinate * 0x1p-22;
   double step = std::max(
       {step_for_rounding_error(fit.fit, rounding_rms), finest, std::numeric_limits<double>::min()});
-  CodedPart part;
-  part.encoded =
+  std::optional<EncodedSegment> encoded =
       encode_keyframes(input_.frames(), fit.fit, weights_, fitter_.gram().mean_position(), step,
                        input_.layout, fit.leaf_faces);
+  if (!encoded)
+    return std::nullopt;
+  CodedPart part;
+  part.encoded = std::move(*encoded);
   part.opened = open_encoded(part.encoded, input_.layout);
   part.error = measure(part.opened, input_.frames(), input_.copies);
   part.what = std::to_string(fit.fit.keyframes.size()) + " key-frames, " +
@@ -120,11 +124,13 @@ std::optional<CodedPart> KeyframeCoder::at_rmse(double rmse) {
         break;
       if (rounding == 0 || rounding > std::sqrt(left))
         rounding = std::sqrt(left);
-      CodedPart part = coded(exact, rounding);
-      double measured = input_.rmse(part.error.squared);
+      std::optional<CodedPart> part = coded(exact, rounding);
+      if (!part)
+        return best;
+      double measured = input_.rmse(part->error.squared);
       if (measured <= rmse) {
-        size_t bytes = part.encoded.bytes() +
-                       encode_with_poses(input_.layout, part.encoded.draco_poses).size();
+        size_t bytes = part->encoded.bytes() +
+                       encode_with_poses(input_.layout, part->encoded.draco_poses).size();
         if (!best || bytes < best_bytes) {
           best = std::move(part);
           best_bytes = bytes;
@@ -148,10 +154,13 @@ CodedPart KeyframeCoder::at_count() {
   double rms = fitter_.rmse(exact.fit);
   double allowed = std::max(1.1 * rms, floor);
   double rounding = std::sqrt(std::max(0.8 * (allowed * allowed - rms * rms), 0.0));
-  CodedPart part = coded(exact, rounding);
-  for (int round = 0; round < kRounds && input_.rmse(part.error.squared) > allowed; ++round)
+  std::optional<CodedPart> part = coded(exact, rounding);
+  for (int round = 0; part && round < kRounds && input_.rmse(part->error.squared) > allowed;
+       ++round)
     part = coded(exact, rounding *= 0.7);
-  return part;
+  if (!part)
+    throw Error(ErrorKind::kUsage, "the error asked for is too fine for the size of the clip");
+  return std::move(*part);
 }
 
 }  // namespace anicodec

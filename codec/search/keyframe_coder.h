@@ -33,7 +33,8 @@ class KeyframeCoder : public SegmentCoder {
   /// So many key-frames, or as many as the error needs, with what is needed to code them.
   const MsgiFit& fit(double rmse);
   const MsgiFit& interpolated(size_t count);
-  CodedPart coded(const MsgiFit& fit, double rounding_rms);
+  /// Nothing if the format cannot hold a number.
+  std::optional<CodedPart> coded(const MsgiFit& fit, double rounding_rms);
 
   const EncoderInput& input_;
   KeyframeFitter fitter_;

@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/linear_coder.h"
 
-#include "codec/sequence/error.h"
+#include "codec/search/linear_steps.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <vector>
+#include <string>
+#include <utility>
 
 namespace anicodec {
 namespace {
@@ -24,7 +24,7 @@ constexpr size_t kMostComponents = 2000;
 
 LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
                          int effort, uint32_t layers)
-    : input_(input), analysis_(analysis), kind_(kind), effort_(effort) {
+    : input_(input), analysis_(analysis), kind_(kind), effort_(std::clamp(effort, 1, 9)) {
   const bool shapes = kind == BasisKind::kEigenshapes;
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
@@ -41,9 +41,9 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
 void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
   pose_ = std::move(pose);
   const PoseGrid& grid = pose_->grid;
-  given_.resize(static_cast<Eigen::Index>(grid.points.size() / 3), 3);
-  for (Eigen::Index i = 0; i < given_.size(); ++i)
-    given_(i / 3, i % 3) = grid.points[static_cast<size_t>(i)] * grid.step;
+  given_pose_.resize(static_cast<Eigen::Index>(grid.points.size() / 3), 3);
+  for (Eigen::Index i = 0; i < given_pose_.size(); ++i)
+    given_pose_(i / 3, i % 3) = grid.points[static_cast<size_t>(i)] * grid.step;
   choice_.pose = ReferencePose::kGiven;
   choice_.base = Base::kAffine;
   bases_.clear();
@@ -59,12 +59,12 @@ size_t LinearCoder::pose_bytes(const EncodedSegment& encoded) const {
 const LinearBasis& LinearCoder::basis(ReferencePose pose, Base base) {
   auto [found, fresh] = bases_.try_emplace({pose, base});
   if (fresh)
-    found->second = analysis_.basis(kind_, pose, base, kMostComponents, 0, &given_);
+    found->second = analysis_.basis(kind_, pose, base, kMostComponents, 0, &given_pose_);
   return found->second;
 }
 
 /// The choice with a step and a number of components that should meet the error.
-LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
+LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
   const LinearBasis& b = basis(choice.pose, choice.base);
   FrameView clip = analysis_.clip();
   double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
@@ -88,20 +88,23 @@ LinearCoder::Choice LinearCoder::started(Choice choice, double rmse) {
   return choice;
 }
 
-LinearCoder::Measured LinearCoder::measured(const Choice& choice, double rmse) {
+LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double rmse) {
   input_.begin_trial();
   Measured m;
   const LinearBasis& b = basis(choice.pose, choice.base);
-  try {
-    m.part.encoded = encode_linear(analysis_.clip(), b, choice.settings, input_.layout, pose_);
-  } catch (const TooFine&) {
+  std::optional<EncodedSegment> encoded =
+      encode_linear(analysis_.clip(), b, choice.settings, input_.layout, pose_);
+  if (!encoded) {
     m.rmse = m.bytes = std::numeric_limits<double>::infinity();
     return m;
   }
+  m.part.encoded = std::move(*encoded);
   m.part.opened = open_encoded(m.part.encoded, input_.layout);
   m.part.error = measure(m.part.opened, analysis_.clip(), input_.copies);
   m.part.what = std::to_string(m.part.encoded.sizes.components) +
                 (kind_ == BasisKind::kEigenshapes ? " eigenshapes" : " eigentrajectories");
+  for (const char* step : choice.steps)
+    m.part.what += std::string(", ") + step;
   m.rmse = input_.rmse(m.part.error.squared, analysis_.clip().frame_count);
   size_t pose = pose_ ? 0 : pose_bytes(m.part.encoded);
   m.bytes = static_cast<double>(m.part.encoded.bytes() + pose) *
@@ -117,49 +120,22 @@ double LinearCoder::probe(double rmse) {
 void LinearCoder::choose_settings(double rmse) {
   chosen_ = true;
   choice_ = started(choice_, rmse);
-  // One change at a time, those that pay most often first; what helps is kept.
-  using Change = std::function<void(Choice&)>;
-  bool shapes = kind_ == BasisKind::kEigenshapes;
-  std::vector<Change> changes = {
-      [](Choice& c) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
-      [](Choice& c) { c.settings.pose_factor *= 1.4; },
-      [shapes](Choice& c) {
-        c.pose = shapes ? ReferencePose::kRankThree : ReferencePose::kMean;
-        c.base = Base::kAffine;
-      },
-      [](Choice& c) { c.settings.lambda = 0.05; },
-      [](Choice& c) { c.settings.weight_factor *= 1.2; },
-      [](Choice& c) { c.settings.passes_per_level = 2; },
-      [](Choice& c) { c.settings.rank_factor *= 1.5; },
-      [](Choice& c) { c.settings.radius = 16; },
-      [](Choice& c) { c.settings.pose_factor *= 1.4; },
-      [](Choice& c) { c.settings.lambda = 0.11; },
-      [](Choice& c) { c.settings.weight_factor *= 1.2; },
-      [](Choice& c) { c.settings.pose_factor /= 1.3; },
-      [](Choice& c) { c.settings.weight_factor /= 1.15; },
-      [](Choice& c) { c.settings.rank_factor /= 1.5; },
-      [](Choice& c) { c.settings.radius = 9; },
-  };
-  const bool slow = effort_ >= kSlowEffort;
-  if (shapes || slow)
-    changes.insert(changes.begin() + 1, [](Choice& c) { c.settings.neighbours = 20; });
-  if (slow)
-    changes.insert(changes.begin() + 9, [](Choice& c) { c.settings.neighbours = 24; });
-  constexpr size_t kTrials[10] = {0, 0, 1, 3, 5, 7, 9, 12, 15, 17};
-  size_t trials = std::min(kTrials[std::clamp(effort_, 1, 9)], changes.size());
-  if (trials == 0)
-    return;
-  double least = measured(choice_, rmse).bytes;
-  for (size_t i = 0; i < trials; ++i) {
-    Choice changed = choice_;
-    changes[i](changed);
+  std::optional<double> least;
+  for (const LinearStep& step : linear_steps()) {
+    if (effort_ < (kind_ == BasisKind::kEigenshapes ? step.shapes_from : step.trajectories_from))
+      continue;
+    if (!least)
+      least = measured(choice_, rmse).bytes;
+    LinearChoice changed = choice_;
+    step.change(changed, kind_);
     if (changed.settings.rank_factor != choice_.settings.rank_factor ||
         changed.pose != choice_.pose || changed.base != choice_.base)
       changed = started(changed, rmse);
     double bytes = measured(changed, rmse).bytes;
-    if (bytes < least) {
+    if (bytes < *least) {
       least = bytes;
       choice_ = changed;
+      choice_.steps.push_back(step.name);
     }
   }
 }

@@ -4,6 +4,7 @@
 #define ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 
 #include "codec/search/encoder_input.h"
+#include "codec/search/linear_choice.h"
 #include "codec/search/segment_coder.h"
 #include "codec/segment/linear_basis.h"
 #include "codec/segment/linear_segment_encode.h"
@@ -32,18 +33,15 @@ class LinearCoder : public SegmentCoder {
   void share_pose(std::shared_ptr<const EncodedPose> pose);
 
   /// Takes over the settings of another coder.
-  void settings_of(const LinearCoder& other) { choice_.settings = other.choice_.settings; }
+  void settings_of(const LinearCoder& other) {
+    choice_.settings = other.choice_.settings;
+    choice_.steps = other.choice_.steps;
+  }
 
   /// About the bytes that an error costs, from one trial.
   double probe(double rmse);
 
  private:
-  struct Choice {
-    ReferencePose pose;
-    Base base;
-    LinearSettings settings;
-  };
-
   struct Measured {
     CodedPart part;
     double rmse = 0;
@@ -52,18 +50,18 @@ class LinearCoder : public SegmentCoder {
 
   const LinearBasis& basis(ReferencePose pose, Base base);
   size_t pose_bytes(const EncodedSegment& encoded) const;
-  Choice started(Choice choice, double rmse);
-  Measured measured(const Choice& choice, double rmse);
+  LinearChoice started(LinearChoice choice, double rmse);
+  Measured measured(const LinearChoice& choice, double rmse);
   void choose_settings(double rmse);
 
   const EncoderInput& input_;
   const LinearAnalysis& analysis_;
   BasisKind kind_;
   int effort_;
-  Choice choice_;
+  LinearChoice choice_;
   bool chosen_ = false;
   std::shared_ptr<const EncodedPose> pose_;
-  Eigen::MatrixXd given_;
+  Eigen::MatrixXd given_pose_;
   std::map<std::pair<ReferencePose, Base>, LinearBasis> bases_;
 };
 

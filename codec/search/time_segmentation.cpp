@@ -37,17 +37,17 @@ LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis) const {
   return coder;
 }
 
-double TimeSegmentation::probed(const FrameRange& range) const {
+double TimeSegmentation::probed(const FrameRun& range) const {
   LinearAnalysis analysis(input_.frames(range.first, range.count));
   return coder(analysis).probe(rmse_) + kChunks;
 }
 
-std::optional<CodedPart> TimeSegmentation::coded(const FrameRange& range) const {
+std::optional<CodedPart> TimeSegmentation::coded(const FrameRun& range) const {
   LinearAnalysis analysis(input_.frames(range.first, range.count));
   return coder(analysis).at_rmse(rmse_);
 }
 
-std::optional<uint32_t> TimeSegmentation::candidate(const FrameRange& range) const {
+std::optional<uint32_t> TimeSegmentation::candidate(const FrameRun& range) const {
   uint32_t low = range.first + kShortest, high = range.first + range.count - kShortest;
   if (range.count < 2 * kShortest || low >= high)
     return std::nullopt;
@@ -63,10 +63,10 @@ std::optional<uint32_t> TimeSegmentation::candidate(const FrameRange& range) con
   return std::nullopt;
 }
 
-void TimeSegmentation::split(const FrameRange& range, double bytes, std::vector<FrameRange>* out) {
+void TimeSegmentation::split(const FrameRun& range, double bytes, std::vector<FrameRun>* out) {
   if (std::optional<uint32_t> cut = candidate(range)) {
-    FrameRange left{range.first, *cut - range.first};
-    FrameRange right{*cut, range.first + range.count - *cut};
+    FrameRun left{range.first, *cut - range.first};
+    FrameRun right{*cut, range.first + range.count - *cut};
     double of_left = probed(left), of_right = probed(right);
     if (of_left + of_right < kWorthIt * bytes) {
       split(left, of_left, out);
@@ -77,9 +77,9 @@ void TimeSegmentation::split(const FrameRange& range, double bytes, std::vector<
   out->push_back(range);
 }
 
-std::vector<FrameRange> TimeSegmentation::find() {
-  FrameRange all{0, input_.sequence.frame_count};
-  std::vector<FrameRange> ranges;
+std::vector<FrameRun> TimeSegmentation::find() {
+  FrameRun all{0, input_.sequence.frame_count};
+  std::vector<FrameRun> ranges;
   if (!candidate(all))
     return {all};
   split(all, probed(all), &ranges);

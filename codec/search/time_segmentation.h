@@ -14,11 +14,6 @@
 
 namespace anicodec {
 
-struct FrameRange {
-  uint32_t first = 0;
-  uint32_t count = 0;
-};
-
 /// Cuts a clip in time where that makes it smaller: at hard cuts, and long ranges in the middle.
 /// All segments share one reference pose; whether a cut pays is measured by coding both sides.
 class TimeSegmentation {
@@ -29,15 +24,15 @@ class TimeSegmentation {
 
   /// The ranges, in order; one when no cut pays. Cost: about one trial of the whole clip per level
   /// of cutting.
-  std::vector<FrameRange> find();
+  std::vector<FrameRun> find();
 
   /// A range coded to the error.
-  std::optional<CodedPart> coded(const FrameRange& range) const;
+  std::optional<CodedPart> coded(const FrameRun& range) const;
 
  private:
-  void split(const FrameRange& range, double bytes, std::vector<FrameRange>* out);
-  std::optional<uint32_t> candidate(const FrameRange& range) const;
-  double probed(const FrameRange& range) const;
+  void split(const FrameRun& range, double bytes, std::vector<FrameRun>* out);
+  std::optional<uint32_t> candidate(const FrameRun& range) const;
+  double probed(const FrameRun& range) const;
   LinearCoder coder(const LinearAnalysis& analysis) const;
 
   const EncoderInput& input_;

@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/keyframe_segment_encode.h"
 
-#include "codec/sequence/error.h"
 #include "sdk/mesh/plain_coding.h"
 #include "sdk/segment/keyframe_segment.h"
 #include "sdk/segment/series_coding.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -35,13 +35,15 @@ double rms_distance(const std::vector<float>& a, const std::vector<float>& b) {
   return std::sqrt(3 * s / static_cast<double>(std::max<size_t>(a.size(), 1)));
 }
 
-Pose quantised(const std::vector<float>& points, const Eigen::Vector3d& origin, double step) {
+/// Nothing if a coordinate is too large in steps.
+std::optional<Pose> quantised(const std::vector<float>& points, const Eigen::Vector3d& origin,
+                              double step) {
   Pose pose(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
     double q =
         std::round((static_cast<double>(points[i]) - origin[static_cast<int>(i % 3)]) / step);
     if (!(std::abs(q) < kLargest))
-      throw TooFine();
+      return std::nullopt;
     pose[i] = static_cast<int32_t>(q);
   }
   return pose;
@@ -56,7 +58,7 @@ double edge_cost(const MeshLayout& layout, const Pose& pose, const Pose* parent)
   for (size_t t = 0; t + 2 < triangles.size(); t += stride) {
     for (size_t c = 0; c < 3; ++c) {
       size_t a = size_t{3} * triangles[t] + c, b = size_t{3} * triangles[t + 1] + c;
-      double d = double{static_cast<double>(pose[a])} - pose[b];
+      double d = static_cast<double>(pose[a]) - pose[b];
       if (parent)
         d -= static_cast<double>((*parent)[a]) - (*parent)[b];
       bits += std::log2(1 + std::abs(d));
@@ -81,24 +83,25 @@ Vector<uint32_t> choose_parents(const MeshLayout& layout, const std::vector<Pose
   return parents;
 }
 
-void code_series(BinaryEncoder& encoder, SeriesCoding& coding, Vector<int32_t>& series) {
-  if (!coding.code(encoder, series.size(), SeriesCoding::best_order(series), &series))
-    throw TooFine();
+/// False if the series leaves the range that the format holds.
+bool code_series(BinaryEncoder& encoder, SeriesCoding& coding, Vector<int32_t>& series) {
+  return coding.code(encoder, series.size(), SeriesCoding::best_order(series), &series);
 }
 
 int32_t rounded(double x) {
   return static_cast<int32_t>(std::clamp(std::round(x), -double{kLargest}, double{kLargest}));
 }
 
-/// Quaternions with no jump of sign, then translations, as integers.
-Bytes code_motions(const std::vector<RigidMotion>& motions, const KeyframeParameters& parameters) {
+/// Quaternions with no jump of sign, then translations, as integers. Nothing if one is too large.
+std::optional<Bytes> code_motions(const std::vector<RigidMotion>& motions,
+                                  const KeyframeParameters& parameters) {
   Vector<int32_t> series[7];
-  Eigen::Vector4d before(0, 0, 0, 1);
+  Eigen::Vector4d last(0, 0, 0, 1);
   for (const RigidMotion& motion : motions) {
     Eigen::Vector4d q = Eigen::Quaterniond(motion.rotation).coeffs();
-    if (q.dot(before) < 0)
+    if (q.dot(last) < 0)
       q = -q;
-    before = q;
+    last = q;
     for (int i = 0; i < 4; ++i)
       series[i].push_back(rounded(std::ldexp(q[i], parameters.rotation_bits)));
     for (int i = 0; i < 3; ++i)
@@ -106,9 +109,100 @@ Bytes code_motions(const std::vector<RigidMotion>& motions, const KeyframeParame
   }
   BinaryEncoder encoder;
   SeriesCoding coding;
-  for (Vector<int32_t>& s : series)
-    code_series(encoder, coding, s);
+  for (Vector<int32_t>& s : series) {
+    if (!code_series(encoder, coding, s))
+      return std::nullopt;
+  }
   return encoder.finish();
+}
+
+/// The weights of each key-frame over time; those of the first are left out where the sum is one.
+std::optional<Bytes> code_weights(const Eigen::MatrixXd& weights,
+                                  const KeyframeParameters& parameters) {
+  BinaryEncoder encoder;
+  SeriesCoding coding;
+  for (Eigen::Index j = parameters.sum_to_one ? 1 : 0; j < weights.cols(); ++j) {
+    Vector<int32_t> series;
+    for (Eigen::Index f = 0; f < weights.rows(); ++f)
+      series.push_back(rounded(std::ldexp(weights(f, j), parameters.weight_bits)));
+    if (!code_series(encoder, coding, series))
+      return std::nullopt;
+  }
+  return encoder.finish();
+}
+
+/// Key-frames on their grid, and the steps of what moves them.
+struct QuantisedKeyframes {
+  std::vector<Pose> poses;
+  /// How far a unit of each weight moves a frame, squared and summed.
+  double spread = 0;
+  double radius = 0;  ///< the largest root mean square distance of a key-frame from the origin
+};
+
+std::optional<QuantisedKeyframes> quantise(const FrameView& clip, const KeyframeFit& fit,
+                                           const KeyframeParameters& parameters) {
+  const Eigen::Vector3d origin(parameters.origin);
+  QuantisedKeyframes result;
+  std::vector<float> first;
+  for (uint32_t f : fit.keyframes) {
+    std::vector<float> points =
+        parameters.rigid ? aligned_frame(clip, f, fit.motions[f])
+                         : std::vector<float>(clip.frame(f), clip.frame(f) + 3 * clip.vertex_count);
+    std::optional<Pose> pose = quantised(points, origin, parameters.step);
+    if (!pose)
+      return std::nullopt;
+    result.poses.push_back(std::move(*pose));
+    result.radius = std::max(result.radius, rms_radius(points));
+    if (first.empty())
+      first = points;
+    double length = parameters.sum_to_one ? rms_distance(points, first) : rms_radius(points);
+    result.spread += length * length;
+  }
+  return result;
+}
+
+/// Steps of weights and motions that go with that of the coordinates.
+void choose_steps(const QuantisedKeyframes& keyframes, KeyframeParameters& parameters) {
+  const double step = parameters.step;
+  double unit = step * std::sqrt(kWeightShare * 3 / std::max(keyframes.spread, step * step));
+  parameters.weight_bits = static_cast<uint8_t>(std::clamp(std::ceil(-std::log2(unit)), 1.0, 24.0));
+  double angle = 0.3 * step / std::max(keyframes.radius, step);
+  parameters.rotation_bits =
+      static_cast<uint8_t>(std::clamp(std::ceil(-std::log2(angle)), 4.0, 27.0));
+  parameters.translation_step = 0.3 * step;
+}
+
+/// Whether the key-frames take 32 bits a coordinate in memory.
+bool are_wide(const std::vector<Pose>& poses) {
+  int32_t largest = 0;
+  for (const Pose& pose : poses) {
+    for (int32_t q : pose)
+      largest = std::max(largest, std::abs(q));
+  }
+  return largest > INT16_MAX;
+}
+
+void subtract_parents(const Vector<uint32_t>& parents, std::vector<Pose>& poses) {
+  for (size_t j = poses.size(); j-- > 0;) {
+    if (uint32_t parent = parents[j]; parent != 0) {
+      for (size_t i = 0; i < poses[j].size(); ++i)
+        poses[j][i] -= poses[parent - 1][i];
+    }
+  }
+}
+
+/// Coordinates that the mesh's Draco bitstream does not hold.
+Bytes code_loose_coordinates(const MeshLayout& layout, CoderId coder,
+                             const std::vector<Pose>& poses) {
+  size_t loose_from = 0;  // the first coded vertex that Draco does not hold
+  if (coder == CoderId::kDraco) {
+    for (uint32_t c : layout.topology.point_vertex)
+      loose_from = std::max<size_t>(loose_from, c + 1);
+  }
+  Pose loose;
+  for (const Pose& pose : poses)
+    loose.insert(loose.end(), pose.begin() + static_cast<ptrdiff_t>(3 * loose_from), pose.end());
+  return encode_plain_integers(loose, 3);
 }
 
 }  // namespace
@@ -120,10 +214,10 @@ double step_for_rounding_error(const KeyframeFit& fit, double rms) {
   return rms / std::sqrt((1 + kWeightShare) * gain * 3 / 12);
 }
 
-EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, KeyframeWeights kind,
-                                const Eigen::Vector3d& mean_position, double step,
-                                const MeshLayout& layout, uint32_t leaf_faces) {
-  size_t k = fit.keyframes.size();
+std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const KeyframeFit& fit,
+                                               KeyframeWeights kind,
+                                               const Eigen::Vector3d& mean_position, double step,
+                                               const MeshLayout& layout, uint32_t leaf_faces) {
   KeyframeParameters parameters;
   parameters.sum_to_one = kind != KeyframeWeights::kLinear;
   parameters.rigid = kind == KeyframeWeights::kRigid;
@@ -131,76 +225,33 @@ EncodedSegment encode_keyframes(const FrameView& clip, const KeyframeFit& fit, K
   parameters.leaf_faces = static_cast<uint8_t>(leaf_faces);
   parameters.step = step;
   parameters.frames.assign(fit.keyframes.begin(), fit.keyframes.end());
-  Eigen::Vector3d origin = parameters.rigid ? Eigen::Vector3d::Zero().eval() : mean_position;
-  std::copy_n(origin.data(), 3, parameters.origin);
+  if (!parameters.rigid)
+    std::copy_n(mean_position.data(), 3, parameters.origin);
+  std::optional<QuantisedKeyframes> keyframes = quantise(clip, fit, parameters);
+  if (!keyframes)
+    return std::nullopt;
+  choose_steps(*keyframes, parameters);
 
-  std::vector<Pose> poses;
-  std::vector<float> first;
-  double spread = 0;  // how far a unit of each weight moves a frame, squared and summed
-  double radius = 0;
-  for (uint32_t f : fit.keyframes) {
-    std::vector<float> points =
-        parameters.rigid ? aligned_frame(clip, f, fit.motions[f])
-                         : std::vector<float>(clip.frame(f), clip.frame(f) + 3 * clip.vertex_count);
-    poses.push_back(quantised(points, origin, step));
-    radius = std::max(radius, rms_radius(points));
-    if (first.empty())
-      first = points;
-    double length = parameters.sum_to_one ? rms_distance(points, first) : rms_radius(points);
-    spread += length * length;
-  }
-  double unit = step * std::sqrt(kWeightShare * 3 / std::max(spread, step * step));
-  parameters.weight_bits = static_cast<uint8_t>(std::clamp(std::ceil(-std::log2(unit)), 1.0, 24.0));
-  double angle = 0.3 * step / std::max(radius, step);
-  parameters.rotation_bits =
-      static_cast<uint8_t>(std::clamp(std::ceil(-std::log2(angle)), 4.0, 27.0));
-  parameters.translation_step = 0.3 * step;
-
+  std::vector<Pose>& poses = keyframes->poses;
   EncodedSegment encoded;
   encoded.sizes.kind = BasisKind::kKeyframes;
   if (leaf_faces > 0)
     encoded.sizes.reconstruction = Reconstruction::kMsgi;
   encoded.sizes.frames = static_cast<uint32_t>(clip.frame_count);
-  encoded.sizes.components = static_cast<uint32_t>(k);
-  int32_t largest = 0;
-  for (const Pose& pose : poses) {
-    for (int32_t q : pose)
-      largest = std::max(largest, std::abs(q));
-  }
-  encoded.sizes.wide_components = largest > INT16_MAX ? encoded.sizes.components : 0;
-
+  encoded.sizes.components = static_cast<uint32_t>(poses.size());
+  encoded.sizes.wide_components = are_wide(poses) ? encoded.sizes.components : 0;
   parameters.parents = choose_parents(layout, poses);
-  for (size_t j = k; j-- > 0;) {
-    if (uint32_t parent = parameters.parents[j]; parent != 0) {
-      for (size_t i = 0; i < poses[j].size(); ++i)
-        poses[j][i] -= poses[parent - 1][i];
-    }
-  }
-  Pose plain;
-  size_t loose_from = 0;  // the first coded vertex that Draco does not hold
-  if (parameters.coder == CoderId::kDraco) {
-    for (uint32_t c : layout.topology.point_vertex)
-      loose_from = std::max<size_t>(loose_from, c + 1);
-  }
-  for (const Pose& pose : poses)
-    plain.insert(plain.end(), pose.begin() + static_cast<ptrdiff_t>(3 * loose_from), pose.end());
-  encoded.pose = encode_plain_integers(plain, 3);
+  subtract_parents(parameters.parents, poses);
+  encoded.pose = code_loose_coordinates(layout, parameters.coder, poses);
   if (parameters.coder == CoderId::kDraco)
     encoded.draco_poses = std::move(poses);
 
-  BinaryEncoder encoder;
-  SeriesCoding coding;
-  for (size_t j = parameters.sum_to_one ? 1 : 0; j < k; ++j) {
-    Vector<int32_t> series(clip.frame_count);
-    for (size_t f = 0; f < clip.frame_count; ++f)
-      series[f] = rounded(
-          std::ldexp(fit.weights(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(j)),
-                     parameters.weight_bits));
-    code_series(encoder, coding, series);
-  }
-  encoded.weights = encoder.finish();
-  if (parameters.rigid)
-    encoded.motion = code_motions(fit.motions, parameters);
+  std::optional<Bytes> weights = code_weights(fit.weights, parameters);
+  std::optional<Bytes> motion = parameters.rigid ? code_motions(fit.motions, parameters) : Bytes();
+  if (!weights || !motion)
+    return std::nullopt;
+  encoded.weights = std::move(*weights);
+  encoded.motion = std::move(*motion);
   encoded.parameters = parameters.write();
   return encoded;
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace anicodec {
@@ -46,8 +47,9 @@ std::shared_ptr<const EncodedPose> encode_reference_pose(const Eigen::MatrixXd& 
 /// Quantises and codes a basis as a segment: pose, time weights, the basis refitted to the decoded
 /// weights (closed loop), its coefficients predicted and rounded with their cost in mind.
 /// `shared`: a pose that the file has already, from which the basis was made; null: the basis' own.
+/// Nothing if the format cannot hold a number: the step is too fine for the clip.
 /// Cost: O(vertices x components x neighbours^2), two passes over the clip.
-EncodedSegment encode_linear(const FrameView& clip, const LinearBasis& basis,
+std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearBasis& basis,
                              const LinearSettings& settings, const MeshLayout& layout,
                              std::shared_ptr<const EncodedPose> shared = nullptr);
 

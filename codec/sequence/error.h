@@ -28,13 +28,6 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// A number that the format cannot hold: some steps are too fine for a clip, others may do.
-class TooFine : public Error {
- public:
-  TooFine()
-      : Error(ErrorKind::kUsage, "the error asked for is too fine for the size of the clip") {}
-};
-
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_SEQUENCE_ERROR_H_

@@ -34,7 +34,7 @@ ALLOWED = {
 ROOMS = {
     "sdk/base": [],
     "sdk/mesh": [],
-    "sdk/msgi": ["sdk/base"],
+    "sdk/msgi": ["sdk/base", "sdk/mesh"],
     "sdk/prediction": ["sdk/base"],
     "sdk/pose": ["sdk/base", "sdk/mesh"],
     "sdk/segment": ["sdk/base", "sdk/mesh", "sdk/msgi", "sdk/pose", "sdk/prediction"],
@@ -57,7 +57,8 @@ ROOMS = {
     "codec/file": ["codec/sequence", "codec/connectivity", "codec/keyframes", "codec/segment"],
     "codec/search": ["codec/sequence", "codec/algebra", "codec/connectivity", "codec/keyframes", "codec/segment",
                      "codec/file"],
-    "codec": ["codec/sequence", "codec/metrics", "codec/massage", "codec/segment", "codec/file", "codec/search"],
+    "codec": ["codec/sequence", "codec/connectivity", "codec/metrics", "codec/massage", "codec/segment", "codec/file",
+              "codec/search"],
     "tools/io/base": [],
     "tools/words": [],
     "tools/options": ["tools/words"],

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/check_file.h"
+
+#include "codec/sequence/error.h"
+#include "sdk/clip/clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <string>
+
+namespace anicodec {
+namespace {
+
+Clip opened(const Bytes& file) {
+  Clip clip;
+  if (Failure failure = clip.open(file); !failure.ok())
+    throw Error(ErrorKind::kInternal,
+                std::string("the encoded file cannot be opened: ") + status_string(failure.status));
+  if (Failure failure = clip.check_hashes(); !failure.ok())
+    throw Error(ErrorKind::kInternal, "the encoded file decodes to other integers");
+  return clip;
+}
+
+/// For each vertex of the source, the played vertex that shows it.
+std::vector<uint32_t> played_vertices(const Clip& clip, const MeshLayout& layout) {
+  std::vector<uint32_t> played(layout.source_coded.size());
+  if (clip.record().order != OrderMode::kFree) {
+    std::iota(played.begin(), played.end(), 0U);
+    return played;
+  }
+  const Vector<uint32_t>& coded = clip.meshes()[0].topology.vertex_coded;
+  std::vector<uint32_t> played_of_coded(layout.sizes.coded_vertices);
+  for (uint32_t v = 0; v < coded.size(); ++v)
+    played_of_coded[coded[v]] = v;
+  for (uint32_t v = 0; v < played.size(); ++v)
+    played[v] = played_of_coded[layout.source_coded[v]];
+  return played;
+}
+
+/// Copies rows of three numbers: row rows[v] of `from` to row v.
+void copy_rows(const float* from, const std::vector<uint32_t>& rows, std::vector<float>* to) {
+  to->resize(3 * rows.size());
+  for (size_t v = 0; v < rows.size(); ++v)
+    std::copy_n(from + size_t{3} * rows[v], 3, to->data() + 3 * v);
+}
+
+/// In the source's vertex order whatever the file's.
+Comparison compare_positions(const Clip& clip, const EncoderInput& input) {
+  const std::vector<uint32_t> played_of = played_vertices(clip, input.layout);
+  const uint32_t vertices = input.sequence.vertex_count;
+  std::vector<float> original, decoded, played(size_t{3} * vertices);
+  CompareOptions options;
+  options.sted = false;
+  return compare(
+      input.sequence.polygons, vertices, input.sequence.frame_count,
+      [&](uint32_t f) -> std::span<const float> {
+        copy_rows(input.frames().frame(f), input.layout.source_coded, &original);
+        return original;
+      },
+      [&](uint32_t f) -> std::span<const float> {
+        clip.positions(0, f, played.data());
+        copy_rows(played.data(), played_of, &decoded);
+        return decoded;
+      },
+      options);
+}
+
+/// Measures one attribute that changes over time.
+void measure(const Clip& clip, const EncoderInput& input, const Attribute& attribute,
+             uint32_t first_frame, AttributeResult* result) {
+  const bool free = clip.record().order == OrderMode::kFree;
+  const uint32_t vertices = input.sequence.vertex_count, n = attribute.components;
+  std::vector<float> played(size_t{vertices} * n);
+  double squared = 0;
+  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+    clip.attribute_values(0, result->number, f, played.data());
+    const float* source = attribute.values.data() + size_t{f + first_frame} * vertices * n;
+    for (uint32_t v = 0; v < vertices; ++v) {
+      const float* values = source + size_t{free ? input.layout.vertex_source[v] : v} * n;
+      for (uint32_t c = 0; c < n; ++c) {
+        const double d =
+            static_cast<double>(values[c]) - static_cast<double>(played[size_t{v} * n + c]);
+        squared += d * d;
+        result->max_error = std::max(result->max_error, std::abs(d));
+      }
+    }
+  }
+  result->rmse = std::sqrt(squared / n / vertices / clip.frame_count());
+  if (result->max_error > result->asked)
+    throw Error(ErrorKind::kInternal, attribute.name + ": the error is above what was asked for");
+}
+
+}  // namespace
+
+Comparison check_file(const Bytes& file, const EncoderInput& input,
+                      const std::vector<StoredAttribute>& stored, uint32_t first_frame,
+                      std::vector<AttributeResult>* attributes) {
+  const Clip clip = opened(file);
+  const Comparison comparison = compare_positions(clip, input);
+  for (AttributeResult& result : *attributes) {
+    if (!result.kept)
+      continue;
+    const auto of = std::ranges::find(stored, result.number, &StoredAttribute::number);
+    measure(clip, input, input.sequence.attributes[of->source], first_frame, &result);
+  }
+  return comparison;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_CHECK_FILE_H_
+#define ANICODEC_CODEC_CHECK_FILE_H_
+
+#include "codec/connectivity/attribute_encode.h"
+#include "codec/file/encode_options.h"
+#include "codec/metrics/metrics.h"
+#include "codec/search/encoder_input.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace anicodec {
+
+/// Opens a file as a decoder does, plays it and compares it with the source: positions, and the
+/// attributes that change over time, whose errors are filled in. `first_frame`: the frame of the
+/// source that the file begins with. Throws Error(kInternal) for a file that cannot be opened, that
+/// decodes to other integers, or with an attribute further off than was asked for. Cost: that of
+/// playing all frames.
+Comparison check_file(const Bytes& file, const EncoderInput& input,
+                      const std::vector<StoredAttribute>& stored, uint32_t first_frame,
+                      std::vector<AttributeResult>* attributes);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_CHECK_FILE_H_

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/file/target.h"
+
+#include "codec/sequence/error.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace anicodec {
+
+Target in_scene_units(Target target, double diagonal) {
+  if (target.metric == ErrorMetric::kNone)
+    return target;
+  if (target.metric == ErrorMetric::kMaxError && target.value == 0)
+    throw Error(ErrorKind::kUsage,
+                "a maximum error of 0 needs a lossless mode, which there is not");
+  if (!(std::isfinite(target.value) && target.value > 0))
+    throw Error(ErrorKind::kUsage, "the target must be greater than 0");
+  if (target.percent) {
+    target.value *= diagonal / 100;
+    target.percent = false;
+  }
+  return target;
+}
+
+std::optional<double> allowed_bytes(const Target& target, uint32_t vertices, uint32_t frames) {
+  if (target.metric == ErrorMetric::kSize)
+    return target.value;
+  if (target.metric == ErrorMetric::kBpfv)
+    return target.value / 8 * vertices * frames;
+  return std::nullopt;
+}
+
+bool is_kept(const Target& target, std::optional<double> cap, const FileMeasures& file) {
+  if (cap && target.metric != ErrorMetric::kMaxError && !(file.max_error <= *cap))
+    return false;
+  switch (target.metric) {
+    case ErrorMetric::kKg:
+      return file.kg <= target.value;
+    case ErrorMetric::kRmse:
+      return file.rmse <= target.value;
+    case ErrorMetric::kMaxError:
+      return file.max_error <= target.value;
+    case ErrorMetric::kSize:
+    case ErrorMetric::kBpfv:
+      return static_cast<double>(file.bytes) <= *allowed_bytes(target, file.vertices, file.frames);
+    case ErrorMetric::kNone:
+      break;
+  }
+  return true;
+}
+
+std::string four_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+}  // namespace anicodec

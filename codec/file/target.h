@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_FILE_TARGET_H_
+#define ANICODEC_CODEC_FILE_TARGET_H_
+
+#include "format/records.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace anicodec {
+
+/// What the file must keep to.
+struct Target {
+  ErrorMetric metric = ErrorMetric::kNone;
+  double value = 0;      ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
+  bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames
+};
+
+/// The target with lengths in scene units. Throws Error(kUsage) for values that make no sense.
+Target in_scene_units(Target target, double diagonal);
+
+/// The bytes that a target which is a size allows a file of these many vertices and frames; nothing
+/// for other targets.
+std::optional<double> allowed_bytes(const Target& target, uint32_t vertices, uint32_t frames);
+
+/// Whether the target is a size, so that the error is what remains to be made small.
+inline bool is_size(const Target& target) {
+  return target.metric == ErrorMetric::kSize || target.metric == ErrorMetric::kBpfv;
+}
+
+/// What was measured of a file: KG in per cent, lengths in scene units.
+struct FileMeasures {
+  double kg = 0;
+  double rmse = 0;
+  double max_error = 0;
+  size_t bytes = 0;
+  uint32_t vertices = 0;
+  uint32_t frames = 0;
+};
+
+/// Whether a file keeps to the target, and to the largest maximum error `cap` if there is one.
+bool is_kept(const Target& target, std::optional<double> cap, const FileMeasures& file);
+
+/// A number for a message, with four digits.
+std::string four_digits(double x);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_FILE_TARGET_H_

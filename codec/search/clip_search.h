@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_CLIP_SEARCH_H_
+#define ANICODEC_CODEC_SEARCH_CLIP_SEARCH_H_
+
+#include "codec/connectivity/attribute_encode.h"
+#include "codec/file/encode_options.h"
+#include "codec/search/encoder_input.h"
+#include "codec/search/moving_attributes.h"
+#include "codec/search/rate_control.h"
+#include "codec/search/solution.h"
+#include "format/records.h"
+
+#include <vector>
+
+namespace anicodec {
+
+/// The clip and its moving attributes, coded.
+struct CodedClip {
+  Solution positions;
+  MovingAttributes attributes;
+
+  /// The file. Errors of attributes are those measured so far.
+  Bytes file(ClipRecord record, const MeshLayout& layout) const;
+};
+
+/// Searches positions and moving attributes for a target of the whole file: where that is a size,
+/// positions get what the attributes leave.
+class ClipSearch {
+ public:
+  /// All references must outlive this object. Throws Error(kUsage) for a target that float32 cannot
+  /// keep.
+  ClipSearch(const EncoderInput& input, const std::vector<StoredAttribute>& stored,
+             const EncodeOptions& options, const Target& target, double diagonal)
+      : input_(input),
+        stored_(stored),
+        options_(options),
+        target_(target),
+        diagonal_(diagonal),
+        control_(input, options, target, diagonal) {}
+
+  /// `record`: for the size of the file. Throws Error(kUsage) when the target cannot be reached.
+  CodedClip run(const ClipRecord& record);
+
+  /// About how many trials of coders run() makes.
+  double expected_trials() const { return control_.expected_trials(); }
+
+  /// Those of the first search of the positions.
+  const std::vector<Trial>& trials() const { return control_.trials(); }
+
+ private:
+  const EncoderInput& input_;
+  const std::vector<StoredAttribute>& stored_;
+  const EncodeOptions& options_;
+  Target target_;
+  double diagonal_;
+  RateControl control_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_CLIP_SEARCH_H_

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_LINEAR_CHOICE_H_
+#define ANICODEC_CODEC_SEARCH_LINEAR_CHOICE_H_
+
+#include "codec/segment/linear_basis.h"
+#include "codec/segment/linear_segment_encode.h"
+
+#include <vector>
+
+namespace anicodec {
+
+/// How a linear basis is made and coded.
+struct LinearChoice {
+  ReferencePose pose = ReferencePose::kMean;
+  Base base = Base::kPose;
+  LinearSettings settings;
+  std::vector<const char*> steps;  ///< names of the steps of the search that were kept
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_LINEAR_CHOICE_H_

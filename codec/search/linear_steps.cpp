@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/linear_steps.h"
+
+namespace anicodec {
+
+const std::vector<LinearStep>& linear_steps() {
+  static const std::vector<LinearStep> steps = {
+      {"pose of a frame",
+       [](LinearChoice& c, BasisKind) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
+       2, 2},
+      {"20 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 20; }, 7, 3},
+      {"coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= 1.4; }, 3, 3},
+      {"mean or rank-three pose",
+       [](LinearChoice& c, BasisKind kind) {
+         const bool shapes = kind == BasisKind::kEigenshapes;
+         c.pose = shapes ? ReferencePose::kRankThree : ReferencePose::kMean;
+         c.base = Base::kAffine;
+       },
+       3, 4},
+      {"lambda 0.05", [](LinearChoice& c, BasisKind) { c.settings.lambda = 0.05; }, 4, 4},
+      {"coarser weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor *= 1.2; }, 4,
+       5},
+      {"2 passes per level", [](LinearChoice& c, BasisKind) { c.settings.passes_per_level = 2; }, 5,
+       5},
+      {"fewer components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor *= 1.5; }, 5, 6},
+      {"radius 16", [](LinearChoice& c, BasisKind) { c.settings.radius = 16; }, 6, 6},
+      {"24 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 24; }, 7, 7},
+      {"yet coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= 1.4; }, 6, 7},
+      {"lambda 0.11", [](LinearChoice& c, BasisKind) { c.settings.lambda = 0.11; }, 7, 7},
+      {"yet coarser weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor *= 1.2; },
+       8, 8},
+      {"finer pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor /= 1.3; }, 8, 8},
+      {"finer weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor /= 1.15; }, 8, 8},
+      {"more components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor /= 1.5; }, 9, 9},
+      {"radius 9", [](LinearChoice& c, BasisKind) { c.settings.radius = 9; }, 9, 9},
+  };
+  return steps;
+}
+
+}  // namespace anicodec

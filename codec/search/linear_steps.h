@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_
+#define ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_
+
+#include "codec/search/linear_choice.h"
+
+#include <vector>
+
+namespace anicodec {
+
+/// One change of settings that the search tries.
+struct LinearStep {
+  const char* name;  ///< for `encode -v`
+  void (*change)(LinearChoice& choice, BasisKind kind);
+  int trajectories_from;  ///< the least effort, 1..9, at which eigentrajectories try it
+  int shapes_from;        ///< the same for eigenshapes
+};
+
+/// The steps in the order in which they are tried: those that pay most often first. A step that
+/// helps is kept, and the next ones start from it.
+const std::vector<LinearStep>& linear_steps();
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_

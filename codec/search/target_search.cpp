@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/target_search.h"
+
+#include "codec/sequence/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace anicodec {
+namespace {
+
+/// The maximum error to which files are corrected: one that is a target leaves room for rounding.
+std::optional<double> cap_of(const EncoderInput& input, const EncodeOptions& options,
+                             const Target& target, double diagonal) {
+  if (target.metric == ErrorMetric::kMaxError && target.value != 0)
+    return target.value - input.smallest_bound() / 4;
+  if (options.cap)
+    return in_scene_units(*options.cap, diagonal).value;
+  return std::nullopt;
+}
+
+void check_bound(const EncoderInput& input, double bound) {
+  if (bound < input.smallest_bound() && bound > 0)
+    throw Error(ErrorKind::kUsage,
+                "the maximum error is below what float32 keeps at these coordinates; the smallest "
+                "possible is " +
+                    four_digits(input.smallest_bound()));
+}
+
+}  // namespace
+
+TargetSearch::TargetSearch(const EncoderInput& input, const EncodeOptions& options,
+                           const Target& target, double diagonal)
+    : input_(input),
+      target_(target),
+      effort_(options.effort),
+      files_(input, options, cap_of(input, options, target, diagonal)) {
+  if (target.metric == ErrorMetric::kMaxError)
+    check_bound(input, target.value);
+  else if (options.cap)
+    check_bound(input, in_scene_units(*options.cap, diagonal).value);
+}
+
+std::optional<Solution> TargetSearch::at_rmse(SegmentCoder& coder, double rmse) {
+  std::optional<CodedPart> part = coder.at_rmse(rmse);
+  if (!part)
+    return std::nullopt;
+  std::vector<CodedPart> parts;
+  parts.push_back(std::move(*part));
+  return files_.put_together(std::move(parts));
+}
+
+std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double bound) {
+  if (bound == 0)  // per cent of nothing: all vertices are one point that stands still
+    return at_rmse(coder, input_.smallest_bound());
+  // Corrections take care of the outliers: how many are worth having is measured, going from a
+  // usual ratio of maximum to mean error in the direction that pays.
+  std::optional<Solution> best;
+  auto trial_is_better = [&](double ratio) {
+    std::optional<Solution> trial = at_rmse(coder, bound / ratio);
+    if (!trial || (best && trial->bytes >= best->bytes))
+      return false;
+    best = std::move(trial);
+    return true;
+  };
+  constexpr double kUsual = 4, kFactor = 1.4;
+  trial_is_better(kUsual);
+  bool higher = trial_is_better(kUsual * kFactor);
+  double factor = higher ? kFactor : 1 / kFactor;
+  double ratio = higher ? kUsual * kFactor : kUsual;
+  for (int round = 0; round < 3 && trial_is_better(ratio *= factor); ++round) {
+  }
+  return best;
+}
+
+std::optional<Solution> TargetSearch::at_bytes(SegmentCoder& coder, size_t bytes) {
+  // The size falls as the error grows: bisection on its logarithm.
+  double low = input_.smallest_bound(), high = std::max(input_.rmse_of_kg(100), 2 * low);
+  std::optional<Solution> best;
+  for (int round = 0; round < 12 && high / low > 1.01; ++round) {
+    double middle = std::sqrt(low * high);
+    std::optional<Solution> trial = at_rmse(coder, middle);
+    bool fits = trial && trial->bytes <= bytes;
+    if (fits && (!best || trial->squared_error() < best->squared_error()))
+      best = std::move(trial);
+    (fits ? high : low) = middle;
+  }
+  return best;
+}
+
+std::optional<Solution> TargetSearch::reach(SegmentCoder& coder) {
+  switch (target_.metric) {
+    case ErrorMetric::kKg:
+      return at_rmse(coder, input_.rmse_of_kg(target_.value));
+    case ErrorMetric::kRmse:
+      return at_rmse(coder, target_.value);
+    case ErrorMetric::kMaxError:
+      return at_max_error(coder, target_.value);
+    case ErrorMetric::kSize:
+    case ErrorMetric::kBpfv:
+      return at_bytes(coder,
+                      static_cast<size_t>(*allowed_bytes(target_, input_.sequence.vertex_count,
+                                                         input_.sequence.frame_count)));
+    case ErrorMetric::kNone:
+      break;
+  }
+  return std::nullopt;
+}
+
+bool TargetSearch::better(const Solution& a, const Solution& b) const {
+  if (is_size(target_))
+    return a.squared_error() < b.squared_error();
+  return a.bytes < b.bytes;
+}
+
+double TargetSearch::typical_rmse() const {
+  switch (target_.metric) {
+    case ErrorMetric::kKg:
+      return input_.rmse_of_kg(target_.value);
+    case ErrorMetric::kRmse:
+      return target_.value;
+    case ErrorMetric::kMaxError:
+      return std::max(target_.value, input_.smallest_bound()) / 4;
+    default:
+      return input_.rmse_of_kg(0.1);
+  }
+}
+
+double TargetSearch::expected_trials() const {
+  constexpr double kOfOneError = 3;  // until an error is met
+  double settings = 2 * effort_ - 3;
+  switch (target_.metric) {
+    case ErrorMetric::kMaxError:
+      return std::max(settings, 0.0) + 4 * kOfOneError;
+    case ErrorMetric::kSize:
+    case ErrorMetric::kBpfv:
+      return std::max(settings, 0.0) + 11 * kOfOneError;
+    default:
+      return std::max(settings, 0.0) + kOfOneError;
+  }
+}
+
+}  // namespace anicodec

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_TARGET_SEARCH_H_
+#define ANICODEC_CODEC_SEARCH_TARGET_SEARCH_H_
+
+#include "codec/file/encode_options.h"
+#include "codec/search/encoder_input.h"
+#include "codec/search/segment_coder.h"
+#include "codec/search/solution.h"
+#include "codec/search/trial_files.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace anicodec {
+
+/// Finds what one coder does for a target: an error is met directly, a maximum error with
+/// corrections of outliers, a size by bisection.
+class TargetSearch {
+ public:
+  /// Throws Error(kUsage) for a maximum error that float32 cannot keep.
+  TargetSearch(const EncoderInput& input, const EncodeOptions& options, const Target& target,
+               double diagonal);
+
+  /// The best file of a coder that keeps to the target; nothing when there is none.
+  std::optional<Solution> reach(SegmentCoder& coder);
+
+  /// Whether a is the better of two files that keep to the target.
+  bool better(const Solution& a, const Solution& b) const;
+
+  /// About the root mean square error of a file that keeps to the target.
+  double typical_rmse() const;
+
+  /// About how many trials of coders a search takes.
+  double expected_trials() const;
+
+  TrialFiles& files() { return files_; }
+
+  const TrialFiles& files() const { return files_; }
+
+ private:
+  std::optional<Solution> at_rmse(SegmentCoder& coder, double rmse);
+  std::optional<Solution> at_max_error(SegmentCoder& coder, double bound);
+  std::optional<Solution> at_bytes(SegmentCoder& coder, size_t bytes);
+
+  const EncoderInput& input_;
+  Target target_;
+  int effort_;
+  TrialFiles files_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_TARGET_SEARCH_H_

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/trial_files.h"
+
+#include "codec/file/clip_file.h"
+
+#include <string>
+#include <utility>
+
+namespace anicodec {
+
+Solution TrialFiles::put_together(std::vector<CodedPart> parts) {
+  Solution solution;
+  solution.parts = std::move(parts);
+  std::string what;
+  for (CodedPart& part : solution.parts) {
+    const Limits::Segment& sizes = part.encoded.sizes;
+    FrameView frames = input_.frames(sizes.first_frame, sizes.frames);
+    if (cap_) {
+      correct(frames, input_.copies, *cap_, part.opened, part.encoded);
+      part.error = measure(part.opened, frames, input_.copies);
+    }
+    what += (what.empty() ? "" : " + ") + part.what;
+  }
+  ClipRecord record;
+  record.name = input_.sequence.name;
+  record.encoder = options_.encoder;
+  record.times.assign(input_.sequence.times.begin(), input_.sequence.times.end());
+  record.order = options_.order;
+  solution.bytes = clip_file(record, input_.layout, solution.segments()).size();
+  trials_.push_back(
+      {what, solution.bytes, input_.rmse(solution.squared_error()), solution.max_error()});
+  return solution;
+}
+
+}  // namespace anicodec

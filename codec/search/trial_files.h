@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_TRIAL_FILES_H_
+#define ANICODEC_CODEC_SEARCH_TRIAL_FILES_H_
+
+#include "codec/file/encode_options.h"
+#include "codec/search/encoder_input.h"
+#include "codec/search/solution.h"
+
+#include <optional>
+#include <vector>
+
+namespace anicodec {
+
+/// Puts coded parts together to files, and lists what they measured.
+class TrialFiles {
+ public:
+  /// `cap`: the maximum error, scene units, to which parts are corrected. Both references must
+  /// outlive this object.
+  TrialFiles(const EncoderInput& input, const EncodeOptions& options, std::optional<double> cap)
+      : input_(input), options_(options), cap_(cap) {}
+
+  Solution put_together(std::vector<CodedPart> parts);
+
+  const std::vector<Trial>& trials() const { return trials_; }
+
+ private:
+  const EncoderInput& input_;
+  const EncodeOptions& options_;
+  std::optional<double> cap_;
+  std::vector<Trial> trials_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_TRIAL_FILES_H_
