@@ -104,11 +104,22 @@ struct TimeWeightModel::State {
             int32_t* values);
 
  private:
+  using Filter = RecursiveLeastSquares<6>;
+
+  struct Regressors {
+    Filter::Vector z{}, weights{};
+    size_t own = 2;     ///< numbers of the channel's values, in front of those of other channels
+    uint32_t kind = 0;  ///< of the filter, see filters_
+  };
+
   template <class Coder>
   void code_in_order(Coder& coder, uint32_t channels, const Source* source, int order,
                      int32_t* values);
   template <class Coder>
   void code_bisection(Coder& coder, uint32_t channels, const Source* source, int32_t* values);
+  template <class Coder>
+  void code_frame(Coder& coder, uint32_t channels, const Source* source, int64_t f, int64_t s,
+                  int64_t spacing, uint32_t level, int32_t* values);
   template <class Coder>
   void code_cosine(Coder& coder, uint32_t channels, const Source* source, int32_t* values);
 
@@ -118,6 +129,13 @@ struct TimeWeightModel::State {
                     int32_t d);
   void learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate);
   uint32_t previous(const Trace& trace, int64_t f, int reach) const;
+  Regressors regressors(const int32_t* row, int64_t f, int64_t s, int64_t spacing,
+                        uint32_t level) const;
+  Filter& filter_of(const Regressors& r, uint32_t channels, uint32_t c, size_t size);
+  static int32_t rounded_prediction(double predicted);
+  bool is_known(int64_t g, int64_t f, int64_t s) const;
+  void select_bisection(int64_t f, int64_t s, int64_t spacing, uint32_t level, uint32_t c,
+                        uint32_t m4);
 
   uint32_t frames_;
   AdaptiveBit predictor_[kWeightPredictors];
@@ -126,7 +144,7 @@ struct TimeWeightModel::State {
   MixedSymbolModel<5> cosine_;
   /// Per number of channels (1, 3), level and channel. Levels 0 to 5 interpolate; 6 has no frame to
   /// the right; 7 is the frames at kSpacing.
-  RecursiveLeastSquares<6> filters_[2][8][3];
+  Filter filters_[2][8][3];
   MixedModel<4> signs_;
   int32_t agreement_[3][3];  ///< of the signs of two channels, in this component
   Vector<int32_t> coded_;    ///< of this component, channels x frames
@@ -266,117 +284,145 @@ void TimeWeightModel::State::code_in_order(Coder& coder, uint32_t channels, cons
   }
 }
 
+/// What the value at frame f of one channel is predicted from: those at distances s and 3 s; s = 0:
+/// those at one and two times `spacing` before.
+TimeWeightModel::State::Regressors TimeWeightModel::State::regressors(const int32_t* row, int64_t f,
+                                                                      int64_t s, int64_t spacing,
+                                                                      uint32_t level) const {
+  const int64_t frames = frames_;
+  const auto at = [&](int64_t g) { return row[g] * (1.0 / kStep); };
+  Regressors r;
+  r.kind = level;
+  if (s == 0) {
+    r.z[0] = f >= spacing ? at(f - spacing) : 0;
+    r.z[1] = f >= 2 * spacing ? at(f - 2 * spacing) : 0;
+    r.weights[0] = 1;
+    return r;
+  }
+  const double a = at(f - s);
+  const bool left = f >= 3 * s;
+  if (f + s >= frames) {
+    r.kind = 6;
+    r.z[0] = a;
+    r.z[1] = left ? at(f - 3 * s) : a;
+    r.weights[0] = 1.25;
+    r.weights[1] = -0.25;
+    return r;
+  }
+  r.own = 4;
+  const double b = at(f + s);
+  const double before = left ? at(f - 3 * s) : 2 * a - b;
+  const double after = f + 3 * s < frames ? at(f + 3 * s) : 2 * b - a;
+  r.z[0] = a + b;
+  r.z[1] = before + after;
+  r.z[2] = a - b;
+  r.z[3] = before - after;
+  r.weights[0] = 0.5625;
+  r.weights[1] = -0.0625;
+  return r;
+}
+
+/// The filter for regressors of `size` numbers, started if it is new.
+TimeWeightModel::State::Filter& TimeWeightModel::State::filter_of(const Regressors& r,
+                                                                  uint32_t channels, uint32_t c,
+                                                                  size_t size) {
+  Filter& filter = filters_[channels == 1 ? 0 : 1][r.kind][c];
+  if (filter.size() == 0) {
+    Filter::Vector variance{};
+    for (size_t i = 0; i < size; ++i)
+      variance[i] = i < r.own ? 0.01 : 0.04;
+    filter.start(size, r.weights, variance);
+  }
+  return filter;
+}
+
+/// Rounded to a quarter of a step; the comparison is false for what is not a number.
+int32_t TimeWeightModel::State::rounded_prediction(double predicted) {
+  const double quarters = predicted * 4;
+  const double limit = kWeightLimit * 4.0;
+  return static_cast<int32_t>(
+      quarters > -limit && quarters < limit
+          ? (static_cast<int64_t>(quarters + limit + 0.5) - kWeightLimit * int64_t{4}) * (kStep / 4)
+          : 0);
+}
+
+/// Whether frame g is known while frame f is coded: a multiple of 2 s, or of s and before f.
+bool TimeWeightModel::State::is_known(int64_t g, int64_t f, int64_t s) const {
+  return g >= 0 && g < int64_t{frames_} && (g % (2 * s) == 0 || g < f);
+}
+
+/// Contexts of channel c at frame f from magnitudes near it, in the channels before, and (m4) in
+/// the component before; and those of the sign.
+void TimeWeightModel::State::select_bisection(int64_t f, int64_t s, int64_t spacing, uint32_t level,
+                                              uint32_t c, uint32_t m4) {
+  uint32_t m1 = 8 * kUnit, m3 = 0;
+  const uint32_t* m = &trace_.magnitude[size_t{c} * frames_];
+  if (s == 0) {
+    if (f >= spacing)
+      m1 = m[f - spacing];
+  } else {
+    uint32_t sum = 0, count = 0;
+    for (const int64_t d : {-s, s, -2 * s, 2 * s})
+      if (is_known(f + d, f, s)) {
+        sum += m[f + d];
+        ++count;
+      }
+    m1 = sum / count;
+  }
+  for (uint32_t e = 0; e < c; ++e)
+    m3 += trace_.magnitude[size_t{e} * frames_ + static_cast<size_t>(f)];
+  m3 = c == 0 ? m1 : m3 / c;
+  const uint32_t slow = slow_[c], expected = (slow + m3 + 2 * m4 + (c ? 0 : all_)) / 4;
+  bisection_.select({(fine(slow) * 3 + c) * 8 + level, (medium(m3) * kMedium + medium(m4)) * 3 + c,
+                     fine(m4) * 8 + level, coarse(m1) * kCoarse + coarse(m4),
+                     magnitude_class<2>(expected, 64), medium(all_) * 8 + level},
+                    selector(expected), level * 3 + c);
+  const int32_t* q0 = &coded_[size_t{c} * frames_];
+  const auto near = [&](int64_t g) { return s != 0 && is_known(g, f, s) ? q0[g] : 0; };
+  prepare_sign(1, level, static_cast<size_t>(f), c, near(f - 2 * s), near(f - s), near(f + s));
+}
+
+/// Codes all channels of frame f from those at distances s and 3 s; s = 0: a frame at `spacing`.
+template <class Coder>
+void TimeWeightModel::State::code_frame(Coder& coder, uint32_t channels, const Source* source,
+                                        int64_t f, int64_t s, int64_t spacing, uint32_t level,
+                                        int32_t* values) {
+  const uint32_t m4 = previous(before_[0], f, 1);
+  for (uint32_t c = 0; c < channels; ++c) {
+    const int32_t* row = values + size_t{c} * frames_;
+    Regressors r = regressors(row, f, s, spacing, level);
+    size_t size = r.own;
+    if (s != 0)
+      for (uint32_t e = 0; e < c; ++e)
+        r.z[size++] = coded_[size_t{e} * frames_ + static_cast<size_t>(f)];
+    Filter& filter = filter_of(r, channels, c, size);
+    const int32_t prediction = rounded_prediction(filter.predict(r.z));
+    select_bisection(f, s, spacing, level, c, m4);
+    const size_t index = size_t{c} * frames_ + static_cast<size_t>(f);
+    const double x = source ? source->x[index] - prediction * (1.0 / kStep) : 0;
+    const int32_t q = code_value(coder, bisection_, x, source ? source->lambda : 0);
+    values[index] = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
+    learn(static_cast<uint32_t>(f), c, q, 5);
+    const double noise = slow_[c] * (1.0 / kUnit);
+    filter.learn(r.z, row[f] * (1.0 / kStep), 1.0 / 12 + noise * noise);
+  }
+}
+
 template <class Coder>
 void TimeWeightModel::State::code_bisection(Coder& coder, uint32_t channels, const Source* source,
                                             int32_t* values) {
-  using Filter = RecursiveLeastSquares<6>;
   const int64_t frames = frames_;
   int64_t spacing = 1;
   while (spacing * 2 < frames && spacing < int64_t{kSpacing})
     spacing *= 2;
   std::fill_n(slow_, 3, 8 * kUnit);
   all_ = 8 * kUnit;
-  // One frame from those at distances s and 3 s; s = 0: a frame at `spacing`.
-  const auto step = [&](int64_t f, int64_t s, uint32_t level) {
-    // A frame is known if it is a multiple of 2 s, or of s and before f.
-    const auto known = [&](int64_t g) {
-      return g >= 0 && g < frames && (g % (2 * s) == 0 || g < f);
-    };
-    const uint32_t m4 = previous(before_[0], f, 1);
-    for (uint32_t c = 0; c < channels; ++c) {
-      const int32_t* row = values + size_t{c} * frames_;
-      const auto at = [&](int64_t g) { return row[g] * (1.0 / kStep); };
-      Filter::Vector z{}, weights{};
-      size_t own;
-      uint32_t kind = level;
-      if (s == 0) {
-        own = 2;
-        z[0] = f >= spacing ? at(f - spacing) : 0;
-        z[1] = f >= 2 * spacing ? at(f - 2 * spacing) : 0;
-        weights[0] = 1;
-      } else {
-        const double a = at(f - s);
-        const bool left = f >= 3 * s;
-        if (f + s < frames) {
-          own = 4;
-          const double b = at(f + s);
-          const double l = left ? at(f - 3 * s) : 2 * a - b;
-          const double r = f + 3 * s < frames ? at(f + 3 * s) : 2 * b - a;
-          z[0] = a + b;
-          z[1] = l + r;
-          z[2] = a - b;
-          z[3] = l - r;
-          weights[0] = 0.5625;
-          weights[1] = -0.0625;
-        } else {
-          own = 2;
-          kind = 6;
-          z[0] = a;
-          z[1] = left ? at(f - 3 * s) : a;
-          weights[0] = 1.25;
-          weights[1] = -0.25;
-        }
-      }
-      size_t size = own;
-      if (s != 0)
-        for (uint32_t e = 0; e < c; ++e)
-          z[size++] = coded_[size_t{e} * frames_ + static_cast<size_t>(f)];
-      Filter& filter = filters_[channels == 1 ? 0 : 1][kind][c];
-      if (filter.size() == 0) {
-        Filter::Vector variance{};
-        for (size_t i = 0; i < size; ++i)
-          variance[i] = i < own ? 0.01 : 0.04;
-        filter.start(size, weights, variance);
-      }
-      // Rounded to a quarter of a step; the comparison is false for what is not a number.
-      const double quarters = filter.predict(z) * 4;
-      const double limit = kWeightLimit * 4.0;
-      const auto prediction = static_cast<int32_t>(
-          quarters > -limit && quarters < limit
-              ? (static_cast<int64_t>(quarters + limit + 0.5) - kWeightLimit * int64_t{4}) *
-                    (kStep / 4)
-              : 0);
-      uint32_t m1 = 8 * kUnit, m3 = 0;
-      const uint32_t* m = &trace_.magnitude[size_t{c} * frames_];
-      if (s == 0) {
-        if (f >= spacing)
-          m1 = m[f - spacing];
-      } else {
-        uint32_t sum = 0, count = 0;
-        for (const int64_t d : {-s, s, -2 * s, 2 * s})
-          if (known(f + d)) {
-            sum += m[f + d];
-            ++count;
-          }
-        m1 = sum / count;
-      }
-      for (uint32_t e = 0; e < c; ++e)
-        m3 += trace_.magnitude[size_t{e} * frames_ + static_cast<size_t>(f)];
-      m3 = c == 0 ? m1 : m3 / c;
-      const uint32_t slow = slow_[c], expected = (slow + m3 + 2 * m4 + (c ? 0 : all_)) / 4;
-      bisection_.select(
-          {(fine(slow) * 3 + c) * 8 + level, (medium(m3) * kMedium + medium(m4)) * 3 + c,
-           fine(m4) * 8 + level, coarse(m1) * kCoarse + coarse(m4),
-           magnitude_class<2>(expected, 64), medium(all_) * 8 + level},
-          selector(expected), level * 3 + c);
-      const size_t index = size_t{c} * frames_ + static_cast<size_t>(f);
-      const int32_t* q0 = &coded_[size_t{c} * frames_];
-      const auto near = [&](int64_t g) { return s != 0 && known(g) ? q0[g] : 0; };
-      prepare_sign(1, level, static_cast<size_t>(f), c, near(f - 2 * s), near(f - s), near(f + s));
-      const double x = source ? source->x[index] - prediction * (1.0 / kStep) : 0;
-      const int32_t q = code_value(coder, bisection_, x, source ? source->lambda : 0);
-      values[index] = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
-      learn(static_cast<uint32_t>(f), c, q, 5);
-      const double noise = slow_[c] * (1.0 / kUnit);
-      filter.learn(z, at(f), 1.0 / 12 + noise * noise);
-    }
-  };
   for (int64_t f = 0; f < frames && !exhausted(coder); f += spacing)
-    step(f, 0, 7);
+    code_frame(coder, channels, source, f, 0, spacing, 7, values);
   uint32_t level = 0;
   for (int64_t s = spacing / 2; s >= 1; s /= 2, ++level)
     for (int64_t f = s; f < frames && !exhausted(coder); f += 2 * s)
-      step(f, s, level);
+      code_frame(coder, channels, source, f, s, spacing, level, values);
 }
 
 template <class Coder>
@@ -473,8 +519,7 @@ TimeWeightModel::StatePointer TimeWeightModel::make_state(const Source& source) 
   return made;
 }
 
-TimeWeightModel::TimeWeightModel(uint32_t frames)
-    : frames_(frames), state_(make_state(frames)) {}
+TimeWeightModel::TimeWeightModel(uint32_t frames) : frames_(frames), state_(make_state(frames)) {}
 
 TimeWeightModel::~TimeWeightModel() = default;
 

@@ -150,109 +150,147 @@ Vector<uint32_t> canonical_polygons(const std::vector<uint32_t>& triangle_polygo
   return order;
 }
 
-}  // namespace
+/// The triangles as the decoder will see them, over renumbered points.
+struct DecodedTriangles {
+  Vector<uint32_t> triangles;
+  std::vector<uint32_t> point_of;          ///< point of the manifold mesh of each of theirs
+  std::vector<uint32_t> triangle_polygon;  ///< source polygon of each
+};
 
-MeshLayout lay_out_mesh(const MeshSequence& sequence, CoderId coder) {
-  Weld weld = weld_trajectories(sequence);
-  ManifoldMesh manifold = make_manifold(sequence.polygons, weld.welded);
-  auto triangle_count = static_cast<uint32_t>(manifold.triangle_polygon.size());
+/// Leaves the layout as it is where Draco does not give back what it took.
+void code_by_draco(const ManifoldMesh& manifold, MeshLayout* layout, DecodedTriangles* decoded) {
+  std::vector<uint32_t> order;
+  layout->connectivity = encode_draco_mesh(manifold.points, manifold.triangles, {}, {}, &order);
+  DracoMesh mesh;
+  if (layout->connectivity.empty() ||
+      decode_draco_mesh(layout->connectivity, manifold.points,
+                        static_cast<uint32_t>(manifold.triangle_polygon.size()),
+                        draco_components(0), &mesh) != Status::kOk)
+    return;
+  layout->coder = CoderId::kDraco;
+  decoded->triangles = mesh.triangles;
+  std::vector<uint32_t> back(mesh.triangles.size());
+  std::transform(mesh.triangles.begin(), mesh.triangles.end(), back.begin(),
+                 [&](uint32_t d) { return order[d]; });
+  std::vector<uint32_t> match = match_triangles(manifold.triangles, back);
+  for (size_t t = 0; t < match.size(); ++t)
+    decoded->triangle_polygon[t] = manifold.triangle_polygon[match[t]];
+  decoded->point_of = std::move(order);
+}
 
-  MeshLayout layout;
-  layout.name = sequence.mesh_name;
-  Vector<uint32_t> triangles(manifold.triangles.begin(),
-                             manifold.triangles.end());  // as the decoder will see them,
-  std::vector<uint32_t> point_of(manifold.points);       // over renumbered points
-  std::iota(point_of.begin(), point_of.end(), 0U);
-  std::vector<uint32_t> triangle_polygon = manifold.triangle_polygon;
-  if (coder == CoderId::kDraco) {
-    std::vector<uint32_t> order;
-    layout.connectivity = encode_draco_mesh(manifold.points, manifold.triangles, {}, {}, &order);
-    DracoMesh decoded;
-    if (!layout.connectivity.empty() &&
-        decode_draco_mesh(layout.connectivity, manifold.points, triangle_count, draco_components(0),
-                          &decoded) == Status::kOk) {
-      layout.coder = CoderId::kDraco;
-      point_of = order;
-      triangles = decoded.triangles;
-      std::vector<uint32_t> back(triangles.size());
-      std::transform(triangles.begin(), triangles.end(), back.begin(),
-                     [&](uint32_t d) { return order[d]; });
-      std::vector<uint32_t> match = match_triangles(manifold.triangles, back);
-      for (size_t t = 0; t < match.size(); ++t)
-        triangle_polygon[t] = manifold.triangle_polygon[match[t]];
-    }
-  }
-  if (layout.coder == CoderId::kPlain)
-    layout.connectivity = encode_plain_triangles(triangles);
+DecodedTriangles code_connectivity(const ManifoldMesh& manifold, CoderId coder,
+                                   MeshLayout* layout) {
+  DecodedTriangles decoded{{manifold.triangles.begin(), manifold.triangles.end()},
+                           std::vector<uint32_t>(manifold.points),
+                           manifold.triangle_polygon};
+  std::iota(decoded.point_of.begin(), decoded.point_of.end(), 0U);
+  if (coder == CoderId::kDraco)
+    code_by_draco(manifold, layout, &decoded);
+  if (layout->coder == CoderId::kPlain)
+    layout->connectivity = encode_plain_triangles(decoded.triangles);
+  return decoded;
+}
 
-  // Coded vertices: by first point, then those without one.
-  auto welded_count = static_cast<uint32_t>(weld.representative.size());
-  std::vector<uint32_t> coded_of(welded_count, kNone);
-  std::vector<uint32_t> point_coded(manifold.points);
-  auto number = [&](uint32_t w) {
+/// Numbers the coded vertices: by first point, then those without one. Returns that of each point.
+std::vector<uint32_t> number_vertices(const Weld& weld, const ManifoldMesh& manifold,
+                                      const std::vector<uint32_t>& point_of, MeshLayout* layout) {
+  std::vector<uint32_t> coded_of(weld.representative.size(), kNone);
+  const auto number = [&](uint32_t w) {
     if (coded_of[w] == kNone) {
-      coded_of[w] = static_cast<uint32_t>(layout.coded_source.size());
-      layout.coded_source.push_back(weld.representative[w]);
+      coded_of[w] = static_cast<uint32_t>(layout->coded_source.size());
+      layout->coded_source.push_back(weld.representative[w]);
     }
     return coded_of[w];
   };
+  std::vector<uint32_t> point_coded(manifold.points);
   for (uint32_t p = 0; p < manifold.points; ++p)
     point_coded[p] = number(manifold.point_vertex[point_of[p]]);
-  for (uint32_t w = 0; w < welded_count; ++w)
+  for (uint32_t w = 0; w < coded_of.size(); ++w)
     number(w);
-  layout.source_coded.resize(sequence.vertex_count);
-  for (uint32_t v = 0; v < sequence.vertex_count; ++v)
-    layout.source_coded[v] = coded_of[weld.welded[v]];
-  layout.draco_points.resize(manifold.points);
-  for (uint32_t p = 0; p < manifold.points; ++p)
-    layout.draco_points[p] = coded_of[manifold.point_vertex[p]];
-  layout.draco_triangles = manifold.triangles;
+  for (uint32_t w : weld.welded)
+    layout->source_coded.push_back(coded_of[w]);
+  for (uint32_t w : manifold.point_vertex)
+    layout->draco_points.push_back(coded_of[w]);
+  layout->draco_triangles = manifold.triangles;
+  return point_coded;
+}
 
-  Limits::Mesh& sizes = layout.sizes;
+Limits::Mesh sizes_of(const MeshSequence& sequence, const ManifoldMesh& manifold,
+                      const MeshLayout& layout) {
+  Limits::Mesh sizes;
   sizes.source_vertices = sequence.vertex_count;
-  sizes.coded_vertices = welded_count;
+  sizes.coded_vertices = static_cast<uint32_t>(layout.coded_source.size());
   sizes.points = manifold.points;
-  sizes.triangles = triangle_count;
+  sizes.triangles = static_cast<uint32_t>(manifold.triangle_polygon.size());
   sizes.polygons = static_cast<uint32_t>(sequence.polygons.size());
   sizes.corners = static_cast<uint32_t>(sequence.polygons.corners.size());
+  return sizes;
+}
 
-  DetailsEncoderSource truth(sequence.polygons, layout.source_coded, point_coded, triangle_polygon,
-                             manifold.apart, welded_count);
+void code_details(const Vector<uint32_t>& triangles, DetailsEncoderSource* source,
+                  MeshLayout* layout) {
   BinaryEncoder encoder;
-  DetailsCoding<BinaryEncoder, DetailsEncoderSource> details(encoder, truth, sizes, triangles,
-                                                             &layout.topology);
+  DetailsCoding<BinaryEncoder, DetailsEncoderSource> details(encoder, *source, layout->sizes,
+                                                             triangles, &layout->topology);
   if (details.run() != Status::kOk)
     throw Error(ErrorKind::kInternal, "the mesh details could not be coded");
-  layout.details = encoder.finish();
-  truth.number_the_rest();
+  layout->details = encoder.finish();
+  source->number_the_rest();
+}
 
-  Vector<uint32_t>& map = layout.vertex_source;
-  map.resize(sequence.vertex_count);
-  Vector<uint32_t> canonical(sequence.vertex_count);
-  for (uint32_t v = 0; v < sequence.vertex_count; ++v) {
-    canonical[v] = truth.canonical(v);
-    map[canonical[v]] = v;
+/// Codes where vertices come from. Returns the canonical number of each source vertex.
+Vector<uint32_t> code_vertex_map(const DetailsEncoderSource& source, MeshLayout* layout) {
+  Vector<uint32_t> canonical(layout->source_coded.size());
+  layout->vertex_source.resize(canonical.size());
+  for (uint32_t v = 0; v < canonical.size(); ++v) {
+    canonical[v] = source.canonical(v);
+    layout->vertex_source[canonical[v]] = v;
   }
-  BinaryEncoder map_encoder;
-  VertexWalk(layout.topology).code(map_encoder, &map);
-  layout.vertex_map = map_encoder.finish();
+  BinaryEncoder encoder;
+  VertexWalk(layout->topology).code(encoder, &layout->vertex_source);
+  layout->vertex_map = encoder.finish();
+  return canonical;
+}
 
-  Vector<uint32_t>& place = layout.polygon_source;
-  place = canonical_polygons(triangle_polygon, manifold.apart, sequence.polygons.size());
-  Vector<uint32_t>& first = layout.polygon_first;
-  first.assign(place.size(), 0);
-  for (size_t i = 0; i < place.size(); ++i) {
-    std::span<const uint32_t> source = sequence.polygons[place[i]];
-    uint32_t begin = layout.topology.polygon_offsets[i];
+/// Codes where polygons come from, and which of their corners is the source's first.
+void code_face_map(const Polygons& polygons, const std::vector<uint32_t>& triangle_polygon,
+                   const std::vector<uint32_t>& apart, const Vector<uint32_t>& canonical,
+                   MeshLayout* layout) {
+  Vector<uint32_t>& source_of = layout->polygon_source;
+  source_of = canonical_polygons(triangle_polygon, apart, polygons.size());
+  Vector<uint32_t>& first = layout->polygon_first;
+  first.assign(source_of.size(), 0);
+  for (size_t i = 0; i < source_of.size(); ++i) {
+    std::span<const uint32_t> source = polygons[source_of[i]];
+    uint32_t begin = layout->topology.polygon_offsets[i];
     // A polygon kept apart has its corners in the source's order already.
-    while (i + manifold.apart.size() < place.size() && first[i] < source.size() &&
-           layout.topology.polygon_corners[begin + first[i]] != canonical[source[0]])
+    while (i + apart.size() < source_of.size() && first[i] < source.size() &&
+           layout->topology.polygon_corners[begin + first[i]] != canonical[source[0]])
       ++first[i];
   }
-  BinaryEncoder face_encoder;
-  code_permutation(face_encoder, sizes.polygons, &place);
-  code_rotations(face_encoder, layout.topology.polygon_offsets, &first);
-  layout.face_map = face_encoder.finish();
+  BinaryEncoder encoder;
+  code_permutation(encoder, layout->sizes.polygons, &source_of);
+  code_rotations(encoder, layout->topology.polygon_offsets, &first);
+  layout->face_map = encoder.finish();
+}
+
+}  // namespace
+
+MeshLayout lay_out_mesh(const MeshSequence& sequence, CoderId coder) {
+  const Weld weld = weld_trajectories(sequence);
+  const ManifoldMesh manifold = make_manifold(sequence.polygons, weld.welded);
+  MeshLayout layout;
+  layout.name = sequence.mesh_name;
+  const DecodedTriangles decoded = code_connectivity(manifold, coder, &layout);
+  const std::vector<uint32_t> point_coded =
+      number_vertices(weld, manifold, decoded.point_of, &layout);
+  layout.sizes = sizes_of(sequence, manifold, layout);
+  DetailsEncoderSource source(sequence.polygons, layout.source_coded, point_coded,
+                              decoded.triangle_polygon, manifold.apart,
+                              layout.sizes.coded_vertices);
+  code_details(decoded.triangles, &source, &layout);
+  const Vector<uint32_t> canonical = code_vertex_map(source, &layout);
+  code_face_map(sequence.polygons, decoded.triangle_polygon, manifold.apart, canonical, &layout);
   return layout;
 }
 
