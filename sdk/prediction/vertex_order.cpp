@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/prediction/vertex_order.h"
 
+#include "sdk/prediction/nearest_candidates.h"
+#include "sdk/prediction/vertex_order_cost.h"
+
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace anicodec {
@@ -11,29 +13,12 @@ namespace {
 
 // Bounds that keep the cost linear whatever the graph (normative). Surfaces have a mean degree of
 // about six and never meet them, save for poles of fans.
-constexpr uint32_t kMaxRemovedDegree = 32;    // a vertex of higher degree waits
-constexpr uint32_t kMaxRingDegree = 32;       // the ring of such a neighbour is not searched
 constexpr uint64_t kMaxMeanDegree = 16;       // a denser graph is replaced
 constexpr uint64_t kMinRemovedFraction = 16;  // and one that loses less than 1/16 of its vertices
-constexpr size_t kMaxCandidates = kMaxRemovedDegree * (1 + kMaxRingDegree) +  // rings 1 and 2
-                                  kMaxNeighbours * kMaxRingDegree +    // ring 3, if those are few
-                                  kMaxRemovedDegree * kMaxRingDegree;  // the same level
-
-constexpr int kGridBits = 15;  // per axis: squared distances fit 32 bits
-
-/// Position on the grid and index of a vertex.
-struct Node {
-  int32_t x, y, z;
-  uint32_t id;
-};
-
-uint32_t squared_distance(const Node& a, const Node& b) {
-  const int32_t x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-  return static_cast<uint32_t>(x * x) + static_cast<uint32_t>(y * y) + static_cast<uint32_t>(z * z);
-}
+constexpr int kGridBits = 15;                 // per axis: squared distances fit 32 bits
 
 /// Sorts by distance from `to`, then by index.
-uint64_t nearness(const Node& a, const Node& to) {
+uint64_t nearness(const GridVertex& a, const GridVertex& to) {
   return uint64_t{squared_distance(a, to)} << 32 | a.id;
 }
 
@@ -48,7 +33,7 @@ uint64_t spread_bits(uint64_t x) {  // ten bits to every third
   return (x | x << 2) & 0x9249249;
 }
 
-uint64_t morton_key(const Node& v) {
+uint64_t morton_key(const GridVertex& v) {
   constexpr int drop = kGridBits - 10;
   const auto part = [](int32_t c) { return spread_bits(static_cast<uint64_t>(c) >> drop); };
   return (part(v.x) | part(v.y) << 1 | part(v.z) << 2) << 32 | v.id;
@@ -65,80 +50,6 @@ struct Graph {
 
   const uint32_t* end(uint32_t v) const { return adjacent.data() + start[v + 1]; }
 };
-
-/// Candidates for the neighbours of one vertex; tells the nearest of them.
-class Nearest {
- public:
-  void clear() { count_ = 0; }
-
-  void add(const Node& candidate, const Node& self) {
-    distance_[count_] = static_cast<int32_t>(squared_distance(candidate, self) ^ 0x80000000u);
-    id_[count_++] = static_cast<int32_t>(candidate.id);
-  }
-
-  /// Writes the indices of the m nearest by distance, then index; fewer if there are not as many.
-  void select(size_t m, int32_t* to);
-
- private:
-  static constexpr size_t kLanes = 4;
-  static constexpr size_t kMaxCounted = 64;
-  using Lanes = int32_t __attribute__((vector_size(4 * kLanes)));
-
-  template <bool kTies>
-  bool count_ranks(size_t m, int32_t* to);
-  void sort(size_t m, int32_t* to);
-
-  size_t count_ = 0;
-  int32_t distance_[kMaxCandidates + kLanes];  // with the sign bit flipped: compares as signed
-  int32_t id_[kMaxCandidates + kLanes];
-};
-
-// The rank of a candidate is the number of nearer ones: no branches to mispredict. Without kTies
-// equal distances share a rank and the ranks fail to add up to 0 + 1 + ...: returns false.
-template <bool kTies>
-bool Nearest::count_ranks(size_t m, int32_t* to) {
-  int32_t sorted[kMaxCounted + kLanes];
-  for (size_t i = count_; i < count_ + kLanes; ++i)
-    distance_[i] = id_[i] = INT32_MAX;
-  int32_t sum = 0;
-  for (size_t i = 0; i < count_; i += kLanes) {
-    Lanes distance, id, rank{};
-    std::memcpy(&distance, distance_ + i, sizeof distance);
-    std::memcpy(&id, id_ + i, sizeof id);
-    for (size_t j = 0; j < count_; ++j) {
-      rank -= distance_[j] < distance;
-      if constexpr (kTies)
-        rank -= (distance_[j] == distance) & (id_[j] < id);
-    }
-    for (size_t l = 0; l < kLanes; ++l) {  // padding ranks last
-      sorted[rank[l]] = id[l];
-      sum += i + l < count_ ? rank[l] : 0;
-    }
-  }
-  const auto n = static_cast<int32_t>(count_);
-  if (2 * sum != n * (n - 1))
-    return false;
-  std::memcpy(to, sorted, std::min(m, count_) * sizeof *to);
-  return true;
-}
-
-void Nearest::sort(size_t m, int32_t* to) {
-  uint64_t keys[kMaxCandidates];
-  for (size_t i = 0; i < count_; ++i)
-    keys[i] = uint64_t{static_cast<uint32_t>(distance_[i]) ^ 0x80000000u} << 32 |
-              static_cast<uint32_t>(id_[i]);
-  m = std::min(m, count_);
-  std::partial_sort(keys, keys + m, keys + count_);
-  for (size_t i = 0; i < m; ++i)
-    to[i] = static_cast<int32_t>(keys[i] & 0xffffffff);
-}
-
-void Nearest::select(size_t m, int32_t* to) {
-  if (count_ > kMaxCounted)
-    sort(m, to);
-  else if (!count_ranks<false>(m, to))
-    count_ranks<true>(m, to);
-}
 
 class Contraction {
  public:
@@ -157,6 +68,8 @@ class Contraction {
   void run();
   void write(VertexOrder* out) const;
 
+  uint64_t visits() const { return visits_; }
+
  private:
   enum State : uint8_t { kKept, kRemoved, kLocked };
 
@@ -172,7 +85,7 @@ class Contraction {
   void advance();
 
   int m_, colours_;
-  Vector<Node> nodes_;          // all vertices
+  Vector<GridVertex> nodes_;    // all vertices
   Vector<int32_t> neighbours_;  // of all vertices, by index
   Vector<uint32_t> removal_;    // vertices, finest level first
   Vector<uint32_t> level_end_;  // in removal_
@@ -180,14 +93,15 @@ class Contraction {
 
   // The graph G of the current level over the local indices of its active vertices, ascending in
   // index; G' over those that stay.
-  Vector<Node> active_, next_active_;
+  Vector<GridVertex> active_, next_active_;
   Graph graph_, next_;
   Vector<uint8_t> state_, colour_;
   Vector<uint32_t> removed_, target_, renumbered_, visit_, merged_, merged_next_;
   Vector<uint32_t> stamp_;  // by local index: the last tick_ that met the vertex
   Vector<uint32_t> met_;    // by local index: the last removed vertex that met this one
   uint32_t tick_ = 0;
-  Nearest nearest_;
+  uint64_t visits_ = 0;  // see vertex_order_cost.h
+  NearestCandidates nearest_;
 };
 
 void Contraction::mesh_graph(const uint32_t* triangles, size_t triangle_count) {
@@ -278,7 +192,7 @@ void Contraction::drop_isolated() {
 // The graph is replaced by one along a space-filling curve over all alive vertices: each is linked
 // to the two before and the two after it.
 void Contraction::link_all() {
-  for (const Node& v : active_)
+  for (const GridVertex& v : active_)
     isolated_.push_back(v.id);
   std::sort(isolated_.begin(), isolated_.end());
   active_.clear();
@@ -286,7 +200,7 @@ void Contraction::link_all() {
   curve.reserve(isolated_.size());
   for (uint32_t i = 0; i < isolated_.size(); ++i) {
     active_.push_back(nodes_[isolated_[i]]);
-    Node local = active_.back();
+    GridVertex local = active_.back();
     local.id = i;
     curve.push_back(morton_key(local));
   }
@@ -406,6 +320,7 @@ void Contraction::colour() {
     for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
       if (graph_.degree(*u) > kMaxRingDegree)
         continue;
+      visits_ += graph_.degree(*u);
       for (const uint32_t* w = graph_.begin(*u); w != graph_.end(*u); ++w)
         if (colour_[*w] != none)
           used |= 1u << colour_[*w];
@@ -422,6 +337,7 @@ void Contraction::add_same_level(uint32_t v) {
   for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
     if (graph_.degree(*u) > kMaxRingDegree)
       continue;
+    visits_ += graph_.degree(*u);
     for (const uint32_t* w = graph_.begin(*u); w != graph_.end(*u); ++w) {
       if (colour_[*w] < colour_[v] && met_[*w] != v) {
         met_[*w] = v;
@@ -435,10 +351,10 @@ void Contraction::find_neighbours() {
   // Local copies: stores through candidates must not force reloads of the members.
   uint32_t candidates[kMaxCandidates + 1];  // local to G'
   uint32_t* const stamp = stamp_.data();
-  const Node* const kept = next_active_.data();
+  const GridVertex* const kept = next_active_.data();
   const auto m = static_cast<size_t>(m_);
   for (const uint32_t v : removed_) {
-    const Node self = active_[v];
+    const GridVertex self = active_[v];
     const uint32_t tick = ++tick_;
     size_t count = 0;
     for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
@@ -462,6 +378,7 @@ void Contraction::find_neighbours() {
     add_rings(0, ring1);
     if (count <= m)
       add_rings(ring1, count);
+    visits_ += count;
     nearest_.clear();
     for (size_t i = 0; i < count; ++i)
       nearest_.add(kept[candidates[i]], self);
@@ -509,6 +426,7 @@ void Contraction::run() {
       select_removed();
     }
     contract();
+    visits_ += active_.size() + graph_.adjacent.size();
     colour();
     find_neighbours();
     append_level();
@@ -547,6 +465,14 @@ void Contraction::write(VertexOrder* out) const {
 
 Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const int32_t* positions,
                          size_t vertex_count, int neighbours, int colours, VertexOrder* out) {
+  uint64_t visits = 0;
+  return make_counted_vertex_order(triangles, triangle_count, positions, vertex_count, neighbours,
+                                   colours, out, &visits);
+}
+
+Status make_counted_vertex_order(const uint32_t* triangles, size_t triangle_count,
+                                 const int32_t* positions, size_t vertex_count, int neighbours,
+                                 int colours, VertexOrder* out, uint64_t* visits) {
   if (neighbours < 1 || neighbours > kMaxNeighbours || colours < 1 || colours > kMaxColours)
     return Status::kArgument;
   if (vertex_count > size_t{1} << 30 || triangle_count > UINT32_MAX / 6)
@@ -561,6 +487,7 @@ Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const
   contraction.set_grid(positions);
   contraction.run();
   contraction.write(out);
+  *visits = contraction.visits();
   return Status::kOk;
 }
 
