@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <thread>
@@ -32,9 +33,9 @@ inline std::ostream& operator<<(std::ostream& stream, const Outcome& outcome) {
   return stream << "status " << outcome.status << "\n" << outcome.out << outcome.err;
 }
 
-/// Runs a program to its end. A signal other than 0 is sent to it after some milliseconds.
+/// Runs a program to its end. A signal other than 0 is sent to it as soon as `ready` is true.
 inline Outcome run_program(std::vector<std::string> arguments, int signal = 0,
-                           std::chrono::milliseconds after = {}) {
+                           const std::function<bool()>& ready = {}) {
   TemporaryFolder folder;
   std::vector<char*> argv;
   for (std::string& argument : arguments)
@@ -50,12 +51,16 @@ inline Outcome run_program(std::vector<std::string> arguments, int signal = 0,
     ::execvp(argv[0], argv.data());
     ::_exit(127);
   }
-  if (signal != 0) {
-    std::this_thread::sleep_for(after);
-    ::kill(child, signal);
-  }
   int status = 0;
-  ::waitpid(child, &status, 0);
+  pid_t ended = 0;
+  if (signal != 0) {
+    while (!ready() && (ended = ::waitpid(child, &status, WNOHANG)) == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (ended == 0)
+      ::kill(child, signal);
+  }
+  if (ended == 0)
+    ::waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), folder.read("out"),
           folder.read("err")};
 }

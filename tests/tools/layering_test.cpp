@@ -70,6 +70,24 @@ TEST(Layering, FindsUnitsOfOneName) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("bytes is the name")));
 }
 
+TEST(Layering, FindsHeadersThatDoNotCompileAlone) {
+  TemporaryFolder folder;
+  folder.write("format/bare.h", "inline std::string name() { return {}; }\n");
+  folder.write("format/whole.h", "#include <string>\ninline std::string title() { return {}; }\n");
+  folder.write("format/first.h", "inline std::string shown() { return {}; }\n");
+  folder.write("format/first.cpp", "#include \"format/first.h\"\n");
+  const nlohmann::json commands = {{{"directory", folder / ""},
+                                    {"file", folder / "format/first.cpp"},
+                                    {"command", "c++ -I. -c " + (folder / "format/first.cpp")}}};
+  folder.write("commands.json", commands.dump());
+  Outcome outcome = run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_headers.py",
+                                 folder / "", folder / "commands.json"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("format/bare.h does not compile alone"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("whole.h")));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("first.h")));  // the build compiles that one
+}
+
 TEST(Documents, PointToWhatExists) {
   Outcome outcome = run_program(
       {"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_links.py", ANICODEC_SOURCE_DIR});
