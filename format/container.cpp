@@ -69,7 +69,7 @@ Bytes ContainerWriter::finish() const {
   file.u16(kVersionMajor);
   file.u16(kVersionMinor);
   file.u32(static_cast<uint32_t>(chunks_.size()));
-  file.u64(features_);
+  file.u64(0);  // no features beyond those of the version
   file.u64(at);
   file.u32(0);
   file.u32(0);

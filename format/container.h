@@ -57,15 +57,12 @@ class ContainerWriter {
  public:
   void add(const char (&type)[5], bool required, uint16_t mesh, uint32_t segment, Bytes payload);
 
-  void require_feature(unsigned bit) { features_ |= uint64_t{1} << bit; }
-
   /// The whole file. Deterministic.
   Bytes finish() const;
 
  private:
   Vector<Chunk> chunks_;
   Vector<Bytes> payloads_;
-  uint64_t features_ = 0;
 };
 
 /// Reads header and table of a whole file in memory. The bytes must outlive the reader.

@@ -7,16 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wold-style-cast"
-#pragma GCC diagnostic ignored "-Wundef"
-#pragma GCC diagnostic ignored "-Wpedantic"
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
-#pragma GCC diagnostic pop
 
 namespace anicodec {
 namespace {

@@ -116,23 +116,4 @@ std::vector<float> aligned_frame(const FrameView& clip, size_t f, const RigidMot
   return to_floats(turned_back(clip, f, motion));
 }
 
-std::vector<float> combine_keyframes(const FrameView& clip, const KeyframeFit& fit,
-                                     const Vector3d& mean_position, size_t f) {
-  const bool rigid = !fit.motions.empty();
-  Matrix3Xd sum = Matrix3Xd::Zero(3, static_cast<Index>(clip.vertex_count));
-  for (size_t j = 0; j < fit.keyframes.size(); j++) {
-    const uint32_t k = fit.keyframes[j];
-    const double w = fit.weights(static_cast<Index>(f), static_cast<Index>(j));
-    if (rigid) {
-      sum += w * turned_back(clip, k, fit.motions[k]);
-    } else {
-      sum += w * (positions(clip, k).colwise() - mean_position);
-    }
-  }
-  if (rigid) {
-    return to_floats((fit.motions[f].rotation * sum).colwise() + fit.motions[f].translation);
-  }
-  return to_floats(sum.colwise() + mean_position);
-}
-
 }  // namespace anicodec

@@ -79,10 +79,6 @@ class KeyframeFitter {
 /// vertex_count x 3.
 std::vector<float> aligned_frame(const FrameView& clip, size_t f, const RigidMotion& motion);
 
-/// What a fit evaluates to for frame f with the original key-frames: vertex_count x 3.
-std::vector<float> combine_keyframes(const FrameView& clip, const KeyframeFit& fit,
-                                     const Eigen::Vector3d& mean_position, size_t f);
-
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_KEYFRAMES_KEYFRAME_FIT_H_

@@ -4,16 +4,20 @@
 
 #include "codec/sequence/error.h"
 #include "codec/surface/closest_point.h"
+#include "sdk/mesh/half_edges.h"
 
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
+
+using Eigen::Vector3d;
 
 /// What to sample on a mesh, whatever its positions: single vertices, pairs (mid-points), triples
 /// (centres).
@@ -47,8 +51,7 @@ class Sampling {
   using Edge = std::pair<uint32_t, uint32_t>;
 
   Edge edge(size_t corner) const {
-    size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
-    return std::minmax(triangles_[corner], triangles_[next]);
+    return std::minmax(triangles_[corner], triangles_[next_corner(static_cast<uint32_t>(corner))]);
   }
 
   template <class T>
@@ -62,7 +65,7 @@ class Sampling {
                               : vertices_.size() + edges_.size() + triangles_.size() / 3;
   }
 
-  Point3 sample(size_t i, std::span<const float> positions) const;
+  Vector3d sample(size_t i, std::span<const float> positions) const;
   std::vector<double> weights(std::span<const float> positions) const;
 
   std::vector<uint32_t> triangles_;
@@ -71,23 +74,19 @@ class Sampling {
   std::vector<size_t> vertex_of_, edge_of_;  ///< of each corner: its vertex, and the edge from it
 };
 
-Point3 at(std::span<const float> positions, uint32_t v) {
+Vector3d at(std::span<const float> positions, uint32_t v) {
   const float* p = &positions[size_t{3} * v];
   return {double{p[0]}, double{p[1]}, double{p[2]}};
 }
 
-Point3 Sampling::sample(size_t i, std::span<const float> positions) const {
+Vector3d Sampling::sample(size_t i, std::span<const float> positions) const {
   if (triangles_.empty())
     return at(positions, static_cast<uint32_t>(i));
   if (i < vertices_.size())
     return at(positions, vertices_[i]);
   i -= vertices_.size();
-  Point3 result{};
-  auto add = [&](uint32_t v, double share) {
-    Point3 p = at(positions, v);
-    for (size_t axis = 0; axis < 3; ++axis)
-      result[axis] += p[axis] * share;
-  };
+  Vector3d result = Vector3d::Zero();
+  auto add = [&](uint32_t v, double share) { result += at(positions, v) * share; };
   if (i < edges_.size()) {
     add(edges_[i].first, 0.5);
     add(edges_[i].second, 0.5);
@@ -96,9 +95,7 @@ Point3 Sampling::sample(size_t i, std::span<const float> positions) const {
   i -= edges_.size();
   for (size_t c = 0; c < 3; ++c)
     add(triangles_[3 * i + c], 1.0);
-  for (double& x : result)
-    x /= 3;
-  return result;
+  return result / 3;
 }
 
 /// Of each sample, sum 1: 1/20, 2/15 and 9/20 of the area of a triangle for each corner, each
@@ -107,16 +104,10 @@ std::vector<double> Sampling::weights(std::span<const float> positions) const {
   std::vector<double> result(samples(positions.size() / 3));
   double total = 0;
   for (size_t t = 0; t < triangles_.size() / 3; ++t) {
-    Point3 a = at(positions, triangles_[3 * t]), b = at(positions, triangles_[3 * t + 1]),
-           c = at(positions, triangles_[3 * t + 2]);
-    double u[3], v[3];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      u[axis] = b[axis] - a[axis];
-      v[axis] = c[axis] - a[axis];
-    }
-    double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                             u[0] * v[1] - u[1] * v[0]) /
-                  2;
+    const Vector3d a = at(positions, triangles_[3 * t]), b = at(positions, triangles_[3 * t + 1]),
+                   c = at(positions, triangles_[3 * t + 2]);
+    const Vector3d normal = (b - a).cross(c - a);
+    const double area = std::hypot(normal[0], normal[1], normal[2]) / 2;
     total += area;
     for (size_t c3 = 3 * t; c3 < 3 * t + 3; ++c3) {
       result[vertex_of_[c3]] += area / 20;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/remesh/isotropic.h"
 
-#include "codec/remesh/half_edges.h"
+#include "codec/remesh/open_mesh.h"
 #include "codec/sequence/error.h"
 #include "codec/surface/closest_point.h"
 #include "codec/surface/surface.h"
@@ -36,10 +36,6 @@ constexpr size_t kMostGrowth = 4;   // vertices at any time, in those asked for 
 constexpr double kMostCorrection = 1.3;  // of the edge length, in a round
 
 Vec3d vector_of(const Eigen::Vector3d& p) {
-  return {p[0], p[1], p[2]};
-}
-
-Point3 point3_of(const Vec3d& p) {
   return {p[0], p[1], p[2]};
 }
 
@@ -172,7 +168,7 @@ class Remesher {
   bool keeps_surface(HalfedgeHandle h) const {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     const TriMesh::FaceHandle left = mesh_.face_handle(h), right = mesh_.opposite_face_handle(h);
-    const Point3 place = point3_of(mesh_.point(from));
+    const Eigen::Vector3d place = point_of(mesh_.point(from));
     double nearest = std::numeric_limits<double>::infinity();
     for (auto f : mesh_.vf_range(from)) {
       if (f == left || f == right)
@@ -181,8 +177,8 @@ class Remesher {
                                  after = corners_of(f, from, mesh_.point(to));
       if (turned(before, after))
         return false;
-      nearest = std::min(nearest, closest_on_triangle(point3_of(after[0]), point3_of(after[1]),
-                                                      point3_of(after[2]), place)
+      nearest = std::min(nearest, closest_on_triangle(point_of(after[0]), point_of(after[1]),
+                                                      point_of(after[2]), place)
                                       .square_distance);
     }
     return nearest <= kMostStray * kMostStray * length_ * length_;

@@ -30,17 +30,6 @@ std::string name_of(const char* method, const char* kind) {
 
 }  // namespace
 
-std::vector<std::string> basis_error_methods() {
-  std::vector<std::string> names;
-  for (const auto& [method, method_name] : kMethods) {
-    for (const auto& [kind, kind_name] : kKinds) {
-      names.push_back(name_of(method_name, kind_name));
-    }
-  }
-  names.insert(names.end(), {"pca", "pca-mean", "pca-mean-rigid"});
-  return names;
-}
-
 std::vector<BasisError> basis_errors(KeyframeFitter& fitter, std::span<const size_t> counts,
                                      bool with_rigid) {
   const FrameView& clip = fitter.clip();

@@ -215,10 +215,6 @@ void add_errors(const ShapeSpace& space, const AlignedFrames& frames,
 
 }  // namespace
 
-std::vector<std::string> shape_space_names() {
-  return {"vertices", "edges", "gradients"};
-}
-
 std::vector<ShapeSpaceError> shape_space_errors(const MeshSequence& clip,
                                                 std::span<const size_t> counts) {
   std::vector<ShapeSpaceError> rows;

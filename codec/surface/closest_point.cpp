@@ -9,27 +9,22 @@
 #include <limits>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <embree3/rtcore.h>
 
 namespace anicodec {
 namespace {
 
-Point3 minus(const Point3& a, const Point3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+using Eigen::Index;
+using Eigen::Vector3d;
 
-Point3 cross(const Point3& a, const Point3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Point3& a, const Point3& b) {
+/// The sum in this order, whatever a library vectorises: equal distances stay equal.
+double dot(const Vector3d& a, const Vector3d& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-Point3 combination(const std::array<double, 3>& w, const Point3& a, const Point3& b,
-                   const Point3& c) {
-  return {w[0] * a[0] + w[1] * b[0] + w[2] * c[0], w[0] * a[1] + w[1] * b[1] + w[2] * c[1],
-          w[0] * a[2] + w[1] * b[2] + w[2] * c[2]};
+Vector3d combination(const Vector3d& w, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  return w[0] * a + w[1] * b + w[2] * c;
 }
 
 }  // namespace
@@ -48,40 +43,40 @@ std::vector<uint32_t> fan_triangles(const Polygons& polygons) {
 // Every candidate is a convex combination of the corners, so a weight that rounding spoils (a
 // sliver) can only make a distance too large. The sides that face the point are tried, and where
 // rounding may hide one, all of them.
-ClosestPoint closest_on_triangle(const Point3& a, const Point3& b, const Point3& c,
-                                 const Point3& q) {
+ClosestPoint closest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                                 const Vector3d& q) {
   constexpr double kSliver = 1e-8;  // square of the sine of the angle at a
   constexpr double kInside = 1e-9;  // weight from which the opposite side is surely no closer
   // Relative to q, so that small distances keep their digits.
-  const Point3 corner[3] = {minus(a, q), minus(b, q), minus(c, q)};
+  const Vector3d corner[3] = {a - q, b - q, c - q};
   ClosestPoint best;
   best.square_distance = std::numeric_limits<double>::infinity();
-  auto consider = [&](const std::array<double, 3>& weights) {
-    const Point3 offset = combination(weights, corner[0], corner[1], corner[2]);
+  auto consider = [&](const Vector3d& weights) {
+    const Vector3d offset = combination(weights, corner[0], corner[1], corner[2]);
     const double square = dot(offset, offset);
     if (square < best.square_distance) {
       best.square_distance = square;
       best.weights = weights;
     }
   };
-  const Point3 ab = minus(corner[1], corner[0]), ac = minus(corner[2], corner[0]);
-  const Point3 normal = cross(ab, ac);
+  const Vector3d ab = corner[1] - corner[0], ac = corner[2] - corner[0];
+  const Vector3d normal = ab.cross(ac);
   const double area = dot(normal, normal);
-  std::array<double, 3> inside{-1, -1, -1};  // the weights of the foot of the perpendicular
+  Vector3d inside(-1, -1, -1);  // the weights of the foot of the perpendicular
   if (area > 0) {
-    inside[0] = dot(cross(corner[1], corner[2]), normal) / area;
-    inside[1] = dot(cross(corner[2], corner[0]), normal) / area;
+    inside[0] = dot(corner[1].cross(corner[2]), normal) / area;
+    inside[1] = dot(corner[2].cross(corner[0]), normal) / area;
     inside[2] = 1 - inside[0] - inside[1];
   }
   const bool sliver = !(area > kSliver * dot(ab, ab) * dot(ac, ac));
-  for (size_t i = 0; i < 3; ++i) {
-    const size_t j = (i + 1) % 3;
+  for (Index i = 0; i < 3; ++i) {
+    const Index j = (i + 1) % 3;
     if (!sliver && inside[(i + 2) % 3] > kInside)
       continue;
-    const Point3 side = minus(corner[j], corner[i]);
+    const Vector3d side = corner[j] - corner[i];
     const double length = dot(side, side);
     const double t = length > 0 ? std::clamp(-dot(corner[i], side) / length, 0.0, 1.0) : 0;
-    std::array<double, 3> weights{};
+    Vector3d weights = Vector3d::Zero();
     weights[i] = 1 - t;
     weights[j] = t;
     consider(weights);
@@ -94,10 +89,10 @@ ClosestPoint closest_on_triangle(const Point3& a, const Point3& b, const Point3&
 
 struct ClosestPointQuery::Tree {
   std::vector<uint32_t> triangles;
-  std::vector<Point3> vertices;
+  std::vector<Vector3d> vertices;
   // Embree sees the surface moved and scaled into [-1, 1]^3, so that it neither overflows nor loses
   // small surfaces far from the origin.
-  Point3 centre{};
+  Vector3d centre = Vector3d::Zero();
   double scale = 1;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
@@ -122,7 +117,7 @@ struct ClosestPointQuery::Tree {
   void build();
   void bounds(uint32_t element, RTCBounds* out) const;
   /// Takes the element if it is closer than the best so far, or as close and before it.
-  bool try_element(uint32_t element, const Point3& q, ClosestPoint* best) const;
+  bool try_element(uint32_t element, const Vector3d& q, ClosestPoint* best) const;
 };
 
 ClosestPointQuery::Tree::Tree(std::span<const uint32_t> triangle_list,
@@ -134,7 +129,7 @@ ClosestPointQuery::Tree::Tree(std::span<const uint32_t> triangle_list,
         throw Error(ErrorKind::kInput,
                     "vertex " + std::to_string(i / 3) + " of a surface is not finite");
     }
-    vertices.push_back({double{positions[i]}, double{positions[i + 1]}, double{positions[i + 2]}});
+    vertices.emplace_back(double{positions[i]}, double{positions[i + 1]}, double{positions[i + 2]});
   }
   if (vertices.empty())
     throw Error(ErrorKind::kInput, "a surface without vertices has no closest point");
@@ -144,10 +139,10 @@ ClosestPointQuery::Tree::Tree(std::span<const uint32_t> triangle_list,
 
 void ClosestPointQuery::Tree::normalise() {
   double half = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    auto [low, high] =
-        std::minmax_element(vertices.begin(), vertices.end(),
-                            [axis](const Point3& a, const Point3& b) { return a[axis] < b[axis]; });
+  for (Index axis = 0; axis < 3; ++axis) {
+    auto [low, high] = std::minmax_element(
+        vertices.begin(), vertices.end(),
+        [axis](const Vector3d& a, const Vector3d& b) { return a[axis] < b[axis]; });
     centre[axis] = ((*low)[axis] + (*high)[axis]) / 2;
     half = std::max(half, ((*high)[axis] - (*low)[axis]) / 2);
   }
@@ -180,32 +175,32 @@ void ClosestPointQuery::Tree::build() {
 void ClosestPointQuery::Tree::bounds(uint32_t element, RTCBounds* out) const {
   float* low = &out->lower_x;
   float* high = &out->upper_x;
-  for (size_t axis = 0; axis < 3; ++axis) {
+  for (Index axis = 0; axis < 3; ++axis) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    auto take = [&](uint32_t v) {
+    auto include = [&](uint32_t v) {
       double x = (vertices[v][axis] - centre[axis]) * scale;
       least = std::min(least, x);
       most = std::max(most, x);
     };
     if (triangles.empty()) {
-      take(element);
+      include(element);
     } else {
       for (size_t corner = 0; corner < 3; ++corner)
-        take(triangles[size_t{3} * element + corner]);
+        include(triangles[size_t{3} * element + corner]);
     }
     low[axis] = std::nextafter(static_cast<float>(least), -2.F);
     high[axis] = std::nextafter(static_cast<float>(most), 2.F);
   }
 }
 
-bool ClosestPointQuery::Tree::try_element(uint32_t element, const Point3& q,
+bool ClosestPointQuery::Tree::try_element(uint32_t element, const Vector3d& q,
                                           ClosestPoint* best) const {
   ClosestPoint found;
   if (triangles.empty()) {
     found.position = vertices[element];
-    Point3 offset = minus(found.position, q);
+    const Vector3d offset = found.position - q;
     found.square_distance = dot(offset, offset);
-    found.weights = {1, 0, 0};
+    found.weights = Vector3d::UnitX();
   } else {
     const uint32_t* t = &triangles[size_t{3} * element];
     found = closest_on_triangle(vertices[t[0]], vertices[t[1]], vertices[t[2]], q);
@@ -226,10 +221,10 @@ ClosestPointQuery::~ClosestPointQuery() = default;
 ClosestPointQuery::ClosestPointQuery(ClosestPointQuery&&) noexcept = default;
 ClosestPointQuery& ClosestPointQuery::operator=(ClosestPointQuery&&) noexcept = default;
 
-ClosestPoint ClosestPointQuery::operator()(const Point3& q) const {
+ClosestPoint ClosestPointQuery::operator()(const Vector3d& q) const {
   struct Context {
     const Tree* tree;
-    const Point3* q;
+    const Vector3d* q;
     double margin;
     ClosestPoint best;
   };
@@ -240,7 +235,7 @@ ClosestPoint ClosestPointQuery::operator()(const Point3& q) const {
   RTCPointQuery query;
   double reach = 1;
   float* to = &query.x;
-  for (size_t axis = 0; axis < 3; ++axis) {
+  for (Index axis = 0; axis < 3; ++axis) {
     double x = (q[axis] - tree_->centre[axis]) * tree_->scale;
     reach = std::max(reach, std::abs(x));
     to[axis] = static_cast<float>(x);

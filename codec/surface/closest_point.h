@@ -5,15 +5,14 @@
 
 #include "codec/sequence/mesh_sequence.h"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
-namespace anicodec {
+#include <Eigen/Core>
 
-using Point3 = std::array<double, 3>;
+namespace anicodec {
 
 /// Every polygon of three or more corners as a fan from its first corner, three vertices each;
 /// degenerate triangles included.
@@ -22,15 +21,15 @@ std::vector<uint32_t> fan_triangles(const Polygons& polygons);
 struct ClosestPoint {
   double square_distance = 0;
   uint32_t element = 0;  ///< the triangle, or the vertex of a point cloud; the first of equal ones
-  std::array<double, 3>
-      weights{};  ///< barycentric, none negative, sum 1; {1, 0, 0} in a point cloud
-  Point3 position{};
+  /// Barycentric, none negative, sum 1; {1, 0, 0} in a point cloud.
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
 /// The point of a triangle (corners a, b, c, may be degenerate) that is closest to q, to the
 /// precision of double; `element` is left 0.
-ClosestPoint closest_on_triangle(const Point3& a, const Point3& b, const Point3& c,
-                                 const Point3& q);
+ClosestPoint closest_on_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                 const Eigen::Vector3d& c, const Eigen::Vector3d& q);
 
 /// Closest points on a triangle mesh, or, if it has no triangle, closest vertices of a point cloud.
 /// Embree's box hierarchy finds the candidates in single precision with a margin for its rounding,
@@ -46,7 +45,7 @@ class ClosestPointQuery {
   ClosestPointQuery& operator=(ClosestPointQuery&&) noexcept;
 
   /// May be called from several threads at once.
-  ClosestPoint operator()(const Point3& q) const;
+  ClosestPoint operator()(const Eigen::Vector3d& q) const;
 
  private:
   struct Tree;

@@ -19,14 +19,6 @@ using Eigen::Vector3d;
 
 constexpr double kSmoothCosine = 0.866;  // 30 degrees, of a vertex normal from a triangle's
 
-Vector3d to_vector(const Point3& p) {
-  return {p[0], p[1], p[2]};
-}
-
-Point3 to_point(const Vector3d& v) {
-  return {v[0], v[1], v[2]};
-}
-
 }  // namespace
 
 Positions positions_of(std::span<const float> frame) {
@@ -128,23 +120,22 @@ void Surface::build_index() {
 }
 
 Vector3d Surface::closest_on_boundary(const Vector3d& q, Vector3d* direction) const {
-  const ClosestPoint found = (*boundary_index_)(to_point(q));
+  const ClosestPoint found = (*boundary_index_)(q);
   const auto [a, b] = boundary_[found.element];
   *direction = (row(positions_, b) - row(positions_, a)).normalized();
-  return to_vector(found.position);
+  return found.position;
 }
 
 SurfacePoint Surface::closest(const Vector3d& q) const {
   // The index holds floats; the point itself is exact in double again.
-  return closest_on((*index_)(to_point(q)).element, q);
+  return closest_on((*index_)(q).element, q);
 }
 
 SurfacePoint Surface::closest_on(uint32_t triangle, const Vector3d& q) const {
   const SurfaceTopology::Triangle& t = topology_->triangles[triangle];
   const ClosestPoint found =
-      closest_on_triangle(to_point(row(positions_, t[0])), to_point(row(positions_, t[1])),
-                          to_point(row(positions_, t[2])), to_point(q));
-  return {triangle, to_vector(found.weights), to_vector(found.position), found.square_distance};
+      closest_on_triangle(row(positions_, t[0]), row(positions_, t[1]), row(positions_, t[2]), q);
+  return {triangle, found.weights, found.position, found.square_distance};
 }
 
 SurfacePoint Surface::walk(const Vector3d& q, uint32_t start) const {

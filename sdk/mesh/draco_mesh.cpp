@@ -7,20 +7,12 @@
 #include <memory>
 #include <new>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wold-style-cast"
-#pragma GCC diagnostic ignored "-Wundef"
-#pragma GCC diagnostic ignored "-Wpedantic"
 #include <draco/compression/bit_coders/rans_bit_decoder.h>
 #include <draco/compression/bit_coders/rans_bit_encoder.h>
 #include <draco/compression/decode.h>
 #include <draco/compression/entropy/symbol_decoding.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/core/varint_decoding.h>
-#pragma GCC diagnostic pop
 
 namespace anicodec {
 namespace {

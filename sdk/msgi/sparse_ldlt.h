@@ -39,9 +39,6 @@ class SparseLdlt {
   /// Unknown i is vertex vertices()[i].
   const Vector<uint32_t>& vertices() const { return vertices_; }
 
-  /// Numbers in L below the diagonal.
-  size_t factor_size() const { return values_.size(); }
-
   size_t resident_bytes() const;
 
   /// The least most_bytes for which init() does not end in kLimit.

@@ -4,7 +4,7 @@
 
 #include "sdk/base/bounded_float.h"
 #include "sdk/mesh/plain_coding.h"
-#include "sdk/segment/residency.h"
+#include "sdk/segment/resident_writer.h"
 #include "sdk/segment/series_coding.h"
 
 #include <algorithm>

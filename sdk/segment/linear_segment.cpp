@@ -6,7 +6,7 @@
 #include "format/time_weights.h"
 #include "sdk/base/bounded_float.h"
 #include "sdk/segment/affine_functions.h"
-#include "sdk/segment/residency.h"
+#include "sdk/segment/resident_writer.h"
 
 #include <algorithm>
 #include <cmath>

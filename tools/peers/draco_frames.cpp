@@ -8,18 +8,10 @@
 #include <algorithm>
 #include <bit>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wold-style-cast"
-#pragma GCC diagnostic ignored "-Wundef"
-#pragma GCC diagnostic ignored "-Wpedantic"
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
 #include <draco/core/quantization_utils.h>
 #include <draco/mesh/mesh.h>
-#pragma GCC diagnostic pop
 
 namespace anicodec::peers {
 namespace {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/keyframes/keyframe_fit.h"
 
+#include "tests/codec/keyframes/frame_of_fit.h"
 #include "tests/codec/moving_points.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +77,7 @@ TEST(KeyframeFit, ReproducesKeyframes) {
       const uint32_t k = fit.keyframes[j];
       EXPECT_EQ(fit.weights.row(k), Eigen::RowVectorXd::Unit(5, static_cast<Index>(j)));
       EXPECT_NEAR(fit.squared_errors[k], 0, 1e-10);
-      const auto frame = combine_keyframes(clip.view(), fit, fitter.gram().mean_position(), k);
+      const auto frame = frame_of_fit(clip.view(), fit, fitter.gram().mean_position(), k);
       EXPECT_LT(squared_distance(frame.data(), clip.view().frame(k), 50), 1e-9);
     }
   }

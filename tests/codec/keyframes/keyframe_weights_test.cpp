@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/keyframes/keyframe_weights.h"
+
 #include "codec/algebra/gram.h"
 #include "codec/keyframes/keyframe_fit.h"
-#include "codec/keyframes/keyframe_weights.h"
+#include "tests/codec/keyframes/frame_of_fit.h"
 #include "tests/codec/moving_points.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +49,8 @@ TEST(FrameWeights, LeaveTheErrorThatTheVerticesShow) {
     for (KeyframeWeights kind :
          {KeyframeWeights::kLinear, KeyframeWeights::kSumToOne, KeyframeWeights::kRigid}) {
       const KeyframeFit fit = fitter.fit({2, 11, 19, 27}, kind);
-      for (size_t f = 0; f < 30; f++) {
-        const auto frame = combine_keyframes(clip.view(), fit, fitter.gram().mean_position(), f);
+      for (uint32_t f = 0; f < 30; f++) {
+        const auto frame = frame_of_fit(clip.view(), fit, fitter.gram().mean_position(), f);
         const double measured =
             squared_distance(frame.data(), clip.view().frame(f), clip.vertex_count);
         EXPECT_NEAR(fit.squared_errors[static_cast<Index>(f)], measured, 1e-5 * (1e-3 + measured));

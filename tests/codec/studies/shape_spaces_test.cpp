@@ -42,7 +42,7 @@ TEST(ShapeSpaces, AllComponentsGiveTheFramesBack) {
   const size_t counts[] = {1, 4, 8, 9};
   const std::vector<ShapeSpaceError> rows = shape_space_errors(clip, counts);
   EXPECT_EQ(rows.size(), 9U);  // nine frames span eight dimensions
-  for (const std::string& space : shape_space_names()) {
+  for (const std::string space : {"vertices", "edges", "gradients"}) {
     EXPECT_LT(row(rows, space, 8).kg, 0.01) << space;
     EXPECT_LT(row(rows, space, 8).residual_percent, 1e-6) << space;
     EXPECT_LT(row(rows, space, 4).residual_percent, row(rows, space, 1).residual_percent) << space;

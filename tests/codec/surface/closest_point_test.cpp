@@ -3,6 +3,7 @@
 #include "codec/surface/closest_point.h"
 
 #include "codec/sequence/error.h"
+#include "codec/sequence/random.h"
 #include "corpus/clips.h"
 
 #include <cmath>
@@ -14,7 +15,9 @@
 namespace anicodec {
 namespace {
 
-const Point3 kA{0, 0, 0}, kB{4, 0, 0}, kC{0, 4, 0};
+using Eigen::Vector3d;
+
+const Vector3d kA{0, 0, 0}, kB{4, 0, 0}, kC{0, 4, 0};
 
 TEST(ClosestOnTriangle, InsideSidesAndCorners) {
   ClosestPoint inside = closest_on_triangle(kA, kB, kC, {1, 1, 3});
@@ -38,10 +41,10 @@ TEST(ClosestOnTriangle, DegenerateTrianglesAreSegmentsOrPoints) {
 }
 
 ClosestPoint by_search(const std::vector<uint32_t>& triangles, std::span<const float> positions,
-                       const Point3& q) {
+                       const Vector3d& q) {
   auto vertex = [&](uint32_t v) {
-    return Point3{double{positions[3 * v]}, double{positions[3 * v + 1]},
-                  double{positions[3 * v + 2]}};
+    return Vector3d{double{positions[3 * v]}, double{positions[3 * v + 1]},
+                    double{positions[3 * v + 2]}};
   };
   ClosestPoint best;
   best.square_distance = std::numeric_limits<double>::infinity();
@@ -56,7 +59,7 @@ ClosestPoint by_search(const std::vector<uint32_t>& triangles, std::span<const f
   for (uint32_t v = 0; triangles.empty() && v < positions.size() / 3; ++v) {
     double x = vertex(v)[0] - q[0], y = vertex(v)[1] - q[1], z = vertex(v)[2] - q[2];
     if (x * x + y * y + z * z < best.square_distance)
-      best = {x * x + y * y + z * z, v, {1, 0, 0}, vertex(v)};
+      best = {x * x + y * y + z * z, v, Vector3d::UnitX(), vertex(v)};
   }
   return best;
 }
@@ -69,18 +72,15 @@ TEST_P(ClosestPointOfClip, IsThatOfASearchThroughAllElements) {
   std::vector<uint32_t> triangles = fan_triangles(s.polygons);
   ClosestPointQuery query(triangles, positions);
   double size = diagonal(s);
-  uint64_t state = 1;
-  auto random = [&] {
-    state = state * 6364136223846793005U + 1442695040888963407U;
-    return static_cast<double>(state >> 40) / (1 << 23) - 1;
-  };
+  LinearCongruence numbers(1);
+  auto random = [&] { return numbers.symmetric(); };
   for (int i = 0; i < 400; ++i) {
     // On a vertex, near it, and away by powers of the size.
     uint32_t v = static_cast<uint32_t>((random() + 1) / 2 * s.vertex_count);
     double spread = i % 4 == 0 ? 0 : size * std::pow(10.0, i % 16 - 10);
-    Point3 q;
-    for (size_t axis = 0; axis < 3; ++axis)
-      q[axis] = double{positions[3 * v + axis]} + spread * random();
+    Vector3d q;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      q[axis] = double{positions[3 * v + static_cast<size_t>(axis)]} + spread * random();
     ClosestPoint expected = by_search(triangles, positions, q), got = query(q);
     ASSERT_EQ(got.square_distance, expected.square_distance) << i;
     ASSERT_EQ(got.element, expected.element) << i;

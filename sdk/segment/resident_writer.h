@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_SDK_SEGMENT_RESIDENCY_H_
-#define ANICODEC_SDK_SEGMENT_RESIDENCY_H_
+#ifndef ANICODEC_SDK_SEGMENT_RESIDENT_WRITER_H_
+#define ANICODEC_SDK_SEGMENT_RESIDENT_WRITER_H_
 
 #include "format/memory.h"
 #include "sdk/segment/segment.h"
@@ -40,4 +40,4 @@ class ResidentWriter {
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_SDK_SEGMENT_RESIDENCY_H_
+#endif  // ANICODEC_SDK_SEGMENT_RESIDENT_WRITER_H_
