@@ -10,60 +10,6 @@
 namespace anicodec {
 namespace {
 
-/// What a mesh has of a sequence, ascending.
-struct Members {
-  uint32_t part = kNoLabel;
-  std::vector<uint32_t> vertices, polygons, corners;
-};
-
-/// The polygons of each part and of none, their vertices and corners, by first vertex. Polygons
-/// without corners, of which not all may be, stay with the one before.
-std::vector<Members> members_of_parts(const MeshSequence& sequence) {
-  const Polygons& polygons = sequence.polygons;
-  std::map<uint32_t, Members> parts;  // by label
-  uint32_t first = 0;
-  while (polygons[first].empty())
-    ++first;
-  uint32_t label = sequence.parts.of_polygon[first];
-  for (uint32_t p = 0; p < polygons.size(); ++p) {
-    if (!polygons[p].empty())
-      label = sequence.parts.of_polygon[p];
-    Members& part = parts[label];
-    part.part = label;
-    part.polygons.push_back(p);
-    for (uint32_t c = polygons.offsets[p]; c < polygons.offsets[p + 1]; ++c) {
-      part.corners.push_back(c);
-      part.vertices.push_back(polygons.corners[c]);
-    }
-  }
-  std::vector<Members> members;
-  for (auto& [unused, part] : parts) {
-    std::sort(part.vertices.begin(), part.vertices.end());
-    part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()),
-                        part.vertices.end());
-    members.push_back(std::move(part));
-  }
-  std::stable_sort(members.begin(), members.end(), [](const Members& a, const Members& b) {
-    return a.vertices[0] < b.vertices[0];
-  });
-  // Vertices without polygon.
-  std::vector<uint32_t> owner(sequence.vertex_count, UINT32_MAX);
-  for (uint32_t m = 0; m < members.size(); ++m) {
-    for (uint32_t v : members[m].vertices)
-      owner[v] = m;
-  }
-  uint32_t last_owner = 0;
-  for (uint32_t v = 0; v < sequence.vertex_count; ++v) {
-    if (owner[v] == UINT32_MAX)
-      members[last_owner].vertices.push_back(v);
-    else
-      last_owner = owner[v];
-  }
-  for (Members& m : members)
-    std::sort(m.vertices.begin(), m.vertices.end());
-  return members;
-}
-
 /// The values of some rows; none if there are none at all.
 std::vector<uint32_t> taken(const std::vector<uint32_t>& values,
                             const std::vector<uint32_t>& rows) {
@@ -113,7 +59,7 @@ std::vector<FrameRun> frames_shown(const MeshSequence& sequence,
   return runs;
 }
 
-SceneMesh taken(const MeshSequence& whole, const Members& members) {
+SceneMesh taken(const MeshSequence& whole, const PartMembers& members) {
   SceneMesh mesh;
   MeshSequence& out = mesh.sequence;
   if (members.part != kNoLabel)
@@ -184,6 +130,52 @@ void append(const PolygonLabels& labels, size_t polygons, PolygonLabels& out) {
 
 }  // namespace
 
+std::vector<PartMembers> members_of_parts(const MeshSequence& sequence) {
+  const Polygons& polygons = sequence.polygons;
+  std::map<uint32_t, PartMembers> parts;  // by label
+  uint32_t first = 0;
+  while (polygons[first].empty())
+    ++first;
+  uint32_t label = sequence.parts.of_polygon[first];
+  for (uint32_t p = 0; p < polygons.size(); ++p) {
+    if (!polygons[p].empty())
+      label = sequence.parts.of_polygon[p];
+    PartMembers& part = parts[label];
+    part.part = label;
+    part.polygons.push_back(p);
+    for (uint32_t c = polygons.offsets[p]; c < polygons.offsets[p + 1]; ++c) {
+      part.corners.push_back(c);
+      part.vertices.push_back(polygons.corners[c]);
+    }
+  }
+  std::vector<PartMembers> members;
+  for (auto& [unused, part] : parts) {
+    std::sort(part.vertices.begin(), part.vertices.end());
+    part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()),
+                        part.vertices.end());
+    members.push_back(std::move(part));
+  }
+  std::stable_sort(members.begin(), members.end(), [](const PartMembers& a, const PartMembers& b) {
+    return a.vertices[0] < b.vertices[0];
+  });
+  // Vertices without polygon.
+  std::vector<uint32_t> owner(sequence.vertex_count, UINT32_MAX);
+  for (uint32_t m = 0; m < members.size(); ++m) {
+    for (uint32_t v : members[m].vertices)
+      owner[v] = m;
+  }
+  uint32_t last_owner = 0;
+  for (uint32_t v = 0; v < sequence.vertex_count; ++v) {
+    if (owner[v] == UINT32_MAX)
+      members[last_owner].vertices.push_back(v);
+    else
+      last_owner = owner[v];
+  }
+  for (PartMembers& m : members)
+    std::sort(m.vertices.begin(), m.vertices.end());
+  return members;
+}
+
 Scene split_parts(MeshSequence sequence) {
   check(sequence);
   Scene scene;
@@ -200,7 +192,7 @@ Scene split_parts(MeshSequence sequence) {
     scene.meshes.push_back({std::move(sequence), {{0, clip.frame_count}}});
     return scene;
   }
-  for (const Members& members : members_of_parts(sequence))
+  for (const PartMembers& members : members_of_parts(sequence))
     scene.meshes.push_back(taken(sequence, members));
   return scene;
 }

@@ -22,6 +22,17 @@ struct Scene {
   std::vector<SceneMesh> meshes;
 };
 
+/// What a part has of a mesh, each ascending.
+struct PartMembers {
+  uint32_t part = UINT32_MAX;  ///< label, kNoLabel: of none
+  std::vector<uint32_t> vertices, polygons, corners;
+};
+
+/// The parts of a mesh in the order of their first vertices. Vertices that several share belong to
+/// each; those without polygon, and polygons without corner, stay with the one before. The mesh
+/// has labels of parts and a polygon with corners; positions are not read.
+std::vector<PartMembers> members_of_parts(const MeshSequence& sequence);
+
 /// Takes a sequence apart into its parts, each a mesh with the part's name, in the order of their
 /// first vertices. In frames where all its vertices are at one point, as those of hidden objects
 /// are, a part is not there, unless it is so in all. Vertices that several parts share come with

@@ -21,22 +21,24 @@ namespace {
 
 constexpr const char* kFooter =
     R"(OUT is a vertex cache (clip.pc2, clip.mdd; the mesh is written beside it as clip.obj), a file per
-frame (dir/frame_%04d.obj, .ply, .off, .stl), or a scene (clip.glb) with a morph target for each
-frame and an animation of their weights. Polygons come back as polygons, but for STL and GLB, which
+frame (dir/frame_%04d.obj, .ply, .off, .stl), a scene (clip.glb) with a morph target for each frame
+and an animation of their weights, or an Alembic archive (clip.abc) with an object for each mesh,
+shown in its frames, and for each of its topologies. Polygons come back as polygons, but for STL and GLB, which
 have triangles; GLB is turned to Y up and scaled to metres where the clip says. Frames are counted
 from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate that STEP divides
-is divided; PC2 carries no rate. A clip whose topology changes needs a file per frame.
+is divided; PC2 carries no rate. A clip whose topology changes needs a file per frame, or .abc.
 
 Examples:
   anicodec decode clip.anic -o clip.pc2
   anicodec decode clip.anic -o frames/frame_%04d.ply --frames 0:100:2
   anicodec decode clip.anic -o clip.glb
+  anicodec decode clip.anic -o clip.abc --normals
   anicodec decode clip.anic -o first.obj --frames 0)";
 
 struct DecodeCommand {
   std::string input, output, frames, quality;
   uint32_t start = 0;
-  bool ascii = false, hold = false;
+  bool ascii = false, hold = false, normals = false;
 };
 
 /// Timing of every step-th frame of a clip.
@@ -57,7 +59,7 @@ void take_frames(const FrameRange& range, MeshSequence& clip) {
 
 bool is_written_by_frame(const std::string& path) {
   const FileKind kind = kind_of(path);
-  return !is_cache(kind) && kind != FileKind::kGlb && kind != FileKind::kGltf;
+  return !is_cache(kind) && !is_whole_clip(kind);
 }
 
 /// Frames that are written together, and the meshes that they show.
@@ -81,6 +83,46 @@ std::vector<DecodeRun> runs_of(const Clip& clip, const FrameRange& range) {
   return runs;
 }
 
+/// The frames of a range that show a mesh, counted in the range.
+std::vector<FrameRun> present_in(const Clip& clip, uint32_t mesh, const FrameRange& range) {
+  std::vector<FrameRun> runs;
+  for (uint32_t i = 0; i < range.size(); ++i) {
+    if (!clip.segment_at(mesh, range.first + i * range.step))
+      continue;
+    if (runs.empty() || runs.back().first + runs.back().count != i)
+      runs.push_back({i, 0});
+    ++runs.back().count;
+  }
+  return runs;
+}
+
+/// Writes each mesh of a clip as it is there; returns what to tell.
+std::string write_archive(const DecodeCommand& command, const Clip& clip, const FrameRange& range,
+                          const WriteOptions& options) {
+  MeshSequence timing = describe_clip(clip, meshes_of(clip));
+  if (range.size() < clip.frame_count())
+    take_frames(range, timing);
+  std::vector<AlembicTrack> tracks;
+  for (uint32_t m : meshes_of(clip)) {
+    AlembicTrack track;
+    track.present_in = present_in(clip, m, range);
+    if (track.present_in.empty())
+      continue;
+    track.mesh = describe_clip(clip, {m});
+    track.frames = [all = play(command.input, clip, {m}), range](uint32_t f) {
+      return all(range.first + f * range.step);
+    };
+    if (auto attributes = play_attributes(clip, {m}))
+      track.attributes = [attributes, range](uint32_t f) {
+        return attributes(range.first + f * range.step);
+      };
+    tracks.push_back(std::move(track));
+  }
+  write_tracks(command.output, timing, tracks, options);
+  return fmt::format("{}: {} frames of {} vertices and {} faces", command.output,
+                     timing.frame_count, timing.vertex_count, timing.polygons.size());
+}
+
 void run(const DecodeCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   std::string bytes = read_bytes(command.input);
@@ -100,14 +142,22 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
   options.overwrite = common.overwrite;
   options.ascii = command.ascii;
   options.step = command.hold;
+  options.normals = command.normals;
   options.first_number = command.start;
   options.progress = line.callback();
   check_sequence_output(command.output, range.size(), options);
+  if (kind_of(command.output) == FileKind::kAlembic) {
+    const std::string written = write_archive(command, clip, range, options);
+    line.clear();
+    if (!common.quiet)
+      fmt::print("{}\n", written);
+    return;
+  }
   const bool by_frame = is_written_by_frame(command.output);
   if (!by_frame && takes_turns(clip))
     throw Error(ErrorKind::kUsage,
                 fmt::format("{}: has one mesh, but {} has {} that take turns; write a file per "
-                            "frame, as in frame_%04d.obj",
+                            "frame, as in frame_%04d.obj, or .abc",
                             command.output, command.input, clip.meshes().size()));
   std::vector<std::string> written;
   for (const auto& [own, meshes] :
@@ -145,12 +195,15 @@ void add_decode(Commands& commands, CommonOptions& common) {
       {"decode", "FILE.anic -o OUT [options]", "Decode an .anic file to a mesh sequence", kFooter},
       [c, &common] { run(*c, common); });
   options.argument("FILE", c->input, "The .anic file to read").required();
-  options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
+  options
+      .option("-o,--output", c->output, "OUT",
+              "x.pc2, x.mdd, x.abc, x.glb, dir/frame_%04d.obj|ply|off|stl")
       .required();
   options.option("--frames", c->frames, "A:B[:STEP]",
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");
   options.flag("--hold", c->hold, "GLB: hold each frame until the next, without in-betweens");
+  options.flag("--normals", c->normals, "Alembic: normals of every corner in every frame");
   options.flag("--ascii", c->ascii, "PLY and STL as text");
   options.option("--quality", c->quality, "Q", "Share of the components to use, above 0 to 1");
 }

@@ -285,6 +285,10 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
         scene_options(options));
     return;
   }
+  if (bytes.starts_with("Ogawa")) {
+    sequence = read_alembic(memory_source(bytes, "-"), alembic_options(options));
+    return;
+  }
   Mesh mesh;
   if (bytes.starts_with("ply"))
     parse_ply(bytes, "-", mesh, &sequence);

@@ -47,7 +47,7 @@ struct LoadOptions {
 ///   - an Alembic archive (.abc), see read_alembic(),
 ///   - a pattern of glob(3) for any of these, its results in natural order,
 ///   - one mesh: a single frame,
-///   - "-": a scene in one file or a mesh (.obj .ply .off) from the standard input.
+///   - "-": a scene in one file, an archive or a mesh (.obj .ply .off) from the standard input.
 /// The clip is named by the stem of the first file. Positions are held once. Throws Error(kInput)
 /// naming file and place, Error(kUsage) for inputs that do not make one clip.
 MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options = {});

@@ -120,6 +120,29 @@ void write_cache(const std::string& path, const MeshSequence& clip, const Frames
   commit_all(files);
 }
 
+void write_abc(const std::string& path, const MeshSequence& clip,
+               std::span<const AlembicTrack> tracks, const WriteOptions& options) {
+  AtomicFile file(path, options.overwrite);
+  const AbcSink sink{[&](std::string_view bytes) { file.write(bytes); },
+                     [&](uint64_t offset, std::string_view bytes) { file.rewrite(offset, bytes); }};
+  write_alembic(sink, clip, tracks, {.normals = options.normals, .progress = options.progress});
+  file.commit();
+}
+
+/// The clip as the only mesh of an archive, there in all frames.
+AlembicTrack only_track(const MeshSequence& clip, const FrameSource& source,
+                        const AttributeSource& attributes) {
+  AlembicTrack track;
+  MeshSequence& mesh = track.mesh;
+  static_cast<MeshDetails&>(mesh) = clip;
+  mesh.polygons = clip.polygons;
+  mesh.vertex_count = clip.vertex_count;
+  track.present_in = {{0, clip.frame_count}};
+  track.frames = source;
+  track.attributes = attributes;
+  return track;
+}
+
 void write_glb(const std::string& path, const MeshSequence& clip, const Frames& frames,
                const WriteOptions& options) {
   AtomicFile file(path, options.overwrite);
@@ -178,8 +201,8 @@ void check_sequence_output(const std::string& path, uint32_t frame_count,
   if (!is_output(kind))
     fail_usage(path, std::string(kind == FileKind::kUnknown ? "is of unknown kind"
                                                             : "is of a kind that is not written") +
-                         "; .obj, .ply, .off, .stl, .pc2, .mdd and .glb can be written");
-  if (kind == FileKind::kGlb)
+                         "; .obj, .ply, .off, .stl, .pc2, .mdd, .glb and .abc can be written");
+  if (kind == FileKind::kGlb || kind == FileKind::kAlembic)
     return check_output(path, options.overwrite);
   if (is_cache(kind)) {
     check_output(path, options.overwrite);
@@ -210,8 +233,20 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
     write_cache(path, clip, frames, options.overwrite);
   else if (kind == FileKind::kGlb)
     write_glb(path, clip, frames, own);
+  else if (kind == FileKind::kAlembic)
+    write_abc(path, clip, std::vector{only_track(clip, source, own.attributes)}, own);
   else
     write_frames(parse_name_pattern(path), kind, clip, frames, own);
+  folder.keep();
+  if (options.progress)
+    options.progress("writing", 1);
+}
+
+void write_tracks(const std::string& path, const MeshSequence& clip,
+                  std::span<const AlembicTrack> tracks, const WriteOptions& options) {
+  check_sequence_output(path, clip.frame_count, options);
+  OutputFolder folder(path);
+  write_abc(path, clip, tracks, options);
   folder.keep();
   if (options.progress)
     options.progress("writing", 1);

@@ -6,8 +6,10 @@
 #include "codec/sequence/frame_source.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
+#include "tools/io/alembic/alembic_output.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace anicodec::tools {
@@ -16,6 +18,7 @@ struct WriteOptions {
   bool overwrite = false;     ///< replace existing outputs instead of refusing
   bool ascii = false;         ///< PLY and STL as text
   bool step = false;          ///< GLB: frames stand until the next instead of moving to it
+  bool normals = false;       ///< Alembic: those of every corner in every frame
   uint32_t first_number = 0;  ///< of frame files
   Progress progress = {};     ///< stage "writing"
   /// Attributes in the form of those of the clip; empty: those of the clip.
@@ -26,6 +29,7 @@ struct WriteOptions {
 ///   - clip.pc2, clip.mdd: a vertex cache, with the mesh of frame 0 beside it as clip.obj, which
 ///   names the cache's content so that another's is told apart,
 ///   - clip.glb: a mesh with a morph target per frame and its animation, see GlbOutput,
+///   - clip.abc: an Alembic archive, see write_alembic(),
 ///   - frame_%04d.obj, .ply, .off, .stl: a file per frame, its %d or %0Nd counting from
 ///   first_number.
 /// A single frame may have a plain name. PC2 carries no rate; MDD has the time of each frame. STL
@@ -39,6 +43,11 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
 /// The same for a clip that is in memory.
 void write_sequence(const std::string& path, const MeshSequence& clip,
                     const WriteOptions& options = {});
+
+/// Writes several meshes on one clock, which need not be there in all frames, as an Alembic
+/// archive. Throws as write_sequence().
+void write_tracks(const std::string& path, const MeshSequence& clip,
+                  std::span<const AlembicTrack> tracks, const WriteOptions& options);
 
 /// Throws the Error(kUsage) that write_sequence would throw for a bad name or an existing output,
 /// before anything is computed or written.

@@ -23,7 +23,7 @@ struct AbcTopology {
   Polygons polygons;
   uint32_t vertex_count = 0;
 
-  bool is_empty() const { return vertex_count == 0 || polygons.size() == 0; }
+  bool is_empty() const { return vertex_count == 0; }
 
   bool operator==(const AbcTopology&) const = default;
 };

@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/alembic/abc_time.h"
 
+#include "tools/io/base/byte_order.h"
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace anicodec::tools {
@@ -21,6 +24,13 @@ std::string AbcTime::fault(double per_cycle, const std::vector<double>& stored) 
   if (per_cycle != kAcyclic && stored.back() - stored.front() > per_cycle)
     return "a cycle is shorter than its times";
   return {};
+}
+
+void AbcTime::append_to(std::string& out) const {
+  append(per_cycle_, std::endian::little, out);
+  append(static_cast<uint32_t>(stored_.size()), std::endian::little, out);
+  for (double t : stored_)
+    append(t, std::endian::little, out);
 }
 
 double AbcTime::at(size_t sample) const {

@@ -34,6 +34,11 @@ class AbcTime {
   /// The time of a sample, which is below max_samples().
   double at(size_t sample) const;
 
+  /// Step, number of stored times and these, as an archive has them.
+  void append_to(std::string& out) const;
+
+  bool operator==(const AbcTime&) const = default;
+
   /// The last of `samples` samples that is not after a time, the first if all are.
   uint32_t sample_at(double time, uint32_t samples) const;
 

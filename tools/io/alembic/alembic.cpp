@@ -5,6 +5,7 @@
 #include "tools/io/alembic/alembic_bake.h"
 #include "tools/io/base/frame_attributes.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/printable.h"
 
 #include <algorithm>
 #include <new>
@@ -27,9 +28,9 @@ void check_one_topology(const ByteSource& source, const AlembicBake& bake) {
       if (now == first || now == kAbcNone)
         continue;
       const std::vector<AbcTopology>& all = shown.mesh->topologies();
-      fail_input(source.name, bake.path(shown) + ": its faces change at frame " +
+      fail_input(source.name, printable(bake.path(shown)) + ": its faces change at frame " +
                                   std::to_string(f) + ", from " + counts(all[first]) + " to " +
-                                  counts(all[now]) + "; --topology segments keeps each");
+                                  counts(all[now]) + "; --topology-changes keep takes each");
     }
   }
 }

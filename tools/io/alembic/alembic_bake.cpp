@@ -5,6 +5,7 @@
 #include "codec/sequence/error.h"
 #include "tools/io/base/frame_attributes.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +84,7 @@ AbcNote AlembicBake::note_once(const AlembicOptions& options) {
   auto told = std::make_shared<std::set<std::string>>();
   return [told, note = options.note](const std::string& text) {
     if (note && told->insert(text).second)
-      note(text);
+      note(printable(text));
   };
 }
 
@@ -111,7 +112,7 @@ AlembicBake::AlembicBake(const ByteSource& source, const AlembicOptions& options
     watch(true);
   }
   if (shown_.empty())
-    fail_input(name_, "no frame shows a mesh with faces; --mesh takes a hidden one by its path");
+    fail_input(name_, "no frame shows a mesh; --mesh takes a hidden one by its path");
 }
 
 void AlembicBake::select(const std::string& mesh) {
@@ -135,7 +136,7 @@ void AlembicBake::select(const std::string& mesh) {
     fail_input(name_, "has no mesh: " + count_text(scene_.nodes()));
   if (shown_.empty())
     throw Error(ErrorKind::kUsage, name_ + ": there is no mesh " + mesh + "; the meshes are: " +
-                                       list + (meshes > kMaxListed ? ", ..." : ""));
+                                       printable(list) + (meshes > kMaxListed ? ", ..." : ""));
 }
 
 /// Notes what each mesh shows in each frame, and forgets those that never show anything.
@@ -250,7 +251,7 @@ void AlembicBake::read_positions(const AbcShown& shown, const AbcPlace& place, s
   if (finite)
     return;
   const auto bad = std::ranges::find_if(out, [](float x) { return !std::isfinite(x); });
-  fail_input(name_, path(shown) + ": frame " + std::to_string(frame) + ", vertex " +
+  fail_input(name_, printable(path(shown)) + ": frame " + std::to_string(frame) + ", vertex " +
                         std::to_string((bad - out.begin()) / 3) + ": the position is not finite");
 }
 

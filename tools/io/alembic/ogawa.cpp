@@ -5,6 +5,7 @@
 #include "codec/sequence/error.h"
 #include "tools/io/base/byte_order.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/printable.h"
 
 #include <algorithm>
 #include <array>
@@ -17,18 +18,8 @@ namespace {
 constexpr std::string_view kMagic = "Ogawa";
 constexpr std::string_view kHdf5Magic("\x89HDF\r\n\x1a\n", 8);
 constexpr size_t kHeaderSize = 16;
-constexpr size_t kMaxShown = 200;
 // Each group is read a few times at most.
 constexpr uint64_t kMaxGroupReads = 8, kFreeGroupBytes = 1 << 16;
-
-/// A path fit for a message: names come from the file.
-std::string legible(std::string place) {
-  std::replace_if(
-      place.begin(), place.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; }, '?');
-  if (place.size() > kMaxShown)
-    place.replace(0, place.size() - kMaxShown, "...");
-  return place;
-}
 
 }  // namespace
 
@@ -58,7 +49,7 @@ OgawaFile::OgawaFile(const ByteSource& source) : source_(source) {
 }
 
 void OgawaFile::fail(const std::string& place, const std::string& text) const {
-  fail_input(source_.name, legible(place) + ": " + text);
+  fail_input(source_.name, printable(place + ": " + text));
 }
 
 uint64_t OgawaFile::number(uint64_t offset) const {

@@ -26,8 +26,7 @@ FileKind kind_of(const std::string& path);
 
 /// True for what can be written.
 inline bool is_output(FileKind kind) {
-  return kind != FileKind::kUnknown && kind != FileKind::kGltf && kind != FileKind::kAssimp &&
-         kind != FileKind::kAlembic;
+  return kind != FileKind::kUnknown && kind != FileKind::kGltf && kind != FileKind::kAssimp;
 }
 
 inline bool is_cache(FileKind kind) {

@@ -128,6 +128,21 @@ void AtomicFile::write_all(std::string_view bytes) {
   }
 }
 
+void AtomicFile::rewrite(uint64_t offset, std::string_view bytes) {
+  write_all(buffer_);
+  buffer_.clear();
+  while (!bytes.empty()) {
+    const ssize_t n =
+        ::pwrite(file_->number, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno != EINTR)
+      fail_writing();
+    if (n > 0) {
+      bytes.remove_prefix(static_cast<size_t>(n));
+      offset += static_cast<uint64_t>(n);
+    }
+  }
+}
+
 void AtomicFile::fail_writing() const {
   throw Error(ErrorKind::kInternal, path_ + ": cannot be written: " + std::strerror(errno));
 }

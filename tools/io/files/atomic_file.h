@@ -5,6 +5,7 @@
 
 #include "tools/io/files/staging.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ class AtomicFile {
 
   /// Throws Error(kInternal) naming the file when the disk is full.
   void write(std::string_view bytes);
+
+  /// Puts bytes in place of some that write() has been given. Throws like it.
+  void rewrite(uint64_t offset, std::string_view bytes);
 
   /// Ends writing, so that many files can wait for commit() without a descriptor each. The disk
   /// has the bytes afterwards.

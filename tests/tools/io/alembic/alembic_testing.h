@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TESTS_TOOLS_IO_ALEMBIC_TESTING_H_
+#define ANICODEC_TESTS_TOOLS_IO_ALEMBIC_TESTING_H_
+
+#include "codec/sequence/scene.h"
+#include "tools/io/alembic/alembic.h"
+#include "tools/io/alembic/alembic_output.h"
+#include "tools/io/base/frame_attributes.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace anicodec::tools {
+
+/// A sink that fills a string.
+inline AbcSink sink_to(std::string& bytes) {
+  bytes.clear();
+  return {[&bytes](std::string_view more) { bytes += more; },
+          [&bytes](uint64_t offset, std::string_view other) {
+            bytes.replace(offset, other.size(), other);
+          }};
+}
+
+/// The meshes of a scene as tracks. The scene must outlive them.
+inline std::vector<AlembicTrack> tracks_of(const Scene& scene) {
+  std::vector<AlembicTrack> tracks;
+  for (const SceneMesh& mesh : scene.meshes) {
+    AlembicTrack track;
+    static_cast<MeshDetails&>(track.mesh) = mesh.sequence;
+    track.mesh.polygons = mesh.sequence.polygons;
+    track.mesh.vertex_count = mesh.sequence.vertex_count;
+    track.present_in = mesh.present_in;
+    auto own = [&mesh](uint32_t frame) {
+      uint32_t before = 0;
+      for (const FrameRun& run : mesh.present_in) {
+        if (frame < run.first + run.count)
+          return before + frame - run.first;
+        before += run.count;
+      }
+      return before;
+    };
+    track.frames = [&mesh, own](uint32_t frame) { return mesh.sequence.frame(own(frame)); };
+    if (std::ranges::any_of(mesh.sequence.attributes,
+                            [](const Attribute& a) { return a.frames > 1; }))
+      track.attributes = [&mesh, own](uint32_t frame) {
+        return attributes_of_frame(mesh.sequence.attributes, own(frame));
+      };
+    tracks.push_back(std::move(track));
+  }
+  return tracks;
+}
+
+inline std::string archive_of_scene(const Scene& scene, bool normals = false) {
+  std::string bytes;
+  AlembicWriteOptions options;
+  options.normals = normals;
+  write_alembic(sink_to(bytes), scene.clip, tracks_of(scene), options);
+  return bytes;
+}
+
+/// A clip as a scene of one mesh.
+inline Scene scene_of(MeshSequence clip) {
+  Scene scene;
+  scene.clip.name = clip.name;
+  scene.clip.frame_count = clip.frame_count;
+  scene.clip.rate = clip.rate;
+  scene.clip.start_time = clip.start_time;
+  scene.clip.times = clip.times;
+  scene.clip.up = clip.up;
+  const FrameRun all{0, clip.frame_count};
+  scene.meshes.push_back({std::move(clip), {all}});
+  return scene;
+}
+
+inline MeshSequence read_bytes_of_archive(const std::string& bytes,
+                                          const AlembicOptions& options = {}) {
+  return read_alembic(memory_source(bytes, "test.abc"), options);
+}
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TESTS_TOOLS_IO_ALEMBIC_TESTING_H_
