@@ -27,7 +27,9 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace anicodec {
@@ -75,8 +77,11 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
     const LinearBasis basis =
         analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
                        shapes ? Base::kPose : Base::kAffine, 1000, 0);
-    EncodedSegment& segment =
-        segments.emplace_back(encode_linear(frames, basis, recipe.settings, input.layout));
+    std::optional<EncodedSegment> coded =
+        encode_linear(frames, basis, recipe.settings, input.layout);
+    if (!coded)
+      throw Error(ErrorKind::kInternal, "the step is too fine");
+    EncodedSegment& segment = segments.emplace_back(std::move(*coded));
     segment.sizes.first_frame = first;
     if (recipe.change)
       recipe.change(segment, input);
