@@ -30,11 +30,11 @@ struct AlembicWriteOptions {
 /// Writes an Alembic archive (Ogawa), one frame in memory at a time: a PolyMesh for each mesh, or
 /// for each part of one without a name. Names with slashes are paths, whose upper objects become
 /// Xforms; others become an Xform with the mesh below it. Meshes of one name that take turns are
-/// one object of changing connectivity; `visible` tells the frames without one. Faces turn
-/// clockwise, as the format asks for; materials are face sets, the first texture coordinates `uv`,
-/// further ones, colours and numbers of vertices are in `.arbGeomParams`. Positions are stored as
-/// they are; a clip with Z up stands below an Xform that turns it. `clip` gives name, number and
-/// timing of the frames, and axes.
+/// one object of changing connectivity, empty where none is there; `visible` tells these frames,
+/// too. Faces turn clockwise, as the format asks for; materials are face sets, the first texture
+/// coordinates `uv`, further ones, colours and numbers of vertices are in `.arbGeomParams`.
+/// Positions are stored as they are; a clip with Z up stands below an Xform that turns it. `clip`
+/// gives name, number and timing of the frames, and axes.
 void write_alembic(const AbcSink& sink, const MeshSequence& clip,
                    std::span<const AlembicTrack> tracks, const AlembicWriteOptions& options = {});
 

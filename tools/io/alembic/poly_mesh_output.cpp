@@ -21,6 +21,8 @@ constexpr const char* kFaceSet =
     "schemaObjTitle=AbcGeom_FaceSet_v1:.faceset";
 constexpr const char* kBox = "interpretation=box";
 
+constexpr size_t kNoLook = SIZE_MAX - 1;  ///< of a frame that shows nothing
+
 using Box = std::array<double, 6>;
 
 Box empty_box() {
@@ -284,6 +286,16 @@ void PolyMeshOutput::add_face_sets(AbcObjectOutput& object, uint32_t sampling) {
 void PolyMeshOutput::hide() {
   if (visible_ != nullptr)
     visible_->add_one(int8_t{0});
+  if (looks_.size() > 1) {  // faces change anyway: also for programs that do not look at `visible`
+    for (AbcPropertyOutput* property : timed_) {
+      if (property == bounds_)
+        property->add(std::span<const double>(empty_box()));
+      else
+        property->add(std::string_view());
+    }
+    last_look_ = kNoLook;
+    return;
+  }
   if (last_look_ == SIZE_MAX) {
     ++hidden_at_start_;
     return;
