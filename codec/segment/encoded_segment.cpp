@@ -59,14 +59,12 @@ std::span<const Vector<int32_t>> EncodedSegment::poses_for_draco() const {
 }
 
 Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
-  DracoMesh draco;
-  draco.points = layout.sizes.points;
+  CodedValues draco;
   draco.components = static_cast<uint32_t>(3 * encoded.draco_poses.size());
-  draco.values.resize(size_t{draco.points} * draco.components);
-  for (size_t p = 0; p < draco.points; ++p) {
-    for (size_t j = 0; j < encoded.draco_poses.size(); ++j)
-      std::copy_n(encoded.draco_poses[j].begin() + ptrdiff_t{3} * layout.topology.point_vertex[p],
-                  3, draco.values.begin() + static_cast<ptrdiff_t>(p * draco.components + 3 * j));
+  for (size_t v = 0; v < layout.topology.vertices_in_triangles; ++v) {
+    for (const Vector<int32_t>& pose : encoded.draco_poses)
+      draco.values.insert(draco.values.end(), pose.begin() + static_cast<ptrdiff_t>(3 * v),
+                          pose.begin() + static_cast<ptrdiff_t>(3 * v + 3));
   }
   SegmentRecord record;
   record.kind = encoded.sizes.kind;

@@ -194,11 +194,8 @@ void subtract_parents(const Vector<uint32_t>& parents, std::vector<Pose>& poses)
 /// Coordinates that the mesh's Draco bitstream does not hold.
 Bytes code_loose_coordinates(const MeshLayout& layout, CoderId coder,
                              const std::vector<Pose>& poses) {
-  size_t loose_from = 0;  // the first coded vertex that Draco does not hold
-  if (coder == CoderId::kDraco) {
-    for (uint32_t c : layout.topology.point_vertex)
-      loose_from = std::max<size_t>(loose_from, c + 1);
-  }
+  // The first coded vertex that Draco does not hold.
+  const size_t loose_from = coder == CoderId::kDraco ? layout.topology.vertices_in_triangles : 0;
   Pose loose;
   for (const Pose& pose : poses)
     loose.insert(loose.end(), pose.begin() + static_cast<ptrdiff_t>(3 * loose_from), pose.end());

@@ -371,7 +371,7 @@ std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
       grid.points.push_back(static_cast<int32_t>(std::lround(pose(v, c) / grid.step)));
   }
   encoded->coder = layout.coder;
-  size_t held = layout.coder == CoderId::kDraco ? vertices_in_triangles(layout.topology) : 0;
+  size_t held = layout.coder == CoderId::kDraco ? layout.topology.vertices_in_triangles : 0;
   encoded->stream = encode_plain_integers(
       {grid.points.begin() + static_cast<ptrdiff_t>(3 * held), grid.points.end()}, 3);
   if (!slow)

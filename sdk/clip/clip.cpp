@@ -3,6 +3,7 @@
 #include "sdk/clip/clip.h"
 
 #include "sdk/clip/memory_estimate.h"
+#include "sdk/mesh/draco_mesh.h"
 #include "sdk/mesh/plain_coding.h"
 #include "sdk/play/attribute_values.h"
 #include "sdk/play/play.h"
@@ -84,24 +85,6 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
   return {};
 }
 
-/// Whether the points of each coded vertex have the same values.
-bool agree(const DracoMesh& draco, const Vector<uint32_t>& point_vertex) {
-  if (draco.components == 0)
-    return true;
-  Vector<uint32_t> first;  // point of each coded vertex; new ones come in ascending order
-  for (uint32_t p = 0; p < point_vertex.size(); ++p) {
-    if (point_vertex[p] == first.size()) {
-      first.push_back(p);
-      continue;
-    }
-    const int32_t* values = draco.values.data() + size_t{p} * draco.components;
-    if (!std::equal(values, values + draco.components,
-                    draco.values.data() + size_t{first[point_vertex[p]]} * draco.components))
-      return false;
-  }
-  return true;
-}
-
 double mesh_work(const Limits::Mesh& mesh) {
   return static_cast<double>(uint64_t{mesh.source_vertices} + mesh.corners);
 }
@@ -130,14 +113,15 @@ Failure required(const ContainerReader& file, const char (&type)[5], uint16_t me
 }
 
 Failure read_pose(const ContainerReader& file, const Chunk& chunk, const Topology& topology,
-                  const DracoMesh& draco, PoseGrid* out) {
+                  MeshWork& work, PoseGrid* out) {
   ByteView payload;
   if (Failure f = file.payload(chunk, &payload); !f.ok())
     return f;
   PoseRecord record;
   Status s = PoseRecord::read(payload, &record);
   if (s == Status::kOk)
-    s = open_pose(record, topology, draco, out);
+    s = open_pose(record, topology, work.draco, &work.surface, out);
+  work.end_pose();
   return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
 }
 
@@ -177,6 +161,8 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
   }
   if (out->frames > options.limits.frames)
     return at(*chunk, Status::kLimit, "more frames than allowed");
+  // Decisions over the frames that have corrections, against what else there is to decode.
+  uint64_t decisions = 0, allowed = uint64_t{1} << 20;
   for (const auto& s : out->segments) {
     if (s.components > options.limits.components)
       return at(*chunk, Status::kLimit, "more components than allowed");
@@ -185,7 +171,14 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
     uint64_t weights = uint64_t{4} * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
+    if (s.reconstruction == Reconstruction::kMsgi && s.msgi_bytes < out->meshes[s.mesh].triangles)
+      return at(*chunk, Status::kLimit, "more triangles than what is kept of them can be of");
+    decisions += uint64_t{std::min(s.frames, s.corrections)} *
+                 block_count(out->meshes[s.mesh].coded_vertices);
+    allowed += coefficients + weights / 4;
   }
+  if (decisions / 16 > allowed + std::min(file.file_size(), UINT64_MAX >> 8) * 16)
+    return at(*chunk, Status::kLimit, "more frames with corrections than so few numbers can need");
   if (estimate_memory(*out, options.quality).opening > options.limits.resident_bytes)
     return at(*chunk, Status::kLimit, "more memory than allowed");
   return {};
@@ -213,7 +206,10 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   }
 
   meshes_.resize(limits_.meshes.size());
-  draco_.resize(limits_.meshes.size());
+  work_.resize(limits_.meshes.size());
+  const Vector<uint32_t> predicted = predicted_segments(limits_);
+  for (size_t m = 0; m < work_.size(); ++m)
+    work_[m].predicted_segments = predicted[m];
   Failure failure;
   for (size_t m = 0; m < meshes_.size() && failure.ok(); ++m) {
     failure = open_mesh(file, static_cast<uint16_t>(m), options);
@@ -223,7 +219,7 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   }
   if (failure.ok())
     failure = open_segments(file, options);
-  draco_ = Vector<DracoMesh>();
+  work_ = Vector<MeshWork>();
   for (Mesh& mesh : meshes_) {
     mesh.topology.triangles = Vector<uint32_t>();
     mesh.topology.point_vertex = Vector<uint32_t>();
@@ -242,7 +238,7 @@ Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOp
   MeshRecord record;
   if (Status s = MeshRecord::read(payload, &record); s != Status::kOk)
     return at(*chunk, s, "the mesh record is malformed");
-  DracoMesh& draco = draco_[mesh];
+  DracoMesh draco;
   if (record.coder == CoderId::kDraco) {
     if (record.connectivity.size != sizes.draco_bytes)
       return at(*chunk, Status::kRecord, "the Draco bitstream is not as long as the limits say");
@@ -265,7 +261,7 @@ Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOp
       s != Status::kOk)
     return at(*chunk, s, "the mesh details are damaged");
 
-  if (!agree(draco, out.topology.point_vertex))
+  if (!work_[mesh].draco.gather(out.topology, draco.components, std::move(draco.values)))
     return at(*chunk, Status::kDraco, "points of one vertex have different values");
   if (Failure f = open_attributes(file, mesh, options); !f.ok())
     return f;
@@ -348,7 +344,7 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
     const Chunk* chunk = file.find("POSE", static_cast<uint16_t>(m));
     if (!chunk || (options.prefix && !file.has(*chunk)))
       continue;
-    if (Failure f = read_pose(file, *chunk, meshes_[m].topology, draco_[m], &poses[m]); !f.ok())
+    if (Failure f = read_pose(file, *chunk, meshes_[m].topology, work_[m], &poses[m]); !f.ok())
       return f;
   }
   for (uint32_t i = 0; i < segments_.size(); ++i) {
@@ -389,12 +385,12 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   context.mesh_sizes = &limits_.meshes[sizes.mesh];
   context.topology = &meshes_[sizes.mesh].topology;
   context.vertex_coded = &context.topology->vertex_coded;
-  context.draco = &draco_[sizes.mesh];
+  MeshWork& work = work_[sizes.mesh];
+  context.draco = &work.draco;
   PoseGrid segment_pose;
   context.pose = &poses[sizes.mesh];
   if (const Chunk* of_pose = file.find("POSE", sizes.mesh, number)) {
-    if (Failure f = read_pose(file, *of_pose, *context.topology, *context.draco, &segment_pose);
-        !f.ok())
+    if (Failure f = read_pose(file, *of_pose, *context.topology, work, &segment_pose); !f.ok())
       return f;
     context.pose = &segment_pose;
   }
@@ -420,7 +416,10 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   }
   partial_ |= context.partial;
   context.progress = options.progress;
-  s = anicodec::open_segment(record, context, &segments_[number]);
+  if (record.kind != BasisKind::kKeyframes)
+    s = work.shared_graph(*context.topology, &context.graph);
+  if (s == Status::kOk)
+    s = anicodec::open_segment(record, context, &segments_[number]);
   if (s == Status::kCancelled)
     return stopped();
   return s == Status::kOk ? Failure{} : at(*chunk, s, "the segment cannot be opened");

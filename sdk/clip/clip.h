@@ -9,6 +9,7 @@
 #include "format/status.h"
 #include "sdk/base/host_progress.h"
 #include "sdk/clip/attributes.h"
+#include "sdk/clip/mesh_work.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/segment/segment.h"
 
@@ -129,7 +130,7 @@ class Clip {
   Limits limits_;
   ClipRecord record_;
   Vector<Mesh> meshes_;
-  Vector<DracoMesh> draco_;  ///< while opening
+  Vector<MeshWork> work_;  ///< while opening
   Vector<Segment> segments_;
   bool partial_ = false;
   Vector<Track> tracks_;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/memory_estimate.h"
 
+#include "sdk/clip/mesh_work.h"
 #include "sdk/mesh/draco_profile.h"
 #include "sdk/segment/segment.h"
 
@@ -37,6 +38,12 @@ uint64_t resident(const Limits::Mesh& m) {
 uint64_t held(const Limits::Mesh& m) {
   return uint64_t{24} * m.triangles + uint64_t{4} * m.points * (1 + uint64_t{m.draco_components}) +
          uint64_t{12} * m.coded_vertices;
+}
+
+/// What several segments share until they are open: the surface that poses are predicted on, and
+/// the edges that their orders are made from.
+uint64_t shared(const Limits::Mesh& m) {
+  return uint64_t{36} * m.triangles + uint64_t{80} * m.coded_vertices;
 }
 
 /// A segment whose components are those wanted.
@@ -120,9 +127,12 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality) {
   MemoryEstimate estimate;
   CheckedSum open, until_open;
   uint64_t largest = 0;
-  for (const Limits::Mesh& m : limits.meshes) {
+  const Vector<uint32_t> predicted = predicted_segments(limits);
+  for (size_t i = 0; i < limits.meshes.size(); ++i) {
+    const Limits::Mesh& m = limits.meshes[i];
     open.add(resident(m));
     until_open.add(held(m));
+    until_open.add(predicted[i] > 1 ? shared(m) : 0);
     largest = std::max(largest, opening(m));
     estimate.draco = std::max(estimate.draco, draco(m));
   }

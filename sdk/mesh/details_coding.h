@@ -85,6 +85,7 @@ class DetailsCoding {
     if (count > sizes_.coded_vertices)
       return Status::kTopology;
     t_.coded_vertices = sizes_.coded_vertices;
+    t_.vertices_in_triangles = count;
     t_.triangles.resize(triangles_.size());
     for (size_t i = 0; i < triangles_.size(); ++i)
       t_.triangles[i] = t_.point_vertex[triangles_[i]];

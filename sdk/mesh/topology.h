@@ -22,11 +22,12 @@ namespace anicodec {
 ///                    use by a polygon corner; the vertex map then restores the source's order.
 struct Topology {
   uint32_t coded_vertices = 0;
-  Vector<uint32_t> triangles;        ///< coded vertices, three per triangle
-  Vector<uint32_t> point_vertex;     ///< coded vertex of each point
-  Vector<uint32_t> vertex_coded;     ///< coded vertex of each vertex
-  Vector<uint32_t> polygon_offsets;  ///< polygon p has corners offsets[p] .. offsets[p+1]-1
-  Vector<uint32_t> polygon_corners;  ///< vertex of each corner
+  uint32_t vertices_in_triangles = 0;  ///< coded ones; they come first, the loose ones follow
+  Vector<uint32_t> triangles;          ///< coded vertices, three per triangle
+  Vector<uint32_t> point_vertex;       ///< coded vertex of each point
+  Vector<uint32_t> vertex_coded;       ///< coded vertex of each vertex
+  Vector<uint32_t> polygon_offsets;    ///< polygon p has corners offsets[p] .. offsets[p+1]-1
+  Vector<uint32_t> polygon_corners;    ///< vertex of each corner
 };
 
 /// Decodes the details of a mesh record: splits, welds, polygons, faces kept apart. `triangles` are

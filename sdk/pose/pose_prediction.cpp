@@ -19,13 +19,14 @@ constexpr double kNear = 0.1;           // softens the weights of near points of
 
 }  // namespace
 
-PosePrediction::PosePrediction(const CornerTable& table)
+PosePrediction::PosePrediction(const CornerTable& table, CornerMarks& marks)
     : table_(table),
+      corner_marks_(marks),
       known_(table.vertex_count(), false),
       vertex_stamp_(table.vertex_count(), 0),
-      corner_stamp_(table.corner_count(), 0),
       unknown_index_(table.vertex_count(), -1),
       samples_(table.vertex_count()) {
+  corner_marks_.begin(table.vertex_count());
   std::array<double, kVectors> vector_start{}, vector_variance{};
   std::array<double, kHeights> height_start{}, height_variance{};
   std::array<double, kSpreads> spread_start{}, spread_variance{};
@@ -210,9 +211,12 @@ Vector3 PosePrediction::solved_patch() {
       uint32_t first = table_.corner(u, i) / 3 * 3;
       for (uint32_t c = first; c < first + 3; ++c) {
         uint32_t o = table_.opposite(c);
-        if (o == CornerTable::kNone || corner_stamp_[std::min(c, o)] == vertex_ + 1)
+        if (o == CornerTable::kNone)
           continue;
-        corner_stamp_[std::min(c, o)] = vertex_ + 1;
+        uint32_t& mark = corner_marks_[std::min(c, o)];
+        if (mark == corner_marks_.base() + vertex_ + 1)
+          continue;
+        mark = corner_marks_.base() + vertex_ + 1;
         const uint32_t vertices[4] = {table_.vertex(CornerTable::next(c)),
                                       table_.vertex(CornerTable::previous(c)), table_.vertex(c),
                                       table_.vertex(o)};

@@ -26,11 +26,12 @@ namespace anicodec {
 ///
 /// IEEE binary64, round to nearest, every sum in the order written, nothing but + - * / and square
 /// root: a decoder repeats it exactly. Time per vertex is bounded whatever the triangles are.
-/// Memory: about 220 bytes per vertex.
+/// Memory: about 210 bytes per vertex.
 class PosePrediction {
  public:
-  /// The table must outlive it.
-  explicit PosePrediction(const CornerTable& table);
+  /// Table and marks must outlive it; marks.begin() is called here. Cost: O(vertices), however many
+  /// corners there are.
+  PosePrediction(const CornerTable& table, CornerMarks& marks);
 
   /// Turns to a vertex: each once. `positions`: vertices x 3, those of earlier ones are final.
   void begin(uint32_t v, const int32_t* positions);
@@ -98,9 +99,10 @@ class PosePrediction {
   void expect_height();
 
   const CornerTable& table_;
+  CornerMarks& corner_marks_;
   const int32_t* positions_ = nullptr;
   Vector<bool> known_;
-  Vector<uint32_t> vertex_stamp_, corner_stamp_;  ///< vertex that noted them last
+  Vector<uint32_t> vertex_stamp_;  ///< vertex that noted them last
   Vector<int8_t> unknown_index_;
   Vector<Sample> samples_;
 

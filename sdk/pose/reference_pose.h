@@ -5,8 +5,9 @@
 
 #include "format/memory.h"
 #include "format/records.h"
-#include "sdk/mesh/draco_mesh.h"
+#include "sdk/mesh/coded_values.h"
 #include "sdk/mesh/topology.h"
+#include "sdk/pose/pose_coding.h"
 
 #include <cstdint>
 
@@ -20,12 +21,10 @@ struct PoseGrid {
   Vector<int32_t> points;  ///< coded vertices x 3
 };
 
-/// Coded vertices that are in a triangle: they come first, the loose ones follow.
-uint32_t vertices_in_triangles(const Topology& topology);
-
 /// Decodes a reference pose (spec/09a-segments.md).
-Status open_pose(const PoseRecord& record, const Topology& topology, const DracoMesh& draco,
-                 PoseGrid* out);
+/// O(coded vertices), but for what the surface takes when it is made.
+Status open_pose(const PoseRecord& record, const Topology& topology, const CodedValues& draco,
+                 PoseSurface* surface, PoseGrid* out);
 
 }  // namespace anicodec
 

@@ -51,17 +51,22 @@ struct Graph {
   const uint32_t* end(uint32_t v) const { return adjacent.data() + start[v + 1]; }
 };
 
+bool is_dense(size_t adjacent, size_t vertices) {
+  return adjacent > kMaxMeanDegree * vertices;
+}
+
 class Contraction {
  public:
-  Contraction(const uint32_t* triangles, size_t triangle_count, size_t vertex_count, int m,
-              int colours)
-      : m_(m), colours_(colours) {
+  Contraction(const MeshGraph& mesh, int m, int colours)
+      : m_(m), colours_(colours), is_dense_(mesh.is_dense()) {
+    const size_t vertex_count = mesh.vertex_count();
     nodes_.resize(vertex_count);
     neighbours_.assign(vertex_count * static_cast<size_t>(m), -1);
     removal_.reserve(vertex_count);
     isolated_.reserve(vertex_count);
     stamp_.assign(vertex_count, 0);
-    mesh_graph(triangles, triangle_count);
+    graph_.start = mesh.start();
+    graph_.adjacent = mesh.adjacent();
   }
 
   void set_grid(const int32_t* positions);
@@ -73,7 +78,6 @@ class Contraction {
  private:
   enum State : uint8_t { kKept, kRemoved, kLocked };
 
-  void mesh_graph(const uint32_t* triangles, size_t triangle_count);
   void drop_isolated();
   void link_all();
   void select_removed();
@@ -85,6 +89,7 @@ class Contraction {
   void advance();
 
   int m_, colours_;
+  bool is_dense_;               // the mesh, whose edges are not here
   Vector<GridVertex> nodes_;    // all vertices
   Vector<int32_t> neighbours_;  // of all vertices, by index
   Vector<uint32_t> removal_;    // vertices, finest level first
@@ -103,44 +108,6 @@ class Contraction {
   uint64_t visits_ = 0;  // see vertex_order_cost.h
   NearestCandidates nearest_;
 };
-
-void Contraction::mesh_graph(const uint32_t* triangles, size_t triangle_count) {
-  const size_t n = nodes_.size();
-  Vector<uint32_t>& start = graph_.start;
-  Vector<uint32_t>& adjacent = graph_.adjacent;
-  start.assign(n + 1, 0);
-  for (size_t i = 0; i < 3 * triangle_count; ++i)
-    start[triangles[i]] += 2;
-  uint32_t sum = 0;
-  for (uint32_t& s : start) {
-    sum += s;
-    s = sum;  // the end of each vertex's edges; filling moves it to the beginning
-  }
-  adjacent.resize(sum);
-  for (size_t t = 0; t < triangle_count; ++t) {
-    const uint32_t* c = triangles + 3 * t;
-    for (int k = 0; k < 3; ++k) {
-      uint32_t& at = start[c[k]];
-      adjacent[--at] = c[(k + 1) % 3];
-      adjacent[--at] = c[(k + 2) % 3];
-    }
-  }
-  uint32_t size = 0;
-  for (uint32_t v = 0; v < n; ++v) {
-    const uint32_t first = start[v], last = start[v + 1];
-    start[v] = size;
-    stamp_[v] = ++tick_;
-    for (uint32_t e = first; e < last; ++e) {
-      const uint32_t u = adjacent[e];
-      if (stamp_[u] != tick_) {
-        stamp_[u] = tick_;
-        adjacent[size++] = u;
-      }
-    }
-  }
-  start[n] = size;
-  adjacent.resize(size);
-}
 
 void Contraction::set_grid(const int32_t* positions) {
   const size_t n = nodes_.size();
@@ -417,9 +384,10 @@ void Contraction::run() {
       if (isolated_.size() <= 1)
         break;
       link_all();
-    } else if (graph_.adjacent.size() > kMaxMeanDegree * active_.size()) {
+    } else if (is_dense_ || is_dense(graph_.adjacent.size(), active_.size())) {
       link_all();
     }
+    is_dense_ = false;
     select_removed();
     if (removed_.size() * kMinRemovedFraction < active_.size()) {
       link_all();
@@ -461,7 +429,74 @@ void Contraction::write(VertexOrder* out) const {
   }
 }
 
+Status make_order(const MeshGraph& graph, const int32_t* positions, int neighbours, int colours,
+                  VertexOrder* out, uint64_t* visits) {
+  if (neighbours < 1 || neighbours > kMaxNeighbours || colours < 1 || colours > kMaxColours)
+    return Status::kArgument;
+  for (size_t i = 0; i < 3 * graph.vertex_count(); ++i)
+    if (positions[i] > kMaxReferenceCoordinate || positions[i] < -kMaxReferenceCoordinate)
+      return Status::kQuantizer;
+  Contraction contraction(graph, neighbours, colours);
+  contraction.set_grid(positions);
+  contraction.run();
+  contraction.write(out);
+  *visits = contraction.visits();
+  return Status::kOk;
+}
+
 }  // namespace
+
+Status MeshGraph::init(const uint32_t* triangles, size_t triangle_count, size_t vertex_count) {
+  if (vertex_count > size_t{1} << 30 || triangle_count > UINT32_MAX / 6)
+    return Status::kLimit;
+  for (size_t i = 0; i < 3 * triangle_count; ++i)
+    if (triangles[i] >= vertex_count)
+      return Status::kIndexRange;
+  const size_t n = vertex_count;
+  start_.assign(n + 1, 0);
+  for (size_t i = 0; i < 3 * triangle_count; ++i)
+    start_[triangles[i]] += 2;
+  uint32_t sum = 0;
+  for (uint32_t& s : start_) {
+    sum += s;
+    s = sum;  // the end of each vertex's edges; filling moves it to the beginning
+  }
+  adjacent_.resize(sum);
+  for (size_t t = 0; t < triangle_count; ++t) {
+    const uint32_t* c = triangles + 3 * t;
+    for (int k = 0; k < 3; ++k) {
+      uint32_t& at = start_[c[k]];
+      adjacent_[--at] = c[(k + 1) % 3];
+      adjacent_[--at] = c[(k + 2) % 3];
+    }
+  }
+  Vector<uint32_t> met(n, 0);  // one more than the vertex that met this one last
+  uint32_t size = 0, used = 0;
+  for (uint32_t v = 0; v < n; ++v) {
+    const uint32_t first = start_[v], last = start_[v + 1];
+    start_[v] = size;
+    met[v] = v + 1;
+    for (uint32_t e = first; e < last; ++e) {
+      const uint32_t u = adjacent_[e];
+      if (met[u] != v + 1) {
+        met[u] = v + 1;
+        adjacent_[size++] = u;
+      }
+    }
+    used += size > start_[v];
+  }
+  start_[n] = size;
+  is_dense_ = anicodec::is_dense(size, used);
+  adjacent_.resize(is_dense_ ? 0 : size);
+  adjacent_.shrink_to_fit();
+  return Status::kOk;
+}
+
+Status make_vertex_order(const MeshGraph& graph, const int32_t* positions, int neighbours,
+                         int colours, VertexOrder* out) {
+  uint64_t visits = 0;
+  return make_order(graph, positions, neighbours, colours, out, &visits);
+}
 
 Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const int32_t* positions,
                          size_t vertex_count, int neighbours, int colours, VertexOrder* out) {
@@ -473,22 +508,10 @@ Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const
 Status make_counted_vertex_order(const uint32_t* triangles, size_t triangle_count,
                                  const int32_t* positions, size_t vertex_count, int neighbours,
                                  int colours, VertexOrder* out, uint64_t* visits) {
-  if (neighbours < 1 || neighbours > kMaxNeighbours || colours < 1 || colours > kMaxColours)
-    return Status::kArgument;
-  if (vertex_count > size_t{1} << 30 || triangle_count > UINT32_MAX / 6)
-    return Status::kLimit;
-  for (size_t i = 0; i < 3 * triangle_count; ++i)
-    if (triangles[i] >= vertex_count)
-      return Status::kIndexRange;
-  for (size_t i = 0; i < 3 * vertex_count; ++i)
-    if (positions[i] > kMaxReferenceCoordinate || positions[i] < -kMaxReferenceCoordinate)
-      return Status::kQuantizer;
-  Contraction contraction(triangles, triangle_count, vertex_count, neighbours, colours);
-  contraction.set_grid(positions);
-  contraction.run();
-  contraction.write(out);
-  *visits = contraction.visits();
-  return Status::kOk;
+  MeshGraph graph;
+  if (Status s = graph.init(triangles, triangle_count, vertex_count); s != Status::kOk)
+    return s;
+  return make_order(graph, positions, neighbours, colours, out, visits);
 }
 
 }  // namespace anicodec

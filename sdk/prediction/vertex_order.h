@@ -23,6 +23,28 @@ constexpr int kMaxColours = 8;
 /// Magnitude that no reference coordinate may exceed: differences of two are exact in binary32.
 constexpr int32_t kMaxReferenceCoordinate = 1 << 21;
 
+/// The edges of a mesh, each once: what the orders of all its segments take from the connectivity.
+class MeshGraph {
+ public:
+  /// kIndexRange: a triangle uses a vertex that does not exist; kLimit: too many triangles or
+  /// vertices for 32-bit offsets. Cost: O(vertices + triangles).
+  Status init(const uint32_t* triangles, size_t triangle_count, size_t vertex_count);
+
+  size_t vertex_count() const { return start_.size() - 1; }
+
+  /// Vertex v has adjacent()[start()[v]] .. [start()[v + 1] - 1], unless the graph is dense.
+  const Vector<uint32_t>& start() const { return start_; }
+
+  const Vector<uint32_t>& adjacent() const { return adjacent_; }
+
+  /// So many edges that the order replaces the graph; they are not kept.
+  bool is_dense() const { return is_dense_; }
+
+ private:
+  Vector<uint32_t> start_{0}, adjacent_;
+  bool is_dense_ = false;
+};
+
 /// A coarse-to-fine order of n vertices. The vertices of one level depend on earlier levels only,
 /// so a level can be decoded in any order, in batches or in parallel.
 struct VertexOrder {
@@ -38,13 +60,15 @@ struct VertexOrder {
 
 /// Builds the order from the mesh and its reference positions by repeated contraction of
 /// independent vertices (decimation hierarchy in the manner of Dobkin and Kirkpatrick), in integers
-/// alone. triangles: triangle_count x 3 vertex indices; degenerate and duplicate ones do no harm.
+/// alone; degenerate and duplicate triangles do no harm.
 /// positions: vertex_count x 3, at most kMaxReferenceCoordinate in magnitude.
 /// neighbours: m, 1..kMaxNeighbours. colours: 1..kMaxColours parts that a level is split into; more
-/// let a vertex see more of its surroundings. kArgument: m or colours out of range; kIndexRange: a
-/// triangle uses a vertex that does not exist; kQuantizer: a position is too large; kLimit: too
-/// many triangles for 32-bit offsets. Cost: O(vertices + triangles) for every input, however
-/// irregular.
+/// let a vertex see more of its surroundings. kArgument: m or colours out of range; kQuantizer: a
+/// position is too large. Cost: O(vertices) for every input, however irregular.
+Status make_vertex_order(const MeshGraph& graph, const int32_t* positions, int neighbours,
+                         int colours, VertexOrder* out);
+
+/// The same from triangles.
 Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const int32_t* positions,
                          size_t vertex_count, int neighbours, int colours, VertexOrder* out);
 

@@ -27,8 +27,9 @@ class CorrectionCoding {
   explicit CorrectionCoding(uint32_t vertices)
       : vertices_(vertices), before_(vertices, 0), block_before_(block_count(vertices), 0) {}
 
-  /// Codes the corrections of the next frame. False when the stream ran out, or there are more than
-  /// `limit` of them.
+  /// Codes the corrections of the next frame. False when the stream ran out, there are more than
+  /// `limit` of them, or none where it says that there are some. Cost: O(vertices / 16 + 16 x
+  /// corrections) where there are any, else what is cleared of the frame before.
   template <class Coder>
   bool code_frame(Coder& coder, size_t limit, Vector<IntegerCorrection>* frame) {
     size_t at = 0;
@@ -37,19 +38,21 @@ class CorrectionCoding {
     bool any = coder.bit(any_[any_before_], !frame->empty());
     any_before_ = any;
     if (!any) {
-      std::fill(before_.begin(), before_.end(), uint8_t{0});
-      std::fill(block_before_.begin(), block_before_.end(), uint8_t{0});
+      forget();
       return alive(coder);
     }
+    corrected_blocks_.clear();
     uint32_t left_block = 0, left = 0;  // neighbours to the left: corrected or not
     for (uint32_t b = 0; b < block_before_.size(); ++b) {
       uint32_t first = b * kBlock, last = std::min(first + kBlock, vertices_);
       bool here = at < frame->size() && (*frame)[at].vertex < last;
-      here = coder.bit(block_[left_block + 2U * block_before_[b]], here);
+      const bool was_here = block_before_[b];
+      here = coder.bit(block_[left_block + 2U * was_here], here);
       left_block = block_before_[b] = here;
       if (!here) {
         left = 0;
-        std::fill(before_.begin() + first, before_.begin() + last, uint8_t{0});
+        if (was_here)
+          std::fill(before_.begin() + first, before_.begin() + last, uint8_t{0});
         continue;
       }
       for (uint32_t v = first; v < last; ++v) {
@@ -70,13 +73,24 @@ class CorrectionCoding {
         }
         before_[v] = corrected;
       }
+      corrected_blocks_.push_back(b);
       if (!alive(coder))
         return false;
     }
-    return alive(coder);
+    return alive(coder) && at > 0;
   }
 
  private:
+  /// Nothing was corrected in the previous frame: what was then is cleared, and no more.
+  void forget() {
+    for (uint32_t b : corrected_blocks_) {
+      const uint32_t first = b * kBlock, last = std::min(first + kBlock, vertices_);
+      std::fill(before_.begin() + first, before_.begin() + last, uint8_t{0});
+      block_before_[b] = 0;
+    }
+    corrected_blocks_.clear();
+  }
+
   template <class Coder>
   static bool alive(const Coder& coder) {
     if constexpr (Coder::kDecodes)
@@ -86,6 +100,7 @@ class CorrectionCoding {
 
   uint32_t vertices_;
   Vector<uint8_t> before_, block_before_;  ///< corrected in the previous frame
+  Vector<uint32_t> corrected_blocks_;      ///< of the previous frame
   bool any_before_ = false;
   AdaptiveBit any_[2], block_[4], vertex_[8];
   SymbolModel<> delta_[6];

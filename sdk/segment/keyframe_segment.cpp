@@ -50,21 +50,17 @@ Status read_poses(const SegmentRecord& record, const SegmentContext& context,
     return Status::kOk;
   }
   // Draco holds the vertices that are in triangles; the others follow plainly.
-  const DracoMesh& draco = *context.draco;
+  const CodedValues& draco = *context.draco;
   if (draco.components / 3 != k)
     return Status::kSegment;
-  const Vector<uint32_t>& point_vertex = context.topology->point_vertex;
-  size_t in_triangles = 0;
-  for (uint32_t c : point_vertex)
-    in_triangles = std::max<size_t>(in_triangles, c + 1);
-  size_t loose = n - in_triangles;
+  const size_t in_triangles = context.topology->vertices_in_triangles;
+  const size_t loose = n - in_triangles;
   if (Status s = decode_plain_integers(record.pose, 3 * loose * k, 3, &plain); s != Status::kOk)
     return s;
   for (size_t j = 0; j < k; ++j) {
     Vector<int32_t>& pose = poses->emplace_back(3 * n);
-    for (size_t p = 0; p < point_vertex.size(); ++p)
-      std::copy_n(draco.values.data() + p * draco.components + 3 * j, 3,
-                  pose.data() + size_t{3} * point_vertex[p]);
+    for (size_t v = 0; v < in_triangles; ++v)
+      std::copy_n(draco.row(v) + 3 * j, 3, pose.data() + 3 * v);
     std::copy_n(plain.begin() + static_cast<ptrdiff_t>(3 * loose * j), 3 * loose,
                 pose.begin() + static_cast<ptrdiff_t>(3 * in_triangles));
   }

@@ -65,6 +65,21 @@ Status read_weights(ByteView bytes, const LinearParameters& parameters, const Po
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
+/// The order in which the vertices are decoded.
+Status order_of(const SegmentContext& context, const LinearParameters& parameters,
+                VertexOrder* order) {
+  MeshGraph own;
+  if (!context.graph) {
+    const Vector<uint32_t>& triangles = context.topology->triangles;
+    if (Status s =
+            own.init(triangles.data(), triangles.size() / 3, context.topology->coded_vertices);
+        s != Status::kOk)
+      return s;
+  }
+  return make_vertex_order(context.graph ? *context.graph : own, context.pose->points.data(),
+                           parameters.neighbours, parameters.colours, order);
+}
+
 /// Components in layers; no more than there can be.
 uint32_t components_in(const Vector<ByteView>& layers, uint32_t components) {
   uint32_t count = 0;
@@ -270,10 +285,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   if (wanted == 0)
     return components == 0 ? Status::kOk : Status::kSegment;
   VertexOrder order;
-  if (Status s = make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3,
-                                   pose.points.data(), n, parameters.neighbours, parameters.colours,
-                                   &order);
-      s != Status::kOk)
+  if (Status s = order_of(context, parameters, &order); s != Status::kOk)
     return s;
   uint32_t channels = out->channels();
   Vector<int32_t> residuals;

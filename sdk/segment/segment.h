@@ -7,10 +7,11 @@
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/base/host_progress.h"
-#include "sdk/mesh/draco_mesh.h"
+#include "sdk/mesh/coded_values.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/msgi/msgi.h"
 #include "sdk/pose/reference_pose.h"
+#include "sdk/prediction/vertex_order.h"
 
 #include <cstdint>
 
@@ -94,8 +95,9 @@ struct SegmentContext {
   const Topology* topology = nullptr;
   /// Coded vertex of each vertex of the opened segment; null: it holds the coded vertices.
   const Vector<uint32_t>* vertex_coded = nullptr;
-  const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
-  const DracoMesh* draco = nullptr;  ///< null when the connectivity is plain
+  const PoseGrid* pose = nullptr;  ///< null when the file has none for the segment
+  const CodedValues* draco = nullptr;
+  const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
   Vector<ByteView> layers;           ///< chunks BASI in file order
   ByteView corrections;              ///< chunk CORR, empty when there is none
   double quality = 1;                ///< share of the components wanted

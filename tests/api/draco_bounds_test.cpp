@@ -122,7 +122,7 @@ TEST(DracoBounds, HoldForDamagedBitstreams) {
     for (const uint32_t count : {1U, 3U}) {
       const MeshLayout layout = layout_of(grid_list(n, n));
       Bitstream stream = with_poses(layout, count, 200, random);
-      const size_t step = 1 + stream.bytes.size() / 600;
+      const size_t step = 1 + stream.bytes.size() / 150;
       for (size_t i = 0; i < stream.bytes.size(); i += step) {
         const uint8_t old = stream.bytes[i];
         for (const uint32_t value : {old ^ 1U, old ^ 0x80U, 0U, 0xFFU, uint32_t(random())}) {

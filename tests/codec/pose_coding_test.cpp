@@ -29,7 +29,8 @@ TEST(PoseCodingOfCorpus, EveryClipsFirstFrameComesBack) {
     }
     Bytes bytes = encode_pose(layout.topology, pose);
     Vector<int32_t> decoded;
-    ASSERT_EQ(decode_pose(bytes, layout.topology, &decoded), Status::kOk);
+    PoseSurface surface;
+    ASSERT_EQ(decode_pose(bytes, layout.topology, &surface, &decoded), Status::kOk);
     EXPECT_EQ(decoded, pose);
   }
 }

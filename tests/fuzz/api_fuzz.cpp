@@ -49,9 +49,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   anic_asset* asset = nullptr;
   anic_failure failure = ANIC_INIT(anic_failure);
   const bool by_reader = mode % 4 == 3;
-  const anic_status status =
-      by_reader ? open_reader(file, options, &asset, &failure)
-                : anic_open_asset(file.data(), file.size(), &options, &asset, &failure);
+  const size_t most_heap = announced_heap(file, options);
+  anic_status status;
+  {
+    const HeapCount heap;
+    status = by_reader ? open_reader(file, options, &asset, &failure)
+                       : anic_open_asset(file.data(), file.size(), &options, &asset, &failure);
+    require(heap.peak() <= most_heap);
+  }
   require(failure.status == status && (asset != nullptr) == (status == ANIC_OK));
   require(status != ANIC_E_INTERNAL && status != ANIC_E_MEMORY);
   require(query == ANIC_OK || status != ANIC_OK);

@@ -59,7 +59,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   CappedMemory memory;
   const anic_options options = memory.options();
   anic_asset* asset = nullptr;
-  const anic_status status = anic_open_asset(file.data(), file.size(), &options, &asset, nullptr);
+  const size_t most_heap = announced_heap(file, options);
+  anic_status status;
+  {
+    const HeapCount heap;
+    status = anic_open_asset(file.data(), file.size(), &options, &asset, nullptr);
+    require(heap.peak() <= most_heap);
+  }
   require(status != ANIC_E_INTERNAL && status != ANIC_E_MEMORY);
   if (asset) {
     const Script script = script_of(data, size);

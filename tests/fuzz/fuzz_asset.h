@@ -4,6 +4,7 @@
 #define ANICODEC_TESTS_FUZZ_FUZZ_ASSET_H_
 
 #include "tests/fuzz/fuzz_file.h"
+#include "tests/heap_count.h"
 
 #include <anicodec/anicodec.h>
 
@@ -37,6 +38,7 @@ struct CappedMemory {
         return nullptr;
       self->held += size;
       self->peak = std::max(self->peak, self->held);
+      const HeapPause own;
       auto* head = static_cast<unsigned char*>(std::malloc(size + kHead));
       std::memcpy(head, &size, sizeof size);
       return head + kHead;
@@ -48,6 +50,7 @@ struct CappedMemory {
       std::memcpy(&asked, head, sizeof asked);
       require(asked == size);
       self->held -= size;
+      const HeapPause own;
       std::free(head);
     };
     return a;
@@ -63,6 +66,15 @@ struct CappedMemory {
     return o;
   }
 };
+
+/// What opening a file may take of the global heap: what Draco announces, else nothing.
+inline size_t announced_heap(const Bytes& file, const anic_options& options) {
+  anic_requirements needs = ANIC_INIT(anic_requirements);
+  const HeapCount heap;
+  const anic_status status = anic_get_requirements(file.data(), file.size(), &options, &needs);
+  require(heap.peak() == 0);
+  return status == ANIC_OK ? static_cast<size_t>(needs.draco_bytes) : 0;
+}
 
 /// Room for elements of any format, with bytes around it that must stay what they are.
 class GuardedOutput {

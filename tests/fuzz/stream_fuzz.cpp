@@ -36,7 +36,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     ++opened;
     anic_asset* asset = nullptr;
     anic_failure failure = ANIC_INIT(anic_failure);
-    const anic_status open = anic_open_asset_from_stream(stream, &asset, &failure);
+    const size_t most_heap = announced_heap(file, options);
+    anic_status open;
+    {
+      const HeapCount heap;
+      open = anic_open_asset_from_stream(stream, &asset, &failure);
+      require(heap.peak() <= most_heap);
+    }
     require(open != ANIC_E_INTERNAL && open != ANIC_E_MEMORY);
     if (info.complete)
       require(open == expected);

@@ -39,7 +39,7 @@ ROOMS = {
     "sdk/pose": ["sdk/base", "sdk/mesh"],
     "sdk/segment": ["sdk/base", "sdk/mesh", "sdk/msgi", "sdk/pose", "sdk/prediction"],
     "sdk/play": ["sdk/base", "sdk/mesh", "sdk/segment"],
-    "sdk/clip": ["sdk/base", "sdk/mesh", "sdk/segment", "sdk/play"],
+    "sdk/clip": ["sdk/base", "sdk/mesh", "sdk/pose", "sdk/prediction", "sdk/segment", "sdk/play"],
     "sdk/api": ["sdk/base", "sdk/msgi", "sdk/play", "sdk/clip"],
     "codec/sequence": [],
     "codec/algebra": ["codec/sequence"],

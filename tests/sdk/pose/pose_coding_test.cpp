@@ -48,7 +48,8 @@ Sample random_sample(uint32_t vertices, size_t triangles, int32_t range, unsigne
 void expect_round_trip(const Sample& s) {
   Bytes bytes = encode_pose(s.topology, s.pose);
   Vector<int32_t> decoded;
-  ASSERT_EQ(decode_pose(bytes, s.topology, &decoded), Status::kOk);
+  PoseSurface surface;
+  ASSERT_EQ(decode_pose(bytes, s.topology, &surface, &decoded), Status::kOk);
   EXPECT_EQ(decoded, s.pose);
 }
 
@@ -99,8 +100,9 @@ TEST(PoseCoding, TruncatedStreamsAreRefused) {
   Sample s = sheet(12);
   Bytes bytes = encode_pose(s.topology, s.pose);
   Vector<int32_t> decoded;
+  PoseSurface surface;
   for (size_t size = 0; size < bytes.size(); ++size) {
-    Status status = decode_pose({bytes.data(), size}, s.topology, &decoded);
+    Status status = decode_pose({bytes.data(), size}, s.topology, &surface, &decoded);
     // Without its last bytes it may be the stream of another pose.
     if (size + 8 < bytes.size()) {
       EXPECT_EQ(status, Status::kEntropy) << size;
@@ -108,18 +110,19 @@ TEST(PoseCoding, TruncatedStreamsAreRefused) {
       EXPECT_NE(decoded, s.pose) << size;
   }
   bytes.push_back(1);
-  EXPECT_EQ(decode_pose(bytes, s.topology, &decoded), Status::kEntropy);
+  EXPECT_EQ(decode_pose(bytes, s.topology, &surface, &decoded), Status::kEntropy);
 }
 
 TEST(PoseCoding, ArbitraryBytesDoNoHarm) {
   Sample s = sheet(10);
   std::mt19937 random(5);
   Vector<int32_t> decoded;
+  PoseSurface surface;
   for (int round = 0; round < 200; ++round) {
     Bytes bytes(random() % 600);
     for (uint8_t& b : bytes)
       b = static_cast<uint8_t>(round % 3 == 0 ? 255 : random());
-    decode_pose(bytes, s.topology, &decoded);
+    decode_pose(bytes, s.topology, &surface, &decoded);
     EXPECT_EQ(decoded.size(), s.pose.size());
   }
 }

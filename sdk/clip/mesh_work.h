@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_SDK_CLIP_MESH_WORK_H_
+#define ANICODEC_SDK_CLIP_MESH_WORK_H_
+
+#include "format/records.h"
+#include "format/status.h"
+#include "sdk/mesh/coded_values.h"
+#include "sdk/mesh/topology.h"
+#include "sdk/pose/pose_coding.h"
+#include "sdk/prediction/vertex_order.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace anicodec {
+
+/// What the segments of a mesh need of it while they open. What follows from the connectivity alone
+/// is made once, so that no segment costs O(triangles); a lone segment keeps nothing of it.
+struct MeshWork {
+  CodedValues draco;
+  uint32_t predicted_segments = 0;  ///< of the limits: those of eigenshapes or eigentrajectories
+  PoseSurface surface;              ///< of the reference poses
+  std::optional<MeshGraph> graph;   ///< of the orders of vertices
+
+  bool is_shared() const { return predicted_segments > 1; }
+
+  /// After a pose: the surface goes when no other can need it.
+  void end_pose() {
+    if (!is_shared())
+      surface.made.reset();
+  }
+
+  /// The graph, made now if it is shared; null if not.
+  Status shared_graph(const Topology& topology, const MeshGraph** out) {
+    *out = nullptr;
+    if (!is_shared())
+      return Status::kOk;
+    if (!graph) {
+      graph.emplace();
+      if (Status s = graph->init(topology.triangles.data(), topology.triangles.size() / 3,
+                                 topology.coded_vertices);
+          s != Status::kOk)
+        return s;
+    }
+    *out = &*graph;
+    return Status::kOk;
+  }
+};
+
+/// By mesh: how many of its segments are predicted.
+inline Vector<uint32_t> predicted_segments(const Limits& limits) {
+  Vector<uint32_t> counts(limits.meshes.size(), 0);
+  for (const Limits::Segment& s : limits.segments)
+    counts[s.mesh] += s.kind != BasisKind::kKeyframes;
+  return counts;
+}
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_CLIP_MESH_WORK_H_

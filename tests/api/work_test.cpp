@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// What opening costs grows with what the limits announce, not with products of it: crafted files of
+// growing size (spec/14-security.md, section 2).
+#include "format/binary_coder.h"
+#include "format/coefficient_coder.h"
+#include "format/container.h"
+#include "format/records.h"
+#include "format/time_weights.h"
+#include "sdk/clip/clip.h"
+#include "sdk/mesh/plain_coding.h"
+#include "sdk/pose/pose_coding.h"
+#include "sdk/segment/correction_coding.h"
+#include "sdk/segment/linear_segment.h"
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+/// A mesh and segments of eigenshapes that are as small as can be.
+class CraftedFile {
+ public:
+  CraftedFile(uint32_t vertices, uint32_t triangles) : vertices_(vertices) {
+    Limits::Mesh mesh;
+    mesh.source_vertices = mesh.coded_vertices = vertices;
+    mesh.triangles = mesh.polygons = triangles;
+    mesh.points = triangles > 0 ? 3 : 0;
+    mesh.corners = 3 * triangles;
+    limits_.meshes.push_back(mesh);
+    for (uint32_t c = 0; c < mesh.corners; ++c)
+      topology_.triangles.push_back(c % 3);
+    topology_.coded_vertices = vertices;
+    pose_.assign(size_t{3} * vertices, 0);
+    for (uint32_t v = 0; v < std::min(vertices, 3U); ++v)
+      pose_[size_t{3} * v + v] = 100;
+  }
+
+  /// A segment after the last one. corrected: one vertex is, in its last frame.
+  void add_segment(uint32_t frames, uint32_t components, bool own_pose, bool corrected) {
+    Limits::Segment s;
+    s.kind = BasisKind::kEigenshapes;
+    s.first_frame = limits_.frames;
+    s.frames = frames;
+    s.components = components;
+    s.corrections = corrected;
+    limits_.frames += frames;
+    limits_.segments.push_back(s);
+    own_pose_.push_back(own_pose);
+  }
+
+  Bytes write() const {
+    ContainerWriter out;
+    const auto add = [&](const char(&type)[5], uint16_t mesh, uint32_t segment, Bytes payload) {
+      out.add(type, true, mesh, segment, std::move(payload));
+    };
+    add("LIMI", kNoMesh, kNoSegment, limits_.write());
+    ClipRecord clip;
+    clip.order = OrderMode::kFree;
+    add("CLIP", kNoMesh, kNoSegment, clip.write());
+    add("MESH", 0, kNoSegment, mesh());
+    if (std::find(own_pose_.begin(), own_pose_.end(), false) != own_pose_.end())
+      add("POSE", 0, kNoSegment, pose(CoderId::kPlain));
+    const Bytes predicted = pose(CoderId::kPredictive);
+    for (uint32_t i = 0; i < limits_.segments.size(); ++i) {
+      add("SEGM", 0, i, segment(limits_.segments[i]));
+      if (own_pose_[i])
+        add("POSE", 0, i, predicted);
+      if (limits_.segments[i].components > 0)
+        add("BASI", 0, i, layer(limits_.segments[i].components));
+      if (limits_.segments[i].corrections > 0)
+        add("CORR", 0, i, corrections(limits_.segments[i].frames));
+    }
+    return out.finish();
+  }
+
+ private:
+  Bytes mesh() const {
+    BinaryEncoder details;
+    AdaptiveBit repeated[2], flags[2];
+    for (uint32_t p = 0; p < limits_.meshes[0].points; ++p)
+      details.bit(repeated[0], false);
+    for (AdaptiveBit& flag : flags)
+      details.bit(flag, false);
+    const Bytes connectivity = encode_plain_triangles(topology_.triangles),
+                bytes = details.finish();
+    MeshRecord record;
+    record.connectivity = connectivity;
+    record.details = bytes;
+    return record.write();
+  }
+
+  Bytes pose(CoderId coder) const {
+    const Bytes stream =
+        coder == CoderId::kPlain ? encode_plain_integers(pose_, 3) : encode_pose(topology_, pose_);
+    PoseRecord record;
+    record.coder = coder;
+    record.stream = stream;
+    return record.write();
+  }
+
+  static LinearParameters parameters(uint32_t components) {
+    LinearParameters p;
+    p.affine = false;
+    p.omega.assign(components, 128);
+    p.sigma.assign(components, 0);
+    return p;
+  }
+
+  static Bytes segment(const Limits::Segment& s) {
+    BinaryEncoder weights;
+    TimeWeightModel model(s.frames);
+    const std::vector<double> still(s.frames, 0.0);
+    std::vector<int32_t> decoded(s.frames);
+    for (uint32_t j = 0; j < s.components; ++j)
+      model.encode(weights, 1, still.data(), 0, decoded.data(), 1);
+    const Bytes stream = weights.finish(), head = parameters(s.components).write();
+    SegmentRecord record;
+    record.kind = s.kind;
+    record.parameters = head;
+    record.weights = stream;
+    return record.write();
+  }
+
+  Bytes layer(uint32_t components) const {
+    const LinearParameters p = parameters(components);
+    VertexOrder order;
+    EXPECT_EQ(make_vertex_order(topology_.triangles.data(), topology_.triangles.size() / 3,
+                                pose_.data(), vertices_, p.neighbours, p.colours, &order),
+              Status::kOk);
+    CoefficientModel model(vertices_, 3, order.neighbours.data(),
+                           static_cast<uint32_t>(order.neighbour_count));
+    BinaryEncoder encoder;
+    std::vector<int32_t> zeros(size_t{3} * vertices_, 0);
+    for (uint32_t j = 0; j < components; ++j)
+      model.code_component(encoder, zeros.data());
+    ByteWriter w;
+    w.varint(components);
+    w.raw(encoder.finish());
+    return std::move(w.bytes());
+  }
+
+  Bytes corrections(uint32_t frames) const {
+    BinaryEncoder encoder;
+    CorrectionCoding coding(vertices_);
+    Vector<IntegerCorrection> none, one(1);
+    for (uint32_t f = 0; f + 1 < frames; ++f)
+      coding.code_frame(encoder, 0, &none);
+    coding.code_frame(encoder, 0, &one);
+    ByteWriter w;
+    w.f64(1);
+    w.raw(encoder.finish());
+    return std::move(w.bytes());
+  }
+
+  uint32_t vertices_;
+  Limits limits_;
+  Topology topology_;
+  Vector<int32_t> pose_;
+  std::vector<bool> own_pose_;
+};
+
+/// Seconds of the processor that opening takes: the least of some tries.
+double seconds(const Bytes& file) {
+  double least = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    Clip clip;
+    const std::clock_t start = std::clock();
+    EXPECT_EQ(clip.open(file).status, Status::kOk);
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+/// What more segments take, of a mesh of so many triangles.
+double more_segments(uint32_t triangles, uint32_t components, bool own_pose) {
+  double taken[2];
+  for (const uint32_t more : {0U, 1U}) {
+    CraftedFile file(3, triangles);
+    for (uint32_t i = 0; i < 2 + 30 * more; ++i)
+      file.add_segment(1, components, own_pose, false);
+    taken[more] = seconds(file.write());
+  }
+  return taken[1] - taken[0];
+}
+
+TEST(Work, OfAPoseDoesNotGrowWithTheTriangles) {
+  EXPECT_LT(more_segments(300000, 0, true), 3 * more_segments(100, 0, true) + 0.1);
+}
+
+TEST(Work, OfAnOrderDoesNotGrowWithTheTriangles) {
+  EXPECT_LT(more_segments(300000, 1, false), 3 * more_segments(100, 1, false) + 0.1);
+}
+
+TEST(Work, OfFramesWithoutCorrectionsDoesNotGrowWithTheVertices) {
+  double taken[2];
+  for (const uint32_t more : {0U, 1U}) {
+    CraftedFile file(300000, 0);
+    file.add_segment(more ? 40000 : 1, 0, false, true);
+    taken[more] = seconds(file.write());
+  }
+  EXPECT_LT(taken[1] - taken[0], 0.3);
+}
+
+TEST(Work, OfFramesWithCorrectionsIsLimited) {
+  CraftedFile file(1 << 20, 0);
+  file.add_segment(20000, 0, false, true);
+  Bytes bytes = file.write();
+  Clip clip;
+  EXPECT_EQ(clip.open(bytes).status, Status::kOk);  // one frame in 20000
+  Limits limits;
+  ContainerReader reader;
+  ASSERT_TRUE(reader.open(bytes).ok());
+  ByteView view;
+  ASSERT_TRUE(reader.payload(*reader.find("LIMI"), &view).ok());
+  ASSERT_EQ(Limits::read(view, &limits), Status::kOk);
+  limits.segments[0].corrections = 20000;
+  ContainerWriter out;
+  out.add("LIMI", true, kNoMesh, kNoSegment, limits.write());
+  bytes = out.finish();
+  EXPECT_EQ(clip.open(bytes).status, Status::kLimit);
+}
+
+}  // namespace
+}  // namespace anicodec
