@@ -286,12 +286,18 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
       }
     }
     if (!carried || report.alarms) {
-      carried = std::make_unique<CarriedMesh>(frame);
+      const SurfaceFrame first = options.first_mesh ? options.first_mesh(frame) : frame;
+      carried = std::make_unique<CarriedMesh>(first);
       report.first = true;
-      report.mean = report.max = 0;
+      const HausdorffDistance distance =
+          options.first_mesh
+              ? hausdorff(first.polygons, first.positions, frame.polygons, frame.positions)
+              : HausdorffDistance{};
+      report.mean = distance.mean();
+      report.max = distance.max();
       TransferSegment segment;
       segment.first_frame = f;
-      segment.sequence.polygons = frame.polygons;
+      segment.sequence.polygons = first.polygons;
       segment.sequence.vertex_count = carried->topology().vertex_count;
       result.segments.push_back(std::move(segment));
       attempt.fitted = carried->last();

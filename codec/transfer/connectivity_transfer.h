@@ -36,13 +36,16 @@ struct TransferOptions {
   double conformal = 1.15;  ///< alarm: mean conformal distortion from the segment's first frame
   double dropped = 5;       ///< alarm: per cent of the correspondences
   int rounds = 14;          ///< of registration
+  /// Makes the mesh to carry from the one that begins a segment, such as one of fewer vertices;
+  /// empty: the mesh itself.
+  std::function<SurfaceFrame(const SurfaceFrame& frame)> first_mesh;
 };
 
 struct TransferredFrame {
-  bool first = false;        ///< of a segment: the mesh as it was given
+  bool first = false;        ///< of a segment: the mesh as given, or made by first_mesh
   int attempts = 0;          ///< 0 for the first of a segment
   uint8_t alarms = 0;        ///< of the last attempt, bits of TransferAlarm
-  double mean = 0, max = 0;  ///< symmetric Hausdorff distance, scene units; 0 for a first one
+  double mean = 0, max = 0;  ///< symmetric Hausdorff distance, scene units
   double tried_mean = 0;     ///< of the last attempt, whether it was accepted or not
   double turned = 0;         ///< per cent of the triangles
   double conformal = 1;
@@ -69,9 +72,9 @@ struct TransferResult {
 /// right, and tells by distances over the surface where the rest belongs (geodesic_landmarks());
 /// there the mesh is brought without regard to the surface (Registration::pose()) before it is
 /// registered, so that a leg finds itself however far it went. If it still raises one, it starts a
-/// new segment with its own connectivity. Memory: the result and two meshes. Throws Error(kInput)
-/// naming the frame for a mesh without triangles, and for meshes of which one is open and another
-/// closed. Stage "transferring".
+/// new segment with its own connectivity, or with what first_mesh makes of it. Memory: the result
+/// and two meshes. Throws Error(kInput) naming the frame for a mesh without triangles, and for
+/// meshes of which one is open and another closed. Stage "transferring".
 TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame_count,
                                      const TransferOptions& options, const Progress& progress = {});
 

@@ -68,7 +68,7 @@ RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
   std::vector<float> positions = mesh.positions;
   pair.moving.store(v, positions);
   const HausdorffDistance after = pair.distance(positions);
-  fit.improved = after.mean() < fit.before.mean();
+  fit.improved = after.mean() < fit.before.mean() && after.max() <= fit.before.max();
   if (!fit.improved)
     return fit;
   fit.positions = std::move(positions);

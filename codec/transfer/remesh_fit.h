@@ -28,9 +28,9 @@ struct RemeshFit {
 };
 
 /// Fits a mesh to a surface of any connectivity that it roughly covers already: fit_distance().
-/// Vertices at the same place move together. If the mean distance did not fall, the mesh stays as
-/// it was. Throws Error(kInput) if a mesh has no triangles, if one is open and the other closed,
-/// and for a component of one that has no counterpart in the other.
+/// Vertices at the same place move together. If the mean distance did not fall or the largest one
+/// grew, the mesh stays as it was. Throws Error(kInput) if a mesh has no triangles, if one is open
+/// and the other closed, and for a component of one that has no counterpart in the other.
 RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
                      const DistanceFitOptions& options = {});
 

@@ -78,7 +78,7 @@ Table run_massage_sliding(const BenchOptions& options, double kg, double edges, 
 /// What the automatic choice of the massage does with clips as they are.
 Table run_massage_auto(const BenchOptions& options, double kg);
 
-/// Frame 0 decimated to a quarter of its triangles by quadrics and fitted to itself.
+/// Frame 0 decimated to a quarter of its vertices by quadrics and fitted to itself.
 Table run_massage_fit(const BenchOptions& options);
 
 /// Clips of which every frame is decimated differently, given one connectivity again.

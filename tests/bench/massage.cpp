@@ -5,6 +5,7 @@
 #include "codec/encode_massaged.h"
 #include "codec/massage/welded_surface.h"
 #include "codec/metrics/hausdorff.h"
+#include "codec/remesh/decimate.h"
 #include "codec/surface/mesh_quality.h"
 #include "codec/transfer/connectivity_transfer.h"
 #include "codec/transfer/remesh_fit.h"
@@ -22,7 +23,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <meshoptimizer.h>
 
 namespace anicodec::bench {
 namespace {
@@ -72,33 +72,11 @@ std::vector<float> positions_at(std::span<const uint32_t> vertices,
   return result;
 }
 
-struct Decimation {
-  SurfaceFrame mesh;
-  std::vector<uint32_t> vertices;  ///< of the clip, that are left
-};
-
-/// A quadric decimation of a frame to a share of its triangles.
+/// A frame decimated to a share of its vertices.
 Decimation decimated(const MeshSequence& clip, uint32_t f, double share) {
-  const std::vector<uint32_t> corners = fan_triangles(clip.polygons);
-  const std::span<const float> positions = clip.frame(f);
-  std::vector<unsigned int> indices(corners.size());
-  float error = 0;
-  const auto goal = static_cast<size_t>(share * static_cast<double>(corners.size()));
-  indices.resize(meshopt_simplify(indices.data(), corners.data(), corners.size(), positions.data(),
-                                  clip.vertex_count, 3 * sizeof(float), goal, 1.0F, 0, &error));
-  Decimation result;
-  std::vector<uint32_t> place(clip.vertex_count, UINT32_MAX);
-  for (unsigned int& v : indices) {
-    if (place[v] == UINT32_MAX) {
-      place[v] = static_cast<uint32_t>(result.vertices.size());
-      result.vertices.push_back(v);
-    }
-    v = place[v];
-  }
-  for (size_t t = 0; t + 2 < indices.size(); t += 3)
-    result.mesh.polygons.add(std::span<const uint32_t>(indices.data() + t, 3));
-  result.mesh.positions = positions_at(result.vertices, positions);
-  return result;
+  DecimationOptions options;
+  options.vertices = static_cast<uint32_t>(share * clip.vertex_count);
+  return decimate({clip.polygons, {clip.frame(f).begin(), clip.frame(f).end()}}, options);
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ void add_analyze(Commands& commands, CommonOptions& common);
 void add_interpolate(Commands& commands, CommonOptions& common);
 void add_massage(Commands& commands, CommonOptions& common);
 void add_massage_fit(Commands& commands, CommonOptions& common);
+void add_massage_remesh(Commands& commands, CommonOptions& common);
 void add_massage_transfer(Commands& commands, CommonOptions& common);
 void add_massage_map(Commands& commands, CommonOptions& common);
 void add_dump(Commands& commands, CommonOptions& common);

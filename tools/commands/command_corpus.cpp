@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/remesh/subdivide.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "tools/commands/command.h"
@@ -17,12 +18,13 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   anicodec corpus --list
   anicodec corpus limb -o limb.pc2
-  anicodec corpus cloth -o cloth/frame_%04d.obj --vertices 20000 --frame-count 100)";
+  anicodec corpus cloth -o cloth/frame_%04d.obj --vertices 20000 --frame-count 100
+  anicodec corpus limb -o fine.pc2 --subdivide 2)";
 
 struct CorpusCommand {
   std::string name, output;
   bool list = false;
-  uint32_t vertices = 0, frames = 0;
+  uint32_t vertices = 0, frames = 0, levels = 0;
 };
 
 void run(const CorpusCommand& command, const CommonOptions& common) {
@@ -39,6 +41,8 @@ void run(const CorpusCommand& command, const CommonOptions& common) {
   MeshSequence clip = command.vertices > 0 || command.frames > 0
                           ? corpus::make_scaled(command.name, command.vertices, command.frames)
                           : corpus::make_clip(command.name);
+  if (command.levels > 0)
+    clip = subdivide(clip, command.levels);
   WriteOptions options;
   options.overwrite = common.overwrite;
   options.progress = line.callback();
@@ -65,6 +69,8 @@ void add_corpus(Commands& commands, CommonOptions& common) {
                  "About as many vertices (scalable clips)");
   options.number("--frame-count", c->frames, "N", {1U, (1U << 24) - 1},
                  "As many frames (scalable clips)");
+  options.number("--subdivide", c->levels, "LEVELS", {1U, 8U},
+                 "Smooth by Loop subdivision: four triangles of each, without attributes");
 }
 
 }  // namespace anicodec::tools

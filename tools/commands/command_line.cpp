@@ -58,7 +58,7 @@ Commands all_commands(CommonOptions& common) {
   Commands commands;
   for (auto add : {add_encode, add_decode, add_join, add_info, add_verify, add_compare, add_analyze,
                    add_interpolate, add_massage, add_massage_fit, add_massage_transfer,
-                   add_massage_map, add_dump, add_render, add_corpus})
+                   add_massage_map, add_massage_remesh, add_dump, add_render, add_corpus})
     add(commands, common);
   return commands;
 }

@@ -5,6 +5,7 @@
 #include "tools/commands/command.h"
 #include "tools/inputs/mesh_input.h"
 #include "tools/io/write_sequence.h"
+#include "tools/words/fit_table.h"
 #include "tools/words/progress_line.h"
 
 #include <memory>
@@ -31,16 +32,6 @@ struct FitCommand {
   bool json = false;
 };
 
-nlohmann::ordered_json json_of(const HausdorffDistance& distance, double diagonal,
-                               const RadiusRatio& ratio, uint32_t turned) {
-  return {{"hausdorff", distance.max()},
-          {"hausdorff_percent", 100 * distance.max() / diagonal},
-          {"hausdorff_mean", distance.mean()},
-          {"hausdorff_mean_percent", 100 * distance.mean() / diagonal},
-          {"radius_ratio", ratio.mean},
-          {"turned", turned}};
-}
-
 void run(const FitCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   const SurfaceFrame mesh = load_mesh(command.mesh, line.callback());
@@ -63,22 +54,12 @@ void run(const FitCommand& command, const CommonOptions& common) {
     json["file"] = command.output;
     json["vertices"] = result.vertex_count;
     json["faces"] = result.polygons.size();
-    json["improved"] = fit.improved;
-    json["before"] = json_of(fit.before, fit.diagonal, fit.ratio_before, fit.turned_before);
-    json["after"] = json_of(fit.after, fit.diagonal, fit.ratio_after, fit.turned_after);
+    add_fit(fit, &json);
     fmt::print("{}\n", json.dump(2));
   } else if (!common.quiet) {
     if (!fit.improved)
       fmt::print("{}: no closer position was found, the mesh is as it was\n", command.output);
-    fmt::print("{:<10} {:>12} {:>12} {:>13} {:>8}\n", "", "mean %", "max %", "radius ratio",
-               "turned");
-    auto row = [&fit](const char* name, const HausdorffDistance& d, const RadiusRatio& ratio,
-                      uint32_t turned) {
-      fmt::print("{:<10} {:>12.5f} {:>12.5f} {:>13.4f} {:>8}\n", name,
-                 100 * d.mean() / fit.diagonal, 100 * d.max() / fit.diagonal, ratio.mean, turned);
-    };
-    row("before", fit.before, fit.ratio_before, fit.turned_before);
-    row("after", fit.after, fit.ratio_after, fit.turned_after);
+    print_fit(fit);
   }
 }
 

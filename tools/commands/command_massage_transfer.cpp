@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,18 +20,20 @@ namespace {
 constexpr const char* kFooter =
     R"(Moves the faces of the first mesh over the surfaces of the others, one after the other: scans whose
 faces differ become one clip. A frame that cannot be followed is reported and begins a new segment
-with its own faces; segments are written as OUT with _1, _2 ... before the extension.
+with its own faces; segments are written as OUT with _1, _2 ... before the extension. --vertices
+remeshes the first mesh of every segment before it is moved, as massage remesh does.
 
 --json prints one object: files (file, first_frame, frames, vertices, faces), frames (first,
 attempts, alarms, hausdorff, hausdorff_mean, turned_percent, conformal, dropped_percent),
 hausdorff_percent, hausdorff_mean_percent.
 
-Example:
-  anicodec massage transfer 'scan_*.obj' -o fitted.pc2)";
+Examples:
+  anicodec massage transfer 'scan_*.obj' -o fitted.pc2
+  anicodec massage transfer 'scan_*.obj' --vertices 20% -o fitted.pc2)";
 
 struct TransferCommand {
   std::vector<std::string> inputs;
-  std::string output;
+  std::string output, vertices;
   bool json = false;
 };
 
@@ -47,7 +50,10 @@ void run(const TransferCommand& command, const CommonOptions& common) {
   WriteOptions write_options;
   write_options.overwrite = common.overwrite;
   write_options.progress = line.callback();
-  const TransferredInput input = transfer_inputs(command.inputs, line.callback());
+  std::optional<Count> vertices;
+  if (!command.vertices.empty())
+    vertices = parse_count(command.vertices, "--vertices");
+  const TransferredInput input = transfer_inputs(command.inputs, line.callback(), vertices);
   const std::vector<TransferSegment>& segments = input.result.segments;
   std::vector<std::string> names;
   for (size_t s = 0; s < segments.size(); ++s) {
@@ -111,6 +117,8 @@ void add_massage_transfer(Commands& commands, CommonOptions& common) {
       .required();
   options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
       .required();
+  options.option("--vertices", c->vertices, "N",
+                 "Vertices to carry, or a share such as 25% (default: those of the first mesh)");
   options.flag("--json", c->json, "Print one JSON object");
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/inputs/massage_transfer.h"
 
+#include "codec/remesh/remesh.h"
 #include "codec/sequence/error.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/load_sequence.h"
@@ -31,7 +32,8 @@ std::string TransferredInput::reason(uint32_t f) const {
       frame.conformal, frame.dropped);
 }
 
-TransferredInput transfer_inputs(std::span<const std::string> inputs, const Progress& progress) {
+TransferredInput transfer_inputs(std::span<const std::string> inputs, const Progress& progress,
+                                 const std::optional<Count>& vertices) {
   TransferredInput input;
   input.files = sequence_files(inputs);
   for (const std::string& file : input.files) {
@@ -43,8 +45,16 @@ TransferredInput transfer_inputs(std::span<const std::string> inputs, const Prog
     MeshSequence mesh = load_sequence({&input.files[f], 1});
     return SurfaceFrame{std::move(mesh.polygons), std::move(mesh.positions)};
   };
+  TransferOptions options;
+  if (vertices) {
+    options.first_mesh = [&vertices](const SurfaceFrame& frame) {
+      RemeshOptions remeshing;
+      remeshing.vertices = vertices->of(static_cast<uint32_t>(frame.positions.size() / 3));
+      return remesh(frame, remeshing).mesh;
+    };
+  }
   input.result =
-      transfer_connectivity(source, static_cast<uint32_t>(input.files.size()), {}, progress);
+      transfer_connectivity(source, static_cast<uint32_t>(input.files.size()), options, progress);
   for (TransferSegment& segment : input.result.segments)
     segment.sequence.name = std::filesystem::path(input.files[0]).stem().string();
   return input;
@@ -57,7 +67,7 @@ MeshSequence transfer_to_one(std::span<const std::string> inputs, const Progress
     const uint32_t f = input.result.segments[1].first_frame;
     throw Error(ErrorKind::kInput,
                 fmt::format("frame {} cannot be given the connectivity of frame 0: {}; a file "
-                            "holds one connectivity (anicodec massage --transfer writes a clip "
+                            "holds one connectivity (anicodec massage transfer writes a clip "
                             "for each)",
                             f, input.reason(f)));
   }

@@ -5,7 +5,9 @@
 
 #include "codec/encode.h"
 #include "codec/transfer/connectivity_transfer.h"
+#include "tools/words/quantity.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,9 +26,11 @@ struct TransferredInput {
   std::string reason(uint32_t f) const;
 };
 
-/// Reads one mesh after the other and carries the connectivity of the first through them. Throws
-/// Error(kInput) naming the file, Error(kUsage) for a vertex cache.
-TransferredInput transfer_inputs(std::span<const std::string> inputs, const Progress& progress);
+/// Reads one mesh after the other and carries the connectivity of the first through them, if
+/// `vertices` is given after remesh() to so many of the first mesh's. Throws Error(kInput) naming
+/// the file, Error(kUsage) for a vertex cache.
+TransferredInput transfer_inputs(std::span<const std::string> inputs, const Progress& progress,
+                                 const std::optional<Count>& vertices = {});
 
 /// The same as one sequence. Throws Error(kInput) naming the first frame that cannot be followed
 /// and its alarms.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -61,6 +62,29 @@ Length parse_length(std::string_view text, std::string_view option) {
     fail(option, text,
          "a length greater than 0 such as 0.02 (scene units) or 0.05% (of the diagonal)");
   return length;
+}
+
+uint32_t Count::of(uint32_t all) const {
+  constexpr double kMost = std::numeric_limits<int32_t>::max();
+  return number > 0
+             ? number
+             : static_cast<uint32_t>(std::clamp(std::round(percent / 100 * all), 1.0, kMost));
+}
+
+Count parse_count(std::string_view text, std::string_view option) {
+  constexpr double kMostPercent = 1e5;
+  std::string_view rest = text;
+  double x = 0;
+  const bool is_number = take(rest, x) && is_positive(x);
+  Count count;
+  if (is_number && rest == "%" && x <= kMostPercent)
+    count.percent = x;
+  else if (is_number && rest.empty() && x == std::floor(x) &&
+           x <= std::numeric_limits<int32_t>::max())
+    count.number = static_cast<uint32_t>(x);
+  else
+    fail(option, text, "a number such as 500, or a share such as 25%");
+  return count;
 }
 
 uint64_t parse_size(std::string_view text, std::string_view option) {

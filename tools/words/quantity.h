@@ -18,6 +18,15 @@ struct Length {
   bool percent = false;
 };
 
+/// A number of things or a share of all.
+struct Count {
+  uint32_t number = 0;
+  double percent = 0;  ///< counts if number is 0
+
+  /// At least 1.
+  uint32_t of(uint32_t all) const;
+};
+
 /// Every parser throws Error(kUsage) "option: ..." for anything but the whole text.
 
 /// A finite number greater than 0.
@@ -28,6 +37,9 @@ double parse_share(std::string_view text, std::string_view option);
 
 /// "0.02" or "0.05%", greater than 0.
 Length parse_length(std::string_view text, std::string_view option);
+
+/// "500" or "25%", greater than 0, less than 2^31 and at most 100 000 %.
+Count parse_count(std::string_view text, std::string_view option);
 
 /// A number of bytes: "40000", "40k", "1.5M", "2G" (powers of 1000); at least 1.
 uint64_t parse_size(std::string_view text, std::string_view option);

@@ -18,9 +18,9 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::vector<std::string> kCommands = {
-    "encode",           "decode",      "join",        "info",    "verify",
-    "compare",          "analyze",     "interpolate", "massage", "massage fit",
-    "massage transfer", "massage map", "dump",        "render",  "corpus"};
+    "encode",         "decode",      "join",    "info",        "verify",           "compare",
+    "analyze",        "interpolate", "massage", "massage fit", "massage transfer", "massage map",
+    "massage remesh", "dump",        "render",  "corpus"};
 
 /// What a command prints as its help.
 std::string help_of(const std::string& command) {

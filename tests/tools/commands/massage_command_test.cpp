@@ -106,6 +106,65 @@ TEST(MassageCommand, FitsAMeshToAnother) {
   EXPECT_EQ(json["after"]["turned"], 0);
 }
 
+TEST(MassageCommand, GivesAMeshFewerAndMoreVertices) {
+  TemporaryFolder folder;
+  MeshSequence limb = corpus::make_scaled("limb", 1500, 2);
+  limb.frame_count = 1;
+  limb.positions.resize(size_t{3} * limb.vertex_count);
+  write_sequence(folder / "limb.obj", limb);
+  Outcome outcome = anicodec({"massage", "remesh", folder / "limb.obj", "--vertices", "10%", "-o",
+                              folder / "coarse.obj", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  nlohmann::json json = outcome.json();
+  const uint32_t tenth = (limb.vertex_count + 5) / 10;
+  EXPECT_EQ(json["vertices"], tenth);
+  EXPECT_EQ(json["method"], "decimate");
+  EXPECT_LT(json["after"]["hausdorff_mean"], 0.7 * json["before"]["hausdorff_mean"].get<double>());
+  const std::string coarse = folder / "coarse.obj";
+  EXPECT_EQ(load_sequence({&coarse, 1}).vertex_count, tenth);
+
+  outcome = anicodec({"massage", "remesh", coarse, "--vertices", "700", "-o", folder / "even.ply"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_THAT(outcome.out, HasSubstr("700 vertices"));
+  EXPECT_THAT(outcome.out, HasSubstr("isotropic"));
+
+  outcome = anicodec({"massage", "remesh", folder / "limb.obj", "--max-distance", "0.5%", "-o",
+                      folder / "near.obj", "--json", "--no-fit"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_LT(outcome.json()["vertices"], limb.vertex_count / 2);
+  EXPECT_LT(outcome.json()["after"]["hausdorff_percent"], 2);
+}
+
+TEST(MassageCommand, RefusesMeshesThatCannotBeRemeshed) {
+  TemporaryFolder folder;
+  const std::string fan = folder.write(
+      "fan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
+  auto refused = [&](std::vector<std::string> options, const char* text) {
+    std::vector<std::string> words{"massage", "remesh", fan, "-o", folder / "out.obj"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = anicodec(words);
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_THAT(outcome.err, HasSubstr(text));
+  };
+  refused({"--vertices", "4"}, "fan.obj: the edge between vertices 0 and 1 has 3 faces");
+  refused({"--vertices", "0"}, "--vertices: '0' is not a number");
+  refused({}, "--vertices N or --max-distance LEN is needed");
+  refused({"--vertices", "4", "--max-distance", "1%", "--method", "loop"}, "--method decimate");
+}
+
+TEST(MassageCommand, CarriesARemeshedMesh) {
+  TemporaryFolder folder;
+  write_scans(folder, 3);
+  Outcome outcome = anicodec({"massage", "transfer", folder / "scan_*.obj", "--vertices", "400",
+                              "-o", folder / "fitted.pc2", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const nlohmann::json json = outcome.json();
+  ASSERT_EQ(json["files"].size(), 1U) << outcome;
+  EXPECT_EQ(json["files"][0]["vertices"], 400);
+  EXPECT_GT(json["frames"][0]["hausdorff"], 0);
+  EXPECT_LT(json["hausdorff_mean_percent"], 0.5);
+}
+
 /// A ball of about as many vertices, drawn out along x.
 void write_ball(const std::string& path, uint32_t vertices, float stretch) {
   MeshSequence ball = corpus::make_scaled("limb", vertices, 2);
