@@ -7,6 +7,7 @@
 #include "sdk/mesh/half_edges.h"
 
 #include <algorithm>
+#include <compare>
 #include <cstring>
 #include <numeric>
 
@@ -46,18 +47,38 @@ std::vector<bool> degenerate_or_duplicate(const Polygons& polygons,
       keys.emplace_back(std::accumulate(begin, sorted.end(), uint64_t{0}, mixed), p);
     offsets.push_back(sorted.size());
   }
-  std::sort(keys.begin(), keys.end());
   auto vertices = [&](uint32_t p) {
     return std::span(sorted).subspan(offsets[p], offsets[p + 1] - offsets[p]);
   };
-  for (size_t i = 0; i < keys.size(); ++i) {
-    for (size_t j = i; j-- > 0 && keys[j].first == keys[i].first;) {
-      if (!apart[keys[j].second] &&
-          std::ranges::equal(vertices(keys[j].second), vertices(keys[i].second)))
-        apart[keys[i].second] = true;
-    }
-  }
+  auto order = [&](const auto& a, const auto& b) {
+    if (a.first != b.first)
+      return a.first < b.first;
+    const auto x = vertices(a.second), y = vertices(b.second);
+    const auto by_vertices =
+        std::lexicographical_compare_three_way(x.begin(), x.end(), y.begin(), y.end());
+    return by_vertices != 0 ? by_vertices < 0 : a.second < b.second;
+  };
+  std::sort(keys.begin(), keys.end(), order);
+  // Those of the same vertices are neighbours now, the first of the source before the others.
+  for (size_t i = 1; i < keys.size(); ++i)
+    apart[keys[i].second] =
+        std::ranges::equal(vertices(keys[i - 1].second), vertices(keys[i].second));
   return apart;
+}
+
+/// Calls visit(polygon) for the polygons that have more than one of the half-edges, which are on
+/// the same edge.
+template <class Visit>
+void for_each_repeated(std::span<const HalfEdges::Item> edges,
+                       const std::vector<uint32_t>& triangle_polygon, Visit visit) {
+  std::vector<uint32_t> polygons;
+  for (const HalfEdges::Item& edge : edges)
+    polygons.push_back(triangle_polygon[edge.corner / 3]);
+  std::sort(polygons.begin(), polygons.end());
+  for (size_t i = 1; i < polygons.size(); ++i) {
+    if (polygons[i] == polygons[i - 1])
+      visit(polygons[i]);
+  }
 }
 
 }  // namespace
@@ -123,8 +144,8 @@ ManifoldMesh make_manifold(const Polygons& polygons, std::span<const uint32_t> w
         mesh.triangle_polygon.push_back(p);
       }
     }
-    auto set_apart = [&](uint32_t corner) {
-      apart[mesh.triangle_polygon[corner / 3]] = true;
+    auto set_apart = [&](uint32_t polygon) {
+      apart[polygon] = true;
       settled = false;
     };
 
@@ -133,12 +154,7 @@ ManifoldMesh make_manifold(const Polygons& polygons, std::span<const uint32_t> w
                                 const HalfEdges::Item* last) {
       if (!is_manifold(vertices, first, last)) {
         // A polygon with such an edge between two of its triangles could not be put together again.
-        for (const HalfEdges::Item* i = first; i != last; ++i) {
-          for (const HalfEdges::Item* j = first; j != i; ++j) {
-            if (mesh.triangle_polygon[i->corner / 3] == mesh.triangle_polygon[j->corner / 3])
-              set_apart(i->corner);
-          }
-        }
+        for_each_repeated(std::span(first, last), mesh.triangle_polygon, set_apart);
       } else if (last - first == 2) {
         uint32_t c = first[0].corner, d = first[1].corner;
         points.join(c, next_corner(d));
@@ -162,11 +178,11 @@ ManifoldMesh make_manifold(const Polygons& polygons, std::span<const uint32_t> w
     }
     // Fans that meet again around a vertex can bring the same points back to a cut edge.
     HalfEdges(mesh.point_vertex.size(), mesh.triangles)
-        .for_each_edge([&](uint32_t, uint32_t, const HalfEdges::Item* first,
-                           const HalfEdges::Item* last) {
-          if (!is_manifold(mesh.triangles, first, last))
-            set_apart(last[-1].corner);
-        });
+        .for_each_edge(
+            [&](uint32_t, uint32_t, const HalfEdges::Item* first, const HalfEdges::Item* last) {
+              if (!is_manifold(mesh.triangles, first, last))
+                set_apart(mesh.triangle_polygon[last[-1].corner / 3]);
+            });
   }
   mesh.points = static_cast<uint32_t>(mesh.point_vertex.size());
   for (uint32_t p = 0; p < polygons.size(); ++p) {
