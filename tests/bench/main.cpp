@@ -4,26 +4,24 @@
 #include "corpus/poses.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
+#include "tools/commands/command.h"
 #include "tools/io/base/frame_rate.h"
 
-#include <cstdio>
-#include <exception>
+#include <algorithm>
 #include <functional>
-#include <memory>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 namespace anicodec::bench {
 namespace {
 
-constexpr const char* kFooter = R"(
-A CLIP is the name of a clip of the corpus (waves), the name of a mesh and its cache in the folder
+constexpr const char* kFooter =
+    R"(A CLIP is the name of a clip of the corpus (waves), the name of a mesh and its cache in the folder
 $ANICODEC_DATA (classic/dance), or files joined by commas (mesh.obj,cache.pc2). INPUT is names of
 clips, or together the files of one clip as anicodec encode takes them.)";
 
@@ -31,19 +29,18 @@ struct Arguments {
   std::vector<std::string> inputs, clips;
   BenchOptions bench;
   bool json = false, csv = false;
-  int threads = 0;
   std::vector<double> kg{0.1, 0.02};
   double one_kg = 0.1;
   double max_error = 0.002;
   std::string fps;
   bool normals = false;
   int runs = 5;
-  uint32_t vertices = 210000, frames = 100, shapes = 30;
+  uint32_t vertices = 210000, frame_count = 100, shapes = 30;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
   uint32_t step = 8;
   std::vector<uint32_t> keyframes{4, 8};
   std::vector<uint32_t> sizes{7000, 42000, 210000};
-  std::vector<std::string> parts{"sliding", "auto", "fit", "transfer"};
+  std::string parts = "sliding,auto,fit,transfer";
   double edges = 0.3;
   uint32_t first_frames = 0;
 
@@ -64,153 +61,139 @@ struct Arguments {
 
 using Run = std::function<std::vector<Table>(Arguments&)>;
 
-CLI::App* add(CLI::App& app, Arguments& a, const char* name, const char* description,
-              const Run& run) {
-  CLI::App* command = app.add_subcommand(name, description);
-  command->footer(kFooter);
-  command->add_option("INPUT", a.inputs, "Names of clips, or the files of one clip");
-  command->add_option("--clip", a.clips, "A clip; may be repeated")
-      ->option_text("CLIP")
-      ->take_all()
-      ->allow_extra_args(false);
-  command->add_option("--effort", a.bench.effort, "As for anicodec encode (default 5)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 9));
-  command->add_option("-j,--threads", a.threads, "Threads of the encoder (default: all)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1024));
-  command->add_flag("-v,--verbose", a.bench.verbose, "Trials and times of the encoder on stderr");
-  CLI::Option* json = command->add_flag("--json", a.json, "Print one JSON object");
-  command->add_flag("--csv", a.csv, "Print comma-separated values")->excludes(json);
-  command->callback([&a, name, run] {
-    std::optional<tbb::global_control> limit;
-    if (a.threads > 0)
-      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(a.threads));
-    a.print(name, run(a));
-  });
-  return command;
+/// What the commands share: their table, the values of their options, and those of every command.
+struct Bench {
+  tools::Commands& commands;
+  tools::CommonOptions& common;
+  Arguments& arguments;
+};
+
+tools::Options& add(Bench& bench, const char* name, const char* description, const Run& run,
+                    const char* footer = kFooter) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      tools::add_command(bench.commands, bench.common, tools::kVerbose | tools::kThreads,
+                         {name, "[INPUT...] [options]", description, footer}, [bench, name, run] {
+                           bench.arguments.bench.verbose = bench.common.verbosity > 0;
+                           bench.arguments.print(name, run(bench.arguments));
+                         });
+  options.arguments("INPUT", a.inputs, "Names of clips, or the files of one clip");
+  options.repeated("--clip", a.clips, "CLIP", "A clip; may be repeated");
+  options.number("--effort", a.bench.effort, "N", {1, 9}, "As for anicodec encode (default 5)");
+  options.flag("--json", a.json, "Print one JSON object");
+  options.flag("--csv", a.csv, "Print comma-separated values");
+  options.exclude({"--json", "--csv"});
+  return options;
 }
 
-void add_basis(CLI::App& command, Arguments& a) {
-  command.add_option("--basis", a.bench.basis, "Kind of basis (default auto)")
-      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, BasisChoice>>{
-          {"auto", BasisChoice::kAuto},
-          {"keyframes", BasisChoice::kKeyframes},
-          {"eigenshapes", BasisChoice::kEigenshapes},
-          {"eigentrajectories", BasisChoice::kEigentrajectories}}));
+constexpr tools::Word<BasisChoice> kBases[] = {
+    {BasisChoice::kAuto, "auto"},
+    {BasisChoice::kKeyframes, "keyframes"},
+    {BasisChoice::kEigenshapes, "eigenshapes"},
+    {BasisChoice::kEigentrajectories, "eigentrajectories"}};
+
+void add_basis(tools::Options& options, Arguments& a) {
+  options.choice("--basis", a.bench.basis, {kBases}, "Kind of basis (default auto)");
 }
 
-void add_rate(CLI::App& app, Arguments& a) {
-  CLI::App* command = add(app, a, "rate", "Bytes at a KG error, against Draco and frame deltas",
-                          [](Arguments& args) {
-                            args.bench.clips = clip_words(args.inputs, args.clips);
-                            return std::vector{run_rate(args.bench, args.kg)};
-                          });
-  command->add_option("--kg", a.kg, "KG errors in per cent (default 0.1,0.02)")
-      ->option_text("PCT,...")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
-  add_basis(*command, a);
+/// Above 0.
+constexpr tools::Bounds<double> kPositive = {std::numeric_limits<double>::min()};
+
+void add_rate(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options = add(
+      bench, "rate", "Bytes at a KG error, against Draco and frame deltas", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{run_rate(args.bench, args.kg)};
+      });
+  options.numbers("--kg", a.kg, "PCT,...", kPositive, "KG errors in per cent (default 0.1,0.02)");
+  add_basis(options, a);
 }
 
-void add_gltf(CLI::App& app, Arguments& a) {
-  CLI::App* command =
-      add(app, a, "gltf", "Bytes of glTF files' clips, against gltfpack", [](Arguments& args) {
+void add_gltf(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options = add(
+      bench, "gltf", "Bytes of glTF files' clips, against gltfpack",
+      [](Arguments& args) {
         args.bench.clips = args.clips;
         args.bench.clips.insert(args.bench.clips.begin(), args.inputs.begin(), args.inputs.end());
         std::optional<FrameRate> rate;
         if (!args.fps.empty())
           rate = tools::parse_frame_rate(args.fps);
         return std::vector{run_gltf(args.bench, args.one_kg, rate, args.normals)};
+      },
+      "INPUT and CLIP are .gltf and .glb files, FILE@ANIMATION for other than the first animation\n"
+      "that moves something.");
+  options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
+  options.option("--fps", a.fps, "N[/D]", "Frames per second (default: the rate of the keys)");
+  options.flag("--normals", a.normals,
+               "With normals of every frame, and texture coordinates on our side");
+}
+
+void add_near(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options = add(
+      bench, "near", "Bytes at a small maximum error, against frame deltas", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{run_near(args.bench, args.max_error)};
       });
-  command->footer(
-      "\nINPUT and CLIP are .gltf and .glb files, FILE@ANIMATION for other than the first "
-      "animation\nthat moves something.");
-  command->add_option("--kg", a.one_kg, "KG error in per cent (default 0.1)")
-      ->option_text("PCT")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--fps", a.fps, "Frames per second (default: the rate of the keys)")
-      ->option_text("N[/D]");
-  command->add_flag("--normals", a.normals,
-                    "With normals of every frame, and texture coordinates on our side");
+  options.number("--max-error", a.max_error, "PCT", kPositive,
+                 "Per cent of the diagonal (default 0.002)");
+  add_basis(options, a);
 }
 
-void add_near(CLI::App& app, Arguments& a) {
-  CLI::App* command = add(app, a, "near", "Bytes at a small maximum error, against frame deltas",
-                          [](Arguments& args) {
-                            args.bench.clips = clip_words(args.inputs, args.clips);
-                            return std::vector{run_near(args.bench, args.max_error)};
-                          });
-  command->add_option("--max-error", a.max_error, "Per cent of the diagonal (default 0.002)")
-      ->option_text("PCT")
-      ->check(CLI::PositiveNumber);
-  add_basis(*command, a);
-}
-
-void add_decode(CLI::App& app, Arguments& a) {
-  CLI::App* command =
-      add(app, a, "decode", "Time to open and play, against Draco", [](Arguments& args) {
+void add_decode(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "decode", "Time to open and play, against Draco", [](Arguments& args) {
         std::vector<Table> tables;
         // The large clip first: its peak memory is that of the process.
         if (args.vertices > 0)
           tables.push_back(
-              run_large(args.bench, args.vertices, args.frames, args.shapes, args.runs));
+              run_large(args.bench, args.vertices, args.frame_count, args.shapes, args.runs));
         if (!args.inputs.empty() || !args.clips.empty() || tables.empty()) {
           args.bench.clips = clip_words(args.inputs, args.clips);
           tables.push_back(run_decode(args.bench, args.one_kg, args.runs));
         }
         return tables;
       });
-  command->add_option("--kg", a.one_kg, "KG error in per cent (default 0.1)")
-      ->option_text("PCT")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--runs", a.runs, "Runs to take the median of (default 5)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1000));
-  command
-      ->add_option("--vertices", a.vertices,
-                   "Vertices of the generated clip (default 210000; 0: none)")
-      ->option_text("N");
-  command->add_option("--frames", a.frames, "Frames of the generated clip (default 100)")
-      ->option_text("N");
-  command->add_option("--shapes", a.shapes, "Shapes of the generated clip (default 30)")
-      ->option_text("N");
-  add_basis(*command, a);
+  options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
+  options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
+  options.number("--vertices", a.vertices, "N", {},
+                 "Vertices of the generated clip (default 210000; 0: none)");
+  options.number("--frame-count", a.frame_count, "N", {},
+                 "Frames of the generated clip (default 100)");
+  options.number("--shapes", a.shapes, "N", {}, "Shapes of the generated clip (default 30)");
+  add_basis(options, a);
 }
 
-void add_play(CLI::App& app, Arguments& a) {
-  CLI::App* command = add(
-      app, a, "play", "Time to play a frame, against Draco, Eigen and the machine's limits",
+void add_play(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options = add(
+      bench, "play", "Time to play a frame, against Draco, Eigen and the machine's limits",
       [](Arguments& args) {
         if (!args.inputs.empty() || !args.clips.empty())
           args.bench.clips = clip_words(args.inputs, args.clips);
         return std::vector{run_play(args.bench, args.play_vertices, args.components, args.runs)};
       });
-  command
-      ->add_option("--vertices", a.play_vertices, "Vertices (default 7000,42000,210000; 0: none)")
-      ->option_text("N,...")
-      ->delimiter(',');
-  command->add_option("--components", a.components, "Components (default 16,43,100,163)")
-      ->option_text("N,...")
-      ->delimiter(',');
-  command->add_option("--runs", a.runs, "Runs to take the median of (default 5)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1000));
+  options.numbers("--vertices", a.play_vertices, "N,...", {},
+                  "Vertices (default 7000,42000,210000; 0: none)");
+  options.numbers("--components", a.components, "N,...", {}, "Components (default 16,43,100,163)");
+  options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
 }
 
-void add_auto(CLI::App& app, Arguments& a) {
-  CLI::App* command =
-      add(app, a, "auto", "Bytes with each kind of basis and with auto", [](Arguments& args) {
+void add_auto(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "auto", "Bytes with each kind of basis and with auto", [](Arguments& args) {
         args.bench.clips = clip_words(args.inputs, args.clips);
         return std::vector{run_auto(args.bench, args.one_kg)};
       });
-  command->add_option("--kg", a.one_kg, "KG error in per cent (default 0.1)")
-      ->option_text("PCT")
-      ->check(CLI::PositiveNumber);
+  options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
 }
 
-void add_poses(CLI::App& app, Arguments& a) {
-  add(app, a, "poses", "Errors of interpolations half way between two poses", [](Arguments& args) {
+void add_poses(Bench& bench) {
+  add(bench, "poses", "Errors of interpolations half way between two poses", [](Arguments& args) {
     std::vector<std::string> words = args.clips;
     words.insert(words.begin(), args.inputs.begin(), args.inputs.end());
     if (words.empty()) {
@@ -221,99 +204,92 @@ void add_poses(CLI::App& app, Arguments& a) {
   });
 }
 
-void add_between(CLI::App& app, Arguments& a) {
-  CLI::App* command =
-      add(app, a, "between", "KG error of interpolated in-betweens", [](Arguments& args) {
+void add_between(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "between", "KG error of interpolated in-betweens", [](Arguments& args) {
         return std::vector{run_between(clip_words(args.inputs, args.clips), args.step)};
       });
-  command->add_option("--step", a.step, "Every which frame is kept (default 8)")
-      ->option_text("N")
-      ->check(CLI::Range(2, 1000));
+  options.number("--step", a.step, "N", {2, 1000}, "Every which frame is kept (default 8)");
 }
 
-void add_keyframes(CLI::App& app, Arguments& a) {
-  CLI::App* command =
-      add(app, a, "keyframes", "KG error of clips coded by a few key-frames", [](Arguments& args) {
+void add_keyframes(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "keyframes", "KG error of clips coded by a few key-frames", [](Arguments& args) {
         args.bench.clips = clip_words(args.inputs, args.clips);
         return std::vector{run_keyframes(args.bench, args.keyframes)};
       });
-  command->add_option("--counts", a.keyframes, "Numbers of key-frames (default 4,8)")
-      ->option_text("N,...")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 10000));
+  options.numbers("--counts", a.keyframes, "N,...", {1, 10000},
+                  "Numbers of key-frames (default 4,8)");
 }
 
-void add_msgi(CLI::App& app, Arguments& a) {
-  CLI::App* command =
-      add(app, a, "msgi", "Time of multi-scale geometry interpolation",
+void add_msgi(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "msgi", "Time of multi-scale geometry interpolation",
           [](Arguments& args) { return std::vector{run_msgi_speed(args.sizes, args.runs)}; });
-  command->add_option("--sizes", a.sizes, "Vertices (default 7000,42000,210000)")
-      ->option_text("N,...")
-      ->delimiter(',')
-      ->check(CLI::Range(200, 10000000));
-  command->add_option("--runs", a.runs, "Runs to take the median of (default 5)")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1000));
+  options.numbers("--sizes", a.sizes, "N,...", {200, 10000000},
+                  "Vertices (default 7000,42000,210000)");
+  options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
 }
 
-void add_massage(CLI::App& app, Arguments& a) {
-  CLI::App* command = add(app, a, "massage", "What the massage does to clips", [](Arguments& args) {
-    args.bench.clips = clip_words(args.inputs, args.clips);
-    std::vector<Table> tables;
-    for (const std::string& part : args.parts) {
-      if (part == "sliding")
-        tables.push_back(
-            run_massage_sliding(args.bench, args.one_kg, args.edges, args.first_frames));
-      else if (part == "auto")
-        tables.push_back(run_massage_auto(args.bench, args.one_kg));
-      else if (part == "fit")
-        tables.push_back(run_massage_fit(args.bench));
-      else
-        tables.push_back(run_massage_transfer(args.bench, args.first_frames));
-    }
-    return tables;
-  });
-  command->add_option("--parts", a.parts, "sliding, auto, fit, transfer (default all)")
-      ->option_text("PART,...")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"sliding", "auto", "fit", "transfer"}));
-  command->add_option("--kg", a.one_kg, "KG error in per cent (default 0.1)")
-      ->option_text("PCT")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--edges", a.edges, "Noise of sliding vertices in edges (default 0.3)")
-      ->option_text("X")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--first-frames", a.first_frames, "Use only so many frames (default all)")
-      ->option_text("N");
-}
-
-int run(int argc, const char* const* argv) {
-  Arguments arguments;
-  CLI::App app("Measures anicodec on clips against other ways to store them.", "anicodec_bench");
-  app.require_subcommand(1);
-  app.footer(kFooter);
-  for (auto add_command : {add_rate, add_gltf, add_near, add_decode, add_play, add_auto, add_poses,
-                           add_between, add_keyframes, add_msgi, add_massage})
-    add_command(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
-  } catch (const Error& e) {
-    fmt::print(stderr, "anicodec_bench: {}\n", e.what());
-    return static_cast<int>(e.kind());
+/// The words between commas.
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    words.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
   }
-  return std::fflush(stdout) == 0 ? 0 : static_cast<int>(ErrorKind::kInternal);
+  return words;
+}
+
+void add_massage(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "massage", "What the massage does to clips", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        std::vector<Table> tables;
+        for (const std::string& part : words_of(args.parts)) {
+          if (part == "sliding")
+            tables.push_back(
+                run_massage_sliding(args.bench, args.one_kg, args.edges, args.first_frames));
+          else if (part == "auto")
+            tables.push_back(run_massage_auto(args.bench, args.one_kg));
+          else if (part == "fit")
+            tables.push_back(run_massage_fit(args.bench));
+          else
+            tables.push_back(run_massage_transfer(args.bench, args.first_frames));
+        }
+        return tables;
+      });
+  options.option("--parts", a.parts, "PART,...", "sliding, auto, fit, transfer (default all)");
+  options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
+  options.number("--edges", a.edges, "X", kPositive,
+                 "Noise of sliding vertices in edges (default 0.3)");
+  options.number("--first-frames", a.first_frames, "N", {},
+                 "Use only so many frames (default all)");
+}
+
+void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
+  Bench bench{commands, common, arguments};
+  for (auto add_bench : {add_rate, add_gltf, add_near, add_decode, add_play, add_auto, add_poses,
+                         add_between, add_keyframes, add_msgi, add_massage})
+    add_bench(bench);
 }
 
 }  // namespace
 }  // namespace anicodec::bench
 
 int main(int argc, char** argv) {
-  try {
-    return anicodec::bench::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "anicodec_bench: %s\n", e.what());
-    return static_cast<int>(anicodec::ErrorKind::kInternal);
-  }
+  using namespace anicodec;
+  bench::Arguments arguments;
+  return tools::run_program(
+      {"anicodec_bench", "Measures anicodec on clips against other ways to store them.",
+       bench::kFooter,
+       [&](tools::Commands& commands, tools::CommonOptions& common) {
+         bench::declare(commands, common, arguments);
+       }},
+      argc, argv);
 }

@@ -53,6 +53,17 @@ using Commands = std::deque<Command>;
 Options& add_command(Commands& commands, CommonOptions& common, unsigned common_options,
                      CommandHelp help, std::function<void()> run);
 
+/// A program of several commands.
+struct Program {
+  std::string name, description;
+  std::string footer;  ///< of its help
+  std::function<void(Commands&, CommonOptions&)> declare;
+};
+
+/// Does what the command line asks and returns the exit status, that of the ErrorKind. Every error
+/// ends here, as one line on stderr.
+int run_program(const Program& program, int argc, const char* const* argv);
+
 void add_encode(Commands& commands, CommonOptions& common);
 void add_decode(Commands& commands, CommonOptions& common);
 void add_join(Commands& commands, CommonOptions& common);

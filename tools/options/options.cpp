@@ -35,6 +35,20 @@ std::string long_name_of(const std::string& names) {
   return names.substr(names.rfind(',') + 1);
 }
 
+template <typename T>
+std::function<void(const std::string&)> list_reader(const std::string& names,
+                                                    std::vector<T>& values, Bounds<T> bounds) {
+  return [&values, bounds, name = long_name_of(names)](const std::string& given) {
+    values.clear();
+    for (size_t begin = 0; begin <= given.size();) {
+      const size_t end = std::min(given.find(',', begin), given.size());
+      values.push_back(parse_number(name, given.substr(begin, end - begin), bounds,
+                                    std::integral<T> ? "whole number" : "number"));
+      begin = end + 1;
+    }
+  };
+}
+
 }  // namespace
 
 Option& Options::add(Option::Kind kind, const std::string& names, const std::string& word,
@@ -80,6 +94,25 @@ Option& Options::number(const std::string& names, double& value, const std::stri
              [&value, bounds, name = long_name_of(names)](const std::string& given) {
                value = parse_number(name, given, bounds, "number");
              });
+}
+
+Option& Options::numbers(const std::string& names, std::vector<double>& values,
+                         const std::string& word, Bounds<double> bounds, const std::string& text) {
+  return add(Option::Kind::kValue, names, word, text, list_reader(names, values, bounds));
+}
+
+Option& Options::numbers(const std::string& names, std::vector<uint32_t>& values,
+                         const std::string& word, Bounds<uint32_t> bounds,
+                         const std::string& text) {
+  return add(Option::Kind::kValue, names, word, text, list_reader(names, values, bounds));
+}
+
+Option& Options::repeated(const std::string& names, std::vector<std::string>& values,
+                          const std::string& word, const std::string& text) {
+  Option& option = add(Option::Kind::kValue, names, word, text,
+                       [&values](const std::string& given) { values.push_back(given); });
+  option.repeats = true;
+  return option;
 }
 
 Option& Options::whole(const std::string& names, const std::string& word, Bounds<int64_t> bounds,

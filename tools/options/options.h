@@ -29,6 +29,7 @@ struct Option {
   std::string text;   ///< one sentence; the help wraps it
   std::string group;  ///< heading in the help
   bool is_required = false;
+  bool repeats = false;   ///< may be given more than once
   bool is_alone = false;  ///< such as --help: where it is given, nothing else is read or checked
   /// Called with each value in turn, of a flag with an empty text for each time it is given. Throws
   /// Error(kUsage) that names the option.
@@ -83,6 +84,16 @@ class Options {
 
   Option& number(const std::string& names, double& value, const std::string& word,
                  Bounds<double> bounds, const std::string& text);
+
+  /// Numbers separated by commas, which replace those that are there.
+  Option& numbers(const std::string& names, std::vector<double>& values, const std::string& word,
+                  Bounds<double> bounds, const std::string& text);
+  Option& numbers(const std::string& names, std::vector<uint32_t>& values, const std::string& word,
+                  Bounds<uint32_t> bounds, const std::string& text);
+
+  /// An option that adds a value each time it is given.
+  Option& repeated(const std::string& names, std::vector<std::string>& values,
+                   const std::string& word, const std::string& text);
 
   /// One of a few words.
   template <typename T>

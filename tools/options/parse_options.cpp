@@ -67,7 +67,7 @@ void read_values(const Parsed& parsed) {
     }
     return;
   }
-  if (option.kind == Option::Kind::kValue && parsed.found->count() > 1)
+  if (option.kind == Option::Kind::kValue && !option.repeats && parsed.found->count() > 1)
     fail(option.long_name() + " is given more than once");
   for (const std::string& value : parsed.found->results())
     option.read(value);
