@@ -23,10 +23,11 @@ constexpr const char* kFooter =
     R"(OUT is a vertex cache (clip.pc2, clip.mdd; the mesh is written beside it as clip.obj), a file per
 frame (dir/frame_%04d.obj, .ply, .off, .stl), a scene (clip.glb) with a morph target for each frame
 and an animation of their weights, or an Alembic archive (clip.abc) with an object for each mesh,
-shown in its frames, and for each of its topologies. Polygons come back as polygons, but for STL and GLB, which
-have triangles; GLB is turned to Y up and scaled to metres where the clip says. Frames are counted
-from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate that STEP divides
-is divided; PC2 carries no rate. A clip whose topology changes needs a file per frame, or .abc.
+shown in its frames, and for each of its topologies. Polygons come back as polygons, but for STL and
+GLB, which have triangles; GLB is turned to Y up and scaled to metres where the clip says. Frames
+are counted from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate that
+STEP divides is divided; PC2 carries no rate. A clip whose topology changes needs a file per frame,
+or .abc.
 
 Examples:
   anicodec decode clip.anic -o clip.pc2

@@ -209,10 +209,11 @@ TEST_F(EncodeCommand, NamesAFrameThatDoesNotFit) {
 
 TEST_F(EncodeCommand, LeavesNothingBehindWhenInterrupted) {
   write_sequence(folder_ / "big.pc2", corpus::make_wave_grid(20000, 80, 40));
-  // The output is there under a temporary name before the search begins, which takes seconds.
+  // The output waits in a folder of its own before the search begins, which takes seconds.
   const auto has_begun = [&] {
-    return std::ranges::any_of(folder_.files(),
-                               [](const std::string& name) { return name.ends_with(".tmp"); });
+    return std::ranges::any_of(folder_.files(), [](const std::string& name) {
+      return name.starts_with(".anicodec-stage-");
+    });
   };
   for (int signal : {SIGINT, SIGTERM}) {
     Outcome outcome = run_program({ANICODEC_COMMAND, "encode", folder_ / "big.pc2", "-o",
