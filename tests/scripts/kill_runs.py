@@ -84,7 +84,7 @@ def jobs(anicodec, folder):
     for clip, kg in (("a", "1"), ("b", "0.05")):
         for half in ("0:4", "4:8"):
             parts.append(folder / f"{clip}{half[0]}.anic")
-            run(anicodec, "encode", folder / "tiny.obj", folder / "tiny.pc2", "--kg", kg, "--frames", half, "-o",
+            run(anicodec, "encode", folder / "tiny.obj", folder / "tiny.pc2", "--kg", kg, "--part", half, "-o",
                 parts[-1], "-q")
     source = folder / "source"
     source.mkdir()
