@@ -8,7 +8,7 @@ source cmake/common.sh
 usage="usage: ./test.sh [--no-install] [ctest options]
 Installs the Debian packages anicodec needs, builds it in build/dev with warnings as errors, and runs
 all tests. --no-install: without the packages. Other options go to ctest: -L tools runs those of one
-module, -LE 'slow|data' leaves out those that take long or want real data."
+module, -E 'Slow|RealData' leaves out those that take long or want real data."
 
 packages_wanted=true
 ctest_options=()
