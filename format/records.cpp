@@ -89,7 +89,7 @@ Status Limits::read(ByteView view, Limits* out) {
     m.draco_components = r.varint32(64 * 255);
     m.draco_bytes = r.varint32();
     if (m.triangles > kMaxTriangles || m.source_vertices == 0 || m.coded_vertices == 0 ||
-        m.coded_vertices > m.source_vertices)
+        m.coded_vertices > m.source_vertices || (m.draco_bytes > 0) != (m.draco_components > 0))
       return Status::kRecord;
   }
   for (Segment& s : out->segments) {
