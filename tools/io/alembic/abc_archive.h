@@ -23,7 +23,7 @@ enum class AbcSchema : uint8_t { kOther, kXform, kPolyMesh, kSubD, kFaceSet };
 /// An object of the hierarchy as stored.
 struct AbcObject {
   std::string name;
-  std::string path;  ///< "/root/arm/hand"; "/" for the topmost
+  std::string path;  ///< "/body/arm/hand"; "/" for the topmost
   std::string metadata;
   AbcSchema schema = AbcSchema::kOther;
   uint32_t parent = kAbcNone;
