@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The functions of encode.h.
+#include "codec/api/encoder_objects.h"
+#include "codec/encode_scene.h"
+#include "codec/sequence/error.h"
+#include "sdk/api/versioned.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numeric>
+#include <stdexcept>
+
+#include <tbb/task_arena.h>
+
+namespace anicodec {
+namespace {
+
+anic_status status_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::kUsage:
+    case ErrorKind::kInput:
+      return ANIC_E_ARGUMENT;
+    case ErrorKind::kUnsupported:
+      return ANIC_E_FEATURE;
+    case ErrorKind::kCorrupt:
+    case ErrorKind::kInternal:
+      break;
+  }
+  return ANIC_E_INTERNAL;
+}
+
+/// Keeps a text for the host, unless there is no memory for that.
+void keep(anic_encoder* encoder, const char* text) noexcept {
+  try {
+    encoder->text = text;
+  } catch (...) {
+    encoder->text.clear();
+  }
+}
+
+/// Runs what may throw at the edge of the interface: nothing leaves it.
+template <class Function>
+anic_status guarded(anic_encoder* encoder, Function function) noexcept {
+  encoder->text.clear();
+  try {
+    function();
+    return ANIC_OK;
+  } catch (const EncoderFailure& e) {
+    keep(encoder, e.what());
+    return e.status();
+  } catch (const Error& e) {
+    keep(encoder, e.what());
+    return status_of(e.kind());
+  } catch (const std::bad_alloc&) {
+    keep(encoder, "not enough memory");
+    return ANIC_E_MEMORY;
+  } catch (const std::length_error&) {
+    keep(encoder, "not enough memory");
+    return ANIC_E_MEMORY;
+  } catch (const std::exception& e) {
+    keep(encoder, e.what());
+    return ANIC_E_INTERNAL;
+  } catch (...) {
+    keep(encoder, "an unexpected exception");
+    return ANIC_E_INTERNAL;
+  }
+}
+
+void check_argument(bool holds, const char* text) {
+  if (!holds)
+    throw EncoderFailure(ANIC_E_ARGUMENT, text);
+}
+
+/// The host's struct in our version. Throws EncoderFailure.
+template <class Struct>
+Struct taken(const Struct* host, const char* name) {
+  Struct ours;
+  if (!take(host, &ours))
+    throw EncoderFailure(ANIC_E_ARGUMENT,
+                         std::string(name) + ": its struct_size is not set, or a field is unknown");
+  return ours;
+}
+
+/// Bytes that encoding holds at most, about: positions three times, attributes twice.
+double held_bytes(const anic_encoder& encoder) {
+  constexpr double kPositions = 3, kAttributes = 2;
+  double bytes = 0;
+  for (const SourceMesh& source : encoder.meshes) {
+    const MeshSequence& mesh = source.mesh.sequence;
+    bytes += kPositions * 3 * sizeof(float) * mesh.vertex_count * mesh.frame_count;
+    for (const Attribute& attribute : mesh.attributes)
+      bytes += kAttributes * static_cast<double>(attribute.values.size() * sizeof(float));
+  }
+  return bytes;
+}
+
+Progress progress_of(const anic_encode_progress& host) {
+  if (!host.report)
+    return {};
+  return [host](std::string_view stage, double done) {
+    if (host.report(host.user, std::string(stage).c_str(), std::clamp(done, 0.0, 1.0)) != 0)
+      throw EncoderFailure(ANIC_E_CANCELLED, "the host stopped the encoding");
+  };
+}
+
+/// A copy of the meshes with their positions.
+std::vector<SceneMesh> read_meshes(const anic_encoder& encoder, const Progress& progress) {
+  double frames = 0, read = 0;
+  for (const SourceMesh& source : encoder.meshes)
+    frames += source.mesh.sequence.frame_count;
+  std::vector<SceneMesh> meshes;
+  for (const SourceMesh& source : encoder.meshes) {
+    SceneMesh mesh = source.mesh;
+    read_positions(
+        source,
+        [&](uint32_t) {
+          if (progress)
+            progress("reading", read++ / frames);
+        },
+        &mesh.sequence);
+    meshes.push_back(std::move(mesh));
+  }
+  return meshes;
+}
+
+/// Timing, axes and units of the clip for a mesh that is there in all of it.
+void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
+  mesh->name = clip.name;
+  mesh->rate = clip.rate;
+  mesh->start_time = clip.start_time;
+  mesh->times = clip.times;
+  mesh->up = clip.up;
+  mesh->metres_per_unit = clip.metres_per_unit;
+  mesh->loop = clip.loop;
+}
+
+/// Encodes what was added by the entry points that the command uses.
+EncodeResult encode_meshes(const anic_encoder& encoder, const EncodingPlan& plan,
+                           const Progress& progress, MassageVerdict* verdict) {
+  std::vector<SceneMesh> meshes = read_meshes(encoder, progress);
+  const bool several =
+      meshes.size() > 1 || meshes[0].sequence.frame_count < encoder.clip.frame_count;
+  if (!several) {
+    MeshSequence mesh = std::move(meshes[0].sequence);
+    set_timing(encoder.clip, &mesh);
+    return encode_massaged(std::move(mesh), plan.mode, plan.massage, plan.options, verdict,
+                           progress);
+  }
+  check_argument(plan.mode == MassageMode::kOff, "massage is for one mesh that is always there");
+  Scene scene{encoder.clip, std::move(meshes)};
+  return encode_scene(std::move(scene), plan.options, progress);
+}
+
+void deliver(const Bytes& file, const anic_writer& writer) {
+  if (writer.write && writer.write(writer.user, file.data(), file.size()) != 0)
+    throw EncoderFailure(ANIC_E_READ, "the callback did not take the file");
+}
+
+void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_encoding* out) {
+  if (encoder->meshes.empty())
+    throw EncoderFailure(ANIC_E_STATE, "there is no mesh to encode");
+  const EncodingPlan plan = encoding_plan(host);
+  check_argument(!plan.options.keyframes || *plan.options.keyframes <= encoder->clip.frame_count,
+                 "more key-frames are asked for than the clip has frames");
+  if (const double bytes = held_bytes(*encoder);
+      host.max_bytes > 0 && bytes > static_cast<double>(host.max_bytes))
+    throw EncoderFailure(ANIC_E_LIMIT, "encoding would hold about " +
+                                           std::to_string(static_cast<uint64_t>(bytes)) +
+                                           " bytes of at most " + std::to_string(host.max_bytes));
+  constexpr uint32_t kMostThreads = 1024;
+  check_argument(host.threads <= kMostThreads, "at most 1024 threads are possible");
+  encoder->result = {};
+  MassageVerdict verdict;
+  const Progress progress = progress_of(host.progress);
+  tbb::task_arena arena(host.threads > 0 ? static_cast<int>(host.threads)
+                                         : tbb::task_arena::automatic);
+  arena.execute([&] { encoder->result = encode_meshes(*encoder, plan, progress, &verdict); });
+  EncodeResult& result = encoder->result;
+  deliver(result.file, host.writer);
+  out->size = result.file.size();
+  if (host.writer.write)
+    result.file = {};
+  else
+    out->file = result.file.data();
+  out->max_error = result.max_error;
+  out->rmse = result.rmse;
+  out->kg = result.kg;
+  out->diagonal = result.diagonal;
+  out->components = result.components;
+  out->basis = static_cast<anic_basis_kind>(result.kind);
+  out->massaged = verdict.change.has_value();
+  out->surface_error = verdict.change ? verdict.change->max : 0;
+}
+
+MeshSequence clip_of(const anic_source_clip& host) {
+  constexpr uint32_t kMostFrames = (1U << 24) - 1;
+  check_argument(host.frame_count > 0, "the sequence has no frame");
+  check_argument(host.frame_count <= kMostFrames, "at most 2^24 - 1 frames are possible");
+  check_argument(host.up >= ANIC_UP_UNKNOWN && host.up <= ANIC_UP_Z, "there is no such axis");
+  check_argument(std::isfinite(host.start_time), "the start is not finite");
+  check_argument(std::isfinite(host.metres_per_unit) && host.metres_per_unit >= 0,
+                 "the unit must be finite and not negative");
+  MeshSequence clip;
+  clip.name = host.name ? host.name : "";
+  clip.frame_count = host.frame_count;
+  if (host.rate_numerator > 0) {
+    const uint32_t denominator = std::max<uint32_t>(host.rate_denominator, 1);
+    const uint32_t common = std::gcd(host.rate_numerator, denominator);
+    clip.rate = {host.rate_numerator / common, denominator / common, false};
+  }
+  clip.start_time = host.start_time;
+  clip.up = static_cast<UpAxis>(host.up);
+  clip.metres_per_unit = host.metres_per_unit;
+  clip.loop = host.loop;
+  if (host.times) {
+    clip.times.assign(host.times, host.times + host.frame_count);
+    for (size_t f = 0; f < clip.times.size(); ++f)
+      check_argument(std::isfinite(clip.times[f]) &&
+                         (f == 0 ? clip.times[0] == 0 : clip.times[f] > clip.times[f - 1]),
+                     "the times must begin with 0 and ascend");
+  }
+  return clip;
+}
+
+}  // namespace
+}  // namespace anicodec
+
+using namespace anicodec;
+
+uint32_t anic_get_encoder_version(void) {
+  return ANIC_VERSION_MAJOR << 16 | ANIC_VERSION_MINOR << 8 | ANIC_VERSION_PATCH;
+}
+
+anic_status anic_create_encoder(anic_encoder** out) {
+  if (!out)
+    return ANIC_E_ARGUMENT;
+  *out = new (std::nothrow) anic_encoder;
+  return *out ? ANIC_OK : ANIC_E_MEMORY;
+}
+
+void anic_destroy_encoder(anic_encoder* encoder) {
+  delete encoder;
+}
+
+const char* anic_get_encoder_text(const anic_encoder* encoder) {
+  return encoder ? encoder->text.c_str() : "there is no encoder";
+}
+
+anic_status anic_set_source_clip(anic_encoder* encoder, const anic_source_clip* clip) {
+  if (!encoder)
+    return ANIC_E_ARGUMENT;
+  return guarded(encoder, [&] {
+    check_argument(clip, "there is no clip");
+    encoder->clip = clip_of(taken(clip, "anic_source_clip"));
+    encoder->meshes.clear();
+  });
+}
+
+anic_status anic_add_source_mesh(anic_encoder* encoder, const anic_source_mesh* mesh,
+                                 uint32_t* number) {
+  if (!encoder)
+    return ANIC_E_ARGUMENT;
+  return guarded(encoder, [&] {
+    check_argument(mesh, "there is no mesh");
+    if (encoder->clip.frame_count == 0)
+      throw EncoderFailure(ANIC_E_STATE, "the clip comes before its meshes");
+    encoder->meshes.push_back(
+        take_mesh(taken(mesh, "anic_source_mesh"), encoder->clip.frame_count));
+    if (number)
+      *number = static_cast<uint32_t>(encoder->meshes.size() - 1);
+  });
+}
+
+anic_status anic_add_source_attribute(anic_encoder* encoder, uint32_t mesh,
+                                      const anic_source_attribute* attribute) {
+  if (!encoder)
+    return ANIC_E_ARGUMENT;
+  return guarded(encoder, [&] {
+    check_argument(attribute, "there is no attribute");
+    check_argument(mesh < encoder->meshes.size(), "there is no such mesh");
+    take_attribute(taken(attribute, "anic_source_attribute"), &encoder->meshes[mesh].mesh.sequence);
+  });
+}
+
+anic_status anic_encode(anic_encoder* encoder, const anic_encode_options* options,
+                        anic_encoding* out) {
+  if (!encoder || !is_sized(out))
+    return ANIC_E_ARGUMENT;
+  anic_encoding ours = ANIC_INIT(anic_encoding);
+  const anic_status status = guarded(
+      encoder, [&] { run_encoding(encoder, taken(options, "anic_encode_options"), &ours); });
+  give(ours, out);
+  return status;
+}

@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * SPDX-FileCopyrightText: The anicodec authors
+ *
+ * anicodec encodes animated meshes to .anic files. This is the interface of libanicodec_encoder, in
+ * C99 and C++11. The grammar is that of anicodec.h: names, struct_size and ANIC_INIT(), statuses,
+ * strides.
+ *
+ *   anic_encoder* encoder;
+ *   anic_source_clip clip = ANIC_INIT(anic_source_clip);
+ *   anic_source_mesh mesh = ANIC_INIT(anic_source_mesh);
+ *   anic_encoding result = ANIC_INIT(anic_encoding);
+ *   anic_create_encoder(&encoder);
+ *   clip.frame_count = 120;
+ *   anic_set_source_clip(encoder, &clip);
+ *   mesh.vertex_count = 5980;
+ *   mesh.corners = triangles;
+ *   mesh.polygon_count = 11960;
+ *   mesh.positions = points;                                   frame after frame
+ *   anic_add_source_mesh(encoder, &mesh, NULL);
+ *   anic_encode(encoder, NULL, &result);                       0.05 % of the size, for any vertex
+ *   fwrite(result.file, 1, result.size, file);
+ *   anic_destroy_encoder(encoder);
+ *
+ * Conventions
+ * - Threads: an encoder is used by one thread at a time; different encoders are independent.
+ *   anic_encode() computes on threads of its own unless anic_encode_options say 1. The bytes of the
+ *   file do not depend on their number.
+ * - Memory: malloc(). While anic_encode() runs it holds all positions as float32, and about twice
+ *   as much again.
+ * - Errors: nothing is thrown at the host. anic_get_encoder_text() tells in a line of English what
+ *   was wrong and where. After a failure the encoder stays usable.
+ * - Callbacks must return. They run on the thread that called anic_encode().
+ */
+#ifndef ANICODEC_ENCODE_H_
+#define ANICODEC_ENCODE_H_
+
+#include <anicodec/anicodec.h>
+
+#ifndef __cplusplus
+typedef int32_t anic_scalar, anic_goal, anic_basis_choice, anic_selection, anic_interpolation,
+    anic_massage;
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Version of the library that is linked: major << 16 | minor << 8 | patch. */
+ANIC_API uint32_t anic_get_encoder_version(void);
+
+/** What is to be encoded, and how it went. */
+typedef struct anic_encoder anic_encoder;
+
+/** - Errors: ANIC_E_ARGUMENT, ANIC_E_MEMORY */
+ANIC_API anic_status anic_create_encoder(anic_encoder** out);
+
+/** NULL is allowed. */
+ANIC_API void anic_destroy_encoder(anic_encoder* encoder);
+
+/**
+ * What was wrong with the last call: one line of English without a full stop; empty if nothing was.
+ * The text belongs to the encoder and is good until the next call. Never NULL.
+ */
+ANIC_API const char* anic_get_encoder_text(const anic_encoder* encoder);
+
+/* ---- what is encoded ------------------------------------------------------------------------- */
+
+/** The clip: what all meshes share. Spec: 04. */
+typedef struct anic_source_clip {
+  size_t struct_size;
+  const char* name; /**< UTF-8; NULL: none */
+  uint32_t frame_count;
+  uint32_t rate_numerator;   /**< frames per second = numerator / denominator. 0: nobody knows; 24
+                                is stored, and that it is assumed */
+  uint32_t rate_denominator; /**< 0 counts as 1 */
+  anic_up_axis up;
+  uint8_t loop;           /**< meant to be repeated */
+  double start_time;      /**< of frame 0 on the clock of the source, seconds */
+  double metres_per_unit; /**< 0: unknown */
+  const double* times; /**< frame_count ascending seconds from frame 0; NULL: evenly by the rate */
+} anic_source_clip;
+
+/**
+ * Sets the clip, and forgets all meshes. Strings and times are copied.
+ *
+ * - Errors: ANIC_E_ARGUMENT, ANIC_E_MEMORY
+ */
+ANIC_API anic_status anic_set_source_clip(anic_encoder* encoder, const anic_source_clip* clip);
+
+/** How a coordinate of the host is stored. */
+enum anic_scalar ANIC_INT32 {
+  ANIC_SCALAR_FLOAT32 = 0,
+  ANIC_SCALAR_FLOAT64 = 1 /**< rounded to the nearest float32, which is what the codec keeps */
+};
+
+/** Frames that follow one another. */
+typedef struct anic_frame_run {
+  uint32_t first;
+  uint32_t count;
+} anic_frame_run;
+
+/**
+ * A mesh: polygons over vertices, and the positions of all frames, by address or by callback.
+ *
+ * Positions stay the host's: anic_encode() reads them, so they must be there until then. Everything
+ * else is copied.
+ */
+typedef struct anic_source_mesh {
+  size_t struct_size;
+  const char* name; /**< UTF-8; NULL: none. Names tell several meshes apart */
+  uint32_t vertex_count;
+  uint32_t polygon_count;
+  const uint32_t* offsets; /**< polygon p has the corners offsets[p] .. offsets[p + 1] - 1;
+                              polygon_count + 1 numbers. NULL: all polygons are triangles */
+  const uint32_t* corners; /**< vertex of each corner; NULL without polygons */
+  const void* positions;   /**< x of vertex 0 in frame 0, any alignment; NULL: read() gives them */
+  ptrdiff_t vertex_stride; /**< bytes from a vertex to the next; 0: packed */
+  ptrdiff_t frame_stride;  /**< bytes from a frame to the next; 0: the frames follow one another */
+  anic_scalar scalar;      /**< of positions */
+  uint32_t run_count;
+  const anic_frame_run* runs; /**< frames that show the mesh, ascending; NULL: all. Positions and
+                                 attributes that change have a frame for each of them */
+  void* user;
+  /** Fills vertex_count x 3 float32 with the positions of a frame; frames come in order, each once
+   * for every anic_encode(). Anything but 0 ends it with ANIC_E_READ. */
+  int (*read)(void* user, uint32_t frame, float* positions);
+} anic_source_mesh;
+
+/**
+ * Adds a mesh. *number, if not NULL, is its number: 0, 1 ...
+ *
+ * - Errors: ANIC_E_STATE: anic_set_source_clip() comes first; ANIC_E_ARGUMENT: counts, strides,
+ *   runs or pointers make no sense; ANIC_E_INDEX_RANGE: a corner is no vertex; ANIC_E_MEMORY
+ */
+ANIC_API anic_status anic_add_source_mesh(anic_encoder* encoder, const anic_source_mesh* mesh,
+                                          uint32_t* number);
+
+/** Values beside the positions, or names of polygons: see anic_attribute. */
+typedef struct anic_source_attribute {
+  size_t struct_size;
+  const char* name; /**< UTF-8; NULL: none */
+  anic_attribute_kind kind;
+  anic_domain domain;
+  uint32_t components;    /**< numbers of an element; 0: it has `labels` */
+  uint32_t frames;        /**< frames that `values` has, 1 or all of the mesh; 0 counts as 1 */
+  const float* values;    /**< frames x elements x components */
+  const uint32_t* labels; /**< of each corner: those of a vertex with the same label share a
+                                     normal (ANIC_ATTRIBUTE_NORMAL). Of each polygon: 0 for none, or
+                                     one more than the number of a name (ANIC_ATTRIBUTE_MATERIAL,
+                                     ANIC_ATTRIBUTE_PART) */
+  const char* const* label_names; /**< label_count; UTF-8 */
+  uint32_t label_count;
+} anic_source_attribute;
+
+/**
+ * Adds an attribute to a mesh. Everything is copied.
+ *
+ * - Errors: ANIC_E_ARGUMENT, ANIC_E_MEMORY
+ */
+ANIC_API anic_status anic_add_source_attribute(anic_encoder* encoder, uint32_t mesh,
+                                               const anic_source_attribute* attribute);
+
+/* ---- encoding -------------------------------------------------------------------------------- */
+
+/** What the file keeps to. Spec: 04, section 4. */
+enum anic_goal ANIC_INT32 {
+  ANIC_GOAL_DEFAULT = 0,   /**< with `keyframes` none, else a largest error of 0.05 % */
+  ANIC_GOAL_MAX_ERROR = 1, /**< largest distance of any vertex of any frame from its place */
+  ANIC_GOAL_KG = 2,        /**< KG error in per cent */
+  ANIC_GOAL_RMSE = 3,      /**< root of the mean squared error */
+  ANIC_GOAL_SIZE = 4,      /**< bytes, with the smallest error; of one mesh alone */
+  ANIC_GOAL_BPFV = 5       /**< bits per frame and vertex, with the smallest error */
+};
+
+/** Kind of basis. */
+enum anic_basis_choice ANIC_INT32 {
+  ANIC_CHOOSE_SMALLEST = 0,
+  ANIC_CHOOSE_KEYFRAMES = 1,
+  ANIC_CHOOSE_EIGENSHAPES = 2,
+  ANIC_CHOOSE_EIGENTRAJECTORIES = 3
+};
+
+/** How key-frames are chosen. */
+enum anic_selection ANIC_INT32 {
+  ANIC_SELECT_PIVOT = 0,
+  ANIC_SELECT_GAS = 1,
+  ANIC_SELECT_UNIFORM = 2
+};
+
+/** How frames come from key-frames. */
+enum anic_interpolation ANIC_INT32 {
+  ANIC_INTERPOLATE_LINEAR = 0,
+  ANIC_INTERPOLATE_MSGI = 1,
+  ANIC_INTERPOLATE_BEST = 2
+};
+
+/** Whether vertices are moved along their surface first, of one mesh alone. */
+enum anic_massage ANIC_INT32 {
+  ANIC_MASSAGE_OFF = 0,
+  ANIC_MASSAGE_ON = 1,
+  ANIC_MASSAGE_AUTO = 2 /**< where the file becomes smaller */
+};
+
+enum {
+  ANIC_ENCODE_PERCENT = 1,       /**< goal_value is a length in per cent of the diagonal of the box
+                                      around all frames, not in units of the clip */
+  ANIC_ENCODE_CAP_PERCENT = 2,   /**< the same of max_error */
+  ANIC_ENCODE_ERROR_PERCENT = 4, /**< attribute_error is in per cent of the range of its values */
+  ANIC_ENCODE_NO_ATTRIBUTES = 8, /**< positions and polygons alone */
+  ANIC_ENCODE_PLAIN_MESH = 16    /**< polygons without Draco, for players that go without */
+};
+
+/** Follows and stops an encoding. All zero: nobody does. report() gets the name of the stage, and
+ * the share of it that is done, 0 to 1; a stage may come again, as for every mesh. Anything but 0
+ * ends the encoding with ANIC_E_CANCELLED. */
+typedef struct anic_encode_progress {
+  void* user;
+  int (*report)(void* user, const char* stage, double done);
+} anic_encode_progress;
+
+/** Takes a file in pieces, in order. write() returns 0, or anything else to end the encoding with
+ * ANIC_E_READ. */
+typedef struct anic_writer {
+  void* user;
+  int (*write)(void* user, const void* bytes, size_t size);
+} anic_writer;
+
+/** A NULL pointer, or 0 in every field: everything by default. */
+typedef struct anic_encode_options {
+  size_t struct_size;
+  anic_goal goal;
+  anic_order order;
+  double goal_value;
+  double max_error;   /**< a largest error beside another goal; 0: none */
+  uint64_t flags;     /**< ANIC_ENCODE_... */
+  uint64_t max_bytes; /**< refuse, with ANIC_E_LIMIT, what would hold more memory; 0: no limit */
+  uint32_t threads;   /**< 0: as many as the machine has */
+  uint32_t effort;    /**< 1 to 9: how long to search; 0 means 5 */
+  anic_basis_choice basis;
+  uint32_t keyframes; /**< exact number of key-frames; 0: as few as do */
+  anic_selection selection;
+  anic_interpolation interpolation;
+  anic_massage massage;
+  uint32_t uv_bits;         /**< texture coordinates in steps of 2^-uv_bits; 0 means 12 */
+  uint32_t colour_bits;     /**< of a component of a colour; 0 means 8 */
+  double massage_strength;  /**< of shape against distance, between 0 and 1; 0 means 0.5 */
+  double massage_tolerance; /**< how far the surface may move, units of the clip; 0: any */
+  double attribute_error;   /**< largest error of attributes that change; 0: half a step of
+                               colour_bits for colours, 0.1 % of their range for others */
+  double normal_error;      /**< degrees: normals and tangents of frame 0 as numbers that are not
+                               further off; 0: hard edges alone */
+  anic_encode_progress progress;
+  anic_writer writer; /**< gets the file instead of anic_encoding */
+} anic_encode_options;
+
+/** The file, and what was measured of it by decoding it. Lengths are in units of the clip. */
+typedef struct anic_encoding {
+  size_t struct_size;
+  const void* file; /**< belongs to the encoder, until the next anic_encode(); NULL with a writer */
+  size_t size;
+  double max_error;
+  double rmse;
+  double kg;             /**< per cent */
+  double diagonal;       /**< of the box around all frames */
+  double surface_error;  /**< how far massage moved the surface at most */
+  uint32_t components;   /**< of the largest basis */
+  anic_basis_kind basis; /**< of the first mesh */
+  uint8_t massaged;
+} anic_encoding;
+
+/**
+ * Encodes the meshes to one file, decodes it, and checks that it keeps what was asked. The same
+ * input and options give the same bytes, which are those of the command `anicodec encode`.
+ *
+ * - Params: options may be NULL
+ * - Errors: ANIC_E_STATE: there is no mesh; ANIC_E_ARGUMENT: options that make no sense, a goal
+ *   that cannot be reached, input that cannot be encoded; ANIC_E_NON_FINITE: a position is not
+ *   finite; ANIC_E_LIMIT, ANIC_E_MEMORY, ANIC_E_READ, ANIC_E_CANCELLED; ANIC_E_INTERNAL: the file
+ *   does not keep what was asked, which is a defect
+ */
+ANIC_API anic_status anic_encode(anic_encoder* encoder, const anic_encode_options* options,
+                                 anic_encoding* out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* ANICODEC_ENCODE_H_ */
