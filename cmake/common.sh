@@ -14,6 +14,7 @@ packages=(
   libpng-dev libgif-dev                        # tools: pictures
   libassimp-dev                                # tools: FBX, Collada, MD2 ...
   libgtest-dev libgmock-dev python3            # tests
+  python3-dev python3-venv                     # the Python package
   libmeshoptimizer-dev gltfpack liblzma-dev    # other codecs to compare with
 )
 

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Compressed animated meshes: encode numpy arrays to .anic files, and play them.
+
+>>> data = anicodec.encode(positions, faces, fps=30)     # positions: frames x vertices x 3
+>>> clip = anicodec.open(data)
+>>> clip[10]                                             # vertices x 3, float32
+"""
+from ._anicodec import version as __version__
+from .clip import Attribute, Clip, Mesh, open
+from .encoder import Encoded, SourceMesh, encode, encode_meshes
+from .errors import (AbsentError, AnicodecError, Cancelled, CorruptError, FrameError, InputError, InternalError,
+                     LimitError, UnsupportedError)
+
+__all__ = ["AbsentError", "AnicodecError", "Attribute", "Cancelled", "Clip", "CorruptError", "Encoded", "FrameError",
+           "InputError", "InternalError", "LimitError", "Mesh", "SourceMesh", "UnsupportedError", "__version__",
+           "encode", "encode_meshes", "open"]

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Opened clips."""
+from __future__ import annotations
+
+import builtins
+import os
+from fractions import Fraction
+from typing import Any, Dict, Iterator, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _anicodec, _arrays
+from .errors import FrameError, InputError
+
+_SAMPLING = {"step": 0, "linear": 1, "cubic": 2}
+_WRAP = {"clamp": 0, "loop": 1, "ping-pong": 2}
+KINDS = ("uv", "normal", "tangent", "colour", "custom", "material", "part")
+DOMAINS = ("vertices", "corners", "polygons")
+UP = (None, "y", "z")
+
+
+def chosen(table: Dict[str, int], name: str, what: str) -> int:
+    """The number of a word."""
+    if name not in table:
+        raise InputError(f"{what} is one of {', '.join(table)}, not {name!r}")
+    return table[name]
+
+
+class Attribute(NamedTuple):
+    """What stands beside the positions of a mesh, as in frame 0."""
+
+    name: str
+    kind: str  #: uv, normal, tangent, colour, custom, material or part
+    domain: str  #: vertices, corners or polygons
+    values: np.ndarray  #: elements x components, float32; of labels: one uint32 for each element, 0 for none
+    labels: Tuple[str, ...]  #: names of the labels 1, 2 ...
+    moves: bool  #: other frames have other values: Mesh.attribute_at()
+
+
+class Mesh:
+    """A mesh of a clip: `mesh[10]` are the positions of frame 10, vertices x 3, float32; `mesh[10:20]` those of ten
+    frames in one array. Threads may share it."""
+
+    def __init__(self, clip: "Clip", number: int):
+        self._asset, self._number, self._clip = clip._asset, number, clip
+        self._mesh = self._asset.mesh(number)
+        self._plans: Dict[tuple, Any] = {}
+        self._attributes: Optional[Tuple[Attribute, ...]] = None
+
+    @property
+    def name(self) -> str:
+        return self._mesh["name"]
+
+    @property
+    def vertex_count(self) -> int:
+        return self._mesh["vertex_count"]
+
+    @property
+    def polygons(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Offsets and corners: polygon p has the vertices corners[offsets[p]:offsets[p + 1]]. uint32, copies."""
+        return self._asset.polygons(self._number)
+
+    @property
+    def faces(self) -> Union[np.ndarray, Tuple[np.ndarray, np.ndarray]]:
+        """Polygons x corners where all have as many corners, else `polygons`. encode() takes either."""
+        offsets, corners = self.polygons
+        sizes = np.diff(offsets)
+        if len(sizes) > 0 and (sizes == sizes[0]).all() and sizes[0] > 0:
+            return corners.reshape(-1, sizes[0])
+        return offsets, corners
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """Triangles x 3, uint32: every polygon as a fan."""
+        return self._asset.triangles(self._number)
+
+    @property
+    def attributes(self) -> Tuple[Attribute, ...]:
+        """What the file holds beside positions and polygons."""
+        if self._attributes is None:
+            found = []
+            for i in range(self._mesh["attribute_count"]):
+                a = self._asset.attribute(self._number, i)
+                found.append(Attribute(a["name"], KINDS[a["kind"]], DOMAINS[a["domain"]], a["values"],
+                                       tuple(a.get("labels", ())), a["moves"]))
+            self._attributes = tuple(found)
+        return self._attributes
+
+    def __len__(self) -> int:
+        return self._clip.frame_count
+
+    def __iter__(self) -> Iterator[np.ndarray]:
+        return (self[frame] for frame in range(len(self)))
+
+    def __getitem__(self, frames: Union[int, slice, Any]) -> np.ndarray:
+        return self.frames(frames)
+
+    def frames(self, frames: Union[int, slice, Any], out: Optional[np.ndarray] = None) -> np.ndarray:
+        """Positions of a frame, vertices x 3, or of a slice or list of frames, frames x vertices x 3; float32.
+
+        out: an array to fill instead of a new one. Raises FrameError (an IndexError), AbsentError.
+        """
+        vertices = self.vertex_count
+        if isinstance(frames, slice):
+            chosen_frames = list(range(len(self))[frames])
+        elif np.ndim(frames) == 0:
+            try:
+                number = range(len(self))[frames]
+            except IndexError:
+                raise FrameError(f"there is no frame {frames} of {len(self)}") from None
+            result = _arrays.output(out, (vertices, 3))
+            self._asset.frames(self._number, [number], result)
+            return result
+        else:
+            try:
+                chosen_frames = [range(len(self))[int(frame)] for frame in frames]
+            except IndexError:
+                raise FrameError(f"there are only {len(self)} frames") from None
+        result = _arrays.output(out, (len(chosen_frames), vertices, 3))
+        self._asset.frames(self._number, chosen_frames, result)
+        return result
+
+    def at(self, seconds: float, loop: bool = False, sampling: str = "linear", wrap: Optional[str] = None,
+           out: Optional[np.ndarray] = None) -> np.ndarray:
+        """Positions at a time, 0 is frame 0: vertices x 3, float32.
+
+        sampling: step, linear or cubic. loop=True or wrap="loop": the clip goes round; wrap: clamp, loop, ping-pong.
+        """
+        result = _arrays.output(out, (self.vertex_count, 3))
+        ends = _WRAP["loop"] if loop and wrap is None else chosen(_WRAP, wrap or "clamp", "wrap")
+        self._asset.at(self._number, float(seconds), chosen(_SAMPLING, sampling, "sampling"), ends, result)
+        return result
+
+    def attribute_at(self, number: int, seconds: float, loop: bool = False, sampling: str = "linear",
+                     out: Optional[np.ndarray] = None) -> np.ndarray:
+        """Values of attribute `number` of the vertices at a time: vertices x components, float32."""
+        if not 0 <= number < len(self.attributes) or self.attributes[number].domain != "vertices":
+            raise InputError(f"there is no attribute {number} of vertices")
+        shape = (self.vertex_count, self.attributes[number].values.shape[1])
+        result = _arrays.output(out, shape)
+        self._asset.attribute_at(self._number, number, float(seconds), chosen(_SAMPLING, sampling, "sampling"),
+                                 int(loop), result, self.vertex_count)
+        return result
+
+    def normals(self, frame: Union[int, np.ndarray], crease: float = 0, per_corner: bool = False,
+                source_edges: bool = False, out: Optional[np.ndarray] = None) -> np.ndarray:
+        """Normals of a frame, or of positions: vertices x 3, or corners x 3 if per_corner; float32.
+
+        crease: degrees above which an edge is hard, 0 for none. source_edges: those of the source are.
+        """
+        key = (float(crease), per_corner, source_edges)
+        if key not in self._plans:
+            first = next((f for f in range(len(self)) if self.shown_in(f)), 0)
+            self._plans[key] = self._asset.normal_plan(self._number, float(crease), first, per_corner, source_edges)
+        plan = self._plans[key]
+        positions = self[frame] if np.ndim(frame) == 0 else _arrays.floats(frame, "positions")
+        if positions.shape != (self.vertex_count, 3):
+            raise InputError(f"positions must be {self.vertex_count} x 3, not {_arrays.shape_text(positions)}")
+        result = _arrays.output(out, (plan.count, 3))
+        plan.write(positions, result)
+        return result
+
+    def shown_in(self, frame: int) -> bool:
+        """Whether the mesh is there in a frame."""
+        return self._asset.shows(self._number, frame)
+
+    def __repr__(self) -> str:
+        name = f" {self.name!r}" if self.name else ""
+        return f"<anicodec.Mesh{name}: {self.vertex_count} vertices, {self._mesh['polygon_count']} polygons>"
+
+
+class Clip:
+    """An opened .anic file. With one mesh it is used as that: `clip[10]`, `clip.at(0.5)`, `clip.faces`; with several,
+    `clip.meshes` has them. Can be pickled; threads may share it."""
+
+    def __init__(self, data: bytes, quality: float = 1.0, max_bytes: int = 0):
+        self.data = bytes(data)  #: the file
+        self._asset = _anicodec.Asset(self.data, quality, max_bytes)
+        self._quality, self._max_bytes = quality, max_bytes
+        self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
+        self.info["up"] = UP[self.info["up"]]
+        self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
+
+    @property
+    def name(self) -> str:
+        return self.info["name"]
+
+    @property
+    def frame_count(self) -> int:
+        return self.info["frame_count"]
+
+    @property
+    def fps(self) -> Fraction:
+        """Frames per second."""
+        return Fraction(*self.info["rate"])
+
+    @property
+    def duration(self) -> float:
+        """Seconds from frame 0 to the last."""
+        return self.info["duration"]
+
+    @property
+    def mesh(self) -> Mesh:
+        """The only mesh. Raises InputError where there are several."""
+        if len(self.meshes) != 1:
+            raise InputError(f"the clip has {len(self.meshes)} meshes: choose one of clip.meshes")
+        return self.meshes[0]
+
+    def time(self, frame: int) -> float:
+        """Seconds at which a frame is shown."""
+        return self._asset.frame_time(range(self.frame_count)[frame])
+
+    def verify(self) -> None:
+        """Raises CorruptError if this machine decodes other numbers than the encoder meant."""
+        self._asset.verify()
+
+    def __len__(self) -> int:
+        return self.frame_count
+
+    def __iter__(self) -> Iterator[np.ndarray]:
+        return iter(self.mesh)
+
+    def __getitem__(self, frames: Union[int, slice, Any]) -> np.ndarray:
+        return self.mesh.frames(frames)
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_") and name in _OF_MESH:
+            return getattr(self.mesh, name)
+        raise AttributeError(f"a clip has no {name}")
+
+    def __reduce__(self) -> tuple:
+        return Clip, (self.data, self._quality, self._max_bytes)
+
+    def __repr__(self) -> str:
+        name = f" {self.name!r}" if self.name else ""
+        what = f"{self.meshes[0].vertex_count} vertices" if len(self.meshes) == 1 else f"{len(self.meshes)} meshes"
+        return (f"<anicodec.Clip{name}: {what}, {self.frame_count} frames at {float(self.fps):g} per second, "
+                f"{len(self.data)} bytes>")
+
+
+#: What a clip of one mesh passes on to it.
+_OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "polygons", "shown_in", "triangles",
+            "vertex_count"}
+
+
+def open(source: Any, quality: float = 1.0, max_bytes: int = 0) -> Clip:  # noqa: A001
+    """Opens a clip: a path, bytes (anything with the buffer protocol), or a file open for reading.
+
+    quality: share of the components to open, in (0, 1]. max_bytes: of memory, else LimitError; 0: by the size of the
+    file. Raises OSError, CorruptError, UnsupportedError, LimitError.
+    """
+    if isinstance(source, (str, os.PathLike)):
+        with builtins.open(source, "rb") as file:
+            source = file.read()
+    elif hasattr(source, "read"):
+        source = source.read()
+    if isinstance(source, str):
+        raise TypeError("the file must be open in binary mode")
+    return Clip(bytes(memoryview(source)), quality, max_bytes)

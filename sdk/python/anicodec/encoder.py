@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Encoding."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _anicodec, _arrays
+from .clip import DOMAINS, KINDS, UP, chosen
+from .errors import InputError
+
+_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _PLAIN_MESH = 1, 2, 4, 8, 16
+_GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5}
+_CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
+            "selection": {"pivot": 0, "gas": 1, "uniform": 2},
+            "interpolation": {"linear": 0, "msgi": 1, "auto": 2},
+            "massage": {"off": 0, "on": 1, "auto": 2},
+            "order": {"vertices": 0, "none": 1, "faces": 2}}
+_NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
+            "massage_tolerance", "normal_error")
+_UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
+
+Progress = Callable[[str, float], Optional[bool]]
+
+
+class Encoded(bytes):
+    """The bytes of a file, with what was measured of it: `measured["max_error"]`, "rmse", "kg", "diagonal"..."""
+
+    measured: Dict[str, Any]
+
+
+@dataclass
+class SourceMesh:
+    """A mesh of encode_meshes()."""
+
+    positions: Any  #: frames x vertices x 3, or a function of a frame that returns vertices x 3
+    faces: Any = None  #: see encode()
+    name: str = ""
+    vertex_count: Optional[int] = None  #: with a function alone
+    uv: Any = None  #: vertices x 2 or corners x 2; a mapping of names for several
+    colours: Any = None  #: vertices x 3 or 4, corners x 3 or 4, frames x vertices x 3 or 4; 0 to 1
+    normals: Any = None  #: vertices x 3 or corners x 3
+    custom: Mapping[str, Any] = field(default_factory=dict)  #: other numbers, as colours
+    materials: Optional[Tuple[Sequence[str], Any]] = None  #: names, and for each polygon a number of one or -1
+    parts: Optional[Tuple[Sequence[str], Any]] = None  #: the same of objects
+    runs: Sequence[Tuple[int, int]] = ()  #: first and count of the frames that show it; none: all
+
+
+def _length(value: Any, name: str) -> Tuple[float, bool]:
+    """A number of scene units, or a text "0.05%"."""
+    percent = isinstance(value, str) and value.strip().endswith("%")
+    try:
+        return float(value.strip().rstrip("%") if isinstance(value, str) else value), percent
+    except (TypeError, ValueError):
+        raise InputError(f"{name} must be a number or a text as '0.05%', not {value!r}") from None
+
+
+def _size(value: Any) -> float:
+    """A number of bytes, or a text "40k"."""
+    factors = {"k": 1e3, "M": 1e6, "G": 1e9}
+    try:
+        if isinstance(value, str) and value[-1:] in factors:
+            return float(value[:-1]) * factors[value[-1]]
+        return float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"size must be a number of bytes or a text as '40k', not {value!r}") from None
+
+
+def _goal(options: Dict[str, Any]) -> Dict[str, Any]:
+    """The target among the options, taken out of them."""
+    given = {name: options.pop(name) for name in _GOALS if options.get(name) is not None}
+    choices: Dict[str, Any] = {"flags": 0}
+    cap = given.pop("max_error", None) if len(given) > 1 else None
+    if len(given) > 1:
+        raise InputError(f"{' and '.join(given)} are two targets; there is one, and max_error may stand beside it")
+    for name, value in given.items():
+        number, percent = (_length(value, name) if name in ("max_error", "rmse") else
+                           (_size(value) if name == "size" else _length(value, name)[0], False))
+        if not number > 0 or not np.isfinite(number):
+            raise InputError(f"{name} must be greater than 0, not {value!r}")
+        choices.update(goal=_GOALS[name], goal_value=number)
+        choices["flags"] |= _PERCENT if percent else 0
+    if cap is not None:
+        choices["max_error"], percent = _length(cap, "max_error")
+        choices["flags"] |= _CAP_PERCENT if percent else 0
+    return choices
+
+
+def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
+    """Options as the extension module takes them. What it does not know is an error."""
+    choices = _goal(options)
+    for name, table in _CHOICES.items():
+        value = options.pop(name, None)
+        if value is not None:
+            choices[name] = chosen(table, value, name)
+    for name in _NUMBERS:
+        value = options.pop(name, None)
+        if value is not None:
+            choices[name] = value
+    error = options.pop("attribute_error", None)
+    if error is not None:
+        choices["attribute_error"], percent = _length(error, "attribute_error")
+        choices["flags"] |= _ERROR_PERCENT if percent else 0
+    if options.pop("no_attributes", False):
+        choices["flags"] |= _NO_ATTRIBUTES
+    coder = options.pop("mesh_coder", "draco")
+    choices["flags"] |= _PLAIN_MESH if chosen({"draco": 0, "plain": 1}, coder, "mesh_coder") else 0
+    if options:
+        raise TypeError(f"encode() has no option {next(iter(options))!r}")
+    return choices
+
+
+def _rate(fps: Any) -> Tuple[int, int]:
+    if fps is None:
+        return 0, 1
+    rate = Fraction(fps).limit_denominator(100000)
+    if rate <= 0:
+        raise InputError(f"fps must be greater than 0, not {fps!r}")
+    return rate.numerator, rate.denominator
+
+
+def _named(values: Any) -> Dict[str, Any]:
+    if values is None:
+        return {}
+    return dict(values) if isinstance(values, Mapping) else {"": values}
+
+
+class _Adder:
+    """Adds a mesh and its attributes to an encoder."""
+
+    def __init__(self, encoder: Any, number: int, mesh: SourceMesh, frame_count: int):
+        self._encoder, self._number = encoder, number
+        self._frames = sum(count for _, count in mesh.runs) if mesh.runs else frame_count
+        self._offsets, self._corners = _arrays.polygons(mesh.faces)
+        positions: Any = mesh.positions
+        if callable(positions):
+            if mesh.vertex_count is None:
+                raise InputError("vertex_count is needed where positions are a function")
+            vertices = mesh.vertex_count
+            source = positions
+
+            def positions(frame: int) -> np.ndarray:
+                array = _arrays.floats(source(frame), "positions")
+                if array.shape != (vertices, 3):
+                    raise InputError(f"frame {frame}: positions must be {vertices} x 3, "
+                                     f"not {_arrays.shape_text(array)}")
+                return array
+        else:
+            positions = _arrays.frames(positions)
+            vertices = positions.shape[1]
+            if positions.shape[0] != self._frames:
+                raise InputError(f"positions have {positions.shape[0]} frames of {self._frames}")
+        self._counts = (vertices, len(self._corners), len(self._offsets) - 1)
+        encoder.add_mesh(mesh.name, vertices, self._offsets, self._corners, positions, list(mesh.runs))
+        for name, values in _named(mesh.uv).items():
+            self._values(name, "uv", values, (2,))
+        for name, values in _named(mesh.colours).items():
+            self._values(name, "colour", values, (3, 4))
+        for name, values in _named(mesh.normals).items():
+            self._values(name, "normal", values, (3,))
+        for name, values in mesh.custom.items():
+            self._values(name, "custom", values, tuple(range(1, 17)))
+        for kind, labels in (("material", mesh.materials), ("part", mesh.parts)):
+            if labels is not None:
+                self._labels(kind, *labels)
+
+    def _values(self, name: str, kind: str, given: Any, components: Tuple[int, ...]) -> None:
+        what = f"{kind} {name!r}" if name else kind
+        values = _arrays.floats(given, what)
+        vertices, corners, _ = self._counts
+        moving = values.ndim == 3
+        frames = values.shape[0] if moving else 1
+        elements = values.shape[1 if moving else 0] if values.ndim in (2, 3) else -1
+        if elements not in (vertices, corners) or values.shape[-1] not in components:
+            wanted = " or ".join(map(str, components)) if len(components) < 5 else "1 to 16"
+            raise InputError(f"{what} must be {vertices} vertices or {corners} corners x {wanted}, "
+                             f"not {_arrays.shape_text(values)}")
+        domain = DOMAINS.index("vertices" if elements == vertices else "corners")
+        self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, values.shape[-1], frames, values,
+                                    None, [])
+
+    def _labels(self, kind: str, names: Sequence[str], of_polygon: Any) -> None:
+        labels = np.asarray(of_polygon)
+        if labels.shape != (self._counts[2],):
+            raise InputError(f"{kind}s must be a number for each of {self._counts[2]} polygons, "
+                             f"not {_arrays.shape_text(labels)}")
+        self._encoder.add_attribute(self._number, "", KINDS.index(kind), DOMAINS.index("polygons"), 0, 1, None,
+                                    _arrays.indices(labels.astype(np.int64) + 1, kind), list(names))
+
+
+def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = None, fps: Any = None, name: str = "",
+                  times: Any = None, start_time: float = 0, up: Optional[str] = None,
+                  unit: Union[None, float, str] = None, loop: bool = False, progress: Optional[Progress] = None,
+                  **options: Any) -> Encoded:
+    """Encodes several meshes to one file; arguments and options are those of encode().
+
+    frame_count is needed only where no mesh is shown in all frames by an array.
+    """
+    meshes = list(meshes)
+    if not meshes:
+        raise InputError("there is no mesh to encode")
+    if frame_count is None:
+        counts = [len(mesh.positions) for mesh in meshes if not callable(mesh.positions) and not mesh.runs]
+        if not counts:
+            raise InputError("frame_count is needed")
+        frame_count = counts[0]
+    choices = _choices(dict(options))
+    metres = _UNITS.get(unit) if isinstance(unit, str) else float(unit or 0)
+    if metres is None:
+        raise InputError(f"unit is a number of metres or one of {', '.join(_UNITS)}, not {unit!r}")
+    if up not in UP:
+        raise InputError(f"up is 'y', 'z' or None, not {up!r}")
+    numerator, denominator = _rate(fps)
+    table = None if times is None else np.ascontiguousarray(times, dtype=np.float64)
+    if table is not None and table.shape != (frame_count,):
+        raise InputError(f"times must be {frame_count} seconds, not {_arrays.shape_text(table)}")
+    if frame_count < 1 or frame_count >= 2**24:
+        raise InputError("the sequence has no frame" if frame_count < 1 else "at most 2^24 - 1 frames are possible")
+    encoder = _anicodec.Encoder()
+    encoder.set_clip(name, frame_count, numerator, denominator, UP.index(up), loop, start_time, metres, table)
+    keep: List[_Adder] = [_Adder(encoder, i, mesh, frame_count) for i, mesh in enumerate(meshes)]
+    data, measured = encoder.encode(choices, progress)
+    del keep
+    result = Encoded(data)
+    result.measured = measured
+    return result
+
+
+def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = None, normals: Any = None,
+           custom: Optional[Mapping[str, Any]] = None, materials: Any = None, parts: Any = None,
+           vertex_count: Optional[int] = None, **options: Any) -> Encoded:
+    """Encodes a mesh in motion to the bytes of an .anic file, the same that the command writes.
+
+    positions: frames x vertices x 3, numbers of any kind and stride, in scene units; or a function that returns
+        vertices x 3 for a frame, with vertex_count= and frame_count=.
+    faces: polygons x corners, a list of polygons, a pair (offsets, corners), or None.
+    One target: max_error (default "0.05%"), rmse: scene units, or a text in per cent of the diagonal; kg: per cent;
+        size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other.
+    uv, colours, normals, custom, materials, parts: see SourceMesh.
+    fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop: stored.
+    basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
+        interpolation ("linear", "msgi", "auto"), massage ("off", "on", "auto"), massage_strength, massage_tolerance,
+        order ("vertices", "none", "faces"), effort (1 to 9), mesh_coder ("draco", "plain"), uv_bits, colour_bits,
+        attribute_error, normal_error (degrees), no_attributes: as of the command.
+    threads: 0 for all. max_bytes: of memory, else LimitError.
+    progress: a function of the stage and the share of it that is done; False from it raises Cancelled, and what it
+        raises ends the encoding too.
+
+    Raises InputError (a ValueError), LimitError, Cancelled, TypeError. The GIL is released.
+    """
+    mesh = SourceMesh(positions, faces, vertex_count=vertex_count, uv=uv, colours=colours, normals=normals,
+                      custom=custom or {}, materials=materials, parts=parts)
+    if not callable(positions):
+        mesh.positions = _arrays.frames(positions)
+    return encode_meshes([mesh], **options)

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Opened clips.
+#include "sdk/python/binding/binding.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+namespace anicodec::python {
+namespace {
+
+struct CloseAsset {
+  void operator()(anic_asset* asset) const { anic_close_asset(asset); }
+};
+
+struct DestroyContext {
+  void operator()(anic_context* context) const { anic_destroy_context(context); }
+};
+
+struct DestroyPlan {
+  void operator()(anic_normal_plan* plan) const { anic_destroy_normal_plan(plan); }
+};
+
+/// How normals of a mesh are made.
+class NormalPlan {
+ public:
+  NormalPlan(const anic_asset* asset, uint32_t mesh, double crease, uint32_t frame, bool per_corner,
+             bool source_edges) {
+    anic_normal_plan_options options = ANIC_INIT(anic_normal_plan_options);
+    options.crease_angle = crease;
+    options.reference_frame = frame;
+    options.per_corner = per_corner;
+    options.source_edges = source_edges;
+    anic_normal_plan* plan = nullptr;
+    check_status(anic_create_normal_plan(asset, mesh, &options, nullptr, &plan));
+    plan_.reset(plan);
+  }
+
+  size_t count() const { return anic_get_normal_count(plan_.get()); }
+
+  void write(const Array<float>& positions, Writable<float> normals) const {
+    anic_output out = ANIC_INIT(anic_output);
+    out.data = normals.data();
+    out.size = normals.nbytes();
+    const nb::gil_scoped_release release;
+    check_status(anic_write_normals(plan_.get(), positions.data(), 0, 0,
+                                    static_cast<uint32_t>(count()), &out));
+  }
+
+ private:
+  std::unique_ptr<anic_normal_plan, DestroyPlan> plan_;
+};
+
+/// An opened file, with a context for times between frames.
+class Asset {
+ public:
+  Asset(const nb::bytes& file, double quality, uint64_t max_bytes) {
+    anic_options options = ANIC_INIT(anic_options);
+    options.quality = quality;
+    options.max_bytes = max_bytes;
+    anic_failure failure = ANIC_INIT(anic_failure);
+    anic_asset* asset = nullptr;
+    anic_context* context = nullptr;
+    const void* bytes = file.data();
+    const size_t size = file.size();
+    anic_status status;
+    {
+      const nb::gil_scoped_release release;
+      status = anic_open_asset(bytes, size, &options, &asset, &failure);
+    }
+    if (status != ANIC_OK)
+      raise(status, text_of(failure));
+    asset_.reset(asset);
+    check_status(anic_create_context(asset, nullptr, &context));
+    context_.reset(context);
+    anic_get_asset_info(asset, &info_);
+  }
+
+  nb::dict info() const {
+    nb::dict d;
+    d["name"] = info_.name;
+    d["encoder"] = info_.encoder;
+    d["mesh_count"] = info_.mesh_count;
+    d["segment_count"] = info_.segment_count;
+    d["frame_count"] = info_.frame_count;
+    d["rate"] = nb::make_tuple(info_.rate_numerator, info_.rate_denominator);
+    d["rate_assumed"] = info_.rate_assumed != 0;
+    d["uneven"] = info_.uneven != 0;
+    d["loop"] = info_.loop != 0;
+    d["closed"] = info_.closed != 0;
+    d["massaged"] = info_.massaged != 0;
+    d["up"] = static_cast<int>(info_.up);
+    d["order"] = static_cast<int>(info_.order);
+    d["start_time"] = info_.start_time;
+    d["duration"] = info_.duration;
+    d["loop_duration"] = info_.loop_duration;
+    d["metres_per_unit"] = info_.metres_per_unit;
+    d["diagonal"] = info_.diagonal;
+    d["max_error"] = info_.max_error;
+    d["rmse"] = info_.rmse;
+    d["kg"] = info_.kg;
+    d["surface_error"] = info_.surface_error;
+    d["resident_bytes"] = info_.resident_bytes;
+    return d;
+  }
+
+  nb::dict mesh(uint32_t number) const {
+    anic_mesh mesh = ANIC_INIT(anic_mesh);
+    check_status(anic_get_mesh(asset_.get(), number, &mesh));
+    nb::dict d;
+    d["name"] = mesh.name;
+    d["vertex_count"] = mesh.vertex_count;
+    d["polygon_count"] = mesh.polygon_count;
+    d["corner_count"] = mesh.corner_count;
+    d["triangle_count"] = mesh.triangle_count;
+    d["attribute_count"] = mesh.attribute_count;
+    return d;
+  }
+
+  nb::tuple polygons(uint32_t mesh) const {
+    anic_polygons polygons = ANIC_INIT(anic_polygons);
+    check_status(anic_get_polygons(asset_.get(), mesh, &polygons));
+    const size_t count = polygons.polygon_count;
+    return nb::make_tuple(copied(polygons.offsets, count + 1),
+                          copied(polygons.corners, polygons.offsets[count]));
+  }
+
+  nb::ndarray<nb::numpy, uint32_t> triangles(uint32_t number) const {
+    anic_mesh mesh = ANIC_INIT(anic_mesh);
+    check_status(anic_get_mesh(asset_.get(), number, &mesh));
+    auto result = new_array<uint32_t>({mesh.triangle_count, 3});
+    check_status(anic_write_indices(asset_.get(), number, 4, result.data(), result.nbytes()));
+    return result;
+  }
+
+  nb::dict attribute(uint32_t mesh, uint32_t number) const {
+    anic_attribute a = ANIC_INIT(anic_attribute);
+    check_status(anic_get_attribute(asset_.get(), mesh, number, &a));
+    nb::dict d;
+    d["name"] = a.name;
+    d["kind"] = static_cast<int>(a.kind);
+    d["domain"] = static_cast<int>(a.domain);
+    d["components"] = a.components;
+    d["moves"] = a.moves != 0;
+    if (a.components > 0) {
+      auto values = new_array<float>({a.count, a.components});
+      if (values.nbytes() > 0)
+        std::memcpy(values.data(), a.values, values.nbytes());
+      d["values"] = values;
+    } else {
+      d["values"] = copied(a.labels, a.count);
+      nb::list names;
+      for (uint32_t i = 0; i < a.label_count; ++i)
+        names.append(anic_get_label_name(asset_.get(), mesh, number, i));
+      d["labels"] = names;
+    }
+    return d;
+  }
+
+  double frame_time(uint32_t frame) const { return anic_get_frame_time(asset_.get(), frame); }
+
+  /// Fills frames x vertices x 3.
+  void frames(uint32_t mesh, const std::vector<uint32_t>& numbers, Writable<float> out) {
+    const size_t count = numbers.size();
+    if (count == 0)
+      return;
+    const nb::gil_scoped_release release;
+    const size_t bytes = out.nbytes() / count;
+    auto* to = reinterpret_cast<unsigned char*>(out.data());
+    const auto vertices = static_cast<uint32_t>(bytes / (3 * sizeof(float)));
+    for (size_t first = 0; first < count; first += ANIC_MAX_FRAMES) {
+      const auto n = static_cast<uint32_t>(std::min<size_t>(ANIC_MAX_FRAMES, count - first));
+      anic_output outputs[ANIC_MAX_FRAMES];
+      for (uint32_t i = 0; i < n; ++i) {
+        outputs[i] = ANIC_INIT(anic_output);
+        outputs[i].data = to + (first + i) * bytes;
+        outputs[i].size = bytes;
+      }
+      const anic_status status =
+          anic_write_frames(asset_.get(), mesh, &numbers[first], n, 0, vertices, outputs);
+      if (status == ANIC_E_STATE)
+        single_frames(mesh, &numbers[first], n, vertices, outputs);
+      else
+        check_status(status);
+    }
+  }
+
+  /// Fills vertices x 3 with a time.
+  void at(uint32_t mesh, double seconds, int sampling, int wrap, Writable<float> out) {
+    anic_output output = ANIC_INIT(anic_output);
+    output.data = out.data();
+    output.size = out.nbytes();
+    const auto vertices = static_cast<uint32_t>(out.nbytes() / (3 * sizeof(float)));
+    const nb::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    seek(seconds, sampling, wrap);
+    check_status(
+        anic_write_positions(context_.get(), mesh, ANIC_WHEN_CURRENT, 0, vertices, &output));
+  }
+
+  /// Fills vertices x components with an attribute at a time.
+  void attribute_at(uint32_t mesh, uint32_t attribute, double seconds, int sampling, int wrap,
+                    Writable<float> out, uint32_t vertices) {
+    anic_value_output output = ANIC_INIT(anic_value_output);
+    output.data = out.data();
+    output.size = out.nbytes();
+    const nb::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    seek(seconds, sampling, wrap);
+    check_status(anic_write_attribute(context_.get(), mesh, attribute, ANIC_WHEN_CURRENT, 0,
+                                      vertices, &output));
+  }
+
+  NormalPlan* normal_plan(uint32_t mesh, double crease, uint32_t frame, bool per_corner,
+                          bool source_edges) const {
+    return new NormalPlan(asset_.get(), mesh, crease, frame, per_corner, source_edges);
+  }
+
+  bool shows(uint32_t mesh, uint32_t frame) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    check_status(anic_seek_frame(context_.get(), frame));
+    anic_output nothing = ANIC_INIT(anic_output);
+    float none = 0;
+    nothing.data = &none;
+    const anic_status status =
+        anic_write_positions(context_.get(), mesh, ANIC_WHEN_CURRENT, 0, 0, &nothing);
+    if (status != ANIC_E_ABSENT)
+      check_status(status);
+    return status == ANIC_OK;
+  }
+
+  void verify() const {
+    const nb::gil_scoped_release release;
+    check_status(anic_verify_asset(asset_.get()));
+  }
+
+ private:
+  static std::string text_of(const anic_failure& failure) {
+    std::string text = anic_get_status_text(failure.status);
+    if (*failure.detail)
+      text += " (" + std::string(failure.detail) + ")";
+    return "offset " + std::to_string(failure.offset) +
+           (failure.chunk[0] ? ", chunk " + std::string(failure.chunk) : "") + ": " + text;
+  }
+
+  void seek(double seconds, int sampling, int wrap) {
+    check_status(anic_seek_time(context_.get(), seconds, static_cast<anic_sampling>(sampling),
+                                static_cast<anic_wrap>(wrap)));
+  }
+
+  /// Frames of a segment that needs the memory of a context.
+  void single_frames(uint32_t mesh, const uint32_t* numbers, uint32_t count, uint32_t vertices,
+                     const anic_output* outputs) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (uint32_t i = 0; i < count; ++i) {
+      check_status(anic_seek_frame(context_.get(), numbers[i]));
+      check_status(
+          anic_write_positions(context_.get(), mesh, ANIC_WHEN_CURRENT, 0, vertices, &outputs[i]));
+    }
+  }
+
+  std::unique_ptr<anic_asset, CloseAsset> asset_;
+  std::unique_ptr<anic_context, DestroyContext> context_;
+  std::mutex mutex_;
+  anic_asset_info info_ = ANIC_INIT(anic_asset_info);
+};
+
+}  // namespace
+
+void bind_clip(nb::module_& module) {
+  nb::class_<NormalPlan>(module, "NormalPlan")
+      .def_prop_ro("count", &NormalPlan::count)
+      .def("write", &NormalPlan::write);
+  nb::class_<Asset>(module, "Asset")
+      .def(nb::init<const nb::bytes&, double, uint64_t>())
+      .def("info", &Asset::info)
+      .def("mesh", &Asset::mesh)
+      .def("polygons", &Asset::polygons)
+      .def("triangles", &Asset::triangles)
+      .def("attribute", &Asset::attribute)
+      .def("frame_time", &Asset::frame_time)
+      .def("frames", &Asset::frames)
+      .def("at", &Asset::at)
+      .def("attribute_at", &Asset::attribute_at)
+      .def("normal_plan", &Asset::normal_plan, nb::rv_policy::take_ownership,
+           nb::keep_alive<0, 1>())
+      .def("shows", &Asset::shows)
+      .def("verify", &Asset::verify);
+}
+
+}  // namespace anicodec::python

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Opened clips."""
+import io
+import pickle
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import anicodec
+
+
+def test_frames_keep_the_promise(wave, clip):
+    positions, faces = wave
+    assert len(clip) == 24 and clip.name == "wave" and clip.fps == 24 and clip.frame_count == 24
+    assert np.linalg.norm(clip[:] - positions, axis=2).max() <= clip.info["max_error"] * (1 + 1e-3)
+    assert clip[3].shape == (144, 3) and clip[3].dtype == np.float32
+    assert np.array_equal(clip[-1], clip[23])
+    assert np.array_equal(clip[20:2:-3], np.stack([clip[f] for f in range(20, 2, -3)]))
+    assert np.array_equal(clip[[5, 1, 5]], np.stack([clip[5], clip[1], clip[5]]))
+    assert np.array_equal(np.stack(list(clip)), clip[:])
+    assert clip[7:7].shape == (0, 144, 3)
+    for wrong in (24, -25):
+        with pytest.raises(IndexError):
+            clip[wrong]
+    with pytest.raises(IndexError):
+        clip[[0, 24]]
+    with pytest.raises(TypeError):
+        clip[1.5]
+
+
+def test_faces(wave, clip):
+    assert clip.faces.shape == wave[1].shape
+    assert {frozenset(face) for face in clip.faces.tolist()} == {frozenset(face) for face in wave[1].tolist()}
+    assert clip.triangles.shape == (242, 3)
+    mixed = anicodec.open(anicodec.encode(wave[0], [(0, 1, 2), (1, 2, 3, 4)], order="faces", effort=1))
+    offsets, corners = mixed.faces
+    assert offsets.tolist() == [0, 3, 7] and corners.tolist() == [0, 1, 2, 1, 2, 3, 4]
+    assert anicodec.encode(mixed[:], mixed.faces, effort=1)
+
+
+def test_times(clip):
+    assert np.array_equal(clip.at(5 / 24), clip[5])
+    middle = clip.at(5.5 / 24)
+    assert np.allclose(middle, (clip[5] + clip[6]) / 2, atol=1e-5)
+    assert np.array_equal(clip.at(5.5 / 24, sampling="step"), clip[5])
+    assert np.array_equal(clip.at(25 / 24, loop=True), clip.at(1 / 24))
+    assert np.array_equal(clip.at(9), clip[23])
+    assert clip.time(12) == pytest.approx(0.5)
+    with pytest.raises(ValueError, match="one of step, linear, cubic, not 'fast'"):
+        clip.at(0, sampling="fast")
+    with pytest.raises(ValueError):
+        clip.at(float("nan"))
+
+
+def test_out(clip):
+    out = np.zeros((144, 3), np.float32)
+    assert clip.frames(4, out=out) is out and np.array_equal(out, clip[4])
+    assert clip.at(0.1, out=out) is out
+    for wrong in (np.zeros((144, 3)), np.zeros((143, 3), np.float32), np.zeros((3, 144), np.float32).T,
+                  np.zeros((144, 3), ">f4")):
+        with pytest.raises(ValueError, match="out must be"):
+            clip.frames(4, out=wrong)
+    out.flags.writeable = False
+    with pytest.raises(ValueError, match="writeable"):
+        clip.frames(4, out=out)
+    with pytest.raises(TypeError):
+        clip.frames(4, out=[0])
+
+
+def test_normals(clip):
+    normals = clip.normals(3)
+    assert normals.shape == (144, 3)
+    assert np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-5)
+    assert np.array_equal(clip.normals(clip[3]), normals)
+    assert clip.normals(3, per_corner=True, crease=0.001).shape == (4 * 121, 3)
+    with pytest.raises(ValueError, match="must be 144 x 3"):
+        clip.normals(np.zeros((2, 3)))
+
+
+def test_moving_attribute(wave):
+    positions, faces = wave
+    colours = np.clip(positions * [1, 1, 5] * 0.5 + 0.25, 0, 1)
+    clip = anicodec.open(anicodec.encode(positions, faces, colours=colours, effort=1))
+    assert clip.attributes[0].moves
+    assert np.abs(clip.attribute_at(0, 7 / 24) - colours[7]).max() < 0.01
+    with pytest.raises(ValueError):
+        clip.attribute_at(1, 0)
+
+
+def test_opens_anything(tmp_path, clip):
+    path = tmp_path / "wave.anic"
+    path.write_bytes(clip.data)
+    for source in (path, str(path), clip.data, bytearray(clip.data), memoryview(clip.data), io.BytesIO(clip.data),
+                   np.frombuffer(clip.data, np.uint8)):
+        assert np.array_equal(anicodec.open(source)[2], clip[2])
+    with open(path, "rb") as file:
+        assert anicodec.open(file).data == clip.data
+    with pytest.raises(FileNotFoundError):
+        anicodec.open(tmp_path / "none.anic")
+    with open(path, encoding="latin-1") as file, pytest.raises(TypeError):
+        anicodec.open(file)
+    clip.verify()
+
+
+def test_pickle_and_repr(clip):
+    again = pickle.loads(pickle.dumps(clip))
+    assert np.array_equal(again[5], clip[5])
+    assert repr(clip) == f"<anicodec.Clip 'wave': 144 vertices, 24 frames at 24 per second, {len(clip.data)} bytes>"
+    assert repr(clip.mesh) == "<anicodec.Mesh: 144 vertices, 121 polygons>"
+    with pytest.raises(AttributeError):
+        clip.colour
+
+
+def test_damaged_files(clip):
+    data = clip.data
+    with pytest.raises(anicodec.CorruptError, match="^offset "):
+        anicodec.open(data[:-3])
+    with pytest.raises(ValueError):
+        anicodec.open(b"")
+    with pytest.raises(ValueError):
+        anicodec.open(b"no clip at all" * 9)
+    for place in range(0, len(data), 37):
+        damaged = bytearray(data)
+        damaged[place] ^= 0x55
+        with pytest.raises(anicodec.AnicodecError):
+            anicodec.open(damaged)
+    with pytest.raises(MemoryError):
+        anicodec.open(data, max_bytes=100)
+    with pytest.raises(ValueError):
+        anicodec.open(data, quality=2)
+
+
+def test_threads_share_a_clip(clip):
+    expected = [clip.at(f / 50) for f in range(40)]
+    with ThreadPoolExecutor(4) as pool:
+        for found, wanted in zip(pool.map(lambda f: clip.at(f / 50), range(40)), expected):
+            assert np.array_equal(found, wanted)

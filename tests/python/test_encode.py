@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Encoding from arrays."""
+import pathlib
+import struct
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import anicodec
+
+
+def read_pc2(path):
+    data = path.read_bytes()
+    vertices, frames = struct.unpack_from("<i", data, 16)[0], struct.unpack_from("<i", data, 28)[0]
+    return np.frombuffer(data, "<f4", offset=32).reshape(frames, vertices, 3)
+
+
+def read_faces(path):
+    lines = (line.split()[1:] for line in path.read_text().splitlines() if line.startswith("f "))
+    return [[int(corner.split("/")[0]) - 1 for corner in line] for line in lines]
+
+
+@pytest.mark.parametrize("target", [("max_error", "0.1%"), ("kg", 0.5), ("size", "9k"), ("rmse", 0.01)])
+def test_same_bytes_as_the_command(tmp_path, command, target):
+    command("corpus", "limb", "-q", "--vertices", 300, "--frame-count", 20, "-o", tmp_path / "limb.pc2")
+    name, value = target
+    command("encode", "-q", "limb.obj", "limb.pc2", "-o", "limb.anic", "--fps", 25, "--no-attributes", "--effort", 2,
+            "--" + name.replace("_", "-"), value, cwd=tmp_path)
+    data = anicodec.encode(read_pc2(tmp_path / "limb.pc2"), read_faces(tmp_path / "limb.obj"), name="limb", fps=25,
+                           effort=2, no_attributes=True, up=anicodec.open(tmp_path / "limb.anic").info["up"],
+                           **{name: value})
+    assert data == (tmp_path / "limb.anic").read_bytes()
+
+
+def test_every_kind_of_array_gives_the_same_bytes(wave):
+    positions, faces = wave
+    expected = anicodec.encode(positions, faces, effort=1)
+    wide = np.zeros((2 * len(positions), positions.shape[1], 5))
+    wide[::2, :, 1:4] = positions
+    forms = [positions.astype(np.float64), positions.astype(">f4"), positions.astype(">f8"), wide[::2, :, 1:4],
+             np.asfortranarray(positions), positions[::-1][::-1], positions.tolist()]
+    for form in forms:
+        assert anicodec.encode(form, faces, effort=1) == expected
+    frozen = positions.copy()
+    frozen.flags.writeable = False
+    for same in (faces.astype(np.int64), faces.tolist(), [list(face) for face in faces], faces.astype(">u2"),
+                 (np.arange(0, faces.size + 1, 4), faces.ravel())):
+        assert anicodec.encode(frozen, same, effort=1, threads=1) == expected
+
+
+def test_frames_by_a_function(wave):
+    positions, faces = wave
+    asked = []
+
+    def frame(number):
+        asked.append(number)
+        return positions[number].astype(np.float64)
+
+    data = anicodec.encode(frame, faces, vertex_count=positions.shape[1], frame_count=len(positions), effort=1)
+    assert data == anicodec.encode(positions, faces, effort=1)
+    assert asked == list(range(len(positions)))
+    with pytest.raises(ZeroDivisionError):
+        anicodec.encode(lambda number: 1 / 0, None, vertex_count=9, frame_count=2)
+    with pytest.raises(anicodec.InputError, match="frame 0: positions must be 9 x 3, not 4 x 3"):
+        anicodec.encode(lambda number: positions[0, :4], None, vertex_count=9, frame_count=2)
+
+
+def test_attributes_and_labels_come_back(wave):
+    positions, faces = wave
+    uv = positions[0, :, :2]
+    colours = np.broadcast_to(uv[None, :, :1], (len(positions), len(uv), 3))
+    materials = (["skin", "cloth"], np.arange(len(faces)) % 3 - 1)
+    data = anicodec.encode(positions, faces, uv=uv, colours={"tint": colours}, materials=materials, order="faces",
+                           custom={"heat": positions[0, :, :1]}, effort=1)
+    by_kind = {attribute.kind: attribute for attribute in anicodec.open(data).attributes}
+    assert np.abs(by_kind["uv"].values - uv).max() < 2**-12
+    assert by_kind["colour"].name == "tint" and not by_kind["colour"].moves
+    assert by_kind["custom"].name == "heat" and by_kind["custom"].values.shape == (len(uv), 1)
+    assert by_kind["material"].labels == ("skin", "cloth")
+    assert np.array_equal(by_kind["material"].values, np.arange(len(faces)) % 3)
+    corners = np.random.default_rng(1).random((faces.size, 2))
+    found = anicodec.open(anicodec.encode(positions, faces, uv=corners, order="faces", effort=1)).attributes[0]
+    assert found.domain == "corners" and np.abs(found.values - corners).max() < 2**-12
+
+
+def test_several_meshes(wave):
+    positions, faces = wave
+    guest = anicodec.SourceMesh(positions[:6] + 2, faces, name="guest", runs=[(3, 4), (10, 2)])
+    data = anicodec.encode_meshes([anicodec.SourceMesh(positions, faces, name="host"), guest], fps="30000/1001")
+    clip = anicodec.open(data)
+    assert [mesh.name for mesh in clip.meshes] == ["host", "guest"]
+    assert clip.fps.numerator == 30000 and clip.fps.denominator == 1001
+    assert [f for f in range(24) if clip.meshes[1].shown_in(f)] == [3, 4, 5, 6, 10, 11]
+    assert np.abs(clip.meshes[1][10] - positions[4] - 2).max() < 0.01
+    with pytest.raises(anicodec.AbsentError):
+        clip.meshes[1][0]
+    with pytest.raises(anicodec.InputError, match="2 meshes"):
+        clip[0]
+    with pytest.raises(anicodec.InputError, match="shared out"):
+        anicodec.encode_meshes([guest, guest], frame_count=24, size=4000)
+
+
+def test_progress_and_cancelling(wave):
+    seen = []
+    anicodec.encode(*wave, effort=1, progress=lambda stage, done: seen.append((stage, done)))
+    assert {stage for stage, _ in seen} == {"reading", "encoding"}
+    assert all(0 <= done <= 1 for _, done in seen)
+    with pytest.raises(anicodec.Cancelled):
+        anicodec.encode(*wave, progress=lambda stage, done: stage == "reading")
+
+    def fail(stage, done):
+        raise KeyError(stage)
+
+    with pytest.raises(KeyError, match="reading"):
+        anicodec.encode(*wave, progress=fail)
+
+
+def test_other_threads_run_while_it_encodes(wave):
+    worker = threading.Thread(target=anicodec.encode, args=wave, kwargs={"effort": 5})
+    worker.start()
+    turns = 0
+    while worker.is_alive():
+        turns += 1
+    assert turns > 1000
+
+
+NAN = np.full((3, 4, 3), 0.5)
+NAN[2, 1, 0] = np.nan
+HUGE = np.full((1, 1, 3), 1e300)
+GOOD = np.random.default_rng(2).random((3, 4, 3))
+
+
+@pytest.mark.parametrize("positions, faces, options, text", [
+    (GOOD[0], None, {}, "frames x vertices x 3, not 4 x 3"),
+    (GOOD[:, :, :2], None, {}, "frames x vertices x 3, not 3 x 4 x 2"),
+    (GOOD[:0], None, {}, "no frame"),
+    (GOOD[:, :0], None, {}, "no vertex"),
+    (GOOD.astype(complex), None, {}, "must be numbers, not complex128"),
+    (np.full((1, 1, 3), "x"), None, {}, "must be numbers"),
+    (NAN, None, {}, "frame 2, vertex 1: the position is not finite"),
+    (HUGE, None, {}, "frame 0, vertex 0: the position is not finite"),
+    (GOOD, [(0, 1, 4)], {}, "face 0 uses vertex 4 of 4"),
+    (GOOD, [(0, 1, -1)], {}, "-1 is out of range"),
+    (GOOD, np.array([[0.5, 1, 2]]), {}, "must be integers, not float64"),
+    (GOOD, np.array([0, 1, 2]), {}, "polygons x corners, not 3"),
+    (GOOD, None, {"max_error": 0}, "greater than 0"),
+    (GOOD, None, {"max_error": "a lot"}, "'0.05%', not 'a lot'"),
+    (GOOD, None, {"kg": 1, "size": 2}, "two targets"),
+    (GOOD, None, {"kg": float("nan")}, "greater than 0"),
+    (GOOD, None, {"size": "4x"}, "'40k', not '4x'"),
+    (GOOD, None, {"effort": 10}, "from 1 to 9, not 10"),
+    (GOOD, None, {"basis": "magic"}, "not 'magic'"),
+    (GOOD, None, {"keyframes": 4}, "than the clip has frames"),
+    (GOOD, None, {"fps": 0}, "fps must be greater than 0"),
+    (GOOD, None, {"unit": "parsec"}, "not 'parsec'"),
+    (GOOD, None, {"up": "x"}, "not 'x'"),
+    (GOOD, None, {"uv": GOOD[0]}, "uv must be 4 vertices or 0 corners x 2, not 4 x 3"),
+    (GOOD, None, {"times": [0, 2, 1]}, "ascend"),
+    (GOOD, [(0, 1, 2)], {"materials": (["a"], [1])}, "label 2 of 1"),
+])
+def test_bad_input_is_named(positions, faces, options, text):
+    with pytest.raises(ValueError) as caught:
+        anicodec.encode(positions, faces, **options)
+    assert isinstance(caught.value, anicodec.InputError)
+    assert text in str(caught.value)
+
+
+def test_limits_and_types():
+    with pytest.raises(MemoryError):
+        anicodec.encode(GOOD, max_bytes=100)
+    with pytest.raises(TypeError, match="no option 'sise'"):
+        anicodec.encode(GOOD, sise=3)
+    with pytest.raises(TypeError):
+        anicodec.encode(GOOD, effort="high")
+
+
+def test_the_page_runs(tmp_path):
+    page = pathlib.Path(__file__).parents[2] / "sdk" / "python" / "README.md"
+    script = page.read_text(encoding="utf-8").partition("```python\n")[2].partition("```")[0]
+    result = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True)
+    assert result.returncode == 0 and result.stderr == "", result.stderr
+    assert result.stdout.startswith("<anicodec.Clip: 100 vertices, 60 frames at 30 per second, ")
+
+
+def test_a_script_ends_silently(tmp_path):
+    script = """
+import anicodec
+import numpy as np
+positions = np.random.default_rng(0).random((4, 5, 3))
+open("a.anic", "wb").write(anicodec.encode(positions, [(0, 1, 2)]))
+print(anicodec.open("a.anic"))
+"""
+    result = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True)
+    assert result.returncode == 0 and result.stderr == "", result.stderr
+    assert result.stdout.startswith("<anicodec.Clip: 5 vertices, 4 frames at 24 per second, ")
