@@ -54,6 +54,19 @@ install_packages() {
   fi
 }
 
+# Installs packages that tests go without, where it can.
+install_optional() {
+  local as_root=()
+  dpkg-query -W "$@" >/dev/null 2>&1 && return
+  command -v apt-get >/dev/null || return
+  if ((EUID != 0)); then
+    as_root=(sudo -n)
+  fi
+  say "Installing $*, for tests"
+  "${as_root[@]}" timeout 240 env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=60 install -y \
+    --no-install-recommends "$@" >/dev/null
+}
+
 # build PRESET [TARGET...]: configures where needed, and builds in build/PRESET.
 build() {
   local preset=$1 fresh=() home
