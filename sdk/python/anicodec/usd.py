@@ -1,0 +1,316 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""USD: meshes of a stage to a clip, and back. Needs the extra: pip install 'anicodec[usd]'."""
+from __future__ import annotations
+
+import os
+from fractions import Fraction
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from .clip import Clip, open as open_clip
+from .encoder import Encoded, SourceMesh, encode_meshes
+from .errors import InputError
+
+try:
+    from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel, Vt
+except ImportError as error:
+    raise ImportError("USD needs the extra of the package: pip install 'anicodec[usd]'") from error
+
+_MATERIALS = "materialBind"
+
+
+def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Sequence[str]] = None, *,
+           fps: Any = None, topology_changes: str = "refuse", **options: Any) -> Encoded:
+    """Encodes the meshes of a stage, in world space.
+
+    stage: a stage or the path of one. prims: paths; their meshes and all below them. Skins and blend shapes are baked.
+    fps: frames per second, default one for each time code, from the stage's start to its end. Texture coordinates,
+    colours, other numbers, hard edges, subsets as materials and visibility are kept. topology_changes: "refuse", or
+    "keep" to store a mesh for each run of frames with equal faces. Other options are those of encode().
+
+    Raises InputError naming the prim, and what encode() raises.
+    """
+    if topology_changes not in ("refuse", "keep"):
+        raise InputError(f"topology_changes is 'refuse' or 'keep', not {topology_changes!r}")
+    source = _opened(stage)
+    baked = _bake_skins(source)
+    codes, rate = _time_codes(baked, fps)
+    readers = [_MeshReader(mesh, codes) for mesh in _meshes(baked, prims)]
+    meshes = [mesh for reader in readers for mesh in reader.read(topology_changes == "keep")]
+    if not meshes:
+        raise InputError("the stage has no mesh that is visible")
+    options.setdefault("up", "z" if UsdGeom.GetStageUpAxis(baked) == UsdGeom.Tokens.z else "y")
+    options.setdefault("unit", UsdGeom.GetStageMetersPerUnit(baked))
+    options.setdefault("start_time", codes[0] / baked.GetTimeCodesPerSecond())
+    options.setdefault("name", os.path.splitext(os.path.basename(source.GetRootLayer().GetDisplayName()))[0])
+    return encode_meshes(meshes, frame_count=len(codes), fps=rate, **options)
+
+
+def _opened(stage: Any) -> Usd.Stage:
+    if isinstance(stage, Usd.Stage):
+        return stage
+    path = os.fspath(stage)
+    if not os.path.exists(path):
+        raise FileNotFoundError(2, "there is no such file", path)
+    try:
+        return Usd.Stage.Open(path)
+    except Exception as error:
+        raise InputError(f"{path}: {str(error).strip().splitlines()[-1]}") from None
+
+
+def _bake_skins(stage: Usd.Stage) -> Usd.Stage:
+    """The stage, or a copy of it in which points move."""
+    if not any(prim.IsA(UsdSkel.Root) for prim in stage.Traverse(Usd.TraverseInstanceProxies())):
+        return stage
+    copy = Usd.Stage.Open(stage.Flatten())
+    for prim in copy.Traverse():
+        if prim.IsInstance():
+            prim.SetInstanceable(False)
+    if not UsdSkel.BakeSkinning(copy.Traverse(), Gf.Interval.GetFullInterval()):
+        raise InputError("the skins of the stage cannot be baked")
+    return copy
+
+
+def _time_codes(stage: Usd.Stage, fps: Any) -> Tuple[List[float], Fraction]:
+    """The time code of each frame, and frames per second."""
+    per_second = stage.GetTimeCodesPerSecond()
+    rate = Fraction(per_second if fps is None else fps).limit_denominator(100000)
+    if rate <= 0:
+        raise InputError(f"fps must be greater than 0, not {fps!r}")
+    if stage.HasAuthoredTimeCodeRange():
+        start, end = stage.GetStartTimeCode(), stage.GetEndTimeCode()
+    else:
+        samples = [sample for prim in stage.Traverse(Usd.TraverseInstanceProxies())
+                   for attribute in prim.GetAuthoredAttributes() for sample in attribute.GetTimeSamples()]
+        start, end = (min(samples), max(samples)) if samples else (0.0, 0.0)
+    step = per_second / float(rate)
+    count = int(np.floor((end - start) / step + 1e-6)) + 1
+    if count < 1 or count >= 2**24:
+        raise InputError(f"the stage has no frames from {start:g} to {end:g}")
+    return [start + frame * step for frame in range(count)], rate
+
+
+def _meshes(stage: Usd.Stage, prims: Union[None, str, Sequence[str]]) -> List[UsdGeom.Mesh]:
+    wanted = None if prims is None else [Sdf.Path(path) for path in ([prims] if isinstance(prims, str) else prims)]
+    for path in wanted or []:
+        if not stage.GetPrimAtPath(path):
+            raise InputError(f"the stage has no prim {path}")
+    found = []
+    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
+        inside = wanted is None or any(prim.GetPath().HasPrefix(path) for path in wanted)
+        if inside and prim.IsA(UsdGeom.Mesh) and \
+                UsdGeom.Imageable(prim).ComputePurpose() in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render):
+            found.append(UsdGeom.Mesh(prim))
+    if not found:
+        raise InputError("the stage has no mesh" + (f" below {', '.join(map(str, wanted))}" if wanted else ""))
+    return found
+
+
+class _MeshReader:
+    """Reads a mesh at all time codes."""
+
+    def __init__(self, mesh: UsdGeom.Mesh, codes: List[float]):
+        self._mesh, self._prim, self._codes = mesh, mesh.GetPrim(), codes
+        self._name = self._prim.GetName()
+
+    def read(self, keep_changes: bool) -> List[SourceMesh]:
+        """The mesh, or several where its faces change; none where it is never there."""
+        runs: List[Dict[str, Any]] = []
+        cache = UsdGeom.XformCache()
+        for frame, code in enumerate(self._codes):
+            if UsdGeom.Imageable(self._prim).ComputeVisibility(code) == UsdGeom.Tokens.invisible:
+                continue
+            points = self._mesh.GetPointsAttr().Get(code)
+            if not points:
+                continue
+            counts, corners = self._faces(code)
+            cache.SetTime(code)
+            matrix = np.array(cache.GetLocalToWorldTransform(self._prim))
+            positions = np.array(points, np.float64).reshape(-1, 3) @ matrix[:3, :3] + matrix[3, :3]
+            last = runs[-1] if runs else None
+            same = last is not None and len(last["positions"][0]) == len(positions) and \
+                np.array_equal(last["counts"], counts) and np.array_equal(last["corners"], corners)
+            if not same:
+                if runs and not keep_changes:
+                    raise InputError(f"{self._prim.GetPath()}: the faces change at time code {code:g}; "
+                                     "topology_changes='keep' stores each run of equal ones")
+                runs.append({"counts": counts, "corners": corners, "positions": [], "frames": []})
+            runs[-1]["positions"].append(positions.astype(np.float32))
+            runs[-1]["frames"].append(frame)
+        return [self._source(run) for run in runs]
+
+    def _faces(self, code: float) -> Tuple[np.ndarray, np.ndarray]:
+        counts = np.array(self._mesh.GetFaceVertexCountsAttr().Get(code) or [], np.int64)
+        corners = np.array(self._mesh.GetFaceVertexIndicesAttr().Get(code) or [], np.int64)
+        if counts.sum() != len(corners) or (counts < 0).any():
+            raise InputError(f"{self._prim.GetPath()}: faceVertexCounts do not fit faceVertexIndices")
+        return counts, corners
+
+    def _source(self, run: Dict[str, Any]) -> SourceMesh:
+        counts, corners = run["counts"], run["corners"]
+        self._order = np.arange(len(corners))
+        if self._mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
+            starts = np.repeat(np.cumsum(counts) - counts, counts)
+            self._order = 2 * starts + np.repeat(counts, counts) - 1 - np.arange(len(corners))
+        frames = run["frames"]
+        offsets = np.concatenate([[0], np.cumsum(counts)])
+        mesh = SourceMesh(np.stack(run["positions"]), (offsets, corners[self._order]), name=self._name,
+                          runs=_runs(frames, len(self._codes)), uv={}, colours={}, normals={}, custom={},
+                          materials=self._materials(len(counts)))
+        codes = [self._codes[frame] for frame in frames]
+        for primvar in UsdGeom.PrimvarsAPI(self._prim).GetPrimvarsWithValues():
+            self._add_primvar(mesh, primvar, run, codes)
+        self._add_normals(mesh, run, codes[0])
+        return mesh
+
+    def _add_primvar(self, mesh: SourceMesh, primvar: UsdGeom.Primvar, run: Dict[str, Any], codes: List[float]) -> None:
+        name, kind = primvar.GetPrimvarName(), primvar.GetTypeName()
+        if name.startswith("skel:") or name == "normals":
+            return
+        of_corners = primvar.GetInterpolation() == UsdGeom.Tokens.faceVarying
+        sampled = codes if primvar.ValueMightBeTimeVarying() and not of_corners and len(codes) > 1 else codes[:1]
+        frames = [self._values(primvar, run, code) for code in sampled]
+        if any(frame is None or frame.shape != frames[0].shape for frame in frames):
+            return
+        values = frames[0] if len(frames) == 1 else np.stack(frames)
+        if kind.role == "TextureCoordinate" or (values.shape[-1] == 2 and name.startswith(("st", "uv", "UV"))):
+            if values.shape[-1] == 2:
+                mesh.uv[name] = values
+        elif kind.role == "Color":
+            mesh.colours[name] = np.clip(values, 0, 1)
+        elif values.shape[-1] <= 16:
+            mesh.custom[name] = values
+
+    def _values(self, primvar: UsdGeom.Primvar, run: Dict[str, Any], code: float) -> Optional[np.ndarray]:
+        """Elements x components, of vertices or of corners; None for what is not numbers."""
+        flat = primvar.ComputeFlattened(code)
+        try:
+            values = np.atleast_1d(np.array(flat))
+        except (TypeError, ValueError):
+            return None
+        if values.dtype.kind not in "fiu" or values.size == 0:
+            return None
+        if not primvar.GetTypeName().isArray:
+            values = values[None]
+        values = values.reshape(len(values), -1).astype(np.float32)
+        vertices, corners = len(run["positions"][0]), len(run["corners"])
+        interpolation = primvar.GetInterpolation()
+        if interpolation in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying):
+            return values if len(values) == vertices else None
+        if interpolation == UsdGeom.Tokens.faceVarying:
+            return values[self._order] if len(values) == corners else None
+        if interpolation == UsdGeom.Tokens.uniform:
+            return np.repeat(values, run["counts"], axis=0) if len(values) == len(run["counts"]) else None
+        return np.repeat(values[:1], vertices, axis=0)
+
+    def _add_normals(self, mesh: SourceMesh, run: Dict[str, Any], code: float) -> None:
+        primvar = UsdGeom.PrimvarsAPI(self._prim).GetPrimvar("normals")
+        if primvar and primvar.HasValue():
+            values, interpolation = primvar.ComputeFlattened(code), primvar.GetInterpolation()
+        else:
+            values, interpolation = self._mesh.GetNormalsAttr().Get(code), self._mesh.GetNormalsInterpolation()
+        if not values or interpolation != UsdGeom.Tokens.faceVarying or len(values) != len(run["corners"]):
+            return  # normals of vertices follow from positions
+        mesh.normals["normals"] = np.array(values, np.float32).reshape(-1, 3)[self._order]
+
+    def _materials(self, polygons: int) -> Optional[Tuple[List[str], np.ndarray]]:
+        names: List[str] = []
+        numbers = np.full(polygons, -1)
+        whole = UsdShade.MaterialBindingAPI(self._prim).ComputeBoundMaterial()[0]
+        if whole:
+            names.append(whole.GetPrim().GetName())
+            numbers[:] = 0
+        for subset in UsdGeom.Subset.GetGeomSubsets(self._mesh, UsdGeom.Tokens.face, _MATERIALS):
+            bound = UsdShade.MaterialBindingAPI(subset.GetPrim()).ComputeBoundMaterial()[0]
+            name = (bound or subset).GetPrim().GetName()
+            if name not in names:
+                names.append(name)
+            members = np.array(subset.GetIndicesAttr().Get() or [], np.int64)
+            if len(members) and (members.min() < 0 or members.max() >= polygons):
+                raise InputError(f"{subset.GetPrim().GetPath()}: a face is not of {polygons}")
+            numbers[members] = names.index(name)
+        return (names, numbers) if names else None
+
+
+def _runs(frames: List[int], count: int) -> List[Tuple[int, int]]:
+    if len(frames) == count:
+        return []
+    breaks = np.flatnonzero(np.diff(frames) > 1) + 1
+    return [(int(part[0]), len(part)) for part in np.split(np.array(frames), breaks)]
+
+
+def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage]) -> Usd.Stage:
+    """Writes a clip (or what open() takes) to a stage, or to a new one at a path, which is saved: a mesh for each of
+    the clip, with points at the time code of each frame, frame 0 at 0. Returns the stage."""
+    source = clip if isinstance(clip, Clip) else open_clip(clip)
+    stage = target if isinstance(target, Usd.Stage) else Usd.Stage.CreateNew(os.fspath(target))
+    rate = float(source.fps)
+    stage.SetTimeCodesPerSecond(rate)
+    stage.SetFramesPerSecond(rate)
+    stage.SetStartTimeCode(0)
+    stage.SetEndTimeCode(source.duration * rate)
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z if source.info["up"] == "z" else UsdGeom.Tokens.y)
+    if source.info["metres_per_unit"] > 0:
+        UsdGeom.SetStageMetersPerUnit(stage, source.info["metres_per_unit"])
+    root = UsdGeom.Xform.Define(stage, "/" + _identifier(source.name or "clip"))
+    stage.SetDefaultPrim(root.GetPrim())
+    taken: set = set()
+    for number, mesh in enumerate(source.meshes):
+        name = _identifier(mesh.name or "mesh")
+        name = name if name not in taken else f"{name}_{number}"
+        taken.add(name)
+        _write_mesh(UsdGeom.Mesh.Define(stage, root.GetPath().AppendChild(name)), mesh, source, rate)
+    if not isinstance(target, Usd.Stage):
+        stage.GetRootLayer().Save()
+    return stage
+
+
+def _identifier(text: str) -> str:
+    return Sdf.Path.IsValidIdentifier(text) and text or "_" + "".join(c if c.isascii() and c.isalnum() else "_"
+                                                                      for c in text)
+
+
+def _write_mesh(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, rate: float) -> None:
+    offsets, corners = mesh.polygons
+    prim.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.diff(offsets).astype(np.int32)))
+    prim.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(corners.astype(np.int32)))
+    prim.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
+    points, extent = prim.CreatePointsAttr(), prim.CreateExtentAttr()
+    shown = [mesh.shown_in(frame) for frame in range(len(clip))]
+    for frame, there in enumerate(shown):
+        code = clip.time(frame) * rate
+        code = round(code) if abs(code - round(code)) < 1e-6 else code
+        if not all(shown) and (frame == 0 or shown[frame - 1] != there):
+            prim.CreateVisibilityAttr().Set(UsdGeom.Tokens.inherited if there else UsdGeom.Tokens.invisible, code)
+        if there:
+            positions = mesh[frame]
+            points.Set(Vt.Vec3fArray.FromNumpy(positions), code)
+            extent.Set(Vt.Vec3fArray.FromNumpy(np.stack([positions.min(axis=0), positions.max(axis=0)])), code)
+    for number, attribute in enumerate(mesh.attributes):
+        _write_attribute(prim, attribute, number)
+
+
+def _write_attribute(prim: UsdGeom.Mesh, attribute: Any, number: int) -> None:
+    if attribute.domain == "polygons":
+        if attribute.kind == "material":
+            for label, name in enumerate(attribute.labels, 1):
+                UsdGeom.Subset.CreateUniqueGeomSubset(prim, _identifier(name), UsdGeom.Tokens.face, Vt.IntArray.FromNumpy(
+                    np.flatnonzero(attribute.values == label).astype(np.int32)), _MATERIALS)
+        return
+    if attribute.values.ndim != 2:
+        return  # hard edges, without numbers
+    types = Sdf.ValueTypeNames
+    values = np.ascontiguousarray(attribute.values)
+    kind = {("uv", 2): (types.TexCoord2fArray, Vt.Vec2fArray), ("colour", 3): (types.Color3fArray, Vt.Vec3fArray),
+            ("colour", 4): (types.Color4fArray, Vt.Vec4fArray), ("normal", 3): (types.Normal3fArray, Vt.Vec3fArray)}
+    by_width = {1: (types.FloatArray, Vt.FloatArray), 2: (types.Float2Array, Vt.Vec2fArray),
+                3: (types.Float3Array, Vt.Vec3fArray), 4: (types.Float4Array, Vt.Vec4fArray)}
+    found = kind.get((attribute.kind, values.shape[1])) or by_width.get(values.shape[1])
+    if not found:
+        return
+    standard = {"uv": "st", "colour": "displayColor", "normal": "normals"}.get(attribute.kind, f"attribute{number}")
+    interpolation = UsdGeom.Tokens.vertex if attribute.domain == "vertices" else UsdGeom.Tokens.faceVarying
+    primvar = UsdGeom.PrimvarsAPI(prim).CreatePrimvar(_identifier(attribute.name or standard), found[0], interpolation)
+    primvar.Set(found[1].FromNumpy(values if values.shape[1] > 1 else values.ravel()))

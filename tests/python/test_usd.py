@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Stages of USD."""
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import anicodec
+
+pytest.importorskip("pxr", reason="usd-core is not installed")
+
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdSkel, Vt  # noqa: E402
+
+from anicodec import usd  # noqa: E402
+
+
+@pytest.fixture
+def stage(wave):
+    """The sheet, below a transform that moves, with texture coordinates and two subsets; and a guest that comes and
+    goes."""
+    positions, faces = wave
+    stage = Usd.Stage.CreateInMemory("shot.usda")
+    stage.SetTimeCodesPerSecond(30)
+    stage.SetStartTimeCode(101)
+    stage.SetEndTimeCode(124)
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+    UsdGeom.SetStageMetersPerUnit(stage, 0.01)
+    group = UsdGeom.Xform.Define(stage, "/group")
+    move = group.AddTranslateOp()
+    for name in ("sheet", "guest"):
+        mesh = UsdGeom.Mesh.Define(stage, f"/group/{name}")
+        mesh.CreateFaceVertexCountsAttr([4] * len(faces))
+        mesh.CreateFaceVertexIndicesAttr(faces.ravel().tolist())
+        for frame, points in enumerate(positions):
+            mesh.CreatePointsAttr().Set(Vt.Vec3fArray.FromNumpy(points), 101 + frame)
+            move.Set(Gf.Vec3d(frame / 10, 0, 1), 101 + frame)
+    sheet = UsdGeom.Mesh(stage.GetPrimAtPath("/group/sheet"))
+    st = UsdGeom.PrimvarsAPI(sheet).CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.faceVarying)
+    st.Set(Vt.Vec2fArray.FromNumpy(np.ascontiguousarray(positions[0][faces.ravel(), :2])))
+    UsdGeom.Subset.CreateGeomSubset(sheet, "skin", UsdGeom.Tokens.face, [0, 1, 2], "materialBind")
+    guest = UsdGeom.Imageable(stage.GetPrimAtPath("/group/guest")).CreateVisibilityAttr()
+    for code, token in ((101, "invisible"), (105, "inherited"), (111, "invisible")):
+        guest.Set(token, code)
+    return stage
+
+
+def test_a_stage_becomes_a_clip(wave, stage):
+    positions, _ = wave
+    data = usd.encode(stage, "/group/sheet", order="faces", effort=1)
+    clip = anicodec.open(data)
+    assert clip.fps == 30 and clip.frame_count == 24 and clip.info["up"] == "z"
+    assert clip.info["metres_per_unit"] == pytest.approx(0.01) and clip.info["start_time"] == pytest.approx(101 / 30)
+    for frame in (0, 11, 23):
+        moved = positions[frame] + np.float32([frame / 10, 0, 1])
+        assert np.linalg.norm(clip[frame] - moved, axis=1).max() <= clip.info["max_error"] * 1.01 + 1e-6
+    kinds = {attribute.kind: attribute for attribute in clip.attributes}
+    assert kinds["uv"].name == "st" and kinds["uv"].domain == "corners"
+    assert kinds["material"].labels == ("skin",) and (kinds["material"].values[:4] == [1, 1, 1, 0]).all()
+
+
+def test_meshes_come_and_go_and_are_written_back(stage, tmp_path):
+    clip = anicodec.open(usd.encode(stage, effort=1, order="faces"))
+    named = {mesh.name: mesh for mesh in clip.meshes}
+    assert [f for f in range(24) if named["guest"].shown_in(f)] == [4, 5, 6, 7, 8, 9]
+    path = tmp_path / "back.usdc"
+    usd.decode(clip, path)
+    back = Usd.Stage.Open(str(path))
+    assert back.GetTimeCodesPerSecond() == 30 and UsdGeom.GetStageUpAxis(back) == "Z"
+    sheet = UsdGeom.Mesh(back.GetPrimAtPath("/shot/sheet"))
+    assert np.array_equal(np.array(sheet.GetPointsAttr().Get(7)), named["sheet"][7])
+    assert len(sheet.GetFaceVertexCountsAttr().Get()) == 121
+    assert UsdGeom.PrimvarsAPI(sheet).GetPrimvar("st").GetInterpolation() == "faceVarying"
+    assert list(UsdGeom.Subset(back.GetPrimAtPath("/shot/sheet/skin")).GetIndicesAttr().Get()) == [0, 1, 2]
+    guest = UsdGeom.Imageable(back.GetPrimAtPath("/shot/guest"))
+    assert [guest.ComputeVisibility(code) for code in (0, 4, 10)] == ["invisible", "inherited", "invisible"]
+    again = anicodec.open(usd.encode(str(path), effort=1))
+    assert {mesh.name for mesh in again.meshes} == {"sheet", "guest"} and again.frame_count == 24
+
+
+def test_left_handed_faces_are_turned(wave, stage):
+    UsdGeom.Mesh(stage.GetPrimAtPath("/group/sheet")).CreateOrientationAttr("leftHanded")
+    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="faces", effort=1))
+    assert np.array_equal(clip.faces, wave[1][:, ::-1])
+    uv = next(attribute for attribute in clip.attributes if attribute.kind == "uv")
+    assert np.allclose(uv.values, wave[0][0][clip.faces.ravel(), :2], atol=2**-11)
+
+
+def add_skin(stage):
+    """A strip whose upper half turns about the x axis."""
+    root = UsdSkel.Root.Define(stage, "/skin")
+    skeleton = UsdSkel.Skeleton.Define(stage, "/skin/bones")
+    skeleton.CreateJointsAttr(["low", "low/high"])
+    rest = [Gf.Matrix4d(1), Gf.Matrix4d(1).SetTranslate(Gf.Vec3d(0, 1, 0))]
+    skeleton.CreateBindTransformsAttr(rest)
+    skeleton.CreateRestTransformsAttr(rest)
+    motion = UsdSkel.Animation.Define(stage, "/skin/motion")
+    motion.CreateJointsAttr(["low", "low/high"])
+    motion.CreateTranslationsAttr([Gf.Vec3f(0, 0, 0), Gf.Vec3f(0, 1, 0)])
+    motion.CreateScalesAttr([Gf.Vec3h(1, 1, 1)] * 2)
+    for code, angle in ((1, 0), (9, 90)):
+        turn = Gf.Quatf(Gf.Rotation(Gf.Vec3d(1, 0, 0), angle).GetQuat())
+        motion.CreateRotationsAttr().Set([Gf.Quatf(1), turn], code)
+    UsdSkel.BindingAPI.Apply(root.GetPrim()).CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+    UsdSkel.BindingAPI.Apply(skeleton.GetPrim()).CreateAnimationSourceRel().SetTargets([motion.GetPath()])
+    mesh = UsdGeom.Mesh.Define(stage, "/skin/strip")
+    mesh.CreatePointsAttr([(x, y, 0) for y in (0, 1, 2) for x in (0, 1)])
+    mesh.CreateFaceVertexCountsAttr([4, 4])
+    mesh.CreateFaceVertexIndicesAttr([0, 1, 3, 2, 2, 3, 5, 4])
+    binding = UsdSkel.BindingAPI.Apply(mesh.GetPrim())
+    binding.CreateJointIndicesPrimvar(False, 1).Set([0, 0, 0, 0, 1, 1])
+    binding.CreateJointWeightsPrimvar(False, 1).Set([1.0] * 6)
+
+
+def test_skins_are_baked():
+    stage = Usd.Stage.CreateInMemory()
+    stage.SetStartTimeCode(1)
+    stage.SetEndTimeCode(9)
+    add_skin(stage)
+    clip = anicodec.open(usd.encode(stage, max_error=0.001))
+    assert clip.frame_count == 9
+    assert np.allclose(clip[0][5], [1, 2, 0], atol=0.002)
+    assert np.allclose(clip[8][5], [1, 1, 1], atol=0.002)
+    assert np.allclose(clip[4][5], [1, 1 + np.sqrt(0.5), np.sqrt(0.5)], atol=0.01)
+
+
+def test_faults_name_the_prim(stage, tmp_path):
+    with pytest.raises(anicodec.InputError, match="no prim /group/none"):
+        usd.encode(stage, "/group/none")
+    mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/group/sheet"))
+    mesh.GetFaceVertexCountsAttr().Set([4] * 120, 110)
+    with pytest.raises(anicodec.InputError, match="/group/sheet: faceVertexCounts do not fit"):
+        usd.encode(stage)
+    mesh.GetFaceVertexIndicesAttr().Set([0, 1, 13, 12] * 120, 110)
+    mesh.GetFaceVertexCountsAttr().Set([4] * 119, 101)
+    mesh.GetFaceVertexIndicesAttr().Set([0, 1, 13, 12] * 119, 101)
+    with pytest.raises(anicodec.InputError, match="/group/sheet: the faces change at time code"):
+        usd.encode(stage, "/group/sheet")
+    assert len(anicodec.open(usd.encode(stage, "/group/sheet", topology_changes="keep", effort=1)).meshes) == 2
+    with pytest.raises(FileNotFoundError):
+        usd.encode(tmp_path / "none.usda")
+    (tmp_path / "bad.usda").write_text("no stage")
+    with pytest.raises(anicodec.InputError, match="bad.usda"):
+        usd.encode(tmp_path / "bad.usda")
+
+
+def test_the_command_reads_stages(stage, tmp_path, command):
+    stage.Export(str(tmp_path / "shot.usda"))
+    told = command("encode", tmp_path / "shot.usda", "-o", tmp_path / "shot.anic", "--effort", 1)
+    assert "bytes, max error" in told
+    assert len(anicodec.open(tmp_path / "shot.anic").meshes) == 2
+    again = subprocess.run([sys.executable, "-m", "anicodec", "encode", tmp_path / "shot.usda", "-o",
+                            tmp_path / "shot.anic"], capture_output=True, text=True)
+    assert again.returncode == 1 and "exists" in again.stderr
