@@ -7,11 +7,12 @@
 >>> clip[10]                                             # vertices x 3, float32
 """
 from ._anicodec import version as __version__
+from ._batch import Result, batch
 from .clip import Attribute, Clip, Mesh, open
 from .encoder import Encoded, SourceMesh, encode, encode_meshes
 from .errors import (AbsentError, AnicodecError, Cancelled, CorruptError, FrameError, InputError, InternalError,
                      LimitError, UnsupportedError)
 
 __all__ = ["AbsentError", "AnicodecError", "Attribute", "Cancelled", "Clip", "CorruptError", "Encoded", "FrameError",
-           "InputError", "InternalError", "LimitError", "Mesh", "SourceMesh", "UnsupportedError", "__version__",
-           "encode", "encode_meshes", "open"]
+           "InputError", "InternalError", "LimitError", "Mesh", "Result", "SourceMesh", "UnsupportedError", "__version__",
+           "batch", "encode", "encode_meshes", "open"]
