@@ -46,6 +46,22 @@ def test_massage(wave):
         anicodec.massage.massage(positions[:3], faces, strength=2)
 
 
+@pytest.mark.parametrize("package, vertices, faces", [("trimesh", "vertices", 242), ("pyvista", "points", 121),
+                                                      ("meshio", "points", 121)])
+def test_frames_for_other_packages(clip, package, vertices, faces):
+    pytest.importorskip(package)
+    found = clip.to(package, 5)
+    assert np.array_equal(np.asarray(getattr(found, vertices), np.float32), clip[5])
+    counts = {"trimesh": lambda: len(found.faces), "pyvista": lambda: found.n_cells,
+              "meshio": lambda: sum(len(block.data) for block in found.cells)}
+    assert counts[package]() == faces
+
+
+def test_other_packages_are_named(clip):
+    with pytest.raises(ValueError, match="one of trimesh, pyvista, meshio"):
+        clip.to("blender")
+
+
 def test_the_command(command, tmp_path, clip):
     assert command("--version").strip() == f"anicodec {anicodec.__version__}"
     (tmp_path / "wave.anic").write_bytes(clip.data)

@@ -11,6 +11,7 @@ from typing import Any, Dict, Iterator, NamedTuple, Optional, Tuple, Union
 import numpy as np
 
 from . import _anicodec, _arrays
+from ._convert import to_package
 from .errors import FrameError, InputError
 
 _SAMPLING = {"step": 0, "linear": 1, "cubic": 2}
@@ -161,6 +162,10 @@ class Mesh:
         plan.write(positions, result)
         return result
 
+    def to(self, package: str, frame: int = 0) -> Any:
+        """A frame as a mesh of another package: "trimesh" (triangles), "pyvista" or "meshio" (polygons)."""
+        return to_package(self, frame, package)
+
     def shown_in(self, frame: int) -> bool:
         """Whether the mesh is there in a frame."""
         return self._asset.shows(self._number, frame)
@@ -240,7 +245,7 @@ class Clip:
 
 
 #: What a clip of one mesh passes on to it.
-_OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "polygons", "shown_in", "triangles",
+_OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "polygons", "shown_in", "to", "triangles",
             "vertex_count"}
 
 
