@@ -226,7 +226,7 @@ def test_renders_agree_with_the_viewport():
     round_trip()
     path = WORK / "sheet.anic"
 
-    def render(name, animation):
+    def render(name, animation, blur=False):
         scene = bpy.context.scene
         camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
         scene.collection.objects.link(camera)
@@ -235,8 +235,10 @@ def test_renders_agree_with_the_viewport():
         scene.render.engine = "CYCLES"
         scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.device = 1, False, "CPU"
         scene.render.resolution_x = scene.render.resolution_y = 24
-        scene.render.use_motion_blur = False
-        scene.world = scene.world or bpy.data.worlds.new("world")
+        scene.render.use_motion_blur, scene.render.motion_blur_shutter = blur, 2.0
+        sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
+        sun.data.energy = 3
+        scene.collection.objects.link(sun)
         scene.frame_start = scene.frame_end = 8
         scene.frame_set(8 if not animation else 1)
         scene.render.filepath = str(WORK / name)
@@ -252,7 +254,12 @@ def test_renders_agree_with_the_viewport():
     empty_scene()
     bring_in(path)
     animated = render("animated", True)
-    assert still.std() > 0.01, "shows something"
+    empty_scene()
+    item, = bring_in(path)
+    blurred = render("blurred", False, True)
+    assert not np.array_equal(moved, blurred) and np.abs(moved - blurred).mean() < 0.2, "parts of a frame are shown"
+    assert np.allclose(evaluated(item, 8), anicodec.open(path)[7], atol=1e-5), "and the frame is back"
+    assert still.reshape(-1, 4)[:, 0].std() > 0.1, "shows something"
     assert np.abs(still - moved).mean() < 0.02, np.abs(still - moved).mean()
     assert np.array_equal(moved, animated)
 

@@ -145,6 +145,13 @@ def test_faults_name_the_prim(stage, tmp_path):
         usd.encode(tmp_path / "bad.usda")
 
 
+def test_the_command_says_what_is_missing(tmp_path):
+    script = "import sys; sys.modules['pxr'] = None; sys.argv = ['anicodec', 'encode', 'shot.usd', '-o', 'x.anic']; " \
+             "from anicodec.__main__ import main; main()"
+    result = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True)
+    assert result.returncode == 4 and "pip install 'anicodec[usd]'" in result.stderr, result.stderr
+
+
 def test_the_command_reads_stages(stage, tmp_path, command):
     stage.Export(str(tmp_path / "shot.usda"))
     told = command("encode", tmp_path / "shot.usda", "-o", tmp_path / "shot.anic", "--effort", 1)

@@ -83,6 +83,7 @@ def _animate(item, mesh, source, clip, place, method, scene):
         if not shown[0]:
             meshes.set_positions(mesh, source[first])
         follow.move(mesh, scene)
+        _allow_blur(item)
         return
     frames, last = [], source[first]
     for frame, there in enumerate(shown):
@@ -93,6 +94,14 @@ def _animate(item, mesh, source, clip, place, method, scene):
         _add_shape_keys(item, frames, clip, scene)
     else:
         _add_cache(item, frames, f"{path}.{number}.pc2")
+
+
+def _allow_blur(item):
+    """Cycles blurs the motion only of meshes with a modifier that deforms: this one turns by 0 degrees."""
+    modifier = item.modifiers.new("anicodec motion blur", "SIMPLE_DEFORM")
+    modifier.deform_method = "TWIST"
+    modifier.angle = 0
+    modifier.show_viewport = False
 
 
 def _add_shape_keys(item, frames, clip, scene):
