@@ -66,12 +66,19 @@ class HostAllocator {
     if (count > static_cast<size_t>(-1) / 2 / sizeof(T))
       return no_memory();
     size_t size = count * sizeof(T);
-    return static_cast<T*>(memory_ ? memory_->take(size, alignof(T)) : ::operator new(size));
+    if (memory_)
+      return static_cast<T*>(memory_->take(size, alignof(T)));
+    if constexpr (kOverAligned)
+      return static_cast<T*>(::operator new(size, std::align_val_t{alignof(T)}));
+    else
+      return static_cast<T*>(::operator new(size));
   }
 
   void deallocate(T* memory, size_t count) noexcept {
     if (memory_)
       memory_->give_back(memory, count * sizeof(T));
+    else if constexpr (kOverAligned)
+      ::operator delete(memory, std::align_val_t{alignof(T)});
     else
       ::operator delete(memory);
   }
@@ -89,7 +96,10 @@ class HostAllocator {
   }
 
  private:
-  static_assert(alignof(T) <= alignof(std::max_align_t), "operator new would not align it");
+  static_assert(alignof(T) <= 16, "a host's allocator need not align it");
+
+  /// On WebAssembly and 32-bit machines plain operator new aligns to 8 bytes.
+  static constexpr bool kOverAligned = alignof(T) > __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 
   static T* no_memory();
 

@@ -165,7 +165,7 @@ SourceMesh take_mesh(const anic_source_mesh& host, uint32_t clip_frames) {
     result.host.vertex_stride =
         host.scalar == ANIC_SCALAR_FLOAT64 ? 3 * sizeof(double) : 3 * sizeof(float);
   if (host.frame_stride == 0)
-    result.host.frame_stride = result.host.vertex_stride * ptrdiff_t{host.vertex_count};
+    result.host.frame_stride = result.host.vertex_stride * static_cast<ptrdiff_t>(host.vertex_count);
   result.mesh.present_in = runs_of(host, clip_frames);
   MeshSequence& mesh = result.mesh.sequence;
   mesh.mesh_name = text_of(host.name);

@@ -8,13 +8,17 @@
 #include "sdk/clip/sample_size.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 
 namespace anicodec {
 namespace {
 
-void* allocate_default(void*, size_t size, size_t) {
-  return std::malloc(size);  // aligned for anything up to 16 bytes
+void* allocate_default(void*, size_t size, size_t alignment) {
+  // malloc() of WebAssembly and of 32-bit machines aligns to 8 bytes.
+  if (alignment <= alignof(std::max_align_t))
+    return std::malloc(size);
+  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }
 
 void release_default(void*, void* memory, size_t) {

@@ -16,6 +16,8 @@
 #include <immintrin.h>
 #elif defined(__aarch64__)
 #include <arm_neon.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 namespace anicodec {
@@ -93,6 +95,9 @@ struct LaneKernel {
       const __m128i v = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(q));
       return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(v, v), 16));
     }
+#elif defined(__wasm_simd128__)
+    if constexpr (W == 4 && sizeof(Int) == 2)  // LLVM 14 makes scalar code of the conversion below
+      return reinterpret_cast<Float>(wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(q)));
 #endif
     typedef Int Vector __attribute__((vector_size(sizeof(Int) * W)));
     Vector v;

@@ -9,6 +9,19 @@
 #include <algorithm>
 
 namespace anicodec {
+namespace {
+
+const EncoderKernels& encoder_kernels() {
+#if defined(ANICODEC_PREDICTION_AVX2)
+  static const EncoderKernels& best =
+      fastest_kernels(kEncoderKernelsAvx512, kEncoderKernelsAvx2, kEncoderKernelsPortable);
+  return best;
+#else
+  return kEncoderKernelsPortable;
+#endif
+}
+
+}  // namespace
 
 Status EncoderPredictor::init(const VertexOrder& order, const int32_t* positions,
                               const PredictionParameters& parameters, size_t components) {
@@ -20,13 +33,13 @@ Status EncoderPredictor::init(const VertexOrder& order, const int32_t* positions
   components_ = components;
   component_ = 0;
   neighbour_count_ = static_cast<size_t>(order.neighbour_count);
-  lanes_ = prediction_kernels().lanes;
+  lanes_ = encoder_kernels().lanes;
   block_count_ = (vertices_ + lanes_ - 1) / lanes_;
   ranked_positions(order, positions, &positions_);
   state_.resize(block_count_ * encoder_block_rows(neighbour_count_) * lanes_);
   y_.assign(static_cast<size_t>(parameters.channels) * (vertices_ + 1), 0.0f);
   const FloatControl control;
-  prediction_kernels().start_blocks(job(0), 0, block_count_);
+  encoder_kernels().start_blocks(job(0), 0, block_count_);
   return Status::kOk;
 }
 
@@ -73,7 +86,7 @@ void EncoderPredictor::update(size_t first_block, size_t last_block, uint8_t ome
   EncoderJob j = job(omega);
   j.refit = std::find(refits, refits + count, component_) != refits + count;
   const FloatControl control;
-  prediction_kernels().update_blocks(j, first_block, last_block);
+  encoder_kernels().update_blocks(j, first_block, last_block);
 }
 
 }  // namespace anicodec

@@ -8,8 +8,8 @@
 
 namespace anicodec {
 
-const PredictionKernels kPredictionKernelsAvx2 = {8, reconstruct_any<8>, start_any<8>,
-                                                  update_any<8>};
+const PredictionKernels kPredictionKernelsAvx2 = {8, reconstruct_any<8>};
+const EncoderKernels kEncoderKernelsAvx2 = {8, start_any<8>, update_any<8>};
 
 }  // namespace anicodec
 

@@ -9,8 +9,8 @@
 
 namespace anicodec {
 
-const PredictionKernels kPredictionKernelsAvx512 = {16, reconstruct_any<16>, start_any<16>,
-                                                    update_any<16>};
+const PredictionKernels kPredictionKernelsAvx512 = {16, reconstruct_any<16>};
+const EncoderKernels kEncoderKernelsAvx512 = {16, start_any<16>, update_any<16>};
 
 }  // namespace anicodec
 

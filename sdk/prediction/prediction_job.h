@@ -42,11 +42,17 @@ struct EncoderJob {
   bool refit = false;
 };
 
-/// Kernels for one instruction set.
+/// The decoder's kernel for one instruction set.
 struct PredictionKernels {
   size_t lanes;
   /// Ranks [first, last), all of one level.
   void (*reconstruct)(const PredictionJob&, size_t first, size_t last);
+};
+
+/// The encoder's kernels for one instruction set: apart, so that programs that only decode can be
+/// linked without them.
+struct EncoderKernels {
+  size_t lanes;
   /// Sets the prior weights of the blocks [first, last) of `lanes` vertices.
   void (*start_blocks)(const EncoderJob&, size_t first, size_t last);
   /// Learns from the current component.
@@ -58,13 +64,24 @@ constexpr size_t encoder_block_rows(size_t m) {
   return 3 * m + m * (m + 1) / 2;
 }
 
-/// The fastest kernels that this machine runs.
-const PredictionKernels& prediction_kernels();
-
 extern const PredictionKernels kPredictionKernelsPortable;
+extern const EncoderKernels kEncoderKernelsPortable;
 #if defined(ANICODEC_PREDICTION_AVX2)
 extern const PredictionKernels kPredictionKernelsAvx2;
 extern const PredictionKernels kPredictionKernelsAvx512;
+extern const EncoderKernels kEncoderKernelsAvx2;
+extern const EncoderKernels kEncoderKernelsAvx512;
+#endif
+
+/// The fastest of the kernels for different instruction sets that this machine runs.
+#if defined(ANICODEC_PREDICTION_AVX2)
+template <class Kernels>
+const Kernels& fastest_kernels(const Kernels& avx512, const Kernels& avx2,
+                               const Kernels& portable) {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") ? avx512
+         : __builtin_cpu_supports("avx2")                                        ? avx2
+                                                                                  : portable;
+}
 #endif
 
 }  // namespace anicodec

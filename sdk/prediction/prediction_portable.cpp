@@ -15,7 +15,7 @@ constexpr size_t kLanes = 4;
 #endif
 static_assert(kLanes == 1 || kLanes == 4 || kLanes == 8 || kLanes == 16);
 
-const PredictionKernels kPredictionKernelsPortable = {kLanes, reconstruct_any<kLanes>,
-                                                      start_any<kLanes>, update_any<kLanes>};
+const PredictionKernels kPredictionKernelsPortable = {kLanes, reconstruct_any<kLanes>};
+const EncoderKernels kEncoderKernelsPortable = {kLanes, start_any<kLanes>, update_any<kLanes>};
 
 }  // namespace anicodec

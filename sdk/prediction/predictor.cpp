@@ -3,6 +3,7 @@
 #include "sdk/prediction/predictor.h"
 
 #include "sdk/base/float_control.h"
+#include "sdk/prediction/prediction_job.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,16 @@ constexpr uint16_t kDense[] = {0,  1,  2,  3,  4,  5,  6,   8,   10,  12,  14,  
 
 // 2^(i / 4) in binary32.
 constexpr float kQuarterPowers[] = {1.0f, 0x1.306fep+0f, 0x1.6a09e6p+0f, 0x1.ae89fap+0f};
+
+const PredictionKernels& prediction_kernels() {
+#if defined(ANICODEC_PREDICTION_AVX2)
+  static const PredictionKernels& best = fastest_kernels(
+      kPredictionKernelsAvx512, kPredictionKernelsAvx2, kPredictionKernelsPortable);
+  return best;
+#else
+  return kPredictionKernelsPortable;
+#endif
+}
 
 }  // namespace
 
@@ -49,19 +60,6 @@ float omega_value(uint8_t byte) {
 uint8_t omega_byte(double energy) {
   const double omega = 1 / (1.0 / 12 + energy + 0.05);
   return static_cast<uint8_t>(std::clamp(std::round(4 * std::log2(omega)) + 128, 0.0, 255.0));
-}
-
-const PredictionKernels& prediction_kernels() {
-#if defined(ANICODEC_PREDICTION_AVX2)
-  static const PredictionKernels& best =
-      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
-          ? kPredictionKernelsAvx512
-      : __builtin_cpu_supports("avx2") ? kPredictionKernelsAvx2
-                                       : kPredictionKernelsPortable;
-  return best;
-#else
-  return kPredictionKernelsPortable;
-#endif
 }
 
 Status check_prediction(const VertexOrder& order, const PredictionParameters& parameters) {

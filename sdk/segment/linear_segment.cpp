@@ -150,8 +150,8 @@ Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t st
   Vector<float> scale(size_t{out->components} * channels);
   out->weights.resize(size_t{out->frames} * out->components * weight_channels);
   for (uint32_t j = 0; j < out->components; ++j) {
-    float most = *std::max_element(largest.begin() + ptrdiff_t{channels} * j,
-                                   largest.begin() + ptrdiff_t{channels} * (j + 1));
+    const float* of_component = largest.data() + size_t{channels} * j;
+    const float most = *std::max_element(of_component, of_component + channels);
     int bits = kFractionBits;
     if (j >= out->wide_components) {
       while (bits > 0 && most * static_cast<float>(1 << bits) > 32767)

@@ -151,7 +151,7 @@ MeshSequence in_order_of(const MeshSequence& source, const MeshSequence& packed)
     for (uint32_t v = 0; v < source.vertex_count; ++v) {
       if (used[v])
         std::ranges::copy(packed.frame(f).subspan(size_t{3} * nearest[v], 3),
-                          out.frame(f).begin() + 3 * std::ptrdiff_t{v});
+                          out.frame(f).begin() + 3 * static_cast<std::ptrdiff_t>(v));
     }
   }
   return out;
