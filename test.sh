@@ -28,6 +28,19 @@ if $packages_wanted; then
     timeout 120 npm ci --prefix tests/gltf --no-audit --no-fund || say "No glTF validator: its test is skipped"
   fi
 fi
+if command -v npm >/dev/null; then
+  if $packages_wanted; then
+    install_optional emscripten chromium || say "No emscripten or Chromium: tests of the npm package are skipped"
+    for folder in sdk/web tests/web; do
+      [[ -d $folder/node_modules ]] || timeout 120 npm ci --prefix "$folder" --no-audit --no-fund ||
+        say "$folder lacks packages of npm: its tests are skipped"
+    done
+  fi
+  if command -v emcc >/dev/null && [[ -d sdk/web/node_modules/zstd-napi ]]; then
+    build wasm
+    build wasm-scalar
+  fi
+fi
 build dev
 say "Running the tests"
 ctest --preset dev -j "$(nproc)" "${ctest_options[@]}"

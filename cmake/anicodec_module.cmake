@@ -34,9 +34,11 @@ function(anicodec_library name standard)
   add_library(anicodec::${name} ALIAS anicodec_${name})
   target_compile_features(anicodec_${name} PUBLIC cxx_std_${standard})
   set_target_properties(anicodec_${name} PROPERTIES
-    CXX_STANDARD ${standard} CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
+    CXX_STANDARD ${standard} CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE $<NOT:$<BOOL:${EMSCRIPTEN}>>
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(anicodec_${name} PUBLIC $<BUILD_INTERFACE:anicodec_flags>)
+  # clang also warns of promotions that are spelled out, and of unsigned offsets of iterators.
   target_compile_options(anicodec_${name} PRIVATE
-    -Wconversion -Wsign-conversion -Wdouble-promotion)
+    -Wconversion $<$<CXX_COMPILER_ID:GNU>:-Wsign-conversion -Wdouble-promotion>
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
 endfunction()

@@ -78,7 +78,7 @@ Bytes ContainerWriter::finish() const {
   for (size_t i = 0; i < 4; ++i)
     file.bytes()[kChecksumAt + i] = static_cast<uint8_t>(checksum >> (8 * i));
   for (const Bytes& payload : payloads_) {
-    file.bytes().resize(aligned(file.size()));
+    file.bytes().resize(static_cast<size_t>(aligned(file.size())));
     file.raw(payload);
   }
   return std::move(file.bytes());

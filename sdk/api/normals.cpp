@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The C interface: normals.
-#include "sdk/api/objects.h"
-#include "sdk/play/normal_plan.h"
+#include "sdk/api/normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +11,7 @@ struct anic_normal_plan {
   anicodec::NormalPlan plan;
 };
 
-using namespace anicodec;
-
+namespace anicodec {
 namespace {
 
 /// Which corners share a normal in the source; null if the file does not tell.
@@ -27,37 +25,48 @@ const Vector<uint32_t>* source_edges(const Mesh& mesh) {
 
 }  // namespace
 
+anic_status check_normal_options(const anic_asset* asset, uint32_t mesh,
+                                 const anic_normal_plan_options& options) {
+  if (!asset || mesh >= asset->clip.meshes().size() || !(options.crease_angle >= 0))
+    return ANIC_E_ARGUMENT;
+  if (options.reference_frame >= asset->clip.frame_count())
+    return ANIC_E_FRAME_RANGE;
+  return asset->clip.segment_at(mesh, options.reference_frame) ? ANIC_OK : ANIC_E_ABSENT;
+}
+
+NormalPlan plan_normals(const Clip& clip, uint32_t mesh, const anic_normal_plan_options& options) {
+  const Mesh& of = clip.meshes()[mesh];
+  const bool per_corner = options.per_corner != 0;
+  if (const Vector<uint32_t>* edges = options.source_edges ? source_edges(of) : nullptr)
+    return plan_normals(of.topology, *edges, per_corner);
+  const double degrees = options.crease_angle > 0 ? options.crease_angle : 180;
+  const double cosine = degrees < 180 ? std::cos(degrees * 3.14159265358979323846 / 180) : -2;
+  Vector<float> pose(size_t{3} * clip.vertex_count(mesh));
+  clip.positions(mesh, options.reference_frame, pose.data());
+  return plan_normals(of.topology, pose.data(), cosine, per_corner);
+}
+
+}  // namespace anicodec
+
+using namespace anicodec;
+
 anic_status anic_create_normal_plan(const anic_asset* asset, uint32_t mesh,
                                     const anic_normal_plan_options* options,
                                     const anic_allocator* allocator, anic_normal_plan** out) {
   if (out)
     *out = nullptr;
   anic_normal_plan_options wanted;
-  if (!take(options, &wanted) || !asset || !out || mesh >= asset->clip.meshes().size() ||
-      (allocator && !allocator->allocate != !allocator->release) || !(wanted.crease_angle >= 0))
+  if (!take(options, &wanted) || !out || (allocator && !allocator->allocate != !allocator->release))
     return ANIC_E_ARGUMENT;
-  const Clip& clip = asset->clip;
-  if (wanted.reference_frame >= clip.frame_count())
-    return ANIC_E_FRAME_RANGE;
-  if (!clip.segment_at(mesh, wanted.reference_frame))
-    return ANIC_E_ABSENT;
+  if (anic_status status = check_normal_options(asset, mesh, wanted); status != ANIC_OK)
+    return status;
   auto make = [&]() -> Failure {
     Memory memory = allocator ? memory_of(allocator) : memory_of_object(asset);
     memory.held = memory.peak = 0;
     auto* normals = create<anic_normal_plan>(memory, 0);
     try {
       const MemoryScope scope(&memory_of_object(normals));
-      const Mesh& of = clip.meshes()[mesh];
-      const Vector<uint32_t>* edges = wanted.source_edges ? source_edges(of) : nullptr;
-      if (edges) {
-        normals->plan = plan_normals(of.topology, *edges, wanted.per_corner != 0);
-      } else {
-        const double degrees = wanted.crease_angle > 0 ? wanted.crease_angle : 180;
-        const double cosine = degrees < 180 ? std::cos(degrees * 3.14159265358979323846 / 180) : -2;
-        Vector<float> pose(size_t{3} * clip.vertex_count(mesh));
-        clip.positions(mesh, wanted.reference_frame, pose.data());
-        normals->plan = plan_normals(of.topology, pose.data(), cosine, wanted.per_corner != 0);
-      }
+      normals->plan = plan_normals(asset->clip, mesh, wanted);
     } catch (...) {
       destroy(normals);
       throw;

@@ -136,6 +136,8 @@ OpenOptions open_options(const anic_options& options, uint64_t file_size) {
   set(options.max_frames, &limits.frames);
   set(options.max_components, &limits.components);
   set(options.max_bytes, &limits.resident_bytes);
+  // Sizes below fit in size_t, on machines of 32 bits too.
+  limits.resident_bytes = std::min<uint64_t>(limits.resident_bytes, SIZE_MAX / 2);
   if (options.quality > 0)
     result.quality = options.quality;
   return result;

@@ -19,7 +19,7 @@
 namespace anicodec {
 
 /// For its lifetime: round to nearest even, subnormals kept, no traps. Engines change these.
-class FloatControl {
+class [[maybe_unused]] FloatControl {
  public:
 #if defined(__SSE2__)
   FloatControl() : saved_(_mm_getcsr()) {

@@ -54,7 +54,7 @@ Status read_corrections(const SegmentContext& context, IntegerHash& hash, Segmen
   out->correction_begin.reserve(size_t{out->frames} + 1);
   out->correction_begin.push_back(0);
   for (uint32_t f = 0; f < out->frames; ++f) {
-    if (!coding.code_frame(decoder, total - corrected, &frame))
+    if (!coding.code_frame(decoder, static_cast<size_t>(total - corrected), &frame))
       return Status::kEntropy;
     for (const IntegerCorrection& c : frame) {
       corrected += copies.count(c.vertex);

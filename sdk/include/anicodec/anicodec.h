@@ -747,6 +747,100 @@ ANIC_API anic_status anic_write_normals(const anic_normal_plan* plan, const floa
                                         size_t stride, uint32_t first, uint32_t count,
                                         const anic_output* out);
 
+/* ---- render vertices ------------------------------------------------------------------------- */
+
+/**
+ * The vertices that a graphics card needs, where a mesh has numbers at its corners or hard edges:
+ * one for each distinct pair of a vertex and what its corners carry, that is, the values of all
+ * attributes of ANIC_DOMAIN_CORNERS and the normal. Immutable, shared.
+ */
+typedef struct anic_render_plan anic_render_plan;
+
+/** A NULL pointer, or 0 in every field: normals smooth everywhere. */
+typedef struct anic_render_plan_options {
+  size_t struct_size;
+  double crease_angle;      /**< as in anic_normal_plan_options */
+  uint32_t reference_frame; /**< as in anic_normal_plan_options */
+  uint8_t source_edges;     /**< as in anic_normal_plan_options */
+} anic_render_plan_options;
+
+/**
+ * Makes the render vertices of a mesh, and index buffers over them. Vertices that no polygon uses
+ * are left out; a mesh without polygons has its vertices as they are, to be drawn as points.
+ *
+ * - Params: options may be NULL; allocator may be NULL: the asset's
+ * - Memory: 8 bytes for each render vertex, 16 for each triangle, and a normal plan; 60 for each
+ *   corner more while it is made. The plan does not refer to the asset
+ * - Errors: as anic_create_normal_plan()
+ * - Cost: O(corners log corners)
+ */
+ANIC_API anic_status anic_create_render_plan(const anic_asset* asset, uint32_t mesh,
+                                             const anic_render_plan_options* options,
+                                             const anic_allocator* allocator,
+                                             anic_render_plan** out);
+
+/** NULL is allowed. */
+ANIC_API void anic_destroy_render_plan(anic_render_plan* plan);
+
+/** What a plan holds. The arrays belong to it. */
+typedef struct anic_render_info {
+  size_t struct_size;
+  const uint32_t* vertices; /**< vertex of each render vertex, ascending: every value of a vertex is
+                               found by it */
+  const uint32_t* corners;  /**< a corner of each render vertex: every value of a corner is found by
+                               it. NULL in a mesh without corners */
+  const uint32_t* indices;  /**< triangle_count x 3 render vertices; polygons are fans, as
+                               anic_write_indices() makes them, ordered by material */
+  const uint32_t* triangle_polygons; /**< polygon of each triangle */
+  const uint32_t* group_materials; /**< of each group the label of its polygons' material, ascending:
+                                      0 for none, or one more than the number of a name */
+  const uint32_t* group_begin; /**< group g has the triangles begin[g] .. begin[g + 1] - 1; the
+                                  groups follow one another and hold all triangles */
+  uint32_t mesh;
+  uint32_t vertex_count; /**< of render vertices */
+  uint32_t triangle_count;
+  uint32_t group_count; /**< one for each material that has a triangle */
+} anic_render_info;
+
+/** - Errors: ANIC_E_ARGUMENT */
+ANIC_API anic_status anic_get_render_info(const anic_render_plan* plan, anic_render_info* out);
+
+/**
+ * Writes positions of the render vertices first .. first + count - 1, as anic_write_positions()
+ * does those of vertices. The context may be of any asset of the same file.
+ *
+ * - Errors: as anic_write_positions(); ANIC_E_ARGUMENT: the plan is of another mesh
+ * - Cost: that of anic_write_positions() for the vertices, and a copy
+ */
+ANIC_API anic_status anic_write_render_positions(const anic_render_plan* plan,
+                                                 const anic_context* context, anic_when when,
+                                                 uint32_t first, uint32_t count,
+                                                 const anic_output* out);
+
+/**
+ * Writes normals of the render vertices first .. first + count - 1 from positions of all render
+ * vertices, as anic_write_normals() does.
+ *
+ * - Shapes: positions: render vertices x 3 float32; `stride`: bytes from one to the next, a multiple
+ *   of four (0: 12)
+ * - Errors: ANIC_E_ARGUMENT, ANIC_E_BUFFER_SIZE
+ */
+ANIC_API anic_status anic_write_render_normals(const anic_render_plan* plan, const float* positions,
+                                               size_t stride, uint32_t first, uint32_t count,
+                                               const anic_output* out);
+
+/**
+ * Writes values of an attribute of the render vertices first .. first + count - 1: of vertices at
+ * the time chosen, as anic_write_attribute() does, or of corners.
+ *
+ * - Errors: as anic_write_attribute(); ANIC_E_ARGUMENT: the plan is of another mesh, or the
+ *   attribute is one of polygons or has no components
+ */
+ANIC_API anic_status anic_write_render_attribute(const anic_render_plan* plan,
+                                                 const anic_context* context, uint32_t attribute,
+                                                 anic_when when, uint32_t first, uint32_t count,
+                                                 const anic_value_output* out);
+
 /* ---- morphing meshes of the host ------------------------------------------------------------- */
 
 /**

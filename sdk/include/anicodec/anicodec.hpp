@@ -351,6 +351,46 @@ class NormalPlan {
   detail::Handle<anic_normal_plan, anic_destroy_normal_plan> handle_;
 };
 
+/// The vertices that a graphics card needs; independent of the asset once made.
+class RenderPlan {
+ public:
+  Status create(const Asset& asset, const anic_render_plan_options* options = nullptr,
+                uint32_t mesh = 0, const anic_allocator* allocator = nullptr) {
+    return detail::receive<anic_render_plan>(&handle_, [&](anic_render_plan** out) {
+      return anic_create_render_plan(asset.get(), mesh, options, allocator, out);
+    });
+  }
+
+  explicit operator bool() const { return handle_ != nullptr; }
+
+  anic_render_plan* get() const { return handle_.get(); }
+
+  /// What it holds; all 0 without a plan.
+  anic_render_info info() const {
+    anic_render_info info = ANIC_INIT(anic_render_info);
+    anic_get_render_info(get(), &info);
+    return info;
+  }
+
+  Status write_positions(const Context& context, const anic_output& out, uint32_t first,
+                         uint32_t count, anic_when when = ANIC_WHEN_CURRENT) const {
+    return anic_write_render_positions(get(), context.get(), when, first, count, &out);
+  }
+
+  Status write_normals(const float* positions, const anic_output& out, uint32_t first,
+                       uint32_t count, size_t stride = 0) const {
+    return anic_write_render_normals(get(), positions, stride, first, count, &out);
+  }
+
+  Status write_attribute(const Context& context, uint32_t attribute, const anic_value_output& out,
+                         uint32_t first, uint32_t count, anic_when when = ANIC_WHEN_CURRENT) const {
+    return anic_write_render_attribute(get(), context.get(), attribute, when, first, count, &out);
+  }
+
+ private:
+  detail::Handle<anic_render_plan, anic_destroy_render_plan> handle_;
+};
+
 }  // namespace anic
 
 #endif  // ANICODEC_ANICODEC_HPP_

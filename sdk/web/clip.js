@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+import { AnicError } from './status.js';
+
+const SAMPLING = { step: 0, linear: 1, cubic: 2 };
+const WRAP = { clamp: 0, loop: 1, pingpong: 2 };
+const KINDS = ['uv', 'normal', 'tangent', 'colour', 'custom', 'material', 'part'];
+const DOMAINS = ['vertex', 'corner', 'polygon'];
+const ABSENT = 'ANIC_E_ABSENT';
+const FLOAT32X3 = 0;
+
+function number(table, name, what) {
+  if (!(name in table))
+    throw new TypeError(`${what} is one of ${Object.keys(table).join(', ')}, not ${name}`);
+  return table[name];
+}
+
+/** An opened clip. Its memory goes with close(), or when nothing refers to it any more. */
+export class Clip {
+  #decoder;
+  #context;
+  #seeked;
+  #scratch = { at: 0, size: 0 };
+
+  constructor(decoder) {
+    this.#take(decoder);
+  }
+
+  #take(decoder) {
+    this.#decoder = decoder;
+    this.#context = decoder.run('create_context');
+    if (!this.#context)
+      throw new AnicError('ANIC_E_MEMORY', 'the browser gives no more memory');
+    this.#scratch = { at: 0, size: 0 };
+    this.#seeked = undefined;
+    decoder.call('info');
+    const [meshes, segments, frames, rate, up, rateAssumed, uneven, loop, closedLoop, partial, startTime, duration, loopDuration,
+      metresPerUnit, diagonal, maxError, rmse, kg, residentBytes, contextBytes] = decoder.numbers(20);
+    this.info = Object.freeze({
+      name: decoder.string(decoder.run('name')), frames, rate, rateAssumed: !!rateAssumed, uneven: !!uneven, loop: !!loop,
+      closedLoop: !!closedLoop, partial: !!partial, startTime, duration, loopDuration, up: [undefined, 'y', 'z'][up],
+      metresPerUnit: metresPerUnit || undefined, diagonal, maxError, rmse, kg, segments, residentBytes, contextBytes,
+    });
+    // Meshes that the host holds stay the same objects.
+    this.meshes ??= Array.from({ length: meshes }, (_, i) => new ClipMesh(this, i));
+    for (const mesh of this.meshes)
+      mesh.replaced();
+  }
+
+  /** Takes a finer version of the same file. */
+  replaceDecoder(decoder) {
+    this.#take(decoder);
+  }
+
+  get decoder() {
+    if (!this.#decoder)
+      throw new AnicError('ANIC_E_STATE', 'the clip is closed');
+    return this.#decoder;
+  }
+
+  get closed() {
+    return !this.#decoder;
+  }
+
+  get frames() {
+    return this.info.frames;
+  }
+
+  get duration() {
+    return this.info.duration;
+  }
+
+  /** Bytes that the clip's decoder holds. */
+  get memoryBytes() {
+    return this.decoder.memory.buffer.byteLength;
+  }
+
+  /** Compares the hashes in the file with what was decoded; throws if they differ, or at less than full quality. */
+  verify() {
+    this.decoder.call('verify');
+  }
+
+  /** Time of a frame, in seconds from the first one. */
+  frameTime(frame) {
+    return this.decoder.run('frame_time', frame);
+  }
+
+  /** Chooses what the following calls show. */
+  seek(time, { sampling = 'linear', wrap = this.info.loop ? 'loop' : 'clamp' } = {}) {
+    const decoder = this.decoder;
+    const key = `${time} ${sampling} ${wrap}`;
+    if (this.#seeked === key)
+      return this.#context;
+    this.#seeked = undefined;
+    decoder.call('seek_time', this.#context, Number(time), number(SAMPLING, sampling, 'sampling'), number(WRAP, wrap, 'wrap'));
+    this.#seeked = key;
+    return this.#context;
+  }
+
+  /** Memory of the module for a moment: its address. */
+  scratch(bytes) {
+    const decoder = this.decoder;
+    if (bytes > this.#scratch.size) {
+      if (this.#scratch.at)
+        decoder.run('release', this.#scratch.at);
+      this.#scratch = { at: 0, size: 0 };
+      this.#scratch = { at: decoder.allocate(bytes), size: bytes };
+    }
+    return this.#scratch.at;
+  }
+
+  // The first mesh, which is the only one in most clips.
+  positions(time, out, options) { return this.meshes[0].positions(time, out, options); }
+  normals(time, out, options) { return this.meshes[0].normals(time, out, options); }
+  attribute(which, time, out, options) { return this.meshes[0].attribute(which, time, out, options); }
+  get indices() { return this.meshes[0].indices; }
+  get groups() { return this.meshes[0].groups; }
+  get vertexCount() { return this.meshes[0].vertexCount; }
+
+  /** The box around all frames of all meshes. */
+  get bounds() {
+    const box = { min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] };
+    for (const { bounds } of this.meshes) {
+      for (let c = 0; c < 3 && bounds; ++c) {
+        box.min[c] = Math.min(box.min[c], bounds.min[c]);
+        box.max[c] = Math.max(box.max[c], bounds.max[c]);
+      }
+    }
+    return box;
+  }
+
+  /** The resident basis of a segment, for a GPU: arrays are copies. See anic_basis of anicodec.h. */
+  basis(segment) {
+    const decoder = this.decoder;
+    decoder.call('basis', segment);
+    const [kind, reconstruction, target, mesh, attribute, firstComponent, firstFrame, frameCount, vertexCount, components,
+      wideComponents, channels, weightChannels, x, y, z, pose, wide, narrow, poseCount, wideCount, narrowCount,
+      vertexShape] = decoder.numbers(23);
+    const copy = (Type, at, count) => (at ? decoder.view(Type, at, count).slice() : null);
+    return {
+      kind: ['keyframes', 'eigenshapes', 'eigentrajectories'][kind], msgi: reconstruction === 1, movesAttribute: target === 1,
+      mesh, attribute, firstComponent, firstFrame, frameCount, vertexCount, components, wideComponents, channels, weightChannels,
+      origin: [x, y, z], pose: copy(Float32Array, pose, poseCount), wide: copy(Int32Array, wide, wideCount),
+      narrow: copy(Int16Array, narrow, narrowCount), vertexShape: copy(Uint32Array, vertexShape, vertexCount),
+    };
+  }
+
+  close() {
+    this.#decoder?.close();
+    this.#decoder = undefined;
+  }
+
+  [Symbol.dispose ?? Symbol('dispose')]() {
+    this.close();
+  }
+}
+
+/** A mesh of a clip. Vertices are render vertices: one for each vertex and what its corners carry. */
+export class ClipMesh {
+  #clip;
+  #index;
+  #plan;
+  #render;
+  #options = { crease: 0, sourceEdges: true };
+
+  constructor(clip, index) {
+    this.#clip = clip;
+    this.#index = index;
+  }
+
+  /** The clip has another decoder now. */
+  replaced() {
+    const decoder = this.#clip.decoder;
+    decoder.call('mesh', this.#index);
+    const [sourceVertices, , polygons, corners, , attributes, name] = decoder.numbers(7);
+    Object.assign(this, { name: decoder.string(name), sourceVertexCount: sourceVertices, polygonCount: polygons, cornerCount: corners });
+    this.attributes = Array.from({ length: attributes }, (_, a) => this.#attributeInfo(a));
+    this.#plan = undefined;
+    if (this.#render)
+      this.#makePlan();
+  }
+
+  #attributeInfo(index) {
+    const decoder = this.#clip.decoder;
+    decoder.call('attribute', this.#index, index);
+    const [kind, domain, count, components, labels, moves, name] = decoder.numbers(9);
+    return {
+      index, name: decoder.string(name), kind: KINDS[kind], domain: DOMAINS[domain], count, components, moves: moves !== 0,
+      labels: Array.from({ length: labels }, (_, l) => decoder.string(decoder.run('label_name', this.#index, index, l))),
+    };
+  }
+
+  get clip() { return this.#clip; }
+
+  get index() { return this.#index; }
+
+  /** How normals are made, before the first use: crease angle in degrees, and the edges that were hard in the source. */
+  set shading({ crease = 0, sourceEdges = true }) {
+    this.#options = { crease, sourceEdges };
+    if (this.#plan)
+      this.#clip.decoder.run('destroy_plan', this.#plan);
+    this.#plan = this.#render = undefined;
+  }
+
+  #makePlan() {
+    const decoder = this.#clip.decoder;
+    this.#plan = decoder.run('create_plan', this.#index, this.#options.crease, this.#options.sourceEdges ? 1 : 0);
+    if (!this.#plan) {
+      const [status] = decoder.numbers(1);
+      throw decoder.error(status);
+    }
+  }
+
+  get #planned() {
+    if (!this.#plan)
+      this.#makePlan();
+    return this.#plan;
+  }
+
+  /** Indices, groups, and where vertices come from: copies, made once. */
+  get #surface() {
+    if (!this.#render) {
+      const decoder = this.#clip.decoder;
+      decoder.call('plan_info', this.#planned);
+      const [vertices, triangles, groups, vertexAt, cornerAt, indexAt, polygonAt, materialAt, beginAt] = decoder.numbers(9);
+      const copy = (at, count) => decoder.view(Uint32Array, at, at ? count : 0).slice();
+      const begin = copy(beginAt, groups + 1), labels = copy(materialAt, groups);
+      const names = this.attributes.find((a) => a.kind === 'material')?.labels ?? [];
+      this.#render = {
+        vertexCount: vertices, triangleCount: triangles, indices: copy(indexAt, 3 * triangles),
+        sourceVertices: copy(vertexAt, vertices), sourceCorners: copy(cornerAt, vertices), trianglePolygons: copy(polygonAt, triangles),
+        groups: Array.from(labels, (label, g) => ({
+          start: 3 * begin[g], count: 3 * (begin[g + 1] - begin[g]), material: label > 0 ? names[label - 1] : undefined,
+        })),
+      };
+    }
+    return this.#render;
+  }
+
+  get vertexCount() { return this.#surface.vertexCount; }
+
+  get triangleCount() { return this.#surface.triangleCount; }
+
+  get indices() { return this.#surface.indices; }
+
+  get groups() { return this.#surface.groups; }
+
+  get sourceVertices() { return this.#surface.sourceVertices; }
+
+  get sourceCorners() { return this.#surface.sourceCorners; }
+
+  get trianglePolygons() { return this.#surface.trianglePolygons; }
+
+  /** The box around all frames; undefined if the clip was opened without, or the mesh is in no frame. */
+  get bounds() {
+    const decoder = this.#clip.decoder;
+    if (decoder.run('clip_bounds', this.#index) !== 0)
+      return undefined;
+    const n = decoder.numbers(6);
+    return { min: [...n.subarray(0, 3)], max: [...n.subarray(3, 6)] };
+  }
+
+  /** Runs write(address, bytes) and copies what it wrote to `out`. */
+  #write(Type, length, out, write) {
+    if (out && !(out instanceof Type))
+      throw new TypeError(`out is no ${Type.name}`);
+    if (out && out.length < length)
+      throw new AnicError('ANIC_E_BUFFER_SIZE', `out has ${out.length} elements, and ${length} are written`);
+    const bytes = length * Type.BYTES_PER_ELEMENT, at = this.#clip.scratch(Math.max(bytes, 1));
+    write(at, bytes);
+    const made = this.#clip.decoder.view(Type, at, length);
+    if (!out)
+      return made.slice();
+    out.set(made);
+    return out;
+  }
+
+  /** Whether the mesh is there at a time. */
+  isPresent(time, options) {
+    try {
+      this.parts(time, options);
+      return true;
+    } catch (error) {
+      if (error.status === ABSENT)
+        return false;
+      throw error;
+    }
+  }
+
+  /** Positions at a time: vertexCount x 3. */
+  positions(time, out, options) {
+    const context = this.#clip.seek(time, options), plan = this.#planned, count = this.vertexCount;
+    return this.#write(Float32Array, 3 * count, out, (at, bytes) => this.#clip.decoder.call('plan_positions', plan, context, count, at, bytes));
+  }
+
+  /** Normals at a time, recomputed from the positions: vertexCount x 3. */
+  normals(time, out, options) {
+    return this.surfaceAt(time, undefined, out, options).normals;
+  }
+
+  /** Positions and normals at a time, at the cost of one. */
+  surfaceAt(time, positions, normals, options) {
+    const context = this.#clip.seek(time, options), plan = this.#planned, count = this.vertexCount, decoder = this.#clip.decoder;
+    const bytes = 12 * count, at = this.#clip.scratch(Math.max(2 * bytes, 1));
+    decoder.call('plan_positions', plan, context, count, at, bytes);
+    decoder.call('plan_normals', plan, at, count, at + bytes, bytes, FLOAT32X3);
+    const give = (from, to) => {
+      const made = decoder.view(Float32Array, from, 3 * count);
+      if (!to)
+        return made.slice();
+      to.set(made);
+      return to;
+    };
+    return { positions: give(at, positions), normals: give(at + bytes, normals) };
+  }
+
+  /** Values of an attribute, by its number or kind ('uv', 'colour'), of the vertices: vertexCount x components. */
+  attribute(which, time = 0, out = undefined, options = undefined) {
+    const found = this.attributes.find((a) => (typeof which === 'number' ? a.index === which : a.kind === which && a.components > 0));
+    if (!found || found.components === 0 || found.domain === 'polygon')
+      return undefined;
+    const context = this.#clip.seek(time, options), plan = this.#planned, count = this.vertexCount;
+    return this.#write(Float32Array, found.components * count, out, (at, bytes) =>
+      this.#clip.decoder.call('plan_attribute', plan, context, found.index, count, at, bytes, 0));
+  }
+
+  /** Positions of the vertices of the source, in its order: sourceVertexCount x 3. */
+  sourcePositions(time, out, options) {
+    const context = this.#clip.seek(time, options), count = this.sourceVertexCount;
+    return this.#write(Float32Array, 3 * count, out, (at, bytes) => this.#clip.decoder.call('write_positions', context, this.#index, count, at, bytes));
+  }
+
+  /** The source's polygons: polygon p has the vertices corners[offsets[p]] .. corners[offsets[p + 1] - 1]. */
+  get polygons() {
+    const decoder = this.#clip.decoder;
+    decoder.call('polygons', this.#index);
+    const [count, offsets, corners] = decoder.numbers(3);
+    return { offsets: decoder.view(Uint32Array, offsets, count + 1).slice(), corners: decoder.view(Uint32Array, corners, this.cornerCount).slice() };
+  }
+
+  /** What a shader needs at a time, beside basis(): see anic_part of anicodec.h. Arrays are good until the next call. */
+  parts(time, options) {
+    const context = this.#clip.seek(time, options), decoder = this.#clip.decoder;
+    decoder.call('parts', context, this.#index);
+    const count = decoder.numbers(1)[0], n = decoder.numbers(1 + 30 * count);
+    return Array.from({ length: count }, (_, p) => {
+      const at = 1 + 30 * p;
+      return {
+        segment: n[at], share: n[at + 1], weightsAt: n[at + 2], shapeAt: n[at + 3], correctionsAt: n[at + 4], correctionCount: n[at + 5],
+        poseMap: n.slice(at + 6, at + 18), motion: n.slice(at + 18, at + 30),
+      };
+    });
+  }
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// One clip in one instance of the WebAssembly module: what binding/web.c exports, with errors as exceptions. Dropping the
+// instance gives all of its memory back, and a decoder that ran out of memory takes only its own clip with it.
+import { AnicError, STATUS } from './status.js';
+
+const FEATURE = 12;
+const OPEN_BOUNDS = 1;
+const text = new TextDecoder();
+
+export class Decoder {
+  /** An empty decoder. progress(share) may return true to stop an opening. */
+  static async create(module, progress) {
+    const decoder = new Decoder();
+    const imports = {
+      env: {
+        emscripten_notify_memory_growth() {},
+        web_progress: (done) => (progress?.(done) ? 1 : 0),
+      },
+      wasi_snapshot_preview1: {
+        proc_exit() { throw new WebAssembly.RuntimeError('the decoder stopped'); },
+      },
+    };
+    const instance = await WebAssembly.instantiate(module, imports);
+    decoder.module = module;
+    decoder.wasm = instance.exports;
+    decoder.memory = instance.exports.memory;
+    decoder.wasm._initialize();
+    decoder.numbersAt = decoder.wasm.web_numbers();
+    return decoder;
+  }
+
+  /** A decoder with the memory of another one of the same module, in this thread or another one. */
+  static async from({ module, memory }) {
+    const decoder = await Decoder.create(module);
+    const more = memory.byteLength - decoder.memory.buffer.byteLength;
+    if (more > 0)
+      decoder.memory.grow(more / 65536);
+    new Uint8Array(decoder.memory.buffer).set(new Uint8Array(memory));
+    return decoder;
+  }
+
+  /** Everything that from() needs; the memory is a copy, to be transferred. */
+  snapshot() {
+    return { module: this.module, memory: this.memory.buffer.slice(0) };
+  }
+
+  /** Calls an export. One that stops the module for good says so in the error. */
+  run(name, ...values) {
+    if (!this.wasm)
+      throw new AnicError('ANIC_E_STATE', 'the clip is closed');
+    try {
+      return this.wasm[`web_${name}`](...values);
+    } catch (error) {
+      if (!(error instanceof WebAssembly.RuntimeError) && !(error instanceof RangeError))
+        throw error;
+      const memory = this.wasm.web_is_without_memory();
+      this.close();
+      throw memory ? new AnicError('ANIC_E_MEMORY', 'the browser gives no more memory')
+        : new AnicError('ANIC_E_INTERNAL', `the decoder stopped: ${error.message}`);
+    }
+  }
+
+  /** Calls an export that returns a status. */
+  call(name, ...values) {
+    const status = this.run(name, ...values);
+    if (status !== 0)
+      throw this.error(status);
+  }
+
+  error(status) {
+    return new AnicError(STATUS[status] ?? `status ${status}`, this.string(this.wasm.web_status_text(status)));
+  }
+
+  /** The failure of an opening: with the place in the file. */
+  failure(status) {
+    const detail = this.string(this.wasm.web_failure_detail());
+    const offset = this.numbers(1)[0];
+    const chunk = this.string(this.wasm.web_failure_chunk());
+    const what = detail || this.string(this.wasm.web_status_text(status));
+    const error = new AnicError(STATUS[status] ?? `status ${status}`, chunk ? `${what} (chunk ${chunk}, byte ${offset})` : what,
+      { chunk, offset });
+    error.needsFullModule = status === FEATURE;
+    return error;
+  }
+
+  /** The numbers that the last call left; good until the next call. */
+  numbers(count) {
+    return new Float64Array(this.memory.buffer, this.numbersAt, count);
+  }
+
+  /** A typed array over the module's memory; good until memory grows. */
+  view(Type, address, length) {
+    return length > 0 ? new Type(this.memory.buffer, address, length) : new Type(0);
+  }
+
+  string(address) {
+    if (!address)
+      return '';
+    const bytes = new Uint8Array(this.memory.buffer);
+    return text.decode(bytes.slice(address, bytes.indexOf(0, address)));
+  }
+
+  allocate(size) {
+    const address = this.run('allocate', size);
+    if (!address)
+      throw new AnicError('ANIC_E_MEMORY', 'the browser gives no more memory');
+    return address;
+  }
+
+  /** Runs body(address of a copy of the bytes). */
+  withBytes(bytes, body) {
+    const address = this.allocate(bytes.byteLength);
+    try {
+      new Uint8Array(this.memory.buffer).set(bytes, address);
+      return body(address);
+    } finally {
+      this.wasm?.web_release(address);
+    }
+  }
+
+  /** Opens a whole file. */
+  open(bytes, { quality = 1, bounds = true, maxBytes = 0 } = {}) {
+    const status = this.withBytes(bytes, (at) => this.run('open', at, bytes.byteLength, quality, bounds ? OPEN_BOUNDS : 0, maxBytes));
+    if (status !== 0)
+      throw this.failure(status);
+  }
+
+  beginStream({ quality = 1, bounds = true, maxBytes = 0 } = {}) {
+    this.call('stream_begin', quality, bounds ? OPEN_BOUNDS : 0, maxBytes);
+  }
+
+  /** Takes the next bytes, and tells how far the file is. */
+  push(bytes) {
+    const status = this.withBytes(bytes, (at) => this.run('stream_push', at, bytes.byteLength));
+    if (status !== 0)
+      throw this.failure(status);
+    this.call('stream_info');
+    const [received, size, playable, complete] = this.numbers(4);
+    return { received, size, playable: playable !== 0, complete: complete !== 0 };
+  }
+
+  /** Opens what has arrived. */
+  openStream() {
+    const status = this.run('stream_open');
+    if (status !== 0)
+      throw this.failure(status);
+  }
+
+  endStream() {
+    this.run('stream_end');
+  }
+
+  close() {
+    this.wasm = this.memory = this.module = undefined;
+  }
+}

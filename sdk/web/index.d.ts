@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+
+/** What went wrong. `status` is a name of anicodec.h, such as ANIC_E_CHUNK_CHECKSUM. */
+export declare class AnicError extends Error {
+  readonly status: string;
+  /** Type of the chunk of the file, or empty. */
+  readonly chunk: string;
+  /** Byte offset in the file, as exact as is known. */
+  readonly offset: number;
+}
+
+export type Source = string | URL | Request | Blob | ArrayBuffer | ArrayBufferView | ReadableStream<Uint8Array>;
+
+export interface Progress {
+  stage: 'load' | 'decode';
+  /** Share of the stage, 0 to 1; undefined while the size of a download is not known. */
+  done: number | undefined;
+}
+
+export interface OpenOptions {
+  /** Share of the components to open, in (0, 1]: fewer are coarser, smaller and faster. Default 1. */
+  quality?: number;
+  /** Computes the boxes of all frames while opening. Default true. */
+  bounds?: boolean;
+  /** Memory that the file may take; files that ask for more fail with ANIC_E_LIMIT. */
+  maxBytes?: number;
+  /** Gives a clip as soon as it plays coarsely; it becomes exact later: see Clip.finished. Default false. */
+  progressive?: boolean;
+  /** Decodes in a worker. Default: where there are workers, but in Node in the calling thread. */
+  worker?: boolean;
+  signal?: AbortSignal;
+  onProgress?(progress: Progress): void;
+  /** The clip has become exact: draw it again. Of progressive clips. */
+  onRefine?(clip: Clip): void;
+}
+
+/** How times become positions. The default of wrap is what the file says: 'loop' or 'clamp'. */
+export interface SampleOptions {
+  sampling?: 'step' | 'linear' | 'cubic';
+  wrap?: 'clamp' | 'loop' | 'pingpong';
+}
+
+export interface Box {
+  min: [number, number, number];
+  max: [number, number, number];
+}
+
+export interface ClipInfo {
+  readonly name: string;
+  readonly frames: number;
+  /** Frames per second. */
+  readonly rate: number;
+  /** The source told no rate. */
+  readonly rateAssumed: boolean;
+  /** Frames have times of their own: Clip.frameTime(). */
+  readonly uneven: boolean;
+  /** Meant to be looped. */
+  readonly loop: boolean;
+  /** The last frame repeats the first. */
+  readonly closedLoop: boolean;
+  /** Parts are missing or coarser: of a progressive clip that is not finished. */
+  readonly partial: boolean;
+  readonly startTime: number;
+  /** Seconds from the first frame to the last. */
+  readonly duration: number;
+  readonly loopDuration: number;
+  readonly up: 'y' | 'z' | undefined;
+  readonly metresPerUnit: number | undefined;
+  /** Of the box around all frames of the source. */
+  readonly diagonal: number;
+  /** Largest distance of a vertex from its place in the source. */
+  readonly maxError: number;
+  readonly rmse: number;
+  /** KG error, per cent. */
+  readonly kg: number;
+  readonly segments: number;
+  readonly residentBytes: number;
+  readonly contextBytes: number;
+}
+
+export interface AttributeInfo {
+  readonly index: number;
+  readonly name: string;
+  readonly kind: 'uv' | 'normal' | 'tangent' | 'colour' | 'custom' | 'material' | 'part';
+  readonly domain: 'vertex' | 'corner' | 'polygon';
+  readonly count: number;
+  readonly components: number;
+  /** Other frames have other values. */
+  readonly moves: boolean;
+  /** Names, of materials and parts. */
+  readonly labels: string[];
+}
+
+/** Triangles of one material: indices start .. start + count - 1. */
+export interface Group {
+  start: number;
+  count: number;
+  material: string | undefined;
+}
+
+/** What a shader needs at a time, beside a Basis: anic_part of anicodec.h. Addresses are in the decoder's memory. */
+export interface Part {
+  segment: number;
+  share: number;
+  weightsAt: number;
+  shapeAt: number;
+  correctionsAt: number;
+  correctionCount: number;
+  /** 3 x 4, row by row. */
+  poseMap: Float64Array;
+  motion: Float64Array;
+}
+
+/** The resident basis of a segment: anic_basis of anicodec.h. */
+export interface Basis {
+  kind: 'keyframes' | 'eigenshapes' | 'eigentrajectories';
+  msgi: boolean;
+  movesAttribute: boolean;
+  mesh: number;
+  attribute: number;
+  firstComponent: number;
+  firstFrame: number;
+  frameCount: number;
+  vertexCount: number;
+  components: number;
+  wideComponents: number;
+  channels: number;
+  weightChannels: number;
+  origin: [number, number, number];
+  pose: Float32Array | null;
+  wide: Int32Array | null;
+  narrow: Int16Array | null;
+  vertexShape: Uint32Array | null;
+}
+
+/**
+ * A mesh of a clip. Its vertices are render vertices: one for each vertex of the source and what its corners carry, such
+ * as texture coordinates and the sides of hard edges. Times are seconds from the first frame. Without `out`, functions
+ * make an array; with it they fill it and return it.
+ */
+export declare class ClipMesh {
+  readonly clip: Clip;
+  readonly index: number;
+  readonly name: string;
+  readonly vertexCount: number;
+  readonly triangleCount: number;
+  /** Three vertices for each triangle, ordered by material. */
+  readonly indices: Uint32Array;
+  readonly groups: Group[];
+  /** Vertex of the source, a corner of it, and the polygon of each triangle. */
+  readonly sourceVertices: Uint32Array;
+  readonly sourceCorners: Uint32Array;
+  readonly trianglePolygons: Uint32Array;
+  readonly sourceVertexCount: number;
+  readonly polygonCount: number;
+  readonly cornerCount: number;
+  readonly attributes: AttributeInfo[];
+  /** The box around all frames. */
+  readonly bounds: Box | undefined;
+  readonly polygons: { offsets: Uint32Array; corners: Uint32Array };
+  /** Edges that are hard: those of the source (default), or from an angle in degrees. Changes the vertices. */
+  set shading(options: { crease?: number; sourceEdges?: boolean });
+  isPresent(time: number, options?: SampleOptions): boolean;
+  positions(time: number, out?: Float32Array, options?: SampleOptions): Float32Array;
+  normals(time: number, out?: Float32Array, options?: SampleOptions): Float32Array;
+  surfaceAt(time: number, positions?: Float32Array, normals?: Float32Array, options?: SampleOptions):
+    { positions: Float32Array; normals: Float32Array };
+  /** Values by number or kind of an attribute; undefined if there is none. */
+  attribute(which: number | 'uv' | 'normal' | 'tangent' | 'colour' | 'custom', time?: number, out?: Float32Array,
+    options?: SampleOptions): Float32Array | undefined;
+  /** Positions in the order of the source. */
+  sourcePositions(time: number, out?: Float32Array, options?: SampleOptions): Float32Array;
+  parts(time: number, options?: SampleOptions): Part[];
+}
+
+/** An opened clip. Its memory goes with close(), or when nothing refers to it any more. */
+export declare class Clip {
+  readonly info: ClipInfo;
+  readonly meshes: ClipMesh[];
+  readonly frames: number;
+  readonly duration: number;
+  readonly closed: boolean;
+  readonly memoryBytes: number;
+  /** Resolves when the clip is exact: at once unless it is progressive. */
+  readonly finished: Promise<Clip>;
+  /** The box around all frames of all meshes. */
+  readonly bounds: Box;
+  frameTime(frame: number): number;
+  verify(): void;
+  basis(segment: number): Basis;
+  close(): void;
+  // Of the first mesh:
+  readonly indices: Uint32Array;
+  readonly groups: Group[];
+  readonly vertexCount: number;
+  positions: ClipMesh['positions'];
+  normals: ClipMesh['normals'];
+  attribute: ClipMesh['attribute'];
+}
+
+/** Opens a clip. Fails with an AnicError, an AbortError, or what the network says. */
+export declare function open(source: Source, options?: OpenOptions): Promise<Clip>;
+
+/** Gives a compiled module, where the files of dist/ cannot be fetched. */
+export declare function provideModule(kind: 'small' | 'full', module: WebAssembly.Module): void;
+
+export declare const Anicodec: { open: typeof open };
+export default Anicodec;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+import { Clip } from './clip.js';
+import { Decoder } from './decoder.js';
+import { Opening, unpackError } from './opening.js';
+import { isNode, loadModule, provideModule } from './module.js';
+import { AnicError } from './status.js';
+
+export { AnicError, Clip, provideModule };
+
+function aborted(signal) {
+  return signal.reason ?? new DOMException('The opening was aborted', 'AbortError');
+}
+
+/** The pieces of a source as Uint8Arrays. */
+async function* pieces(source, signal, onBytes) {
+  if (source instanceof ArrayBuffer || (typeof SharedArrayBuffer !== 'undefined' && source instanceof SharedArrayBuffer)) {
+    yield new Uint8Array(source).slice();
+    return;
+  }
+  if (ArrayBuffer.isView(source)) {
+    yield new Uint8Array(source.buffer, source.byteOffset, source.byteLength).slice();
+    return;
+  }
+  let stream = source, size = 0;
+  if (typeof Blob !== 'undefined' && source instanceof Blob) {
+    stream = source.stream();
+    size = source.size;
+  } else if (typeof source === 'string' || source instanceof URL || (typeof Request !== 'undefined' && source instanceof Request)) {
+    const address = source instanceof URL ? source.href : source;
+    if (isNode && typeof address === 'string' && (address.startsWith('file:') || !/^[a-z][a-z0-9+.-]+:/i.test(address))) {
+      const { readFile } = await import(/* @vite-ignore */ 'node:fs/promises');
+      yield new Uint8Array(await readFile(address.startsWith('file:') ? new URL(address) : address));
+      return;
+    }
+    const response = await fetch(source, { signal });
+    if (!response.ok)
+      throw new Error(`${response.url || source}: ${response.status} ${response.statusText}`.trim());
+    stream = response.body;
+    // Of compressed bodies the length is another one.
+    size = response.headers.get('content-encoding') ? 0 : Number(response.headers.get('content-length') ?? 0);
+  }
+  if (typeof stream?.getReader !== 'function')
+    throw new TypeError('Anicodec.open() takes a URL, bytes, a Blob, a Request or a ReadableStream');
+  const reader = stream.getReader();
+  try {
+    for (let received = 0; ;) {
+      const { done, value } = await reader.read();
+      if (done)
+        return;
+      received += value.byteLength;
+      onBytes?.(received, size);
+      yield value;
+    }
+  } finally {
+    reader.cancel().catch(() => {});
+  }
+}
+
+/** Opens in a thread of its own; onDecoder gets decoders of this thread. */
+async function inWorker(source, options, signal, onProgress, onBytes, onDecoder) {
+  const modules = { small: await loadModule('small') };
+  const worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+  let stop;
+  try {
+    const done = new Promise((resolve, reject) => {
+      let last = Promise.resolve();
+      stop = () => reject(aborted(signal));
+      signal?.addEventListener('abort', stop);
+      worker.onerror = (event) => reject(new Error(event.message || 'the worker of anicodec could not be started'));
+      worker.onmessage = ({ data }) => {
+        if (data.type === 'progress') {
+          onProgress?.(data.done);
+        } else if (data.type === 'error') {
+          reject(unpackError(data.error));
+        } else {
+          provideModule(data.kind, data.snapshot.module);
+          last = last.then(async () => onDecoder(await Decoder.from(data.snapshot), data.complete));
+          if (data.complete)
+            last.then(resolve, reject);
+        }
+      };
+    });
+    worker.postMessage({ type: 'begin', options, modules });
+    const sent = (async () => {
+      for await (const bytes of pieces(source, signal, onBytes))
+        worker.postMessage({ type: 'push', bytes }, [bytes.buffer]);
+      worker.postMessage({ type: 'end' });
+    })();
+    await Promise.race([done, sent.then(() => done)]);
+  } finally {
+    worker.terminate();
+    signal?.removeEventListener('abort', stop);
+  }
+}
+
+async function here(source, options, signal, onProgress, onBytes, onDecoder) {
+  const opening = new Opening({ ...options, onProgress, onDecoder, isCancelled: () => signal?.aborted });
+  try {
+    for await (const bytes of pieces(source, signal, onBytes))
+      await opening.push(bytes);
+    await opening.end();
+  } catch (error) {
+    throw signal?.aborted ? aborted(signal) : error;
+  }
+}
+
+/** See index.d.ts. */
+export function open(source, { quality, bounds, maxBytes, progressive = false, signal, onProgress, onRefine, worker } = {}) {
+  if (signal?.aborted)
+    return Promise.reject(aborted(signal));
+  const run = worker ?? (typeof Worker !== 'undefined' && !isNode) ? inWorker : here;
+  const options = { quality, bounds, maxBytes, progressive };
+  const report = (stage) => onProgress && ((done, of = 1) => onProgress({ stage, done: of > 0 ? done / of : undefined }));
+  return new Promise((resolve, reject) => {
+    let clip;
+    const finished = run(source, options, signal, report('decode'), report('load'), (decoder, complete) => {
+      if (clip?.closed)
+        return;
+      if (clip) {
+        clip.replaceDecoder(decoder);
+        onRefine?.(clip);
+      } else {
+        clip = new Clip(decoder);
+        clip.finished = new Promise((done, fail) => Object.assign(clip, { settle: { done, fail } }));
+        clip.finished.catch(() => {});  // whoever waits for it is told
+        resolve(clip);
+      }
+      if (complete)
+        clip.settle.done(clip);
+    });
+    finished.catch((error) => (clip ? clip.settle.fail(error) : reject(error)));
+  });
+}
+
+export const Anicodec = { open };
+export default Anicodec;

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The package in Node: conformance files, damage, streams, limits. node --test decoder.test.mjs
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { brotliCompressSync } from 'node:zlib';
+import { Anicodec, AnicError, provideModule } from '../../sdk/web/index.js';
+import { bytesOf, factsOf, files } from './files.mjs';
+
+const dist = new URL('../../sdk/web/dist/', import.meta.url);
+const moduleOf = (name) => WebAssembly.compile(readFileSync(new URL(name, dist)));
+const KINDS = { small: 'anicodec.wasm', full: 'anicodec-full.wasm', scalar: 'anicodec-scalar.wasm' };
+/** Files whose connectivity Draco coded: the package has no Draco. */
+const isDraco = (error) => error instanceof AnicError && error.status === 'ANIC_E_CODER';
+
+async function expectFacts(file) {
+  const facts = factsOf(file), clip = await Anicodec.open(bytesOf(file));
+  assert.equal(clip.meshes.length, facts.meshes.length);
+  clip.verify();
+  facts.meshes.forEach((expected, m) => {
+    const mesh = clip.meshes[m], [vertices, frames, polygons] = expected.counts;
+    assert.deepEqual([mesh.sourceVertexCount, clip.frames, mesh.polygonCount], [vertices, frames, polygons]);
+    for (const [frame, vertex, ...point] of expected.points) {
+      const time = clip.frameTime(frame);
+      if (point[0] === null) {
+        assert.ok(!mesh.isPresent(time));
+        continue;
+      }
+      const seen = mesh.sourcePositions(time, undefined, { sampling: 'step' });
+      for (let c = 0; c < 3; ++c)
+        assert.ok(Math.abs(seen[3 * vertex + c] - point[c]) <= Math.max(expected.tolerance, 1e-6 * Math.abs(point[c])),
+          `${file}, mesh ${m}, frame ${frame}, vertex ${vertex}: ${seen[3 * vertex + c]}, not ${point[c]}`);
+    }
+  });
+  clip.close();
+}
+
+for (const [small, full] of [['small', 'full'], ['scalar', 'scalar']]) {
+  test(`conformance files, module ${small}`, async (t) => {
+    provideModule('small', await moduleOf(KINDS[small]));
+    provideModule('full', await moduleOf(KINDS[full]));
+    let opened = 0;
+    for (const { what, file, status } of files) {
+      await t.test(file, async (own) => {
+        if (what === 'valid') {
+          await expectFacts(file).then(() => ++opened, (error) => {
+            if (!isDraco(error))
+              throw error;
+            own.skip('coded by Draco');
+          });
+        } else {
+          await assert.rejects(Anicodec.open(bytesOf(file)).then((clip) => clip.verify()),
+            (error) => error instanceof AnicError && (error.status === status || isDraco(error)) && error.message.length > 5);
+        }
+      });
+    }
+    assert.ok(opened > 5);
+  });
+}
+
+const CLIP = 'limb_small.anic';
+const PLAIN = files.filter(({ what, file }) => what === 'valid' && /plain|interpolated|painted/.test(file)).map(({ file }) => file);
+
+/** The first of the files that this package opens. */
+async function openable() {
+  for (const file of [CLIP, ...PLAIN]) {
+    try {
+      (await Anicodec.open(bytesOf(file))).close();
+      return file;
+    } catch (error) {
+      if (!isDraco(error))
+        throw error;
+    }
+  }
+  throw new Error('no file can be opened');
+}
+
+test('flipped bits end in an AnicError, or play', async () => {
+  const good = bytesOf(await openable());
+  let refused = 0;
+  for (let i = 0; i < 60; ++i) {
+    const bytes = good.slice();
+    bytes[(i * 7919) % bytes.length] ^= 1 << (i % 8);
+    try {
+      const clip = await Anicodec.open(bytes);
+      clip.positions(0);
+      clip.close();
+    } catch (error) {
+      assert.ok(error instanceof AnicError, String(error));
+      assert.match(error.status, /^ANIC_E_/);
+      ++refused;
+    }
+  }
+  assert.ok(refused > 40);
+});
+
+test('positions, normals and values of render vertices', async () => {
+  const clip = await Anicodec.open(bytesOf('painted_box.anic')).catch((error) => (isDraco(error) ? undefined : Promise.reject(error)));
+  if (!clip)
+    return;
+  const [mesh] = clip.meshes, p = mesh.positions(0.1), source = mesh.sourcePositions(0.1);
+  assert.equal(p.length, 3 * mesh.vertexCount);
+  mesh.sourceVertices.forEach((v, r) => assert.deepEqual([...p.subarray(3 * r, 3 * r + 3)], [...source.subarray(3 * v, 3 * v + 3)]));
+  assert.ok(mesh.vertexCount > mesh.sourceVertexCount);
+  const n = mesh.normals(0.1);
+  for (let i = 0; i < n.length; i += 3)
+    assert.ok(Math.abs(Math.hypot(n[i], n[i + 1], n[i + 2]) - 1) < 1e-5);
+  assert.equal(mesh.groups.reduce((sum, g) => sum + g.count, 0), mesh.indices.length);
+  assert.ok(mesh.groups.length > 1 && mesh.groups.every((g) => g.material));
+  assert.equal(mesh.attribute('uv').length, 2 * mesh.vertexCount);
+  const out = new Float32Array(p.length);
+  assert.equal(mesh.positions(0.1, out), out);
+  assert.deepEqual(out, p);
+  assert.throws(() => mesh.positions(0.1, new Float32Array(3)), { status: 'ANIC_E_BUFFER_SIZE' });
+  assert.throws(() => mesh.positions(0.1, undefined, { wrap: 'round' }), /clamp, loop, pingpong/);
+  assert.throws(() => clip.positions(NaN), { status: 'ANIC_E_ARGUMENT' });
+  clip.close();
+  clip.close();
+  assert.throws(() => clip.positions(0), { status: 'ANIC_E_STATE' });
+});
+
+test('a file that arrives in pieces plays before its end, and then exactly', async () => {
+  const file = await openable(), bytes = bytesOf(file);
+  let given = 0, refined = 0;
+  const source = new ReadableStream({
+    pull(controller) {
+      controller.enqueue(bytes.slice(given, given += 257));
+      if (given >= bytes.length)
+        controller.close();
+    },
+  });
+  const clip = await Anicodec.open(source, { progressive: true, onRefine: () => ++refined });
+  const early = clip.info.partial;
+  clip.positions(0);
+  await clip.finished;
+  assert.equal(refined, early ? 1 : 0);
+  assert.equal(clip.info.partial, false);
+  const whole = await Anicodec.open(bytes);
+  assert.deepEqual(clip.positions(0.05), whole.positions(0.05));
+});
+
+test('limits, aborting and progress', async () => {
+  const bytes = bytesOf(await openable());
+  await assert.rejects(Anicodec.open(bytes, { maxBytes: 2000 }), { status: 'ANIC_E_LIMIT' });
+  const controller = new AbortController();
+  await assert.rejects(Anicodec.open(bytes, { signal: controller.signal, onProgress: () => controller.abort() }), { name: 'AbortError' });
+  const shares = [];
+  await Anicodec.open(bytes, { onProgress: ({ stage, done }) => stage === 'decode' && shares.push(done) });
+  assert.ok(shares.length > 0 && shares.every((s, i) => s >= (shares[i - 1] ?? 0) && s <= 1));
+  await assert.rejects(Anicodec.open(42), TypeError);
+  await assert.rejects(Anicodec.open(new URL('absent.anic', import.meta.url)), /absent/);
+});
+
+test('modules import what decoder.js gives, and are small', async () => {
+  const allowed = ['env.emscripten_notify_memory_growth', 'env.web_progress', 'wasi_snapshot_preview1.proc_exit'];
+  // Bytes of brotli; raised only for a reason that CHANGELOG.md gives.
+  const limits = { small: 115000, full: 130000, scalar: 130000 };
+  for (const [kind, name] of Object.entries(KINDS)) {
+    const module = await moduleOf(name);
+    for (const { module: from, name: what } of WebAssembly.Module.imports(module))
+      assert.ok(allowed.includes(`${from}.${what}`), `${name} imports ${from}.${what}`);
+    const size = brotliCompressSync(readFileSync(new URL(name, dist))).length;
+    console.log(`${name}: ${size} bytes of brotli`);
+    assert.ok(size < limits[kind], `${name} has ${size} bytes of brotli`);
+  }
+});
