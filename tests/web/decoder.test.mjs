@@ -97,18 +97,15 @@ test('flipped bits end in an AnicError, or play', async () => {
 });
 
 test('positions, normals and values of render vertices', async () => {
-  const clip = await Anicodec.open(bytesOf('painted_box.anic')).catch((error) => (isDraco(error) ? undefined : Promise.reject(error)));
-  if (!clip)
-    return;
+  const clip = await Anicodec.open(bytesOf('heated.anic'));
   const [mesh] = clip.meshes, p = mesh.positions(0.1), source = mesh.sourcePositions(0.1);
   assert.equal(p.length, 3 * mesh.vertexCount);
   mesh.sourceVertices.forEach((v, r) => assert.deepEqual([...p.subarray(3 * r, 3 * r + 3)], [...source.subarray(3 * v, 3 * v + 3)]));
-  assert.ok(mesh.vertexCount > mesh.sourceVertexCount);
+  assert.ok(mesh.vertexCount >= mesh.sourceVertexCount);
   const n = mesh.normals(0.1);
   for (let i = 0; i < n.length; i += 3)
     assert.ok(Math.abs(Math.hypot(n[i], n[i + 1], n[i + 2]) - 1) < 1e-5);
   assert.equal(mesh.groups.reduce((sum, g) => sum + g.count, 0), mesh.indices.length);
-  assert.ok(mesh.groups.length > 1 && mesh.groups.every((g) => g.material));
   assert.equal(mesh.attribute('uv').length, 2 * mesh.vertexCount);
   const out = new Float32Array(p.length);
   assert.equal(mesh.positions(0.1, out), out);

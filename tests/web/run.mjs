@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 const need = {
   '../../sdk/web/dist/anicodec-full.wasm': 'preset wasm builds the modules',
   '../../sdk/web/dist/anicodec-scalar.wasm': 'preset wasm-scalar builds the module without SIMD',
-  'node_modules': 'npm ci --prefix tests/web installs what they need',
+  'node_modules/playwright-core': 'npm ci --prefix tests/web installs what they need',
 };
 for (const [path, how] of Object.entries(need)) {
   if (!existsSync(fileURLToPath(new URL(path, import.meta.url)))) {

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Clips in three.js: a loader, and an object that shows a clip at a time.
+import {
+  AnimationClip, AnimationMixer, Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, Loader, LoopOnce, Mesh,
+  MeshStandardMaterial, NumberKeyframeTrack, Points, PointsMaterial, Sphere, Vector3,
+} from 'three';
+import { open } from './index.js';
+
+/** Loads `.anic` files as AnicMesh objects. */
+export class AnicLoader extends Loader {
+  /** Options of Anicodec.open(), and `up`: 'y' turns clips with z up. */
+  constructor(manager) {
+    super(manager);
+    this.options = {};
+  }
+
+  setOptions(options) {
+    this.options = options;
+    return this;
+  }
+
+  load(url, onLoad, onProgress, onError) {
+    const full = this.manager.resolveURL((this.path ?? '') + url);
+    const request = new Request(new URL(full, globalThis.location?.href), {
+      headers: this.requestHeader, credentials: this.crossOrigin === 'use-credentials' || this.withCredentials ? 'include' : 'same-origin',
+    });
+    this.manager.itemStart(full);
+    const progress = (event) => {
+      this.options.onProgress?.(event);
+      onProgress?.(event);
+    };
+    open(request, { ...this.options, onProgress: progress }).then((clip) => onLoad?.(new AnicMesh(clip))).catch((error) => {
+      if (onError)
+        onError(error);
+      else
+        console.error(error);
+      this.manager.itemError(full);
+    }).finally(() => this.manager.itemEnd(full));
+  }
+
+  /** The bytes of a file. */
+  async parseAsync(bytes) {
+    return new AnicMesh(await open(bytes, this.options));
+  }
+}
+
+function boxOf(bounds) {
+  return new Box3(new Vector3(...bounds.min), new Vector3(...bounds.max));
+}
+
+/** The unmoving part of a mesh's geometry; positions and normals are filled by AnicMesh. */
+function geometryOf(mesh) {
+  const geometry = new BufferGeometry(), n = mesh.vertexCount;
+  for (const name of ['position', 'normal'])
+    geometry.setAttribute(name, new BufferAttribute(new Float32Array(3 * n), 3).setUsage(DynamicDrawUsage));
+  if (mesh.triangleCount > 0) {
+    geometry.setIndex(new BufferAttribute(n > 65535 ? mesh.indices : Uint16Array.from(mesh.indices), 1));
+    if (mesh.groups.length > 1)
+      mesh.groups.forEach(({ start, count }, i) => geometry.addGroup(start, count, i));
+  }
+  if (mesh.bounds) {
+    geometry.boundingBox = boxOf(mesh.bounds);
+    geometry.boundingSphere = geometry.boundingBox.getBoundingSphere(new Sphere());
+  }
+  return geometry;
+}
+
+/** Attributes of a clip's mesh that three.js has names for: [name, attribute]. */
+function namedAttributes(mesh) {
+  const uvs = mesh.attributes.filter((a) => a.kind === 'uv' && a.components >= 2 && a.domain !== 'polygon').slice(0, 4);
+  const colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygon');
+  return [...uvs.map((a, i) => [i === 0 ? 'uv' : `uv${i}`, a]), ...(colour ? [['color', colour]] : [])];
+}
+
+/** Shows a clip at `time`: a group of one object for each mesh of the clip. */
+export class AnicMesh extends Group {
+  #shown = NaN;
+  #time = 0;
+  #options = {};
+  #mixer;
+  #parts;
+
+  constructor(clip, material) {
+    super();
+    this.type = 'AnicMesh';
+    this.clip = clip;
+    this.name = clip.info.name;
+    this.#parts = clip.meshes.map((mesh) => this.#part(mesh, material));
+    // `.time` as a track, so that an AnimationMixer can play it, fade it and change its speed.
+    const end = Math.max(clip.info.loop ? clip.info.loopDuration : clip.duration, 1e-6);
+    this.animations = [new AnimationClip(clip.info.name || 'anic', end, [new NumberKeyframeTrack('.time', [0, end], [0, end])])];
+    if (clip.info.up === 'z')
+      this.rotation.x = -Math.PI / 2;
+    this.refresh();
+  }
+
+  #part(mesh, material) {
+    const geometry = geometryOf(mesh), attributes = namedAttributes(mesh);
+    for (const [name, a] of attributes)
+      geometry.setAttribute(name, new BufferAttribute(mesh.attribute(a.index), a.components).setUsage(a.moves ? DynamicDrawUsage : geometry.attributes.position.usage));
+    const coloured = attributes.some(([name]) => name === 'color');
+    let object;
+    if (mesh.triangleCount > 0) {
+      const one = material ?? new MeshStandardMaterial({ vertexColors: coloured });
+      const many = mesh.groups.map(({ material: name }) => (material ? one : Object.assign(one.clone(), { name: name ?? '' })));
+      object = new Mesh(geometry, mesh.groups.length > 1 ? many : many[0] ?? one);
+      object.raycast = (...args) => {
+        this.refresh();
+        Mesh.prototype.raycast.apply(object, args);
+      };
+    } else {
+      object = new Points(geometry, material ?? new PointsMaterial({ vertexColors: coloured, size: this.clip.info.diagonal / 200 }));
+    }
+    object.name = mesh.name;
+    object.frustumCulled = !!mesh.bounds;
+    this.add(object);
+    return { mesh, object, moving: attributes.filter(([, a]) => a.moves) };
+  }
+
+  /** The objects that show the meshes of the clip. */
+  get parts() {
+    return this.#parts.map(({ object }) => object);
+  }
+
+  /** Seconds from the first frame. */
+  get time() { return this.#time; }
+
+  set time(seconds) { this.#time = seconds; }
+
+  /** 'step', 'linear' or 'cubic', and 'clamp', 'loop' or 'pingpong'. */
+  set sampling(sampling) { this.#options = { ...this.#options, sampling }; this.#shown = NaN; }
+
+  set wrap(wrap) { this.#options = { ...this.#options, wrap }; this.#shown = NaN; }
+
+  /** Fills the geometry for the time, unless it shows it already. */
+  refresh(force = false) {
+    if (this.#shown === this.#time && !force)
+      return;
+    for (const { mesh, object, moving } of this.#parts) {
+      object.visible = mesh.isPresent(this.#time, this.#options);
+      if (!object.visible)
+        continue;
+      const { position, normal } = object.geometry.attributes;
+      if (mesh.triangleCount > 0)
+        mesh.surfaceAt(this.#time, position.array, normal.array, this.#options);
+      else
+        mesh.positions(this.#time, position.array, this.#options);
+      position.needsUpdate = normal.needsUpdate = true;
+      for (const [name, a] of moving) {
+        mesh.attribute(a.index, this.#time, object.geometry.attributes[name].array, this.#options);
+        object.geometry.attributes[name].needsUpdate = true;
+      }
+    }
+    this.#shown = this.#time;
+  }
+
+  updateMatrixWorld(force) {
+    this.refresh();
+    super.updateMatrixWorld(force);
+  }
+
+  /** Plays by a mixer of its own; call update() with the seconds since the last frame. Returns the action. */
+  play({ speed = 1, loop = true } = {}) {
+    this.#mixer ??= new AnimationMixer(this);
+    const action = this.#mixer.clipAction(this.animations[0]);
+    action.timeScale = speed;
+    action.clampWhenFinished = true;
+    if (!loop)
+      action.setLoop(LoopOnce);
+    return action.reset().play();
+  }
+
+  update(seconds) {
+    this.#mixer?.update(seconds);
+  }
+
+  /** Gives memory back, on the graphics card and in the decoder. */
+  dispose() {
+    this.#mixer?.stopAllAction();
+    for (const { object } of this.#parts) {
+      object.geometry.dispose();
+      for (const material of [object.material].flat())
+        material.dispose();
+    }
+    this.clip.close();
+  }
+}

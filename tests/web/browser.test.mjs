@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The package in Chromium: workers, errors, three.js.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { bytesOf, files } from './files.mjs';
+import { CHROMIUM, serve, withPage } from './serve.mjs';
+
+const IMPORTS = JSON.stringify({ imports: {
+  anicodec: '/sdk/web/index.js', 'anicodec/three': '/sdk/web/three.js',
+  three: '/tests/web/node_modules/three/build/three.module.js', 'three/webgpu': '/tests/web/node_modules/three/build/three.webgpu.js',
+  'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js',
+} });
+const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
+const skip = CHROMIUM ? false : 'there is no Chromium';
+let server;
+before(async () => { server = await serve({ '/page': PAGE }); });
+after(() => server.close());
+
+/** Runs a function in a page that can import the package; nothing may be said on the console. */
+async function inPage(body, argument) {
+  return withPage(async (page, messages) => {
+    await page.goto(`${server.url}/page`);
+    const result = await page.evaluate(body, argument);
+    assert.deepEqual(messages, []);
+    return { result, picture: await page.screenshot() };
+  });
+}
+
+test('opens in a worker what opens in the page, bit for bit, and reports damage', { skip }, async () => {
+  const names = files.filter(({ what }) => what === 'valid').map(({ file }) => file);
+  const damaged = Array.from({ length: 60 }, (_, i) => i * 7919);
+  const { result } = await inPage(async ({ names: all, damaged: flips }) => {
+    const { Anicodec } = await import('anicodec');
+    const outcome = { same: 0, draco: 0, refused: {} };
+    let last;
+    for (const name of all) {
+      const url = `/tests/conformance/${name}`;
+      try {
+        const a = await Anicodec.open(url), b = await Anicodec.open(url, { worker: false });
+        a.verify();
+        for (const time of [0, 0.06, 1]) {
+          a.meshes.forEach((mesh, m) => {
+            if (!mesh.isPresent(time))
+              return;
+            const x = mesh.positions(time), y = b.meshes[m].positions(time);
+            if (x.length !== y.length || x.some((v, i) => v !== y[i]))
+              throw new Error(`${name}: positions differ`);
+          });
+        }
+        ++outcome.same;
+        last = url;
+        a.close();
+      } catch (error) {
+        if (error.status !== 'ANIC_E_CODER')
+          throw error;
+        ++outcome.draco;
+      }
+    }
+    const bytes = new Uint8Array(await (await fetch(last)).arrayBuffer());
+    for (const at of flips) {
+      const bad = bytes.slice();
+      bad[at % bad.length] ^= 1 << (at % 8);
+      try {
+        (await Anicodec.open(bad, { worker: at % 2 === 0 })).close();
+      } catch (error) {
+        if (error.name !== 'AnicError' || !error.status.startsWith('ANIC_E_'))
+          throw error;
+        outcome.refused[error.status] = (outcome.refused[error.status] ?? 0) + 1;
+      }
+    }
+    const controller = new AbortController();
+    const stopped = Anicodec.open(last, { signal: controller.signal }).catch((error) => error.name);
+    controller.abort();
+    outcome.aborted = await stopped;
+    outcome.missing = await Anicodec.open('data:,x').catch((error) => error.status);
+    return outcome;
+  }, { names, damaged });
+  assert.ok(result.same > 5, JSON.stringify(result));
+  assert.equal(result.same + result.draco, names.length);
+  assert.ok(Object.values(result.refused).reduce((a, b) => a + b) > 40, JSON.stringify(result));
+  assert.equal(result.aborted, 'AbortError');
+  assert.equal(result.missing, 'ANIC_E_MAGIC');
+});
+
+test('three.js shows, plays and hits a clip', { skip }, async () => {
+  const { result } = await inPage(async () => {
+    const THREE = await import('three');
+    const { AnicLoader } = await import('anicodec/three');
+    const seen = [], mesh = await new Promise((resolve, reject) =>
+      new AnicLoader().load('/tests/conformance/heated.anic', resolve, (event) => seen.push(event), reject));
+    const renderer = new THREE.WebGLRenderer();
+    renderer.setSize(320, 240);
+    document.body.append(renderer.domElement);
+    const scene = new THREE.Scene(), light = new THREE.DirectionalLight(0xffffff, 3);
+    light.position.set(1, 2, 3);
+    scene.add(light, mesh);
+    const { min, max } = mesh.clip.bounds, box = new THREE.Box3(new THREE.Vector3(...min), new THREE.Vector3(...max));
+    const sphere = box.getBoundingSphere(new THREE.Sphere()), centre = sphere.center;
+    const camera = new THREE.PerspectiveCamera(40, 4 / 3, sphere.radius / 10, sphere.radius * 10);
+    camera.position.copy(centre).add(new THREE.Vector3(0, 0, 3.5 * sphere.radius));
+    camera.lookAt(centre);
+    const shot = () => {
+      renderer.render(scene, camera);
+      const gl = renderer.getContext(), pixels = new Uint8Array(4 * 320 * 240);
+      gl.readPixels(0, 0, 320, 240, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      return pixels;
+    };
+    const lit = (pixels) => pixels.filter((v, i) => i % 4 === 0 && v > 8).length;
+    const first = shot();
+    const action = mesh.play({ speed: 1 });
+    mesh.update(mesh.clip.duration / 2);
+    const later = shot();
+    scene.updateMatrixWorld();
+    const ray = new THREE.Raycaster(camera.position, centre.clone().sub(camera.position).normalize());
+    const hits = ray.intersectObject(mesh, true).length;
+    const outcome = { lit: lit(first), changed: first.filter((v, i) => v !== later[i]).length, time: mesh.time, running: action.isRunning(),
+      half: mesh.clip.duration / 2, hits, progress: seen.length, attributes: Object.keys(mesh.parts[0].geometry.attributes) };
+    mesh.dispose();
+    return outcome;
+  });
+  assert.ok(result.lit > 1000, JSON.stringify(result));
+  assert.ok(result.changed > 100, JSON.stringify(result));
+  assert.ok(Math.abs(result.time - result.half) < 1e-6 && result.running);
+  assert.ok(result.hits > 0 && result.progress > 0);
+  assert.ok(result.attributes.includes('uv') && result.attributes.includes('color'));
+});
