@@ -6,7 +6,7 @@
 #include "codec/file/clip_record.h"
 #include "codec/search/clip_search.h"
 #include "codec/search/search_progress.h"
-#include "codec/segment/linear_segment_encode.h"
+#include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void cut_timing(const FrameRun& part, MeshSequence& sequence) {
 
 /// Frame 0 of the whole clip, the same in all parts: on a grid as fine as the error asked for.
 std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, const Target& target,
-                                                 double clip_diagonal, bool slow) {
+                                                 double clip_diagonal) {
   constexpr double kTypical = 1e-4;  // of the diagonal
   double step = kTypical * clip_diagonal;
   if (target.metric == ErrorMetric::kMaxError)
@@ -57,7 +57,7 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
     step = target.value;
   Eigen::Vector3d origin;
   const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
-  return encode_reference_pose(pose, origin, step, slow, input.layout);
+  return encode_reference_pose(pose, origin, step, input.layout);
 }
 
 }  // namespace
@@ -83,9 +83,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   EncoderInput input(std::move(sequence), options.mesh_coder, options.part);
   const std::vector<StoredAttribute> stored =
       encode_attributes(input.sequence, options.attributes, &input.layout);
-  constexpr int kSlowEffort = 7;
   if (options.part)
-    input.pose = pose_of_parts(input, target, clip_diagonal, options.effort >= kSlowEffort);
+    input.pose = pose_of_parts(input, target, clip_diagonal);
   ClipSearch search(input, stored, options, target, clip_diagonal);
   SearchProgress steps(progress, search.expected_trials());
   input.on_trial = [&steps] { steps.trial(); };

@@ -18,7 +18,7 @@ namespace anicodec {
 
 inline constexpr uint8_t kMagic[8] = {0x89, 'A', 'N', 'I', '\r', '\n', 0x1A, '\n'};
 inline constexpr uint16_t kVersionMajor = 0;
-inline constexpr uint16_t kVersionMinor = 1;
+inline constexpr uint16_t kVersionMinor = 2;
 inline constexpr size_t kHeaderBytes = 40;
 inline constexpr size_t kEntryBytes = 32;
 inline constexpr size_t kAlignment = 8;

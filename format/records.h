@@ -28,7 +28,11 @@ inline constexpr uint32_t kPositions = UINT32_MAX;
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
 
 /// How connectivity or integer positions are coded.
-enum class CoderId : uint8_t { kPlain = 0, kDraco = 1, kPredictive = 2 };
+enum class CoderId : uint8_t { kPlain = 0, kDraco = 1 };
+
+/// How the coordinates of a pose are told: how far each is from what is expected of it, or first
+/// whether it is exactly that of a neighbour or a parallelogram, or as entries of DependentSteps.
+enum class PoseCoding : uint8_t { kRounded = 0, kExact = 1, kDependent = 2 };
 
 /// How a frame is made from key-frames: on straight lines, or by multi-scale geometry
 /// interpolation.
@@ -146,10 +150,10 @@ struct MeshRecord {
 /// Chunk POSE: a reference pose on its grid. That of a mesh serves all its segments of eigenshapes
 /// and eigentrajectories; one that names a segment serves that one.
 struct PoseRecord {
-  CoderId coder = CoderId::kPlain;
+  PoseCoding coding = PoseCoding::kRounded;
   double origin[3] = {0, 0, 0};
   double step = 1;
-  ByteView stream;  ///< coordinates that the mesh's Draco bitstream does not hold
+  ByteView stream;
 
   Bytes write() const;
   static Status read(ByteView view, PoseRecord* out);

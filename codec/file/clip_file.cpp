@@ -13,7 +13,7 @@ namespace {
 
 Bytes pose_record(const EncodedPose& pose) {
   PoseRecord record;
-  record.coder = pose.coder;
+  record.coding = pose.coding;
   std::copy_n(pose.grid.origin, 3, record.origin);
   record.step = pose.grid.step;
   record.stream = pose.stream;
@@ -33,23 +33,19 @@ Bytes clip_file(const ClipRecord& record, const MeshLayout& layout,
   Limits limits;
   limits.meshes.push_back(layout.sizes);
   size_t poses = 0;
-  const EncodedSegment* carried_of = nullptr;
   for (const EncodedSegment* segment : segments) {
     if (segment->sizes.attribute == kPositions)
       limits.frames += segment->sizes.frames;
     limits.segments.push_back(segment->sizes);
-    std::span<const Vector<int32_t>> carried = segment->poses_for_draco();
+    std::span<const Vector<int32_t>> carried = segment->draco_poses;
     if (carried.empty())
       continue;
-    if (!carried_of) {
-      carried_of = segment;
-      connectivity = encode_with_poses(layout, carried);
-      if (connectivity.empty())
-        throw Error(ErrorKind::kInternal, "Draco cannot code the key-frames");
-      poses = carried.size();
-    } else if (!segment->reference || segment->reference != carried_of->reference) {
+    if (poses > 0)
       throw Error(ErrorKind::kInternal, "a Draco bitstream holds the poses of one segment");
-    }
+    connectivity = encode_with_poses(layout, carried);
+    if (connectivity.empty())
+      throw Error(ErrorKind::kInternal, "Draco cannot code the key-frames");
+    poses = carried.size();
   }
   if (layout.coder == CoderId::kDraco) {
     limits.meshes[0].draco_components = draco_components(poses);

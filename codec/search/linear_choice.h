@@ -15,6 +15,7 @@ struct LinearChoice {
   ReferencePose pose = ReferencePose::kMean;
   Base base = Base::kPose;
   LinearSettings settings;
+  double aim = 1;  ///< what estimates of the error are to be told, over what they are to meet
   std::vector<const char*> steps;  ///< names of the steps of the search that were kept
 };
 

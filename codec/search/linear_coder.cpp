@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -16,8 +17,9 @@ namespace {
 constexpr double kClose = 0.997;  // of the error asked for: near enough
 constexpr double kAim = 0.9985;   // where to aim, of the same
 constexpr int kRounds = 8;
-constexpr int kSlowEffort = 7;      // from here on, files may open slower to be smaller
 constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
+constexpr double kNear = 0.04;      // of the error asked for: sizes can be compared
+constexpr double kDoubt = 0.01;     // of a size that one trial tells, relative
 constexpr size_t kMostComponents = 2000;
 
 }  // namespace
@@ -29,9 +31,7 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
-  const bool slow = effort >= kSlowEffort;
-  choice_.settings.slow_pose = slow;
-  if (!shapes && !slow) {
+  if (!shapes) {
     // Trajectories are many: half the time that prediction takes, for two bytes in a hundred.
     choice_.settings.neighbours = 12;
     choice_.settings.schedule = RefitSchedule::kMedium;
@@ -50,12 +50,6 @@ void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
   chosen_ = true;
 }
 
-/// What the pose takes in the mesh's Draco bitstream and beside it.
-size_t LinearCoder::pose_bytes(const EncodedSegment& encoded) const {
-  return encode_with_poses(input_.layout, encoded.poses_for_draco()).size() +
-         encoded.reference->stream.size();
-}
-
 const LinearBasis& LinearCoder::basis(ReferencePose pose, Base base) {
   auto [found, fresh] = bases_.try_emplace({pose, base});
   if (fresh)
@@ -65,6 +59,7 @@ const LinearBasis& LinearCoder::basis(ReferencePose pose, Base base) {
 
 /// The choice with a step and a number of components that should meet the error.
 LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
+  rmse *= choice.aim;
   const LinearBasis& b = basis(choice.pose, choice.base);
   FrameView clip = analysis_.clip();
   double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
@@ -106,37 +101,52 @@ LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double r
   for (const char* step : choice.steps)
     m.part.what += std::string(", ") + step;
   m.rmse = input_.rmse(m.part.error.squared, analysis_.clip().frame_count);
-  size_t pose = pose_ ? 0 : pose_bytes(m.part.encoded);
-  m.bytes = static_cast<double>(m.part.encoded.bytes() + pose) *
+  m.bytes = static_cast<double>(bytes(m.part)) *
             std::pow(std::max(m.rmse, rmse * 1e-3) / rmse, kRateSlope);
   return m;
 }
 
+/// A trial of a started choice tells how far its estimate was off.
+void LinearCoder::learn_aim(const Measured& trial, double rmse, LinearChoice& choice) {
+  if (trial.rmse > 0 && !std::isinf(trial.rmse))
+    choice.aim = std::clamp(choice.aim * kAim * rmse / trial.rmse, 0.2, 5.0);
+}
+
 double LinearCoder::probe(double rmse) {
-  choice_ = started(choice_, rmse);
-  return measured(choice_, rmse).bytes;
+  constexpr int kMostTrials = 3;
+  for (int round = 0; round < kMostTrials && !(probed_.rmse == rmse && probed_.is_near); ++round) {
+    choice_ = started(choice_, rmse);
+    const Measured trial = measured(choice_, rmse);
+    probed_ = {rmse, trial.bytes, std::abs(trial.rmse / rmse - 1) < kNear};
+    learn_aim(trial, rmse, choice_);
+  }
+  return probed_.bytes;
 }
 
 void LinearCoder::choose_settings(double rmse) {
   chosen_ = true;
-  choice_ = started(choice_, rmse);
-  std::optional<double> least;
-  for (const LinearStep& step : linear_steps()) {
-    if (effort_ < (kind_ == BasisKind::kEigenshapes ? step.shapes_from : step.trajectories_from))
-      continue;
-    if (!least)
-      least = measured(choice_, rmse).bytes;
-    LinearChoice changed = choice_;
-    step.change(changed, kind_);
-    if (changed.settings.rank_factor != choice_.settings.rank_factor ||
-        changed.pose != choice_.pose || changed.base != choice_.base)
+  const bool shapes = kind_ == BasisKind::kEigenshapes;
+  double least = probe(rmse);
+  for (int effort = 2; effort <= effort_; ++effort) {
+    const Candidate before{choice_, least};
+    bool changes = false;
+    for (const LinearStep& step : linear_steps()) {
+      if (effort != (shapes ? step.shapes_from : step.trajectories_from))
+        continue;
+      LinearChoice changed = choice_;
+      step.change(changed, kind_);
       changed = started(changed, rmse);
-    double bytes = measured(changed, rmse).bytes;
-    if (bytes < *least) {
-      least = bytes;
-      choice_ = changed;
-      choice_.steps.push_back(step.name);
+      const Measured trial = measured(changed, rmse);
+      if (trial.bytes < least) {
+        changes = true;
+        least = trial.bytes;
+        choice_ = changed;
+        choice_.steps.push_back(step.name);
+        learn_aim(trial, rmse, choice_);
+      }
     }
+    if (changes)
+      earlier_.push_back(before);
   }
 }
 
@@ -145,16 +155,31 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
     return std::nullopt;
   if (!chosen_)
     choose_settings(rmse);
-  else
-    choice_ = started(choice_, rmse);
+  std::optional<CodedPart> best = reached(choice_, rmse);
+  // One trial tells a size but roughly: what a search of less effort ends with may be smaller yet.
+  for (const Candidate& earlier : std::views::reverse(earlier_)) {
+    if (best && earlier.bytes * (1 - kDoubt) > static_cast<double>(bytes(*best)))
+      continue;
+    std::optional<CodedPart> part = reached(earlier.choice, rmse);
+    if (part && (!best || bytes(*part) < bytes(*best))) {
+      best = std::move(part);
+      choice_ = earlier.choice;
+    }
+  }
+  earlier_.clear();
+  return best;
+}
+
+std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) {
+  choice = started(choice, rmse);
   std::optional<Measured> best;
   double inside = 0, outside = std::numeric_limits<double>::infinity();  // steps known to be so
   for (int round = 0; round < kRounds; ++round) {
-    Measured trial = measured(choice_, rmse);
+    Measured trial = measured(choice, rmse);
     if (std::isinf(trial.rmse))
       break;
-    double ratio = trial.rmse / rmse, step = choice_.settings.step;
-    bool fits = ratio <= 1;
+    const double ratio = trial.rmse / rmse, step = choice.settings.step;
+    const bool fits = ratio <= 1;
     (fits ? inside : outside) = step;
     if (fits && (!best || trial.rmse > best->rmse))
       best = std::move(trial);
@@ -162,19 +187,24 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
       break;
     if (outside < inside || round == 3) {
       // The components left out alone take most of the error: more of them.
-      choice_.settings.components += choice_.settings.components / 16 + (best ? 0 : 1);
+      choice.settings.components += choice.settings.components / 16 + (best ? 0 : 1);
       outside = std::numeric_limits<double>::infinity();
     }
     // Aim just below the target: what counts is to end there from below.
     double next = step * std::clamp(kAim / std::max(ratio, 1e-9), 0.25, 4.0);
     if (next >= outside || next <= inside)
       next = std::isinf(outside) ? next : std::sqrt(std::max(inside, 0.5 * outside) * outside);
-    choice_.settings.step = next;
+    choice.settings.step = next;
   }
   if (!best)
     return std::nullopt;
   best->part.asked = rmse;
   return std::move(best->part);
+}
+
+/// What the part takes in the file.
+size_t LinearCoder::bytes(const CodedPart& part) const {
+  return part.encoded.bytes() + (pose_ ? 0 : part.encoded.reference->stream.size());
 }
 
 }  // namespace anicodec

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace anicodec {
 
@@ -20,7 +21,7 @@ namespace anicodec {
 /// that give the smallest streams, and the step that meets an error.
 class LinearCoder : public SegmentCoder {
  public:
-  /// `effort` 1..9: how many settings are tried. The analysis must outlive the coder.
+  /// `effort` 1..9: how many settings are tried; more never ends with a larger file. The analysis must outlive the coder.
   LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind, int effort,
               uint32_t layers);
 
@@ -38,7 +39,7 @@ class LinearCoder : public SegmentCoder {
     choice_.steps = other.choice_.steps;
   }
 
-  /// About the bytes that an error costs, from one trial.
+  /// About the bytes that an error costs, from as few trials as come close to it, three at most.
   double probe(double rmse);
 
  private:
@@ -48,17 +49,33 @@ class LinearCoder : public SegmentCoder {
     double bytes = 0;  ///< as they would be at the error asked for
   };
 
+  /// The choice that a search begins with, tried at an error.
+  struct Probed {
+    double rmse = 0, bytes = 0;
+    bool is_near = false;  ///< close enough to the error for sizes to be compared
+  };
+
+  /// Settings that a search of less effort ends with.
+  struct Candidate {
+    LinearChoice choice;
+    double bytes = 0;  ///< as one trial told; 0 if none did
+  };
+
   const LinearBasis& basis(ReferencePose pose, Base base);
-  size_t pose_bytes(const EncodedSegment& encoded) const;
   LinearChoice started(LinearChoice choice, double rmse);
   Measured measured(const LinearChoice& choice, double rmse);
+  static void learn_aim(const Measured& trial, double rmse, LinearChoice& choice);
   void choose_settings(double rmse);
+  std::optional<CodedPart> reached(LinearChoice choice, double rmse);
+  size_t bytes(const CodedPart& part) const;
 
   const EncoderInput& input_;
   const LinearAnalysis& analysis_;
   BasisKind kind_;
   int effort_;
   LinearChoice choice_;
+  Probed probed_;
+  std::vector<Candidate> earlier_;  ///< until the first error is met
   bool chosen_ = false;
   std::shared_ptr<const EncodedPose> pose_;
   Eigen::MatrixXd given_pose_;

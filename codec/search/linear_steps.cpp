@@ -3,14 +3,27 @@
 #include "codec/search/linear_steps.h"
 
 namespace anicodec {
+namespace {
+
+constexpr double kPoseFactor = 1.4;  ///< between steps of the pose that are tried
+
+}  // namespace
 
 const std::vector<LinearStep>& linear_steps() {
+  constexpr int kNever = 10;
   static const std::vector<LinearStep> steps = {
+      {"coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= kPoseFactor; }, 2,
+       2},
+      {"finer or yet coarser pose",
+       [](LinearChoice& c, BasisKind) {
+         const bool coarser = c.settings.pose_factor > LinearSettings{}.pose_factor;
+         c.settings.pose_factor *= coarser ? kPoseFactor : 1 / kPoseFactor;
+       },
+       2, 2},
       {"pose of a frame",
        [](LinearChoice& c, BasisKind) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
        2, 2},
       {"20 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 20; }, 7, 3},
-      {"coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= 1.4; }, 3, 3},
       {"mean or rank-three pose",
        [](LinearChoice& c, BasisKind kind) {
          const bool shapes = kind == BasisKind::kEigenshapes;
@@ -25,12 +38,13 @@ const std::vector<LinearStep>& linear_steps() {
        5},
       {"fewer components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor *= 1.5; }, 5, 6},
       {"radius 16", [](LinearChoice& c, BasisKind) { c.settings.radius = 16; }, 6, 6},
+      {"refits more often",  // the file opens more slowly
+       [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kDense; }, 7, kNever},
       {"24 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 24; }, 7, 7},
-      {"yet coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= 1.4; }, 6, 7},
       {"lambda 0.11", [](LinearChoice& c, BasisKind) { c.settings.lambda = 0.11; }, 7, 7},
       {"yet coarser weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor *= 1.2; },
        8, 8},
-      {"finer pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor /= 1.3; }, 8, 8},
+      {"finer pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor /= 1.2; }, 8, 8},
       {"finer weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor /= 1.15; }, 8, 8},
       {"more components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor /= 1.5; }, 9, 9},
       {"radius 9", [](LinearChoice& c, BasisKind) { c.settings.radius = 9; }, 9, 9},

@@ -17,8 +17,9 @@ struct LinearStep {
   int shapes_from;        ///< the same for eigenshapes
 };
 
-/// The steps in the order in which they are tried: those that pay most often first. A step that
-/// helps is kept, and the next ones start from it.
+/// The steps in the order in which they are tried at an effort: those that pay most often first. A
+/// step that helps is kept, and the next ones start from it. A search tries those of each effort
+/// up to its own, one after the other: it goes on where a search of less effort ends.
 const std::vector<LinearStep>& linear_steps();
 
 }  // namespace anicodec

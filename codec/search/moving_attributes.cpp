@@ -3,9 +3,8 @@
 #include "codec/search/moving_attributes.h"
 
 #include "codec/search/rate_control.h"
-#include "codec/segment/linear_segment_encode.h"
+#include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
-#include "sdk/pose/pose_coding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,18 +18,13 @@ constexpr double kSpreadShare = 0.5;
 /// Rounding of a value in binary32, against its magnitude.
 constexpr double kRounding = 0x1p-22;
 
-/// A reference pose for a file whose positions need none: frame 0, coded by itself, since the
-/// mesh's Draco bitstream may hold key-frames.
+/// A reference pose for a file whose positions need none: frame 0.
 std::shared_ptr<const EncodedPose> own_pose(const EncoderInput& input) {
   constexpr double kStep = 0x1p-12;  // of the largest coordinate
   Eigen::Vector3d origin;
   const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
   const double largest = pose.cwiseAbs().maxCoeff();
-  auto coded = std::make_shared<EncodedPose>(
-      *encode_reference_pose(pose, origin, largest * kStep, false, input.layout));
-  coded->coder = CoderId::kPredictive;
-  coded->stream = encode_pose(input.layout.topology, coded->grid.points);
-  return coded;
+  return encode_reference_pose(pose, origin, largest * kStep, input.layout);
 }
 
 /// How three components of an attribute differ from those of frame 0 as stored.

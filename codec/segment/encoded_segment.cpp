@@ -52,12 +52,6 @@ size_t EncodedSegment::bytes() const {
   return total;
 }
 
-std::span<const Vector<int32_t>> EncodedSegment::poses_for_draco() const {
-  if (reference && reference->coder == CoderId::kDraco)
-    return {&reference->grid.points, 1};
-  return draco_poses;
-}
-
 Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   CodedValues draco;
   draco.components = static_cast<uint32_t>(3 * encoded.draco_poses.size());

@@ -18,8 +18,8 @@ namespace anicodec {
 /// A reference pose, ready for the file.
 struct EncodedPose {
   PoseGrid grid;
-  CoderId coder = CoderId::kPlain;
-  Bytes stream;  ///< what the mesh's Draco bitstream does not hold
+  PoseCoding coding = PoseCoding::kRounded;
+  Bytes stream;
 };
 
 /// The streams of one segment, ready for the file.
@@ -34,9 +34,6 @@ struct EncodedSegment {
 
   /// Bytes in the file but for what Draco and the reference pose take.
   size_t bytes() const;
-
-  /// The poses that the mesh's Draco bitstream is to carry.
-  std::span<const Vector<int32_t>> poses_for_draco() const;
 };
 
 /// How far a decoded segment is from the coded vertices of the source.

@@ -3,11 +3,10 @@
 #include "codec/segment/linear_segment_encode.h"
 
 #include "codec/algebra/trajectory_gram.h"
+#include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
 #include "format/coefficient_coder.h"
 #include "format/time_weights.h"
-#include "sdk/mesh/plain_coding.h"
-#include "sdk/pose/pose_coding.h"
 #include "sdk/prediction/encoder_predictor.h"
 #include "sdk/segment/affine_functions.h"
 
@@ -252,9 +251,9 @@ class LinearEncoder {
   void set_pose(std::shared_ptr<const EncodedPose> shared) {
     const double step = settings_.pose_factor * settings_.step /
                         std::sqrt(static_cast<double>(clip_.frame_count));
-    encoded_.reference = shared ? std::move(shared)
-                                : encode_reference_pose(basis_.pose, basis_.origin, step,
-                                                        settings_.slow_pose, layout_);
+    encoded_.reference =
+        shared ? std::move(shared)
+               : encode_reference_pose(basis_.pose, basis_.origin, step, layout_);
     origin_ = Eigen::Vector3d(encoded_.reference->grid.origin);
   }
 
@@ -355,36 +354,6 @@ size_t component_count(const LinearBasis& basis, const LinearSettings& settings,
   double scalars = static_cast<double>(shapes ? 3 * vertices + frames : vertices + 3 * frames);
   double smallest = settings.rank_factor * scalars * settings.step * settings.step;
   return static_cast<size_t>((basis.energies.array() > smallest).count());
-}
-
-std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
-                                                         const Eigen::Vector3d& origin, double step,
-                                                         bool slow, const MeshLayout& layout) {
-  auto encoded = std::make_shared<EncodedPose>();
-  PoseGrid& grid = encoded->grid;
-  double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
-  grid.step = std::max({step, largest / (kMaxReferenceCoordinate - 1), 1e-37});
-  std::copy_n(origin.data(), 3, grid.origin);
-  grid.points.reserve(static_cast<size_t>(pose.size()));
-  for (Index v = 0; v < pose.rows(); ++v) {
-    for (Index c = 0; c < 3; ++c)
-      grid.points.push_back(static_cast<int32_t>(std::lround(pose(v, c) / grid.step)));
-  }
-  encoded->coder = layout.coder;
-  size_t held = layout.coder == CoderId::kDraco ? layout.topology.vertices_in_triangles : 0;
-  encoded->stream = encode_plain_integers(
-      {grid.points.begin() + static_cast<ptrdiff_t>(3 * held), grid.points.end()}, 3);
-  if (!slow)
-    return encoded;
-  size_t bytes = encoded->stream.size();
-  if (encoded->coder == CoderId::kDraco)
-    bytes += encode_with_poses(layout, {&grid.points, 1}).size() - layout.connectivity.size();
-  Bytes predicted = encode_pose(layout.topology, grid.points);
-  if (predicted.size() < bytes) {
-    encoded->coder = CoderId::kPredictive;
-    encoded->stream = std::move(predicted);
-  }
-  return encoded;
 }
 
 std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearBasis& basis,

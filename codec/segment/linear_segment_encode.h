@@ -19,7 +19,7 @@ namespace anicodec {
 struct LinearSettings {
   double step = 1;             ///< of the coefficients, scene units
   double weight_factor = 2.4;  ///< step of time weights: weight_factor * step / sigma
-  double pose_factor = 1.2;    ///< step of the pose: pose_factor * step / sqrt(frames)
+  double pose_factor = 2;      ///< step of the pose: pose_factor * step / sqrt(frames)
   double lambda = 0.08;        ///< squared steps that a bit is worth when rounding coefficients
   double weight_lambda = 0.1;  ///< the same for time weights
   double rank_factor =
@@ -29,20 +29,12 @@ struct LinearSettings {
   uint8_t passes_per_level = 1;
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
-  bool slow_pose =
-      false;            ///< offer the predictive pose coder: smaller, some 15 us per vertex to open
   uint32_t layers = 1;  ///< parts that the components are stored in
 };
 
 /// Components of a basis that are worth coding at these settings.
 size_t component_count(const LinearBasis& basis, const LinearSettings& settings, size_t vertices,
                        size_t frames);
-
-/// A pose (coded vertices x 3, relative to `origin`) on a grid of at least this step, ready for the
-/// file. `slow`: see LinearSettings.
-std::shared_ptr<const EncodedPose> encode_reference_pose(const Eigen::MatrixXd& pose,
-                                                         const Eigen::Vector3d& origin, double step,
-                                                         bool slow, const MeshLayout& layout);
 
 /// Quantises and codes a basis as a segment: pose, time weights, the basis refitted to the decoded
 /// weights (closed loop), its coefficients predicted and rounded with their cost in mind.

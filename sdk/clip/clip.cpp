@@ -120,7 +120,7 @@ Failure read_pose(const ContainerReader& file, const Chunk& chunk, const Topolog
   PoseRecord record;
   Status s = PoseRecord::read(payload, &record);
   if (s == Status::kOk)
-    s = open_pose(record, topology, work.draco, &work.surface, out);
+    s = open_pose(record, work.pose_surface(topology), out);
   work.end_pose();
   return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
 }

@@ -12,6 +12,7 @@ namespace anicodec {
 namespace {
 
 constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
+constexpr uint64_t kPoseModels = uint64_t{1} << 18;
 constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
 constexpr uint64_t kStructure = 512;             // of a mesh or segment
 constexpr uint64_t kMatrix = 48;                 // bytes of a pose map or motion
@@ -98,7 +99,8 @@ uint64_t opening(const Limits::Mesh& m) {
                            uint64_t{4} * m.source_vertices;
   const uint64_t maps =
       uint64_t{32} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{12} * m.corners;
-  const uint64_t pose = uint64_t{340} * m.coded_vertices + uint64_t{72} * m.triangles;
+  const uint64_t pose =
+      uint64_t{80} * m.coded_vertices + uint64_t{96} * m.triangles + kPoseModels;
   // Edges, entries and their numbers; or a permutation and a copy.
   const uint64_t attributes = m.attribute_bytes == 0
                                   ? 0

@@ -19,16 +19,23 @@ namespace anicodec {
 /// is made once, so that no segment costs O(triangles); a lone segment keeps nothing of it.
 struct MeshWork {
   CodedValues draco;
-  uint32_t predicted_segments = 0;  ///< of the limits: those of eigenshapes or eigentrajectories
-  PoseSurface surface;              ///< of the reference poses
-  std::optional<MeshGraph> graph;   ///< of the orders of vertices
+  uint32_t predicted_segments = 0;     ///< of the limits: those of eigenshapes or eigentrajectories
+  std::optional<PoseSurface> surface;  ///< of the poses
+  std::optional<MeshGraph> graph;      ///< of the orders of vertices
 
   bool is_shared() const { return predicted_segments > 1; }
 
   /// After a pose: the surface goes when no other can need it.
   void end_pose() {
     if (!is_shared())
-      surface.made.reset();
+      surface.reset();
+  }
+
+  /// The surface of the poses, made with the first of them. The topology must outlive it.
+  const PoseSurface& pose_surface(const Topology& topology) {
+    if (!surface)
+      surface.emplace(topology);
+    return *surface;
   }
 
   /// The graph, made now if it is shared; null if not.

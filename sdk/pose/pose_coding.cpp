@@ -4,36 +4,48 @@
 
 #include "format/binary_coder.h"
 #include "sdk/base/float_control.h"
+#include "sdk/pose/dependent_steps.h"
+#include "sdk/pose/exact_coordinates.h"
+#include "sdk/pose/pose_models.h"
 #include "sdk/pose/pose_prediction.h"
 
-#include <utility>
+#include <cstddef>
+#include <optional>
 
 namespace anicodec {
 namespace {
 
 /// Codes the pose, or decodes into it; stops when a stream has run out.
 template <class Coder>
-void code_pose(Coder& coder, const Topology& topology, PoseSurface& surface,
-               Vector<int32_t>& pose) {
-  FloatControl control;
-  if (!surface.made) {
-    CornerTable table(topology.coded_vertices, topology.triangles);
-    Vector<uint32_t> order = growth_order(table);
-    const uint32_t corners = table.corner_count();
-    surface.made.emplace(
-        PoseSurface::Made{std::move(table), std::move(order), CornerMarks(corners)});
-  }
-  PosePrediction prediction(surface.made->table, surface.made->marks);
-  for (uint32_t v : surface.made->order) {
+void code_pose(Coder& coder, const PoseSurface& surface, PoseCoding coding, Vector<int32_t>& pose) {
+  const FloatControl control;
+  PosePrediction prediction(surface.table);
+  PoseModels models;
+  std::optional<ExactCoordinates> exact;
+  if (coding == PoseCoding::kExact)
+    exact.emplace(surface.table.vertex_count());
+  size_t state[3] = {0, 0, 0};
+  for (const uint32_t v : surface.order) {
     if constexpr (Coder::kDecodes) {
       if (!coder.ok())
         return;
     }
     prediction.begin(v, pose.data());
     for (int step = 0; step < 3; ++step) {
-      int32_t& x = pose[size_t{3} * v + prediction.axis(step)];
-      const StudentMixture& mixture = prediction.expect(step);
-      x = prediction.weights(step).code(coder, mixture, x);
+      const size_t axis = prediction.axis(step);
+      int32_t& x = pose[size_t{3} * v + axis];
+      const PosePrediction::Expectation expected = prediction.expect(step);
+      if (exact && exact->code(coder, prediction, expected.mean, pose.data(), v, axis, &x)) {
+        // One of the candidates.
+      } else if (coding == PoseCoding::kDependent) {
+        const int32_t parity = DependentSteps::parity(state[axis]);
+        const int32_t half =
+            models.code(coder, prediction.kind(), step, halved(expected, parity), (x - parity) / 2);
+        x = 2 * half + parity;
+        state[axis] = DependentSteps::next(state[axis], half);
+      } else {
+        x = models.code(coder, prediction.kind(), step, expected, x);
+      }
       prediction.learn(step, x);
     }
   }
@@ -41,19 +53,18 @@ void code_pose(Coder& coder, const Topology& topology, PoseSurface& surface,
 
 }  // namespace
 
-Bytes encode_pose(const Topology& topology, const Vector<int32_t>& pose) {
+Bytes encode_pose(const PoseSurface& surface, PoseCoding coding, const Vector<int32_t>& pose) {
   Vector<int32_t> copy = pose;
   BinaryEncoder encoder;
-  PoseSurface surface;
-  code_pose(encoder, topology, surface, copy);
+  code_pose(encoder, surface, coding, copy);
   return encoder.finish();
 }
 
-Status decode_pose(ByteView stream, const Topology& topology, PoseSurface* surface,
+Status decode_pose(ByteView stream, const PoseSurface& surface, PoseCoding coding,
                    Vector<int32_t>* pose) {
-  pose->assign(size_t{3} * topology.coded_vertices, 0);
+  pose->assign(size_t{3} * surface.table.vertex_count(), 0);
   BinaryDecoder decoder(stream.data, stream.size);
-  code_pose(decoder, topology, *surface, *pose);
+  code_pose(decoder, surface, coding, *pose);
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 

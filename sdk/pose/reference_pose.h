@@ -5,8 +5,6 @@
 
 #include "format/memory.h"
 #include "format/records.h"
-#include "sdk/mesh/coded_values.h"
-#include "sdk/mesh/topology.h"
 #include "sdk/pose/pose_coding.h"
 
 #include <cstdint>
@@ -21,10 +19,8 @@ struct PoseGrid {
   Vector<int32_t> points;  ///< coded vertices x 3
 };
 
-/// Decodes a reference pose (spec/09a-segments.md).
-/// O(coded vertices), but for what the surface takes when it is made.
-Status open_pose(const PoseRecord& record, const Topology& topology, const CodedValues& draco,
-                 PoseSurface* surface, PoseGrid* out);
+/// Decodes a reference pose (spec/09c-reference-pose.md). O(coded vertices).
+Status open_pose(const PoseRecord& record, const PoseSurface& surface, PoseGrid* out);
 
 }  // namespace anicodec
 

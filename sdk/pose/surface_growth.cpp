@@ -3,6 +3,7 @@
 #include "sdk/pose/surface_growth.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace anicodec {
 
@@ -20,26 +21,48 @@ CornerTable::CornerTable(uint32_t vertex_count, const Vector<uint32_t>& triangle
   for (uint32_t c = 0; c < count; ++c)
     corners_[end[triangles[c]]++] = c;
 
-  struct Edge {
-    uint32_t low, high, corner;
+  pair_corners(vertex_count);
+}
 
-    bool operator<(const Edge& b) const {
-      return low != b.low ? low < b.low : high != b.high ? high < b.high : corner < b.corner;
+/// Makes corners that face the same edge opposite to one another, two by two in their order.
+void CornerTable::pair_corners(uint32_t vertex_count) {
+  struct Facing {
+    uint32_t high, corner;
+
+    bool operator<(const Facing& b) const {
+      return high != b.high ? high < b.high : corner < b.corner;
     }
   };
 
-  Vector<Edge> edges(count);
-  for (uint32_t c = 0; c < count; ++c) {
-    uint32_t a = triangles[next(c)], b = triangles[previous(c)];
-    edges[c] = {std::min(a, b), std::max(a, b), c};
+  const auto count = corner_count();
+  const auto ends = [&](uint32_t corner) {
+    const uint32_t a = triangles_[next(corner)], b = triangles_[previous(corner)];
+    return a < b ? std::pair(a, b) : std::pair(b, a);
+  };
+  // By the lower end of the edge: so few to each that sorting them costs little.
+  Vector<uint32_t> begin(size_t{vertex_count} + 1, 0);
+  for (uint32_t c = 0; c < count; ++c)
+    ++begin[size_t{ends(c).first} + 1];
+  for (size_t v = 0; v < vertex_count; ++v)
+    begin[v + 1] += begin[v];
+  Vector<Facing> facing(count);
+  {
+    Vector<uint32_t> end(begin.begin(), begin.end() - 1);
+    for (uint32_t c = 0; c < count; ++c) {
+      const auto [low, high] = ends(c);
+      facing[end[low]++] = {high, c};
+    }
   }
-  std::sort(edges.begin(), edges.end());
-  for (size_t i = 0; i + 1 < edges.size(); ++i) {
-    const Edge &e = edges[i], &f = edges[i + 1];
-    if (e.low == f.low && e.high == f.high) {
-      opposite_[e.corner] = f.corner;
-      opposite_[f.corner] = e.corner;
-      ++i;
+  for (size_t v = 0; v < vertex_count; ++v) {
+    Facing* const first = facing.data() + begin[v];
+    Facing* const last = facing.data() + begin[v + 1];
+    std::sort(first, last);
+    for (Facing* e = first; e + 1 < last; ++e) {
+      if (e[0].high != e[1].high)
+        continue;
+      opposite_[e[0].corner] = e[1].corner;
+      opposite_[e[1].corner] = e[0].corner;
+      ++e;
     }
   }
 }

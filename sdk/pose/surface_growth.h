@@ -8,7 +8,6 @@
 
 #include "format/memory.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -43,33 +42,10 @@ class CornerTable {
   uint32_t corner(uint32_t v, uint32_t i) const { return corners_[start_[v] + i]; }
 
  private:
+  void pair_corners(uint32_t vertex_count);
+
   const Vector<uint32_t>& triangles_;
   Vector<uint32_t> start_, corners_, opposite_;
-};
-
-/// Marks of corners that last from one vertex of a pose to the next, and from one pose of a mesh to
-/// the next without being cleared: a pose takes as many values as there are vertices.
-class CornerMarks {
- public:
-  explicit CornerMarks(uint32_t corner_count) : marks_(corner_count, 0) {}
-
-  /// Before a pose of so many vertices; they mark with base() + 1 .. base() + vertices.
-  void begin(uint32_t vertices) {
-    if (vertices >= UINT32_MAX - end_) {
-      std::fill(marks_.begin(), marks_.end(), 0U);
-      end_ = 0;
-    }
-    base_ = end_;
-    end_ += vertices;
-  }
-
-  uint32_t base() const { return base_; }
-
-  uint32_t& operator[](size_t corner) { return marks_[corner]; }
-
- private:
-  Vector<uint32_t> marks_;
-  uint32_t base_ = 0, end_ = 0;
 };
 
 /// All vertices, each as often as possible with several parallelograms of earlier vertices at hand.

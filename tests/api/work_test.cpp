@@ -66,8 +66,8 @@ class CraftedFile {
     add("CLIP", kNoMesh, kNoSegment, clip.write());
     add("MESH", 0, kNoSegment, mesh());
     if (std::find(own_pose_.begin(), own_pose_.end(), false) != own_pose_.end())
-      add("POSE", 0, kNoSegment, pose(CoderId::kPlain));
-    const Bytes predicted = pose(CoderId::kPredictive);
+      add("POSE", 0, kNoSegment, pose(PoseCoding::kRounded));
+    const Bytes predicted = pose(PoseCoding::kExact);
     for (uint32_t i = 0; i < limits_.segments.size(); ++i) {
       add("SEGM", 0, i, segment(limits_.segments[i]));
       if (own_pose_[i])
@@ -96,11 +96,10 @@ class CraftedFile {
     return record.write();
   }
 
-  Bytes pose(CoderId coder) const {
-    const Bytes stream =
-        coder == CoderId::kPlain ? encode_plain_integers(pose_, 3) : encode_pose(topology_, pose_);
+  Bytes pose(PoseCoding coding) const {
+    const Bytes stream = encode_pose(PoseSurface(topology_), coding, pose_);
     PoseRecord record;
-    record.coder = coder;
+    record.coding = coding;
     record.stream = stream;
     return record.write();
   }

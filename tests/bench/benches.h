@@ -41,6 +41,10 @@ Table run_near(const BenchOptions& options, double max_error_percent);
 /// Opening and playing all frames, against Draco decoding them one by one; one thread.
 Table run_decode(const BenchOptions& options, double kg, int runs);
 
+/// Bytes and opening time per vertex of frame 0 as a reference pose, each way of coding it, against
+/// Draco on the same grid.
+Table run_static_pose(const BenchOptions& options, double kg, int runs);
+
 /// A wave grid of eigenshapes: encoding, its memory, and opening against one Draco mesh.
 Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames, uint32_t shapes,
                 int runs);

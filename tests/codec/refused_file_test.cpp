@@ -172,14 +172,13 @@ TEST_F(RefusedFile, DracoBitstreamThatAnnouncesTooMuch) {
 }
 
 TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
-  EditedFile file(shapes_);
+  EditedFile file(
+      encoded("nonmanifold", BasisChoice::kKeyframes, OrderMode::kVertices, CoderId::kPlain));
   for (const Bytes& frame : {Bytes{0x50, 0x2A, 0x4D, 0x18, 0, 0, 0, 0},  // skippable, empty
                              Bytes{0x28, 0xB5, 0x2F, 0xFD, 0x00, 0x58, 1, 0, 0},  // states no size
                              Bytes{}}) {
-    file.change_record<PoseRecord>("POSE", [&](PoseRecord& record) {
-      record.coder = CoderId::kPlain;
-      record.stream = frame;
-    });
+    file.change_record<SegmentRecord>("SEGM",
+                                      [&](SegmentRecord& record) { record.pose = frame; });
     EXPECT_EQ(status_of(file), Status::kZstd);
   }
 }

@@ -18,6 +18,7 @@
 #include "format/coefficient_coder.h"
 #include "format/time_weights.h"
 #include "sdk/clip/clip.h"
+#include "sdk/pose/pose_coding.h"
 #include "sdk/prediction/vertex_order.h"
 #include "sdk/segment/keyframe_segment.h"
 
@@ -27,6 +28,7 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -168,9 +170,19 @@ MeshSequence hub() {
   return clip;
 }
 
+/// The reference pose in the way of coding that the encoder does not take.
+void round_pose(EncodedSegment& segment, const EncoderInput& input) {
+  auto pose = std::make_shared<EncodedPose>(*segment.reference);
+  pose->coding = PoseCoding::kRounded;
+  pose->stream =
+      encode_pose(PoseSurface(input.layout.topology), PoseCoding::kRounded, pose->grid.points);
+  segment.reference = std::move(pose);
+}
+
 Bytes vertex_order() {
   Recipe r = recipe(9, BasisKind::kEigentrajectories, 0.004, 16, 3, 12, RefitSchedule::kDense);
   r.settings.pose_factor = 0.02;  // the grid of the order shifts it
+  r.change = round_pose;
   return file_of(hub(), {r}, [](ClipRecord& record) {
     record.name = String("tab\there \"quoted\" \xff");
     record.rate_numerator = 30000;

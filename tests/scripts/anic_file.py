@@ -78,7 +78,7 @@ def checked_header(data):
     return bytes(data)
 
 
-def write_chunks(chunks, version=(0, 1)):
+def write_chunks(chunks, version=(0, 2)):
     """A file of these chunks, all checksums right."""
     at = HEADER_BYTES + ENTRY_BYTES * len(chunks)
     table, body = b"", b""

@@ -57,7 +57,7 @@ constexpr Word<TopologyChanges> kTopologyChanges[] = {{TopologyChanges::kRefuse,
 constexpr Word<MassageMode> kMassageModes[] = {
     {MassageMode::kOff, "off"}, {MassageMode::kOn, "on"}, {MassageMode::kAuto, "auto"}};
 /// Coders that an encoder can be asked for.
-constexpr WordTable<CoderId> kMeshCoders = WordTable<CoderId>(kCoders).first(2);
+constexpr WordTable<CoderId> kMeshCoders = kCoders;
 
 void add_target(Options& options, EncodeArguments& a) {
   options.group("Target");

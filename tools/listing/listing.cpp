@@ -95,7 +95,7 @@ void list_mesh(FieldReader& r) {
 }
 
 void list_pose(FieldReader& r) {
-  r.explain(name_of(static_cast<CoderId>(r.u8("coder"))));
+  r.explain(name_of(static_cast<PoseCoding>(r.u8("coding"))));
   for (const char* name : {"origin x", "origin y", "origin z", "step"})
     r.f64(name);
   r.bytes("coordinates", r.remaining());

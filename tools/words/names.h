@@ -21,8 +21,12 @@ inline constexpr Word<BasisKind> kBasisKinds[] = {
     {BasisKind::kEigenshapes, "eigenshapes"},
     {BasisKind::kEigentrajectories, "eigentrajectories"}};
 
-inline constexpr Word<CoderId> kCoders[] = {
-    {CoderId::kDraco, "draco"}, {CoderId::kPlain, "plain"}, {CoderId::kPredictive, "predictive"}};
+inline constexpr Word<CoderId> kCoders[] = {{CoderId::kDraco, "draco"},
+                                            {CoderId::kPlain, "plain"}};
+
+inline constexpr Word<PoseCoding> kPoseCodings[] = {{PoseCoding::kRounded, "rounded"},
+                                                    {PoseCoding::kExact, "exact"},
+                                                    {PoseCoding::kDependent, "dependent steps"}};
 
 inline constexpr Word<Reconstruction> kReconstructions[] = {{Reconstruction::kLinear, "linear"},
                                                             {Reconstruction::kMsgi, "msgi"}};
@@ -54,6 +58,10 @@ inline const char* name_of(BasisKind kind) {
 
 inline const char* name_of(CoderId coder) {
   return word_of(kCoders, coder);
+}
+
+inline const char* name_of(PoseCoding coding) {
+  return word_of(kPoseCodings, coding);
 }
 
 inline const char* name_of(Reconstruction reconstruction) {

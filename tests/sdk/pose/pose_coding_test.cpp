@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/pose/pose_coding.h"
 
+#include "sdk/pose/dependent_steps.h"
+
 #include <cmath>
 #include <random>
 
@@ -45,30 +47,59 @@ Sample random_sample(uint32_t vertices, size_t triangles, int32_t range, unsigne
   return s;
 }
 
+/// The nearest pose that dependent steps allow, one entry after the other.
+Vector<int32_t> dependent(const PoseSurface& surface, Vector<int32_t> pose) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    size_t state = 0;
+    for (uint32_t v : surface.order) {
+      int32_t& x = pose[size_t{3} * v + axis];
+      const int32_t parity = DependentSteps::parity(state), half = (x - parity) / 2;
+      x = 2 * half + parity;
+      state = DependentSteps::next(state, half);
+    }
+  }
+  return pose;
+}
+
 void expect_round_trip(const Sample& s) {
-  Bytes bytes = encode_pose(s.topology, s.pose);
-  Vector<int32_t> decoded;
-  PoseSurface surface;
-  ASSERT_EQ(decode_pose(bytes, s.topology, &surface, &decoded), Status::kOk);
-  EXPECT_EQ(decoded, s.pose);
+  const PoseSurface surface(s.topology);
+  for (PoseCoding coding : {PoseCoding::kRounded, PoseCoding::kExact, PoseCoding::kDependent}) {
+    const Vector<int32_t> pose =
+        coding == PoseCoding::kDependent ? dependent(surface, s.pose) : s.pose;
+    const Bytes bytes = encode_pose(surface, coding, pose);
+    Vector<int32_t> decoded;
+    ASSERT_EQ(decode_pose(bytes, surface, coding, &decoded), Status::kOk);
+    EXPECT_EQ(decoded, pose);
+  }
 }
 
 TEST(PoseCoding, ASmoothSheetTakesFewBits) {
   Sample s = sheet(40);
   expect_round_trip(s);
-  EXPECT_LT(encode_pose(s.topology, s.pose).size() * 8, 5U * s.topology.coded_vertices);
+  const PoseSurface surface(s.topology);
+  EXPECT_LT(encode_pose(surface, PoseCoding::kRounded, s.pose).size() * 8,
+            6U * s.topology.coded_vertices);
+}
+
+TEST(PoseCoding, CoordinatesThatRepeatTakeLessThanHalfWhenExact) {
+  Sample s = sheet(40);
+  for (size_t i = 0; i < s.pose.size(); ++i)
+    s.pose[i] = i % 3 == 0 ? s.pose[i] / 700 * 700 : i % 3 == 1 ? 100 * (s.pose[i] / 900) : 7;
+  const PoseSurface surface(s.topology);
+  EXPECT_LT(2 * encode_pose(surface, PoseCoding::kExact, s.pose).size(),
+            encode_pose(surface, PoseCoding::kRounded, s.pose).size());
 }
 
 TEST(PoseCoding, AnyTrianglesAndPositionsComeBack) {
   for (unsigned seed = 0; seed < 20; ++seed)
     expect_round_trip(random_sample(1 + seed * 7, seed * 20, 1 << seed, seed));
-  expect_round_trip(random_sample(60, 100, INT32_MAX, 7));
+  expect_round_trip(random_sample(60, 100, kMaxPoseCoordinate, 7));
 }
 
 TEST(PoseCoding, ExtremeCoordinatesComeBack) {
   Sample s = sheet(6);
   for (size_t i = 0; i < s.pose.size(); ++i)
-    s.pose[i] = i % 3 == 0 ? INT32_MIN : i % 2 == 0 ? INT32_MAX : 0;
+    s.pose[i] = (i % 3 == 0 ? -1 : i % 2 == 0 ? 1 : 0) * kMaxPoseCoordinate;
   expect_round_trip(s);
 }
 
@@ -97,32 +128,36 @@ TEST(PoseCoding, AVertexOfVeryManyTrianglesTakesBoundedTime) {
 }
 
 TEST(PoseCoding, TruncatedStreamsAreRefused) {
-  Sample s = sheet(12);
-  Bytes bytes = encode_pose(s.topology, s.pose);
-  Vector<int32_t> decoded;
-  PoseSurface surface;
-  for (size_t size = 0; size < bytes.size(); ++size) {
-    Status status = decode_pose({bytes.data(), size}, s.topology, &surface, &decoded);
-    // Without its last bytes it may be the stream of another pose.
-    if (size + 8 < bytes.size()) {
-      EXPECT_EQ(status, Status::kEntropy) << size;
-    } else
-      EXPECT_NE(decoded, s.pose) << size;
+  const Sample s = sheet(12);
+  const PoseSurface surface(s.topology);
+  for (PoseCoding coding : {PoseCoding::kRounded, PoseCoding::kExact}) {
+    Bytes bytes = encode_pose(surface, coding, s.pose);
+    Vector<int32_t> decoded;
+    // No bytes at all are the stream of some pose.
+    for (size_t size = 1; size < bytes.size(); ++size) {
+      const Status status = decode_pose({bytes.data(), size}, surface, coding, &decoded);
+      // Without its last bytes it may be the stream of another pose.
+      if (size + 8 < bytes.size()) {
+        EXPECT_EQ(status, Status::kEntropy) << size;
+      } else {
+        EXPECT_NE(decoded, s.pose) << size;
+      }
+    }
+    bytes.push_back(1);
+    EXPECT_EQ(decode_pose(bytes, surface, coding, &decoded), Status::kEntropy);
   }
-  bytes.push_back(1);
-  EXPECT_EQ(decode_pose(bytes, s.topology, &surface, &decoded), Status::kEntropy);
 }
 
 TEST(PoseCoding, ArbitraryBytesDoNoHarm) {
-  Sample s = sheet(10);
+  const Sample s = sheet(10);
+  const PoseSurface surface(s.topology);
   std::mt19937 random(5);
   Vector<int32_t> decoded;
-  PoseSurface surface;
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < 600; ++round) {
     Bytes bytes(random() % 600);
     for (uint8_t& b : bytes)
-      b = static_cast<uint8_t>(round % 3 == 0 ? 255 : random());
-    decode_pose(bytes, s.topology, &surface, &decoded);
+      b = static_cast<uint8_t>(round % 4 == 0 ? 255 : random());
+    (void)decode_pose(bytes, surface, static_cast<PoseCoding>(round % 3), &decoded);
     EXPECT_EQ(decoded.size(), s.pose.size());
   }
 }

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/segment/reference_pose_encode.h"
+
+#include "sdk/pose/dependent_steps.h"
+#include "sdk/prediction/vertex_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace anicodec {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Dependent steps that are so much finer lead to the same error: the mean squared one of a trellis
+/// of eight states is 1.0 dB below that of rounding to steps twice as wide.
+constexpr double kDependentStep = 0.565;
+
+Vector<int32_t> rounded_integers(const MatrixXd& values) {
+  Vector<int32_t> integers;
+  integers.reserve(static_cast<size_t>(values.size()));
+  for (Index v = 0; v < values.rows(); ++v) {
+    for (Index c = 0; c < 3; ++c)
+      integers.push_back(static_cast<int32_t>(std::lround(values(v, c))));
+  }
+  return integers;
+}
+
+/// The lower of the two halves that are tried for a value in some state.
+int32_t lower_half(double value, size_t state) {
+  return static_cast<int32_t>(std::floor((value - DependentSteps::parity(state)) / 2));
+}
+
+/// The shortest path through the trellis along one axis.
+void code_axis(const MatrixXd& values, Index axis, const Vector<uint32_t>& order,
+               Vector<int32_t>& integers) {
+  constexpr size_t kStates = DependentSteps::kStates;
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  struct Step {
+    uint8_t from = 0, upper = 0;  ///< the state before, and which of its two halves
+  };
+
+  std::vector<std::array<Step, kStates>> steps(order.size());
+  std::array<double, kStates> cost;
+  cost.fill(kNever);
+  cost[0] = 0;
+  for (size_t i = 0; i < order.size(); ++i) {
+    const double value = values(order[i], axis);
+    std::array<double, kStates> least;
+    least.fill(kNever);
+    for (uint8_t s = 0; s < kStates; ++s) {
+      const int32_t lower = lower_half(value, s);
+      for (uint8_t upper = 0; upper < 2; ++upper) {
+        const int32_t half = lower + upper;
+        const double off = value - (2.0 * half + DependentSteps::parity(s));
+        const size_t to = DependentSteps::next(s, half);
+        if (cost[s] + off * off < least[to]) {
+          least[to] = cost[s] + off * off;
+          steps[i][to] = {s, upper};
+        }
+      }
+    }
+    cost = least;
+  }
+  auto state = static_cast<size_t>(std::ranges::min_element(cost) - cost.begin());
+  for (size_t i = order.size(); i-- > 0;) {
+    const Step step = steps[i][state];
+    const int32_t half = lower_half(values(order[i], axis), step.from) + step.upper;
+    integers[size_t{3} * order[i] + static_cast<size_t>(axis)] =
+        2 * half + DependentSteps::parity(step.from);
+    state = step.from;
+  }
+}
+
+}  // namespace
+
+Vector<int32_t> dependent_integers(const MatrixXd& values, const Vector<uint32_t>& order) {
+  Vector<int32_t> integers(static_cast<size_t>(values.size()));
+  for (Index axis = 0; axis < 3; ++axis)
+    code_axis(values, axis, order, integers);
+  return integers;
+}
+
+std::shared_ptr<const EncodedPose> encode_pose_as(PoseCoding coding, const MatrixXd& pose,
+                                                  const Eigen::Vector3d& origin, double step,
+                                                  const PoseSurface& surface) {
+  auto encoded = std::make_shared<EncodedPose>();
+  encoded->coding = coding;
+  PoseGrid& grid = encoded->grid;
+  const bool dependent = coding == PoseCoding::kDependent;
+  const double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
+  // Room for a dependent integer, which is up to two steps off.
+  grid.step = std::max(
+      {dependent ? kDependentStep * step : step, largest / (kMaxReferenceCoordinate - 4), 1e-37});
+  std::copy_n(origin.data(), 3, grid.origin);
+  const MatrixXd values = pose / grid.step;
+  grid.points = dependent ? dependent_integers(values, surface.order) : rounded_integers(values);
+  encoded->stream = encode_pose(surface, coding, grid.points);
+  return encoded;
+}
+
+std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
+                                                         const Eigen::Vector3d& origin, double step,
+                                                         const MeshLayout& layout) {
+  const PoseSurface surface(layout.topology);
+  auto exact = encode_pose_as(PoseCoding::kExact, pose, origin, step, surface);
+  auto dependent = encode_pose_as(PoseCoding::kDependent, pose, origin, step, surface);
+  return exact->stream.size() < dependent->stream.size() ? exact : dependent;
+}
+
+}  // namespace anicodec
