@@ -33,8 +33,13 @@ function(anicodec_library name standard)
   add_library(anicodec_${name} STATIC ${ARGN})
   add_library(anicodec::${name} ALIAS anicodec_${name})
   target_compile_features(anicodec_${name} PUBLIC cxx_std_${standard})
+  if(EMSCRIPTEN)
+    set(pic OFF)
+  else()
+    set(pic ON)
+  endif()
   set_target_properties(anicodec_${name} PROPERTIES
-    CXX_STANDARD ${standard} CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE $<NOT:$<BOOL:${EMSCRIPTEN}>>
+    CXX_STANDARD ${standard} CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ${pic}
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(anicodec_${name} PUBLIC $<BUILD_INTERFACE:anicodec_flags>)
   # clang also warns of promotions that are spelled out, and of unsigned offsets of iterators.
