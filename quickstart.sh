@@ -6,8 +6,8 @@ cd -P "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/common.sh
 
 usage="usage: ./quickstart.sh [--no-install]
-Installs the Debian packages anicodec needs, builds it in build/release, and takes a clip there and
-back in out/. --no-install: without the packages."
+Installs the Debian packages anicodec needs, builds command and libraries in build/release, and takes a clip
+there and back in out/. --no-install: without the packages."
 
 packages_wanted=true
 for argument in "$@"; do
@@ -21,7 +21,7 @@ done
 if $packages_wanted; then
   install_packages
 fi
-build release anicodec
+build release installed
 
 anicodec=build/release/tools/anicodec
 run() {
@@ -40,4 +40,4 @@ run $anicodec compare out/limb.pc2 out/decoded.pc2
 
 say "Sizes"
 wc -c out/limb.pc2 out/limb.anic | head -n 2
-echo "Next: $anicodec --help"
+echo "Next: $anicodec --help, or cmake --install build/release"

@@ -268,16 +268,20 @@ Bytes join_clips(const std::vector<ClipPart>& sources) {
     throw Error(ErrorKind::kUsage, "there is no part to join");
   std::vector<OpenPart> parts;
   std::vector<PlacedMesh> placed;
-  parts.reserve(sources.size());
+  for (const ClipPart& source : sources)
+    parts.emplace_back(source);
+  std::stable_sort(parts.begin(), parts.end(), [](const OpenPart& a, const OpenPart& b) {
+    return a.record.start_time < b.record.start_time;
+  });
   uint32_t frames = 0;
-  for (const ClipPart& source : sources) {
-    const OpenPart& part = parts.emplace_back(source);
-    if (parts.size() > 1) {
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const OpenPart& part = parts[i];
+    if (i > 0) {
       check_same_mesh(parts[0], part);
-      check_follows(parts[parts.size() - 2], part);
+      check_follows(parts[i - 1], part);
     }
     if (part.limits.frames > kMaxFrames - frames)
-      fail(source, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
+      fail(part.part, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
     placed.push_back({&part, 0, frames});
     frames += part.limits.frames;
   }

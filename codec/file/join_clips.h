@@ -18,8 +18,8 @@ struct ClipPart {
   ByteView file;
 };
 
-/// Makes one file of parts that were encoded with EncodeOptions::part from one clip, in the order
-/// of time. Their segments are taken as they are; mesh, maps and reference pose, which must be the
+/// Makes one file of parts that were encoded with EncodeOptions::part from one clip, given in any
+/// order. Their segments are taken as they are; mesh, maps and reference pose, which must be the
 /// same bytes in all, are stored once. The promise is the largest error of any part, and RMSE and
 /// KG error over all frames. The result has been opened and its hashes checked. Throws Error:
 /// kCorrupt for a damaged part, kInput naming the first part that does not fit.

@@ -4,8 +4,8 @@
 #include "corpus/poses.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
-#include "tools/commands/command.h"
 #include "tools/io/base/frame_rate.h"
+#include "tools/program/command.h"
 
 #include <algorithm>
 #include <functional>

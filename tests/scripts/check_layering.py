@@ -66,6 +66,7 @@ ROOMS = {
     "tools/words": [],
     "tools/options": ["tools/words"],
     "tools/listing": ["tools/words", "tools/io/base"],
+    "tools/program": ["tools/words", "tools/options", "tools/io/base"],
     "tools/io/files": ["tools/io/base"],
     "tools/io/formats": ["tools/io/base", "tools/io/files"],
     "tools/io/guard": [],
@@ -78,7 +79,7 @@ ROOMS = {
     "tools/render": ["tools/io/files"],
     "tools/inputs": ["tools/words", "tools/options", "tools/io", "tools/io/base", "tools/io/files"],
     "tools/report": ["tools/words", "tools/io/base", "tools/peers", "tools/render", "tools/inputs"],
-    "tools/commands": ["tools/words", "tools/options", "tools/listing", "tools/io", "tools/io/base", "tools/io/files",
+    "tools/commands": ["tools/words", "tools/options", "tools/program", "tools/listing", "tools/io", "tools/io/base", "tools/io/files",
                        "tools/render", "tools/inputs", "tools/report"],
     "tools": ["tools/commands"],
 }

@@ -4,10 +4,10 @@
 
 #include "codec/sequence/error.h"
 #include "format/checksum.h"
-#include "tools/io/base/printable.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/output_folder.h"
+#include "tools/program/print.h"
 #include "tools/words/quantity.h"
 
 #include <algorithm>
@@ -23,6 +23,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
@@ -147,6 +148,12 @@ struct Taken {
   uint64_t bytes;
 };
 
+/// What is said of a clip that is there.
+struct BatchLine {
+  std::string text;
+  nlohmann::ordered_json json;
+};
+
 uint64_t hash_of(std::string_view bytes) {
   return xxh64({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
 }
@@ -189,7 +196,11 @@ class Batch {
   void run_clip(size_t i) {
     const BatchClip& clip = clips_[i];
     try {
-      print(i, process(clip), options_.quiet);
+      const BatchLine line = process(clip);
+      if (options_.json)
+        print(line.json);
+      else
+        print(i, line.text, options_.quiet);
     } catch (const Error& e) {
       fail(i, e.kind(), e.what());
     } catch (const std::bad_alloc&) {
@@ -201,20 +212,28 @@ class Batch {
 
   void fail(size_t i, ErrorKind kind, const std::string& reason) {
     faults_[i] = kind;
-    print(i, "FAILED: " + reason, false);
+    if (options_.json)
+      print({{"clip", clips_[i].name}, {"error", reason}, {"status", static_cast<int>(kind)}});
+    else
+      print(i, "FAILED: " + reason, false);
   }
 
   void print(size_t i, const std::string& text, bool quiet) {
     const std::lock_guard lock(print_);
     ++finished_;
     if (!quiet) {
-      fmt::print("[{}/{}] {}: {}\n", finished_, clips_.size(), clips_[i].name, printable(text));
+      print_line("[{}/{}] {}: {}", finished_, clips_.size(), clips_[i].name, text);
       std::fflush(stdout);
     }
   }
 
-  /// The text of the clip's line.
-  std::string process(const BatchClip& clip) {
+  void print(const nlohmann::ordered_json& json) {
+    const std::lock_guard lock(print_);
+    print_json(json);
+    std::fflush(stdout);
+  }
+
+  BatchLine process(const BatchClip& clip) {
     const std::string path = (fs::path(options_.folder) / (clip.name + ".anic")).string();
     // One clip is read at a time: until it has been, nobody knows how much memory it takes.
     std::unique_lock reading(read_);
@@ -234,7 +253,9 @@ class Batch {
       if (journal_.has(clip.name, hashes(content, hash_of(before)))) {
         ++skipped_;
         output_bytes_ += before.size();
-        return fmt::format("{} bytes, done before", grouped(before.size()));
+        return {
+            fmt::format("{} bytes, done before", grouped(before.size())),
+            {{"clip", clip.name}, {"file", path}, {"bytes", before.size()}, {"done_before", true}}};
       }
     }
     OutputFolder folder(path);
@@ -250,17 +271,33 @@ class Batch {
     folder.keep();
     ++encoded_;
     output_bytes_ += file.size();
-    return fmt::format(
-        "{} bytes, {:.1f} : 1, {} vertices x {} frames, max error {:.4g}, KG {:.3g} %",
-        grouped(file.size()), static_cast<double>(bytes) / static_cast<double>(file.size()),
-        result.vertices, result.frames, result.max_error, result.kg);
+    const double ratio = static_cast<double>(bytes) / static_cast<double>(file.size());
+    return {fmt::format("{} bytes, {:.1f} : 1, {} x {}, max error {:.4g}, KG {:.3g} %",
+                        grouped(file.size()), ratio, counted(result.vertices, "vertex", "vertices"),
+                        counted(result.frames, "frame"), result.max_error, result.kg),
+            {{"clip", clip.name},
+             {"file", path},
+             {"bytes", file.size()},
+             {"done_before", false},
+             {"ratio", ratio},
+             {"vertices", result.vertices},
+             {"frames", result.frames},
+             {"max_error", result.max_error},
+             {"kg", result.kg}}};
   }
 
   void summarise() const {
     const auto failed = static_cast<size_t>(std::count_if(
         faults_.begin(), faults_.end(), [](const auto& fault) { return fault.has_value(); }));
-    fmt::print("{} encoded, {} done before, {} failed; {} in {}\n", encoded_.load(),
-               skipped_.load(), failed, readable_bytes(output_bytes_), options_.folder);
+    if (options_.json)
+      print_json({{"encoded", encoded_.load()},
+                  {"done_before", skipped_.load()},
+                  {"failed", failed},
+                  {"bytes", output_bytes_.load()},
+                  {"folder", options_.folder}});
+    else
+      print_line("{} encoded, {} done before, {} failed; {} in {}", encoded_.load(),
+                 skipped_.load(), failed, readable_bytes(output_bytes_), options_.folder);
     for (size_t i = 0; i < clips_.size(); ++i) {
       if (faults_[i])
         throw Error(*faults_[i], fmt::format("{} of {} clips failed, the first is {}", failed,

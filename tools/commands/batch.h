@@ -20,6 +20,7 @@ struct BatchOptions {
   uint64_t memory = 0;     ///< bytes that positions may take; a clip that needs more runs alone
   bool overwrite = false;  ///< outputs that the batch has not written
   bool quiet = false;      ///< only failures and the summary
+  bool json = false;       ///< an object for each clip and for the summary
   std::string settings;    ///< all that the bytes of an output depend on beside the clip
 };
 

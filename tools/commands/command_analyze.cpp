@@ -2,10 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
 #include "codec/studies/basis_error.h"
-#include "tools/commands/command.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/load_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/report/report.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
@@ -62,7 +63,7 @@ struct AnalyzeCommand {
   std::vector<std::string> inputs;
   std::string mesh, clip, rate, output;
   std::string counts = "1,2,5,10,15,20,30,45,60,80,100";
-  bool csv = false, json = false, spaces = false, massage = false;
+  bool csv = false, spaces = false, massage = false;
   int effort = 3;
 };
 
@@ -152,13 +153,13 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
   }
   if (massage && !output) {
     line.clear();
-    if (command.json)
-      fmt::print("{}\n", massage_json(*massage).dump(2));
+    if (common.json)
+      print_json(massage_json(*massage));
     else
       fmt::print("{}", command.csv ? massage_csv(*massage) : massage_text(*massage));
     return;
   }
-  if (output || command.json) {
+  if (output || common.json) {
     Report report = make_report(sequence, {command.effort, counts, options.progress});
     report.massage = std::move(massage);
     if (output) {
@@ -168,14 +169,14 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
       output->commit();
     }
     line.clear();
-    if (command.json)
-      fmt::print("{}\n", report_json(report).dump(2));
+    if (common.json)
+      print_json(report_json(report));
     else if (command.csv && command.spaces)
       print_csv(report.shape_spaces);
     else if (command.csv)
       print_csv(report.basis_errors);
     else if (!common.quiet)
-      fmt::print("{}: {} frames of {} vertices, {} ways of storing them\n", command.output,
+      print_line("{}: {} frames of {} vertices, {} ways of storing them", command.output,
                  report.frames, report.vertices, report.rates.size());
     return;
   }
@@ -203,7 +204,7 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
 
 void add_analyze(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<AnalyzeCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kThreads,
+  Options& options = add_command(commands, common, kForce | kQuiet | kThreads | kJson,
                                  {"analyze", "INPUT... [options]",
                                   "Error against key-frames and components; a report", kFooter},
                                  [c, &common] { run(*c, common); });
@@ -221,7 +222,6 @@ void add_analyze(Commands& commands, CommonOptions& common) {
   options.flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
   options.flag("--massage-study", c->massage, "Measure what Mesh Massage does to the clip instead");
   options.flag("--csv", c->csv, "Print comma-separated values");
-  options.flag("--json", c->json, "Print all numbers of the report");
   options.exclude({"--csv", "--json"});
 }
 

@@ -5,11 +5,11 @@
 #include "codec/metrics/metrics.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/frame_normals.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/compared_clip.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
-#include "tools/io/base/printable.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/names.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
@@ -62,7 +62,7 @@ Examples:
 struct CompareCommand {
   std::string a, b, mesh, rate, axes;
   ComparedPart part_a, part_b;
-  bool json = false, surface = false, no_sted = false;
+  bool surface = false, no_sted = false;
 };
 
 /// What was measured, and why not more.
@@ -184,7 +184,7 @@ double bpfv_of(const ComparedClip& clip) {
          (static_cast<double>(sequence.vertex_count) * sequence.frame_count);
 }
 
-void print_json(const ComparedClip& a, const ComparedClip& b, const Measured& m) {
+nlohmann::ordered_json json_of(const ComparedClip& a, const ComparedClip& b, const Measured& m) {
   nlohmann::ordered_json json;
   json["a"] = a.path();
   json["b"] = b.path();
@@ -265,12 +265,12 @@ void print_json(const ComparedClip& a, const ComparedClip& b, const Measured& m)
     json["attributes"].push_back(
         {{"kind", name_of(d.kind)}, {"name", d.name}, {"max_error", d.max}, {"rmse", d.rmse}});
   json["note"] = m.note;
-  fmt::print("{}\n", json.dump(2));
+  return json;
 }
 
 void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
   auto row = [](const char* name, const std::string& value) {
-    fmt::print("{:<20} {}\n", name, value);
+    print_line("{:<20} {}", name, value);
   };
   if (!m.note.empty())
     row("note", m.note);
@@ -292,7 +292,7 @@ void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
     row("normal error", fmt::format("{:.3g} degrees on average, {:.3g} at most", n->mean, n->max));
   for (const AttributeDifference& d : m.attributes)
     row(name_of(d.kind),
-        fmt::format("max error {:.4g}, RMSE {:.4g} of \"{}\"", d.max, d.rmse, printable(d.name)));
+        fmt::format("max error {:.4g}, RMSE {:.4g} of \"{}\"", d.max, d.rmse, d.name));
   if (const auto& s = m.surface) {
     row("Hausdorff distance", fmt::format("{:.4g} ({:.3g} %) at frame {}", s->total.max(),
                                           s->percent(s->total.max()), s->max_frame));
@@ -336,8 +336,8 @@ void run(const CompareCommand& command, const CommonOptions& common) {
   const ComparedClip &a = *clips[0], &b = *clips[1];
   Measured measured = measure(a, b, command, line);
   line.clear();
-  if (command.json)
-    print_json(a, b, measured);
+  if (common.json)
+    print_json(json_of(a, b, measured));
   else
     print_text(b, measured, common.verbosity);
 }
@@ -347,7 +347,7 @@ void run(const CompareCommand& command, const CommonOptions& common) {
 void add_compare(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<CompareCommand>();
   Options& options =
-      add_command(commands, common, kQuiet | kVerbose | kThreads,
+      add_command(commands, common, kQuiet | kVerbose | kThreads | kJson,
                   {"compare", "A B [options]", "Measure how far two clips are apart", kFooter},
                   [c, &common] { run(*c, common); });
   options.argument("A", c->a, "The original").required();
@@ -363,7 +363,6 @@ void add_compare(Commands& commands, CommonOptions& common) {
   options.option("--axes-b", c->axes, "AXES", "How positions of B are turned, such as x,z,-y");
   options.flag("--surface", c->surface, "Measure the distance of the surfaces as well");
   options.flag("--no-sted", c->no_sted, "Leave out STED, which takes most of the time");
-  options.flag("--json", c->json, "Print one JSON object");
 }
 
 }  // namespace anicodec::tools

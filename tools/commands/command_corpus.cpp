@@ -3,14 +3,16 @@
 #include "codec/remesh/subdivide.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
-#include "tools/commands/command.h"
 #include "tools/io/write_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 
 #include <memory>
 #include <string>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
 namespace {
@@ -31,8 +33,14 @@ void run(const CorpusCommand& command, const CommonOptions& common) {
   if (command.list) {
     if (!command.name.empty() || !command.output.empty())
       throw Error(ErrorKind::kUsage, "corpus: --list stands alone");
-    for (const corpus::ClipInfo& clip : corpus::clips())
-      fmt::print("{:<14} {}{}\n", clip.name, clip.description, clip.scalable ? " (scalable)" : "");
+    for (const corpus::ClipInfo& clip : corpus::clips()) {
+      if (common.json)
+        print_json(
+            {{"name", clip.name}, {"description", clip.description}, {"scalable", clip.scalable}});
+      else
+        fmt::print("{:<14} {}{}\n", clip.name, clip.description,
+                   clip.scalable ? " (scalable)" : "");
+    }
     return;
   }
   if (command.name.empty() || command.output.empty())
@@ -49,9 +57,8 @@ void run(const CorpusCommand& command, const CommonOptions& common) {
   check_sequence_output(command.output, clip.frame_count, options);
   write_sequence(command.output, clip, options);
   line.clear();
-  if (!common.quiet)
-    fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output, clip.frame_count,
-               clip.vertex_count, clip.polygons.size());
+  print_written({command.output, clip.frame_count, clip.vertex_count, clip.polygons.size()},
+                common);
 }
 
 }  // namespace
@@ -59,7 +66,7 @@ void run(const CorpusCommand& command, const CommonOptions& common) {
 void add_corpus(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<CorpusCommand>();
   Options& options = add_command(
-      commands, common, kForce | kQuiet,
+      commands, common, kForce | kQuiet | kJson,
       {"corpus", "NAME -o OUT [options]", "Make one of the clips of the corpus", kFooter},
       [c, &common] { run(*c, common); });
   options.argument("NAME", c->name, "Which clip");

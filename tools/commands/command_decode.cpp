@@ -2,15 +2,20 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
 #include "sdk/clip/clip.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/write_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
+#include "tools/words/word_table.h"
 
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,10 +39,17 @@ Examples:
   anicodec decode clip.anic -o frames/frame_%04d.ply --frames 0:100:2
   anicodec decode clip.anic -o clip.glb
   anicodec decode clip.anic -o clip.abc --normals
-  anicodec decode clip.anic -o first.obj --frames 0)";
+  anicodec decode clip.anic -o first.obj --frames 0
+  anicodec decode *.anic --format glb -o decoded)";
+
+constexpr Word<std::string_view> kFormats[] = {{"pc2", "pc2"}, {"mdd", "mdd"}, {"abc", "abc"},
+                                               {"glb", "glb"}, {"obj", "obj"}, {"ply", "ply"},
+                                               {"off", "off"}, {"stl", "stl"}};
 
 struct DecodeCommand {
-  std::string input, output, frames, quality;
+  std::vector<std::string> inputs;
+  std::string output, frames, quality;
+  std::string_view format;
   uint32_t start = 0;
   bool ascii = false, hold = false, normals = false;
 };
@@ -97,9 +109,23 @@ std::vector<FrameRun> present_in(const Clip& clip, uint32_t mesh, const FrameRan
   return runs;
 }
 
-/// Writes each mesh of a clip as it is there; returns what to tell.
-std::string write_archive(const DecodeCommand& command, const Clip& clip, const FrameRange& range,
-                          const WriteOptions& options) {
+/// Where a clip comes from and goes to.
+struct DecodePaths {
+  std::string input, output;
+};
+
+/// The output of one of several clips: in a folder by its name, frames in a folder of their own.
+std::string output_in(const std::string& folder, const std::string& input,
+                      std::string_view format) {
+  const std::filesystem::path stem =
+      std::filesystem::path(folder) / std::filesystem::path(input).stem();
+  const std::string clip = fmt::format("{}.{}", stem.string(), format);
+  return is_written_by_frame(clip) ? fmt::format("{}/frame_%04d.{}", stem.string(), format) : clip;
+}
+
+/// Writes each mesh of a clip as it is there.
+Written write_archive(const DecodePaths& paths, const Clip& clip, const FrameRange& range,
+                      const WriteOptions& options) {
   MeshSequence timing = describe_clip(clip, meshes_of(clip));
   if (range.size() < clip.frame_count())
     take_frames(range, timing);
@@ -110,7 +136,7 @@ std::string write_archive(const DecodeCommand& command, const Clip& clip, const 
     if (track.present_in.empty())
       continue;
     track.mesh = describe_clip(clip, {m});
-    track.frames = [all = play(command.input, clip, {m}), range](uint32_t f) {
+    track.frames = [all = play(paths.input, clip, {m}), range](uint32_t f) {
       return all(range.first + f * range.step);
     };
     if (auto attributes = play_attributes(clip, {m}))
@@ -119,21 +145,20 @@ std::string write_archive(const DecodeCommand& command, const Clip& clip, const 
       };
     tracks.push_back(std::move(track));
   }
-  write_tracks(command.output, timing, tracks, options);
-  return fmt::format("{}: {} frames of {} vertices and {} faces", command.output,
-                     timing.frame_count, timing.vertex_count, timing.polygons.size());
+  write_tracks(paths.output, timing, tracks, options);
+  return {paths.output, timing.frame_count, timing.vertex_count, timing.polygons.size()};
 }
 
-void run(const DecodeCommand& command, const CommonOptions& common) {
+void decode(const DecodeCommand& command, const DecodePaths& paths, const CommonOptions& common) {
   ProgressLine line(common.quiet);
-  std::string bytes = read_bytes(command.input);
+  std::string bytes = read_bytes(paths.input);
   OpenOptions open_options;
   if (!command.quality.empty())
     open_options.quality = parse_share(command.quality, "--quality");
   Clip clip;
-  open_clip(command.input, bytes, open_options, clip, Topologies::kAny);
+  open_clip(paths.input, bytes, open_options, clip, Topologies::kAny);
   if (Failure failure = clip.check_hashes(); open_options.quality == 1 && !failure.ok())
-    fail_clip(command.input, failure);
+    fail_clip(paths.input, failure);
   bytes = {};
 
   FrameRange range{0, clip.frame_count(), 1};
@@ -146,45 +171,61 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
   options.normals = command.normals;
   options.first_number = command.start;
   options.progress = line.callback();
-  check_sequence_output(command.output, range.size(), options);
-  if (kind_of(command.output) == FileKind::kAlembic) {
-    const std::string written = write_archive(command, clip, range, options);
+  check_sequence_output(paths.output, range.size(), options);
+  if (kind_of(paths.output) == FileKind::kAlembic) {
+    const Written written = write_archive(paths, clip, range, options);
     line.clear();
-    if (!common.quiet)
-      fmt::print("{}\n", written);
-    return;
+    return print_written(written, common);
   }
-  const bool by_frame = is_written_by_frame(command.output);
+  const bool by_frame = is_written_by_frame(paths.output);
   if (!by_frame && takes_turns(clip))
     throw Error(ErrorKind::kUsage,
                 fmt::format("{}: has one mesh, but {} has {} that take turns; write a file per "
                             "frame, as in frame_%04d.obj, or .abc",
-                            command.output, command.input, clip.meshes().size()));
-  std::vector<std::string> written;
+                            paths.output, paths.input, clip.meshes().size()));
+  std::vector<Written> written;
   for (const auto& [own, meshes] :
        by_frame ? runs_of(clip, range) : std::vector<DecodeRun>{{range, meshes_of(clip)}}) {
     MeshSequence description = describe_clip(clip, meshes);
     if (own.size() < clip.frame_count())
       take_frames(own, description);
     options.first_number = command.start + (own.first - range.first) / range.step;
-    FrameSource all = play(command.input, clip, meshes);
+    FrameSource all = play(paths.input, clip, meshes);
     options.attributes = {};
     if (auto attributes = play_attributes(clip, meshes))
       options.attributes = [attributes, frames = own](uint32_t f) {
         return attributes(frames.first + f * frames.step);
       };
     write_sequence(
-        command.output, description,
+        paths.output, description,
         [&all, frames = own](uint32_t f) { return all(frames.first + f * frames.step); }, options);
-    written.push_back(fmt::format("{}: {} frames of {} vertices and {} faces", command.output,
-                                  description.frame_count, description.vertex_count,
-                                  description.polygons.size()));
+    written.push_back({paths.output, description.frame_count, description.vertex_count,
+                       description.polygons.size()});
   }
   line.clear();
-  for (const std::string& text : written) {
-    if (!common.quiet)
-      fmt::print("{}\n", text);
+  for (const Written& run : written)
+    print_written(run, common);
+}
+
+void run(const DecodeCommand& command, const CommonOptions& common) {
+  if (command.format.empty()) {
+    if (command.inputs.size() > 1)
+      throw Error(ErrorKind::kUsage,
+                  fmt::format("decode: {} files need --format, and a folder as output",
+                              command.inputs.size()));
+    return decode(command, {command.inputs[0], command.output}, common);
   }
+  std::map<std::string, std::string> outputs;  // and what they come from
+  for (const std::string& input : command.inputs) {
+    const auto [other, is_new] =
+        outputs.emplace(output_in(command.output, input, command.format), input);
+    if (!is_new)
+      throw Error(ErrorKind::kUsage, fmt::format("{}: would be written to {}, and so would {}",
+                                                 input, other->first, other->second));
+  }
+  run_for_each(command.inputs, common, [&](const std::string& input) {
+    decode(command, {input, output_in(command.output, input, command.format)}, common);
+  });
 }
 
 }  // namespace
@@ -192,14 +233,16 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
 void add_decode(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<DecodeCommand>();
   Options& options = add_command(
-      commands, common, kForce | kQuiet,
-      {"decode", "FILE.anic -o OUT [options]", "Decode an .anic file to a mesh sequence", kFooter},
+      commands, common, kForce | kQuiet | kJson,
+      {"decode", "FILE.anic... -o OUT [options]", "Decode .anic files to mesh sequences", kFooter},
       [c, &common] { run(*c, common); });
-  options.argument("FILE", c->input, "The .anic file to read").required();
+  options.arguments("FILE", c->inputs, "The .anic file to read; several with --format").required();
   options
       .option("-o,--output", c->output, "OUT",
               "x.pc2, x.mdd, x.abc, x.glb, dir/frame_%04d.obj|ply|off|stl")
       .required();
+  options.choice("--format", c->format, {kFormats},
+                 "Write each clip in this format to the folder OUT, by its name");
   options.option("--frames", c->frames, "A:B[:STEP]",
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");

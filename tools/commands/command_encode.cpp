@@ -5,12 +5,14 @@
 #include "codec/encode_scene.h"
 #include "codec/sequence/error.h"
 #include "tools/commands/batch.h"
-#include "tools/commands/command.h"
 #include "tools/commands/encode_report.h"
+#include "tools/inputs/clip_input.h"
 #include "tools/inputs/encode_arguments.h"
 #include "tools/inputs/massage_transfer.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/load_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
@@ -22,6 +24,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
 namespace {
@@ -60,10 +63,11 @@ Texture coordinates, colours, other numbers, materials and objects are kept; tho
 every frame, all others as they are in the first. Of normals the hard edges are: normals come from
 the positions of a frame.
 
-A LEN is in scene units (0.02), or in per cent of the diagonal of the box around all frames (0.05%).
-Give one target; --max-error may stand beside any other as a cap. Without a target it is
---max-error 0.05%: no vertex of any frame is further off. --keyframes alone sets no target: the
-quantisation then adds at most a tenth to the error of that many exact key-frames.
+A LEN is in scene units (0.02), in per cent of the diagonal of the box around all frames (0.05%), or
+where the unit of the scene is known in m, cm, mm, km, in or ft (5mm). Give one target; --max-error
+may stand beside any other as a cap. Without a target it is --max-error 0.05%: no vertex of any
+frame is further off. --keyframes alone sets no target: the quantisation then adds at most a tenth
+to the error of that many exact key-frames.
 
 --interpolation msgi rebuilds frames by multi-scale geometry interpolation of the key-frames, which
 keeps lengths and volume where limbs swing far; auto takes what does better. Both need key-frames
@@ -97,8 +101,9 @@ MeshSequence load(const EncodeArguments& command, const Progress& progress,
 }
 
 EncodeResult encode_as_asked(const EncodeArguments& command, MeshSequence sequence,
-                             const EncodeOptions& options, MassageVerdict* massage,
+                             EncodeOptions options, MassageVerdict* massage,
                              const Progress& progress) {
+  set_target(command, sequence.metres_per_unit, &options);
   const MassageOptions options_of_massage = massage_options(command, sequence);
   return encode_massaged(std::move(sequence), command.massage, options_of_massage, options, massage,
                          progress);
@@ -119,9 +124,11 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
   batch.folder = command.output;
   batch.jobs = common.threads > 0 ? static_cast<unsigned>(common.threads)
                                   : std::max(1U, std::thread::hardware_concurrency());
-  batch.memory = command.memory.empty() ? half_of_machine() : parse_size(command.memory, "--memory");
+  batch.memory =
+      command.memory.empty() ? half_of_machine() : parse_size(command.memory, "--memory");
   batch.overwrite = common.overwrite;
   batch.quiet = common.quiet;
+  batch.json = common.json;
   batch.settings = settings_of(command, options);
   run_batch(
       find_clips(command.batch), batch,
@@ -131,8 +138,11 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
         return load(one, {}, &options);
       },
       [&](MeshSequence sequence) {
-        if (command.split_objects)
-          return encode_scene(split_parts(std::move(sequence)), options);
+        if (command.split_objects) {
+          EncodeOptions own = options;
+          set_target(command, sequence.metres_per_unit, &own);
+          return encode_scene(split_parts(std::move(sequence)), own);
+        }
         MassageVerdict massage;
         return encode_as_asked(command, std::move(sequence), options, &massage, {});
       });
@@ -152,6 +162,7 @@ EncodeResult encode_meshes(const EncodeArguments& command, EncodeOptions options
   } else {
     scene = split_parts(load(command, progress, &options));
   }
+  set_target(command, scene.clip.metres_per_unit, &options);
   try {
     return encode_scene(std::move(scene), options, progress);
   } catch (const Error& e) {
@@ -190,7 +201,7 @@ std::function<void(const std::string&)> notes_above(ProgressLine& line) {
     if (++told > kMost + 1)
       return;
     line.clear();
-    fmt::print(stderr, "{}\n", told <= kMost ? text : "... and more of the like");
+    print_line(stderr, "{}", told <= kMost ? text : "... and more of the like");
   };
 }
 
@@ -205,10 +216,7 @@ void run(EncodeArguments command, const CommonOptions& common) {
       command.massage != MassageMode::kOff)
     throw Error(ErrorKind::kUsage, "--topology-changes goes without --massage");
   EncodeOptions options = encode_options(command);
-  if (is_sequence_input(command.output))
-    throw Error(
-        ErrorKind::kUsage,
-        command.output + ": the output of encode is an .anic file (for other formats: decode)");
+  check_anic_output(command.output);
   const bool to_standard_output = command.output == "-";
   std::optional<AtomicFile> output;
   if (!to_standard_output)
@@ -230,8 +238,8 @@ void run(EncodeArguments command, const CommonOptions& common) {
   output->write({reinterpret_cast<const char*>(result.file.data()), result.file.size()});
   output->commit();
   const EncodeReport report{command.output, result, massage, command.massage == MassageMode::kAuto};
-  if (command.json)
-    report.print_json();
+  if (common.json)
+    print_json(report.json());
   else if (!common.quiet)
     report.print_text(common.verbosity);
 }
@@ -240,7 +248,7 @@ void run(EncodeArguments command, const CommonOptions& common) {
 
 void add_encode(Commands& commands, CommonOptions& common) {
   auto arguments = std::make_shared<EncodeArguments>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kVerbose | kThreads,
+  Options& options = add_command(commands, common, kForce | kQuiet | kVerbose | kThreads | kJson,
                                  {"encode", "INPUT...|--batch DIR -o OUT [target] [options]",
                                   "Encode a mesh sequence to an .anic file", kFooter},
                                  [arguments, &common] { run(*arguments, common); });

@@ -3,9 +3,9 @@
 #include "format/container.h"
 #include "format/records.h"
 #include "sdk/clip/clip.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/clip_input.h"
-#include "tools/io/base/printable.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
 
@@ -21,7 +21,7 @@ namespace anicodec::tools {
 namespace {
 
 constexpr const char* kFooter =
-    R"(--json prints one object: file, bytes, ratio (float32 positions against the file), bpfv,
+    R"(--json prints an object a file: file, bytes, ratio (float32 positions against the file), bpfv,
 resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
 for each instance), format, encoder, name, vertices, coded_vertices, faces (of the first mesh),
 meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of those that show
@@ -31,11 +31,6 @@ massaged, surface_error, surface_error_mean, attributes (mesh, kind, of, name, c
 moves; of those that move, bytes, max_error, rmse in units of their values), segments (mesh, basis,
 of, reconstruction, first_frame, frames, components, corrections), chunks (type, offset, size,
 required, mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
-
-struct InfoCommand {
-  std::string input;
-  bool json = false;
-};
 
 struct Contents {
   uint64_t bytes = 0;
@@ -91,7 +86,7 @@ const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t
   return nullptr;
 }
 
-void print_json(const std::string& path, const Contents& c) {
+nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
   const ClipRecord& record = c.clip.record();
   const Limits& limits = c.clip.limits();
   nlohmann::ordered_json json;
@@ -180,7 +175,7 @@ void print_json(const std::string& path, const Contents& c) {
       entry["segment"] = chunk.segment;
     json["chunks"].push_back(entry);
   }
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  return json;
 }
 
 std::string asked_text(const ClipRecord& record) {
@@ -225,7 +220,7 @@ void print_chunks(const Contents& c) {
 std::string attribute_text(const AttributeHeader& a) {
   std::string text = fmt::format("{} of {}", name_of(a.kind), name_of(a.domain));
   if (!a.name.empty())
-    text += fmt::format(" \"{}\"", printable(a.name));
+    text += fmt::format(" \"{}\"", a.name);
   if (a.domain == AttributeDomain::kPolygon)
     return text + fmt::format(", {} names", a.labels.size());
   if (a.components() == 0)
@@ -235,7 +230,7 @@ std::string attribute_text(const AttributeHeader& a) {
 }
 
 void row(const char* name, const std::string& value) {
-  fmt::print("{:<10} {}\n", name, value);
+  print_line("{:<10} {}", name, value);
 }
 
 /// The meshes, where there are several, and what they have beside positions.
@@ -248,10 +243,9 @@ void print_meshes(const Contents& c) {
       for (const FrameRun& run : frames_of_mesh(c.clip, m))
         frames +=
             fmt::format("{} {}:{}", frames.empty() ? "" : ",", run.first, run.first + run.count);
-      row("mesh",
-          fmt::format("{}{}{} vertices ({} coded), {} faces, frames{}", printable(mesh.name),
-                      mesh.name.empty() ? "" : ": ", limits.meshes[m].source_vertices,
-                      limits.meshes[m].coded_vertices, limits.meshes[m].polygons, frames));
+      row("mesh", fmt::format("{}{}{} vertices ({} coded), {} faces, frames{}", mesh.name,
+                              mesh.name.empty() ? "" : ": ", limits.meshes[m].source_vertices,
+                              limits.meshes[m].coded_vertices, limits.meshes[m].polygons, frames));
     }
     for (uint32_t i = 0; i < mesh.attributes.size(); ++i) {
       row("attribute", attribute_text(mesh.attributes[i].header));
@@ -278,9 +272,9 @@ void print_text(const std::string& path, const Contents& c) {
   const Limits& limits = c.clip.limits();
   const Limits::Mesh& mesh = limits.meshes[0];
   row("file", path);
-  row("name", printable(record.name));
+  row("name", std::string(record.name.begin(), record.name.end()));
   row("format", fmt::format("{}.{}, written by {}", c.container.version_major(),
-                            c.container.version_minor(), printable(record.encoder)));
+                            c.container.version_minor(), record.encoder));
   const std::string what =
       limits.meshes.size() > 1
           ? fmt::format("{} meshes", limits.meshes.size())
@@ -313,32 +307,33 @@ void print_text(const std::string& path, const Contents& c) {
   print_chunks(c);
 }
 
-void run(const InfoCommand& command) {
-  std::string bytes = read_bytes(command.input);
+void run(const std::string& path, const CommonOptions& common) {
+  std::string bytes = read_bytes(path);
   Contents contents;
   contents.bytes = bytes.size();
-  open_clip(command.input, bytes, {}, contents.clip, Topologies::kAny);
+  open_clip(path, bytes, {}, contents.clip, Topologies::kAny);
   if (Failure failure = contents.container.open(view_of(bytes)); !failure.ok())
-    fail_clip(command.input, failure);
+    fail_clip(path, failure);
   anic_options options = ANIC_INIT(anic_options);
   options.max_bytes = UINT64_MAX;
   anic_get_requirements(bytes.data(), bytes.size(), &options,
                         &contents.memory);  // it is open: nothing fails
-  if (command.json)
-    print_json(command.input, contents);
+  if (common.json)
+    print_json(json_of(path, contents));
   else
-    print_text(command.input, contents);
+    print_text(path, contents);
 }
 
 }  // namespace
 
 void add_info(Commands& commands, CommonOptions& common) {
-  auto c = std::make_shared<InfoCommand>();
+  auto inputs = std::make_shared<std::vector<std::string>>();
   Options& options = add_command(
-      commands, common, 0, {"info", "FILE.anic [--json]", "Say what is in an .anic file", kFooter},
-      [c] { run(*c); });
-  options.argument("FILE", c->input, "The .anic file to read").required();
-  options.flag("--json", c->json, "Print one JSON object");
+      commands, common, kJson, {"info", "FILE.anic...", "Say what is in .anic files", kFooter},
+      [inputs, &common] {
+        run_for_each(*inputs, common, [&](const std::string& path) { run(path, common); });
+      });
+  options.arguments("FILE", *inputs, "The .anic files to read").required();
 }
 
 }  // namespace anicodec::tools

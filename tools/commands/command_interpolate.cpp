@@ -4,9 +4,10 @@
 #include "codec/sequence/error.h"
 #include "codec/surface/closest_point.h"
 #include "codec/surface/edge_network.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/interpolation_input.h"
 #include "tools/io/write_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 
 #include <algorithm>
@@ -181,16 +182,15 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
       },
       write);
   line.clear();
-  if (!common.quiet)
-    fmt::print("{}: {} frames of {} vertices and {} faces\n", command.output, clip.frame_count,
-               clip.vertex_count, clip.polygons.size());
+  print_written({command.output, clip.frame_count, clip.vertex_count, clip.polygons.size()},
+                common);
 }
 
 }  // namespace
 
 void add_interpolate(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<InterpolateCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kThreads,
+  Options& options = add_command(commands, common, kForce | kQuiet | kThreads | kJson,
                                  {"interpolate", "A B [C...] -o OUT --frame-count N [options]",
                                   "Make a clip between meshes of one connectivity", kFooter},
                                  [c, &common] { run(*c, common); });

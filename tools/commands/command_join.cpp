@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/file/join_clips.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/io/files/atomic_file.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/quantity.h"
 
 #include <deque>
@@ -12,15 +13,15 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
 namespace {
 
 constexpr const char* kFooter =
-    R"(PART are .anic files that encode --part made of one clip with the same options, in the order of
-time and without gaps; together they need not be the whole clip. Nothing is coded again: the mesh
-and the reference pose, which all parts share, are stored once.
+    R"(PART are .anic files that encode --part made of one clip with the same options, in any order and
+without gaps; together they need not be the whole clip. Nothing is coded again: the mesh and the
+reference pose, which all parts share, are stored once.
 
 Examples:
   anicodec encode walk.obj walk.pc2 --kg 0.1 --part 0:500    -o a.anic     # on one machine
@@ -33,6 +34,7 @@ struct JoinCommand {
 };
 
 void run(const JoinCommand& command, const CommonOptions& common) {
+  check_anic_output(command.output);
   AtomicFile output(command.output, common.overwrite);
   std::deque<std::string> files;
   std::vector<ClipPart> parts;
@@ -43,19 +45,21 @@ void run(const JoinCommand& command, const CommonOptions& common) {
   const Bytes joined = join_clips(parts);
   output.write({reinterpret_cast<const char*>(joined.data()), joined.size()});
   output.commit();
-  if (!common.quiet)
-    fmt::print("{}: {} bytes of {} parts\n", command.output, grouped(joined.size()), parts.size());
+  if (common.json)
+    print_json({{"file", command.output}, {"bytes", joined.size()}, {"parts", parts.size()}});
+  else if (!common.quiet)
+    print_line("{}: {} bytes of {} parts", command.output, grouped(joined.size()), parts.size());
 }
 
 }  // namespace
 
 void add_join(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<JoinCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet,
+  Options& options = add_command(commands, common, kForce | kQuiet | kJson,
                                  {"join", "PART... -o FILE.anic [options]",
                                   "Make one .anic file of parts that were encoded apart", kFooter},
                                  [c, &common] { run(*c, common); });
-  options.arguments("PART", c->inputs, "Parts of a clip, in the order of time").required();
+  options.arguments("PART", c->inputs, "Parts of a clip").required();
   options.option("-o,--output", c->output, "FILE", "The .anic file to write").required();
 }
 

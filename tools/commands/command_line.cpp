@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/commands/command_line.h"
 
-#include "tools/commands/command.h"
 #include "tools/io/files/cleanup.h"
+#include "tools/program/command.h"
 
 namespace anicodec::tools {
 namespace {

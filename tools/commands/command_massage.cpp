@@ -4,9 +4,10 @@
 #include "codec/massage/massage_quality.h"
 #include "codec/metrics/hausdorff.h"
 #include "codec/sequence/error.h"
-#include "tools/commands/command.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
@@ -42,7 +43,6 @@ struct MassageCommand {
   std::string output, mesh, tolerance;
   double strength = 0.5;
   uint32_t reference = 0;
-  bool json = false;
 };
 
 struct Counted {
@@ -88,6 +88,7 @@ void run(const MassageCommand& command, const CommonOptions& common) {
   write_options.overwrite = common.overwrite;
   write_options.progress = line.callback();
   check_sequence_output(command.output, sequence.frame_count, write_options);
+  tolerance = tolerance.in_scene_units(sequence.metres_per_unit, "--massage-tolerance");
   options.tolerance =
       tolerance.percent ? tolerance.value / 100 * diagonal(sequence) : tolerance.value;
   MassageResult result;
@@ -105,7 +106,7 @@ void run(const MassageCommand& command, const CommonOptions& common) {
 
   const Counted counted = count(result, options.reference);
   const HausdorffDistance& total = distance.total;
-  if (command.json) {
+  if (common.json) {
     nlohmann::ordered_json json;
     json["file"] = command.output;
     json["vertices"] = sequence.vertex_count;
@@ -120,7 +121,7 @@ void run(const MassageCommand& command, const CommonOptions& common) {
     json["drawn_back"] = counted.drawn_back;
     json["before"] = json_of(before);
     json["after"] = json_of(after);
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
   } else if (!common.quiet) {
     fmt::print(
         "{}: {} frames of {} vertices; the surface moved by {:.3g} % of the diagonal on "
@@ -154,7 +155,7 @@ void run(const MassageCommand& command, const CommonOptions& common) {
 
 void add_massage(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<MassageCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kVerbose | kThreads,
+  Options& options = add_command(commands, common, kForce | kQuiet | kVerbose | kThreads | kJson,
                                  {"massage", "INPUT... -o OUT [options]",
                                   "Bring vertices that slide over a surface to rest", kFooter},
                                  [c, &common] { run(*c, common); });
@@ -169,7 +170,6 @@ void add_massage(Commands& commands, CommonOptions& common) {
                  "How far the surface may move anywhere (default: as far as it needs)");
   options.number("--reference", c->reference, "FRAME", {},
                  "Frame whose shapes are followed (default 0)");
-  options.flag("--json", c->json, "Print one JSON object");
 }
 
 }  // namespace anicodec::tools

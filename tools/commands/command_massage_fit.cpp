@@ -2,9 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
 #include "codec/transfer/remesh_fit.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/mesh_input.h"
 #include "tools/io/write_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/fit_table.h"
 #include "tools/words/progress_line.h"
 
@@ -29,7 +30,6 @@ Example:
 
 struct FitCommand {
   std::string mesh, surface, output;
-  bool json = false;
 };
 
 void run(const FitCommand& command, const CommonOptions& common) {
@@ -49,16 +49,16 @@ void run(const FitCommand& command, const CommonOptions& common) {
   const MeshSequence result = with_positions(mesh, fit.positions);
   write_sequence(command.output, result, write_options);
   line.clear();
-  if (command.json) {
+  if (common.json) {
     nlohmann::ordered_json json;
     json["file"] = command.output;
     json["vertices"] = result.vertex_count;
     json["faces"] = result.polygons.size();
     add_fit(fit, &json);
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
   } else if (!common.quiet) {
     if (!fit.improved)
-      fmt::print("{}: no closer position was found, the mesh is as it was\n", command.output);
+      print_line("{}: no closer position was found, the mesh is as it was", command.output);
     print_fit(fit);
   }
 }
@@ -67,14 +67,13 @@ void run(const FitCommand& command, const CommonOptions& common) {
 
 void add_massage_fit(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<FitCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kThreads,
+  Options& options = add_command(commands, common, kForce | kQuiet | kThreads | kJson,
                                  {"massage fit", "MESH SURFACE -o OUT [options]",
                                   "Lay a coarse mesh on a fine surface", kFooter},
                                  [c, &common] { run(*c, common); });
   options.argument("MESH", c->mesh, "The mesh to move").required();
   options.argument("SURFACE", c->surface, "The surface to lie on").required();
   options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
-  options.flag("--json", c->json, "Print one JSON object");
 }
 
 }  // namespace anicodec::tools

@@ -2,10 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
 #include "codec/transfer/mesh_map.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/mesh_input.h"
 #include "tools/inputs/number_rows.h"
 #include "tools/io/write_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 
 #include <cmath>
@@ -40,7 +41,6 @@ Examples:
 
 struct MapCommand {
   std::string mesh, surface, landmarks, output;
-  bool json = false;
 };
 
 /// "12 40" on every line.
@@ -65,7 +65,8 @@ nlohmann::ordered_json json_of(const Distortion& d) {
           {"area_max", d.area_max}};
 }
 
-void print_json(const std::string& file, const MeshSequence& result, const MeshMap& map) {
+nlohmann::ordered_json json_of(const std::string& file, const MeshSequence& result,
+                               const MeshMap& map) {
   nlohmann::ordered_json json;
   json["file"] = file;
   json["vertices"] = result.vertex_count;
@@ -78,11 +79,11 @@ void print_json(const std::string& file, const MeshSequence& result, const MeshM
   json["hausdorff_percent"] = 100 * map.distance.max() / map.diagonal;
   json["hausdorff_mean"] = map.distance.mean();
   json["hausdorff_mean_percent"] = 100 * map.distance.mean() / map.diagonal;
-  fmt::print("{}\n", json.dump(2));
+  return json;
 }
 
 void print_text(const std::string& file, const MeshMap& map) {
-  fmt::print("{}: {:.3g} % of the diagonal from the surface on average, {:.3g} % at most\n", file,
+  print_line("{}: {:.3g} % of the diagonal from the surface on average, {:.3g} % at most", file,
              100 * map.distance.mean() / map.diagonal, 100 * map.distance.max() / map.diagonal);
   fmt::print("{:<10} {:>10} {:>10} {:>10} {:>10}\n", "distortion", "conformal", "largest", "area",
              "largest");
@@ -116,8 +117,8 @@ void run(const MapCommand& command, const CommonOptions& common) {
   const MeshSequence result = with_positions(mesh, map.positions);
   write_sequence(command.output, result, write_options);
   line.clear();
-  if (command.json)
-    print_json(command.output, result, map);
+  if (common.json)
+    print_json(json_of(command.output, result, map));
   else if (!common.quiet)
     print_text(command.output, map);
 }
@@ -127,14 +128,13 @@ void run(const MapCommand& command, const CommonOptions& common) {
 void add_massage_map(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<MapCommand>();
   Options& options = add_command(
-      commands, common, kForce | kQuiet | kThreads,
+      commands, common, kForce | kQuiet | kThreads | kJson,
       {"massage map", "A B -o OUT [options]", "Give mesh A the shape of mesh B", kFooter},
       [c, &common] { run(*c, common); });
   options.argument("A", c->mesh, "The mesh whose faces are kept").required();
   options.argument("B", c->surface, "The mesh whose shape is taken").required();
   options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
   options.option("--landmarks", c->landmarks, "FILE", "Vertices of A and B that belong together");
-  options.flag("--json", c->json, "Print one JSON object");
 }
 
 }  // namespace anicodec::tools

@@ -2,10 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/remesh/remesh.h"
 #include "codec/sequence/error.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/mesh_input.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/fit_table.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
@@ -51,7 +52,7 @@ constexpr Word<RemeshMethod> kMethods[] = {{RemeshMethod::kAuto, "auto"},
 struct RemeshCommand {
   std::string mesh, output, vertices, distance;
   RemeshMethod method = RemeshMethod::kAuto;
-  bool no_fit = false, json = false;
+  bool no_fit = false;
 };
 
 /// What the mesh has and the result has not.
@@ -73,7 +74,8 @@ RemeshOptions options_for(const RemeshCommand& command, const MeshSequence& mesh
   if (!command.vertices.empty())
     options.vertices = parse_count(command.vertices, "--vertices").of(mesh.vertex_count);
   if (!command.distance.empty()) {
-    const Length length = parse_length(command.distance, "--max-distance");
+    const Length length = parse_length(command.distance, "--max-distance")
+                              .in_scene_units(mesh.metres_per_unit, "--max-distance");
     options.max_distance = length.percent ? length.value / 100 * diagonal(mesh) : length.value;
     if (options.method == RemeshMethod::kAuto)
       options.method = RemeshMethod::kDecimate;
@@ -89,7 +91,7 @@ void print_text(const RemeshCommand& command, const RemeshOptions& options,
                 const RemeshResult& result) {
   const size_t vertices = result.mesh.positions.size() / 3;
   const size_t triangles = result.mesh.polygons.size();
-  fmt::print("{}: {} vertices and {} triangle{} ({})\n", command.output, grouped(vertices),
+  print_line("{}: {} vertices and {} triangle{} ({})", command.output, grouped(vertices),
              grouped(triangles), triangles == 1 ? "" : "s", word_of(kMethods, result.method));
   if (options.vertices > 0 && vertices != options.vertices && options.max_distance == 0)
     fmt::print("the shape does not allow {} vertices\n", grouped(options.vertices));
@@ -98,12 +100,12 @@ void print_text(const RemeshCommand& command, const RemeshOptions& options,
     fmt::print("left out: degenerate triangles: {}, repeated ones: {}; vertices parted: {}\n",
                repairs.degenerate, repairs.repeated, repairs.parted);
   if (!result.no_fit.empty())
-    fmt::print("not fitted: {}\n", result.no_fit);
+    print_line("not fitted: {}", result.no_fit);
   print_fit(result.fit);
 }
 
-void print_json(const RemeshCommand& command, const RemeshResult& result,
-                const std::vector<std::string>& lost) {
+nlohmann::ordered_json json_of(const RemeshCommand& command, const RemeshResult& result,
+                               const std::vector<std::string>& lost) {
   nlohmann::ordered_json json;
   json["file"] = command.output;
   json["method"] = word_of(kMethods, result.method);
@@ -114,7 +116,7 @@ void print_json(const RemeshCommand& command, const RemeshResult& result,
   json["parted"] = result.repairs.parted;
   json["left_out"] = lost;
   add_fit(result.fit, &json);
-  fmt::print("{}\n", json.dump(2));
+  return json;
 }
 
 void run(const RemeshCommand& command, const CommonOptions& common) {
@@ -138,11 +140,11 @@ void run(const RemeshCommand& command, const CommonOptions& common) {
   write_sequence(command.output, with_positions(result.mesh, result.mesh.positions), write_options);
   line.clear();
   const std::vector<std::string> lost = left_out(mesh);
-  if (command.json) {
-    print_json(command, result, lost);
+  if (common.json) {
+    print_json(json_of(command, result, lost));
   } else if (!common.quiet) {
     if (!lost.empty())
-      fmt::print(stderr, "anicodec: {}: left out: {}\n", command.mesh, fmt::join(lost, ", "));
+      print_line(stderr, "anicodec: {}: left out: {}", command.mesh, fmt::join(lost, ", "));
     print_text(command, options, result);
   }
 }
@@ -151,7 +153,7 @@ void run(const RemeshCommand& command, const CommonOptions& common) {
 
 void add_massage_remesh(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<RemeshCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kThreads,
+  Options& options = add_command(commands, common, kForce | kQuiet | kThreads | kJson,
                                  {"massage remesh", "MESH -o OUT [options]",
                                   "Give a mesh fewer, more or even triangles", kFooter},
                                  [c, &common] { run(*c, common); });
@@ -164,7 +166,6 @@ void add_massage_remesh(Commands& commands, CommonOptions& common) {
   options.choice("--method", c->method, {kMethods},
                  "How: auto is decimate for fewer vertices and isotropic for more (default auto)");
   options.flag("--no-fit", c->no_fit, "Leave the vertices where the method puts them");
-  options.flag("--json", c->json, "Print one JSON object");
 }
 
 }  // namespace anicodec::tools

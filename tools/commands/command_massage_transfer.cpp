@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/commands/command.h"
 #include "tools/inputs/massage_transfer.h"
 #include "tools/io/write_sequence.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 
 #include <filesystem>
@@ -34,7 +35,6 @@ Examples:
 struct TransferCommand {
   std::vector<std::string> inputs;
   std::string output, vertices;
-  bool json = false;
 };
 
 /// "fitted.pc2" as "fitted_2.pc2".
@@ -67,7 +67,7 @@ void run(const TransferCommand& command, const CommonOptions& common) {
   line.clear();
   const SurfaceChange change = input.change();
   const double diagonal = input.result.diagonal;
-  if (command.json) {
+  if (common.json) {
     nlohmann::ordered_json json;
     json["files"] = nlohmann::ordered_json::array();
     for (size_t s = 0; s < segments.size(); ++s)
@@ -88,7 +88,7 @@ void run(const TransferCommand& command, const CommonOptions& common) {
                                 {"dropped_percent", frame.dropped}});
     json["hausdorff_percent"] = 100 * change.max / diagonal;
     json["hausdorff_mean_percent"] = 100 * change.mean / diagonal;
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
     return;
   }
   for (size_t s = 1; s < segments.size(); ++s)
@@ -97,7 +97,7 @@ void run(const TransferCommand& command, const CommonOptions& common) {
   if (common.quiet)
     return;
   for (size_t s = 0; s < segments.size(); ++s)
-    fmt::print("{}: frames {} to {} of {} vertices\n", names[s], segments[s].first_frame,
+    print_line("{}: frames {} to {} of {} vertices", names[s], segments[s].first_frame,
                segments[s].first_frame + segments[s].sequence.frame_count - 1,
                segments[s].sequence.vertex_count);
   fmt::print("{:.3g} % of the diagonal from the input on average, {:.3g} % at most\n",
@@ -109,7 +109,7 @@ void run(const TransferCommand& command, const CommonOptions& common) {
 void add_massage_transfer(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<TransferCommand>();
   Options& options =
-      add_command(commands, common, kForce | kQuiet | kThreads,
+      add_command(commands, common, kForce | kQuiet | kThreads | kJson,
                   {"massage transfer", "MESH... -o OUT [options]",
                    "Give meshes of different faces the faces of the first one", kFooter},
                   [c, &common] { run(*c, common); });
@@ -119,7 +119,6 @@ void add_massage_transfer(Commands& commands, CommonOptions& common) {
       .required();
   options.option("--vertices", c->vertices, "N",
                  "Vertices to carry, or a share such as 25% (default: those of the first mesh)");
-  options.flag("--json", c->json, "Print one JSON object");
 }
 
 }  // namespace anicodec::tools

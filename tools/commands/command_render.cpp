@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/compared_clip.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/files/name_pattern.h"
 #include "tools/io/files/output_folder.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/render/image.h"
 #include "tools/render/shaded_view.h"
 #include "tools/render/video.h"
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
 namespace {
@@ -276,9 +278,13 @@ void run(const RenderCommand& command, const CommonOptions& common) {
                                                 progress);
   folder.keep();
   line.clear();
+  if (common.json)
+    return print_json({{"file", command.output},
+                       {"frames", drawing.frame_count()},
+                       {"largest_error", drawing.largest_error()}});
   if (common.quiet)
     return;
-  fmt::print("{}: {} frames\n", command.output, drawing.frame_count());
+  print_line("{}: {} frames", command.output, drawing.frame_count());
   if (drawing.largest_error() > 0)
     fmt::print("black is an error of {:.4g}\n", drawing.largest_error());
 }
@@ -288,7 +294,7 @@ void run(const RenderCommand& command, const CommonOptions& common) {
 void add_render(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<RenderCommand>();
   Options& options =
-      add_command(commands, common, kForce | kQuiet | kThreads,
+      add_command(commands, common, kForce | kQuiet | kThreads | kJson,
                   {"render", "CLIP -o OUT [--against ORIGINAL] [options]",
                    "Draw a clip, beside its original and coloured by error", kFooter},
                   [c, &common] { run(*c, common); });

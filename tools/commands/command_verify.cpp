@@ -3,16 +3,19 @@
 #include "codec/sequence/error.h"
 #include "format/container.h"
 #include "sdk/clip/clip.h"
-#include "tools/commands/command.h"
 #include "tools/inputs/clip_input.h"
+#include "tools/program/command.h"
+#include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
 namespace {
@@ -20,7 +23,10 @@ namespace {
 constexpr const char* kFooter =
     R"(Checks every byte: header, table, the checksum of every chunk, and padding; decodes everything;
 compares the decoded integers with the hash the encoder stored; plays every frame. No source is
-needed.)";
+needed.
+
+--json prints an object for each file: file, ok, bytes, chunks, frames, meshes; of one that fails:
+error, status.)";
 
 /// Checksums of all chunks, those included that this version does not know. Returns their number.
 size_t check_chunks(const std::string& path, const std::string& bytes) {
@@ -62,9 +68,16 @@ void run(const std::string& path, const CommonOptions& common) {
     fail_clip(path, failure);
   check_frames(path, clip, line);
   line.clear();
-  if (!common.quiet)
-    fmt::print("{}: ok ({} bytes, {} chunks, {} frames of {})\n", path, grouped(bytes.size()),
-               chunks, clip.frame_count(),
+  if (common.json)
+    print_json({{"file", path},
+                {"ok", true},
+                {"bytes", bytes.size()},
+                {"chunks", chunks},
+                {"frames", clip.frame_count()},
+                {"meshes", clip.meshes().size()}});
+  else if (!common.quiet)
+    print_line("{}: ok ({} bytes, {} chunks, {} frames of {})", path, grouped(bytes.size()), chunks,
+               clip.frame_count(),
                clip.meshes().size() == 1 ? fmt::format("{} vertices", clip.vertex_count())
                                          : fmt::format("{} meshes", clip.meshes().size()));
 }
@@ -72,12 +85,14 @@ void run(const std::string& path, const CommonOptions& common) {
 }  // namespace
 
 void add_verify(Commands& commands, CommonOptions& common) {
-  auto input = std::make_shared<std::string>();
+  auto inputs = std::make_shared<std::vector<std::string>>();
   Options& options = add_command(
-      commands, common, kQuiet,
-      {"verify", "FILE.anic", "Check an .anic file: checksums and a full decode", kFooter},
-      [input, &common] { run(*input, common); });
-  options.argument("FILE", *input, "The .anic file to check").required();
+      commands, common, kQuiet | kJson,
+      {"verify", "FILE.anic...", "Check .anic files: checksums and a full decode", kFooter},
+      [inputs, &common] {
+        run_for_each(*inputs, common, [&](const std::string& path) { run(path, common); });
+      });
+  options.arguments("FILE", *inputs, "The .anic files to check").required();
 }
 
 }  // namespace anicodec::tools

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/commands/encode_report.h"
 
-#include "tools/io/base/printable.h"
+#include "tools/program/print.h"
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
 
@@ -31,7 +31,7 @@ double percent(double length, double diagonal) {
 
 }  // namespace
 
-void EncodeReport::print_json() const {
+nlohmann::ordered_json EncodeReport::json() const {
   Rate rate(result);
   nlohmann::ordered_json json;
   json["file"] = path;
@@ -61,7 +61,7 @@ void EncodeReport::print_json() const {
                                          {"asked", a.asked},
                                          {"max_error", a.max_error},
                                          {"rmse", a.rmse}});
-  fmt::print("{}\n", json.dump(2));
+  return json;
 }
 
 void EncodeReport::print_text(int verbosity) const {
@@ -82,17 +82,17 @@ void EncodeReport::print_text(int verbosity) const {
   else if (massage_was_choice)
     fmt::print("not massaged: the clip would not become smaller\n");
   Rate rate(result);
-  fmt::print(
-      "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {} {}; max error {:.4g} ({:.3g} %), KG {:.3g} %\n",
+  print_line(
+      "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {} {}; max error {:.4g} ({:.3g} %), KG {:.3g} %",
       path, grouped(result.file.size()), rate.ratio, rate.bpfv, result.components,
       components_of(result.kind), result.max_error, percent(result.max_error, result.diagonal),
       result.kg);
   for (const AttributeResult& a : result.attributes) {
     if (a.kept)
-      fmt::print("  {} \"{}\": {} bytes, max error {:.3g} of {:.3g}\n", name_of(a.kind),
-                 printable(a.name), grouped(a.bytes), a.max_error, a.asked);
+      print_line("  {} \"{}\": {} bytes, max error {:.3g} of {:.3g}", name_of(a.kind), a.name,
+                 grouped(a.bytes), a.max_error, a.asked);
     else
-      fmt::print("  {} \"{}\" {}\n", name_of(a.kind), printable(a.name), a.note);
+      print_line("  {} \"{}\" {}", name_of(a.kind), a.name, a.note);
   }
 }
 

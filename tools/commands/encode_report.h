@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace anicodec::tools {
 
 /// What encode says of a file that it has written.
@@ -18,7 +20,7 @@ struct EncodeReport {
   const MassageVerdict& massage;
   bool massage_was_choice = false;  ///< --massage auto
 
-  void print_json() const;
+  nlohmann::ordered_json json() const;
 
   /// `verbosity` above 0: what was tried, too.
   void print_text(int verbosity) const;

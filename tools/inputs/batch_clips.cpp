@@ -74,6 +74,8 @@ void add_folder(const fs::path& folder, const fs::path& relative, std::vector<Ba
 std::vector<BatchClip> clips_of_list(const std::string& path) {
   std::string text, line, input;
   read_file(path, text);
+  if (text.find('\0') != std::string::npos)
+    fail_input(path, "is no list of clips but a binary file; a list has a clip per line");
   std::vector<BatchClip> clips;
   for (std::istringstream lines(text); std::getline(lines, line);) {
     if (!line.empty() && line.back() == '\r')

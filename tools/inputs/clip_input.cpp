@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <string_view>
@@ -53,6 +54,15 @@ bool is_anic(const std::string& path) {
          std::equal(kExtension.rbegin(), kExtension.rend(), path.rbegin(), [](char a, char b) {
            return a == std::tolower(static_cast<unsigned char>(b));
          });
+}
+
+void check_anic_output(const std::string& path) {
+  const std::filesystem::path name(path);
+  if (is_anic(path) || name.extension().empty())
+    return;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("{}: the output is an .anic file, not {} (for other formats: decode)",
+                          path, name.extension().string()));
 }
 
 ErrorKind error_kind(Status status) {

@@ -21,6 +21,9 @@ namespace anicodec::tools {
 /// True for names that end in .anic, in any case of letters.
 bool is_anic(const std::string& path);
 
+/// Throws Error(kUsage) for an output with an extension other than .anic.
+void check_anic_output(const std::string& path);
+
 /// What a status of the SDK means for the exit status.
 ErrorKind error_kind(Status status);
 

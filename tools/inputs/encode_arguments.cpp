@@ -8,18 +8,26 @@
 #include "tools/words/quantity.h"
 #include "tools/words/version.h"
 
+#include <optional>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
 namespace {
 
-void set_target(const EncodeArguments& command, EncodeOptions& options) {
+/// `metres_per_unit`: nothing before the clip is known.
+void set_target(const EncodeArguments& command, std::optional<double> metres_per_unit,
+                EncodeOptions& options) {
+  auto length_of = [&](const std::string& text, const char* option) {
+    const Length length = parse_length(text, option);
+    return metres_per_unit ? length.in_scene_units(*metres_per_unit, option) : length;
+  };
   std::vector<Target> targets;
   if (!command.kg.empty())
-    targets.push_back({ErrorMetric::kKg, parse_positive(command.kg, "--kg"), false});
+    targets.push_back({ErrorMetric::kKg, parse_percent(command.kg, "--kg"), false});
   if (!command.rmse.empty()) {
-    Length length = parse_length(command.rmse, "--rmse");
+    const Length length = length_of(command.rmse, "--rmse");
     targets.push_back({ErrorMetric::kRmse, length.value, length.percent});
   }
   if (!command.size.empty())
@@ -30,7 +38,7 @@ void set_target(const EncodeArguments& command, EncodeOptions& options) {
   if (!targets.empty())
     options.target = targets[0];
   if (!command.max_error.empty()) {
-    Length length = parse_length(command.max_error, "--max-error");
+    const Length length = length_of(command.max_error, "--max-error");
     Target bound{ErrorMetric::kMaxError, length.value, length.percent};
     if (targets.empty())
       options.target = bound;
@@ -150,7 +158,6 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.flag("--allow-outside", a.allow_outside,
                "Let a scene name files outside its folder: those of strangers then choose what is "
                "read");
-  options.flag("--json", a.json, "Print the result as JSON");
   add_target(options, a);
   add_method(options, a);
   add_massage_options(options, a);
@@ -180,13 +187,19 @@ EncodeOptions encode_options(const EncodeArguments& command) {
     options.attributes.normals = parse_positive(command.normal_error, "--store-normals");
   if (!command.attribute_error.empty()) {
     const Length error = parse_length(command.attribute_error, "--attribute-error");
+    if (error.metres > 0)
+      throw Error(ErrorKind::kUsage, "--attribute-error: colours and numbers have no length");
     options.attributes.error = error.value;
     options.attributes.error_percent = error.percent;
   }
   options.effort = command.effort;
   options.encoder = fmt::format("anicodec {}", version());
-  set_target(command, options);
+  set_target(command, std::nullopt, options);
   return options;
+}
+
+void set_target(const EncodeArguments& command, double metres_per_unit, EncodeOptions* options) {
+  set_target(command, std::optional(metres_per_unit), *options);
 }
 
 LoadOptions load_options(const EncodeArguments& command, const Progress& progress) {
@@ -207,7 +220,8 @@ MassageOptions massage_options(const EncodeArguments& command, const MeshSequenc
   MassageOptions options;
   options.strength = command.massage_strength;
   if (!command.massage_tolerance.empty()) {
-    const Length length = parse_length(command.massage_tolerance, "--massage-tolerance");
+    const Length length = parse_length(command.massage_tolerance, "--massage-tolerance")
+                              .in_scene_units(sequence.metres_per_unit, "--massage-tolerance");
     options.tolerance = length.percent ? length.value / 100 * diagonal(sequence) : length.value;
   }
   return options;

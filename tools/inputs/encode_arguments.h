@@ -44,7 +44,6 @@ struct EncodeArguments {
   bool no_attributes = false;
   AttributeOptions attributes;
   std::string attribute_error, normal_error;
-  bool json = false;
   /// Told what of the input is left out; may be empty.
   std::function<void(const std::string& text)> note;
 };
@@ -52,8 +51,13 @@ struct EncodeArguments {
 /// Declares the options, which write to `arguments`.
 void add_arguments(Options& options, EncodeArguments& arguments);
 
-/// What they mean to the encoder. Throws Error(kUsage) naming the option.
+/// What they mean to the encoder, but for lengths with a unit of their own. Throws Error(kUsage)
+/// naming the option.
 EncodeOptions encode_options(const EncodeArguments& arguments);
+
+/// Sets the target for a clip whose scene unit has so many metres (0: unknown). Throws Error(kUsage)
+/// naming the option, also for a length in a unit of its own where the clip's is unknown.
+void set_target(const EncodeArguments& arguments, double metres_per_unit, EncodeOptions* options);
 
 /// What they mean to the importers.
 LoadOptions load_options(const EncodeArguments& arguments, const Progress& progress);

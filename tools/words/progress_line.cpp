@@ -53,9 +53,10 @@ void ProgressLine::show(std::string_view stage, double done) {
     return;
   last_shown_ = now;
   visible_ = true;
-  done = std::clamp(done, 0.0, 1.0);
+  // Rounded down: nothing says 100 % while something is left.
+  done = std::floor(100 * std::clamp(done, 0.0, 1.0) + 1e-9) / 100;
   std::string left;
-  if (double spent = now - stage_start_; done > 0.01 && spent > 0.5)
+  if (double spent = now - stage_start_; done > 0.01 && done < 1 && spent > 0.5)
     left = fmt::format(", {} left", minutes(spent * (1 - done) / done));
   // "\r" returns to the start of the line, "\033[K" clears what is right of the cursor.
   fmt::print(stream_, "\r{} {:3.0f} %{}\033[K", stage_, 100 * done, left);

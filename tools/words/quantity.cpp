@@ -33,6 +33,17 @@ bool is_positive(double x) {
   return std::isfinite(x) && x > 0;
 }
 
+/// Metres of a unit's name, 0 for what is none.
+double metres_of(std::string_view unit) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000}, {"in", 0.0254}, {"ft", 0.3048}};
+  for (auto [name, metres] : kUnits) {
+    if (unit == name)
+      return metres;
+  }
+  return 0;
+}
+
 }  // namespace
 
 double parse_positive(std::string_view text, std::string_view option) {
@@ -40,6 +51,16 @@ double parse_positive(std::string_view text, std::string_view option) {
   double x = 0;
   if (!take(rest, x) || !rest.empty() || !is_positive(x))
     fail(option, text, "a number greater than 0");
+  return x;
+}
+
+double parse_percent(std::string_view text, std::string_view option) {
+  std::string_view number = text;
+  if (number.ends_with('%'))
+    number.remove_suffix(1);
+  double x = 0;
+  if (!take(number, x) || !number.empty() || !is_positive(x))
+    fail(option, text, "a number of per cent greater than 0, such as 0.1 or 0.1%");
   return x;
 }
 
@@ -55,13 +76,26 @@ Length parse_length(std::string_view text, std::string_view option) {
   Length length;
   bool number = take(rest, length.value);
   length.percent = rest == "%";
-  if (number && length.value == 0 && (rest.empty() || length.percent))
+  length.metres = metres_of(rest);
+  const bool known = rest.empty() || length.percent || length.metres > 0;
+  if (number && length.value == 0 && known)
     throw Error(ErrorKind::kUsage,
                 fmt::format("{}: an error of 0 needs a lossless mode, which there is not", option));
-  if (!number || !(rest.empty() || length.percent) || !is_positive(length.value))
+  if (!number || !known || !is_positive(length.value))
     fail(option, text,
-         "a length greater than 0 such as 0.02 (scene units) or 0.05% (of the diagonal)");
+         "a length greater than 0 such as 0.02 (scene units), 5mm or 0.05% (of the diagonal)");
   return length;
+}
+
+Length Length::in_scene_units(double metres_per_unit, std::string_view option) const {
+  if (metres == 0)
+    return *this;
+  if (metres_per_unit == 0)
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{}: the input does not say how long a scene unit is; give scene units "
+                            "or per cent (encode --unit says it)",
+                            option));
+  return {value * metres / metres_per_unit, false, 0};
 }
 
 uint32_t Count::of(uint32_t all) const {
@@ -105,14 +139,10 @@ uint64_t parse_size(std::string_view text, std::string_view option) {
 }
 
 double parse_unit(std::string_view text, std::string_view option) {
-  static constexpr std::pair<std::string_view, double> kUnits[] = {
-      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000}, {"in", 0.0254}, {"ft", 0.3048}};
-  for (auto [name, metres] : kUnits) {
-    if (text == name)
-      return metres;
-  }
+  double x = metres_of(text);
+  if (x > 0)
+    return x;
   std::string_view rest = text;
-  double x = 0;
   if (!take(rest, x) || !rest.empty() || !is_positive(x))
     fail(option, text, "a length in metres or one of m, cm, mm, km, in, ft");
   return x;
@@ -161,6 +191,12 @@ FrameRange parse_frames(std::string_view text, std::string_view option, uint32_t
                                                option, text, frame_count, frame_count));
   range.step = std::min(range.step, frame_count);
   return range;
+}
+
+std::string counted(uint64_t number, std::string_view one, std::string_view many) {
+  if (number == 1)
+    return fmt::format("1 {}", one);
+  return many.empty() ? fmt::format("{} {}s", number, one) : fmt::format("{} {}", number, many);
 }
 
 std::string grouped(uint64_t number) {

@@ -12,10 +12,15 @@
 
 namespace anicodec::tools {
 
-/// A length in scene units or in per cent of the diagonal.
+/// A length in scene units, in a unit of its own, or in per cent of the diagonal.
 struct Length {
   double value = 0;
   bool percent = false;
+  double metres = 0;  ///< of the unit of its own; 0: scene units
+
+  /// The length in scene units of so many metres (0: unknown) where it has a unit of its own.
+  /// Throws Error(kUsage) "option: ..." where that is unknown.
+  Length in_scene_units(double metres_per_unit, std::string_view option) const;
 };
 
 /// A number of things or a share of all.
@@ -32,10 +37,13 @@ struct Count {
 /// A finite number greater than 0.
 double parse_positive(std::string_view text, std::string_view option);
 
+/// A finite number greater than 0 of per cent, with or without the sign.
+double parse_percent(std::string_view text, std::string_view option);
+
 /// A number above 0 and up to 1.
 double parse_share(std::string_view text, std::string_view option);
 
-/// "0.02" or "0.05%", greater than 0.
+/// "0.02", "0.05%" or "5mm" (with a unit of parse_unit()), greater than 0.
 Length parse_length(std::string_view text, std::string_view option);
 
 /// "500" or "25%", greater than 0, less than 2^31 and at most 100 000 %.
@@ -62,6 +70,9 @@ struct FrameRange {
 /// "A:B" or "A:B:STEP", A to B - 1 as in Python, both may be left out; "A" is one frame. At least
 /// one frame, none beyond the clip's.
 FrameRange parse_frames(std::string_view text, std::string_view option, uint32_t frame_count);
+
+/// "1 frame", "2 frames"; `many` where an s does not make it.
+std::string counted(uint64_t number, std::string_view one, std::string_view many = {});
 
 /// 1234567 -> "1 234 567".
 std::string grouped(uint64_t number);

@@ -103,12 +103,18 @@ TEST(JoinClips, KeepsTimesAndErrorsOfTheWhole) {
   EXPECT_GT(clip.record().kg, 0.1);
 }
 
+TEST(JoinClips, TakesPartsInAnyOrder) {
+  const std::vector<Bytes> files =
+      parts_of(corpus::make_clip("limb"), {8, 16}, options_of(ErrorMetric::kMaxError, 0.5));
+  EXPECT_EQ(joined({files[2], files[0], files[1]}), joined(files));
+}
+
 TEST(JoinClips, RefusesPartsThatDoNotFit) {
   const EncodeOptions options = options_of(ErrorMetric::kMaxError, 0.5);
   const MeshSequence limb = corpus::make_clip("limb");
   std::vector<Bytes> files = parts_of(limb, {8, 16}, options);
   EXPECT_THAT(fault_of({files[0], files[2]}), HasSubstr("part 1: starts at"));
-  EXPECT_THAT(fault_of({files[1], files[0]}), HasSubstr("does not follow part 0"));
+  EXPECT_THAT(fault_of({files[1], files[0], files[1]}), HasSubstr("does not follow part 0"));
 
   const MeshSequence box = corpus::make_clip("quad_box");
   EXPECT_THAT(fault_of({files[0], encode(box, options).file}), HasSubstr("part 1: has "));

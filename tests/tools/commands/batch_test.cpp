@@ -6,6 +6,7 @@
 #include "tools/io/write_sequence.h"
 
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,26 @@ TEST_F(BatchCommand, EncodesEveryClipOnceWithALineForEach) {
   Outcome again = batch();
   EXPECT_EQ(again.status, 0);
   EXPECT_THAT(again.out, HasSubstr("0 encoded, 3 done before, 0 failed"));
+}
+
+TEST_F(BatchCommand, PrintsAnObjectForEachClip) {
+  folder_.write("in/broken.glb", "no glTF");
+  const Outcome outcome = batch({"--json"});
+  EXPECT_EQ(outcome.status, 2) << outcome;
+  std::istringstream text(outcome.out);
+  std::vector<nlohmann::json> lines;
+  for (std::string line; std::getline(text, line);)
+    lines.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(lines.size(), 6U) << outcome.out;  // four clips, the summary and the error
+  EXPECT_EQ(lines[4]["encoded"], 3);
+  EXPECT_EQ(lines[4]["failed"], 1);
+  EXPECT_EQ(lines[5]["status"], 2);
+}
+
+TEST_F(BatchCommand, RefusesAListThatIsBinary) {
+  const std::string list = folder_.write("list.txt", std::string("a\0b.pc2\n", 8));
+  EXPECT_THAT(anicodec({"encode", "--batch", list, "-o", folder_ / "out"}).err,
+              HasSubstr("is no list of clips but a binary file"));
 }
 
 TEST_F(BatchCommand, EncodesAgainWhatHasChanged) {

@@ -75,7 +75,45 @@ TEST(CommandLine, OptionsThatCommandsShareAreWhereTheyApply) {
 
 TEST(CommandLine, PrintsItsVersion) {
   EXPECT_EQ(anicodec({"--version"}).out, "anicodec " + std::string(version()) + "\n");
-  EXPECT_EQ(anicodec({"encode", "--version"}).status, 0);
+  for (const char* word : {"version", "-V"})
+    EXPECT_EQ(anicodec({word}).out, anicodec({"--version"}).out);
+  EXPECT_EQ(anicodec({"encode", "-V"}).status, 0);
+}
+
+TEST(CommandLine, HelpsByTheWordHelp) {
+  EXPECT_EQ(anicodec({"help"}).out, anicodec({"--help"}).out);
+  EXPECT_EQ(anicodec({"help", "encode"}).out, anicodec({"encode", "--help"}).out);
+  EXPECT_EQ(anicodec({"help", "massage", "fit"}).out, anicodec({"massage", "fit", "--help"}).out);
+  expect_usage_error(anicodec({"help", "compress"}));
+  expect_usage_error(anicodec({"help", "encode", "decode"}));
+}
+
+TEST(CommandLine, EveryCommandPrintsJson) {
+  for (const std::string& command : kCommands)
+    EXPECT_THAT(help_of(command), HasSubstr("--json")) << command;
+  const Outcome unknown = anicodec({"info", "absent.anic", "--json"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_EQ(unknown.json()["status"], 2);
+  EXPECT_EQ("anicodec: " + unknown.json()["error"].get<std::string>() + "\n", unknown.err);
+  EXPECT_EQ(anicodec({"info", "--json", "--no-such-option"}).json()["status"], 1);
+}
+
+TEST(CommandLine, EscapesNamesWhereverItPrintsThem) {
+  TemporaryFolder folder;
+  const std::string name = "bell\x07 line\nend \xff \u202e", file = folder / (name + ".anic");
+  for (const char* command : {"corpus", "encode"}) {
+    const Outcome outcome =
+        command == std::string("corpus")
+            ? anicodec({command, "one_triangle", "-o", folder / (name + ".pc2")})
+            : anicodec({command, folder / (name + ".pc2"), "-o", file});
+    ASSERT_EQ(outcome.status, 0) << outcome;
+    EXPECT_THAT(outcome.out, HasSubstr("bell\\x07 line\\nend \\xff \\u202e")) << command;
+  }
+  const std::string info = anicodec({"info", file, "--json"}).out;
+  EXPECT_TRUE(std::all_of(info.begin(), info.end(),
+                          [](char c) { return c == '\n' || (c >= 32 && c < 127); }));
+  EXPECT_EQ(std::count(info.begin(), info.end(), '\n'), 1);
+  EXPECT_THAT(anicodec({"verify", file}).out, HasSubstr("line\\nend"));
 }
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
@@ -83,7 +121,7 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_usage_error(anicodec({"compress"}));
   expect_usage_error(anicodec({"info", "a.anic", "--colour"}));
   expect_usage_error(anicodec({"info"}));
-  expect_usage_error(anicodec({"verify", "a.anic", "b.anic"}));
+  expect_usage_error(anicodec({"dump", "a.anic", "b.anic"}));
   expect_usage_error(anicodec({"encode", "a.pc2", "-o", "a.anic", "-j0"}));
 }
 

@@ -52,6 +52,7 @@ TEST_F(EncodeCommand, KeepsEveryKindOfTarget) {
     return encode(options, file).json();
   };
   EXPECT_LE(encoded({"--kg", "0.5"}, "1.anic")["kg"], 0.5);
+  EXPECT_LE(encoded({"--kg", "0.5%"}, "1p.anic")["kg"], 0.5);
   nlohmann::json rmse = encoded({"--rmse", "0.02%"}, "2.anic");
   EXPECT_LE(rmse["rmse"], 0.0002 * double(rmse["diagonal"]));
   EXPECT_LE(encoded({"--size", "9k"}, "3.anic")["bytes"], 9000);

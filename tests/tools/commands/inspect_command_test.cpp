@@ -7,6 +7,7 @@
 #include "tools/io/write_sequence.h"
 #include "tools/listing/listing.h"
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -186,6 +187,40 @@ TEST_F(InspectCommand, DecodeRefusesWhatItCannotWrite) {
       anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "x.pc2", "--quality", "2"}).status,
       1);
   EXPECT_THAT(folder_.files(), ElementsAre("a.anic", "a.obj", "a.pc2"));
+}
+
+TEST_F(InspectCommand, SeveralFilesEachHaveTheirSay) {
+  folder_.write("b.anic", bytes_);
+  folder_.write("bad.anic", bytes_.substr(0, bytes_.size() / 2));
+  const std::vector<std::string> files = {folder_ / "a.anic", folder_ / "bad.anic",
+                                          folder_ / "b.anic"};
+  for (const char* command : {"info", "verify"}) {
+    const Outcome outcome = anicodec({command, files[0], files[1], files[2], "--json"});
+    EXPECT_EQ(outcome.status, 3) << outcome;
+    EXPECT_THAT(outcome.err, HasSubstr("1 of 3 files failed, the first is " + files[1]));
+    std::vector<nlohmann::json> lines;
+    std::istringstream text(outcome.out);
+    for (std::string line; std::getline(text, line);)
+      lines.push_back(nlohmann::json::parse(line));
+    ASSERT_EQ(lines.size(), 4U) << outcome.out;
+    EXPECT_EQ(lines[0]["file"], files[0]);
+    EXPECT_EQ(lines[1]["status"], 3);
+    EXPECT_EQ(lines[2]["file"], files[2]);
+  }
+}
+
+TEST_F(InspectCommand, SeveralFilesAreDecodedToAFolder) {
+  folder_.write("b.anic", bytes_);
+  const std::string a = folder_ / "a.anic", b = folder_ / "b.anic", out = folder_ / "out";
+  EXPECT_EQ(anicodec({"decode", a, b, "-o", out}).status, 1);
+  const Outcome caches = anicodec({"decode", a, b, "-o", out, "--format", "pc2"});
+  ASSERT_EQ(caches.status, 0) << caches;
+  EXPECT_EQ(folder_.read("out/a.pc2"), folder_.read("out/b.pc2"));
+  EXPECT_FALSE(folder_.read("out/b.obj").empty());
+  ASSERT_EQ(anicodec({"decode", a, "-o", out, "--format", "ply"}).status, 0);
+  EXPECT_THAT(folder_.read("out/a/frame_0000.ply"), StartsWith("ply"));
+  EXPECT_THAT(anicodec({"decode", a, a, "-o", out, "--format", "glb"}).err,
+              HasSubstr("and so would"));
 }
 
 TEST_F(InspectCommand, DecodeGivesACoarserClipAtLowerQuality) {

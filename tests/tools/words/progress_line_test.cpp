@@ -50,6 +50,17 @@ TEST_F(Progress, IsSilentForASecond) {
   EXPECT_THAT(printed(), HasSubstr("reading  95 %"));
 }
 
+TEST_F(Progress, SaysNoHundredWhileSomethingIsLeft) {
+  ProgressLine line(stream_, clock());
+  line.show("fitting", 0);
+  now_ += 30;
+  line.show("fitting", 0.999);
+  EXPECT_THAT(printed(), HasSubstr("fitting  99 %, 0:01 left"));
+  now_ += 1;
+  line.show("fitting", 1);
+  EXPECT_THAT(printed(), HasSubstr("fitting 100 %\033"));
+}
+
 TEST_F(Progress, SaysTheTimeLeftOfTheStage) {
   ProgressLine line(stream_, clock());
   now_ += 50;

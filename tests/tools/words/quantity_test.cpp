@@ -28,10 +28,30 @@ TEST(Quantity, ReadsLengths) {
   EXPECT_EQ(parse_length("0.05%", "-x").value, 0.05);
   EXPECT_TRUE(parse_length("0.05%", "-x").percent);
   EXPECT_EQ(parse_length("1e-3", "-x").value, 0.001);
+  EXPECT_EQ(parse_length("5mm", "-x").value, 5);
+  EXPECT_DOUBLE_EQ(parse_length("5mm", "-x").in_scene_units(0.01, "-x").value, 0.5);
+  EXPECT_EQ(parse_length("5mm", "-x").in_scene_units(0.01, "-x").metres, 0);
+  EXPECT_EQ(parse_length("2", "-x").in_scene_units(0, "-x").value, 2);
+  EXPECT_THAT(usage_fault([] { parse_length("5mm", "-x").in_scene_units(0, "-x"); }),
+              StartsWith("-x: the input does not say how long a scene unit is"));
+}
+
+TEST(Quantity, CountsInSingularAndPlural) {
+  EXPECT_EQ(counted(1, "frame"), "1 frame");
+  EXPECT_EQ(counted(0, "frame"), "0 frames");
+  EXPECT_EQ(counted(2, "vertex", "vertices"), "2 vertices");
+}
+
+TEST(Quantity, ReadsPercent) {
+  EXPECT_EQ(parse_percent("0.1", "--kg"), 0.1);
+  EXPECT_EQ(parse_percent("0.1%", "--kg"), 0.1);
+  for (const char* text : {"", "%", "0", "-1%", "1%%", "1 %", "nan"})
+    EXPECT_THAT(usage_fault([&] { parse_percent(text, "--kg"); }), StartsWith("--kg: '")) << text;
 }
 
 TEST(Quantity, RefusesWhatIsNoLength) {
-  for (const char* text : {"", "%", "-1", "nan", "inf", "1e999", "1 %", "0.1%%", "0.1mm", "1,5"})
+  for (const char* text :
+       {"", "%", "-1", "nan", "inf", "1e999", "1 %", "0.1%%", "0.1mmm", "mm", "1,5"})
     EXPECT_THAT(usage_fault([&] { parse_length(text, "--max-error"); }),
                 StartsWith("--max-error: '"))
         << text;

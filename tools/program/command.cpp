@@ -1,35 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/commands/command.h"
+#include "tools/program/command.h"
 
 #include "codec/sequence/error.h"
-#include "tools/io/base/printable.h"
 #include "tools/options/help_text.h"
 #include "tools/options/nearest_word.h"
 #include "tools/options/parse_options.h"
+#include "tools/program/print.h"
 #include "tools/words/version.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <initializer_list>
 #include <new>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 namespace anicodec::tools {
 namespace {
-
-/// Prints an error as one line.
-void print_error(const Program& program, std::string_view text) {
-  std::string line(text);
-  line.erase(line.find_last_not_of(" \n") + 1);
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "{}: {}\n", program.name, printable(line));
-}
 
 void print_version(const Program& program) {
   fmt::print("{} {}\n", program.name, version());
@@ -40,7 +33,7 @@ void print_help(const Program& program, const Commands& commands) {
   for (const Command& command : commands)
     fmt::print("{}", help_row(command.help.name, command.help.description));
   fmt::print("\nOptions:\n{}{}\n{}\n", help_row("-h,--help", "Print this help"),
-             help_row("--version", "Print the version"), program.footer);
+             help_row("-V,--version", "Print the version"), program.footer);
 }
 
 void print_help(const Program& program, const Commands& commands, const Command& command) {
@@ -64,6 +57,8 @@ void print_help(const Program& program, const Commands& commands, const Command&
   std::vector<std::string> names;
   for (const Command& command : commands)
     names.push_back(command.help.name);
+  for (const char* word : {"help", "version"})
+    names.emplace_back(word);
   const std::string meant = nearest_word(name, names);
   throw Error(ErrorKind::kUsage,
               fmt::format("there is no command '{}'{}", name,
@@ -104,16 +99,30 @@ void run_command(const Program& program, const Commands& commands, Command& comm
   command.run();
 }
 
-void parse_and_run(const Program& program, std::vector<std::string> words) {
-  CommonOptions common;
+/// Whether the first word is one of these.
+bool begins_with(const std::vector<std::string>& words, std::initializer_list<const char*> any) {
+  return !words.empty() && std::find(any.begin(), any.end(), words[0]) != any.end();
+}
+
+/// The help that "help COMMAND" asks for.
+void run_help(const Program& program, Commands& commands, std::vector<std::string> words) {
+  if (words.empty())
+    return print_help(program, commands);
+  const Command& command = take_command(program, commands, words);
+  if (!words.empty())
+    throw Error(ErrorKind::kUsage, fmt::format("help: '{}' is one argument too many", words[0]));
+  print_help(program, commands, command);
+}
+
+void parse_and_run(const Program& program, CommonOptions& common, std::vector<std::string> words) {
   Commands commands;
   program.declare(commands, common);
   if (words.empty())
     throw Error(ErrorKind::kUsage,
                 fmt::format("a command is missing; see {} --help", program.name));
-  if (words[0] == "-h" || words[0] == "--help") {
-    print_help(program, commands);
-  } else if (words[0] == "--version") {
+  if (begins_with(words, {"help", "-h", "--help"})) {
+    run_help(program, commands, {words.begin() + 1, words.end()});
+  } else if (begins_with(words, {"version", "-V", "--version"})) {
     print_version(program);
   } else {
     Command& command = take_command(program, commands, words);
@@ -133,7 +142,7 @@ Options& add_command(Commands& commands, CommonOptions& common, unsigned common_
   Options& options = command.options;
   options.group(kGeneralGroup);
   options.flag("-h,--help", command.asks_help, "Print this help").is_alone = true;
-  options.flag("--version", command.asks_version, "Print the version").is_alone = true;
+  options.flag("-V,--version", command.asks_version, "Print the version").is_alone = true;
   if (common_options & kForce)
     options.flag("-f,--force", common.overwrite, "Overwrite outputs that exist");
   if (common_options & kQuiet)
@@ -143,23 +152,64 @@ Options& add_command(Commands& commands, CommonOptions& common, unsigned common_
   if (common_options & kThreads)
     options.number("-j,--threads", common.threads, "N", {1, 1024},
                    "Threads (default: one for every processor)");
+  if (common_options & kJson)
+    options.flag("--json", common.json, "Print the result as JSON, one object a line");
   options.group("Options");
   return options;
 }
 
+void print_error(const std::string& text, ErrorKind kind, const CommonOptions& common) {
+  std::string line = text;
+  line.erase(line.find_last_not_of(" \n") + 1);
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  print_line(stderr, "{}: {}", common.program, line);
+  if (common.json)
+    print_json({{"error", line}, {"status", static_cast<int>(kind)}});
+}
+
+void run_for_each(const std::vector<std::string>& files, const CommonOptions& common,
+                  const std::function<void(const std::string& file)>& run) {
+  if (files.size() == 1)
+    return run(files[0]);
+  size_t failed = 0;
+  std::string first;
+  ErrorKind kind = ErrorKind::kInternal;
+  for (const std::string& file : files) {
+    try {
+      run(file);
+    } catch (const Error& e) {
+      print_error(e.what(), e.kind(), common);
+      if (failed++ > 0)
+        continue;
+      first = file;
+      kind = e.kind();
+    }
+  }
+  if (failed > 0)
+    throw Error(kind,
+                fmt::format("{} of {} files failed, the first is {}", failed, files.size(), first));
+}
+
 int run_program(const Program& program, int argc, const char* const* argv) {
+  CommonOptions common;
+  common.program = program.name;
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  auto failed = [&](const std::string& text, ErrorKind kind) {
+    // An error of the command line may come before --json has been read.
+    common.json = common.json || std::find(words.begin(), words.end(), "--json") != words.end();
+    print_error(text, kind, common);
+    return static_cast<int>(kind);
+  };
   try {
-    parse_and_run(program, {argv + std::min(argc, 1), argv + argc});
+    parse_and_run(program, common, words);
     return 0;
   } catch (const Error& e) {
-    print_error(program, e.what());
-    return static_cast<int>(e.kind());
+    return failed(e.what(), e.kind());
   } catch (const std::bad_alloc&) {
-    print_error(program, "not enough memory");
+    return failed("not enough memory", ErrorKind::kInternal);
   } catch (const std::exception& e) {
-    print_error(program, fmt::format("internal error: {}", e.what()));
+    return failed(fmt::format("internal error: {}", e.what()), ErrorKind::kInternal);
   }
-  return static_cast<int>(ErrorKind::kInternal);
 }
 
 }  // namespace anicodec::tools

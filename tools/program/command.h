@@ -2,23 +2,27 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // What all commands share. Each has a file of its own, command_NAME.cpp.
-#ifndef ANICODEC_TOOLS_COMMANDS_COMMAND_H_
-#define ANICODEC_TOOLS_COMMANDS_COMMAND_H_
+#ifndef ANICODEC_TOOLS_PROGRAM_COMMAND_H_
+#define ANICODEC_TOOLS_PROGRAM_COMMAND_H_
 
+#include "codec/sequence/error.h"
 #include "tools/options/options.h"
 
 #include <deque>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace anicodec::tools {
 
 /// Values of the options that several commands have.
 struct CommonOptions {
+  std::string program;  ///< its name, before errors
   bool overwrite = false;
   bool quiet = false;
   int verbosity = 0;
-  int threads = 0;  ///< 0: one for every processor
+  int threads = 0;    ///< 0: one for every processor
+  bool json = false;  ///< results are JSON objects, one a line, failures too
 };
 
 /// The common options of a command, beside --help and --version.
@@ -26,7 +30,8 @@ enum CommonOption : unsigned {
   kForce = 1,    ///< -f: it writes files
   kQuiet = 2,    ///< -q: it shows progress, or says what it did
   kVerbose = 4,  ///< -v: it can say more
-  kThreads = 8   ///< -j: it computes in threads
+  kThreads = 8,  ///< -j: it computes in threads
+  kJson = 16     ///< --json
 };
 
 /// Texts of a command's help.
@@ -60,6 +65,16 @@ struct Program {
   std::function<void(Commands&, CommonOptions&)> declare;
 };
 
+/// Does the same for each of several files. One that fails does not stop the others: its error is
+/// printed like that of a program, and at the end an Error of the kind of the first is thrown. That
+/// of a lone file is thrown as it is.
+void run_for_each(const std::vector<std::string>& files, const CommonOptions& common,
+                  const std::function<void(const std::string& file)>& run);
+
+/// Prints an error on stderr as one line that begins with the program's name; with --json also an
+/// object with "error" and "status" on the standard output.
+void print_error(const std::string& text, ErrorKind kind, const CommonOptions& common);
+
 /// Does what the command line asks and returns the exit status, that of the ErrorKind. Every error
 /// ends here, as one line on stderr.
 int run_program(const Program& program, int argc, const char* const* argv);
@@ -83,4 +98,4 @@ void add_corpus(Commands& commands, CommonOptions& common);
 
 }  // namespace anicodec::tools
 
-#endif  // ANICODEC_TOOLS_COMMANDS_COMMAND_H_
+#endif  // ANICODEC_TOOLS_PROGRAM_COMMAND_H_
