@@ -80,7 +80,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   }
   ClipRecord record = clip_record(sequence, options, target, clip_diagonal);
   record.closed = closed;
-  EncoderInput input(std::move(sequence), options.mesh_coder, options.part);
+  EncoderInput input(std::move(sequence), options.part);
   const std::vector<StoredAttribute> stored =
       encode_attributes(input.sequence, options.attributes, &input.layout);
   if (options.part)

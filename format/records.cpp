@@ -41,8 +41,7 @@ Bytes Limits::write() const {
   w.varint(meshes.size());
   w.varint(segments.size());
   for (const Mesh& m : meshes) {
-    for (uint32_t x : {m.source_vertices, m.coded_vertices, m.points, m.triangles, m.polygons,
-                       m.corners, m.draco_components, m.draco_bytes})
+    for (uint32_t x : {m.source_vertices, m.coded_vertices, m.triangles, m.polygons, m.corners})
       w.varint(x);
   }
   for (const Segment& s : segments) {
@@ -53,6 +52,11 @@ Bytes Limits::write() const {
                               (of_attribute ? kAttributeKind : 0)));
     for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
       w.varint(x);
+    if (s.kind == BasisKind::kKeyframes) {
+      w.varint(s.draco_bytes);
+      if (s.draco_bytes > 0)
+        w.varint(s.draco_points);
+    }
     if (msgi) {
       w.varint(s.msgi_bytes);
       w.varint(s.msgi_frame_bytes);
@@ -74,22 +78,19 @@ Status Limits::read(ByteView view, Limits* out) {
   out->frames = r.varint32(kMaxFrames);
   uint32_t mesh_count = r.varint32(kMaxMeshes);
   uint32_t segment_count = r.varint32(kMaxFrames);
-  // A mesh takes at least 8 bytes, a segment 7: no allocation beyond what the chunk can hold.
-  if (!r.ok() || mesh_count > r.remaining() / 8 || segment_count > r.remaining() / 7)
+  // A mesh takes at least 5 bytes, a segment 7: no allocation beyond what the chunk can hold.
+  if (!r.ok() || mesh_count > r.remaining() / 5 || segment_count > r.remaining() / 7)
     return Status::kRecord;
   if (out->frames == 0 || mesh_count == 0 || segment_count == 0)
     return Status::kRecord;
   out->meshes.assign(mesh_count, {});
   out->segments.assign(segment_count, {});
   for (Mesh& m : out->meshes) {
-    for (uint32_t* x :
-         {&m.source_vertices, &m.coded_vertices, &m.points, &m.triangles, &m.polygons})
+    for (uint32_t* x : {&m.source_vertices, &m.coded_vertices, &m.triangles, &m.polygons})
       *x = r.varint32(kMaxVertices);
     m.corners = r.varint32();
-    m.draco_components = r.varint32(64 * 255);
-    m.draco_bytes = r.varint32();
     if (m.triangles > kMaxTriangles || m.source_vertices == 0 || m.coded_vertices == 0 ||
-        m.coded_vertices > m.source_vertices || (m.draco_bytes > 0) != (m.draco_components > 0))
+        m.coded_vertices > m.source_vertices)
       return Status::kRecord;
   }
   for (Segment& s : out->segments) {
@@ -110,6 +111,14 @@ Status Limits::read(ByteView view, Limits* out) {
     s.components = r.varint32(kMaxComponents);
     s.wide_components = r.varint32(s.components);
     s.corrections = r.varint32();
+    if (s.kind == BasisKind::kKeyframes) {
+      s.draco_bytes = r.varint32();
+      if (s.draco_bytes > 0) {
+        s.draco_points = r.varint32();
+        if (s.draco_points == 0)
+          return Status::kRecord;
+      }
+    }
     if (s.reconstruction == Reconstruction::kMsgi) {
       s.msgi_bytes = r.varint(kMaxMsgiBytes);
       s.msgi_frame_bytes = r.varint(kMaxMsgiBytes);
@@ -256,21 +265,14 @@ Status ClipRecord::read(ByteView view, uint32_t frames, ClipRecord* out) {
 Bytes MeshRecord::write() const {
   ByteWriter w;
   w.text(name);
-  w.u8(static_cast<uint8_t>(coder));
-  w.block(connectivity);
-  w.block(details);
+  w.raw(faces);
   return std::move(w.bytes());
 }
 
 Status MeshRecord::read(ByteView view, MeshRecord* out) {
   ByteReader r(view);
   out->name = r.text();
-  uint8_t coder = r.u8();
-  if (r.ok() && coder > static_cast<uint8_t>(CoderId::kDraco))
-    return Status::kCoder;
-  out->coder = static_cast<CoderId>(coder);
-  out->connectivity = r.block();
-  out->details = r.block();
+  out->faces = r.raw(r.remaining());
   return finished(r);
 }
 

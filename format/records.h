@@ -27,7 +27,7 @@ inline constexpr uint32_t kPositions = UINT32_MAX;
 
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
 
-/// How connectivity or integer positions are coded.
+/// How key-frames are coded.
 enum class CoderId : uint8_t { kPlain = 0, kDraco = 1 };
 
 /// How the coordinates of a pose are told: how far each is from what is expected of it, or first
@@ -41,15 +41,12 @@ enum class Reconstruction : uint8_t { kLinear = 0, kMsgi = 1 };
 /// Chunk LIMI: all that a host needs to know how much memory opening and playing will take.
 struct Limits {
   struct Mesh {
-    uint32_t source_vertices = 0;   ///< what the user gets back
-    uint32_t coded_vertices = 0;    ///< distinct trajectories
-    uint32_t points = 0;            ///< coded vertices in faces, non-manifold ones split
-    uint32_t triangles = 0;         ///< of the coded connectivity
-    uint32_t polygons = 0;          ///< what the user gets back
-    uint32_t corners = 0;           ///< of those polygons
-    uint32_t draco_components = 0;  ///< integer components per point in the Draco bitstream
-    uint32_t draco_bytes = 0;       ///< of the Draco bitstream
-    uint64_t attribute_bytes = 0;   ///< that static attributes keep in memory
+    uint32_t source_vertices = 0;  ///< what the user gets back
+    uint32_t coded_vertices = 0;   ///< distinct trajectories
+    uint32_t triangles = 0;        ///< of the coded faces
+    uint32_t polygons = 0;         ///< what the user gets back
+    uint32_t corners = 0;          ///< of those polygons
+    uint64_t attribute_bytes = 0;  ///< that static attributes keep in memory
   };
 
   struct Segment {
@@ -60,6 +57,8 @@ struct Limits {
     uint32_t components = 0;
     uint32_t wide_components = 0;  ///< of those, resident as 32-bit integers; the others as 16-bit
     uint32_t corrections = 0;      ///< of vertices, copies included, over all frames
+    uint32_t draco_points = 0;     ///< key-frames by Draco: vertices, non-manifold ones split
+    uint32_t draco_bytes = 0;      ///< of the Draco bitstream; 0: there is none
     Reconstruction reconstruction = Reconstruction::kLinear;
     uint64_t msgi_bytes = 0;        ///< kMsgi: what it keeps beside the coefficients, at most
     uint64_t msgi_frame_bytes = 0;  ///< kMsgi: memory that a frame is made in
@@ -139,9 +138,7 @@ struct ClipRecord {
 /// Chunk MESH: connectivity and what restores the source's vertices and polygons.
 struct MeshRecord {
   String name;
-  CoderId coder = CoderId::kPlain;
-  ByteView connectivity;  ///< Draco bitstream, or zstd frame
-  ByteView details;       ///< splits, welds, polygons: entropy-coded
+  ByteView faces;  ///< polygons over vertices: entropy-coded
 
   Bytes write() const;
   static Status read(ByteView view, MeshRecord* out);
@@ -165,7 +162,7 @@ struct SegmentRecord {
   Reconstruction reconstruction = Reconstruction::kLinear;
   uint64_t hash = 0;    ///< IntegerHash of the segment's decoded integers
   ByteView parameters;  ///< of the kind
-  ByteView pose;        ///< key-frames that the mesh's Draco bitstream does not hold
+  ByteView pose;        ///< key-frames
   ByteView motion;      ///< rigid motion, empty when there is none
   ByteView weights;     ///< time weights
 

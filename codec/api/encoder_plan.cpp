@@ -85,8 +85,6 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
   options.interpolation = chosen(host.interpolation, kInterpolations, "interpolation");
   options.order = chosen(host.order, kOrders, "order");
   options.effort = static_cast<int>(within(host.effort, 5, 9, "the effort"));
-  if (host.flags & ANIC_ENCODE_PLAIN_MESH)
-    options.mesh_coder = CoderId::kPlain;
 }
 
 void set_attributes(const anic_encode_options& host, AttributeOptions& attributes) {
@@ -107,8 +105,7 @@ void set_attributes(const anic_encode_options& host, AttributeOptions& attribute
 EncodingPlan encoding_plan(const anic_encode_options& host) {
   constexpr MassageMode kModes[] = {MassageMode::kOff, MassageMode::kOn, MassageMode::kAuto};
   constexpr uint64_t kKnown = ANIC_ENCODE_PERCENT | ANIC_ENCODE_CAP_PERCENT |
-                              ANIC_ENCODE_ERROR_PERCENT | ANIC_ENCODE_NO_ATTRIBUTES |
-                              ANIC_ENCODE_PLAIN_MESH;
+                              ANIC_ENCODE_ERROR_PERCENT | ANIC_ENCODE_NO_ATTRIBUTES;
   if (host.flags & ~kKnown)
     refuse("there are unknown flags");
   EncodingPlan plan;

@@ -2,29 +2,23 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/connectivity/draco_encode.h"
 
-#include "sdk/mesh/draco_mesh.h"
+#include "sdk/mesh/draco_corners.h"
+#include "sdk/mesh/draco_profile.h"
+#include "sdk/mesh/split_vertices.h"
 
 #include <algorithm>
-#include <numeric>
+#include <memory>
+#include <utility>
 
-#include <draco/compression/expert_encode.h>
-#include <draco/mesh/mesh.h>
+#include <draco/compression/attributes/sequential_attribute_encoders_controller.h>
+#include <draco/compression/config/encoder_options.h>
+#include <draco/compression/mesh/mesh_encoder.h>
 
 namespace anicodec {
 namespace {
 
-constexpr size_t kMaxAttributes = 64;
-
-void set_connectivity(draco::Mesh& mesh, uint32_t points, std::span<const uint32_t> triangles) {
-  mesh.set_num_points(points);
-  mesh.SetNumFaces(triangles.size() / 3);
-  for (uint32_t t = 0; t < triangles.size() / 3; ++t) {
-    draco::Mesh::Face face;
-    for (size_t i = 0; i < 3; ++i)
-      face[i] = draco::PointIndex(triangles[size_t{3} * t + i]);
-    mesh.SetFace(draco::FaceIndex(t), face);
-  }
-}
+/// Bytes of the head of a file of Draco's own.
+constexpr ptrdiff_t kHead = 11;
 
 /// Adds one int32 attribute whose value of point p is written by fill(p, values).
 template <class Fill>
@@ -41,78 +35,75 @@ void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, size_
   }
 }
 
-Bytes encode(const draco::Mesh& mesh) {
-  draco::ExpertEncoder encoder(mesh);
-  encoder.SetSpeedOptions(0, 0);
-  encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  draco::EncoderBuffer buffer;
-  if (!encoder.EncodeToBuffer(&buffer).ok())
-    return {};
-  return {buffer.data(), buffer.data() + buffer.size()};
-}
+/// Draco's encoder of attributes over a mesh that it does not encode.
+class PosesEncoder : public draco::MeshEncoder {
+ public:
+  explicit PosesEncoder(DracoCorners* corners) : corners_(*corners) {}
 
-/// Draco numbers points by the connectivity, and differently when POSITION is the only attribute:
-/// so there is always another one.
-void add_stand_in(draco::Mesh& mesh) {
-  add_attribute(mesh, draco::GeometryAttribute::GENERIC, 1, [](uint32_t, int32_t* x) { *x = 0; });
-}
+  uint8_t GetEncodingMethod() const override { return draco::MESH_EDGEBREAKER_ENCODING; }
 
-/// Encodes the points' numbers to see where they go.
-std::vector<uint32_t> decoding_order(uint32_t points, std::span<const uint32_t> triangles) {
-  draco::Mesh mesh;
-  set_connectivity(mesh, points, triangles);
-  add_attribute(mesh, draco::GeometryAttribute::POSITION, 3, [](uint32_t p, int32_t* x) {
-    x[0] = static_cast<int32_t>(p);
-    x[1] = x[2] = 0;
-  });
-  add_stand_in(mesh);
-  Bytes bytes = encode(mesh);
-  DracoMesh decoded;
-  if (bytes.empty() || decode_draco_mesh(bytes, points, static_cast<uint32_t>(triangles.size() / 3),
-                                         draco_components(1), &decoded) != Status::kOk)
-    return {};
-  std::vector<uint32_t> order(points);
-  std::vector<bool> seen(points, false);
-  for (uint32_t d = 0; d < points; ++d) {
-    auto p = static_cast<uint32_t>(decoded.values[size_t{decoded.components} * d]);
-    if (p >= points || seen[p])
-      return {};
-    seen[p] = true;
-    order[d] = p;
+  const draco::CornerTable* GetCornerTable() const override { return corners_.table(); }
+
+  const draco::MeshAttributeIndicesEncodingData* GetAttributeEncodingData(int) const override {
+    return corners_.order();
   }
-  return order;
-}
+
+ protected:
+  draco::Status EncodeConnectivity() override { return draco::OkStatus(); }
+
+  bool GenerateAttributesEncoder(int32_t id) override {
+    if (id > 0) {
+      attributes_encoder(0)->AddAttributeId(id);
+      return true;
+    }
+    AddAttributesEncoder(std::make_unique<draco::SequentialAttributeEncodersController>(
+        corners_.make_sequencer(mesh()), id));
+    return true;
+  }
+
+  void ComputeNumberOfEncodedPoints() override {}
+
+  void ComputeNumberOfEncodedFaces() override {}
+
+ private:
+  DracoCorners& corners_;
+};
 
 }  // namespace
 
-Bytes encode_draco_mesh(uint32_t points, std::span<const uint32_t> triangles,
-                        std::span<const Vector<int32_t>> poses, std::span<const uint32_t> rows,
-                        std::vector<uint32_t>* points_by_decoded) {
-  if (triangles.empty() || poses.size() > kMaxDracoPoses)
-    return {};
-  if (points_by_decoded) {
-    *points_by_decoded = decoding_order(points, triangles);
-    if (points_by_decoded->empty())
-      return {};
-  }
+DracoPoses encode_draco_poses(const Topology& topology, std::span<const Vector<int32_t>> poses) {
+  DracoPoses coded;
+  if (topology.triangles.empty() || poses.empty() || poses.size() > kMaxDracoPoses)
+    return coded;
+  const SplitMesh split = split_vertices(topology.triangles, topology.coded_vertices);
+  Vector<uint32_t> vertex(split.points);
+  for (size_t c = 0; c < split.corners.size(); ++c)
+    vertex[split.corners[c]] = topology.triangles[c];
   draco::Mesh mesh;
-  set_connectivity(mesh, points, triangles);
+  DracoCorners::set_connectivity(split, &mesh);
   add_attribute(mesh, draco::GeometryAttribute::POSITION, 3, [&](uint32_t p, int32_t* x) {
-    for (size_t i = 0; i < 3; ++i)
-      x[i] = poses.empty() ? 0 : poses[0][size_t{3} * rows[p] + i];
+    std::copy_n(poses[0].data() + size_t{3} * vertex[p], 3, x);
   });
-  size_t later_poses = poses.empty() ? 0 : poses.size() - 1;
-  size_t group = (later_poses + kMaxAttributes - 2) / (kMaxAttributes - 1);  // poses per attribute
+  const size_t later = poses.size() - 1;
+  const size_t group = (later + kMaxDracoAttributes - 2) / (kMaxDracoAttributes - 1);
   for (size_t first = 1; first < poses.size(); first += group) {
-    size_t count = std::min(group, poses.size() - first);
+    const size_t count = std::min(group, poses.size() - first);
     add_attribute(mesh, draco::GeometryAttribute::GENERIC, 3 * count, [&](uint32_t p, int32_t* x) {
-      for (size_t i = 0; i < 3 * count; ++i)
-        x[i] = poses[first + i / 3][size_t{3} * rows[p] + i % 3];
+      for (size_t i = 0; i < count; ++i)
+        std::copy_n(poses[first + i].data() + size_t{3} * vertex[p], 3, x + 3 * i);
     });
   }
-  if (later_poses == 0)
-    add_stand_in(mesh);
-  return encode(mesh);
+  DracoCorners corners(split);
+  PosesEncoder encoder(&corners);
+  encoder.SetMesh(mesh);
+  draco::EncoderOptions options = draco::EncoderOptions::CreateDefaultOptions();
+  options.SetSpeed(0, 0);
+  draco::EncoderBuffer buffer;
+  if (!encoder.Encode(options, &buffer).ok() || buffer.size() < static_cast<size_t>(kHead))
+    return coded;
+  coded.bytes.assign(buffer.data() + kHead, buffer.data() + buffer.size());
+  coded.points = split.points;
+  return coded;
 }
 
 }  // namespace anicodec

@@ -8,40 +8,30 @@
 #include "sdk/mesh/topology.h"
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace anicodec {
 
-/// How a mesh is laid out in the file: the numbering of its points and coded vertices, its
-/// connectivity as the decoder will see it, and everything that leads back to the source.
+/// How a mesh is laid out in the file: the numbering of its coded vertices, its connectivity as the
+/// decoder will see it, and everything that leads back to the source.
 struct MeshLayout {
   std::string name;
-  CoderId coder = CoderId::kPlain;
   Limits::Mesh sizes;
   Topology topology;                   ///< canonical order, exactly what a decoder rebuilds
   std::vector<uint32_t> coded_source;  ///< a source vertex of each coded vertex
   std::vector<uint32_t> source_coded;  ///< coded vertex of each source vertex
-  std::vector<uint32_t> draco_points;  ///< points in the numbering that the Draco encoder is given:
-  std::vector<uint32_t> draco_triangles;  ///< their coded vertices, and triangles over them
-  Bytes connectivity;                     ///< without positions
-  Bytes details;
-  Bytes vertex_map;  ///< chunk VMAP
-  Bytes face_map;    ///< chunk FMAP
+  Bytes faces;                         ///< the stream of chunk MESH
+  Bytes vertex_map;                    ///< chunk VMAP
+  Bytes face_map;                      ///< chunk FMAP
   Bytes attributes;  ///< chunk ATTR, empty for none: encode_attributes() puts it there
   Vector<uint32_t> vertex_source;   ///< source vertex of each canonical vertex
   Vector<uint32_t> polygon_source;  ///< source polygon of each canonical polygon,
   Vector<uint32_t> polygon_first;   ///< and which of its corners is the source's first
 };
 
-/// Lays out a mesh. Draco where it can code the connectivity and `coder` allows it, else plain.
-/// Cost: O(corners log corners).
-MeshLayout lay_out_mesh(const MeshSequence& sequence, CoderId coder);
-
-/// Encodes the connectivity with `poses` (coded vertices x 3 integers each, in coded order) as its
-/// integer attributes. Empty when Draco could not.
-Bytes encode_with_poses(const MeshLayout& layout, std::span<const Vector<int32_t>> poses);
+/// Lays out a mesh. Cost: O(corners log corners).
+MeshLayout lay_out_mesh(const MeshSequence& sequence);
 
 }  // namespace anicodec
 

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/file/clip_file.h"
 
-#include "codec/connectivity/draco_encode.h"
-#include "codec/sequence/error.h"
 #include "format/container.h"
 
 #include <algorithm>
@@ -27,31 +25,14 @@ Bytes clip_file(const ClipRecord& record, const MeshLayout& layout,
   constexpr uint16_t kMesh = 0;
   MeshRecord mesh;
   mesh.name = layout.name;
-  mesh.coder = layout.coder;
-  mesh.details = layout.details;
-  Bytes connectivity = layout.connectivity;
+  mesh.faces = layout.faces;
   Limits limits;
   limits.meshes.push_back(layout.sizes);
-  size_t poses = 0;
   for (const EncodedSegment* segment : segments) {
     if (segment->sizes.attribute == kPositions)
       limits.frames += segment->sizes.frames;
     limits.segments.push_back(segment->sizes);
-    std::span<const Vector<int32_t>> carried = segment->draco_poses;
-    if (carried.empty())
-      continue;
-    if (poses > 0)
-      throw Error(ErrorKind::kInternal, "a Draco bitstream holds the poses of one segment");
-    connectivity = encode_with_poses(layout, carried);
-    if (connectivity.empty())
-      throw Error(ErrorKind::kInternal, "Draco cannot code the key-frames");
-    poses = carried.size();
   }
-  if (layout.coder == CoderId::kDraco) {
-    limits.meshes[0].draco_components = draco_components(poses);
-    limits.meshes[0].draco_bytes = static_cast<uint32_t>(connectivity.size());
-  }
-  mesh.connectivity = connectivity;
 
   ContainerWriter file;
   file.add("LIMI", true, kNoMesh, kNoSegment, limits.write());

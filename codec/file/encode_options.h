@@ -37,7 +37,6 @@ struct EncodeOptions {
   KeyframeMethod select = KeyframeMethod::kPivot;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;  ///< only with key-frames alone
   OrderMode order = OrderMode::kVertices;
-  CoderId mesh_coder = CoderId::kDraco;
   /// Encodes these frames alone, as a part for join_clips(): mesh, reference pose and diagonal are
   /// those of the whole sequence, and the same in all parts. Not with key-frames.
   std::optional<FrameRun> part;

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_MASSAGE_WELDED_SURFACE_H_
 #define ANICODEC_CODEC_MASSAGE_WELDED_SURFACE_H_
 
-#include "codec/connectivity/manifold_mesh.h"
+#include "codec/connectivity/weld.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/surface/surface.h"
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/remesh/sound_mesh.h"
 
-#include "codec/connectivity/manifold_mesh.h"
+#include "codec/connectivity/weld.h"
 #include "codec/sequence/error.h"
 #include "codec/surface/closest_point.h"
 

@@ -8,9 +8,8 @@
 
 namespace anicodec {
 
-EncoderInput::EncoderInput(MeshSequence source, CoderId mesh_coder,
-                           const std::optional<FrameRun>& part)
-    : sequence(std::move(source)), layout(lay_out_mesh(sequence, mesh_coder)) {
+EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& part)
+    : sequence(std::move(source)), layout(lay_out_mesh(sequence)) {
   const size_t n = layout.sizes.coded_vertices;
   copies.assign(n, 0);
   for (uint32_t c : layout.source_coded)

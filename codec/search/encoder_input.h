@@ -23,7 +23,7 @@ namespace anicodec {
 struct EncoderInput {
   /// Takes the positions over: they are put into coded order in place. Of a part, only its frames
   /// remain, of a mesh that serves all parts.
-  EncoderInput(MeshSequence source, CoderId mesh_coder, const std::optional<FrameRun>& part = {});
+  explicit EncoderInput(MeshSequence source, const std::optional<FrameRun>& part = {});
 
   /// Other trajectories over the same mesh: as many frames, frames x coded vertices x 3.
   EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories);

@@ -129,8 +129,7 @@ std::optional<CodedPart> KeyframeCoder::at_rmse(double rmse) {
         return best;
       double measured = input_.rmse(part->error.squared);
       if (measured <= rmse) {
-        size_t bytes = part->encoded.bytes() +
-                       encode_with_poses(input_.layout, part->encoded.draco_poses).size();
+        const size_t bytes = part->encoded.bytes();
         if (!best || bytes < best_bytes) {
           best = std::move(part);
           best_bytes = bytes;

@@ -53,13 +53,6 @@ size_t EncodedSegment::bytes() const {
 }
 
 Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
-  CodedValues draco;
-  draco.components = static_cast<uint32_t>(3 * encoded.draco_poses.size());
-  for (size_t v = 0; v < layout.topology.vertices_in_triangles; ++v) {
-    for (const Vector<int32_t>& pose : encoded.draco_poses)
-      draco.values.insert(draco.values.end(), pose.begin() + static_cast<ptrdiff_t>(3 * v),
-                          pose.begin() + static_cast<ptrdiff_t>(3 * v + 3));
-  }
   SegmentRecord record;
   record.kind = encoded.sizes.kind;
   record.reconstruction = encoded.sizes.reconstruction;
@@ -74,7 +67,6 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   context.sizes = &encoded.sizes;
   context.mesh_sizes = &layout.sizes;
   context.topology = &layout.topology;
-  context.draco = &draco;
   context.pose = encoded.reference ? &encoded.reference->grid : nullptr;
   context.layers.assign(encoded.layers.begin(), encoded.layers.end());
   context.corrections = encoded.corrections;

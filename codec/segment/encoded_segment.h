@@ -28,11 +28,10 @@ struct EncodedSegment {
   Bytes parameters, pose, motion, weights;
   std::vector<Bytes> layers;                     ///< chunks BASI
   Bytes corrections;                             ///< chunk CORR
-  std::vector<Vector<int32_t>> draco_poses;      ///< to be carried by the mesh's Draco bitstream
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
   uint64_t hash = 0;
 
-  /// Bytes in the file but for what Draco and the reference pose take.
+  /// Bytes in the file but for what the reference pose takes.
   size_t bytes() const;
 };
 
@@ -43,7 +42,6 @@ struct SegmentError {
 };
 
 /// Opens a segment as a decoder does, from streams in memory, and stores its hash in `encoded`.
-/// Draco is left out: it is lossless, and the finished file is checked with it.
 Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout);
 
 /// Plays every frame of a segment against `source` (coded vertices, the segment's frames). A coded

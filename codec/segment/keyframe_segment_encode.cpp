@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/keyframe_segment_encode.h"
 
+#include "codec/connectivity/draco_encode.h"
 #include "sdk/mesh/plain_coding.h"
 #include "sdk/segment/keyframe_segment.h"
 #include "sdk/segment/series_coding.h"
@@ -191,15 +192,25 @@ void subtract_parents(const Vector<uint32_t>& parents, std::vector<Pose>& poses)
   }
 }
 
-/// Coordinates that the mesh's Draco bitstream does not hold.
-Bytes code_loose_coordinates(const MeshLayout& layout, CoderId coder,
-                             const std::vector<Pose>& poses) {
-  // The first coded vertex that Draco does not hold.
-  const size_t loose_from = coder == CoderId::kDraco ? layout.topology.vertices_in_triangles : 0;
-  Pose loose;
-  for (const Pose& pose : poses)
-    loose.insert(loose.end(), pose.begin() + static_cast<ptrdiff_t>(3 * loose_from), pose.end());
-  return encode_plain_integers(loose, 3);
+/// Codes key-frames plainly, or by Draco where that takes fewer bytes.
+CoderId code_poses(const MeshLayout& layout, const std::vector<Pose>& poses,
+                   EncodedSegment* encoded) {
+  const auto plain_from = [&](size_t first) {
+    Pose rest;
+    for (const Pose& pose : poses)
+      rest.insert(rest.end(), pose.begin() + static_cast<ptrdiff_t>(3 * first), pose.end());
+    return encode_plain_integers(rest, 3);
+  };
+  DracoPoses draco = encode_draco_poses(layout.topology, poses);
+  const Bytes loose = plain_from(layout.topology.vertices_in_triangles);
+  encoded->pose = plain_from(0);
+  if (draco.bytes.empty() || encoded->pose.size() <= draco.bytes.size() + loose.size())
+    return CoderId::kPlain;
+  encoded->sizes.draco_bytes = static_cast<uint32_t>(draco.bytes.size());
+  encoded->sizes.draco_points = draco.points;
+  encoded->pose = std::move(draco.bytes);
+  encoded->pose.insert(encoded->pose.end(), loose.begin(), loose.end());
+  return CoderId::kDraco;
 }
 
 }  // namespace
@@ -218,7 +229,6 @@ std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const Keyf
   KeyframeParameters parameters;
   parameters.sum_to_one = kind != KeyframeWeights::kLinear;
   parameters.rigid = kind == KeyframeWeights::kRigid;
-  parameters.coder = layout.coder;
   parameters.leaf_faces = static_cast<uint8_t>(leaf_faces);
   parameters.step = step;
   parameters.frames.assign(fit.keyframes.begin(), fit.keyframes.end());
@@ -239,9 +249,7 @@ std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const Keyf
   encoded.sizes.wide_components = are_wide(poses) ? encoded.sizes.components : 0;
   parameters.parents = choose_parents(layout, poses);
   subtract_parents(parameters.parents, poses);
-  encoded.pose = code_loose_coordinates(layout, parameters.coder, poses);
-  if (parameters.coder == CoderId::kDraco)
-    encoded.draco_poses = std::move(poses);
+  parameters.coder = code_poses(layout, poses, &encoded);
 
   std::optional<Bytes> weights = code_weights(fit.weights, parameters);
   std::optional<Bytes> motion = parameters.rigid ? code_motions(fit.motions, parameters) : Bytes();

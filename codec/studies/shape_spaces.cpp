@@ -4,7 +4,7 @@
 
 #include "codec/algebra/gram.h"
 #include "codec/algebra/rigid_motion.h"
-#include "codec/connectivity/manifold_mesh.h"
+#include "codec/connectivity/weld.h"
 #include "codec/interpolation/deformation_gradients.h"
 #include "codec/interpolation/interpolation.h"
 #include "codec/sequence/error.h"

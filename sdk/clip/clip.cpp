@@ -3,8 +3,6 @@
 #include "sdk/clip/clip.h"
 
 #include "sdk/clip/memory_estimate.h"
-#include "sdk/mesh/draco_mesh.h"
-#include "sdk/mesh/plain_coding.h"
 #include "sdk/play/attribute_values.h"
 #include "sdk/play/play.h"
 
@@ -155,8 +153,7 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
     if (mesh.source_vertices > options.limits.vertices)
       return at(*chunk, Status::kLimit, "more vertices than allowed");
     if (mesh.source_vertices > plausible || mesh.corners > plausible ||
-        mesh.triangles > plausible || mesh.polygons > plausible || mesh.points > plausible ||
-        mesh.draco_bytes > file.file_size())
+        mesh.triangles > plausible || mesh.polygons > plausible)
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
   }
   if (out->frames > options.limits.frames)
@@ -171,6 +168,9 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
     uint64_t weights = uint64_t{4} * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
+    if (s.draco_bytes > file.file_size() ||
+        s.draco_points / 3 > out->meshes[s.mesh].triangles)
+      return at(*chunk, Status::kLimit, "more of Draco than the mesh or the file can hold");
     if (s.reconstruction == Reconstruction::kMsgi && s.msgi_bytes < out->meshes[s.mesh].triangles)
       return at(*chunk, Status::kLimit, "more triangles than what is kept of them can be of");
     decisions += uint64_t{std::min(s.frames, s.corrections)} *
@@ -222,7 +222,6 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   work_ = Vector<MeshWork>();
   for (Mesh& mesh : meshes_) {
     mesh.topology.triangles = Vector<uint32_t>();
-    mesh.topology.point_vertex = Vector<uint32_t>();
   }
   if (!failure.ok())
     *this = Clip();
@@ -238,31 +237,10 @@ Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOp
   MeshRecord record;
   if (Status s = MeshRecord::read(payload, &record); s != Status::kOk)
     return at(*chunk, s, "the mesh record is malformed");
-  DracoMesh draco;
-  if (record.coder == CoderId::kDraco) {
-    if (record.connectivity.size != sizes.draco_bytes)
-      return at(*chunk, Status::kRecord, "the Draco bitstream is not as long as the limits say");
-    Status s = decode_draco_mesh(record.connectivity, sizes.points, sizes.triangles,
-                                 sizes.draco_components, &draco);
-    if (s != Status::kOk)
-      return at(
-          *chunk, s,
-          s == Status::kCoder ? "this build is without Draco" : "the Draco bitstream is damaged");
-  } else {
-    if (sizes.draco_components != 0 || sizes.draco_bytes != 0)
-      return at(*chunk, Status::kRecord, "counts of a Draco bitstream without one");
-    Status s = decode_plain_triangles(record.connectivity, sizes.triangles, &draco.triangles);
-    if (s != Status::kOk)
-      return at(*chunk, s, "the plain connectivity is damaged");
-  }
   Mesh& out = meshes_[mesh];
   out.name = record.name;
-  if (Status s = decode_details(record.details, sizes, draco.triangles, &out.topology);
-      s != Status::kOk)
-    return at(*chunk, s, "the mesh details are damaged");
-
-  if (!work_[mesh].draco.gather(out.topology, draco.components, std::move(draco.values)))
-    return at(*chunk, Status::kDraco, "points of one vertex have different values");
+  if (Status s = decode_faces(record.faces, sizes, &out.topology); s != Status::kOk)
+    return at(*chunk, s, "the faces are damaged");
   if (Failure f = open_attributes(file, mesh, options); !f.ok())
     return f;
   if (record_.order == OrderMode::kFree)
@@ -386,7 +364,6 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   context.topology = &meshes_[sizes.mesh].topology;
   context.vertex_coded = &context.topology->vertex_coded;
   MeshWork& work = work_[sizes.mesh];
-  context.draco = &work.draco;
   PoseGrid segment_pose;
   context.pose = &poses[sizes.mesh];
   if (const Chunk* of_pose = file.find("POSE", sizes.mesh, number)) {
@@ -422,6 +399,8 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
     s = anicodec::open_segment(record, context, &segments_[number]);
   if (s == Status::kCancelled)
     return stopped();
+  if (s == Status::kCoder && sizes.draco_bytes > 0)
+    return at(*chunk, s, "Draco coded the key-frames, and this build is without Draco");
   return s == Status::kOk ? Failure{} : at(*chunk, s, "the segment cannot be opened");
 }
 

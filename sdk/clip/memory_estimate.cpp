@@ -13,6 +13,8 @@ namespace {
 
 constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
 constexpr uint64_t kPoseModels = uint64_t{1} << 18;
+constexpr uint64_t kFaceModels = uint64_t{3} << 18;   // of the coder of faces
+constexpr uint64_t kOrderModels = uint64_t{1} << 18;  // and of the order of the vertices
 constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
 constexpr uint64_t kStructure = 512;             // of a mesh or segment
 constexpr uint64_t kMatrix = 48;                 // bytes of a pose map or motion
@@ -35,10 +37,9 @@ uint64_t resident(const Limits::Mesh& m) {
          m.attribute_bytes;
 }
 
-/// What a mesh needs until the segments are open: its triangles, coded ones and Draco's, and poses.
+/// What a mesh needs until the segments are open: its triangles, and a pose.
 uint64_t held(const Limits::Mesh& m) {
-  return uint64_t{24} * m.triangles + uint64_t{4} * m.points * (1 + uint64_t{m.draco_components}) +
-         uint64_t{12} * m.coded_vertices;
+  return uint64_t{12} * m.triangles + uint64_t{12} * m.coded_vertices;
 }
 
 /// What several segments share until they are open: the surface that poses are predicted on, and
@@ -79,26 +80,24 @@ uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
   return bytes;
 }
 
-/// Draco's decoder keeps values twice, a connectivity for each attribute, and tables for the
-/// symbols that it decodes. Vertices of the surface may be split as often as there are triangles.
-uint64_t draco(const Limits::Mesh& m) {
-  if (m.draco_components == 0)
+/// Draco's decoder keeps values three times, a mesh and its corners, the order of the values, and
+/// tables for the symbols that it decodes.
+uint64_t draco(const Limits::Segment& s, const Limits::Mesh& m) {
+  if (s.draco_bytes == 0)
     return 0;
-  const uint64_t values = uint64_t{m.points} * std::min(m.draco_components, 255U);
+  const uint64_t components = uint64_t{3} * s.components, points = s.draco_points;
   const uint64_t tables =
-      (uint64_t{4} << draco_table_bits(values)) +
-      kSymbol * std::min<uint64_t>(uint64_t{64} * m.draco_bytes, kMaxDracoSymbols);
-  const uint64_t attributes = most_draco_attributes(m.draco_components);
-  return kStructure * (attributes + 8) + tables + uint64_t{64} * m.draco_bytes +
-         uint64_t{8} * m.points * m.draco_components + uint64_t{160} * m.triangles +
-         attributes * (uint64_t{40} * m.triangles + uint64_t{44} * m.points);
+      (uint64_t{4} << draco_table_bits(points * std::min<uint64_t>(components, 255))) +
+      kSymbol * std::min<uint64_t>(uint64_t{64} * s.draco_bytes, kMaxDracoSymbols);
+  return kStructure * (kMaxDracoAttributes + 8) + tables + uint64_t{64} * s.draco_bytes +
+         12 * points * components + uint64_t{160} * m.triangles + 80 * points;
 }
 
 uint64_t opening(const Limits::Mesh& m) {
-  const uint64_t details = uint64_t{84} * m.triangles + uint64_t{12} * m.coded_vertices +
-                           uint64_t{4} * m.source_vertices;
-  const uint64_t maps =
-      uint64_t{32} * m.source_vertices + uint64_t{24} * m.polygons + uint64_t{12} * m.corners;
+  const uint64_t faces = uint64_t{44} * m.corners + uint64_t{8} * m.polygons +
+                         uint64_t{28} * m.coded_vertices + kFaceModels;
+  const uint64_t maps = uint64_t{40} * m.source_vertices + uint64_t{36} * m.polygons +
+                        uint64_t{16} * m.corners + kOrderModels;
   const uint64_t pose =
       uint64_t{80} * m.coded_vertices + uint64_t{96} * m.triangles + kPoseModels;
   // Edges, entries and their numbers; or a permutation and a copy.
@@ -106,7 +105,7 @@ uint64_t opening(const Limits::Mesh& m) {
                                   ? 0
                                   : uint64_t{64} * m.corners + uint64_t{16} * m.source_vertices +
                                         2 * m.attribute_bytes + 65536;
-  return std::max({details, maps + attributes, pose, draco(m) + m.draco_bytes}) + kZstd;
+  return std::max({faces, maps + attributes, pose}) + kZstd;
 }
 
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
@@ -117,7 +116,8 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
   if (s.reconstruction == Reconstruction::kMsgi)
     msgi = 12 * n * components + uint64_t{1000} * mesh.triangles + 2 * s.msgi_bytes;
   if (s.kind == BasisKind::kKeyframes)
-    return 36 * n * components + 4 * frames * components + 28 * frames + kModels + msgi;
+    return 36 * n * components + 4 * frames * components + 28 * frames + kModels + msgi +
+           draco(s, mesh);
   const uint64_t channels = s.kind == BasisKind::kEigenshapes ? 3 : 1;
   return 8 * channels * (n + 1) * (components + 8) + 12 * frames * components + 80 * frames +
          (8 * kNeighbours + 256) * n + uint64_t{48} * mesh.triangles + kModels;
@@ -136,13 +136,13 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality) {
     until_open.add(held(m));
     until_open.add(predicted[i] > 1 ? shared(m) : 0);
     largest = std::max(largest, opening(m));
-    estimate.draco = std::max(estimate.draco, draco(m));
   }
   for (const Limits::Segment& s : limits.segments) {
     const Limits::Mesh& mesh = limits.meshes[s.mesh];
     const Limits::Segment wanted = coarser(s, quality);
     open.add(resident(wanted, mesh));
     largest = std::max(largest, opening(wanted, mesh));
+    estimate.draco = std::max(estimate.draco, draco(s, mesh));
     // The weights of all components are read in any case.
     until_open.add(uint64_t{12} * s.frames * (s.components - wanted.components));
   }

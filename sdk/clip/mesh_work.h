@@ -5,7 +5,6 @@
 
 #include "format/records.h"
 #include "format/status.h"
-#include "sdk/mesh/coded_values.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/pose/pose_coding.h"
 #include "sdk/prediction/vertex_order.h"
@@ -18,7 +17,6 @@ namespace anicodec {
 /// What the segments of a mesh need of it while they open. What follows from the connectivity alone
 /// is made once, so that no segment costs O(triangles); a lone segment keeps nothing of it.
 struct MeshWork {
-  CodedValues draco;
   uint32_t predicted_segments = 0;     ///< of the limits: those of eigenshapes or eigentrajectories
   std::optional<PoseSurface> surface;  ///< of the poses
   std::optional<MeshGraph> graph;      ///< of the orders of vertices

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // In builds without Draco.
-#include "sdk/mesh/draco_mesh.h"
+#include "sdk/mesh/draco_poses.h"
 
 namespace anicodec {
 
-Status decode_draco_mesh(ByteView, uint32_t, uint32_t, uint32_t, DracoMesh*) {
+Status decode_draco_poses(ByteView, const Topology&, uint32_t, uint32_t, Vector<Vector<int32_t>>*) {
   return Status::kCoder;
 }
 

@@ -44,21 +44,4 @@ Status decode_plain_integers(ByteView bytes, size_t count, size_t stride, Vector
   return Status::kOk;
 }
 
-Bytes encode_plain_triangles(const Vector<uint32_t>& triangles) {
-  return encode_plain_integers({triangles.begin(), triangles.end()}, 3);
-}
-
-Status decode_plain_triangles(ByteView bytes, size_t count, Vector<uint32_t>* triangles) {
-  Vector<int32_t> values;
-  if (Status s = decode_plain_integers(bytes, 3 * count, 3, &values); s != Status::kOk)
-    return s;
-  triangles->resize(values.size());
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (values[i] < 0)
-      return Status::kIndexRange;
-    (*triangles)[i] = static_cast<uint32_t>(values[i]);
-  }
-  return Status::kOk;
-}
-
 }  // namespace anicodec

@@ -16,10 +16,6 @@ namespace anicodec {
 Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride);
 Status decode_plain_integers(ByteView bytes, size_t count, size_t stride, Vector<int32_t>* values);
 
-/// Triangles are plain integers of stride 3.
-Bytes encode_plain_triangles(const Vector<uint32_t>& triangles);
-Status decode_plain_triangles(ByteView bytes, size_t count, Vector<uint32_t>* triangles);
-
 }  // namespace anicodec
 
 #endif  // ANICODEC_SDK_MESH_PLAIN_CODING_H_

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/mesh/topology.h"
 
-#include "sdk/mesh/details_coding.h"
+#include "sdk/mesh/faces_coding.h"
 #include "sdk/mesh/map_coding.h"
 #include "sdk/mesh/vertex_walk.h"
 
@@ -10,17 +10,12 @@
 
 namespace anicodec {
 
-Status decode_details(ByteView details, const Limits::Mesh& sizes,
-                      const Vector<uint32_t>& triangles, Topology* out) {
-  for (uint32_t p : triangles) {
-    if (p >= sizes.points)
-      return Status::kIndexRange;
-  }
-  BinaryDecoder decoder(details.data, details.size);
-  DetailsDecoderSource none;
-  DetailsCoding<BinaryDecoder, DetailsDecoderSource> coding(decoder, none, sizes, triangles, out);
-  if (Status status = coding.run(); status != Status::kOk)
-    return status;
+Status decode_faces(ByteView stream, const Limits::Mesh& sizes, Topology* out) {
+  BinaryDecoder decoder(stream.data, stream.size);
+  NoMesh none;
+  if (Status s = FacesCoding<BinaryDecoder, NoMesh>(decoder, none, sizes, out).run();
+      s != Status::kOk)
+    return s;
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 

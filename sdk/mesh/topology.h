@@ -11,29 +11,24 @@
 
 namespace anicodec {
 
-/// The connectivity of a mesh as decoded (spec/07-topology.md). Three numberings occur:
-///   points           what the connectivity coder knows: non-manifold vertices split
-///   coded vertices   distinct trajectories: points in order of first appearance, splits undone,
-///   then
-///                    the vertices that no coded triangle uses
-///   vertices         what the user gets: every source vertex once, welds undone. In canonical
-///   order
+/// The connectivity of a mesh as decoded (spec/07-topology.md). Two numberings occur:
+///   coded vertices   distinct trajectories: in the order of their first use by a face, then the
+///                    loose ones, which no face of the walk uses
+///   vertices         what the user gets: every source vertex once, welds undone. In canonical order
 ///                    the copies of a coded vertex follow one another, in the order of their first
 ///                    use by a polygon corner; the vertex map then restores the source's order.
 struct Topology {
   uint32_t coded_vertices = 0;
   uint32_t vertices_in_triangles = 0;  ///< coded ones; they come first, the loose ones follow
-  Vector<uint32_t> triangles;          ///< coded vertices, three per triangle
-  Vector<uint32_t> point_vertex;       ///< coded vertex of each point
+  Vector<uint32_t> triangles;          ///< coded vertices, three per triangle; fans of the faces
   Vector<uint32_t> vertex_coded;       ///< coded vertex of each vertex
   Vector<uint32_t> polygon_offsets;    ///< polygon p has corners offsets[p] .. offsets[p+1]-1
   Vector<uint32_t> polygon_corners;    ///< vertex of each corner
 };
 
-/// Decodes the details of a mesh record: splits, welds, polygons, faces kept apart. `triangles` are
-/// over points, as the connectivity coder gave them. Cost: O(corners log corners).
-Status decode_details(ByteView details, const Limits::Mesh& sizes,
-                      const Vector<uint32_t>& triangles, Topology* out);
+/// Decodes the polygons of a mesh record, in canonical order. Cost: O(corners + vertices), whatever
+/// the bytes.
+Status decode_faces(ByteView stream, const Limits::Mesh& sizes, Topology* out);
 
 /// Decodes a vertex map (chunk VMAP): `source[i]` is the place, in the source's order, of vertex i
 /// of the canonical order, in which `topology` is; a permutation, else kIndexRange.

@@ -22,7 +22,11 @@ uint8_t nearness_of(uint32_t distance) {
 
 VertexWalk::VertexWalk(const Topology& topology)
     : vertex_coded_(topology.vertex_coded),
+      offsets_(topology.polygon_offsets),
       first_(topology.vertex_coded.size() + 1),
+      first_face_(topology.vertex_coded.size() + 1, 0),
+      faces_(topology.polygon_corners.size()),
+      polygons_(topology.polygon_offsets.empty() ? 0 : topology.polygon_offsets.size() - 1),
       place_(topology.vertex_coded.size(), kNotYet),
       offered_(topology.vertex_coded.size(), kNotYet) {
   const Vector<uint32_t>&offsets = topology.polygon_offsets, &corners = topology.polygon_corners;
@@ -55,6 +59,15 @@ VertexWalk::VertexWalk(const Topology& topology)
     begin = end;
   }
   first_.back() = kept;
+  for (const uint32_t v : corners)
+    ++first_face_[v + 1];
+  for (size_t v = 1; v < first_face_.size(); ++v)
+    first_face_[v] += first_face_[v - 1];
+  Vector<uint32_t> end(first_face_.begin(), first_face_.end() - 1);
+  for (uint32_t p = 0; p + 1 < offsets.size(); ++p) {
+    for (uint32_t c = offsets[p]; c < offsets[p + 1]; ++c)
+      faces_[end[corners[c]]++] = p;
+  }
   order_.reserve(vertex_coded_.size());
 }
 
@@ -71,20 +84,24 @@ VertexWalk::Range VertexWalk::copies(uint32_t v) const {
 
 VertexWalk::Candidate VertexWalk::look_at(uint32_t v) const {
   const auto now = static_cast<uint32_t>(order_.size());
-  uint32_t touched = 0, copied = 0, count = 0;  // one more than the latest places
-  uint8_t parallel = 0;
-  const Range beside = neighbours(v);
-  for (uint32_t i = beside.begin; i < beside.end; ++i) {
+  uint32_t touched = 0, copied = 0, count = 0, free = 0;  // one more than the latest places
+  Candidate found{};
+  const Range near = neighbours(v);
+  for (uint32_t i = near.begin; i < near.end; ++i) {
     const uint32_t place = place_[neighbours_[i]];
-    if (place == kNotYet)
+    if (place == kNotYet) {
+      ++free;
       continue;
+    }
     ++count;
     touched = std::max(touched, place + 1);
+    if (place + 3 >= now)
+      found.beside = static_cast<uint8_t>(found.beside | 1U << (place + 3 - now));
     for (uint32_t k = 0; k < along_count_ && place + 1 < now; ++k) {
       if (place == along_[k] + 1)
-        parallel = 2;
+        found.parallel = 2;
       else if (place + 1 == along_[k])
-        parallel = std::max<uint8_t>(parallel, 1);
+        found.parallel = std::max<uint8_t>(found.parallel, 1);
     }
   }
   const Range same = copies(v);
@@ -92,13 +109,51 @@ VertexWalk::Candidate VertexWalk::look_at(uint32_t v) const {
     if (place_[i] != kNotYet)
       copied = std::max(copied, place_[i] + 1);
   }
-  const uint32_t distance = now + 1 - std::max(touched, copied);
-  return {v,
-          distance,
-          nearness_of(distance),
-          static_cast<uint8_t>(copied > touched),
-          parallel,
-          static_cast<uint8_t>(std::min(count, 3U))};
+  const uint32_t faces_end = std::min(first_face_[v + 1], first_face_[v] + kMaxFaces);
+  for (uint32_t i = first_face_[v]; i < faces_end; ++i) {
+    const uint32_t p = faces_[i];
+    const Face& face = polygons_[p];
+    found.filled = std::max(found.filled, static_cast<uint8_t>(std::min(face.placed, 4U)));
+    found.completes |= face.placed + 1 == offsets_[p + 1] - offsets_[p];
+    found.together |= face.latest + 1 == now && face.second + 2 == now;
+  }
+  found.vertex = v;
+  found.distance = now + 1 - std::max(touched, copied);
+  found.nearness = nearness_of(found.distance);
+  found.copy = copied > touched;
+  found.count = static_cast<uint8_t>(std::min(count, 3U));
+  found.free = static_cast<uint8_t>(std::min(free, 7U));
+  return found;
+}
+
+void VertexWalk::select(const Candidate& c, uint32_t rank) {
+  const auto now = static_cast<uint32_t>(order_.size());
+  const uint32_t last = ways_[0], two = last * kWayCount + ways_[1];
+  const uint32_t three = two * kWayCount + ways_[2], tried = std::min(rank, 3U);
+  const uint32_t adjacent = c.beside >> 2;
+  // By how much the canonical number goes on, and did.
+  const auto before = static_cast<int32_t>(order_[now - 1]);
+  const int32_t step = static_cast<int32_t>(c.vertex) - before;
+  const int32_t step_before = now > 1 ? before - static_cast<int32_t>(order_[now - 2]) : 0;
+  const uint32_t forward = step == 1 ? 1 : step < 4 ? 3 : step < 16 ? 4 : 5;
+  const uint32_t back = step == -1 ? 2 : step > -4 ? 6 : step > -16 ? 7 : 8;
+  const uint32_t going = step > 0 ? forward : back;
+  const uint32_t went = step_before == 0    ? 0
+                        : step_before == 1  ? 1
+                        : step_before == -1 ? 2
+                        : step_before > 0   ? 3
+                                            : 4;
+  const uint32_t close = (((c.nearness * 2U + c.copy) * 3 + c.parallel) * 4 + c.count) * 4 + tried;
+  const uint32_t numbers = (going * 5 + went) * 2 + (step == step_before);
+  const uint32_t faces = ((c.beside * 2U + c.completes) * 2 + c.together) * 5 + c.filled;
+  model_.select({close * kWayCount + last,
+                 (((three * 4 + tried) * 8 + c.nearness) * 3 + c.parallel) * 2 + c.copy,
+                 (three * 8 + std::min(rank, 7U)) * 3 + c.parallel,
+                 (faces * kWayCount + last) * 3 + c.parallel, (numbers * 4 + tried) * 2 + adjacent,
+                 (((c.free * 8U + free_before_) * 8 + c.nearness) * 4 + tried) * kWayCount + last,
+                 (std::min(rank, 20U) * 21 + std::min(candidate_count_, 20U)) * kWayCount + last},
+                (tried * 2 + adjacent) * kWayCount + last,
+                step == 1 ? c.nearness : 8U + c.nearness + 8U * c.completes + 16U * c.copy);
 }
 
 void VertexWalk::offer(uint32_t v) {
@@ -116,7 +171,7 @@ void VertexWalk::offer_neighbours(uint32_t v) {
 }
 
 void VertexWalk::start_candidates() {
-  candidate_count_ = along_count_ = 0;
+  candidate_count_ = along_count_ = free_before_ = 0;
   if (order_.empty())
     return;
   const Range beside = neighbours(order_.back());
@@ -124,6 +179,8 @@ void VertexWalk::start_candidates() {
     const uint32_t place = place_[neighbours_[i]];
     if (place != kNotYet)
       along_[along_count_++] = place;
+    else
+      free_before_ = std::min(free_before_ + 1, 7U);
   }
 }
 
@@ -161,8 +218,15 @@ void VertexWalk::sort_from(uint32_t first) {
 }
 
 void VertexWalk::append(uint32_t v) {
-  place_[v] = static_cast<uint32_t>(order_.size());
+  const auto now = static_cast<uint32_t>(order_.size());
+  place_[v] = now;
   order_.push_back(v);
+  for (uint32_t i = first_face_[v]; i < first_face_[v + 1]; ++i) {
+    Face& face = polygons_[faces_[i]];
+    ++face.placed;
+    face.second = face.latest;
+    face.latest = now;
+  }
 }
 
 }  // namespace anicodec

@@ -6,6 +6,7 @@
 #ifndef ANICODEC_SDK_MESH_VERTEX_WALK_H_
 #define ANICODEC_SDK_MESH_VERTEX_WALK_H_
 
+#include "format/mixing.h"
 #include "sdk/mesh/map_coding.h"
 #include "sdk/mesh/topology.h"
 
@@ -37,7 +38,6 @@ class VertexWalk {
       for (uint32_t v = 0; v < count; ++v)
         wanted[(*source)[v]] = v;
     }
-    Last last = kJump;
     for (uint32_t s = 0; s < count; ++s) {
       const uint32_t truth = Coder::kDecodes ? 0 : wanted[s];
       start_candidates();
@@ -47,19 +47,18 @@ class VertexWalk {
           (this->*find)();
         for (; rank < candidate_count_ && vertex == kNotYet; ++rank) {
           const Candidate& c = candidates_[rank];
-          AdaptiveBit& model =
-              hit_[c.nearness][c.copy][c.parallel][c.count][std::min(rank, 3U)][last];
-          if (!coder.bit(model, c.vertex == truth))
+          select(c, rank);
+          if (!model_.code(coder, 0, c.vertex == truth))
             continue;
           vertex = c.vertex;
-          last = last_of(c);
+          remember(way_of(c));
           numbers.take(vertex);
         }
       }
       if (vertex == kNotYet) {
         if (!numbers.code(coder, truth, &vertex))
           return false;
-        last = kJump;
+        remember(kJump);
       }
       append(vertex);
       if constexpr (Coder::kDecodes) {
@@ -78,8 +77,10 @@ class VertexWalk {
   static constexpr uint32_t kMaxNeighbours = 24;  ///< of a vertex that are looked at
   static constexpr uint32_t kMaxCopies = 8;       ///< likewise, on either side
 
-  /// How the vertex before was found.
-  enum Last : uint8_t { kBeside, kCopy, kParallel, kNear, kJump, kLastCount };
+  static constexpr uint32_t kMaxFaces = 24;  ///< likewise
+
+  /// How a vertex was found.
+  enum Way : uint8_t { kBeside, kCopy, kParallel, kNear, kJump, kWayCount };
 
   struct Candidate {
     uint32_t vertex;
@@ -88,6 +89,17 @@ class VertexWalk {
     uint8_t copy;       ///< 1: that one is a copy of it
     uint8_t parallel;   ///< 2: it goes along what the vertex before goes along, 1: against, 0
     uint8_t count;      ///< neighbours that have their place, up to three
+    uint8_t free;       ///< neighbours that have none, up to seven
+    uint8_t beside;  ///< bits: the vertex before is a neighbour (4), the one before that, the third
+    uint8_t filled;  ///< vertices that have their place in the fullest of its polygons, up to 4
+    uint8_t completes;  ///< 1: it is the last one of a polygon
+    uint8_t together;   ///< 1: it is in a polygon with the two before
+  };
+
+  /// A polygon while its vertices get their places.
+  struct Face {
+    uint32_t placed = 0;  ///< corners that have one
+    uint32_t latest = kNotYet, second = kNotYet;
   };
 
   /// Bounds of some vertices or neighbours.
@@ -95,7 +107,7 @@ class VertexWalk {
     uint32_t begin, end;
   };
 
-  static Last last_of(const Candidate& c) {
+  static Way way_of(const Candidate& c) {
     return c.copy ? kCopy : c.distance == 1 ? kBeside : c.parallel != 0 ? kParallel : kNear;
   }
 
@@ -104,6 +116,15 @@ class VertexWalk {
   }
 
   Range copies(uint32_t v) const;
+
+  void remember(Way way) {
+    for (size_t i = kWays - 1; i > 0; --i)
+      ways_[i] = ways_[i - 1];
+    ways_[0] = way;
+  }
+
+  /// Contexts of the question whether a candidate comes next.
+  void select(const Candidate& c, uint32_t rank);
   /// The places of the neighbours of the vertex before.
   void start_candidates();
   /// Adds those beside the vertex before, which most often suffice.
@@ -116,16 +137,22 @@ class VertexWalk {
   Candidate look_at(uint32_t v) const;
   void append(uint32_t v);
 
-  const Vector<uint32_t>& vertex_coded_;
+  static constexpr size_t kWays = 3;
+
+  const Vector<uint32_t>&vertex_coded_, &offsets_;
   Vector<uint32_t> first_, neighbours_;  ///< of vertex v: neighbours_[first_[v] ...], ascending
+  Vector<uint32_t> first_face_, faces_;  ///< the polygon of each corner at a vertex, likewise
+  Vector<Face> polygons_;
   Vector<uint32_t> place_;               ///< of each vertex, kNotYet before it has one
   Vector<uint32_t> order_;               ///< the vertices that have a place
   Vector<uint32_t> offered_;             ///< number of vertices that had a place when one was last
   uint32_t along_[kMaxNeighbours] = {};  ///< places of the neighbours of the vertex before
   uint32_t along_count_ = 0;
+  uint32_t free_before_ = 0;  ///< neighbours of the vertex before without a place, up to seven
   Candidate candidates_[kMaxCandidates] = {};
   uint32_t candidate_count_ = 0;
-  AdaptiveBit hit_[8][2][3][4][4][kLastCount];
+  Way ways_[kWays] = {kJump, kJump, kJump};  ///< the latest is first
+  MixedModel<7> model_{{3840, 24000, 3000, 2400, 720, 10240, 2205}, {40, 40}, 1};
 };
 
 }  // namespace anicodec

@@ -3,6 +3,7 @@
 #include "sdk/segment/keyframe_segment.h"
 
 #include "sdk/base/bounded_float.h"
+#include "sdk/mesh/draco_poses.h"
 #include "sdk/mesh/plain_coding.h"
 #include "sdk/segment/resident_writer.h"
 #include "sdk/segment/series_coding.h"
@@ -38,31 +39,31 @@ bool rigid_motion(const double q[4], const double t[3], Affine* map) {
 /// Key-frames as integers, coded vertices x 3 each, before the differences are undone.
 Status read_poses(const SegmentRecord& record, const SegmentContext& context,
                   const KeyframeParameters& parameters, Vector<Vector<int32_t>>* poses) {
-  size_t n = context.topology->coded_vertices;
-  size_t k = context.sizes->components;
-  Vector<int32_t> plain;
-  if (parameters.coder == CoderId::kPlain) {
-    if (Status s = decode_plain_integers(record.pose, 3 * n * k, 3, &plain); s != Status::kOk)
-      return s;
-    for (size_t j = 0; j < k; ++j)
-      poses->emplace_back(plain.begin() + static_cast<ptrdiff_t>(3 * n * j),
-                          plain.begin() + static_cast<ptrdiff_t>(3 * n * (j + 1)));
-    return Status::kOk;
-  }
-  // Draco holds the vertices that are in triangles; the others follow plainly.
-  const CodedValues& draco = *context.draco;
-  if (draco.components / 3 != k)
+  const size_t n = context.topology->coded_vertices;
+  const uint32_t k = context.sizes->components;
+  const Limits::Segment& sizes = *context.sizes;
+  const bool draco = parameters.coder == CoderId::kDraco;
+  if (draco != (sizes.draco_bytes > 0) || sizes.draco_bytes > record.pose.size)
     return Status::kSegment;
-  const size_t in_triangles = context.topology->vertices_in_triangles;
-  const size_t loose = n - in_triangles;
-  if (Status s = decode_plain_integers(record.pose, 3 * loose * k, 3, &plain); s != Status::kOk)
+  if (draco) {
+    const ByteView bytes{record.pose.data, sizes.draco_bytes};
+    if (Status s = decode_draco_poses(bytes, *context.topology, sizes.draco_points, k, poses);
+        s != Status::kOk)
+      return s;
+  }
+  // Plain are vertices that Draco does not hold.
+  const size_t held = draco ? context.topology->vertices_in_triangles : 0;
+  const ByteView rest{record.pose.data + sizes.draco_bytes,
+                      record.pose.size - sizes.draco_bytes};
+  Vector<int32_t> plain;
+  if (Status s = decode_plain_integers(rest, 3 * (n - held) * k, 3, &plain); s != Status::kOk)
     return s;
+  poses->resize(k);
   for (size_t j = 0; j < k; ++j) {
-    Vector<int32_t>& pose = poses->emplace_back(3 * n);
-    for (size_t v = 0; v < in_triangles; ++v)
-      std::copy_n(draco.row(v) + 3 * j, 3, pose.data() + 3 * v);
-    std::copy_n(plain.begin() + static_cast<ptrdiff_t>(3 * loose * j), 3 * loose,
-                pose.begin() + static_cast<ptrdiff_t>(3 * in_triangles));
+    (*poses)[j].resize(3 * held);
+    (*poses)[j].insert((*poses)[j].end(),
+                       plain.begin() + static_cast<ptrdiff_t>(3 * (n - held) * j),
+                       plain.begin() + static_cast<ptrdiff_t>(3 * (n - held) * (j + 1)));
   }
   return Status::kOk;
 }

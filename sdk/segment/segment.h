@@ -7,7 +7,6 @@
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/base/host_progress.h"
-#include "sdk/mesh/coded_values.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/msgi/msgi.h"
 #include "sdk/pose/reference_pose.h"
@@ -96,7 +95,6 @@ struct SegmentContext {
   /// Coded vertex of each vertex of the opened segment; null: it holds the coded vertices.
   const Vector<uint32_t>* vertex_coded = nullptr;
   const PoseGrid* pose = nullptr;  ///< null when the file has none for the segment
-  const CodedValues* draco = nullptr;
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
   Vector<ByteView> layers;           ///< chunks BASI in file order
   ByteView corrections;              ///< chunk CORR, empty when there is none

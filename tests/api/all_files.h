@@ -20,7 +20,7 @@ namespace anicodec {
 
 /// A clip in two segments.
 inline Bytes two_segments(const MeshSequence& clip) {
-  EncoderInput input(clip, CoderId::kDraco);
+  EncoderInput input(clip);
   LinearAnalysis analysis(input.frames());
   LinearCoder whole(input, analysis, BasisKind::kEigenshapes, 1, 1);
   const double rmse = 0.0005 * diagonal(clip);

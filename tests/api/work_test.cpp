@@ -9,12 +9,14 @@
 #include "format/records.h"
 #include "format/time_weights.h"
 #include "sdk/clip/clip.h"
+#include "sdk/mesh/faces_coding.h"
 #include "sdk/mesh/plain_coding.h"
 #include "sdk/pose/pose_coding.h"
 #include "sdk/segment/correction_coding.h"
 #include "sdk/segment/linear_segment.h"
 
 #include <algorithm>
+#include <array>
 #include <ctime>
 #include <utility>
 #include <vector>
@@ -24,6 +26,30 @@
 namespace anicodec {
 namespace {
 
+/// One triangle again and again, from either side: next to no bytes.
+struct TwoSidedTriangle : NoMesh {
+  bool find(uint32_t a, uint32_t b) {
+    turn = {a, b, 3 - a - b};
+    return done % 2 == 1;
+  }
+
+  void find_seed() { turn = {0, 1, 2}; }
+
+  uint32_t corners() const { return 3; }
+
+  uint32_t vertex(uint32_t k) const { return turn[k] < seen ? turn[k] : WalkedFaces::kNone; }
+
+  void set_vertex(uint32_t, uint32_t) { ++seen; }
+
+  uint32_t finish() {
+    ++done;
+    return 0;
+  }
+
+  std::array<uint32_t, 3> turn{};
+  uint32_t seen = 0, done = 0;
+};
+
 /// A mesh and segments of eigenshapes that are as small as can be.
 class CraftedFile {
  public:
@@ -31,12 +57,15 @@ class CraftedFile {
     Limits::Mesh mesh;
     mesh.source_vertices = mesh.coded_vertices = vertices;
     mesh.triangles = mesh.polygons = triangles;
-    mesh.points = triangles > 0 ? 3 : 0;
     mesh.corners = 3 * triangles;
     limits_.meshes.push_back(mesh);
-    for (uint32_t c = 0; c < mesh.corners; ++c)
-      topology_.triangles.push_back(c % 3);
-    topology_.coded_vertices = vertices;
+    BinaryEncoder encoder;
+    TwoSidedTriangle source;
+    EXPECT_EQ((FacesCoding<BinaryEncoder, TwoSidedTriangle>(encoder, source, limits_.meshes[0],
+                                                            &topology_)
+                   .run()),
+              Status::kOk);
+    faces_ = encoder.finish();
     pose_.assign(size_t{3} * vertices, 0);
     for (uint32_t v = 0; v < std::min(vertices, 3U); ++v)
       pose_[size_t{3} * v + v] = 100;
@@ -82,17 +111,8 @@ class CraftedFile {
 
  private:
   Bytes mesh() const {
-    BinaryEncoder details;
-    AdaptiveBit repeated[2], flags[2];
-    for (uint32_t p = 0; p < limits_.meshes[0].points; ++p)
-      details.bit(repeated[0], false);
-    for (AdaptiveBit& flag : flags)
-      details.bit(flag, false);
-    const Bytes connectivity = encode_plain_triangles(topology_.triangles),
-                bytes = details.finish();
     MeshRecord record;
-    record.connectivity = connectivity;
-    record.details = bytes;
+    record.faces = faces_;
     return record.write();
   }
 
@@ -161,6 +181,7 @@ class CraftedFile {
   uint32_t vertices_;
   Limits limits_;
   Topology topology_;
+  Bytes faces_;
   Vector<int32_t> pose_;
   std::vector<bool> own_pose_;
 };

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tests/bench/bench_encode.h"
 
-#include "codec/connectivity/mesh_layout.h"
 #include "codec/sequence/error.h"
 #include "format/container.h"
 #include "format/records.h"
@@ -21,18 +20,9 @@ void require(bool ok) {
     throw Error(ErrorKind::kInternal, "the encoded file cannot be read");
 }
 
-void add_mesh(const MeshRecord& record, const MeshSequence& sequence, CoderId mesh_coder,
-              ByteShares& shares) {
-  uint64_t bare = record.connectivity.size;
-  if (record.coder == CoderId::kDraco)
-    bare = std::min<uint64_t>(bare, lay_out_mesh(sequence, mesh_coder).connectivity.size());
-  shares.pose += record.connectivity.size - bare;
-  shares.mesh += bare + record.details.size + record.name.size();
-}
-
 }  // namespace
 
-ByteShares byte_shares(ByteView file, const MeshSequence& sequence, CoderId mesh_coder) {
+ByteShares byte_shares(ByteView file) {
   ContainerReader container;
   require(container.open(file).ok());
   ByteShares shares;
@@ -40,9 +30,7 @@ ByteShares byte_shares(ByteView file, const MeshSequence& sequence, CoderId mesh
     ByteView payload;
     require(container.payload(chunk, &payload).ok());
     if (chunk.type == chunk_type("MESH")) {
-      MeshRecord record;
-      require(MeshRecord::read(payload, &record) == Status::kOk);
-      add_mesh(record, sequence, mesh_coder, shares);
+      shares.mesh += chunk.size;
     } else if (chunk.type == chunk_type("POSE")) {
       shares.pose += chunk.size;
     } else if (chunk.type == chunk_type("SEGM")) {

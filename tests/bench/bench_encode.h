@@ -22,8 +22,7 @@ struct ByteShares {
   uint64_t rest = 0;         ///< header, table, clip record, rigid motions, padding
 };
 
-/// A pose inside the mesh's Draco bitstream counts as what it adds to the bare connectivity.
-ByteShares byte_shares(ByteView file, const MeshSequence& sequence, CoderId mesh_coder);
+ByteShares byte_shares(ByteView file);
 
 /// An encoding with what it took.
 struct TimedEncode {

@@ -25,7 +25,7 @@ double ratio(uint64_t other, uint64_t ours) {
 ordered_json describe(const std::string& clip, const MeshSequence& sequence,
                       const TimedEncode& timed) {
   const EncodeResult& result = timed.result;
-  ByteShares shares = byte_shares(result.file, sequence, CoderId::kDraco);
+  ByteShares shares = byte_shares(result.file);
   return {{"clip", clip},
           {"vertices", sequence.vertex_count},
           {"frames", sequence.frame_count},

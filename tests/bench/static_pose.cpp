@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/connectivity/draco_encode.h"
 #include "codec/search/encoder_input.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
-#include "sdk/mesh/draco_mesh.h"
+#include "sdk/mesh/draco_poses.h"
 #include "sdk/pose/pose_coding.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
@@ -23,9 +24,9 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
                {"draco", "Draco pose", ""},
                {"surface_us", "surface us", "{:.2f}"},
                {"pose_us", "pose us", "{:.2f}"},
-               {"draco_us", "Draco connectivity and pose us", "{:.2f}"}});
+               {"draco_us", "Draco pose us", "{:.2f}"}});
   for (const std::string& name : options.clips) {
-    const EncoderInput input(load_clip(name), CoderId::kDraco);
+    const EncoderInput input(load_clip(name));
     const MeshLayout& layout = input.layout;
     Eigen::Vector3d origin;
     const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
@@ -48,12 +49,12 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
       row["pose_us"] = 1e6 * seconds / n;
       if (coding != PoseCoding::kRounded)
         continue;
-      const Bytes draco = encode_with_poses(layout, {&encoded->grid.points, 1});
-      row["draco"] = draco.size() - layout.connectivity.size();
+      const DracoPoses draco = encode_draco_poses(layout.topology, {&encoded->grid.points, 1});
+      row["draco"] = draco.bytes.size();
       row["draco_us"] =
           1e6 / n * median_thread_seconds(runs, [&] {
-            DracoMesh mesh;
-            (void)decode_draco_mesh(draco, layout.sizes.points, layout.sizes.triangles, 4, &mesh);
+            Vector<Vector<int32_t>> poses;
+            (void)decode_draco_poses(draco.bytes, layout.topology, draco.points, 1, &poses);
           });
     }
     row["surface_us"] =

@@ -18,14 +18,12 @@
 namespace anicodec {
 namespace {
 
-Bytes encoded(const char* clip, BasisChoice basis, OrderMode order = OrderMode::kVertices,
-              CoderId coder = CoderId::kDraco) {
+Bytes encoded(const char* clip, BasisChoice basis, OrderMode order = OrderMode::kVertices) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1, true};
   options.basis = basis;
   options.effort = 1;
   options.order = order;
-  options.mesh_coder = coder;
   return encode(corpus::make_clip(clip), options).file;
 }
 
@@ -116,12 +114,26 @@ TEST_F(RefusedFile, MoreMemoryThanTheLimitsTell) {
   }
 }
 
-TEST_F(RefusedFile, DracoBytesWithoutDraco) {
-  EditedFile file(
-      encoded("nonmanifold", BasisChoice::kKeyframes, OrderMode::kVertices, CoderId::kPlain));
-  ASSERT_EQ(status_of(file), Status::kOk);
-  file.change_limits([](Limits& limits) { limits.meshes[0].draco_bytes = 1; });
-  EXPECT_EQ(status_of(file), Status::kRecord);
+TEST_F(RefusedFile, DracoBytesThatAreNotThere) {
+  EditedFile loose(encoded("one_vertex", BasisChoice::kKeyframes));
+  ASSERT_EQ(status_of(loose), Status::kOk);
+  loose.change_limits([](Limits& limits) {
+    limits.segments[0].draco_bytes = 1;
+    limits.segments[0].draco_points = 1;
+  });
+  EXPECT_EQ(status_of(loose), Status::kSegment);
+  const auto with = [&](auto change) {
+    EditedFile file(keyframes_);
+    file.change_limits([&](Limits& limits) { change(limits.segments[0]); });
+    return status_of(file);
+  };
+  ASSERT_EQ(with([](Limits::Segment&) {}), Status::kOk);
+  EXPECT_EQ(with([](Limits::Segment& s) { s.draco_bytes = s.draco_points = 0; }), Status::kSegment);
+  EXPECT_EQ(with([](Limits::Segment& s) { s.draco_bytes += 200; }), Status::kSegment);
+  EXPECT_EQ(with([](Limits::Segment& s) { s.draco_bytes = UINT32_MAX; }), Status::kLimit);
+  EXPECT_EQ(with([](Limits::Segment& s) { ++s.draco_points; }), Status::kRecord);
+  EXPECT_EQ(with([](Limits::Segment& s) { s.draco_points = 0; }), Status::kRecord);
+  EXPECT_EQ(with([](Limits::Segment& s) { s.draco_points = UINT32_MAX; }), Status::kLimit);
 }
 
 TEST_F(RefusedFile, StrayChunks) {
@@ -154,26 +166,20 @@ TEST_F(RefusedFile, StrayChunks) {
 }
 
 TEST_F(RefusedFile, DracoBitstreamThatAnnouncesTooMuch) {
-  const Bytes stream = [&] {
+  // Decoders, attributes, the kind, numbers and width of the first.
+  for (const size_t at : {0U, 1U, 2U, 3U, 4U}) {
     EditedFile file(keyframes_);
-    MeshRecord record;
-    MeshRecord::read(file.part("MESH").payload, &record);
-    return Bytes(record.connectivity.data, record.connectivity.data + record.connectivity.size);
-  }();
-  // Version, geometry, method, flags, traversal, and the counts up to the split symbols.
-  for (size_t at : {0, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}) {
-    Bytes changed = stream;
-    changed[at] ^= 0x7F;
-    EditedFile file(keyframes_);
-    file.change_record<MeshRecord>("MESH",
-                                   [&](MeshRecord& record) { record.connectivity = changed; });
+    file.change_record<SegmentRecord>("SEGM", [&](SegmentRecord& record) {
+      changed_.assign(record.pose.data, record.pose.data + record.pose.size);
+      changed_[at] ^= 0x7F;
+      record.pose = changed_;
+    });
     EXPECT_EQ(status_of(file), Status::kDraco) << at;
   }
 }
 
 TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
-  EditedFile file(
-      encoded("nonmanifold", BasisChoice::kKeyframes, OrderMode::kVertices, CoderId::kPlain));
+  EditedFile file(encoded("one_triangle", BasisChoice::kKeyframes));
   for (const Bytes& frame : {Bytes{0x50, 0x2A, 0x4D, 0x18, 0, 0, 0, 0},  // skippable, empty
                              Bytes{0x28, 0xB5, 0x2F, 0xFD, 0x00, 0x58, 1, 0, 0},  // states no size
                              Bytes{}}) {
@@ -229,7 +235,7 @@ TEST_F(RefusedFile, MapThatRunsOut) {
   }
 }
 
-TEST(LongPolygon, ComesBackJoinedOrApart) {
+TEST(LongPolygon, ComesBackAsItIs) {
   for (uint32_t corners : {1023U, 1024U, 1025U, 3000U}) {
     MeshSequence source;
     source.vertex_count = corners;
@@ -256,7 +262,7 @@ TEST(LongPolygon, ComesBackJoinedOrApart) {
     Vector<uint32_t> cycle = t.polygon_corners;
     std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
     EXPECT_THAT(cycle, testing::ElementsAreArray(source.polygons.corners));
-    EXPECT_EQ(clip.limits().meshes[0].triangles, corners > 1024 ? 0U : corners - 2);
+    EXPECT_EQ(clip.limits().meshes[0].triangles, corners - 2);
   }
 }
 

@@ -69,7 +69,7 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
   const double clip_diagonal = diagonal(clip);
   const MeshSequence source = clip;
   ClipRecord record = clip_record(clip, {}, {}, clip_diagonal);
-  const EncoderInput input(std::move(clip), CoderId::kPlain);
+  const EncoderInput input(std::move(clip));
   std::vector<EncodedSegment> segments;
   uint32_t first = 0;
   for (const Recipe& recipe : recipes) {

@@ -28,10 +28,13 @@ endif()
 
 set(program "${build}/sdk/examples/example_frame_to_obj_c")
 set(clips "${SOURCE_DIR}/tests/conformance")
-run(obj "${program}" "${clips}/soup_plain.anic")
-if(NOT obj MATCHES "^v .*\nf [0-9 ]+\n$")
-  message(FATAL_ERROR "no OBJ: ${obj}")
-endif()
+# All but key-frames by Draco.
+foreach(clip soup polygons_all quad_box_corrected limb_effort9 uneven_times heated schedules triangle)
+  run(obj "${program}" "${clips}/${clip}.anic")
+  if(NOT obj MATCHES "^v .*\nf [0-9 ]+\n$")
+    message(FATAL_ERROR "no OBJ of ${clip}: ${obj}")
+  endif()
+endforeach()
 execute_process(COMMAND "${program}" "${clips}/nonmanifold_keyframes.anic"
   RESULT_VARIABLE result ERROR_VARIABLE text)
 if(result EQUAL 0 OR NOT text MATCHES "this build is without Draco")

@@ -22,21 +22,21 @@ import conformance_facts
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests" / "conformance"
 VECTORS = [
-    ("triangle.anic", "one_triangle", "--kg 0.1 --order free --basis keyframes --mesh-coder plain"),
+    ("triangle.anic", "one_triangle", "--kg 0.1 --order free --basis keyframes"),
     ("nonmanifold_keyframes.anic", "nonmanifold", "--kg 0.5 --basis keyframes"),
     ("polygons_all.anic", "polygons", "--kg 0.2 --order all --basis eigenshapes"),
     ("quad_box_corrected.anic", "quad_box", "--kg 1 --max-error 0.5% --basis eigentrajectories"),
-    ("soup_plain.anic", "soup", "--kg 0.5 --mesh-coder plain --basis eigentrajectories"),
+    ("soup.anic", "soup", "--kg 0.5 --basis eigentrajectories"),
     ("limb_effort9.anic", "limb", "--kg 0.2 --effort 9 --basis eigenshapes"),
     ("limb_small.anic", "limb --vertices 100 --frame-count 8", "--kg 0.5 --effort 9 --basis eigenshapes"),
     ("far_rigid.anic", "far", "--keyframes 1"),
     ("uneven_times.anic", "uneven", "--kg 0.5 --basis eigentrajectories"),
-    ("leftovers_plain.anic", "leftovers", "--kg 0.5 --order all --mesh-coder plain --basis keyframes"),
+    ("leftovers.anic", "leftovers", "--kg 0.5 --order all --basis keyframes"),
     ("one_frame.anic", "one_frame", "--kg 0.5"),
     ("one_vertex.anic", "one_vertex", "--kg 0.5"),
-    ("nonmanifold_interpolated.anic", "nonmanifold", "--keyframes 3 --interpolation msgi --mesh-coder plain"),
+    ("nonmanifold_interpolated.anic", "nonmanifold", "--keyframes 3 --interpolation msgi"),
     ("painted_box.anic", "painted_box", "--kg 0.5 --order all --basis keyframes"),
-    ("heated.anic", "heated", "--kg 0.5 --fps 24 --basis eigenshapes --effort 1 --mesh-coder plain"),
+    ("heated.anic", "heated", "--kg 0.5 --fps 24 --basis eigenshapes --effort 1"),
 ]
 # Clips whose attributes move: they go by PLY frames.
 MOVING = ["heated"]
@@ -47,7 +47,7 @@ LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
 # Files whose chunks tests/fuzz/chunk_fuzz.cpp changes, in its order: one for each kind of chunk, quickly decoded.
 FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "quad_box_corrected.anic",
-          "soup_plain.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic"]
+          "soup.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic"]
 
 
 def listing(command, path):
@@ -159,7 +159,7 @@ def broken_attributes(data):
     limits = next(c for c in chunks if c.type == "LIMI")
     good = limits.payload
     counts, at = read_varints(good, 0, 3)
-    mesh, at = read_varints(good, at, 8)
+    mesh, at = read_varints(good, at, 5)
     segments = []
     for _ in range(counts[2]):
         segment, at = read_varints(good, at, 7)
@@ -202,13 +202,13 @@ def greedy_files(data):
     limits = next(c for c in chunks if c.type == "LIMI")
     good = limits.payload
     huge = {
-        "vertices": (4, 1, 1, (2**31 - 1, 2**31 - 1, 3, 1, 1, 3, 0, 0), (0, 0, 0, 4, 2, 0, 0)),
-        "frames": (2**24 - 1, 1, 1, (3, 3, 3, 1, 1, 3, 0, 0), (0, 0, 0, 2**24 - 1, 2**20, 0, 0)),
-        "components": (4, 1, 1, (2**20, 2**20, 3, 1, 1, 3, 0, 0), (0, 2, 0, 4, 2**20, 2**20, 0)),
-        "triangles": (4, 1, 1, (3, 3, 3, (2**32 - 1) // 3, 1, 3, 0, 0), (0, 0, 0, 4, 2, 0, 0)),
-        "corners": (4, 1, 1, (3, 3, 3, 1, 2**31 - 1, 2**32 - 1, 0, 0), (0, 0, 0, 4, 2, 0, 0)),
-        "draco": (4, 1, 1, (3, 3, 3, 1, 1, 3, 16320, 2**32 - 1), (0, 0, 0, 4, 2, 0, 0)),
-        "corrections": (4, 1, 1, (3, 3, 3, 1, 1, 3, 0, 0), (0, 0, 0, 4, 2, 0, 2**32 - 1)),
+        "vertices": (4, 1, 1, (2**31 - 1, 2**31 - 1, 1, 1, 3), (0, 0, 0, 4, 2, 0, 0, 0)),
+        "frames": (2**24 - 1, 1, 1, (3, 3, 1, 1, 3), (0, 0, 0, 2**24 - 1, 2**20, 0, 0, 0)),
+        "components": (4, 1, 1, (2**20, 2**20, 1, 1, 3), (0, 2, 0, 4, 2**20, 2**20, 0)),
+        "triangles": (4, 1, 1, (3, 3, (2**32 - 1) // 3, 1, 3), (0, 0, 0, 4, 2, 0, 0, 0)),
+        "corners": (4, 1, 1, (3, 3, 1, 2**31 - 1, 2**32 - 1), (0, 0, 0, 4, 2, 0, 0, 0)),
+        "draco": (4, 1, 1, (3, 3, 1, 1, 3), (0, 0, 0, 4, 2, 0, 0, 2**32 - 1, 2**32 - 1)),
+        "corrections": (4, 1, 1, (3, 3, 1, 1, 3), (0, 0, 0, 4, 2, 0, 2**32 - 1, 0)),
     }
     for name, (frames, meshes, segments, mesh, segment) in huge.items():
         limits.payload = anic_file.varints((frames, meshes, segments) + mesh + segment)
@@ -218,7 +218,7 @@ def greedy_files(data):
 
 def write_seeds(folder):
     """Inputs to start the fuzz targets from: each chunk by itself, files with bytes that decide what is done."""
-    for name in ("chunk", "api", "stream"):
+    for name in ("chunk", "faces", "api", "stream"):
         (folder / name).mkdir(exist_ok=True)
         for old in (folder / name).glob("seed_*"):
             old.unlink()
@@ -227,6 +227,16 @@ def write_seeds(folder):
         for i, chunk in enumerate(anic_file.read_chunks(data)):
             path = folder / "chunk" / f"seed_{pathlib.Path(file).stem}_{i}_{chunk.type.lower()}"
             path.write_bytes(bytes([number, i]) + chunk.payload)
+            if chunk.type == "LIMI":
+                vertices, coded, _, polygons, corners = read_varints(chunk.payload, 0, 8)[0][3:]
+            if chunk.type == "MESH":  # no name is longer than a byte tells
+                eights = min((coded - 1) // 8, 255)
+                times = next((n for n in range(1, 10) if polygons % n == 0 and polygons // n < 256), 1)
+                counts = (coded - 1 - 8 * eights, eights, vertices - coded, polygons // times, times - 1,
+                          corners - 3 * polygons)
+                if all(0 <= x < 256 for x in counts) and counts[-1] < 64:
+                    (folder / "faces" / f"seed_{pathlib.Path(file).stem}").write_bytes(
+                        bytes(counts) + chunk.payload[1 + chunk.payload[0]:])
         script = hashlib.sha256(data).digest()[:24]
         for name, mode in (("api", number), ("stream", 0)):
             (folder / name / f"seed_{file}").write_bytes(data + bytes([mode]) + script[1:])

@@ -12,7 +12,7 @@ import { bytesOf, factsOf, files } from './files.mjs';
 const dist = new URL('../../sdk/web/dist/', import.meta.url);
 const moduleOf = (name) => WebAssembly.compile(readFileSync(new URL(name, dist)));
 const KINDS = { small: 'anicodec.wasm', full: 'anicodec-full.wasm', scalar: 'anicodec-scalar.wasm' };
-/** Files whose connectivity Draco coded: the package has no Draco. */
+/** Files whose key-frames Draco coded: the package has no Draco. */
 const isDraco = (error) => error instanceof AnicError && error.status === 'ANIC_E_CODER';
 
 async function expectFacts(file) {
@@ -61,7 +61,7 @@ for (const [small, full] of [['small', 'full'], ['scalar', 'scalar']]) {
 }
 
 const CLIP = 'limb_small.anic';
-const PLAIN = files.filter(({ what, file }) => what === 'valid' && /plain|interpolated|painted/.test(file)).map(({ file }) => file);
+const PLAIN = files.filter(({ what, file }) => what === 'valid' && /soup|interpolated|painted/.test(file)).map(({ file }) => file);
 
 /** The first of the files that this package opens. */
 async function openable() {

@@ -64,8 +64,6 @@ constexpr Word<TopologyChanges> kTopologyChanges[] = {{TopologyChanges::kRefuse,
                                                       {TopologyChanges::kTransfer, "transfer"}};
 constexpr Word<MassageMode> kMassageModes[] = {
     {MassageMode::kOff, "off"}, {MassageMode::kOn, "on"}, {MassageMode::kAuto, "auto"}};
-/// Coders that an encoder can be asked for.
-constexpr WordTable<CoderId> kMeshCoders = kCoders;
 
 void add_target(Options& options, EncodeArguments& a) {
   options.group("Target");
@@ -95,8 +93,6 @@ void add_method(Options& options, EncodeArguments& a) {
   options.flag("--split-objects", a.split_objects,
                "Store each object of the input as a mesh, present only in the frames that show it "
                "(default: as parts of one mesh)");
-  options.choice("--mesh-coder", a.mesh_coder, kMeshCoders,
-                 "Coder of faces and key-frames (default draco)");
   options.number("--effort", a.effort, "N", {1, 9},
                  "How long to search, 1 to 9 (default 5); files from 7 on open slower");
 }
@@ -180,7 +176,6 @@ EncodeOptions encode_options(const EncodeArguments& command) {
     throw Error(ErrorKind::kUsage, "--interpolation goes with --basis keyframes or --keyframes");
   options.interpolation = command.interpolation;
   options.order = command.order;
-  options.mesh_coder = command.mesh_coder;
   options.attributes = command.attributes;
   options.attributes.keep = !command.no_attributes;
   if (!command.normal_error.empty())
@@ -240,8 +235,8 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
                                   c.bpfv, c.keyframes, c.effort, options.encoder};
   for (int choice :
        {static_cast<int>(c.basis), static_cast<int>(c.selection), static_cast<int>(c.order),
-        static_cast<int>(c.mesh_coder), static_cast<int>(c.interpolation),
-        static_cast<int>(c.massage), static_cast<int>(c.split_objects)})
+        static_cast<int>(c.interpolation), static_cast<int>(c.massage),
+        static_cast<int>(c.split_objects)})
     settings.push_back(choice);
   settings.push_back(c.massage_strength);
   settings.push_back(c.massage_tolerance);

@@ -30,7 +30,6 @@ struct EncodeArguments {
   KeyframeMethod selection = KeyframeMethod::kPivot;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;
   OrderMode order = OrderMode::kVertices;
-  CoderId mesh_coder = CoderId::kDraco;
   int effort = 5;
   TopologyChanges topology_changes = TopologyChanges::kRefuse;
   bool split_objects = false;

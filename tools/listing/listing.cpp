@@ -20,8 +20,8 @@ void list_limits(FieldReader& r) {
   uint64_t meshes = r.varint("meshes");
   uint64_t segments = r.varint("segments");
   for (uint64_t i = 0; i < meshes && r.ok(); ++i) {
-    for (const char* name : {"source vertices", "coded vertices", "points", "triangles", "polygons",
-                             "corners", "Draco components", "Draco bytes"})
+    for (const char* name :
+         {"source vertices", "coded vertices", "triangles", "polygons", "corners"})
       r.varint(fmt::format("mesh {} {}", i, name));
   }
   for (uint64_t i = 0; i < segments && r.ok(); ++i) {
@@ -34,6 +34,9 @@ void list_limits(FieldReader& r) {
     for (const char* name :
          {"first frame", "frames", "components", "wide components", "corrections"})
       r.varint(fmt::format("segment {} {}", i, name));
+    if ((kind == static_cast<uint8_t>(BasisKind::kKeyframes) || kind == kMsgi) &&
+        r.varint(fmt::format("segment {} Draco bytes", i)) > 0)
+      r.varint(fmt::format("segment {} Draco points", i));
     if (kind == kMsgi) {
       r.varint(fmt::format("segment {} bytes of msgi", i));
       r.varint(fmt::format("segment {} bytes of msgi for a frame", i));
@@ -89,9 +92,7 @@ void list_clip(FieldReader& r, uint32_t frames) {
 
 void list_mesh(FieldReader& r) {
   r.text("name");
-  r.explain(name_of(static_cast<CoderId>(r.u8("coder"))));
-  r.block("connectivity");
-  r.block("details");
+  r.bytes("faces", r.remaining());
 }
 
 void list_pose(FieldReader& r) {

@@ -206,8 +206,7 @@ enum {
                                       around all frames, not in units of the clip */
   ANIC_ENCODE_CAP_PERCENT = 2,   /**< the same of max_error */
   ANIC_ENCODE_ERROR_PERCENT = 4, /**< attribute_error is in per cent of the range of its values */
-  ANIC_ENCODE_NO_ATTRIBUTES = 8, /**< positions and polygons alone */
-  ANIC_ENCODE_PLAIN_MESH = 16    /**< polygons without Draco, for players that go without */
+  ANIC_ENCODE_NO_ATTRIBUTES = 8  /**< positions and polygons alone */
 };
 
 /** Follows and stops an encoding. All zero: nobody does. report() gets the name of the stage, and

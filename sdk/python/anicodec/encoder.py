@@ -13,7 +13,7 @@ from . import _anicodec, _arrays
 from .clip import DOMAINS, KINDS, UP, chosen
 from .errors import InputError
 
-_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _PLAIN_MESH = 1, 2, 4, 8, 16
+_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES = 1, 2, 4, 8
 _GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5}
 _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
             "selection": {"pivot": 0, "gas": 1, "uniform": 2},
@@ -107,8 +107,6 @@ def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
         choices["flags"] |= _ERROR_PERCENT if percent else 0
     if options.pop("no_attributes", False):
         choices["flags"] |= _NO_ATTRIBUTES
-    coder = options.pop("mesh_coder", "draco")
-    choices["flags"] |= _PLAIN_MESH if chosen({"draco": 0, "plain": 1}, coder, "mesh_coder") else 0
     if options:
         raise TypeError(f"encode() has no option {next(iter(options))!r}")
     return choices
@@ -244,7 +242,7 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop: stored.
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
         interpolation ("linear", "msgi", "auto"), massage ("off", "on", "auto"), massage_strength, massage_tolerance,
-        order ("vertices", "none", "faces"), effort (1 to 9), mesh_coder ("draco", "plain"), uv_bits, colour_bits,
+        order ("vertices", "none", "faces"), effort (1 to 9), uv_bits, colour_bits,
         attribute_error, normal_error (degrees), no_attributes: as of the command.
     threads: 0 for all. max_bytes: of memory, else LimitError.
     progress: a function of the stage and the share of it that is done; False from it raises Cancelled, and what it

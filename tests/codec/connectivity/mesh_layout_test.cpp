@@ -2,10 +2,6 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/connectivity/mesh_layout.h"
 
-#include "codec/connectivity/manifold_mesh.h"
-#include "sdk/mesh/draco_mesh.h"
-#include "sdk/mesh/plain_coding.h"
-
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -56,19 +52,8 @@ MeshSequence grid(uint32_t n, bool quads, unsigned seed) {
 
 /// What a decoder rebuilds from the chunks of a layout.
 Topology decoded(const MeshLayout& layout, bool vertices, bool faces) {
-  Vector<uint32_t> triangles;
-  if (layout.coder == CoderId::kDraco) {
-    DracoMesh draco;
-    EXPECT_EQ(decode_draco_mesh(layout.connectivity, layout.sizes.points, layout.sizes.triangles, 4,
-                                &draco),
-              Status::kOk);
-    triangles = draco.triangles;
-  } else {
-    EXPECT_EQ(decode_plain_triangles(layout.connectivity, layout.sizes.triangles, &triangles),
-              Status::kOk);
-  }
   Topology topology;
-  EXPECT_EQ(decode_details(layout.details, layout.sizes, triangles, &topology), Status::kOk);
+  EXPECT_EQ(decode_faces(layout.faces, layout.sizes, &topology), Status::kOk);
   Vector<uint32_t> map;
   if (vertices) {
     EXPECT_EQ(decode_vertex_map(layout.vertex_map, topology, &map), Status::kOk);
@@ -97,11 +82,8 @@ Faces cycles(const Numbers& offsets, const Numbers& corners) {
   return faces;
 }
 
-void expect_round_trip(const MeshSequence& s, CoderId coder) {
-  MeshLayout layout = lay_out_mesh(s, coder);
-  if (layout.sizes.triangles > 0) {
-    EXPECT_EQ(layout.coder, coder);
-  }
+void expect_round_trip(const MeshSequence& s) {
+  const MeshLayout layout = lay_out_mesh(s);
   Topology t = decoded(layout, true, false);
   ASSERT_EQ(t.vertex_coded.size(), s.vertex_count);
   EXPECT_THAT(t.vertex_coded, ElementsAreArray(layout.source_coded));
@@ -114,33 +96,31 @@ void expect_round_trip(const MeshSequence& s, CoderId coder) {
   EXPECT_TRUE(std::is_sorted(free.vertex_coded.begin(), free.vertex_coded.end()));
 }
 
-class MeshLayoutOf : public testing::TestWithParam<CoderId> {};
-
-TEST_P(MeshLayoutOf, RoundTripsGrids) {
-  expect_round_trip(grid(9, false, 1), GetParam());
-  expect_round_trip(grid(9, true, 2), GetParam());
+TEST(MeshLayout, RoundTripsGrids) {
+  expect_round_trip(grid(9, false, 1));
+  expect_round_trip(grid(9, true, 2));
 }
 
-TEST_P(MeshLayoutOf, RoundTripsOddMeshes) {
-  expect_round_trip(mesh_of(1, {}), GetParam());
-  expect_round_trip(mesh_of(5, {}), GetParam());
-  expect_round_trip(mesh_of(3, {{0, 1, 2}}), GetParam());
-  expect_round_trip(mesh_of(7, {{6, 3, 1}}), GetParam());                        // unused vertices
-  expect_round_trip(mesh_of(4, {{0, 1, 2}, {2, 1, 0}, {0, 1, 2}}), GetParam());  // duplicates
-  expect_round_trip(mesh_of(4, {{0, 0, 1}, {0, 1}, {2}, {}, {0, 1, 2}}), GetParam());
-  expect_round_trip(mesh_of(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), GetParam());  // three at an edge
-  expect_round_trip(mesh_of(5, {{0, 1, 2}, {0, 3, 4}}), GetParam());             // bow-tie
-  expect_round_trip(mesh_of(8, {{0, 1, 2, 3, 4}, {4, 3, 5}, {5, 3, 2, 6}}), GetParam());
-  expect_round_trip(mesh_of(6, {{0, 1, 2}, {3, 4, 5}}), GetParam());  // two components
+TEST(MeshLayout, RoundTripsOddMeshes) {
+  expect_round_trip(mesh_of(1, {}));
+  expect_round_trip(mesh_of(5, {}));
+  expect_round_trip(mesh_of(3, {{0, 1, 2}}));
+  expect_round_trip(mesh_of(7, {{6, 3, 1}}));                        // unused vertices
+  expect_round_trip(mesh_of(4, {{0, 1, 2}, {2, 1, 0}, {0, 1, 2}}));  // duplicates
+  expect_round_trip(mesh_of(4, {{0, 0, 1}, {0, 1}, {2}, {}, {0, 1, 2}}));
+  expect_round_trip(mesh_of(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));  // three at an edge
+  expect_round_trip(mesh_of(5, {{0, 1, 2}, {0, 3, 4}}));             // bow-tie
+  expect_round_trip(mesh_of(8, {{0, 1, 2, 3, 4}, {4, 3, 5}, {5, 3, 2, 6}}));
+  expect_round_trip(mesh_of(6, {{0, 1, 2}, {3, 4, 5}}));  // two components
 }
 
-TEST_P(MeshLayoutOf, RoundTripsWeldedMeshes) {
-  expect_round_trip(mesh_of(6, {{0, 1, 2}, {3, 5, 4}}, {{1, 4}, {2, 5}}), GetParam());
-  expect_round_trip(mesh_of(6, {{0, 1, 2}, {3, 4, 5}}, {{0, 3}, {1, 4}, {2, 5}}), GetParam());
-  expect_round_trip(mesh_of(4, {{0, 1, 2, 3}}, {{0, 1}, {1, 2}, {2, 3}}), GetParam());
+TEST(MeshLayout, RoundTripsWeldedMeshes) {
+  expect_round_trip(mesh_of(6, {{0, 1, 2}, {3, 5, 4}}, {{1, 4}, {2, 5}}));
+  expect_round_trip(mesh_of(6, {{0, 1, 2}, {3, 4, 5}}, {{0, 3}, {1, 4}, {2, 5}}));
+  expect_round_trip(mesh_of(4, {{0, 1, 2, 3}}, {{0, 1}, {1, 2}, {2, 3}}));
 }
 
-TEST_P(MeshLayoutOf, RoundTripsRandomPolygonSoups) {
+TEST(MeshLayout, RoundTripsRandomPolygonSoups) {
   std::mt19937 random(7);
   for (int run = 0; run < 60; ++run) {
     uint32_t n = 4 + random() % 20;
@@ -153,33 +133,92 @@ TEST_P(MeshLayoutOf, RoundTripsRandomPolygonSoups) {
     std::vector<std::pair<uint32_t, uint32_t>> equal;
     for (uint32_t i = 0, count = random() % 5; i < count; ++i)
       equal.emplace_back(random() % n, random() % n);
-    expect_round_trip(mesh_of(n, faces, equal), GetParam());
+    expect_round_trip(mesh_of(n, faces, equal));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Coders, MeshLayoutOf, testing::Values(CoderId::kPlain, CoderId::kDraco));
-
-TEST(MeshLayout, SplitsMakeEveryDirectedEdgeUnique) {
-  MeshSequence s = mesh_of(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  Weld weld = weld_trajectories(s);
-  ManifoldMesh m = make_manifold(s.polygons, weld.welded);
-  std::vector<std::pair<uint32_t, uint32_t>> edges;
-  for (size_t c = 0; c < m.triangles.size(); ++c)
-    edges.emplace_back(m.triangles[c], m.triangles[c % 3 == 2 ? c - 2 : c + 1]);
-  std::sort(edges.begin(), edges.end());
-  EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
-  EXPECT_EQ(m.points, 9U);
+TEST(MeshLayout, RoundTripsCopies) {
+  // A grid of quads whose seams run along every third row and column, and everywhere.
+  for (const uint32_t every : {1U, 3U}) {
+    MeshSequence s;
+    constexpr uint32_t kSide = 9;
+    std::vector<std::vector<float>> places;
+    std::vector<uint32_t> number((kSide + 1) * (kSide + 1) * 4, UINT32_MAX);
+    for (uint32_t y = 0; y < kSide; ++y) {
+      for (uint32_t x = 0; x < kSide; ++x) {
+        std::vector<uint32_t> face;
+        for (const auto& [dx, dy] : {std::pair(0U, 0U), {1U, 0U}, {1U, 1U}, {0U, 1U}}) {
+          const bool along = (x + dx) % every == 0, up = (y + dy) % every == 0;
+          const uint32_t copy = (along && dx ? 1 : 0) + (up && dy ? 2 : 0);
+          uint32_t& v = number[4 * ((y + dy) * (kSide + 1) + x + dx) + copy];
+          if (v == UINT32_MAX) {
+            v = s.vertex_count++;
+            s.positions.insert(s.positions.end(), {float(x + dx), float(y + dy), 0});
+          }
+          face.push_back(v);
+        }
+        s.polygons.add(face);
+      }
+    }
+    s.frame_count = 1;
+    expect_round_trip(s);
+  }
 }
 
-TEST(MeshLayout, TruncatedDetailsAreRefused) {
-  MeshLayout layout = lay_out_mesh(grid(6, true, 3), CoderId::kPlain);
-  Vector<uint32_t> triangles;
-  ASSERT_EQ(decode_plain_triangles(layout.connectivity, layout.sizes.triangles, &triangles),
-            Status::kOk);
-  for (size_t n = 0; n < layout.details.size(); ++n) {
-    Bytes cut(layout.details.begin(), layout.details.begin() + n);
+TEST(MeshLayout, RoundTripsRepeatsWithOtherCopies) {
+  expect_round_trip(mesh_of(4, {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}));
+  expect_round_trip(
+      mesh_of(6, {{0, 1, 2}, {3, 4, 5}, {0, 4, 2}, {5, 3, 4}}, {{0, 3}, {1, 4}, {2, 5}}));
+  // Copies that no face uses, of vertices that some do, and that none does.
+  expect_round_trip(mesh_of(9, {{0, 1, 2}, {2, 1, 3}}, {{1, 4}, {1, 5}, {6, 7}, {6, 8}}));
+}
+
+TEST(MeshLayout, TakesFacesOfManyCornersAsTheyAre) {
+  std::vector<uint32_t> all(3000);
+  std::iota(all.begin(), all.end(), 0U);
+  const MeshSequence s = mesh_of(3000, {all, {5, 4, 3}});
+  expect_round_trip(s);
+  EXPECT_EQ(lay_out_mesh(s).sizes.triangles, 2999U);
+}
+
+TEST(MeshLayout, ManyGatesAtOneVertexTakeLinearTime) {
+  // Triangles that share a vertex and no side, and some that share a side: quadratic time would show.
+  constexpr uint32_t kCount = 40000;
+  Faces faces;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    faces.push_back({0, 2 * i + 1, 2 * i + 2});
+    if (i % 4 == 0)
+      faces.push_back({0, 1, 2 * i + 3});
+  }
+  expect_round_trip(mesh_of(2 * kCount + 4, faces));
+}
+
+TEST(MeshLayout, RegularFacesTakeNextToNothing) {
+  EXPECT_LT(lay_out_mesh(grid(64, true, 4)).faces.size(), 40U);
+  EXPECT_LT(lay_out_mesh(grid(64, false, 5)).faces.size(), 40U);
+}
+
+TEST(MeshLayout, DecodesTheExampleOfTheSpecification) {
+  Limits::Mesh sizes;
+  sizes.source_vertices = 7;
+  sizes.coded_vertices = 6;
+  sizes.triangles = 4;
+  sizes.polygons = 3;
+  sizes.corners = 12;
+  Topology t;
+  ASSERT_EQ(decode_faces(Bytes{0x9e, 0x9d}, sizes, &t), Status::kOk);
+  EXPECT_THAT(t.polygon_corners, testing::ElementsAre(0, 1, 2, 4, 0, 1, 2, 4, 3, 1, 5, 6));
+  EXPECT_THAT(t.vertex_coded, testing::ElementsAre(0, 1, 2, 2, 3, 4, 5));
+  --sizes.triangles;
+  EXPECT_EQ(decode_faces(Bytes{0x9e, 0x9d}, sizes, &t), Status::kTopology);
+}
+
+TEST(MeshLayout, TruncatedFacesAreRefused) {
+  const MeshLayout layout = lay_out_mesh(grid(6, true, 3));
+  for (size_t n = 0; n < layout.faces.size(); ++n) {
+    Bytes cut(layout.faces.begin(), layout.faces.begin() + static_cast<ptrdiff_t>(n));
     Topology t;
-    EXPECT_NE(decode_details(cut, layout.sizes, triangles, &t), Status::kOk) << n;
+    EXPECT_NE(decode_faces(cut, layout.sizes, &t), Status::kOk) << n;
   }
 }
 

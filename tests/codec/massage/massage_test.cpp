@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/massage/massage.h"
 
-#include "codec/connectivity/manifold_mesh.h"
+#include "codec/connectivity/weld.h"
 #include "codec/massage/distance_limit.h"
 #include "codec/massage/massage_quality.h"
 #include "codec/massage/shape_fit.h"

@@ -32,7 +32,7 @@ MeshSequence two_takes() {
 
 TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
   MeshSequence clip = two_takes();
-  EncoderInput input(clip, CoderId::kDraco);
+  EncoderInput input(clip);
   LinearAnalysis analysis(input.frames());
   LinearCoder whole(input, analysis, BasisKind::kEigentrajectories, 1, 1);
   double rmse = 0.0005 * diagonal(clip);

@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 TEST(ReferencePoseOfCorpus, EveryClipsFirstFrameComesBackWithTheErrorOfItsStep) {
   for (const std::string& name : corpus::clip_names()) {
     SCOPED_TRACE(name);
-    const EncoderInput input(corpus::make_clip(name), CoderId::kDraco);
+    const EncoderInput input(corpus::make_clip(name));
     Eigen::Vector3d origin;
     const MatrixXd pose = input.centred_first_pose(&origin);
     const double step = std::max(pose.cwiseAbs().maxCoeff(), 1e-3) / 4096;
