@@ -93,7 +93,7 @@ Failure find_requirements(ByteView head, const anic_options& options, anic_requi
 
 bool take_options(const anic_options* host, anic_options* out) {
   return take(host, out) && out->quality >= 0 && out->quality <= 1 &&
-         (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS)) == 0 &&
+         (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER)) == 0 &&
          !out->allocator.allocate == !out->allocator.release;
 }
 
@@ -124,6 +124,7 @@ Memory memory_of(const anic_allocator* allocator) {
 
 OpenOptions open_options(const anic_options& options, uint64_t file_size) {
   OpenOptions result;
+  result.any_order = options.flags & ANIC_OPEN_ANY_ORDER;
   HostLimits& limits = result.limits;
   limits.resident_bytes =
       kBytesAtLeast +

@@ -199,6 +199,8 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
     return at(*chunk, s, "the clip record is malformed");
   if (Failure f = check_places(file, limits_, record_.order); !f.ok())
     return f;
+  if (options.any_order)
+    record_.order = OrderMode::kFree;
   if (options.progress) {
     options.progress->begin(opening_work(limits_, options.quality), options.progress_end);
     if (!options.progress->advance(0))

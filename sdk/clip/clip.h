@@ -33,6 +33,8 @@ struct OpenOptions {
   /// Whether the bytes may be the first ones of a file: what has arrived is opened, with as many
   /// components as are there (spec/05-file-layout.md, section 7).
   bool prefix = false;
+  /// Leaves the source's order of vertices and polygons alone, whatever the file keeps of it.
+  bool any_order = false;
   /// Told after every mesh, level of the vertices and component; may end the opening with
   /// kCancelled. Null: nobody.
   HostProgress* progress = nullptr;

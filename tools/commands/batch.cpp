@@ -260,7 +260,7 @@ class Batch {
     }
     OutputFolder folder(path);
     AtomicFile output(path, options_.overwrite || journal_.knows(clip.name));
-    const EncodeResult result = encode_(std::move(sequence));
+    const EncodeResult result = encode_(clip, std::move(sequence));
     const std::string_view file(reinterpret_cast<const char*>(result.file.data()),
                                 result.file.size());
     output.write(file);

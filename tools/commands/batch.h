@@ -26,7 +26,7 @@ struct BatchOptions {
 
 /// How each clip is read and encoded; called from several threads.
 using BatchLoad = std::function<MeshSequence(const BatchClip& clip)>;
-using BatchEncode = std::function<EncodeResult(MeshSequence sequence)>;
+using BatchEncode = std::function<EncodeResult(const BatchClip& clip, MeshSequence sequence)>;
 
 /// Encodes clips to FOLDER/NAME.anic, with a line for each and a summary at the end. Writes down
 /// what is done in FOLDER/.anicodec-batch, by hashes of content, settings and output, so that a

@@ -137,14 +137,15 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
         one.inputs = clip.inputs;
         return load(one, {}, &options);
       },
-      [&](MeshSequence sequence) {
+      [&](const BatchClip& clip, MeshSequence sequence) {
+        EncodeOptions own = options;
+        own.order = order_of(command.order, clip.inputs);
         if (command.split_objects) {
-          EncodeOptions own = options;
           set_target(command, sequence.metres_per_unit, &own);
           return encode_scene(split_parts(std::move(sequence)), own);
         }
         MassageVerdict massage;
-        return encode_as_asked(command, std::move(sequence), options, &massage, {});
+        return encode_as_asked(command, std::move(sequence), own, &massage, {});
       });
 }
 

@@ -3,11 +3,13 @@
 #include "tools/inputs/encode_arguments.h"
 
 #include "codec/sequence/error.h"
+#include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
 #include "tools/words/version.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -59,6 +61,10 @@ constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
 constexpr Word<InterpolationChoice> kInterpolations[] = {{InterpolationChoice::kLinear, "linear"},
                                                          {InterpolationChoice::kMsgi, "msgi"},
                                                          {InterpolationChoice::kAuto, "auto"}};
+constexpr Word<OrderChoice> kOrders[] = {{OrderChoice::kAuto, "auto"},
+                                         {OrderChoice::kVertices, "vertices"},
+                                         {OrderChoice::kFree, "free"},
+                                         {OrderChoice::kAll, "all"}};
 constexpr Word<TopologyChanges> kTopologyChanges[] = {{TopologyChanges::kRefuse, "refuse"},
                                                       {TopologyChanges::kKeep, "keep"},
                                                       {TopologyChanges::kTransfer, "transfer"}};
@@ -85,8 +91,9 @@ void add_method(Options& options, EncodeArguments& a) {
                  "How key-frames are chosen (default pivot)");
   options.choice("--interpolation", a.interpolation, {kInterpolations},
                  "How frames come from key-frames (default linear)");
-  options.choice("--order", a.order, {kOrderModes},
-                 "Source order kept: vertices (default), none, faces too");
+  options.choice("--order", a.order, {kOrders},
+                 "Source order kept: that of vertices, none (free), of faces too (all); default auto: "
+                 "vertices, of glTF and FBX scenes none");
   options.choice("--topology-changes", a.topology_changes, {kTopologyChanges},
                  "Frames whose faces differ: refuse them (default), keep them as meshes of the "
                  "file, or transfer the faces of the first frame to all");
@@ -161,6 +168,23 @@ void add_arguments(Options& options, EncodeArguments& a) {
   add_metadata(options, a);
 }
 
+OrderMode order_of(OrderChoice choice, const std::vector<std::string>& inputs) {
+  switch (choice) {
+    case OrderChoice::kVertices:
+      return OrderMode::kVertices;
+    case OrderChoice::kFree:
+      return OrderMode::kFree;
+    case OrderChoice::kAll:
+      return OrderMode::kAll;
+    case OrderChoice::kAuto:
+      break;
+  }
+  const bool scenes = !inputs.empty() && std::ranges::all_of(inputs, [](const std::string& path) {
+    return is_scene(kind_of(path));
+  });
+  return scenes ? OrderMode::kFree : OrderMode::kVertices;
+}
+
 EncodeOptions encode_options(const EncodeArguments& command) {
   EncodeOptions options;
   options.basis = command.basis;
@@ -175,7 +199,7 @@ EncodeOptions encode_options(const EncodeArguments& command) {
       options.basis != BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage, "--interpolation goes with --basis keyframes or --keyframes");
   options.interpolation = command.interpolation;
-  options.order = command.order;
+  options.order = order_of(command.order, command.inputs);
   options.attributes = command.attributes;
   options.attributes.keep = !command.no_attributes;
   if (!command.normal_error.empty())

@@ -20,6 +20,11 @@ namespace anicodec::tools {
 /// the faces of the first frame.
 enum class TopologyChanges { kRefuse, kKeep, kTransfer };
 
+/// What is kept of the source's order. kAuto: that of the vertices, but nothing of scenes (glTF, FBX
+/// and what else assimp reads), which carry their own faces and attributes: nobody counts on the
+/// numbers of their vertices.
+enum class OrderChoice { kAuto, kVertices, kFree, kAll };
+
 /// What the command line asks of encode.
 struct EncodeArguments {
   std::vector<std::string> inputs;
@@ -29,7 +34,7 @@ struct EncodeArguments {
   uint32_t keyframes = 0;
   KeyframeMethod selection = KeyframeMethod::kPivot;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;
-  OrderMode order = OrderMode::kVertices;
+  OrderChoice order = OrderChoice::kAuto;
   int effort = 5;
   TopologyChanges topology_changes = TopologyChanges::kRefuse;
   bool split_objects = false;
@@ -49,6 +54,9 @@ struct EncodeArguments {
 
 /// Declares the options, which write to `arguments`.
 void add_arguments(Options& options, EncodeArguments& arguments);
+
+/// The order that is kept of a clip of these files.
+OrderMode order_of(OrderChoice choice, const std::vector<std::string>& inputs);
 
 /// What they mean to the encoder, but for lengths with a unit of their own. Throws Error(kUsage)
 /// naming the option.

@@ -138,7 +138,8 @@ TEST(GlbOutput, StepsWhereAskedTo) {
 TEST(GltfCommand, EncodesAndDecodesScenes) {
   TemporaryFolder folder;
   write_sequence(folder / "a.glb", corpus::make_clip("limb"));
-  Outcome encoded = anicodec({"encode", folder / "a.glb", "-o", folder / "a.anic"});
+  Outcome encoded =
+      anicodec({"encode", folder / "a.glb", "-o", folder / "a.anic", "--order", "vertices"});
   ASSERT_EQ(encoded.status, 0) << encoded;
   ASSERT_EQ(anicodec({"decode", folder / "a.anic", "-o", folder / "b.glb"}).status, 0);
   Outcome compared =
@@ -149,6 +150,23 @@ TEST(GltfCommand, EncodesAndDecodesScenes) {
       anicodec({"decode", folder / "a.anic", "-o", folder / "one.glb", "--frames", "3"}).status, 0);
   EXPECT_EQ(load(folder / "one.glb").frame_count, 1U);
   EXPECT_EQ(anicodec({"decode", folder / "a.anic", "-o", folder / "b.gltf"}).status, 1);
+}
+
+TEST(GltfCommand, LeavesTheOrderOfVerticesOutUnlessAskedForIt) {
+  TemporaryFolder folder;
+  write_sequence(folder / "a.glb", corpus::make_clip("limb"));
+  write_sequence(folder / "a.pc2", corpus::make_clip("limb"));
+  const auto order_of = [&](const std::vector<std::string>& inputs) {
+    std::vector<std::string> arguments{"encode", "-f", "-q", "-o", folder / "a.anic"};
+    arguments.insert(arguments.end(), inputs.begin(), inputs.end());
+    const Outcome encoded = anicodec(arguments);
+    EXPECT_EQ(encoded.status, 0) << encoded;
+    return anicodec({"info", folder / "a.anic", "--json"}).json()["order"].get<std::string>();
+  };
+  EXPECT_EQ(order_of({folder / "a.glb"}), "free");
+  EXPECT_EQ(order_of({folder / "a.glb", "--order", "vertices"}), "vertices");
+  EXPECT_EQ(order_of({folder / "a.obj", folder / "a.pc2"}), "vertices");
+  EXPECT_EQ(order_of({folder / "a.obj", folder / "a.pc2", "--order", "free"}), "free");
 }
 
 TEST(GltfCommand, AnalyzesAnAnimationAtARate) {
