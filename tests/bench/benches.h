@@ -45,6 +45,10 @@ Table run_decode(const BenchOptions& options, double kg, int runs);
 /// Draco on the same grid.
 Table run_static_pose(const BenchOptions& options, double kg, int runs);
 
+/// Bytes and decoding time per coded vertex of faces and of the vertices' order, against a mesh of
+/// Draco's with its positions; one thread.
+Table run_mesh(const BenchOptions& options, int runs);
+
 /// A wave grid of eigenshapes: encoding, its memory, and opening against one Draco mesh.
 Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames, uint32_t shapes,
                 int runs);

@@ -224,6 +224,16 @@ void add_keyframes(Bench& bench) {
                   "Numbers of key-frames (default 4,8)");
 }
 
+void add_mesh(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "mesh", "Bytes and time of connectivity, against Draco", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{run_mesh(args.bench, args.runs)};
+      });
+  options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
+}
+
 void add_pose(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options =
@@ -286,7 +296,7 @@ void add_massage(Bench& bench) {
 void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
   Bench bench{commands, common, arguments};
   for (auto add_bench : {add_rate, add_gltf, add_near, add_decode, add_play, add_auto, add_poses,
-                         add_between, add_keyframes, add_pose, add_msgi, add_massage})
+                         add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
     add_bench(bench);
 }
 
