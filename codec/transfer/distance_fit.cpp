@@ -3,16 +3,13 @@
 #include "codec/transfer/distance_fit.h"
 
 #include "codec/massage/untangle.h"
-#include "codec/surface/surface_samples.h"
 #include "codec/transfer/block_system.h"
+#include "codec/transfer/mutual_distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace anicodec {
 namespace {
@@ -33,43 +30,6 @@ constexpr double kDamping = 1e-6;
 constexpr double kSolveTolerance = 1e-3;
 constexpr int kMostIterations = 100;
 
-/// A sample and the closest point of the other surface.
-struct Pair {
-  SurfacePoint on_mesh;
-  Vector3d target = Vector3d::Zero();
-  Vector3d direction = Vector3d::Zero();  ///< unit, of the distance
-  double distance = 0;
-};
-
-/// The samples of one surface against the other.
-struct SurfacePairs {
-  std::vector<SurfaceSample> samples;
-  std::vector<double> shares;
-  std::vector<uint32_t> starts;  ///< where walks on the other surface start
-  std::vector<double> weights;   ///< Lawson's
-  std::vector<Pair> pairs;
-
-  explicit SurfacePairs(const SurfaceTopology& topology)
-      : samples(surface_samples(topology)),
-        starts(samples.size(), SurfaceTopology::kNone),
-        weights(samples.size(), 1),
-        pairs(samples.size()) {}
-
-  double mean() const {
-    double sum = 0;
-    for (size_t s = 0; s < samples.size(); ++s)
-      sum += shares[s] * pairs[s].distance;
-    return sum;
-  }
-
-  double max() const {
-    double result = 0;
-    for (const Pair& pair : pairs)
-      result = std::max(result, pair.distance);
-    return result;
-  }
-};
-
 /// One mesh being fitted.
 class DistanceSolver {
  public:
@@ -79,13 +39,11 @@ class DistanceSolver {
         shape_(shape),
         surface_(surface),
         v_(*v),
-        from_mesh_(mesh),
-        from_surface_(surface.topology()),
+        distance_(mesh, surface),
+        mesh_weights_(distance_.from_mesh.samples.size(), 1),
+        surface_weights_(distance_.from_surface.samples.size(), 1),
         system_(mesh),
-        rotations_(mesh.vertex_count, Matrix3d::Identity()) {
-    from_surface_.shares =
-        sample_shares(surface.topology(), from_surface_.samples, surface.positions());
-  }
+        rotations_(mesh.vertex_count, Matrix3d::Identity()) {}
 
   Convergence run(const DistanceFitOptions& options) {
     Convergence result;
@@ -100,12 +58,12 @@ class DistanceSolver {
         untangle(mesh_, surface_, &v_);
       update(by_index);
       if (round == 0) {
-        mean = largest_mean();
-        max = largest();
+        mean = distance_.mean();
+        max = distance_.max();
         if (!(mean > 0))
           break;
       }
-      const double score = std::max(largest_mean() / mean, largest() / max);
+      const double score = std::max(distance_.mean() / mean, distance_.max() / max);
       if (counts && score < least) {
         least = score;
         best = v_;
@@ -119,7 +77,7 @@ class DistanceSolver {
       const double part = static_cast<double>(round) / options.rounds;
       along_ = between(options.first_along, options.last_along, 2 * part - 1);
       if (4 * round > options.rounds) {
-        const bool mean_lags = largest_mean() / mean > largest() / max;
+        const bool mean_lags = distance_.mean() / mean > distance_.max() / max;
         last_stiffness = std::clamp(last_stiffness * (mean_lags ? kSofter : kStiffer),
                                     options.least_stiffness, options.last_stiffness);
       }
@@ -133,75 +91,32 @@ class DistanceSolver {
   }
 
  private:
-  double largest_mean() const { return std::max(from_mesh_.mean(), from_surface_.mean()); }
-
-  double largest() const { return std::max(from_mesh_.max(), from_surface_.max()); }
-
-  void update(bool by_index) {
-    Surface moving(mesh_, v_);
-    if (by_index)
-      moving.build_index();
-    from_mesh_.shares = sample_shares(mesh_, from_mesh_.samples, v_);
-    // Isolated: a caller that works on several frames at once must not be entered again meanwhile.
-    tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(size_t{0}, from_mesh_.samples.size(), [&](size_t s) {
-        const SurfaceSample& sample = from_mesh_.samples[s];
-        Pair& pair = from_mesh_.pairs[s];
-        pair.on_mesh = {sample.triangle, sample.weights, sample_point(mesh_, sample, v_), 0};
-        const SurfacePoint found =
-            find(surface_, pair.on_mesh.position, by_index, &from_mesh_.starts[s]);
-        pair.target = found.position;
-        set_direction(found.triangle, &pair);
-      });
-      tbb::parallel_for(size_t{0}, from_surface_.samples.size(), [&](size_t s) {
-        const SurfaceSample& sample = from_surface_.samples[s];
-        Pair& pair = from_surface_.pairs[s];
-        pair.target = sample_point(surface_.topology(), sample, surface_.positions());
-        pair.on_mesh = find(moving, pair.target, by_index, &from_surface_.starts[s]);
-        set_direction(sample.triangle, &pair);
-      });
-    });
-  }
-
-  static SurfacePoint find(const Surface& surface, const Vector3d& q, bool by_index,
-                           uint32_t* start) {
-    const SurfacePoint point = by_index ? surface.closest(q) : surface.walk(q, *start);
-    *start = point.triangle;
-    return point;
-  }
-
-  /// Where there is no distance to speak of, the normal of the surface serves.
-  void set_direction(uint32_t triangle, Pair* pair) const {
-    const Vector3d offset = pair->target - pair->on_mesh.position;
-    pair->distance = offset.norm();
-    const Vector3d normal =
-        area_normal(surface_.positions(), surface_.topology().triangles[triangle]);
-    pair->direction = pair->distance > 1e-6 * std::sqrt(normal.norm())
-                          ? Vector3d(offset / pair->distance)
-                          : Vector3d(normal.normalized());
-  }
+  void update(bool by_index) { distance_.update(v_, by_index); }
 
   void reweight(double far) {
-    for (SurfacePairs* side : {&from_mesh_, &from_surface_}) {
-      for (size_t s = 0; s < side->samples.size(); ++s) {
-        const double part = side->pairs[s].distance / far;
-        double& weight = side->weights[s];
-        weight = part > 1 ? std::min(kMostWeight, weight * std::min(kMostGain, part * part * 2))
-                          : std::max(1.0, weight * kLoss);
+    auto reweigh = [far](const SampledSide& side, std::vector<double>& weights) {
+      for (size_t s = 0; s < weights.size(); ++s) {
+        const double part = side.pairs[s].distance / far;
+        weights[s] = part > 1
+                         ? std::min(kMostWeight, weights[s] * std::min(kMostGain, part * part * 2))
+                         : std::max(1.0, weights[s] * kLoss);
       }
-    }
-    const double a = from_mesh_.mean(), b = from_surface_.mean();
+    };
+    reweigh(distance_.from_mesh, mesh_weights_);
+    reweigh(distance_.from_surface, surface_weights_);
+    const double a = distance_.from_mesh.mean(), b = distance_.from_surface.mean();
     if (a > 0 && b > 0)
       balance_ *= std::sqrt(b / a);
   }
 
-  void add_pairs(const SurfacePairs& side, double importance, Positions* right) {
+  void add_pairs(const SampledSide& side, const std::vector<double>& weights, double importance,
+                 Positions* right) {
     const double typical = side.mean();
     for (size_t s = 0; s < side.samples.size(); ++s) {
-      const Pair& pair = side.pairs[s];
+      const SamplePair& pair = side.pairs[s];
       const Matrix3d across = pair.direction * pair.direction.transpose();
       const double power = std::pow(pair.distance / typical + kNearest, kPower - 2);
-      const Matrix3d q = power * importance * side.shares[s] * side.weights[s] *
+      const Matrix3d q = power * importance * side.shares[s] * weights[s] *
                          ((1 - along_) * across + along_ * Matrix3d::Identity());
       const Vector3d pull = q * (pair.target - pair.on_mesh.position);
       const SurfaceTopology::Triangle& corners = mesh_.triangles[pair.on_mesh.triangle];
@@ -234,8 +149,8 @@ class DistanceSolver {
     }
     Positions right = -stiffness * shape_.half_gradient(v_, rotations_);
     const auto unit = static_cast<double>(mesh_.vertex_count);
-    add_pairs(from_mesh_, unit, &right);
-    add_pairs(from_surface_, unit * balance_, &right);
+    add_pairs(distance_.from_mesh, mesh_weights_, unit, &right);
+    add_pairs(distance_.from_surface, surface_weights_, unit * balance_, &right);
     const Positions step = system_.solve(right, kSolveTolerance, kMostIterations);
     v_ += step;
     return step.norm() / std::sqrt(static_cast<double>(std::max<Index>(1, v_.rows())));
@@ -245,9 +160,10 @@ class DistanceSolver {
   const RigidShape& shape_;
   const Surface& surface_;
   Positions& v_;
-  SurfacePairs from_mesh_, from_surface_;
+  MutualDistance distance_;
+  std::vector<double> mesh_weights_, surface_weights_;  ///< of the samples, Lawson's
   double along_ = 1;    ///< what a move across the direction of a distance counts
-  double balance_ = 1;  ///< weight of from_surface_ in that of from_mesh_
+  double balance_ = 1;  ///< weight of the samples of the surface in that of the mesh's
   BlockSystem system_;
   std::vector<Matrix3d> rotations_;
 };

@@ -5,6 +5,7 @@
 #include "codec/massage/welded_surface.h"
 #include "codec/sequence/error.h"
 #include "codec/surface/surface_match.h"
+#include "codec/transfer/close_fit.h"
 
 #include <utility>
 
@@ -57,14 +58,12 @@ RemeshFit measure_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface) {
   return measured(FittedPair(mesh, surface));
 }
 
-RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
-                     const DistanceFitOptions& options) {
+RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface) {
   const FittedPair pair(mesh, surface);
   check_surfaces_match(pair.moving.topology, pair.start, pair.target);
   RemeshFit fit = measured(pair);
   Positions v = pair.start;
-  const RigidShape shape(pair.moving.topology, pair.start);
-  fit.convergence = fit_distance(pair.moving.topology, shape, pair.target, options, &v);
+  fit.convergence = fit_closely(pair.moving.topology, pair.target, &v);
   std::vector<float> positions = mesh.positions;
   pair.moving.store(v, positions);
   const HausdorffDistance after = pair.distance(positions);

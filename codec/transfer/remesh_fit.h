@@ -10,7 +10,6 @@
 #include "codec/metrics/hausdorff.h"
 #include "codec/surface/mesh_quality.h"
 #include "codec/surface/surface_frame.h"
-#include "codec/transfer/distance_fit.h"
 
 #include <cstdint>
 #include <vector>
@@ -27,12 +26,11 @@ struct RemeshFit {
   Convergence convergence;
 };
 
-/// Fits a mesh to a surface of any connectivity that it roughly covers already: fit_distance().
+/// Fits a mesh to a surface of any connectivity that it roughly covers already: fit_closely().
 /// Vertices at the same place move together. If the mean distance did not fall or the largest one
 /// grew, the mesh stays as it was. Throws Error(kInput) if a mesh has no triangles, if one is open
 /// and the other closed, and for a component of one that has no counterpart in the other.
-RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
-                     const DistanceFitOptions& options = {});
+RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface);
 
 /// The distances of a mesh from a surface as if it had been fitted in vain. Throws Error(kInput) if
 /// one has no triangles.
