@@ -82,7 +82,7 @@ class FacesCoding {
     if (count != sizes_.triangles)
       return Status::kTopology;
     t_.triangles.clear();
-    t_.triangles.reserve(size_t{3} * count);
+    t_.triangles.reserve(size_t{3} * sizes_.triangles);
     each_face([&](uint32_t begin, uint32_t end) {
       for (uint32_t c = begin + 1; c + 1 < end; ++c) {
         for (const uint32_t corner : {begin, c, c + 1})

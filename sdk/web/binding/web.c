@@ -290,7 +290,10 @@ anic_render_plan* web_create_plan(uint32_t mesh, double crease_angle, int32_t so
   anic_render_plan* plan = NULL;
   options.crease_angle = crease_angle;
   options.source_edges = source_edges != 0;
-  numbers[0] = anic_create_render_plan(asset, mesh, &options, NULL, &plan);
+  /* The frame must show the mesh, which may not be there in the first ones. */
+  do
+    numbers[0] = anic_create_render_plan(asset, mesh, &options, NULL, &plan);
+  while (numbers[0] == ANIC_E_ABSENT && ++options.reference_frame > 0);
   return plan;
 }
 
