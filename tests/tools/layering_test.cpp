@@ -88,6 +88,27 @@ TEST(Layering, FindsHeadersThatDoNotCompileAlone) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("first.h")));  // the build compiles that one
 }
 
+TEST(Layering, EveryUnitIsTested) {
+  Outcome outcome = run_program(
+      {"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_tests.py", ANICODEC_SOURCE_DIR});
+  EXPECT_EQ(outcome.status, 0) << outcome;
+}
+
+TEST(Layering, FindsUnitsWithoutATest) {
+  TemporaryFolder folder;
+  for (const char* source :
+       {"codec/attic/own.cpp", "codec/attic/included.cpp", "codec/attic/bare.cpp"})
+    folder.write(source, "");
+  folder.write("tests/codec/attic/own_test.cpp", "#include \"codec/attic/included.h\"\n");
+  Outcome outcome =
+      run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_tests.py", folder / ""});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out,
+              HasSubstr("codec/attic/bare has no test: add tests/codec/attic/bare_test.cpp"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("attic/own has")));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("attic/included has")));
+}
+
 TEST(Documents, PointToWhatExists) {
   Outcome outcome = run_program(
       {"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_links.py", ANICODEC_SOURCE_DIR});
