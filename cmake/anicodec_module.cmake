@@ -27,6 +27,18 @@ function(anicodec_module name standard)
     list(FILTER sources EXCLUDE REGEX "^${folder}/")
   endforeach()
   anicodec_library(${name} ${standard} ${sources})
+  anicodec_group_rooms(${sources})
+endfunction()
+
+# With CMAKE_UNITY_BUILD the sources of a room are compiled as one, so that headers are parsed once. Names in their
+# unnamed namespaces must differ.
+function(anicodec_group_rooms)
+  foreach(source IN LISTS ARGN)
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE room)
+    cmake_path(GET room PARENT_PATH room)
+    string(REPLACE "/" "_" room "${room}")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${room}")
+  endforeach()
 endfunction()
 
 function(anicodec_library name standard)
@@ -40,7 +52,7 @@ function(anicodec_library name standard)
   endif()
   set_target_properties(anicodec_${name} PROPERTIES
     CXX_STANDARD ${standard} CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ${pic}
-    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON UNITY_BUILD_MODE GROUP)
   target_link_libraries(anicodec_${name} PUBLIC $<BUILD_INTERFACE:anicodec_flags>)
   # clang also warns of promotions that are spelled out, and of unsigned offsets of iterators.
   target_compile_options(anicodec_${name} PRIVATE

@@ -15,7 +15,7 @@ namespace anicodec {
 
 enum class MassageMode : uint8_t { kOff, kOn, kAuto };
 
-/// What was done, and on what grounds.
+/// The massage that was done, and the reason.
 struct MassageVerdict {
   std::optional<SurfaceChange> change;  ///< none: the file holds the source
   uint64_t sample_plain_bytes = 0;      ///< kAuto: of the sample frames

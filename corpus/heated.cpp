@@ -10,16 +10,14 @@
 namespace anicodec::corpus {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vec3 swaying(const Vec3& rest, double time) {
-  const double phase = 2 * kPi * (0.7 * rest.x + 0.3 * rest.y - 0.4 * time);
+  const double phase = 2 * std::numbers::pi * (0.7 * rest.x + 0.3 * rest.y - 0.4 * time);
   return {rest.x, rest.y, 0.08 * std::sin(phase) * rest.y};
 }
 
 /// Degrees at a point: a spot that circles and leaves a cooling edge.
 double temperature(const Vec3& rest, double time) {
-  const double angle = 2 * kPi * 0.6 * time;
+  const double angle = 2 * std::numbers::pi * 0.6 * time;
   const double dx = rest.x - 0.5 - 0.3 * std::cos(angle), dy = rest.y - 0.5 - 0.3 * std::sin(angle);
   return 20 + 400 * std::exp(-12 * (dx * dx + dy * dy)) + 60 * rest.x * std::min(time, 1.0);
 }

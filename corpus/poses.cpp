@@ -30,7 +30,7 @@ Vec3 wound(const Vec3& p, double angle, double pitch) {
   return centre + p.x * normal + p.y * cross(tangent, normal);
 }
 
-Vec3 twisted(const Vec3& p) {
+Vec3 wrung(const Vec3& p) {
   return rotated(p, {0, 0, 1}, 2 * kTurn * p.z / kLength);
 }
 
@@ -60,7 +60,7 @@ MeshSequence make_poses(std::string_view name, uint32_t vertices) {
   if (name == "bend") {
     pose = [](const Vec3& p) { return wound(p, 2 * kTurn, 0); };
   } else if (name == "twist") {
-    pose = twisted;
+    pose = wrung;
   } else if (name == "coil") {
     pose = [](const Vec3& p) { return wound(p, 2.5 * kTurn, 1.5); };
   } else if (name == "needles") {

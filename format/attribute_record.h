@@ -25,11 +25,11 @@ enum class AttributeKind : uint8_t {
   kPart = 6
 };
 
-/// What has a value each.
+/// The elements that have one value each.
 enum class AttributeDomain : uint8_t { kVertex = 0, kCorner = 1, kPolygon = 2 };
 
-/// One attribute. Of vertices and corners: numbers on a grid, or with no component only which
-/// corners share a value. Of polygons: one of the labels, or none.
+/// One attribute. Vertices and corners have numbers on a grid, or with no component only the information which
+/// corners share a value. Polygons have one of the labels, or none.
 struct AttributeHeader {
   /// A component of an integer n is origin + n / scale.
   struct Grid {
@@ -49,7 +49,7 @@ struct AttributeHeader {
   uint32_t elements(const Limits::Mesh& mesh) const;
 };
 
-/// What the attributes of a mesh keep in memory, for Limits::Mesh::attribute_bytes: 4 for each
+/// Bytes that the attributes of a mesh keep in memory, for Limits::Mesh::attribute_bytes: 4 for each
 /// number, label or shared value of an element, 64 and its length for each text.
 uint64_t attribute_bytes(const Vector<AttributeHeader>& attributes, const Limits::Mesh& mesh);
 

@@ -47,7 +47,7 @@ struct Chunk {
   uint64_t size = 0;              ///< of the payload
 };
 
-/// What chunks are found by; see ContainerReader::by_key().
+/// The key that finds chunks; see ContainerReader::by_key().
 inline std::tuple<uint32_t, uint16_t, uint32_t> chunk_key(const Chunk& chunk) {
   return {chunk.type, chunk.mesh, chunk.segment};
 }
@@ -105,7 +105,7 @@ class ContainerReader {
 
   uint64_t features() const { return features_; }
 
-  /// What the header says.
+  /// The fields of the header.
   uint64_t file_size() const { return file_size_; }
 
   /// Whether all bytes are there.

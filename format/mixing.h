@@ -49,7 +49,7 @@ class Logistic {
   static const Tables kTables;
 };
 
-/// What one context knows of one bit: the average of the bits seen, which forgets the old ones once
+/// The state of one context for one bit: the average of the bits seen, which forgets the old ones once
 /// it has seen kCountLimit.
 class MixCounter {
  public:

@@ -62,7 +62,7 @@ struct Limits {
     Reconstruction reconstruction = Reconstruction::kLinear;
     uint64_t msgi_bytes = 0;        ///< kMsgi: what it keeps beside the coefficients, at most
     uint64_t msgi_frame_bytes = 0;  ///< kMsgi: memory that a frame is made in
-    /// What it moves: positions, or three components of an attribute, in number from
+    /// The quantity that it moves: positions, or three components of an attribute, in number from
     /// first_component on, a multiple of three.
     uint32_t attribute = kPositions;
     uint32_t first_component = 0;
@@ -97,7 +97,7 @@ enum class ErrorMetric : uint8_t {
 };
 enum class OrderMode : uint8_t { kVertices = 0, kFree = 1, kAll = 2 };
 
-/// What the encoder measured of an attribute that moves, in units of its values.
+/// Errors that the encoder measured for an attribute that moves, in units of its values.
 struct AttributeError {
   uint16_t mesh = 0;
   uint16_t attribute = 0;

@@ -59,7 +59,7 @@ enum class Status : int32_t {
 /// Static English text for a status, without a full stop. Never null.
 const char* status_string(Status status);
 
-/// What went wrong and where: filled by the function that first noticed it.
+/// An error and its place: filled by the function that first noticed it.
 struct Failure {
   Status status = Status::kOk;
   uint64_t offset = 0;      ///< byte offset in the file, as exact as the reader knows it

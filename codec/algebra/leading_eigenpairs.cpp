@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kDirectSize = 320;
-constexpr Index kBlock = 16;
+constexpr Index kWidth = 16;
 constexpr double kResidual = 1e-5;
 
 // Descending; only as many as are wanted.
@@ -52,18 +52,18 @@ Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double
   const Index n = symmetric.rows();
   if (n <= kDirectSize)
     return diagonalise(symmetric, max_count, smallest);
-  const Index limit = n / 2 / kBlock * kBlock;
+  const Index limit = n / 2 / kWidth * kWidth;
   MatrixXd space(n, limit), image(n, limit);
-  MatrixXd start(n, kBlock);
+  MatrixXd start(n, kWidth);
   LinearCongruence random(1);
   for (double& x : start.reshaped())
     x = random.symmetric();
   MatrixXd next = orthonormal(start, space.leftCols(0));
-  Index size = 0, check = 4 * kBlock;
+  Index size = 0, check = 4 * kWidth;
   while (size < limit) {
-    space.middleCols(size, kBlock) = next;
-    image.middleCols(size, kBlock).noalias() = symmetric * next;
-    size += kBlock;
+    space.middleCols(size, kWidth) = next;
+    image.middleCols(size, kWidth).noalias() = symmetric * next;
+    size += kWidth;
     if (size >= check || size == limit) {
       const MatrixXd projected = space.leftCols(size).transpose() * image.leftCols(size);
       const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(projected);
@@ -79,13 +79,13 @@ Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double
         for (Index j = 0; j < count && converged; ++j)
           converged = residual.col(j).norm() <= kResidual * small.values[j];
         // A value below the threshold that has not converged may still rise above it.
-        if (converged && (count == max_count || size >= count + 2 * kBlock)) {
+        if (converged && (count == max_count || size >= count + 2 * kWidth)) {
           return {small.values, vectors};
         }
       }
-      check = size + std::max(2 * kBlock, size / 3 / kBlock * kBlock);
+      check = size + std::max(2 * kWidth, size / 3 / kWidth * kWidth);
     }
-    next = orthonormal(image.middleCols(size - kBlock, kBlock), space.leftCols(size));
+    next = orthonormal(image.middleCols(size - kWidth, kWidth), space.leftCols(size));
   }
   return diagonalise(symmetric, max_count, smallest);
 }

@@ -22,7 +22,7 @@ constexpr double kPriorWeight = 1e-10;
 constexpr int kMaxPasses = 6;
 constexpr double kTurnTolerance = 1e-5;  // radians, about
 
-constexpr size_t kBlock = 1024;
+constexpr size_t kVertexBlock = 1024;
 
 using Shape = Eigen::Matrix3Xd;
 
@@ -37,10 +37,10 @@ Shape centred_frame(const FrameView& clip, const Centroids& centroids, size_t f)
 Shape mean_shape(const FrameView& clip, const Centroids& centroids,
                  const std::vector<Matrix3d>& rotations) {
   Shape mean(3, static_cast<Index>(clip.vertex_count));
-  const size_t blocks = (clip.vertex_count + kBlock - 1) / kBlock;
+  const size_t blocks = (clip.vertex_count + kVertexBlock - 1) / kVertexBlock;
   tbb::parallel_for(size_t{0}, blocks, [&](size_t b) {
-    const size_t first = b * kBlock;
-    const size_t count = std::min(kBlock, clip.vertex_count - first);
+    const size_t first = b * kVertexBlock;
+    const size_t count = std::min(kVertexBlock, clip.vertex_count - first);
     auto out = mean.middleCols(static_cast<Index>(first), static_cast<Index>(count));
     out.setZero();
     for (size_t f = 0; f < clip.frame_count; f++) {

@@ -9,7 +9,7 @@
 
 namespace anicodec {
 
-/// What a file says of a clip, but for the errors that are yet to be measured: names, clock,
+/// The metadata of a clip without the errors, which are yet to be measured: names, clock,
 /// coordinates, and what was asked for, in scene units.
 ClipRecord clip_record(const MeshSequence& sequence, const EncodeOptions& options,
                        const Target& target, double clip_diagonal);

@@ -12,7 +12,7 @@
 
 namespace anicodec {
 
-/// What the file must keep to.
+/// The bound that the file must keep.
 struct Target {
   ErrorMetric metric = ErrorMetric::kNone;
   double value = 0;      ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
@@ -31,7 +31,7 @@ inline bool is_size(const Target& target) {
   return target.metric == ErrorMetric::kSize || target.metric == ErrorMetric::kBpfv;
 }
 
-/// What was measured of a file: KG in per cent, lengths in scene units.
+/// Errors measured on a file: KG in per cent, lengths in scene units.
 struct FileMeasures {
   double kg = 0;
   double rmse = 0;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <queue>
 #include <tuple>
 
@@ -23,18 +22,12 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kTurn = 2 * std::numbers::pi;
-
 /// Faces per leaf of the order of elimination.
 constexpr uint32_t kLeafFaces = 16;
 
 /// Weight of every edge beside the triangles' own, against the mean of those: nothing to see, but
 /// what only degenerate triangles hold stays together.
 constexpr double kEdgeWeight = 1e-9;
-
-Index column(uint32_t v) {
-  return static_cast<Index>(v);
-}
 
 double angle_between(const Vector3d& a, const Vector3d& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
@@ -49,7 +42,7 @@ Vector3d nearest_logarithm(const Vector3d& principal, const Vector3d& wanted) {
     axis = principal / angle;
   else if (wanted.norm() > 1e-9)
     axis = wanted.normalized();
-  return axis * (angle + kTurn * std::round((axis.dot(wanted) - angle) / kTurn));
+  return axis * (angle + kFullTurn * std::round((axis.dot(wanted) - angle) / kFullTurn));
 }
 
 RotationAndStretch decompose(const Matrix3d& m) {

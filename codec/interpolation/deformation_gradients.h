@@ -63,7 +63,7 @@ class DeformationGradients {
 
   size_t triangle_count() const { return areas_.size(); }
 
-  /// Of the triangles in the reference; 0 where one is degenerate.
+  /// Areas of the triangles in the reference; 0 for a degenerate one.
   const std::vector<double>& areas() const { return areas_; }
 
  private:
@@ -91,7 +91,7 @@ class GradientInterpolation {
   /// The mesh at the weights, one per input, which sum to one.
   Points evaluate(std::span<const double> weights) const;
 
-  /// What is blended of an input.
+  /// The quantities of an input that are blended.
   const DeformationGradients::Gradients& measured(size_t input) const { return measured_[input]; }
 
   const std::vector<double>& areas() const { return gradients_.areas(); }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -22,14 +21,8 @@ constexpr double kDamping = 1e-8;
 /// A step is halved this often before it is given up.
 constexpr int kHalvings = 8;
 
-constexpr double kTurn = 2 * std::numbers::pi;
-
-Index column(uint32_t i) {
-  return static_cast<Index>(i);
-}
-
 double wrapped(double angle) {
-  return angle - kTurn * std::round(angle / kTurn);
+  return angle - kFullTurn * std::round(angle / kFullTurn);
 }
 
 /// Twice the area of a triangle, by its sides.

@@ -53,7 +53,7 @@ std::vector<Points> all_points(std::span<const std::span<const float>> inputs) {
   return points;
 }
 
-/// Of those that compute in double.
+/// Methods that compute in double.
 class PointInterpolation : public Interpolation {
  public:
   std::span<const float> evaluate(std::span<const double> weights,

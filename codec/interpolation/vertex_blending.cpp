@@ -17,15 +17,11 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Index column(uint32_t i) {
-  return static_cast<Index>(i);
-}
-
 double length_of(const EdgeShape& shape, uint32_t edge) {
   return edge == kNoIndex ? 0 : shape.lengths[column(edge)];
 }
 
-/// Where the third corner of a triangle lies along its side ab, and how far from it.
+/// The third corner of a triangle: its place along the side ab, and its distance from it.
 std::pair<double, double> apex(double ab, double a, double b) {
   const double along = ab > 0 ? (a * a - b * b + ab * ab) / (2 * ab) : 0;
   return {along, std::sqrt(std::max(0.0, a * a - along * along))};

@@ -44,7 +44,7 @@ class VertexBlending {
     double left_share;
   };
 
-  /// What happens at a node of the tree.
+  /// The merge at a node of the tree.
   struct Merge {
     uint32_t first_shared = 0, first_moved = 0;
   };

@@ -34,7 +34,7 @@ constexpr size_t kGasStarts = 3;
 constexpr int kMaxPasses = 6;
 constexpr double kWorthwhilePass = 0.99;  // of the squared error before
 
-// What the key-frames leave of every frame, and what each of them alone adds.
+// The residual of every frame after the key-frames, and the gain of each key-frame alone.
 struct Projection {
   MatrixXd residual;  // frames x frames products of what is not reproduced
   MatrixXd freed;     // frames x key-frames: without key-frame i, residual grows by

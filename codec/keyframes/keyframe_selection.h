@@ -18,7 +18,7 @@ enum class KeyframeMethod : uint8_t {
   kUniform,  ///< the middles of equal parts of the clip
 };
 
-/// What weights the key-frames are chosen for: the flat that they span contains the origin (linear)
+/// The kind of weights that the key-frames are chosen for: the flat that they span contains the origin (linear)
 /// or need not (affine: weights that sum to one).
 enum class KeyframeSpan : uint8_t { kLinear, kAffine };
 

@@ -13,7 +13,7 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 // Squares below this part of the largest are rounding of the products.
-constexpr double kRankTolerance = 1e-13;
+constexpr double kGramTolerance = 1e-13;
 
 // (x_i - x_0) . (x_j - x_0) for i, j >= 1.
 MatrixXd relative_to_first(const MatrixXd& gram) {
@@ -33,7 +33,7 @@ WeightSolver::WeightSolver(MatrixXd key_gram, WeightConstraint constraint)
       differences_(constraint == WeightConstraint::kSumToOne ? relative_to_first(key_gram_)
                                                              : MatrixXd()),
       factor_(constraint == WeightConstraint::kSumToOne ? differences_ : key_gram_,
-              kRankTolerance * key_gram_.diagonal().maxCoeff(),
+              kGramTolerance * key_gram_.diagonal().maxCoeff(),
               static_cast<size_t>(key_gram_.rows())) {}
 
 MatrixXd WeightSolver::solve(const MatrixXd& products) const {

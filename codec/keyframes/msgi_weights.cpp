@@ -36,7 +36,7 @@ constexpr size_t kTried = 24;
 constexpr double kDifference = 0.02;
 
 /// Steps that lower the error by less than this share are the last.
-constexpr double kWorthwhile = 0.02;
+constexpr double kWorthwhileRound = 0.02;
 
 /// Keeps steps short along what makes no difference.
 constexpr double kRidge = 1e-6;
@@ -50,7 +50,7 @@ class FrameFit {
         shape_(3 * clip.vertex_count),
         target_(clip.frame(frame), 3 * clip.vertex_count) {}
 
-  /// What is left of the frame.
+  /// The frame's residual.
   VectorXd residual(const VectorXd& weights) {
     if (msgi_.evaluate(weights.data(), nullptr, scratch_.data(), shape_.data()) != Status::kOk)
       throw Error(ErrorKind::kInternal, "weights that MSGI refuses");
@@ -65,7 +65,7 @@ class FrameFit {
     return left;
   }
 
-  /// Of the last call.
+  /// Result of the last call.
   const RigidMotion& motion() const { return motion_; }
 
  private:
@@ -148,7 +148,7 @@ double improve(FrameFit& frame, const VectorXd& others, VectorXd& weights, Rigid
         motion = frame.motion();
       }
     }
-    if (!better || error > (1 - kWorthwhile) * before)
+    if (!better || error > (1 - kWorthwhileRound) * before)
       break;
   }
   return error;
@@ -220,7 +220,7 @@ class KeyframeMsgi {
   }
 
  private:
-  /// Those for straight lines; they sum to one exactly.
+  /// Weights for straight lines; they sum to one exactly.
   VectorXd weights(size_t frame) const {
     VectorXd w = fit_.weights.row(static_cast<Index>(frame));
     w[0] += 1 - w.sum();

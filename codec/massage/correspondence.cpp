@@ -15,7 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr double kLeastAgreement = 0.3;  // of unit normals
 constexpr double kLeastImportance = 1e-2, kMostImportance = 1e3;
 constexpr double kTrustedQuantile = 0.9, kTrustedReach = 3;
 

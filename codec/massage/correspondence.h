@@ -12,6 +12,9 @@
 
 namespace anicodec {
 
+/// Least dot product of unit normals for a surface to count as the same sheet.
+inline constexpr double kLeastAgreement = 0.3;
+
 /// A point of the mesh and where it should be: a row of the matrix B of the thesis (section 3.2.2).
 struct Correspondence {
   SurfaceTopology::Triangle corners{};  ///< of the mesh; thrice the same for one of its vertices
@@ -29,7 +32,7 @@ struct Correspondence {
   }
 };
 
-/// What is held against what.
+/// Distances between the points and their targets.
 struct Residuals {
   double rms = 0;
   double max = 0;

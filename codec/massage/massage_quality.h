@@ -18,7 +18,7 @@ struct MassageQuality {
   uint64_t turned = 0;      ///< triangles that face against the surface, in all frames
 };
 
-/// Of `sequence` as a clip on the surfaces of `surfaces`, which has the same counts and faces.
+/// Measures `sequence` as a clip on the surfaces of `surfaces`, which has the same counts and faces.
 /// Distortion is relative to frame `reference` of `sequence`.
 MassageQuality massage_quality(const MeshSequence& surfaces, const MeshSequence& sequence,
                                uint32_t reference);

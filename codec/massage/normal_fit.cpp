@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/massage/normal_fit.h"
 
+#include "codec/massage/correspondence.h"
+
 #include <vector>
 
 #include <Eigen/IterativeLinearSolvers>
@@ -14,7 +16,6 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr double kLeastAgreement = 0.3;  // of unit normals
 constexpr double kFromMesh = 0.5;        // weight of a distance, against those from the surface
 constexpr double kRest = 0.05;           // weight of the height itself
 constexpr double kSolveTolerance = 1e-3;

@@ -27,7 +27,7 @@ constexpr int kIndexEvery = 4;            // rounds
 constexpr double kHold = 1e3;             // weight of a held vertex, in those of other rows
 constexpr Index kLargestDirect = 30000;   // vertices
 constexpr double kLeastIterative = 0.5;   // lambda from which few iterations do
-constexpr double kSolveTolerance = 1e-4;  // of the right side
+constexpr double kShapeTolerance = 1e-4;  // of the right side
 
 /// The pattern that the system has at all times: A^T A, the diagonal and all edges.
 Matrix square_with_edges(const SurfaceTopology& mesh, const RowMatrix& shape) {
@@ -67,7 +67,7 @@ class ShapeFit::Solver {
         return direct_.solve(Eigen::MatrixXd(right));
     }
     Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> iterative;
-    iterative.setTolerance(kSolveTolerance);
+    iterative.setTolerance(kShapeTolerance);
     iterative.setMaxIterations(1000);
     iterative.compute(matrix);
     Positions result = iterative.solve(Eigen::MatrixXd(right));
@@ -174,7 +174,7 @@ class ShapeFit::FitIteration {
         Eigen::Map<const Eigen::VectorXd>(fitter_.square_.valuePtr(), fitter_.square_.nonZeros());
     add_rows(correspondences_.from_mesh(), &right);
     add_rows(correspondences_.from_surface(), &right);
-    // What nothing else holds stays where it is.
+    // A vertex that nothing else holds stays in its place.
     const double hold = kHold / static_cast<double>(mesh_.vertex_count);
     for (uint32_t i = 0; i < mesh_.vertex_count; ++i) {
       const auto r = static_cast<Index>(i);

@@ -18,13 +18,13 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kDamping = 1e-3;  // of the diagonal
-// Of the right side. What is left is smooth: it hardly matters for shapes, costs most iterations,
+// Relative to the right side. The rest is smooth: it hardly matters for shapes, costs most iterations,
 // and would carry vertices far along the surface.
-constexpr double kSolveTolerance = 0.1;
+constexpr double kSlideTolerance = 0.1;
 constexpr int kMostIterations = 300;
 const double kCornerCosine = -std::cos(std::acos(-1.0) / 6);
 
-/// Where a vertex is on the surface, and where it may go from there.
+/// The place of a vertex on the surface, and the directions in which it may move.
 struct Place {
   uint32_t triangle;  ///< or the vertex of the boundary, for boundary vertices
   Vector3d normal = Vector3d::Zero();
@@ -123,7 +123,7 @@ class SlidingFrame {
     Positions scaled = diagonal.cwiseInverse().asDiagonal() * residual;
     Positions direction = scaled;
     double product = residual.cwiseProduct(scaled).sum();
-    const double goal = product * kSolveTolerance * kSolveTolerance;
+    const double goal = product * kSlideTolerance * kSlideTolerance;
     for (int k = 0; k < kMostIterations && product > goal && product > 0; ++k) {
       shape_.apply_laplacian(direction, &image);
       image += kDamping * (shape_.total_weight().asDiagonal() * direction);

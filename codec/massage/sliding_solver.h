@@ -41,7 +41,7 @@ class SlidingSolver {
 
   const RigidShape& shape() const { return shape_; }
 
-  /// Of every vertex: 2 tangents to move along, 1 along the boundary, 0 pinned.
+  /// Degrees of freedom of every vertex: 2 tangents to move along, 1 along the boundary, 0 pinned.
   const std::vector<uint8_t>& freedom() const { return freedom_; }
 
  private:

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr int kMostPasses = 60;
+constexpr int kUntanglePasses = 60;
 constexpr int kPassesAlone = 40;  // before what is around is evened out
 constexpr int kEvenedEvery = 5;   // passes
 constexpr int kMostAttempts = 4;
@@ -107,7 +107,7 @@ uint32_t untangle_over(const SurfaceTopology& topology, const Surface& surface,
   std::vector<bool> ever(topology.triangles.size(), false);
   Positions alone;  // as the least moves leave them
   std::vector<uint32_t> turned_alone;
-  for (int pass = 0; pass < kMostPasses && !turned.empty(); ++pass) {
+  for (int pass = 0; pass < kUntanglePasses && !turned.empty(); ++pass) {
     if (pass == kPassesAlone) {
       alone = *v;
       turned_alone = turned;

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What to sample on a mesh, whatever its positions: single vertices, pairs (mid-points), triples
+/// Samples of a mesh that do not depend on its positions: single vertices, pairs (mid-points), triples
 /// (centres).
 class Sampling {
  public:
@@ -98,7 +98,7 @@ Vector3d Sampling::sample(size_t i, std::span<const float> positions) const {
   return result / 3;
 }
 
-/// Of each sample, sum 1: 1/20, 2/15 and 9/20 of the area of a triangle for each corner, each
+/// Weights of the samples, with sum 1: 1/20, 2/15 and 9/20 of the area of a triangle for each corner, each
 /// mid-point and the centre.
 std::vector<double> Sampling::weights(std::span<const float> positions) const {
   std::vector<double> result(samples(positions.size() / 3));

@@ -23,7 +23,7 @@ struct SurfaceDistance {
   double max = 0;
 };
 
-/// Both ways. Of either kind of distance the larger one counts, as in METRO (Cignoni, Rocchini and
+/// Measured both ways; the larger distance of each kind counts, as in METRO (Cignoni, Rocchini and
 /// Scopigno 1998).
 struct HausdorffDistance {
   SurfaceDistance forward;   ///< from the first surface to the second

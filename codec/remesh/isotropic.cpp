@@ -28,7 +28,7 @@ using EdgeHandle = TriMesh::EdgeHandle;
 using HalfedgeHandle = TriMesh::HalfedgeHandle;
 
 constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;  // of the edge length asked for
-constexpr double kMostTurn = 0.5;   // cosine between a triangle's normals before and after a change
+constexpr double kLeastCosine = 0.5;   // cosine between a triangle's normals before and after a change
 constexpr double kMostStray = 0.2;  // of a vertex from the triangles in its place, in lengths
 constexpr double kCorner = 0.77;    // cosine of the angle up to which a crease runs on: 40 degrees
 constexpr int kSplitPasses = 24;    // each halves the edges
@@ -221,12 +221,12 @@ class Remesher {
   static bool turned(const std::array<Vec3d, 3>& before, const std::array<Vec3d, 3>& after) {
     const Vec3d a = (before[1] - before[0]) % (before[2] - before[0]);
     const Vec3d b = (after[1] - after[0]) % (after[2] - after[0]);
-    return !((a | b) > kMostTurn * a.norm() * b.norm()) && a.norm() > 0;
+    return !((a | b) > kLeastCosine * a.norm() * b.norm()) && a.norm() > 0;
   }
 
   void collapse(HalfedgeHandle h) {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-    // Of the two edges that become one at either side, the crease may be the one that goes.
+    // Two edges become one at either side; the crease may be the one that goes.
     std::array<VertexHandle, 2> merged{mesh_.opposite_vh(h), mesh_.opposite_he_opposite_vh(h)};
     std::array<bool, 2> feature{};
     for (size_t k = 0; k < 2; ++k) {

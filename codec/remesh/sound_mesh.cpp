@@ -116,7 +116,7 @@ SurfaceTopology topology_of(const std::vector<Triangle>& triangles, uint32_t ver
   return {corners, vertices};
 }
 
-/// Of the triangles around a vertex, those that hang together by edges at it have the same number.
+/// Numbers the triangles around a vertex: triangles connected by edges at it have the same number.
 std::vector<uint32_t> fans_of(const SurfaceTopology& topology, uint32_t v, uint32_t* fans) {
   const auto star = topology.star[v];
   std::vector<uint32_t> fan(star.size(), SurfaceTopology::kNone);

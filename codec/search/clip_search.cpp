@@ -10,7 +10,7 @@
 namespace anicodec {
 namespace {
 
-constexpr int kRounds = 4;
+constexpr int kRateRounds = 4;
 constexpr double kRoom = 0.003;  // of the file, for attributes that change with the pose
 
 /// Segments in the order of the file.
@@ -44,7 +44,7 @@ CodedClip ClipSearch::run(const ClipRecord& record) {
       allowed_bytes(target_, input_.sequence.vertex_count, input_.sequence.frame_count);
   double positions_bytes = allowed.value_or(0);
   CodedClip coded;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRateRounds; ++round) {
     if (round == 0) {
       coded.positions = control_.solve();
     } else {

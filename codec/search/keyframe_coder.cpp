@@ -17,7 +17,7 @@ namespace {
 constexpr KeyframeWeights kWeights[] = {KeyframeWeights::kLinear, KeyframeWeights::kSumToOne,
                                         KeyframeWeights::kRigid};
 constexpr const char* kWeightNames[] = {"free weights", "weights of sum one", "rigid motion"};
-constexpr int kRounds = 8;
+constexpr int kTargetRounds = 8;
 
 ErrorTarget rmse_target(double rmse) {
   return {std::numeric_limits<double>::infinity(), rmse};
@@ -117,7 +117,7 @@ std::optional<CodedPart> KeyframeCoder::at_rmse(double rmse) {
   for (double share : {0.6, 0.85}) {
     double exact_target = share * rmse;
     double rounding = 0;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kTargetRounds; ++round) {
       const MsgiFit& exact = fit(exact_target);
       double left = rmse * rmse - std::pow(fitter_.rmse(exact.fit), 2);
       if (left <= 0)
@@ -154,7 +154,7 @@ CodedPart KeyframeCoder::at_count() {
   double allowed = std::max(1.1 * rms, floor);
   double rounding = std::sqrt(std::max(0.8 * (allowed * allowed - rms * rms), 0.0));
   std::optional<CodedPart> part = coded(exact, rounding);
-  for (int round = 0; part && round < kRounds && input_.rmse(part->error.squared) > allowed;
+  for (int round = 0; part && round < kTargetRounds && input_.rmse(part->error.squared) > allowed;
        ++round)
     part = coded(exact, rounding *= 0.7);
   if (!part)

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kClose = 0.997;  // of the error asked for: near enough
 constexpr double kAim = 0.9985;   // where to aim, of the same
-constexpr int kRounds = 8;
+constexpr int kStepRounds = 8;
 constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
 constexpr double kNear = 0.04;      // of the error asked for: sizes can be compared
 constexpr double kDoubt = 0.01;     // of a size that one trial tells, relative
@@ -174,7 +174,7 @@ std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) 
   choice = started(choice, rmse);
   std::optional<Measured> best;
   double inside = 0, outside = std::numeric_limits<double>::infinity();  // steps known to be so
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kStepRounds; ++round) {
     Measured trial = measured(choice, rmse);
     if (std::isinf(trial.rmse))
       break;

@@ -20,7 +20,7 @@ using FrameSource = std::function<std::span<const float>(uint32_t frame)>;
 /// Gives the attributes of a frame, each with the values of that frame alone.
 using AttributeSource = std::function<std::vector<Attribute>(uint32_t frame)>;
 
-/// Of a sequence that outlives the source.
+/// The frames of a sequence, which must outlive the source.
 inline FrameSource frames_of(const MeshSequence& sequence) {
   return [&sequence](uint32_t frame) { return sequence.frame(frame); };
 }

@@ -63,11 +63,11 @@ struct PolygonLabels {
   bool operator==(const PolygonLabels&) const = default;
 };
 
-/// What stands beside the positions of a mesh.
+/// Attributes: all that a mesh has beside positions.
 struct MeshDetails {
   std::string mesh_name;  ///< where a clip has several meshes
   std::vector<Attribute> attributes;
-  /// Of each corner of the polygons: those at one place with the same number share a normal,
+  /// A number for each corner of the polygons: corners at one place with the same number share a normal,
   /// whatever it is, so that edges between different ones are hard. Empty: unknown, or told by a
   /// normal among the attributes.
   std::vector<uint32_t> shared_normals;

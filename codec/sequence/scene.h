@@ -22,7 +22,7 @@ struct Scene {
   std::vector<SceneMesh> meshes;
 };
 
-/// What a part has of a mesh, each ascending.
+/// The vertices and polygons of a mesh that a part has, each ascending.
 struct PartMembers {
   uint32_t part = UINT32_MAX;  ///< label, kNoLabel: of none
   std::vector<uint32_t> vertices, polygons, corners;

@@ -35,7 +35,7 @@ constexpr size_t kMeasured = 16;
 
 constexpr uint32_t kLeafFaces = 8;
 
-/// What a space makes of the frames.
+/// The frames as a space reproduces them.
 struct ShapeSpace {
   const char* name;
   uint64_t numbers = 0;  ///< of one shape

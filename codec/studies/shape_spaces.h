@@ -32,7 +32,7 @@ struct ShapeSpaceError {
 /// Lengths count in scene units, angles by the length of their edge, gradients by the root of
 /// their triangle's area, so that large features lead in all spaces.
 ///
-/// Of long clips frames are left out evenly, so that vertices x frames stays below 1.6 million;
+/// Frames of long clips are left out evenly, so that vertices x frames stays below 1.6 million;
 /// errors are measured on at most 16 frames. Rows space by space, for every k below the number of
 /// frames; a space that a mesh has no part in is left out, as gradients without a triangle of some
 /// area. Cost: per k and measured frame a blend of all frames, some 0.1 s for 200 frames of 7000

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -14,8 +13,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector3d;
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Lengths that an extrapolation may not undercut, against the shortest of the inputs.
 constexpr double kShortestShare = 0.1;
@@ -88,7 +85,7 @@ std::vector<EdgeShape> measure_edges(const EdgeNetwork& network, std::span<const
   for (const Points& x : inputs) {
     shapes.push_back(measure_edges(network, x));
     Eigen::VectorXd& angles = shapes.back().angles;
-    angles.array() += kTurn * ((shapes.front().angles - angles).array() / kTurn).round();
+    angles.array() += kFullTurn * ((shapes.front().angles - angles).array() / kFullTurn).round();
   }
   return shapes;
 }
@@ -129,10 +126,10 @@ EdgeError edge_error(const EdgeNetwork& network, const Points& x, const EdgeShap
     error.largest_length = lengths.maxCoeff();
   }
   if (shape.angles.size() > 0) {
-    const Eigen::ArrayXd turns = (shape.angles - target.angles).array() / kTurn;
-    const Eigen::ArrayXd off = kTurn * (turns - turns.round()).abs();
+    const Eigen::ArrayXd turns = (shape.angles - target.angles).array() / kFullTurn;
+    const Eigen::ArrayXd off = kFullTurn * (turns - turns.round()).abs();
     error.angle = off.mean();
-    error.folded = static_cast<uint32_t>((off > kTurn / 4).count());
+    error.folded = static_cast<uint32_t>((off > kFullTurn / 4).count());
   }
   for (size_t side = 0; side < network.triangle_edges.size(); side += 3) {
     const uint32_t* e = &network.triangle_edges[side];

@@ -8,6 +8,7 @@
 #include "sdk/msgi/face_graph.h"
 
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -38,8 +39,15 @@ struct EdgeShape {
   Eigen::VectorXd angles;   ///< per hinge, signed, 0 when flat, in radians
 };
 
+/// Radians of a full turn, that angles are known up to.
+inline constexpr double kFullTurn = 2 * std::numbers::pi;
+
 /// Positions as a matrix: a column per vertex.
 using Points = Eigen::Matrix3Xd;
+
+inline Eigen::Index column(uint32_t vertex) {
+  return static_cast<Eigen::Index>(vertex);
+}
 
 Points to_points(std::span<const float> positions);
 

@@ -57,7 +57,7 @@ bool faces_against(const SurfaceTopology& topology, const Positions& positions, 
   return area_normal(positions, topology.triangles[t]).dot(up) < 0 && !is_doubled(topology, t);
 }
 
-/// Of all triangles those for which `turned(t)`, ascending.
+/// All triangles for which `turned(t)`, ascending.
 template <class Turned>
 std::vector<uint32_t> all_turned(const SurfaceTopology& topology, const Turned& is_turned) {
   std::vector<uint8_t> turned(topology.triangles.size(), 0);

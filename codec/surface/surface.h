@@ -38,7 +38,7 @@ Positions vertex_normals(const SurfaceTopology& topology, const Positions& posit
 /// The mean length of the edges; 0 without edges.
 double mean_edge(const SurfaceTopology& topology, const Positions& positions);
 
-/// Of every vertex the mean length of its edges; 0 for vertices without.
+/// The mean length of each vertex's edges; 0 for vertices without edges.
 Eigen::VectorXd ring_sizes(const SurfaceTopology& topology, const Positions& positions);
 
 /// A point of a surface.
@@ -86,7 +86,7 @@ class Surface {
   /// The interpolated vertex normal at a point, of unit length (or zero).
   Eigen::Vector3d normal(const SurfacePoint& point) const;
 
-  /// Where the point lies on the curved PN triangle over its flat one (Vlachos et al., "Curved PN
+  /// The point on the curved PN triangle over its flat one (Vlachos et al., "Curved PN
   /// triangles", I3D 2001): closer to a smooth surface of which the vertices are samples. Flat
   /// where a vertex normal is 30 degrees from the triangle's or more, at creases.
   Eigen::Vector3d curved(const SurfacePoint& point) const;

@@ -20,13 +20,13 @@ struct SurfaceSample {
 /// triangle centres, each once.
 std::vector<SurfaceSample> surface_samples(const SurfaceTopology& topology);
 
-/// What each of them stands for in a mean over the surface: the seven-point rule of hausdorff().
+/// The weight of each of them in a mean over the surface: the seven-point rule of hausdorff().
 /// Sum 1, or all 0 for a surface without area.
 std::vector<double> sample_shares(const SurfaceTopology& topology,
                                   const std::vector<SurfaceSample>& samples,
                                   const Positions& positions);
 
-/// Where a sample is.
+/// The place of a sample.
 inline Eigen::Vector3d sample_point(const SurfaceTopology& topology, const SurfaceSample& sample,
                                     const Positions& positions) {
   const SurfaceTopology::Triangle& t = topology.triangles[sample.triangle];

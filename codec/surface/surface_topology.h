@@ -55,13 +55,13 @@ struct SurfaceTopology {
   IndexLists ring;               ///< neighbours of each vertex, ascending
   IndexLists star;               ///< triangles around each vertex, ascending
   std::vector<VertexKind> kind;
-  /// Of boundary vertices; kNone for others.
+  /// Set for boundary vertices; kNone for others.
   std::vector<std::array<uint32_t, 2>> boundary_neighbours;
 
   bool has_boundary() const;
 };
 
-/// Of the connected components of the triangles, the number of each vertex; components are numbered
+/// The connected component of the triangles that each vertex is in; components are numbered
 /// by their first vertex.
 std::vector<uint32_t> components(const SurfaceTopology& topology);
 

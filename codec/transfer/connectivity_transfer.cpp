@@ -24,7 +24,7 @@ constexpr double kStiffFit = 0.1, kSoftFit = 0.003;
 constexpr int kFitRounds = 14;  // these halve the largest distance at best
 constexpr int kMostAttempts = 4;
 constexpr double kReversed = 50;  // per cent of the correspondences that disagree
-// What is taken for carried well.
+// Limits for a vertex that counts as carried well.
 constexpr double kSlow = 1.5;        // of the median move
 constexpr double kNearEdges = 0.25;  // mean edges from the surface
 constexpr double kAgreement = 0.7;   // of unit normals
@@ -112,7 +112,7 @@ class CarriedMesh {
 
   /// Landmarks on a surface that the mesh has been carried to, to `v`, perhaps wrongly in parts.
   /// Anchors are those parts that moved no faster than most, lie on the surface and have kept their
-  /// lengths. Of the landmarks, those that lie well and about where the anchors say stay at the
+  /// lengths. Landmarks that lie well and about where the anchors say stay at the
   /// place that they have, which is known better.
   std::vector<Landmark> landmarks(const Surface& surface, const Positions& v) const {
     const Positions normals = vertex_normals(topology_, v);
@@ -182,7 +182,7 @@ class CarriedMesh {
     fit_distance(topology_, shape_, surface, options, v);
   }
 
-  /// Where a vertex lies on the surface, if it lies well: near, facing as the surface does, at its
+  /// The place of a vertex on the surface, if it lies well: near, facing as the surface does, at its
   /// own distance from its neighbours.
   std::optional<SurfacePoint> place(uint32_t i, const Surface& surface, const Positions& v,
                                     const Positions& normals) const {
@@ -220,7 +220,7 @@ class CarriedMesh {
 
   double residual(const Surface& surface, const Positions& v) const {
     const Residuals r = residuals(surface, v);
-    // What disagrees counts as far.
+    // A vertex that disagrees counts as far.
     return r.rms * (1 + 10 * r.dropped_share);
   }
 

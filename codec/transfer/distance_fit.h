@@ -28,8 +28,8 @@ struct DistanceFitOptions {
 /// so does the direction of which the mean is larger. The stiffness falls while the mean lags
 /// behind the maximum, each in parts of that at the start, and rises again when it no longer does.
 /// In every fifth round distances are found by the index, else by walking; in those of the second
-/// half triangles that have turned are turned again (untangle()). Of these rounds the one counts of
-/// which the larger of mean and maximum, in the same parts, is least. The shape has the
+/// half triangles that have turned are turned again (untangle()). The result is the round whose
+/// larger one of mean and maximum, in the same parts, is least. The shape has the
 /// connectivity of `mesh`, the surface has an index. On all threads; the result does not depend on
 /// their number. Cost a round: about 12 queries a vertex of either, and up to 100 passes over the
 /// edges.

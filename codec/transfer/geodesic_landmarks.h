@@ -35,7 +35,7 @@ struct Anchor {
   uint32_t vertex = 0, on_surface = 0;
 };
 
-/// Where vertices of a mesh belong on a surface that shows it in another pose, told by how far it
+/// The places of a mesh's vertices on a surface that shows it in another pose, told by how far it
 /// is over the surface to them from anchors, places where the two are known to agree: motion hardly
 /// changes that, however far it goes. At most 40 of the anchors and 120 vertices, each as far from
 /// the ones before as can be; vertices that two places suit about as well are left out. Both graphs

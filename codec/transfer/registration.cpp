@@ -28,7 +28,7 @@ double stiffness_at(double first, double last, int round, int rounds) {
   return first * std::pow(last / first, t);
 }
 
-/// What a distance counts in each direction: fully across the surface, by a share along it. A
+/// The weight of a distance in each direction: full across the surface, by a share along it. A
 /// boundary vertex is free along the boundary only.
 Matrix3d metric(const Correspondence& c, double along_share) {
   const Matrix3d all = Matrix3d::Identity();

@@ -24,8 +24,8 @@ struct RegistrationOptions {
   double first_stiffness = 5;    ///< of the shape against the distance, at first
   double last_stiffness = 0.05;  ///< and at last; geometrically between
   int rounds = 14;
-  /// Of the distance along the surface, at a stiffness of 1 half of it and less at smaller ones: it
-  /// draws large motions together early. Across the surface the share is 1.
+  /// Share of the distance along the surface that counts, halved at a stiffness of 1 and less at
+  /// smaller ones: it draws large motions together early. Across the surface the share is 1.
   double point_share = 0.1;
   bool trust_near = true;  ///< far correspondences count less
   bool centres = false;    ///< triangle centres are drawn to the surface as well

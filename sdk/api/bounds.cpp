@@ -77,7 +77,7 @@ void segment_boxes(const Segment& s, uint32_t first, uint32_t last, Vector<float
   }
 }
 
-/// Those of all frames of a segment. Segments of MSGI need memory, which only this thread takes.
+/// Bounds of all frames of a segment. Segments of MSGI need memory, which only this thread takes.
 bool segment_boxes(const Segment& s, const HostThreads& threads, HostProgress* progress,
                    anic_box* out) {
   Vector<float> memory(4 * shape_size(s) + shape_scratch_size(s));

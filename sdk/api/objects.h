@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What is behind the handles of the C interface, and what its functions share. Internal to sdk/.
+// The objects behind the handles of the C interface, and helpers of its functions. Internal to sdk/.
 #ifndef ANICODEC_SDK_API_OBJECTS_H_
 #define ANICODEC_SDK_API_OBJECTS_H_
 
@@ -26,7 +26,7 @@ inline anic_status c_status(Status status) {
 /// Takes the options that a host gives; null: the defaults. False when they make no sense.
 bool take_options(const anic_options* host, anic_options* out);
 
-/// What every opening function answers when an argument makes no sense.
+/// The status that every opening function returns for arguments that make no sense.
 inline constexpr Failure kBadArgument = {Status::kArgument, 0, 0, "an argument makes no sense"};
 
 /// Whether a failure may be written to: null is none to write.
@@ -40,7 +40,7 @@ anic_status report(const Failure& failure, anic_failure* out);
 /// The memory of a host's allocator; null, or without functions: malloc() and free().
 Memory memory_of(const anic_allocator* allocator);
 
-/// What the decoder is told of the options, for a file of this size.
+/// The decoder's options from the host's, for a file of this size.
 OpenOptions open_options(const anic_options& options, uint64_t file_size);
 
 /// A stride of 0 and scales of 0 replaced. Errors: kArgument; kBufferSize: it does not hold `count`

@@ -32,7 +32,7 @@ constexpr uint64_t kBytesAtLeast = uint64_t{1} << 28, kBytesPerByte = uint64_t{1
 /// The share of an opening that decoding takes, where boxes of all frames follow.
 constexpr double kShareBeforeBoxes = 0.75;
 
-/// What a block allocator may lose to fragmentation and bookkeeping: measured, with room to spare.
+/// Bytes that a block allocator may lose to fragmentation and bookkeeping: measured, with room to spare.
 uint64_t block_bytes(uint64_t opening) {
   const uint64_t slack = opening / 4 + 65536;
   return opening + std::min(slack, UINT64_MAX - opening);
@@ -145,7 +145,7 @@ OpenOptions open_options(const anic_options& options, uint64_t file_size) {
 }
 
 Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, anic_asset** out) {
-  // Of a stream, the bytes that have arrived count for the limit.
+  // The bytes of a stream that have arrived count for the limit.
   OpenOptions opening = open_options(options, bytes.size);
   HostProgress progress(options.progress.report, options.progress.user);
   const bool boxes = options.flags & ANIC_OPEN_BOUNDS;

@@ -15,7 +15,7 @@ class HostProgress {
   /// `report` gets the share that is done and returns anything but 0 to stop; null: nobody listens.
   HostProgress(Report report, void* user) : report_(report), user_(user) {}
 
-  /// What begins now, `work` in any unit, ends when a share `to` of the call is done.
+  /// Begins a stage of `work` units (any unit) that ends when a share `to` of the call is done.
   void begin(double work, double to = 1) {
     from_ = share();
     to_ = to;

@@ -87,7 +87,7 @@ double mesh_work(const Limits::Mesh& mesh) {
   return static_cast<double>(uint64_t{mesh.source_vertices} + mesh.corners);
 }
 
-/// What opening a clip costs, about, in coefficients to decode.
+/// The approximate cost of opening a clip, in coefficients to decode.
 double opening_work(const Limits& limits, double quality) {
   double work = 0;
   for (const Limits::Mesh& mesh : limits.meshes)

@@ -18,7 +18,7 @@
 
 namespace anicodec {
 
-/// What a host allows a file to ask for. Checked before anything is allocated.
+/// The most that a host allows a file to ask for. Checked before anything is allocated.
 struct HostLimits {
   uint64_t vertices = uint64_t{1} << 31;
   uint64_t frames = uint64_t{1} << 24;
@@ -54,7 +54,7 @@ struct Mesh {
   Vector<MeshAttribute> attributes;
 };
 
-/// What moves by segments of its own: the positions of a mesh, or three components of an attribute.
+/// A quantity with segments of its own: the positions of a mesh, or three components of an attribute.
 struct Track {
   uint32_t mesh = 0;
   uint32_t attribute = kPositions;

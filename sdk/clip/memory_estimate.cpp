@@ -37,12 +37,12 @@ uint64_t resident(const Limits::Mesh& m) {
          m.attribute_bytes;
 }
 
-/// What a mesh needs until the segments are open: its triangles, and a pose.
+/// Bytes for a mesh until its segments are open: its triangles, and a pose.
 uint64_t held(const Limits::Mesh& m) {
   return uint64_t{12} * m.triangles + uint64_t{12} * m.coded_vertices;
 }
 
-/// What several segments share until they are open: the surface that poses are predicted on, and
+/// Bytes that several segments share until they are open: the surface that poses are predicted on, and
 /// the edges that their orders are made from.
 uint64_t shared(const Limits::Mesh& m) {
   return uint64_t{36} * m.triangles + uint64_t{80} * m.coded_vertices;

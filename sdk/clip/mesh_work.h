@@ -14,7 +14,7 @@
 
 namespace anicodec {
 
-/// What the segments of a mesh need of it while they open. What follows from the connectivity alone
+/// Data of a mesh that its segments use while they open. All that follows from the connectivity alone
 /// is made once, so that no segment costs O(triangles); a lone segment keeps nothing of it.
 struct MeshWork {
   uint32_t predicted_segments = 0;     ///< of the limits: those of eigenshapes or eigentrajectories

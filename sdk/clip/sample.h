@@ -26,7 +26,7 @@ struct Sample {
   /// O(vertices x components) for each part. Allocates nothing.
   void positions(uint32_t first, uint32_t vertices, const VertexOutput& output) const;
 
-  /// Of an attribute: adds to the values of vertices first .. first + vertices - 1, vertices x
+  /// Adds, for an attribute, to the values of vertices first .. first + vertices - 1, vertices x
   /// components. Cost as above.
   void add_motion(uint32_t components, uint32_t first, uint32_t vertices, float* values) const;
 };

@@ -12,7 +12,7 @@
 
 namespace anicodec {
 
-/// What the samples of one track need, by its segments.
+/// Sizes of the samples of one track, by its segments.
 struct SampleSize {
   uint64_t weights = 0;  ///< floats of a frame in the segment that has most
   uint64_t shape = 0;    ///< floats of a shape of MSGI
@@ -26,10 +26,10 @@ struct SampleSize {
   uint64_t buffer() const;
 };
 
-/// Of a track of an open clip. O(segments of the track).
+/// Sizes for a track of an open clip. O(segments of the track).
 SampleSize sample_size(const Clip& clip, uint32_t track);
 
-/// What a context keeps behind itself: two samples of each track, and scratch.
+/// Memory of a context behind its struct: two samples of each track, and scratch.
 struct ContextSize {
   uint64_t tracks = 0;
   uint64_t buffers = 0;  ///< floats that one sample of each track keeps

@@ -43,7 +43,7 @@ class Block {
 
 }  // namespace
 
-/// What a frame is made in.
+/// Scratch memory for one frame.
 struct Msgi::Scratch {
   UnitQuaternion* rotations;  ///< per patch
   UnitQuaternion* relative;   ///< per link
@@ -311,7 +311,7 @@ size_t Msgi::required_bytes() const {
   return std::max({resident_bytes(), system_.setup_bytes(), pinned_system_.setup_bytes()});
 }
 
-/// Of the arrays that grow with the number of inputs.
+/// Sizes of the arrays that grow with the number of inputs.
 size_t Msgi::blend_bytes(size_t slots, size_t links) const {
   return sizeof(float) * slots +
          input_count_ * (sizeof(float) * 3 * (slots + vertex_count_) + sizeof(double) * 3 * links);

@@ -63,7 +63,7 @@ class Msgi {
   /// what factoring the system takes for a moment where that is more, as in small meshes.
   size_t required_bytes() const;
 
-  /// Of the memory that evaluate() works in.
+  /// Bytes of the memory that evaluate() works in.
   size_t scratch_bytes() const;
 
   /// The mesh at weights[0 .. inputs-1]: vertex_count x 3 floats. pin_positions: three coordinates

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What Msgi computes once for its inputs.
+// The part of Msgi that is computed once for its inputs.
 #include "sdk/msgi/msgi.h"
 
 #include <algorithm>

@@ -29,7 +29,7 @@ struct Direction {
     v[2] += a[0] * b[1] - a[1] * b[0];
   }
 
-  /// Of length one; squares of any coordinates fit in a double.
+  /// Has length one; squares of any coordinates fit in a double.
   void normalise() {
     const double x = double{v[0]}, y = double{v[1]}, z = double{v[2]};
     const double length = std::sqrt(x * x + y * y + z * z);

@@ -10,7 +10,7 @@
 
 namespace anicodec {
 
-/// What of a segment depends on time, at one time: a frame is the segment's basis combined with it.
+/// The part of a segment that depends on time, at one time: a frame is the segment's basis combined with it.
 /// Points into the segment, or to what the caller interpolated.
 struct FrameState {
   const Segment* segment = nullptr;
@@ -59,7 +59,7 @@ void play(const FrameState& state, uint32_t first, uint32_t count, float* out);
 /// in the layout of Segment::pose.
 void store_points(const float* blocks, uint32_t first, uint32_t count, const VertexOutput& output);
 
-/// What play() runs on this machine: "avx512", "avx512vl", "avx2", "portable" (the instruction
+/// The kernel that play() runs on this machine: "avx512", "avx512vl", "avx2", "portable" (the instruction
 /// set of the build) or "scalar".
 const char* play_kernels_name();
 

@@ -13,10 +13,12 @@
 
 namespace anicodec {
 
-/// Where the next values go. Each is written once, at ascending addresses, and nothing is read.
+/// The destination of the next values. Each is written once, at ascending addresses, and nothing is
+/// read.
 class ValueOutput {
  public:
-  /// Of `count` elements of an attribute of so many components. Errors: kArgument, kBufferSize.
+  /// For `count` elements of an attribute with `components` components. Errors: kArgument,
+  /// kBufferSize.
   static Status make(const anic_value_output& out, uint32_t components, uint32_t count,
                      ValueOutput* result);
 

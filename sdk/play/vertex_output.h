@@ -33,7 +33,7 @@ inline uint32_t vertex_format_size(VertexFormat format) {
   return (id < 2 ? 4u : 2u) * (3u + id % 2);
 }
 
-/// Where positions go: vertex i at data + i * stride. Exactly the bytes of the format are written,
+/// The destination of positions: vertex i at data + i * stride. Exactly the bytes of the format are written,
 /// each once, at ascending addresses, and nothing is read there: the memory may be write-combined,
 /// and other attributes may lie between the positions. Any alignment will do.
 struct VertexOutput {

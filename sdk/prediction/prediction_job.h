@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What the prediction kernels of every instruction set work on. Internal to sdk/.
+// The work of the prediction kernels of every instruction set. Internal to sdk/.
 #ifndef ANICODEC_SDK_PREDICTION_PREDICTION_JOB_H_
 #define ANICODEC_SDK_PREDICTION_PREDICTION_JOB_H_
 

@@ -13,7 +13,7 @@ constexpr float kMaxCoefficient = 1048576.0f;
 // Internal linkage: see prediction_kernel.h.
 namespace {
 
-/// What is not a number becomes the limit.
+/// A value that is not a number becomes the limit.
 template <typename Float>
 inline Float limited_coefficient(Float y) {
   const Float limit = Float{} + kMaxCoefficient;

@@ -28,7 +28,7 @@ constexpr uint8_t kRefitScheduleCount = 4;
 /// Refit components of a schedule, ascending; *count receives their number. Static.
 const uint16_t* refit_components(RefitSchedule schedule, size_t* count);
 
-/// What encoder and decoder of a segment agree on.
+/// Parameters that encoder and decoder of a segment agree on.
 struct PredictionParameters {
   int channels = 1;     ///< scalars per vertex and component: 1 (trajectories) or 3 (shapes)
   uint8_t radius = 12;  ///< of the prior's kernel, in mean neighbour distances, 1..255

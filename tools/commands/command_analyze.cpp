@@ -24,7 +24,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kAnalyzeFooter =
     R"(Expresses the clip by K exact key-frames, chosen by Neural Gas (gas), pivoting (pivot) or evenly
 (uniform), with free weights (linear), weights that sum to one, or those and a rigid motion of each
 frame (rigid), and by K principal components (pca). Nothing is quantised. The table holds KG errors
@@ -204,10 +204,11 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
 
 void add_analyze(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<AnalyzeCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kThreads | kJson,
-                                 {"analyze", "INPUT... [options]",
-                                  "Error against key-frames and components; a report", kFooter},
-                                 [c, &common] { run(*c, common); });
+  Options& options =
+      add_command(commands, common, kForce | kQuiet | kThreads | kJson,
+                  {"analyze", "INPUT... [options]",
+                   "Error against key-frames and components; a report", kAnalyzeFooter},
+                  [c, &common] { run(*c, common); });
   options.arguments("INPUT", c->inputs, "As for encode").required();
   options.option("--mesh", c->mesh, "FILE|NAME",
                  "Mesh of a lone vertex cache (default: same stem beside it), "

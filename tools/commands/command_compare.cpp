@@ -29,7 +29,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kCompareFooter =
     R"(A is the original, B what is compared with it. Each is one argument: an .anic file, a quoted pattern
 of frames ('frames/*.obj'), a vertex cache (.pc2, .mdd) with the mesh of the same stem beside it or
 the one of --mesh, or a scene (.gltf, .glb), which is baked at the rate of the other side.
@@ -346,10 +346,10 @@ void run(const CompareCommand& command, const CommonOptions& common) {
 
 void add_compare(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<CompareCommand>();
-  Options& options =
-      add_command(commands, common, kQuiet | kVerbose | kThreads | kJson,
-                  {"compare", "A B [options]", "Measure how far two clips are apart", kFooter},
-                  [c, &common] { run(*c, common); });
+  Options& options = add_command(
+      commands, common, kQuiet | kVerbose | kThreads | kJson,
+      {"compare", "A B [options]", "Measure how far two clips are apart", kCompareFooter},
+      [c, &common] { run(*c, common); });
   options.argument("A", c->a, "The original").required();
   options.argument("B", c->b, "What is compared with it").required();
   options.option("--mesh", c->mesh, "FILE",

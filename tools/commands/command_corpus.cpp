@@ -17,7 +17,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kCorpusFooter = R"(Examples:
   anicodec corpus --list
   anicodec corpus limb -o limb.pc2
   anicodec corpus cloth -o cloth/frame_%04d.obj --vertices 20000 --frame-count 100
@@ -67,7 +67,7 @@ void add_corpus(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<CorpusCommand>();
   Options& options = add_command(
       commands, common, kForce | kQuiet | kJson,
-      {"corpus", "NAME -o OUT [options]", "Make one of the clips of the corpus", kFooter},
+      {"corpus", "NAME -o OUT [options]", "Make one of the clips of the corpus", kCorpusFooter},
       [c, &common] { run(*c, common); });
   options.argument("NAME", c->name, "Which clip");
   options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl");

@@ -24,7 +24,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kDecodeFooter =
     R"(OUT is a vertex cache (clip.pc2, clip.mdd; the mesh is written beside it as clip.obj), a file per
 frame (dir/frame_%04d.obj, .ply, .off, .stl), a scene (clip.glb) with a morph target for each frame
 and an animation of their weights, or an Alembic archive (clip.abc) with an object for each mesh,
@@ -232,10 +232,10 @@ void run(const DecodeCommand& command, const CommonOptions& common) {
 
 void add_decode(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<DecodeCommand>();
-  Options& options = add_command(
-      commands, common, kForce | kQuiet | kJson,
-      {"decode", "FILE.anic... -o OUT [options]", "Decode .anic files to mesh sequences", kFooter},
-      [c, &common] { run(*c, common); });
+  Options& options = add_command(commands, common, kForce | kQuiet | kJson,
+                                 {"decode", "FILE.anic... -o OUT [options]",
+                                  "Decode .anic files to mesh sequences", kDecodeFooter},
+                                 [c, &common] { run(*c, common); });
   options.arguments("FILE", c->inputs, "The .anic file to read; several with --format").required();
   options
       .option("-o,--output", c->output, "OUT",

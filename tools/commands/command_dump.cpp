@@ -14,7 +14,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kDumpFooter =
     R"(A line for every field: offset in hexadecimal, size in bytes, name, value. Streams are listed by
 their size alone. A damaged file is listed as far as it can be read; the fault and the exit status
 are those of verify.
@@ -43,9 +43,10 @@ void run(const std::string& path, const CommonOptions& common) {
 
 void add_dump(Commands& commands, CommonOptions& common) {
   auto input = std::make_shared<std::string>();
-  Options& options = add_command(
-      commands, common, kJson, {"dump", "FILE.anic", "List an .anic file field by field", kFooter},
-      [input, &common] { run(*input, common); });
+  Options& options =
+      add_command(commands, common, kJson,
+                  {"dump", "FILE.anic", "List an .anic file field by field", kDumpFooter},
+                  [input, &common] { run(*input, common); });
   options.argument("FILE", *input, "The .anic file to list").required();
 }
 

@@ -29,7 +29,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kEncodeFooter =
     R"(INPUT is a mesh and its vertex cache (mesh.obj cache.pc2), a vertex cache with the mesh beside it or
 given by --mesh, a quoted pattern ('frames/*.obj', in natural order), a list of frames of equal
 connectivity, a scene, or an archive. Meshes: .obj .ply .off .stl; caches: .pc2 .mdd; scenes: .gltf
@@ -251,7 +251,7 @@ void add_encode(Commands& commands, CommonOptions& common) {
   auto arguments = std::make_shared<EncodeArguments>();
   Options& options = add_command(commands, common, kForce | kQuiet | kVerbose | kThreads | kJson,
                                  {"encode", "INPUT...|--batch DIR -o OUT [target] [options]",
-                                  "Encode a mesh sequence to an .anic file", kFooter},
+                                  "Encode a mesh sequence to an .anic file", kEncodeFooter},
                                  [arguments, &common] { run(*arguments, common); });
   add_arguments(options, *arguments);
 }

@@ -20,7 +20,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kInfoFooter =
     R"(--json prints an object a file: file, bytes, ratio (float32 positions against the file), bpfv,
 resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
 for each instance), format, encoder, name, vertices, coded_vertices, faces (of the first mesh),
@@ -329,7 +329,7 @@ void run(const std::string& path, const CommonOptions& common) {
 void add_info(Commands& commands, CommonOptions& common) {
   auto inputs = std::make_shared<std::vector<std::string>>();
   Options& options = add_command(
-      commands, common, kJson, {"info", "FILE.anic...", "Say what is in .anic files", kFooter},
+      commands, common, kJson, {"info", "FILE.anic...", "Say what is in .anic files", kInfoFooter},
       [inputs, &common] {
         run_for_each(*inputs, common, [&](const std::string& path) { run(path, common); });
       });

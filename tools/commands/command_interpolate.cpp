@@ -23,7 +23,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kInterpolateFooter =
     R"(A, B, ... are meshes of the same vertices and faces: files of one frame, or one frame of a clip
 as FILE@FRAME (clip.pc2@12, clip.anic@0, 'frames/*.obj@5'). The clip goes from A to B and on to the
 others in N equal steps. --range says from where to where, A being 0, B 1 and so on; beyond the ends
@@ -190,10 +190,11 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
 
 void add_interpolate(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<InterpolateCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kThreads | kJson,
-                                 {"interpolate", "A B [C...] -o OUT --frame-count N [options]",
-                                  "Make a clip between meshes of one connectivity", kFooter},
-                                 [c, &common] { run(*c, common); });
+  Options& options =
+      add_command(commands, common, kForce | kQuiet | kThreads | kJson,
+                  {"interpolate", "A B [C...] -o OUT --frame-count N [options]",
+                   "Make a clip between meshes of one connectivity", kInterpolateFooter},
+                  [c, &common] { run(*c, common); });
   options.arguments("A B", c->inputs, "The meshes").required();
   options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl");
   options.number("--frame-count", c->frames, "N", {1U, (1U << 24) - 1}, "Frames to make");

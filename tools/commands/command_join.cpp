@@ -18,7 +18,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kJoinFooter =
     R"(PART are .anic files that encode --part made of one clip with the same options, in any order and
 without gaps; together they need not be the whole clip. Nothing is coded again: the mesh and the
 reference pose, which all parts share, are stored once.
@@ -55,10 +55,11 @@ void run(const JoinCommand& command, const CommonOptions& common) {
 
 void add_join(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<JoinCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kJson,
-                                 {"join", "PART... -o FILE.anic [options]",
-                                  "Make one .anic file of parts that were encoded apart", kFooter},
-                                 [c, &common] { run(*c, common); });
+  Options& options =
+      add_command(commands, common, kForce | kQuiet | kJson,
+                  {"join", "PART... -o FILE.anic [options]",
+                   "Make one .anic file of parts that were encoded apart", kJoinFooter},
+                  [c, &common] { run(*c, common); });
   options.arguments("PART", c->inputs, "Parts of a clip").required();
   options.option("-o,--output", c->output, "FILE", "The .anic file to write").required();
 }

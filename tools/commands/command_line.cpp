@@ -8,7 +8,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kLineFooter =
     R"(Examples:
   anicodec encode dance.obj dance.pc2 -o dance.anic
   anicodec encode 'frames/*.obj' -o clip.anic --kg 0.1
@@ -37,7 +37,7 @@ int run_command_line(int argc, const char* const* argv) {
   install_cleanup_on_signal();
   return run_program(
       {"anicodec", "Makes animated meshes small: encodes baked mesh sequences to .anic and back.",
-       kFooter, declare_commands},
+       kLineFooter, declare_commands},
       argc, argv);
 }
 

@@ -22,7 +22,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMassageFooter =
     R"(Moves the vertices of every frame along its surface until the triangles have the shapes that they
 have in the first frame, or the one of --reference, and then denoises the frames: captured vertices
 that slide over the body come to rest, and the clip codes smaller. Faces and frames stay the same.
@@ -155,10 +155,11 @@ void run(const MassageCommand& command, const CommonOptions& common) {
 
 void add_massage(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<MassageCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kVerbose | kThreads | kJson,
-                                 {"massage", "INPUT... -o OUT [options]",
-                                  "Bring vertices that slide over a surface to rest", kFooter},
-                                 [c, &common] { run(*c, common); });
+  Options& options =
+      add_command(commands, common, kForce | kQuiet | kVerbose | kThreads | kJson,
+                  {"massage", "INPUT... -o OUT [options]",
+                   "Bring vertices that slide over a surface to rest", kMassageFooter},
+                  [c, &common] { run(*c, common); });
   options.arguments("INPUT", c->inputs, "As for encode").required();
   options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")
       .required();

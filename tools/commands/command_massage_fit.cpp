@@ -18,7 +18,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMassageFitFooter =
     R"(Moves the vertices of MESH so that it lies closer to SURFACE, a mesh of any faces. The faces stay
 the same. Where no closer position is found the mesh is written as it was.
 
@@ -69,7 +69,7 @@ void add_massage_fit(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<FitCommand>();
   Options& options = add_command(commands, common, kForce | kQuiet | kThreads | kJson,
                                  {"massage fit", "MESH SURFACE -o OUT [options]",
-                                  "Lay a coarse mesh on a fine surface", kFooter},
+                                  "Lay a coarse mesh on a fine surface", kMassageFitFooter},
                                  [c, &common] { run(*c, common); });
   options.argument("MESH", c->mesh, "The mesh to move").required();
   options.argument("SURFACE", c->surface, "The surface to lie on").required();

@@ -20,7 +20,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMassageMapFooter =
     R"(Maps mesh A to the surface of B with little distortion, and writes the shape of B with the faces of
 A (cross-parametrisation, thesis section 3.3.3). The faces of B may be any.
 
@@ -129,7 +129,7 @@ void add_massage_map(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<MapCommand>();
   Options& options = add_command(
       commands, common, kForce | kQuiet | kThreads | kJson,
-      {"massage map", "A B -o OUT [options]", "Give mesh A the shape of mesh B", kFooter},
+      {"massage map", "A B -o OUT [options]", "Give mesh A the shape of mesh B", kMassageMapFooter},
       [c, &common] { run(*c, common); });
   options.argument("A", c->mesh, "The mesh whose faces are kept").required();
   options.argument("B", c->surface, "The mesh whose shape is taken").required();

@@ -24,7 +24,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMassageRemeshFooter =
     R"(Gives a mesh another number of vertices, then moves them to where the new mesh lies closest to
 the surface. Fewer vertices are a part of the old ones, large triangles where the surface is flat
 (decimate). More vertices cover the surface with triangles of equal size (isotropic), which keeps
@@ -153,10 +153,11 @@ void run(const RemeshCommand& command, const CommonOptions& common) {
 
 void add_massage_remesh(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<RemeshCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kThreads | kJson,
-                                 {"massage remesh", "MESH -o OUT [options]",
-                                  "Give a mesh fewer, more or even triangles", kFooter},
-                                 [c, &common] { run(*c, common); });
+  Options& options =
+      add_command(commands, common, kForce | kQuiet | kThreads | kJson,
+                  {"massage remesh", "MESH -o OUT [options]",
+                   "Give a mesh fewer, more or even triangles", kMassageRemeshFooter},
+                  [c, &common] { run(*c, common); });
   options.argument("MESH", c->mesh, "The mesh, whose surface is kept").required();
   options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
   options.option("--vertices", c->vertices, "N", "How many vertices, or a share such as 25%");

@@ -18,7 +18,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMassageTransferFooter =
     R"(Moves the faces of the first mesh over the surfaces of the others, one after the other: scans whose
 faces differ become one clip. A frame that cannot be followed is reported and begins a new segment
 with its own faces; segments are written as OUT with _1, _2 ... before the extension. --vertices
@@ -108,11 +108,11 @@ void run(const TransferCommand& command, const CommonOptions& common) {
 
 void add_massage_transfer(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<TransferCommand>();
-  Options& options =
-      add_command(commands, common, kForce | kQuiet | kThreads | kJson,
-                  {"massage transfer", "MESH... -o OUT [options]",
-                   "Give meshes of different faces the faces of the first one", kFooter},
-                  [c, &common] { run(*c, common); });
+  Options& options = add_command(
+      commands, common, kForce | kQuiet | kThreads | kJson,
+      {"massage transfer", "MESH... -o OUT [options]",
+       "Give meshes of different faces the faces of the first one", kMassageTransferFooter},
+      [c, &common] { run(*c, common); });
   options.arguments("MESH", c->inputs, "Meshes in the order of time, or a quoted pattern")
       .required();
   options.option("-o,--output", c->output, "OUT", "x.pc2, x.mdd, dir/frame_%04d.obj|ply|off|stl")

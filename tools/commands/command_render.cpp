@@ -28,7 +28,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRenderFooter =
     R"(CLIP and --against are each an .anic file, a quoted pattern of frames ('frames/*.obj'), a scene
 (.gltf, .glb), whose first animation is baked, or a vertex cache (.pc2, .mdd) with its mesh of the
 same stem beside it or the one of --mesh. OUT is a picture per frame (frame_%04d.png), one picture
@@ -296,7 +296,7 @@ void add_render(Commands& commands, CommonOptions& common) {
   Options& options =
       add_command(commands, common, kForce | kQuiet | kThreads | kJson,
                   {"render", "CLIP -o OUT [--against ORIGINAL] [options]",
-                   "Draw a clip, beside its original and coloured by error", kFooter},
+                   "Draw a clip, beside its original and coloured by error", kRenderFooter},
                   [c, &common] { run(*c, common); });
   options.argument("CLIP", c->input, "What to draw").required();
   options.option("-o,--output", c->output, "OUT", "frame_%04d.png, x.png, clip.gif or clip.mp4")

@@ -20,7 +20,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kVerifyFooter =
     R"(Checks every byte: header, table, the checksum of every chunk, and padding; decodes everything;
 compares the decoded integers with the hash the encoder stored; plays every frame. No source is
 needed.
@@ -88,7 +88,7 @@ void add_verify(Commands& commands, CommonOptions& common) {
   auto inputs = std::make_shared<std::vector<std::string>>();
   Options& options = add_command(
       commands, common, kQuiet | kJson,
-      {"verify", "FILE.anic...", "Check .anic files: checksums and a full decode", kFooter},
+      {"verify", "FILE.anic...", "Check .anic files: checksums and a full decode", kVerifyFooter},
       [inputs, &common] {
         run_for_each(*inputs, common, [&](const std::string& path) { run(path, common); });
       });

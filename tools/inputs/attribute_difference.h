@@ -20,7 +20,7 @@ struct AttributeDifference {
   double rmse = 0;  ///< over all numbers
 };
 
-/// Of the attributes that both have in the same form: of vertices, and where `corners` says that
+/// Compares the attributes that both have in the same form: those of vertices, and if `corners` says that
 /// these are numbered alike, of corners. Cost: O(numbers).
 std::vector<AttributeDifference> attribute_differences(const AttributeSource& a,
                                                        const AttributeSource& b, uint32_t frames,

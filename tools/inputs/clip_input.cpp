@@ -24,7 +24,7 @@ namespace {
 std::vector<MeshSequence> describe_meshes(const Clip& clip, const std::vector<uint32_t>& meshes) {
   std::vector<MeshSequence> described;
   for (uint32_t m : meshes) {
-    const Mesh& mesh = clip.meshes()[m];
+    const anicodec::Mesh& mesh = clip.meshes()[m];
     const Topology& topology = mesh.topology;
     MeshSequence& out = described.emplace_back();
     out.mesh_name.assign(mesh.name.begin(), mesh.name.end());

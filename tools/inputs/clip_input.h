@@ -24,7 +24,7 @@ bool is_anic(const std::string& path);
 /// Throws Error(kUsage) for an output with an extension other than .anic.
 void check_anic_output(const std::string& path);
 
-/// What a status of the SDK means for the exit status.
+/// The exit status for a status of the SDK.
 ErrorKind error_kind(Status status);
 
 /// Throws the Error of a failure: "clip.anic: offset 0x1f40, chunk SEGM: reason (detail)".

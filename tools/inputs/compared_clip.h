@@ -17,7 +17,7 @@
 
 namespace anicodec::tools {
 
-/// What of an input is compared, and how it is read.
+/// The part of an input that is compared, and how it is read.
 struct ComparedPart {
   std::string frames = {};             ///< "A:B:STEP" of parse_frames, empty: all
   std::string clip = {};               ///< animation of a scene

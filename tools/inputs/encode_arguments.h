@@ -20,12 +20,12 @@ namespace anicodec::tools {
 /// the faces of the first frame.
 enum class TopologyChanges { kRefuse, kKeep, kTransfer };
 
-/// What is kept of the source's order. kAuto: that of the vertices, but nothing of scenes (glTF, FBX
+/// The part of the source's order that is kept. kAuto: that of the vertices, but nothing of scenes (glTF, FBX
 /// and what else assimp reads), which carry their own faces and attributes: nobody counts on the
 /// numbers of their vertices.
 enum class OrderChoice { kAuto, kVertices, kFree, kAll };
 
-/// What the command line asks of encode.
+/// The arguments of encode on the command line.
 struct EncodeArguments {
   std::vector<std::string> inputs;
   std::string output, mesh, clip, batch, memory, part;
@@ -66,10 +66,10 @@ EncodeOptions encode_options(const EncodeArguments& arguments);
 /// naming the option, also for a length in a unit of its own where the clip's is unknown.
 void set_target(const EncodeArguments& arguments, double metres_per_unit, EncodeOptions* options);
 
-/// What they mean to the importers.
+/// The importers' options from them.
 LoadOptions load_options(const EncodeArguments& arguments, const Progress& progress);
 
-/// What they mean to massage(), for a clip.
+/// The massage's options from them, for a clip.
 MassageOptions massage_options(const EncodeArguments& arguments, const MeshSequence& sequence);
 
 /// Axes, unit and loop that they give a clip.

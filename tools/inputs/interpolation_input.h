@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What anicodec interpolate reads: meshes of one connectivity, weights, pinned vertices.
+// The inputs of anicodec interpolate: meshes of one connectivity, weights, pinned vertices.
 #ifndef ANICODEC_TOOLS_INPUTS_INTERPOLATION_INPUT_H_
 #define ANICODEC_TOOLS_INPUTS_INTERPOLATION_INPUT_H_
 

@@ -86,7 +86,7 @@ void append_positions(std::span<const float> positions, std::endian order, std::
     append(x, order, out);
 }
 
-std::string mesh_beside(const std::string& cache) {
+std::string mesh_of_cache(const std::string& cache) {
   return std::filesystem::path(cache).replace_extension(".obj").string();
 }
 
@@ -94,7 +94,7 @@ void write_cache(const std::string& path, const MeshSequence& clip, const Frames
                  bool overwrite) {
   std::vector<AtomicFile> files;
   files.emplace_back(path, overwrite);
-  files.emplace_back(mesh_beside(path), overwrite);
+  files.emplace_back(mesh_of_cache(path), overwrite);
 
   bool is_pc2 = kind_of(path) == FileKind::kPc2;
   std::string bytes;
@@ -206,7 +206,7 @@ void check_sequence_output(const std::string& path, uint32_t frame_count,
     return check_output(path, options.overwrite);
   if (is_cache(kind)) {
     check_output(path, options.overwrite);
-    check_output(mesh_beside(path), options.overwrite);
+    check_output(mesh_of_cache(path), options.overwrite);
     return;
   }
   NamePattern pattern = parse_name_pattern(path);

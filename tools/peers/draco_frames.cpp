@@ -16,7 +16,7 @@
 namespace anicodec::peers {
 namespace {
 
-constexpr int kFewestBits = 4, kMostBits = 24;
+constexpr int kFewestGridBits = 4, kMostGridBits = 24;
 
 /// The mesh that takes the positions of one frame after the other.
 class FrameMesh {
@@ -116,9 +116,9 @@ uint64_t DracoFrames::bytes() const {
 DracoFrames draco_at_kg(const MeshSequence& sequence, std::span<const uint32_t> triangles,
                         double kg) {
   DracoFrames result;
-  result.bits = kFewestBits;
+  result.bits = kFewestGridBits;
   while ((result.kg = kg_of_bits(sequence, result.bits)) > kg) {
-    if (++result.bits > kMostBits)
+    if (++result.bits > kMostGridBits)
       throw Error(ErrorKind::kUsage, "Draco does not reach the error asked for");
   }
   FrameMesh mesh(sequence.vertex_count, triangles);

@@ -10,7 +10,7 @@
 
 namespace anicodec::peers {
 
-/// What gltfpack is given of a clip.
+/// The input of gltfpack for a clip.
 enum class GltfpackInput {
   kPositions,  ///< with faces
   kNormals     ///< and normals of every frame, if the hard edges are known
@@ -23,7 +23,7 @@ struct GltfpackClip {
   uint32_t vertices = 0;      ///< that it did not merge
   uint64_t source_bytes = 0;  ///< the GLB of morph targets that gltfpack was given
   uint64_t bytes = 0;         ///< what it made of that
-  /// What its file plays, in the order of the source. Vertices that no face uses, which gltfpack
+  /// The frames that its file plays, in the order of the source. Vertices that no face uses, which gltfpack
   /// drops, are those of the source.
   MeshSequence decoded;
 };

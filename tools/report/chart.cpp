@@ -118,7 +118,7 @@ std::string escaped(const std::string& text) {
 
 namespace {
 
-/// What is inside the SVG element but the legend; empty if there is nothing to draw.
+/// The content of the SVG element without the legend; empty if there is nothing to draw.
 std::string plot(const Chart& chart) {
   double low[2], high[2];
   std::fill_n(low, 2, std::numeric_limits<double>::infinity());

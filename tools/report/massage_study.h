@@ -32,7 +32,7 @@ struct MassagedSize {
   uint64_t massaged = 0;
 };
 
-/// What Mesh Massage does to a clip: the error in principal components (thesis table 5.5 and figure
+/// The effect of Mesh Massage on a clip: the error in principal components (thesis table 5.5 and figure
 /// 5.14), and what the coded size says instead.
 struct MassageStudy {
   std::vector<ComponentErrors> components;

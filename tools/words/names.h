@@ -88,12 +88,12 @@ inline const char* name_of(UpAxis up) {
   return word_of(kUpAxes, up);
 }
 
-/// Of an axis as a file has it.
+/// The name of an axis as a file has it.
 inline const char* up_name(uint8_t up) {
   return name_of(UpAxis{up});
 }
 
-/// What the components of a basis are, in the plural, for people.
+/// The name of a basis's components, in the plural, for people.
 inline const char* components_of(BasisKind kind) {
   return kind == BasisKind::kKeyframes ? "key-frames" : name_of(kind);
 }

@@ -13,8 +13,7 @@ namespace anicodec::tools {
 namespace {
 
 constexpr size_t kHashesSize = 32;
-constexpr uint8_t kInlineMetadata = 255;
-constexpr size_t kMaxDepth = 1024, kMaxPath = 4096;
+constexpr size_t kMaxDepth = 1024;
 
 AbcSchema schema_of(std::string_view metadata) {
   constexpr std::pair<std::string_view, AbcSchema> kSchemas[] = {
@@ -174,8 +173,8 @@ void AbcArchive::add_object(uint32_t parent, std::string name, std::string text)
   if (object.path.size() > 1)
     object.path += '/';
   object.path += name;
-  if (object.path.size() > kMaxPath)
-    file.fail(object.path, "the path is longer than " + std::to_string(kMaxPath) + " bytes");
+  if (object.path.size() > kAbcMaxPath)
+    file.fail(object.path, "the path is longer than " + std::to_string(kAbcMaxPath) + " bytes");
   object.name = std::move(name);
   object.schema = schema_of(text);
   object.metadata = std::move(text);
@@ -203,6 +202,11 @@ const AbcTime& AbcArchive::time_of(const AbcProperty& property) const {
     file.fail(property.place(), std::to_string(property.samples) + " samples have " +
                                     std::to_string(time.max_samples()) + " times");
   return time;
+}
+
+uint32_t AbcArchive::sample_at(const AbcSamples& samples, double time) const {
+  const AbcProperty& property = samples.property();
+  return property.is_constant() ? 0 : time_of(property).sample_at(time, property.samples);
 }
 
 uint32_t AbcArchive::find(std::string_view path) const {

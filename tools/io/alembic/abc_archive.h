@@ -17,7 +17,10 @@ namespace anicodec::tools {
 
 inline constexpr uint32_t kAbcNone = UINT32_MAX;
 
-/// What an object is, by the schema that its metadata names.
+/// Longest path of an object, in bytes.
+inline constexpr size_t kAbcMaxPath = 4096;
+
+/// The kind of an object, by the schema that its metadata names.
 enum class AbcSchema : uint8_t { kOther, kXform, kPolyMesh, kSubD, kFaceSet };
 
 /// An object of the hierarchy as stored.
@@ -52,6 +55,9 @@ struct AbcArchive {
 
   /// The time sampling of a property. Throws Error(kInput) where there is none of its number.
   const AbcTime& time_of(const AbcProperty& property) const;
+
+  /// The sample of a property that holds at a time; 0 where it never changes.
+  uint32_t sample_at(const AbcSamples& samples, double time) const;
 
   /// The object of a path, kAbcNone if there is none.
   uint32_t find(std::string_view path) const;

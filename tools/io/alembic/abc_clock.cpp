@@ -60,7 +60,7 @@ std::vector<double> joined_times(const AbcArchive& archive,
   return times;
 }
 
-/// Where all stands still: the time at which it is said to.
+/// The time of a scene that stands still.
 double only_time(const AbcArchive& archive, const std::vector<const AbcProperty*>& properties) {
   for (const AbcProperty* property : properties) {
     const AbcTime& time = archive.time_of(*property);

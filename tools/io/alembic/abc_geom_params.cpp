@@ -112,18 +112,14 @@ void AbcGeomParams::add_arbitrary(const AbcProperty& property, const AbcNote& no
   add(AttributeKind::kCustom, property.name, property);
 }
 
-uint32_t AbcGeomParams::sample_at(const AbcSamples& samples, double time) const {
-  const AbcProperty& property = samples.property();
-  return property.is_constant() ? 0 : archive_.time_of(property).sample_at(time, property.samples);
-}
-
 AbcValues AbcGeomParams::values_at(const AbcGeomParam& param, double time, const Polygons& polygons,
                                    uint32_t vertices) const {
   AbcValues out;
-  std::vector<float> values = param.values.floats(sample_at(param.values, time));
+  std::vector<float> values = param.values.floats(archive_.sample_at(param.values, time));
   const size_t n = param.components();
   if (param.indices) {
-    const std::vector<int32_t> indices = param.indices->integers(sample_at(*param.indices, time));
+    const std::vector<int32_t> indices =
+        param.indices->integers(archive_.sample_at(*param.indices, time));
     out.domain = domain_of(param, indices.size(), polygons, vertices);
     if (out.domain == AbcDomain::kNone)
       return out;

@@ -27,7 +27,7 @@ struct AbcGeomParam {
   uint32_t components() const { return values.property().extent; }
 };
 
-/// What an element of the values belongs to.
+/// The kind of element that a value belongs to.
 enum class AbcDomain : uint8_t { kNone, kMesh, kFace, kVertex, kCorner };
 
 /// Values of a param at one time, an element for each vertex, corner ...
@@ -60,7 +60,6 @@ class AbcGeomParams {
  private:
   void add(AttributeKind kind, std::string name, const AbcProperty& property);
   void add_arbitrary(const AbcProperty& property, const AbcNote& note);
-  uint32_t sample_at(const AbcSamples& samples, double time) const;
 
   const AbcArchive& archive_;
   std::vector<AbcGeomParam> params_;

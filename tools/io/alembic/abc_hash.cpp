@@ -61,7 +61,7 @@ void end(ShortState& h) {
   }
 }
 
-/// Of less than two blocks.
+/// Hash of less than two blocks.
 AbcHash short_spooky(std::string_view bytes) {
   ShortState h{0, 0, kSpookyConstant, kSpookyConstant};
   const uint64_t length = bytes.size();

@@ -23,11 +23,6 @@ AbcCompound geometry_of(const AbcArchive& archive, const AbcObject& object) {
   return archive.properties(needed(archive, object, properties, ".geom"));
 }
 
-uint32_t sample_at(const AbcArchive& archive, const AbcSamples& samples, double time) {
-  const AbcProperty& property = samples.property();
-  return property.is_constant() ? 0 : archive.time_of(property).sample_at(time, property.samples);
-}
-
 }  // namespace
 
 std::vector<uint32_t> reversed_corners(const Polygons& polygons) {
@@ -115,9 +110,9 @@ AbcTopology AbcMesh::read_topology(uint32_t counts, uint32_t indices, uint32_t v
 }
 
 uint32_t AbcMesh::topology_at(double time) {
-  const uint32_t counts = sample_at(archive_, counts_, time);
-  const uint32_t indices = sample_at(archive_, indices_, time);
-  const uint64_t vertices = positions_.size(sample_at(archive_, positions_, time)) / 3;
+  const uint32_t counts = archive_.sample_at(counts_, time);
+  const uint32_t indices = archive_.sample_at(indices_, time);
+  const uint64_t vertices = positions_.size(archive_.sample_at(positions_, time)) / 3;
   if (vertices > kMaxVertices)
     archive_.file.fail(path_, "more than 2^31 - 1 vertices");
   const std::array<uint64_t, 3> key{counts_.block(counts).offset, indices_.block(indices).offset,
@@ -135,7 +130,7 @@ uint32_t AbcMesh::topology_at(double time) {
 }
 
 void AbcMesh::read_positions(double time, std::span<float> out) const {
-  positions_.read(sample_at(archive_, positions_, time), out);
+  positions_.read(archive_.sample_at(positions_, time), out);
 }
 
 PolygonLabels AbcMesh::face_sets(double time, size_t polygons) const {
@@ -144,7 +139,7 @@ PolygonLabels AbcMesh::face_sets(double time, size_t polygons) const {
     if (labels.names.empty())
       labels.of_polygon.assign(polygons, kNoLabel);
     const auto label = static_cast<uint32_t>(labels.names.size());
-    for (int32_t face : set.faces.integers(sample_at(archive_, set.faces, time))) {
+    for (int32_t face : set.faces.integers(archive_.sample_at(set.faces, time))) {
       if (face < 0 || static_cast<size_t>(face) >= polygons)
         archive_.file.fail(set.faces.property().place(),
                            "face " + std::to_string(face) + " of " + std::to_string(polygons));

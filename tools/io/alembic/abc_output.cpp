@@ -12,7 +12,6 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr uint32_t kInlineMetadata = 255;
 constexpr size_t kMaxSharedText = 255;
 constexpr size_t kMaxSharedTexts = 254;
 // The release of the reference library whose ways these are: 1.8.6.
@@ -37,7 +36,7 @@ bool is_constant(const AbcProperty& header) {
   return header.first_changed == 0 && header.last_changed == 0;
 }
 
-/// What a header says of samples beside name and metadata, as bits.
+/// Bits of a header that describe samples, beside name and metadata.
 uint32_t info_of(const AbcProperty& header, bool is_scalar_like, bool is_homogeneous) {
   uint32_t info = header.shape == AbcShape::kScalar ? 1 : is_scalar_like ? 3 : 2;
   info |= uint32_t{static_cast<uint8_t>(header.type)} << 4;

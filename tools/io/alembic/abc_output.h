@@ -18,7 +18,7 @@
 
 namespace anicodec::tools {
 
-/// What all of an archive shares: data by its digest, so that equal samples are stored once; texts
+/// Data that the whole archive shares: data by its digest, so that equal samples are stored once; texts
 /// of metadata; time samplings.
 class AbcShared {
  public:

@@ -15,7 +15,6 @@ namespace anicodec::tools {
 namespace {
 
 constexpr size_t kDigestSize = 16;
-constexpr uint32_t kInlineMetadata = 255;
 constexpr uint32_t kTypes = 14;
 
 /// Numbers and texts in the headers of properties, each of which says how many bytes its numbers

@@ -14,10 +14,13 @@
 
 namespace anicodec::tools {
 
+/// Number that a header has in place of a shared metadata: its own text follows.
+inline constexpr uint8_t kInlineMetadata = 255;
+
 /// "key=value;key=value" beside objects and properties.
 std::string_view metadata_value(std::string_view metadata, std::string_view key);
 
-/// What the numbers of a property are.
+/// The type of a property's numbers.
 enum class AbcType : uint8_t {
   kBool = 0,
   kUint8 = 1,

@@ -6,8 +6,6 @@ namespace anicodec::tools {
 namespace {
 
 constexpr size_t kMaxNodes = size_t{1} << 20;
-constexpr size_t kMaxPath = 4096;
-
 }  // namespace
 
 struct AbcScene::Motion {
@@ -66,7 +64,7 @@ void AbcScene::add(uint32_t object, uint32_t parent, bool in_instance, const Abc
     node.instance_of = archive_.objects[node.object].path;
   if (nodes_.size() >= kMaxNodes)
     archive_.file.fail(node.path, "the instances make more than a million objects");
-  if (node.path.size() > kMaxPath)
+  if (node.path.size() > kAbcMaxPath)
     archive_.file.fail(node.path, "the path is longer than 4096 bytes");
   nodes_.push_back(std::move(node));
 }

@@ -25,7 +25,7 @@ struct AbcNode {
   std::string instance_of;  ///< path of the object, empty at its own place
 };
 
-/// Where a node is at a time.
+/// The transform of a node at a time.
 struct AbcPlace {
   AbcTransform world;
   bool visible = true;

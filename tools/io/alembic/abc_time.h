@@ -20,7 +20,7 @@ class AbcTime {
   AbcTime(double per_cycle, std::vector<double> stored)
       : per_cycle_(per_cycle), stored_(std::move(stored)) {}
 
-  /// What is wrong with such a sampling; empty if nothing is.
+  /// The fault of such a sampling; empty if there is none.
   static std::string fault(double per_cycle, const std::vector<double>& stored);
 
   bool is_acyclic() const { return per_cycle_ == kAcyclic; }

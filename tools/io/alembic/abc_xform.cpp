@@ -52,11 +52,6 @@ std::optional<AbcSamples> samples_of(const AbcArchive& archive, const AbcCompoun
   return AbcSamples(archive.file, *property);
 }
 
-uint32_t sample_at(const AbcArchive& archive, const AbcSamples& samples, double time) {
-  const AbcProperty& property = samples.property();
-  return property.is_constant() ? 0 : archive.time_of(property).sample_at(time, property.samples);
-}
-
 AbcCompound xform_of(const AbcArchive& archive, const AbcObject& object) {
   const AbcCompound properties = archive.properties(object);
   const AbcProperty* xform = properties.find(".xform");
@@ -85,7 +80,7 @@ AbcFlag::AbcFlag(const AbcArchive& archive, const AbcCompound& compound, std::st
 int AbcFlag::at(double time) {
   if (!samples_)
     return value_;
-  const uint32_t sample = sample_at(archive_, *samples_, time);
+  const uint32_t sample = archive_.sample_at(*samples_, time);
   if (sample != sample_) {
     const std::vector<int32_t> values = samples_->integers(sample);
     if (values.empty())
@@ -136,7 +131,7 @@ AbcTransform AbcXform::transform(uint32_t sample) const {
 const AbcTransform& AbcXform::at(double time) {
   if (!values_)
     return transform_;
-  const uint32_t sample = sample_at(archive_, *values_, time);
+  const uint32_t sample = archive_.sample_at(*values_, time);
   if (sample != sample_) {
     transform_ = transform(sample);
     sample_ = sample;

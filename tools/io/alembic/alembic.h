@@ -16,7 +16,7 @@
 namespace anicodec::tools {
 
 struct AlembicOptions {
-  /// Of the frames; default: the times of the samples.
+  /// Rate of the frames; default: the times of the samples.
   std::optional<FrameRate> rate = {};
   /// Path of the mesh to take ("/rig/body"), or of an object above several, or the last name of
   /// such a path; empty: all meshes.

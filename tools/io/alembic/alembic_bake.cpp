@@ -49,7 +49,7 @@ void reorder(const std::vector<uint32_t>& order, size_t components, std::vector<
   values = std::move(out);
 }
 
-/// What normals are multiplied with: the cofactors, which keep them upright in flattened parts.
+/// The matrix for normals: the cofactors, which keep them upright in flattened parts.
 Eigen::Matrix3d normal_matrix(const AbcTransform& m) {
   Eigen::Matrix3d out;
   out << m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)), m.col(0).cross(m.col(1));

@@ -21,7 +21,7 @@ namespace anicodec::tools {
 struct AbcShown {
   uint32_t node = 0;
   AbcMesh* mesh = nullptr;
-  /// Of each frame: which of the mesh's topologies it shows, kAbcNone: it is hidden or empty.
+  /// The topology of the mesh that each frame shows; kAbcNone: it is hidden or empty.
   std::vector<uint32_t> topology;
   bool mirrored = false;  ///< by its transforms, which turns its faces
 
@@ -47,7 +47,7 @@ class AlembicBake {
   /// Number, rate and times of the frames, axes.
   void set_timing(MeshSequence& out) const;
 
-  /// Where all nodes are in a frame.
+  /// The transforms of all nodes in a frame.
   std::vector<AbcPlace> places(size_t frame) { return scene_.at(clock_.times[frame]); }
 
   /// Faces and all that stands beside the positions of a mesh, in a frame that shows it.

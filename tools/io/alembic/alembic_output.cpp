@@ -20,7 +20,7 @@
 namespace anicodec::tools {
 namespace {
 
-/// What the archive says of itself: nothing that changes from run to run.
+/// The archive's own metadata: nothing that changes from run to run.
 std::string archive_metadata(const MeshSequence& clip) {
   const double rate = clip.rate.value();
   return fmt::format(
@@ -140,7 +140,7 @@ std::vector<Plan> plan(const MeshSequence& clip, std::span<const AlembicTrack> t
   return plans;
 }
 
-/// What a track shows in a frame.
+/// The content of a track in a frame.
 struct Moment {
   std::span<const float> positions;
   std::vector<Attribute> attributes;

@@ -12,7 +12,7 @@
 
 namespace anicodec::tools {
 
-/// Where an archive goes: bytes at the end, and bytes in place of earlier ones.
+/// The destination of an archive: bytes at the end, and bytes in place of earlier ones.
 struct AbcSink {
   std::function<void(std::string_view bytes)> append;
   std::function<void(uint64_t offset, std::string_view bytes)> rewrite;

@@ -47,7 +47,7 @@ class AbcLook {
   std::vector<int32_t> face_counts_, face_indices_;
 };
 
-/// What an object shows in a frame.
+/// The content of an object in a frame.
 struct AbcSample {
   std::span<const float> positions;       ///< of the whole mesh
   std::span<const Attribute> attributes;  ///< of the whole mesh, in this frame

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What runs in the child process: all of assimp, and nothing else.
+// The code of the child process: all of assimp, and nothing else.
 #ifndef ANICODEC_TOOLS_IO_ASSIMP_ASSIMP_IMPORT_H_
 #define ANICODEC_TOOLS_IO_ASSIMP_ASSIMP_IMPORT_H_
 
@@ -13,7 +13,7 @@
 
 namespace anicodec::tools {
 
-/// What assimp makes of a file: which way is up, metres of a unit, and a GLB for each scene.
+/// A file as assimp read it: which way is up, metres of a unit, and a GLB for each scene.
 struct AssimpImport {
   UpAxis up = UpAxis::kUnknown;
   double metres_per_unit = 0;  ///< 0: unknown

@@ -21,7 +21,7 @@ void check_output(const std::string& path, bool overwrite);
 
 /// An output that appears under its name whole or not at all: written to a hidden folder beside it,
 /// renamed by commit() once the disk has it, removed by the destructor otherwise and by signals
-/// (install_cleanup_on_signal). What it replaces stays until then, and gives it its mode. Writes
+/// (install_cleanup_on_signal). The file that it replaces stays until then, and its mode is kept. Writes
 /// through symbolic links.
 class AtomicFile {
  public:

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGABRT};
 
-/// What the handler reads.
+/// The data that the handler reads.
 struct Place {
   std::atomic<const char*> path{nullptr};  ///< null: the place is free
   std::atomic<int> folder{-1};

@@ -28,7 +28,7 @@ class RemoveOnSignal {
 };
 
 /// While one of these lives, signals that would end the process wait, so that outputs that belong
-/// together are renamed together. Those that cannot wait (SIGABRT) leave all files in place.
+/// together are renamed together. Signals that cannot wait (SIGABRT) leave all files in place.
 class HoldSignals {
  public:
   HoldSignals();

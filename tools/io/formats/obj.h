@@ -24,7 +24,7 @@ namespace anicodec::tools {
 void parse_obj(std::string_view text, std::string_view name, Mesh& mesh,
                MeshDetails* details = nullptr);
 
-/// What the OBJ files of a clip's frames have in common, prepared once: texture coordinates,
+/// The parts that the OBJ files of a clip's frames have in common, prepared once: texture coordinates,
 /// colours, materials, objects, and which corners share a normal.
 class ObjDetails {
  public:

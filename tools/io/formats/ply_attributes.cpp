@@ -22,7 +22,7 @@ constexpr const char* kNormal[] = {"nx", "ny", "nz"};
 constexpr const char* kUvNames[][2] = {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
 constexpr float kByte = 255;
 
-/// What an integer of a colour is a fraction of.
+/// The largest integer of a colour, which stands for 1.
 double largest_of(PlyType type) {
   return is_integer(type) ? std::exp2(8.0 * static_cast<double>(size_of(type))) - 1 : 1;
 }

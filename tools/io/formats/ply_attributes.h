@@ -14,7 +14,7 @@
 
 namespace anicodec::tools {
 
-/// What the properties of the vertices of a PLY say beside positions, and where they go: red,
+/// The properties of a PLY's vertices beside positions, and the attributes that they become: red,
 /// green, blue and alpha are a colour (integers are fractions of their largest value), s t, u v or
 /// texture_u texture_v texture coordinates, nx ny nz a normal; any other number is an attribute of
 /// its own, by its name. Lists are none.

@@ -14,7 +14,7 @@
 
 namespace anicodec::tools {
 
-/// What a PC2 or MDD file holds besides positions. Size and counts have been checked against each
+/// The content of a PC2 or MDD file besides positions. Size and counts have been checked against each
 /// other.
 struct VertexCache {
   uint32_t vertex_count = 0;

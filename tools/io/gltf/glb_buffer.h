@@ -15,7 +15,7 @@
 
 namespace anicodec::tools {
 
-/// What a buffer view is for (glTF 2.0, bufferView.target).
+/// The use of a buffer view (glTF 2.0, bufferView.target).
 enum class GlbTarget : int { kNone = 0, kVertices = 34962, kIndices = 34963 };
 
 /// The binary data of a GLB with the views and accessors that describe them. Each add_ returns the
@@ -31,7 +31,7 @@ class GlbBuffer {
   size_t add_floats(std::span<const float> values, size_t components, GlbTarget target,
                     bool bounds);
 
-  /// Of vertices, with bounds; elements of zeros are left out where that is smaller.
+  /// An accessor of vertices, with bounds; elements of zeros are left out if that is smaller.
   size_t add_differences(std::span<const float> values, size_t components);
 
   /// `count` numbers: zeros but for these, in ascending order.

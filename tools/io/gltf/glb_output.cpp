@@ -31,7 +31,7 @@ struct Written {
   bool in_every_target = false;  ///< otherwise where it differs from the first frame
   std::vector<float> values;
 
-  /// Those of an object.
+  /// The values of one object.
   std::span<const float> of(const GlbObject& object) const {
     return std::span(values).subspan(components * object.first, components * object.count);
   }
@@ -94,7 +94,7 @@ class GlbOutput::Writer {
   }
 
  private:
-  /// What a frame has: positions, normals where the clip knows its hard edges, then attributes.
+  /// The values of a frame: positions, normals if the clip knows its hard edges, then attributes.
   std::vector<Written> written(std::span<const float> positions,
                                std::span<const Attribute> attributes) const {
     std::vector<Written> result{{"POSITION", 3, true, vertices_.of_vertices(positions, 3)}};

@@ -31,12 +31,12 @@ class GlbVertices {
  public:
   explicit GlbVertices(const MeshSequence& clip);
 
-  /// What a GLB has of attributes: two texture coordinates, three or four of a colour.
+  /// The attributes of a GLB: two texture coordinates, three or four of a colour.
   static bool is_written(const Attribute& attribute);
 
   const std::vector<GlbObject>& objects() const { return objects_; }
 
-  /// Of objects and materials, in order of their first polygon; polygons become fans.
+  /// One for each object and material, in order of their first polygon; polygons become fans.
   std::vector<GlbTriangles> triangles(const MeshSequence& clip) const;
 
   /// A corner of the clip that each vertex stands for, or kNoCorner.

@@ -121,7 +121,7 @@ void GltfClip::evaluate(const Track& track, double time, double tolerance, doubl
   if (time - t0 <= tolerance)
     return take(next - 1);
   if (t1 - time <= tolerance) {
-    // Of several keys at one time the last holds from there on.
+    // The last of several keys at one time holds from there on.
     size_t key = next;
     while (key + 1 < track.times.size() && track.times[key + 1] == track.times[key])
       ++key;

@@ -48,7 +48,7 @@ Transform local_transform(const GltfNode& node, const GltfPose& pose, uint32_t n
   return out;
 }
 
-/// What normals are multiplied with: the cofactors, which keep them upright in mirrored and
+/// The matrix for normals: the cofactors, which keep them upright in mirrored and
 /// flattened parts.
 Eigen::Matrix3d normal_matrix(const Transform& m) {
   Eigen::Matrix3d out;

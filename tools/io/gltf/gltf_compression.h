@@ -27,7 +27,7 @@ struct MeshoptView {
 /// a build without meshoptimizer.
 std::vector<char> decode_meshopt(const MeshoptView& view, const JsonNode& node);
 
-/// What a Draco bitstream holds, as floats.
+/// The content of a Draco bitstream, as floats.
 struct DracoPrimitive {
   struct Values {
     uint32_t components = 0;

@@ -87,7 +87,7 @@ class Reader {
     const JsonNode version = root_.member("asset").member("version");
     if (!version.text().starts_with("2."))
       version.fail("version '" + shown(version.text()) + "'; 2.0 is read");
-    // What these add to a document can be left out without changing where vertices are.
+    // These add nothing to a document that changes the places of vertices.
     constexpr std::string_view kHarmless[] = {
         "KHR_materials_", "KHR_texture_", "EXT_texture_",         "KHR_lights_",
         "KHR_xmp",        "EXT_lights_",  "KHR_mesh_quantization"};
@@ -355,7 +355,7 @@ class Reader {
         parent = n;
       }
     }
-    // Whoever is not reached from a root is in a cycle or below one.
+    // A node that no root reaches is in a cycle or below one.
     std::vector<uint32_t> open;
     std::vector<bool> reached(out_.nodes.size());
     for (uint32_t n = 0; n < out_.nodes.size(); ++n) {
@@ -481,7 +481,7 @@ class Reader {
     animation.channels.push_back(channel);
   }
 
-  /// What a pointer to a property of a node leads to; nothing for pointers elsewhere.
+  /// The target of a pointer to a property of a node; nothing for pointers elsewhere.
   std::string property_of(const JsonNode& pointer, uint32_t& node) {
     constexpr std::string_view kNodes = "/nodes/", kMeshes = "/meshes/";
     const std::string text = pointer.text();

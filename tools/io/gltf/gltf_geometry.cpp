@@ -79,7 +79,7 @@ class AttributeReader {
     return out;
   }
 
-  /// What the targets add to an attribute; empty for a target that does not change it.
+  /// The differences that the targets add to an attribute; empty for a target that does not change it.
   std::vector<float> added(size_t target, const std::string& name, uint32_t components = 3) const {
     const auto& attributes = primitive_.targets[target];
     auto found = attributes.find(name);

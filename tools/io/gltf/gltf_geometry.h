@@ -13,7 +13,7 @@
 
 namespace anicodec::tools {
 
-/// What of a primitive's vertices moves: in a morph target, what is added.
+/// The moving values of a primitive's vertices; in a morph target, the differences.
 struct GltfVectors {
   std::vector<float> positions;  ///< vertices x 3
   std::vector<float> normals;    ///< vertices x 3, or empty
