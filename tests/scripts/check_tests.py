@@ -14,6 +14,7 @@ MODULES = ("format", "sdk", "codec", "corpus", "tools")
 # A unit, or a folder of units: the tests that run it, and the reason that they stand elsewhere.
 THROUGH = {
     "format/attribute_record": ("tests/api/attribute_values_test.cpp", "a record is read where a file is opened"),
+    "format/bit_cost": ("tests/format/coefficient_coder_test.cpp", "costs that the coders' encoders weigh"),
     "format/mixing": ("tests/format/binary_coder_test.cpp", "tables of the coders that use it"),
     "format/status": ("tests/api/asset_test.cpp", "texts that the C interface returns"),
     "format/zstd_block": ("tests/format/container_test.cpp", "one way to store a chunk"),
@@ -29,6 +30,7 @@ THROUGH = {
     "codec/algebra": ("tests/codec/algebra", "steps of the decomposition"),
     "codec/api": ("tests/api/encoder_test.cpp", "the C interface of the encoder, from outside"),
     "codec/check_file": ("tests/codec/encode_test.cpp", "every encode checks its file"),
+    "codec/connectivity": ("tests/codec/connectivity/mesh_layout_test.cpp", "steps of laying out a mesh"),
     "codec/file": ("tests/codec/encode_test.cpp", "parts of every file that is written"),
     "codec/interpolation": ("tests/codec/interpolation/interpolation_test.cpp", "methods behind one function"),
     "codec/keyframes": ("tests/codec/keyframes/keyframe_weights_test.cpp", "methods behind one function"),
@@ -49,6 +51,7 @@ THROUGH = {
     "tools/listing": ("tests/tools/commands/inspect_command_test.cpp", "what `dump` prints"),
     "tools/main": ("tests/tools/commands/command_line_test.cpp", "the process itself"),
     "tools/options": ("tests/tools/options", "parts of the command line"),
+    "tools/program": ("tests/tools/commands/command_line_test.cpp", "what every command does, tested with them"),
     "tools/render": ("tests/tools/commands/render_command_test.cpp", "pictures that `render` writes"),
     "tools/report": ("tests/tools/report/report_test.cpp", "parts of one page"),
     "tools/words": ("tests/tools/commands/command_line_test.cpp", "what the command prints"),
