@@ -243,6 +243,9 @@ Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOp
   out.name = record.name;
   if (Status s = decode_faces(record.faces, sizes, &out.topology); s != Status::kOk)
     return at(*chunk, s, "the faces are damaged");
+  show(options.trace, "polygon offsets", out.topology.polygon_offsets);
+  show(options.trace, "polygon corners", out.topology.polygon_corners);
+  show(options.trace, "coded vertex of each vertex", out.topology.vertex_coded);
   if (Failure f = open_attributes(file, mesh, options); !f.ok())
     return f;
   if (record_.order == OrderMode::kFree)
@@ -252,12 +255,14 @@ Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOp
   Vector<uint32_t> map;
   if (Status s = decode_vertex_map(payload, out.topology, &map); s != Status::kOk)
     return at(*chunk, s, "the vertex map is damaged");
+  show(options.trace, "vertex map", map);
   if (record_.order == OrderMode::kAll) {
     if (Failure f = required(file, "FMAP", mesh, kNoSegment, &chunk, &payload); !f.ok())
       return f;
     Vector<uint32_t> place, first;
     if (Status s = decode_face_map(payload, out.topology, &place, &first); s != Status::kOk)
       return at(*chunk, s, "the face map is damaged");
+    show(options.trace, "face map", place);
     apply_face_map(place, first, out.topology, &out.attributes);
     apply_face_map(place, first, &out.topology);
   }
@@ -394,6 +399,7 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
       return f;
   }
   partial_ |= context.partial;
+  context.trace = options.trace;
   context.progress = options.progress;
   if (record.kind != BasisKind::kKeyframes)
     s = work.shared_graph(*context.topology, &context.graph);

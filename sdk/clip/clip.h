@@ -38,6 +38,8 @@ struct OpenOptions {
   /// Told after every mesh, level of the vertices and component; may end the opening with
   /// kCancelled. Null: nobody.
   HostProgress* progress = nullptr;
+  /// Sees the integers of every step of decoding, for tests. Null: nobody.
+  DecodingTrace* trace = nullptr;
   double progress_end = 1;  ///< share of the host's call that is done once the clip is open
 };
 

@@ -68,7 +68,7 @@ Status read_poses(const SegmentRecord& record, const SegmentContext& context,
   return Status::kOk;
 }
 
-Status read_motions(ByteView bytes, const KeyframeParameters& parameters, IntegerHash* hash,
+Status read_motions(ByteView bytes, const KeyframeParameters& parameters, DecodedIntegers* integers,
                     Segment* out) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   SeriesCoding coding;
@@ -76,7 +76,7 @@ Status read_motions(ByteView bytes, const KeyframeParameters& parameters, Intege
   for (Vector<int32_t>& s : series) {
     if (!coding.code(decoder, out->frames, 0, &s))
       return Status::kEntropy;
-    hash->add(s.data(), s.size());
+    integers->add("motion", s.data(), s.size());
   }
   if (!decoder.finish())
     return Status::kEntropy;
@@ -194,7 +194,7 @@ Status KeyframeParameters::read(ByteView bytes, uint32_t components, uint32_t se
 }
 
 Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& context,
-                             IntegerHash& hash, Segment* out) {
+                             DecodedIntegers& integers, Segment* out) {
   KeyframeParameters parameters;
   uint32_t k = context.sizes->components;
   if (k == 0)
@@ -216,7 +216,7 @@ Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& 
         poses[j][i] = static_cast<int32_t>(static_cast<uint32_t>(poses[j][i]) +
                                            static_cast<uint32_t>(parent[i]));
     }
-    hash.add(poses[j].data(), poses[j].size());
+    integers.add("key-frame", poses[j].data(), poses[j].size());
     if (!context.advance(poses[j].size()))
       return Status::kCancelled;
   }
@@ -230,7 +230,7 @@ Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& 
   for (uint32_t j = first; j < k; ++j) {
     if (!coding.code(decoder, out->frames, 0, &series[j]))
       return Status::kEntropy;
-    hash.add(series[j].data(), series[j].size());
+    integers.add("weights", series[j].data(), series[j].size());
     for (size_t f = 0; parameters.sum_to_one && f < out->frames; ++f)
       series[0][f] = static_cast<int32_t>(static_cast<uint32_t>(series[0][f]) -
                                           static_cast<uint32_t>(series[j][f]));
@@ -246,7 +246,7 @@ Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& 
     }
   }
   if (parameters.rigid) {
-    if (Status s = read_motions(record.motion, parameters, &hash, out); s != Status::kOk)
+    if (Status s = read_motions(record.motion, parameters, &integers, out); s != Status::kOk)
       return s;
   } else if (record.motion.size != 0) {
     return Status::kRecord;

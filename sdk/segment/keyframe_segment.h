@@ -3,7 +3,6 @@
 #ifndef ANICODEC_SDK_SEGMENT_KEYFRAME_SEGMENT_H_
 #define ANICODEC_SDK_SEGMENT_KEYFRAME_SEGMENT_H_
 
-#include "format/checksum.h"
 #include "format/memory.h"
 #include "sdk/segment/segment.h"
 
@@ -34,7 +33,7 @@ struct KeyframeParameters {
 };
 
 Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& context,
-                             IntegerHash& hash, Segment* out);
+                             DecodedIntegers& integers, Segment* out);
 
 }  // namespace anicodec
 

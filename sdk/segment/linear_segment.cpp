@@ -18,7 +18,7 @@ constexpr uint8_t kAffineFlag = 1;
 
 /// Time weights: those of the affine base become maps of the pose, the others stay integers.
 Status read_weights(ByteView bytes, const LinearParameters& parameters, const PoseGrid& pose,
-                    IntegerHash* hash, Segment* out, Vector<int32_t>* weights) {
+                    DecodedIntegers* integers, Segment* out, Vector<int32_t>* weights) {
   BinaryDecoder decoder(bytes.data, bytes.size);
   TimeWeightModel model(out->frames);
   size_t frames = out->frames;
@@ -31,7 +31,7 @@ Status read_weights(ByteView bytes, const LinearParameters& parameters, const Po
       v.resize(3 * frames);
       if (Status s = model.decode(decoder, 3, v.data()); s != Status::kOk)
         return s;
-      hash->add(v.data(), v.size());
+      integers->add("affine weights", v.data(), v.size());
     }
     out->pose_maps.resize(frames);
     for (size_t f = 0; f < frames; ++f) {
@@ -60,7 +60,7 @@ Status read_weights(ByteView bytes, const LinearParameters& parameters, const Po
     int32_t* values = weights->data() + j * per_component;
     if (Status s = model.decode(decoder, out->weight_channels(), values); s != Status::kOk)
       return s;
-    hash->add(values, per_component);
+    integers->add("weights", values, per_component);
   }
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
@@ -127,7 +127,7 @@ Status read_residuals(const SegmentContext& context, const VertexOrder& order, u
 
 /// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample.
 Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ranks, size_t samples,
-                                IntegerHash& hash) {
+                                DecodedIntegers& integers) {
   Vector<int32_t> exact(samples);
   Vector<float> largest(samples, 0.F);
   for (size_t i = 0; i < ranks; ++i) {
@@ -136,7 +136,7 @@ Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ra
       exact[s] = static_cast<int32_t>(row[s] * (1 << kFractionBits));
       largest[s] = std::max(largest[s], std::fabs(row[s]));
     }
-    hash.add(exact.data(), samples);
+    integers.add("coefficients", exact.data(), samples);
   }
   return largest;
 }
@@ -257,7 +257,7 @@ Status LinearParameters::read(ByteView bytes, uint32_t components) {
 }
 
 Status open_linear_segment(const SegmentRecord& record, const SegmentContext& context,
-                           IntegerHash& hash, Segment* out) {
+                           DecodedIntegers& integers, Segment* out) {
   LinearParameters parameters;
   uint32_t components = context.sizes->components;
   if (Status s = parameters.read(record.parameters, components); s != Status::kOk)
@@ -269,10 +269,10 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   const Topology& topology = *context.topology;
   size_t n = topology.coded_vertices;
   const PoseGrid& pose = *context.pose;
-  hash.add(pose.points.data(), pose.points.size());
+  integers.add("pose", pose.points.data(), pose.points.size());
 
   Vector<int32_t> weights;
-  if (Status s = read_weights(record.weights, parameters, pose, &hash, out, &weights);
+  if (Status s = read_weights(record.weights, parameters, pose, &integers, out, &weights);
       s != Status::kOk)
     return s;
   uint32_t wanted = wanted_components(context.quality, components);
@@ -292,6 +292,11 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   if (Status s = read_residuals(context, order, channels, components, wanted, &residuals);
       s != Status::kOk)
     return s;
+
+  show(context.trace, "vertex of each rank", order.order);
+  show(context.trace, "first rank of each level", order.level_start);
+  integers.show("neighbours", order.neighbours.data(), order.neighbours.size());
+  integers.show("residuals", residuals.data(), residuals.size());
 
   PredictionParameters prediction;
   prediction.channels = static_cast<int>(channels);
@@ -315,7 +320,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   }
 
   size_t stride = coefficient_stride(samples);
-  const Vector<float> largest = hash_coefficients(y, stride, n, samples, hash);
+  const Vector<float> largest = hash_coefficients(y, stride, n, samples, integers);
   return make_resident(order, y, stride, largest, parameters, weights, writer, out);
 }
 

@@ -3,7 +3,6 @@
 #ifndef ANICODEC_SDK_SEGMENT_LINEAR_SEGMENT_H_
 #define ANICODEC_SDK_SEGMENT_LINEAR_SEGMENT_H_
 
-#include "format/checksum.h"
 #include "format/memory.h"
 #include "sdk/prediction/predictor.h"
 #include "sdk/segment/segment.h"
@@ -45,7 +44,7 @@ struct LinearParameters {
 inline constexpr int kFractionBits = 6;
 
 Status open_linear_segment(const SegmentRecord& record, const SegmentContext& context,
-                           IntegerHash& hash, Segment* out);
+                           DecodedIntegers& integers, Segment* out);
 
 }  // namespace anicodec
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/segment/segment.h"
 
-#include "format/checksum.h"
 #include "sdk/base/bounded_float.h"
 #include "sdk/base/float_control.h"
 #include "sdk/segment/correction_coding.h"
@@ -35,7 +34,7 @@ struct Copies {
   Vector<uint32_t> begin, vertices;
 };
 
-Status read_corrections(const SegmentContext& context, IntegerHash& hash, Segment* out) {
+Status read_corrections(const SegmentContext& context, DecodedIntegers& integers, Segment* out) {
   const uint32_t total = context.sizes->corrections;
   if (context.corrections.size == 0)
     return total == 0 || context.partial ? Status::kOk : Status::kChunkMissing;
@@ -74,7 +73,7 @@ Status read_corrections(const SegmentContext& context, IntegerHash& hash, Segmen
       }
       const int32_t hashed[5] = {static_cast<int32_t>(f), static_cast<int32_t>(c.vertex),
                                  c.delta[0], c.delta[1], c.delta[2]};
-      hash.add(hashed, 5);
+      integers.add("correction", hashed, 5);
     }
     std::sort(out->corrections.begin() + out->correction_begin.back(), out->corrections.end(),
               [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
@@ -111,13 +110,13 @@ Status open_segment(const SegmentRecord& record, const SegmentContext& context, 
   out->wide_components = sizes.wide_components;
   out->stored_hash = record.hash;
   const FloatControl control;
-  IntegerHash hash;
+  DecodedIntegers integers(context.trace);
   Status status = record.kind == BasisKind::kKeyframes
-                      ? open_keyframe_segment(record, context, hash, out)
-                      : open_linear_segment(record, context, hash, out);
+                      ? open_keyframe_segment(record, context, integers, out)
+                      : open_linear_segment(record, context, integers, out);
   if (status == Status::kOk)
-    status = read_corrections(context, hash, out);
-  out->decoded_hash = hash.digest();
+    status = read_corrections(context, integers, out);
+  out->decoded_hash = integers.digest();
   return status;
 }
 

@@ -11,6 +11,7 @@
 #include "sdk/msgi/msgi.h"
 #include "sdk/pose/reference_pose.h"
 #include "sdk/prediction/vertex_order.h"
+#include "sdk/segment/decoded_integers.h"
 
 #include <cstdint>
 
@@ -101,6 +102,7 @@ struct SegmentContext {
   double quality = 1;                ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;
+  DecodingTrace* trace = nullptr;    ///< sees every integer decoded; may be null
   HostProgress* progress = nullptr;  ///< gets segment_work() in all; may be null
 
   /// Tells the host of coefficients that were decoded; false when it wants to stop.

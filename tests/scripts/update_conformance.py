@@ -18,6 +18,7 @@ import tempfile
 
 import anic_file
 import conformance_facts
+import traces
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests" / "conformance"
@@ -313,6 +314,7 @@ def main():
     if rest:
         print("no single byte causes " + ", ".join(CODES[str(code)] for code in sorted(rest)))
     (FOLDER / "MANIFEST").write_text("\n".join(lines) + "\n")
+    traces.write(build / "tests" / "trace_decoder")
 
     write_seeds(ROOT / "tests" / "fuzz" / "seeds")
     page = ROOT / "spec" / "A-examples.md"
