@@ -15,7 +15,7 @@
 namespace anicodec {
 
 /// Coordinates that are exactly those of a parallelogram, a neighbour or the vertex before, as in
-/// shapes built along the axes (spec/09c-reference-pose.md, section 5).
+/// shapes built along the axes (spec/09b-reference-pose.md, section 5).
 class ExactCoordinates {
  public:
   explicit ExactCoordinates(uint32_t vertices) : hits_(vertices, {false, false, false}) {}

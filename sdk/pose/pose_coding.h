@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// A reference pose, predicted over the known connectivity (spec/09c-reference-pose.md).
+// A reference pose, predicted over the known connectivity (spec/09b-reference-pose.md).
 #ifndef ANICODEC_SDK_POSE_POSE_CODING_H_
 #define ANICODEC_SDK_POSE_POSE_CODING_H_
 

@@ -21,7 +21,7 @@ inline PosePrediction::Expectation halved(const PosePrediction::Expectation& e, 
 }
 
 /// Models of the coordinates of a pose: how far each is from what is expected of it, in mixed
-/// contexts of how well it is expected (spec/09c-reference-pose.md, section 4).
+/// contexts of how well it is expected (spec/09b-reference-pose.md, section 4).
 class PoseModels {
  public:
   PoseModels() : distance_({128, 64, 192, 640, 480}, {16, 3 * PosePrediction::kKinds}) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What the vertices decoded so far say of the next one's position (spec/09c-reference-pose.md).
+// What the vertices decoded so far say of the next one's position (spec/09b-reference-pose.md).
 #ifndef ANICODEC_SDK_POSE_POSE_PREDICTION_H_
 #define ANICODEC_SDK_POSE_POSE_PREDICTION_H_
 

@@ -19,7 +19,7 @@ struct PoseGrid {
   Vector<int32_t> points;  ///< coded vertices x 3
 };
 
-/// Decodes a reference pose (spec/09c-reference-pose.md). O(coded vertices).
+/// Decodes a reference pose (spec/09b-reference-pose.md). O(coded vertices).
 Status open_pose(const PoseRecord& record, const PoseSurface& surface, PoseGrid* out);
 
 }  // namespace anicodec

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // An order in which the vertices of a triangle mesh are surrounded by earlier ones, found from the
-// connectivity alone (spec/09c-reference-pose.md, section 2).
+// connectivity alone (spec/09b-reference-pose.md, section 2).
 #ifndef ANICODEC_SDK_POSE_SURFACE_GROWTH_H_
 #define ANICODEC_SDK_POSE_SURFACE_GROWTH_H_
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Multi-scale geometry interpolation word by word as spec/09d-interpolation.md has it, slow and in
+// Multi-scale geometry interpolation word by word as spec/09c-interpolation.md has it, slow and in
 // double, against the decoder's.
 #include "sdk/msgi/msgi.h"
 #include "tests/sdk/triangle_lists.h"

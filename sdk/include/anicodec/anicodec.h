@@ -850,7 +850,7 @@ ANIC_API anic_status anic_write_render_attribute(const anic_render_plan* plan,
 /**
  * Blends meshes of one connectivity that the host gives, without a file, by multi-scale geometry
  * interpolation (MSGI): lengths, angles and volume keep even if limbs turn far. Immutable, shared
- * by threads. Spec: 09d.
+ * by threads. Spec: 09c.
  */
 typedef struct anic_morpher anic_morpher;
 
@@ -934,7 +934,7 @@ enum anic_target ANIC_INT32 {
 enum anic_reconstruction ANIC_INT32 {
   ANIC_RECONSTRUCTION_LINEAR = 0, /**< a linear combination */
   ANIC_RECONSTRUCTION_MSGI = 1    /**< multi-scale geometry interpolation between key-frames, see
-                                     anic_part.shape. Spec: 09d */
+                                     anic_part.shape. Spec: 09c */
 };
 
 /** Vertices of a block: blocks store the same coefficient of all their vertices side by side. */
