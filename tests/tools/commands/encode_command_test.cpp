@@ -113,7 +113,6 @@ TEST_F(EncodeCommand, RefusesImpossibleOptionsAndLeavesNoFile) {
       {"--kg", "1", "--size", "20k"},
       {"--kg", "0"},
       {"--kg", "-1"},
-      {"--kg", "1%"},
       {"--max-error", "0"},
       {"--max-error", "nan"},
       {"--max-error", "1e-30"},
