@@ -35,7 +35,8 @@ def is_shown(checkout, header):
 
 def lone_headers(checkout):
     for module in MODULES:
-        for path in sorted((checkout / module).rglob("*.h")):
+        headers = (p for p in (checkout / module).rglob("*.h") if "node_modules" not in p.parts)
+        for path in sorted(headers):
             header = path.relative_to(checkout).as_posix()
             if not header.startswith(EXCEPT) and not is_shown(checkout, header):
                 yield header
