@@ -3,6 +3,7 @@
 //
 // The package in Chromium: workers, errors, three.js.
 import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { bytesOf, files } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
@@ -14,6 +15,7 @@ const IMPORTS = JSON.stringify({ imports: {
 } });
 const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
 const skip = CHROMIUM ? false : 'there is no Chromium';
+const VIEWER = new URL('../../sdk/web/dist/viewer.html', import.meta.url);
 let server;
 before(async () => { server = await serve({ '/page': PAGE }); });
 after(() => server.close());
@@ -125,4 +127,36 @@ test('three.js shows, plays and hits a clip', { skip }, async () => {
   assert.ok(Math.abs(result.time - result.half) < 1e-6 && result.running);
   assert.ok(result.hits > 0 && result.progress > 0);
   assert.ok(result.attributes.includes('uv') && result.attributes.includes('color'));
+});
+
+test('the viewer plays the clips that are in it, without a network', { skip: skip || (existsSync(VIEWER) ? false : 'there is no viewer') }, async () => {
+  const clip = `<script class="clip" type="application/octet-stream" data-name="heated.anic">${Buffer.from(bytesOf('heated.anic')).toString('base64')}</script>`;
+  const viewer = readFileSync(VIEWER, 'utf8').replace('<!-- the clip -->', () => clip + clip);
+  await withPage(async (page, messages) => {
+    await page.route('**/*', (route) => (route.request().url() === 'http://viewer.test/' ? route.fulfill({ body: viewer, contentType: 'text/html' }) : route.abort()));
+    await page.goto('http://viewer.test/');
+    await page.waitForFunction(() => document.documentElement.dataset.ready === 'true');
+    const clock = page.locator('#clock'), early = await clock.textContent();
+    await page.waitForFunction((text) => document.getElementById('clock').textContent !== text, early);  // it plays
+    await page.keyboard.press(' ');
+    assert.equal(await page.locator('#play').textContent(), 'Play');
+    await page.locator('#error').click();
+    await page.locator('#wires').click();
+    assert.match(await page.locator('#figures').textContent(), /largest 0/);  // the clip against itself
+    assert.match(await page.locator('#info').textContent(), /basis of the motion/);
+    // Both halves show something.
+    const lit = await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+      const gl = document.getElementById('canvas').getContext('webgl2'), [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+      const pixels = new Uint8Array(4 * w * h), counts = [0, 0];
+      gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      for (let i = 0; i < w * h; ++i)
+        counts[i % w < w / 2 ? 0 : 1] += pixels[4 * i] !== pixels[0];
+      done(counts);
+    }))));
+    assert.ok(lit.every((count) => count > 100), String(lit));
+    await page.setInputFiles('#files', { name: 'bad.anic', mimeType: '', buffer: Buffer.from('this is no clip') });
+    await page.waitForFunction(() => !document.getElementById('message').hidden);
+    assert.match(await page.locator('#message').textContent(), /bad\.anic: ANIC_E_MAGIC/);
+    assert.deepEqual(messages, []);
+  }, { viewport: { width: 900, height: 600 } });
 });

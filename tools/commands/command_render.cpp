@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
+#include "tools/inputs/clip_input.h"
 #include "tools/inputs/compared_clip.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/files/name_pattern.h"
@@ -10,6 +11,7 @@
 #include "tools/render/image.h"
 #include "tools/render/shaded_view.h"
 #include "tools/render/video.h"
+#include "tools/render/viewer_page.h"
 #include "tools/words/names.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
@@ -17,9 +19,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -33,7 +37,8 @@ constexpr const char* kRenderFooter =
 (.gltf, .glb), whose first animation is baked, or a vertex cache (.pc2, .mdd) with its mesh of the
 same stem beside it or the one of --mesh. OUT is a picture per frame (frame_%04d.png), one picture
 of one frame (x.png), or all frames in one file (clip.gif; clip.mp4 by the ffmpeg command, if there
-is one).
+is one). clip.html is one page with the clip and a player inside, which any browser shows without a
+network: CLIP is an .anic file then, and so is --against, which stands beside it.
 
 Views stand side by side in the order of --view: clip, original, and error, which colours each
 vertex by its distance from the original, from grey (none) over yellow and red to black (the largest
@@ -43,7 +48,8 @@ original,clip,error.
 Examples:
   anicodec render dance.anic -o dance.gif --frames 0:200:4
   anicodec render dance.anic --against dance.pc2 -o frame_%04d.png --frames 0:10
-  anicodec render face.anic -o face.png --frames 20 --camera 0,10 --resolution 800x800)";
+  anicodec render face.anic -o face.png --frames 20 --camera 0,10 --resolution 800x800
+  anicodec render dance.anic -o dance.html)";
 
 enum class View : uint8_t { kClip, kOriginal, kError };
 
@@ -265,13 +271,55 @@ void write_animation(const std::string& path, bool overwrite, Drawing& drawing,
   file.commit();
 }
 
+/// A page that plays the clip, and the original beside it.
+void write_page(const RenderCommand& command, const CommonOptions& common) {
+  const std::pair<bool, const char*> others[] = {{!command.mesh.empty(), "--mesh"},
+                                                 {!command.frames.empty(), "--frames"},
+                                                 {!command.views.empty(), "--view"},
+                                                 {!command.camera.empty(), "--camera"},
+                                                 {!command.error_range.empty(), "--error-range"},
+                                                 {command.turntable, "--turntable"}};
+  for (const auto& [given, name] : others) {
+    if (given)
+      throw Error(ErrorKind::kUsage, fmt::format("{}: is for pictures, not for .html", name));
+  }
+  check_output(command.output, common.overwrite);
+  std::vector<std::string> names;
+  if (!command.against.empty())
+    names.push_back(command.against);
+  names.push_back(command.input);
+  std::vector<std::string> files;
+  for (const std::string& name : names) {
+    if (ComparedClip(name, {}, {}).bytes() == 0)
+      throw Error(ErrorKind::kUsage, name + ": a page shows .anic files; encode it first");
+    files.push_back(read_bytes(name));
+  }
+  std::vector<PageClip> clips;
+  for (size_t i = 0; i < names.size(); ++i)
+    clips.push_back({std::filesystem::path(names[i]).filename().string(), files[i]});
+  const std::string page = viewer_page(load_viewer(), clips);
+  OutputFolder folder(command.output);
+  AtomicFile file(command.output, common.overwrite);
+  file.write(page);
+  file.commit();
+  folder.keep();
+  if (common.json)
+    return print_json(
+        {{"file", command.output}, {"bytes", page.size()}, {"clip_bytes", files.back().size()}});
+  if (!common.quiet)
+    print_line("{}: {} bytes, {} of them the clip's", command.output, page.size(),
+               files.back().size());
+}
+
 void run(const RenderCommand& command, const CommonOptions& common) {
+  if (ends_with(command.output, ".html"))
+    return write_page(command, common);
   ProgressLine line(common.quiet);
   const Progress progress = line.callback();
   const bool pictures = ends_with(command.output, ".png");
   if (!pictures && !ends_with(command.output, ".gif") && !ends_with(command.output, ".mp4"))
     throw Error(ErrorKind::kUsage,
-                command.output + ": is of unknown kind; .png, .gif and .mp4 can be written");
+                command.output + ": is of unknown kind; .png, .gif, .mp4 and .html can be written");
   Drawing drawing(command, progress);
   OutputFolder folder(command.output);
   (pictures ? write_pictures : write_animation)(command.output, common.overwrite, drawing,
@@ -299,7 +347,9 @@ void add_render(Commands& commands, CommonOptions& common) {
                    "Draw a clip, beside its original and coloured by error", kRenderFooter},
                   [c, &common] { run(*c, common); });
   options.argument("CLIP", c->input, "What to draw").required();
-  options.option("-o,--output", c->output, "OUT", "frame_%04d.png, x.png, clip.gif or clip.mp4")
+  options
+      .option("-o,--output", c->output, "OUT",
+              "frame_%04d.png, x.png, clip.gif, clip.mp4 or clip.html")
       .required();
   options.option("--against", c->against, "ORIGINAL", "The original");
   options.option("--mesh", c->mesh, "FILE",

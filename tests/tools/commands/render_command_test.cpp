@@ -5,6 +5,7 @@
 #include "tools/io/write_sequence.h"
 #include "tools/render/shaded_view.h"
 
+#include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -63,6 +64,24 @@ TEST_F(RenderCommand, MakesAnAnimation) {
   Outcome outcome = render("x.gif", {"--frames", "0:4", "--turntable"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   EXPECT_THAT(folder_.read("x.gif"), StartsWith("GIF89a"));
+}
+
+TEST_F(RenderCommand, MakesAPageThatHoldsTheClip) {
+  const Outcome outcome = render("x.html", {"--against", folder_ / "limb.anic"});
+  if (!std::filesystem::exists(ANICODEC_SOURCE_DIR "/sdk/web/dist/viewer.html")) {
+    EXPECT_EQ(outcome.status, 4) << outcome;
+    EXPECT_THAT(outcome.err, HasSubstr("build the preset wasm"));
+    GTEST_SKIP() << "the preset wasm, which makes the viewer, is not built";
+  }
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const std::string page = folder_.read("x.html");
+  EXPECT_THAT(page, StartsWith("<!doctype html>"));
+  EXPECT_THAT(page, HasSubstr("data-name=\"limb.anic\""));
+  EXPECT_THAT(outcome.out, HasSubstr(std::to_string(page.size()) + " bytes"));
+  EXPECT_THAT(render("x.html", {}).err, HasSubstr("x.html"));  // it exists
+  EXPECT_THAT(render("y.html", {"--frames", "0:2"}).err, HasSubstr("--frames: is for pictures"));
+  EXPECT_THAT(render("y.html", {"--against", folder_ / "limb.pc2"}).err,
+              HasSubstr("a page shows .anic files"));
 }
 
 TEST_F(RenderCommand, SaysWhatItCannotDo) {

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The viewer: one page that holds the decoder, and a clip where `anicodec render` has put one.
+import { open } from '../index.js';
+import { provideModule } from '../module.js';
+import { MEANINGS, chunkSizes } from './chunks.js';
+import { ClipView, Orbit, SurfaceView } from './surface_view.js';
+
+const SPEEDS = [-1, 0.1, 0.25, 0.5, 1, 2, 4];
+const $ = (id) => document.getElementById(id);
+const orbit = new Orbit();
+const state = { clips: [], time: 0, playing: false, speed: 1, loop: true, wires: false, error: false, about: true, dirty: true, fps: 0, decode: 0 };
+let view;
+
+function fromBase64(text) {
+  const raw = atob(text.trim()), bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; ++i)
+    bytes[i] = raw.charCodeAt(i);
+  return bytes;
+}
+
+async function unzipped(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+function say(text) {
+  $('message').textContent = text;
+  $('message').hidden = !text;
+}
+
+const inBytes = (n) => (n < 1e4 ? `${n} B` : n < 1e7 ? `${(n / 1e3).toFixed(1)} kB` : `${(n / 1e6).toFixed(1)} MB`);
+const number = (n) => n.toLocaleString('en').replaceAll(',', '\u202f');
+
+function describe() {
+  const rows = (list) => {
+    const table = document.createElement('table');
+    for (const [name, value] of list) {
+      const row = table.insertRow();
+      row.insertCell().textContent = name;
+      row.insertCell().textContent = value;
+    }
+    return table;
+  };
+  $('info').replaceChildren(...state.clips.flatMap(({ clip, name, bytes, openMs }) => {
+    const title = document.createElement('h2'), { info } = clip;
+    title.textContent = name;
+    const sum = (key) => clip.meshes.reduce((all, mesh) => all + mesh[key], 0);
+    const bits = 8 * bytes.length / Math.max(sum('sourceVertexCount') * info.frames, 1);
+    return [title, rows([
+      ['file', inBytes(bytes.length)], ['per vertex and frame', `${bits.toPrecision(3)} bits`],
+      ['vertices', number(sum('sourceVertexCount'))], ['triangles', number(sum('triangleCount'))], ['meshes', number(clip.meshes.length)],
+      ['frames', `${number(info.frames)}, ${+info.rate.toFixed(3)} a second${info.rateAssumed ? ' (assumed)' : ''}`],
+      ['largest error', `${info.maxError.toPrecision(3)}, ${(100 * info.maxError / info.diagonal).toPrecision(2)} % of the size`],
+      ['opened in', `${openMs.toFixed(0)} ms`], ['memory', inBytes(clip.memoryBytes)],
+    ]), rows(chunkSizes(bytes).map(({ type, size, share }) => [`${MEANINGS[type] ?? type}`, `${inBytes(size)}, ${(100 * share).toFixed(0)} %`]))];
+  }), Object.assign(document.createElement('div'), { id: 'figures' }));
+}
+
+const correspond = () => state.clips.length === 2 && state.clips[0].clip.meshes.length === state.clips[1].clip.meshes.length &&
+  state.clips[0].clip.meshes.every((mesh, m) => mesh.sourceVertexCount === state.clips[1].clip.meshes[m].sourceVertexCount);
+
+/** Distances of the vertices of the second clip from those of the first at this time. */
+function measure() {
+  const [a, b] = state.clips.map(({ clip }) => clip);
+  let largest = 0, sum = 0, count = 0;
+  const distances = b.meshes.map((mesh, m) => {
+    if (!mesh.isPresent(state.time) || !a.meshes[m].isPresent(state.time))
+      return undefined;
+    const p = a.meshes[m].sourcePositions(state.time), q = mesh.sourcePositions(state.time);
+    const far = Float32Array.from({ length: p.length / 3 }, (_, v) => Math.hypot(p[3 * v] - q[3 * v], p[3 * v + 1] - q[3 * v + 1], p[3 * v + 2] - q[3 * v + 2]));
+    for (const d of far) {
+      largest = Math.max(largest, d);
+      sum += d * d;
+    }
+    count += far.length;
+    return Array.from(mesh.sourceVertices, (v) => far[v]);
+  });
+  state.errors = { largest, rmse: Math.sqrt(sum / Math.max(count, 1)) };
+  state.clips[1].colour(state.error ? distances.map((d) => d?.map((x) => (largest > 0 ? x / largest : 0))) : undefined);
+}
+
+function background() {
+  const [r, g, b] = getComputedStyle(document.body).backgroundColor.match(/[\d.]+/g).map((v) => v / 255);
+  return [r, g, b];
+}
+
+const duration = () => Math.max(...state.clips.map(({ clip }) => (clip.info.loop && state.loop ? clip.info.loopDuration : clip.duration)), 0);
+
+function draw() {
+  const options = { wrap: state.loop ? 'loop' : 'clamp' }, before = performance.now();
+  for (const clip of state.clips)
+    clip.seek(state.time, options);
+  state.decode = performance.now() - before;
+  if (correspond())
+    measure();
+  view.draw(state.clips, orbit, { wires: state.wires, unlit: false, background: background() });
+  const end = duration(), frame = state.clips.length ? Math.round(Math.min(state.time, end) * state.clips[0].clip.info.rate) : 0;
+  $('time').value = end > 0 ? state.time / end : 0;
+  $('clock').textContent = `${state.time.toFixed(2)} s, ${frame}`;
+  if (state.about && $('figures'))
+    $('figures').textContent = `${state.decode.toFixed(2)} ms to decode a frame${state.playing && state.fps > 0 ? `, ${state.fps.toFixed(0)} frames a second` : ''}` +
+      (correspond() ? `; error of the second now: largest ${state.errors.largest.toPrecision(3)}, RMSE ${state.errors.rmse.toPrecision(3)}` : '');
+}
+
+let last = 0;
+function tick(now) {
+  const seconds = Math.min((now - last) / 1000, 0.25), end = duration();
+  last = now;
+  if (state.playing && end > 0) {
+    state.time += seconds * state.speed;
+    if (seconds > 0)
+      state.fps += (1 / seconds - state.fps) * 0.05;
+    if (state.loop) {
+      state.time = ((state.time % end) + end) % end;
+    } else if (state.time >= end || state.time <= 0) {
+      state.time = Math.min(Math.max(state.time, 0), end);
+      set('playing', false);
+    }
+    state.dirty = true;
+  }
+  if (state.dirty) {
+    state.dirty = false;
+    draw();
+  }
+  requestAnimationFrame(tick);
+}
+
+function set(name, value) {
+  state[name] = value;
+  state.dirty = true;
+  $('play').textContent = state.playing ? 'Pause' : 'Play';
+  for (const id of ['loop', 'wires', 'error', 'about'])
+    $(id).setAttribute('aria-pressed', state[id]);
+  $('info').hidden = !state.about || state.clips.length === 0;
+  $('speed').value = state.speed;
+}
+
+/** Adds a file; a third one begins anew. */
+async function add(name, bytes) {
+  const before = performance.now(), clip = await open(bytes, { worker: false });
+  if (state.clips.length === 2) {
+    for (const old of state.clips)
+      old.dispose();
+    state.clips = [];
+  }
+  state.clips.push(Object.assign(new ClipView(view, clip), { name, bytes, openMs: performance.now() - before }));
+  if (state.clips.length === 1) {
+    orbit.show(clip.bounds, clip.info.up === 'z');
+    state.time = 0;
+  }
+  say('');
+  describe();
+  document.title = state.clips.map((c) => c.name).join(', ');
+  $('drop').hidden = true;
+  $('controls').hidden = false;
+  $('error').hidden = !correspond();
+  set('playing', state.clips[0].clip.frames > 1);
+}
+
+async function addFiles(files) {
+  for (const file of files) {
+    try {
+      await add(file.name, new Uint8Array(await file.arrayBuffer()));
+    } catch (error) {
+      say(`${file.name}: ${error.status ? `${error.status}, ` : ''}${error.message}`);
+    }
+  }
+}
+
+function listen() {
+  for (const speed of SPEEDS)
+    $('speed').append(Object.assign(document.createElement('option'), { value: speed, textContent: `${speed} ×` }));
+  $('speed').onchange = () => set('speed', Number($('speed').value));
+  $('play').onclick = () => set('playing', !state.playing);
+  for (const id of ['loop', 'wires', 'error', 'about'])
+    $(id).onclick = () => set(id, !state[id]);
+  $('time').oninput = () => {
+    state.time = Number($('time').value) * duration();
+    set('playing', false);
+  };
+  $('choose').onclick = $('open').onclick = () => $('files').click();
+  $('files').onchange = () => addFiles($('files').files).then(() => { $('files').value = ''; });
+  addEventListener('dragover', (event) => event.preventDefault());
+  addEventListener('drop', (event) => {
+    event.preventDefault();
+    addFiles(event.dataTransfer.files);
+  });
+  addEventListener('resize', () => set('dirty', true));
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => set('dirty', true));
+
+  const pointers = new Map();
+  const canvas = $('canvas');
+  canvas.onpointerdown = (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
+  };
+  canvas.onpointerup = canvas.onpointercancel = (event) => pointers.delete(event.pointerId);
+  const apart = () => {
+    const [a, b] = [...pointers.values()];
+    return Math.hypot(a[0] - b[0], a[1] - b[1]);
+  };
+  canvas.onpointermove = (event) => {
+    const before = pointers.get(event.pointerId);
+    if (!before)
+      return;
+    const dx = (event.clientX - before[0]) / canvas.clientHeight, dy = (event.clientY - before[1]) / canvas.clientHeight;
+    const distance = pointers.size === 2 ? apart() : 0;
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
+    if (pointers.size === 2) {
+      orbit.zoom(distance / Math.max(apart(), 1));
+      orbit.pan(dx / 2, -dy / 2);
+    } else if (event.shiftKey || event.buttons === 2 || event.buttons === 4) {
+      orbit.pan(dx, -dy);
+    } else {
+      orbit.turn(4 * dx, 4 * dy);
+    }
+    state.dirty = true;
+  };
+  canvas.oncontextmenu = (event) => event.preventDefault();
+  canvas.addEventListener('wheel', (event) => {
+    event.preventDefault();
+    orbit.zoom(Math.exp(event.deltaY * 0.001));
+    state.dirty = true;
+  }, { passive: false });
+
+  const step = (frames) => {
+    state.time = Math.min(Math.max(state.time + frames / (state.clips[0]?.clip.info.rate ?? 1), 0), duration());
+    set('playing', false);
+  };
+  const speed = (by) => set('speed', SPEEDS[Math.min(Math.max(SPEEDS.indexOf(state.speed) + by, 0), SPEEDS.length - 1)]);
+  const keys = {
+    ' ': () => set('playing', !state.playing), l: () => set('loop', !state.loop), w: () => set('wires', !state.wires),
+    e: () => correspond() && set('error', !state.error), i: () => set('about', !state.about), o: () => $('files').click(),
+    ',': () => step(-1), '.': () => step(1), '[': () => speed(-1), ']': () => speed(1), Home: () => step(-1e9),
+    '+': () => orbit.zoom(0.9), '-': () => orbit.zoom(1.1), ArrowLeft: () => orbit.turn(0.1, 0), ArrowRight: () => orbit.turn(-0.1, 0),
+    ArrowUp: () => orbit.turn(0, 0.1), ArrowDown: () => orbit.turn(0, -0.1),
+  };
+  addEventListener('keydown', (event) => {
+    const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!act || event.ctrlKey || event.metaKey || event.altKey || (event.target !== document.body && event.target !== canvas))
+      return;
+    event.preventDefault();
+    act();
+    state.dirty = true;
+  });
+}
+
+async function start() {
+  view = new SurfaceView($('canvas'));
+  const module = WebAssembly.compile(await unzipped(fromBase64($('decoder').textContent)));
+  provideModule('small', module);
+  provideModule('full', module);
+  listen();
+  requestAnimationFrame(tick);
+  const inside = [...document.querySelectorAll('script.clip')].map((script) => ({ name: script.dataset.name, load: () => fromBase64(script.textContent) }));
+  const asked = new URLSearchParams(location.search).getAll('url').map((url) => ({ name: url.split('/').pop(), load: async () => {
+    const response = await fetch(url);
+    if (!response.ok)
+      throw new Error(`${response.status} ${response.statusText}`);
+    return new Uint8Array(await response.arrayBuffer());
+  } }));
+  for (const { name, load } of [...inside, ...asked]) {
+    try {
+      await add(name, await load());
+    } catch (error) {
+      say(`${name}: ${error.status ? `${error.status}, ` : ''}${error.message}`);
+    }
+  }
+  document.documentElement.dataset.ready = 'true';
+}
+
+start().catch((error) => say(error.message));
