@@ -128,6 +128,12 @@ anic_status anic_get_render_info(const anic_render_plan* plan, anic_render_info*
   filled.vertex_count = of.size();
   filled.triangle_count = static_cast<uint32_t>(of.triangle_polygons.size());
   filled.group_count = static_cast<uint32_t>(of.group_labels.size());
+  static_assert(sizeof(NormalPlan::Corner) == 2 * sizeof(uint32_t));
+  filled.normal_group_count = static_cast<uint32_t>(of.normals.centre.size());
+  filled.normal_groups = of.normals.group.data();
+  filled.normal_centres = of.normals.centre.data();
+  filled.normal_begin = of.normals.begin.data();
+  filled.normal_corners = reinterpret_cast<const uint32_t*>(of.normals.corners.data());
   give(filled, out);
   return ANIC_OK;
 }

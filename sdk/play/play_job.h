@@ -13,7 +13,11 @@
 namespace anicodec {
 
 /// Frames that one pass over the coefficients makes.
+#if defined(ANICODEC_SMALL)
+inline constexpr uint32_t kMaxPlayedFrames = 1;  // kernels for more are as large as all else of playing
+#else
 inline constexpr uint32_t kMaxPlayedFrames = 4;
+#endif
 
 /// The 16-bit formats store (x - offset) * factor, rounded and, but for halves, clamped.
 struct OutputScale {

@@ -100,28 +100,22 @@ void play_frames(const PlayJob& job) {
   FrameLoop<Kernel, F, Channels>(job).run();
 }
 
-template <class Kernel, uint32_t Channels>
+/// Kernels for F frames and fewer.
+template <class Kernel, uint32_t Channels, uint32_t F>
 void combine_channels(const PlayJob& job) {
-  switch (job.frames) {
-    case 1:
-      return play_frames<Kernel, 1, Channels>(job);
-    case 2:
-      return play_frames<Kernel, 2, Channels>(job);
-    case 3:
-      return play_frames<Kernel, 3, Channels>(job);
-    case 4:
-      return play_frames<Kernel, 4, Channels>(job);
-    default:
-      return;
+  if constexpr (F > 1) {
+    if (job.frames < F)
+      return combine_channels<Kernel, Channels, F - 1>(job);
   }
+  play_frames<Kernel, F, Channels>(job);
 }
 
 template <class Kernel>
 void play_job(const PlayJob& job) {
   if (job.channels == 1)
-    combine_channels<Kernel, 1>(job);
+    combine_channels<Kernel, 1, kMaxPlayedFrames>(job);
   else
-    combine_channels<Kernel, 3>(job);
+    combine_channels<Kernel, 3, kMaxPlayedFrames>(job);
 }
 
 }  // namespace

@@ -251,6 +251,28 @@ export class ClipMesh {
 
   get trianglePolygons() { return this.#surface.trianglePolygons; }
 
+  /**
+   * For normals on a GPU. normalElements: four numbers for each vertex: its vertex of the source, that of the centre of its
+   * group of corners, the first corner of the group, and how many there are. normalCorners: four for each corner: the
+   * source's vertices after and before it, and two zeros. See anic_render_info of anicodec.h.
+   */
+  get normalPlan() {
+    const decoder = this.#clip.decoder, source = this.sourceVertices, vertices = this.vertexCount;
+    decoder.call('plan_info', this.#planned);
+    const [groups, groupAt, centreAt, beginAt, cornerAt] = decoder.numbers(14).slice(9);
+    const view = (at, count) => decoder.view(Uint32Array, at, count);
+    const group = view(groupAt, vertices), centre = view(centreAt, groups), begin = view(beginAt, groups + 1);
+    const corners = view(cornerAt, 2 * begin[groups]);
+    const normalElements = new Uint32Array(4 * vertices), normalCorners = new Uint32Array(2 * corners.length);
+    for (let r = 0; r < vertices; ++r) {
+      const g = group[r];
+      normalElements.set([source[r], source[centre[g]], begin[g], begin[g + 1] - begin[g]], 4 * r);
+    }
+    for (let c = 0; 2 * c < corners.length; ++c)
+      normalCorners.set([source[corners[2 * c]], source[corners[2 * c + 1]]], 4 * c);
+    return { normalElements, normalCorners };
+  }
+
   /** The box around all frames; undefined if the clip was opened without, or the mesh is in no frame. */
   get bounds() {
     const decoder = this.#clip.decoder;

@@ -158,6 +158,9 @@ export declare class ClipMesh {
   readonly attributes: AttributeInfo[];
   /** The box around all frames. */
   readonly bounds: Box | undefined;
+  /** For normals on a GPU: four numbers for each vertex (vertex of the source, centre, first corner, corners), and for each
+   * corner (vertices after and before, 0, 0). */
+  readonly normalPlan: { normalElements: Uint32Array; normalCorners: Uint32Array };
   readonly polygons: { offsets: Uint32Array; corners: Uint32Array };
   /** Edges that are hard: those of the source (default), or from an angle in degrees. Changes the vertices. */
   set shading(options: { crease?: number; sourceEdges?: boolean });

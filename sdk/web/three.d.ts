@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-import type { AnimationAction, AnimationClip, Group, Loader, LoadingManager, Material, Mesh, Points } from 'three';
-import type { Clip, OpenOptions, Progress, SampleOptions } from './index.js';
+import type {
+  AnimationAction, AnimationClip, Group, InstancedMesh, Loader, LoadingManager, Material, Mesh, Points, WebGLRenderer,
+} from 'three';
+import type { Clip, ClipMesh, OpenOptions, Progress, SampleOptions } from './index.js';
 
 /** Loads `.anic` files as AnicMesh objects, by the conventions of three's loaders. */
 export declare class AnicLoader extends Loader<AnicMesh> {
@@ -32,4 +34,22 @@ export declare class AnicMesh extends Group {
   play(options?: { speed?: number; loop?: boolean }): AnimationAction;
   update(seconds: number): void;
   dispose(): void;
+}
+
+/**
+ * Many instances of a mesh at different times, drawn by one call: the graphics card combines the resident basis and makes
+ * smooth normals. Set `times` (seconds) and setMatrixAt(), and call update() before rendering. For WebGLRenderer; materials
+ * of three.js, shadows and rays work. The clip must be opened with bounds.
+ */
+export declare class AnicInstances extends InstancedMesh {
+  constructor(mesh: ClipMesh, count: number, material?: Material, options?: SampleOptions);
+  readonly times: Float64Array;
+  options: SampleOptions;
+  /** Instances that the last update() left to the CPU. */
+  readonly madeByCpu: number;
+  /** Throws where the graphics card draws into no float textures (EXT_color_buffer_float). */
+  update(renderer: WebGLRenderer): void;
+  /** Reads back what the card made: positions in the order of the source, or normals of the vertices. */
+  read(renderer: WebGLRenderer, instance: number, what?: 'positions' | 'normals'): Float32Array;
+  dispose(): this;
 }

@@ -8,6 +8,8 @@ import {
 } from 'three';
 import { open } from './index.js';
 
+export { AnicInstances } from './three_instances.js';
+
 /** Loads `.anic` files as AnicMesh objects. */
 export class AnicLoader extends Loader {
   /** Options of Anicodec.open(), and `up`: 'y' turns clips with z up. */

@@ -4,6 +4,7 @@
 
 #include <anicodec/anicodec.hpp>
 
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -106,6 +107,24 @@ TEST(AnicRenderVertices, TrianglesShowWhatPolygonsAre) {
       const anic_output output = floats(n);
       ASSERT_EQ(anic_write_render_normals(plan.get(), rp.data(), 0, 0, info.vertex_count, &output),
                 ANIC_OK);
+      for (uint32_t r = 0; r < info.vertex_count; ++r) {
+        const uint32_t g = info.normal_groups[r];
+        ASSERT_LT(g, info.normal_group_count);
+        double sum[3] = {0, 0, 0};
+        const float* centre = &rp[size_t{3} * info.normal_centres[g]];
+        for (uint32_t c = info.normal_begin[g]; c < info.normal_begin[g + 1]; ++c) {
+          const float* a = &rp[size_t{3} * info.normal_corners[2 * c]];
+          const float* b = &rp[size_t{3} * info.normal_corners[2 * c + 1]];
+          for (size_t k = 0; k < 3; ++k) {
+            const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+            sum[k] += static_cast<double>((a[i] - centre[i]) * (b[j] - centre[j]) -
+                                          (a[j] - centre[j]) * (b[i] - centre[i]));
+          }
+        }
+        const double length = std::hypot(sum[0], sum[1], sum[2]);
+        for (size_t k = 0; k < 3 && length > 1e-6; ++k)
+          ASSERT_NEAR(sum[k] / length, static_cast<double>(n[3 * size_t{r} + k]), 1e-3);
+      }
       const std::vector<float> of_corners = corner_normals(asset, p, crease);
       for (uint32_t r = 0; r < info.vertex_count; ++r)
         ASSERT_EQ(std::memcmp(&n[size_t{3} * r], &of_corners[size_t{3} * info.corners[r]], 12), 0);

@@ -160,3 +160,90 @@ test('the viewer plays the clips that are in it, without a network', { skip: ski
     assert.deepEqual(messages, []);
   }, { viewport: { width: 900, height: 600 } });
 });
+
+test('the graphics card plays instances as the CPU does', { skip }, async (t) => {
+  let byCard = 0;
+  for (const { file } of files.filter(({ what }) => what === 'valid')) {
+    const { result } = await inPage(async (name) => {
+      const THREE = await import('three');
+      const { Anicodec } = await import('anicodec');
+      const { AnicInstances, AnicMesh } = await import('anicodec/three');
+      const clip = await Anicodec.open(`/tests/conformance/${name}`).catch((error) => {
+        if (error.status !== 'ANIC_E_CODER')
+          throw error;
+      });
+      if (!clip || clip.meshes.length > 1 || clip.meshes[0].triangleCount === 0)
+        return undefined;
+      const [mesh] = clip.meshes, renderer = new THREE.WebGLRenderer();
+      renderer.setSize(320, 240);
+      const instances = new AnicInstances(mesh, 5, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide })), { duration } = clip;
+      instances.times.set([0, 0.37, 0.5, 0.9, 1].map((share) => share * duration));
+      instances.update(renderer);
+      const byCpu = instances.madeByCpu;
+      let far = 0, turned = 0, size = 0;
+      instances.times.forEach((time, i) => {
+        const p = mesh.sourcePositions(time), q = instances.read(renderer, i), n = mesh.normals(time), m = instances.read(renderer, i, 'normals');
+        p.forEach((x, k) => { far = Math.max(far, Math.abs(x - q[k])); size = Math.max(size, Math.abs(x)); });
+        for (let k = 0; k < n.length; k += 3)
+          turned += Math.acos(Math.min(Math.max(n[k] * m[k] + n[k + 1] * m[k + 1] + n[k + 2] * m[k + 2], -1), 1)) > 0.05;
+      });
+      // One instance beside the same frame by the CPU.
+      const scene = new THREE.Scene(), light = new THREE.DirectionalLight(0xffffff, 3), cpu = new AnicMesh(clip, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide }));
+      cpu.rotation.set(0, 0, 0);
+      light.position.set(1, 2, 3);
+      const one = new AnicInstances(mesh, 1, new THREE.MeshStandardMaterial({ side: THREE.DoubleSide }));
+      scene.add(light, cpu, one);
+      const { center, radius } = one.geometry.boundingSphere, camera = new THREE.PerspectiveCamera(40, 4 / 3, radius / 10, radius * 10);
+      camera.position.copy(center).add(new THREE.Vector3(radius, radius, 3 * radius));
+      camera.lookAt(center);
+      cpu.time = one.times[0] = 0.5 * duration;
+      const shot = (shown, hidden) => {
+        shown.visible = true;
+        hidden.visible = false;
+        one.update(renderer);
+        renderer.render(scene, camera);
+        const gl = renderer.getContext(), pixels = new Uint8Array(4 * 320 * 240);
+        gl.readPixels(0, 0, 320, 240, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        return pixels;
+      };
+      const a = shot(cpu, one), b = shot(one, cpu);
+      let different = 0, lit = 0;
+      for (let k = 0; k < a.length; k += 4) {
+        lit += a[k] > 8;
+        different += Math.abs(a[k] - b[k]) > 24;
+      }
+      const ray = new THREE.Raycaster(camera.position, center.clone().sub(camera.position).normalize()), hits = ray.intersectObject(one).length;
+      cpu.visible = true;
+      const cpuHits = ray.intersectObject(cpu, true).length;
+      // Many at once: one call, and little time of the script.
+      const many = new AnicInstances(mesh, 200), scene2 = new THREE.Scene();
+      scene2.add(many);
+      const run = () => {
+        for (let i = 0; i < 200; ++i)
+          many.times[i] = (i * 0.37 % 1) * duration;
+        const before = performance.now();
+        many.update(renderer);
+        return (performance.now() - before) / 200;
+      };
+      run();
+      const ms = run();
+      many.frustumCulled = false;
+      renderer.render(scene2, camera);
+      const { calls } = renderer.info.render;
+      for (const object of [instances, one, many, cpu])
+        object.dispose();
+      return { byCpu, far, turned, diagonal: clip.info.diagonal, size, different, lit, hits, cpuHits, calls, ms, vertices: mesh.vertexCount, error: renderer.getContext().getError() };
+    }, file);
+    if (!result)
+      continue;  // coded by Draco, several meshes, or points
+    t.diagnostic(`${file}: ${JSON.stringify(result)}`);
+    byCard += 5 - result.byCpu;
+    assert.ok(result.far <= 1e-4 * result.diagonal + 2e-6 * result.size, JSON.stringify(result));
+    assert.ok(result.turned <= 0.02 * 5 * result.vertices, JSON.stringify(result));
+    assert.ok(result.different <= 0.01 * result.lit + 20, JSON.stringify(result));
+    assert.equal(result.hits, result.cpuHits);
+    assert.equal(result.calls, 1);
+    assert.equal(result.error, 0);
+  }
+  assert.ok(byCard >= 5);
+});

@@ -804,6 +804,14 @@ typedef struct anic_render_info {
   uint32_t vertex_count; /**< of render vertices */
   uint32_t triangle_count;
   uint32_t group_count; /**< one for each material that has a triangle */
+
+  /* For normals on a graphics card: a normal is the sum of the cross products (next - centre) x
+   * (previous - centre) over the corners of a group, scaled to length one; (0, 0, 1) if that is 0. */
+  uint32_t normal_group_count;
+  const uint32_t* normal_groups;  /**< group of each render vertex */
+  const uint32_t* normal_centres; /**< a render vertex of each group */
+  const uint32_t* normal_begin;   /**< group g has the corners begin[g] .. begin[g + 1] - 1 */
+  const uint32_t* normal_corners; /**< render vertices after and before each corner */
 } anic_render_info;
 
 /** - Errors: ANIC_E_ARGUMENT */

@@ -103,6 +103,7 @@ EXPORT(failure_chunk) const char* web_failure_chunk(void) {
 /* ---- opening ---- */
 
 EXPORT(open)
+
 int web_open(const void* file, uint32_t size, double quality, uint32_t flags, double max_bytes) {
   const anic_options options = options_of(quality, flags, max_bytes);
   failure = ANIC_INIT(anic_failure);
@@ -252,6 +253,7 @@ EXPORT(destroy_context) void web_destroy_context(anic_context* context) {
 }
 
 EXPORT(seek_time)
+
 int web_seek_time(anic_context* context, double seconds, int32_t sampling, int32_t wrap) {
   return anic_seek_time(context, seconds, sampling, wrap);
 }
@@ -261,6 +263,7 @@ EXPORT(seek_frame) int web_seek_frame(anic_context* context, uint32_t frame) {
 }
 
 EXPORT(write_positions)
+
 int web_write_positions(const anic_context* context, uint32_t mesh, uint32_t count, void* data,
                         uint32_t size) {
   const anic_output output = output_of(data, size, 0, ANIC_FORMAT_FLOAT32X3);
@@ -268,6 +271,7 @@ int web_write_positions(const anic_context* context, uint32_t mesh, uint32_t cou
 }
 
 EXPORT(write_attribute)
+
 int web_write_attribute(const anic_context* context, uint32_t mesh, uint32_t attribute,
                         uint32_t count, void* data, uint32_t size) {
   anic_value_output output = ANIC_INIT(anic_value_output);
@@ -285,6 +289,7 @@ EXPORT(compute_bounds) int web_compute_bounds(const anic_context* context, uint3
 
 /* numbers: status, address of the plan */
 EXPORT(create_plan)
+
 anic_render_plan* web_create_plan(uint32_t mesh, double crease_angle, int32_t source_edges) {
   anic_render_plan_options options = ANIC_INIT(anic_render_plan_options);
   anic_render_plan* plan = NULL;
@@ -312,12 +317,18 @@ EXPORT(plan_info) int web_plan_info(const anic_render_plan* plan) {
                         address(info.indices),
                         address(info.triangle_polygons),
                         address(info.group_materials),
-                        address(info.group_begin)};
+                        address(info.group_begin),
+                        info.normal_group_count,
+                        address(info.normal_groups),
+                        address(info.normal_centres),
+                        address(info.normal_begin),
+                        address(info.normal_corners)};
   memcpy(numbers, all, sizeof all);
   return status;
 }
 
 EXPORT(plan_positions)
+
 int web_plan_positions(const anic_render_plan* plan, const anic_context* context, uint32_t count,
                        void* data, uint32_t size) {
   const anic_output output = output_of(data, size, 0, ANIC_FORMAT_FLOAT32X3);
@@ -325,6 +336,7 @@ int web_plan_positions(const anic_render_plan* plan, const anic_context* context
 }
 
 EXPORT(plan_normals)
+
 int web_plan_normals(const anic_render_plan* plan, const float* positions, uint32_t count,
                      void* data, uint32_t size, int32_t format) {
   const anic_output output = output_of(data, size, 0, format);
@@ -332,6 +344,7 @@ int web_plan_normals(const anic_render_plan* plan, const float* positions, uint3
 }
 
 EXPORT(plan_attribute)
+
 int web_plan_attribute(const anic_render_plan* plan, const anic_context* context,
                        uint32_t attribute, uint32_t count, void* data, uint32_t size,
                        uint32_t components) {
