@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/coefficient_coder.h"
 
+#include "format/bit_cost.h"
+
 #include <algorithm>
 
 namespace anicodec {
@@ -39,6 +41,36 @@ int sign(int x) {
 uint32_t ternary(int x) {
   return static_cast<uint32_t>(sign(x) + 1);
 }
+
+/// Notes what either outcome of each decision would take, in bits, and adapts nothing.
+class DecisionCosts {
+ public:
+  static constexpr bool kAdapts = false;
+  static constexpr bool kDecodes = false;
+
+  struct Decision {
+    float yes = 0, no = 0;
+  };
+
+  bool bit(uint32_t p, bool value) {
+    decisions_[count_++] = {bits(p), bits(kProbabilityOne - p)};
+    return value;
+  }
+
+  bool bit(const AdaptiveBit& model, bool value) { return bit(model.probability(), value); }
+
+  uint32_t raw(int, uint32_t value) { return value; }
+
+  const std::array<Decision, 5>& decisions() const { return decisions_; }
+
+ private:
+  static float bits(uint32_t p) {
+    return static_cast<float>(bit_cost(p)) / static_cast<float>(kBitCostOne);
+  }
+
+  std::array<Decision, 5> decisions_;  ///< of a symbol of magnitude 2
+  size_t count_ = 0;
+};
 
 /// A signed number limited to +-limit, as 0 .. 2 limit.
 uint32_t centred(int x, int limit) {
@@ -97,6 +129,22 @@ void CoefficientModel::end_component() {
   value_[2].swap(value_[1]);
   value_[1].swap(value_[0]);
   ++component_;
+}
+
+ResidualCosts CoefficientModel::costs(uint32_t v, uint32_t c) {
+  prepare(v, c);
+  // |q| = 2 takes all decisions that tell magnitudes up to 3 apart, each once.
+  DecisionCosts decisions;
+  code_prepared(decisions, v, c, 2);
+  const auto& [nonzero, negative, above_1, above_3, odd] = decisions.decisions();
+  ResidualCosts costs;
+  costs.magnitude[0] = nonzero.no;
+  costs.magnitude[1] = nonzero.yes + above_1.no;
+  costs.magnitude[2] = nonzero.yes + above_1.yes + above_3.no + odd.no;
+  costs.magnitude[3] = nonzero.yes + above_1.yes + above_3.no + odd.yes;
+  costs.positive = negative.no;
+  costs.negative = negative.yes;
+  return costs;
 }
 
 void CoefficientModel::prepare_vertex(uint32_t v) {

@@ -17,6 +17,12 @@
 
 namespace anicodec {
 
+/// What the residuals about 0 would take, in bits.
+struct ResidualCosts {
+  float magnitude[4] = {};  ///< of |q| = 0..3, the sign left out
+  float positive = 0, negative = 0;
+};
+
 /// |q| of a coefficient residual is below this, whatever a stream says.
 constexpr int32_t kCoefficientLimit = 1 << 24;
 
@@ -74,6 +80,9 @@ class CoefficientModel {
     code_prepared(counter, v, c, q);
     return counter.total();
   }
+
+  /// The same for all small q at once, at about the cost of one. @pre as for cost()
+  ResidualCosts costs(uint32_t v, uint32_t c);
 
  private:
   static constexpr uint32_t kNear = 8;      ///< neighbours in use

@@ -26,6 +26,17 @@ void trajectory_panel(const FrameView& clip, const Vector3d& origin, size_t firs
   }
 }
 
+void frame_panel(const FrameView& clip, const Vector3d& origin, size_t first, size_t count,
+                 MatrixXd* panel) {
+  panel->resize(static_cast<Index>(3 * count), static_cast<Index>(clip.frame_count));
+  for (size_t f = 0; f < clip.frame_count; ++f) {
+    const float* p = clip.frame(f) + 3 * first;
+    double* to = panel->col(static_cast<Index>(f)).data();
+    for (size_t i = 0; i < 3 * count; ++i)
+      to[i] = double{p[i]} - origin[static_cast<Index>(i % 3)];
+  }
+}
+
 MatrixXd trajectory_gram(const FrameView& clip, const Vector3d& origin) {
   const auto rows = static_cast<Index>(3 * clip.frame_count);
   MatrixXd gram = MatrixXd::Zero(rows, rows), panel;
@@ -40,19 +51,22 @@ MatrixXd trajectory_gram(const FrameView& clip, const Vector3d& origin) {
 
 MatrixXd project_on_functions(const FrameView& clip, const Vector3d& origin,
                               const MatrixXd& functions) {
-  MatrixXd out(static_cast<Index>(3 * clip.frame_count), functions.cols());
-  // A frame at a time: every sum runs over the vertices in order.
-  tbb::parallel_for(size_t{0}, clip.frame_count, [&](size_t f) {
-    Eigen::Matrix<double, 3, Eigen::Dynamic> sum =
-        Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, functions.cols());
-    const float* p = clip.frame(f);
-    for (size_t v = 0; v < clip.vertex_count; ++v, p += 3) {
-      const Vector3d x = Vector3d(p[0], p[1], p[2]) - origin;
-      for (Index j = 0; j < functions.cols(); ++j)
-        sum.col(j) += functions(static_cast<Index>(v), j) * x;
-    }
-    out.middleRows(static_cast<Index>(3 * f), 3) = sum;
-  });
+  MatrixXd out = MatrixXd::Zero(static_cast<Index>(3 * clip.frame_count), functions.cols()), panel;
+  const auto block = static_cast<size_t>(panel_depth(out.rows()));
+  for (size_t first = 0; first < clip.vertex_count; first += block) {
+    trajectory_panel(clip, origin, first, std::min(block, clip.vertex_count - first), &panel);
+    add_products(panel, functions.middleRows(static_cast<Index>(first), panel.rows()), out);
+  }
+  return out;
+}
+
+MatrixXd project_on_fields(const FrameView& clip, const Vector3d& origin, const MatrixXd& fields) {
+  MatrixXd out = MatrixXd::Zero(static_cast<Index>(clip.frame_count), fields.cols()), panel;
+  const auto block = static_cast<size_t>(panel_depth(out.rows()));
+  for (size_t first = 0; first < clip.vertex_count; first += block) {
+    frame_panel(clip, origin, first, std::min(block, clip.vertex_count - first), &panel);
+    add_products(panel, fields.middleRows(static_cast<Index>(3 * first), panel.rows()), out);
+  }
   return out;
 }
 
@@ -64,17 +78,10 @@ void combine_rows(const FrameView& clip, const Vector3d& origin, const MatrixXd&
   tbb::parallel_for(size_t{0}, blocks, [&](size_t b) {
     const size_t first = b * kVertices, count = std::min(kVertices, clip.vertex_count - first);
     MatrixXd panel;
-    if (frames) {
-      panel.resize(static_cast<Index>(3 * count), weights.rows());
-      for (size_t f = 0; f < clip.frame_count; ++f) {
-        const float* p = clip.frame(f) + 3 * first;
-        double* to = panel.col(static_cast<Index>(f)).data();
-        for (size_t i = 0; i < 3 * count; ++i)
-          to[i] = double{p[i]} - origin[static_cast<Index>(i % 3)];
-      }
-    } else {
+    if (frames)
+      frame_panel(clip, origin, first, count, &panel);
+    else
       trajectory_panel(clip, origin, first, count, &panel);
-    }
     MatrixXd block = MatrixXd::Zero(panel.rows(), weights.cols());
     for (Index d = 0; d < weights.rows(); d += kProductDepth) {
       const Index depth = std::min(kProductDepth, weights.rows() - d);

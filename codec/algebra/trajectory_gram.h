@@ -17,6 +17,10 @@ namespace anicodec {
 void trajectory_panel(const FrameView& clip, const Eigen::Vector3d& origin, size_t first,
                       size_t count, Eigen::MatrixXd* panel);
 
+/// The same with a column per frame: row 3i + c is coordinate c of vertex first + i.
+void frame_panel(const FrameView& clip, const Eigen::Vector3d& origin, size_t first, size_t count,
+                 Eigen::MatrixXd* panel);
+
 /// Products of all pairs of coordinate rows (3 frames x 3 frames): entry (3f + c, 3g + d) is the
 /// sum over the vertices of coordinate c in frame f times coordinate d in frame g, relative to the
 /// origin. Cost O(vertices frames^2), memory 9 frames^2 doubles and a few megabytes. Same bits for
@@ -27,6 +31,11 @@ Eigen::MatrixXd trajectory_gram(const FrameView& clip, const Eigen::Vector3d& or
 /// the clip. Same bits for any number of threads.
 Eigen::MatrixXd project_on_functions(const FrameView& clip, const Eigen::Vector3d& origin,
                                      const Eigen::MatrixXd& functions);
+
+/// Whole frames times vector fields on the vertices (3 vertices x any; row 3v + c is coordinate c
+/// of vertex v): frames x any. One pass over the clip. Same bits for any number of threads.
+Eigen::MatrixXd project_on_fields(const FrameView& clip, const Eigen::Vector3d& origin,
+                                  const Eigen::MatrixXd& fields);
 
 /// Combinations of the coordinate rows: weights is 3 frames x k, or frames x k for combinations of
 /// whole frames. Calls take(first vertex, block) for blocks of vertices, from several threads; a

@@ -15,7 +15,8 @@ struct LinearChoice {
   ReferencePose pose = ReferencePose::kMean;
   Base base = Base::kPose;
   LinearSettings settings;
-  double aim = 1;  ///< what estimates of the error are to be told, over what they are to meet
+  double aim = 1;    ///< what estimates of the error are to be told, over what they are to meet
+  double price = 0;  ///< squared steps of the coefficients that a bit is worth; 0: not known yet
   std::vector<const char*> steps;  ///< names of the steps of the search that were kept
 };
 

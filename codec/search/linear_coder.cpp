@@ -14,13 +14,20 @@
 namespace anicodec {
 namespace {
 
-constexpr double kClose = 0.997;  // of the error asked for: near enough
-constexpr double kAim = 0.9985;   // where to aim, of the same
 constexpr int kStepRounds = 8;
+constexpr int kThoroughEffort = 2;  // from here on, files are coded with all means
 constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
 constexpr double kNear = 0.04;      // of the error asked for: sizes can be compared
 constexpr double kDoubt = 0.01;     // of a size that one trial tells, relative
 constexpr size_t kMostComponents = 2000;
+
+/// How near to the error asked for is near enough, and where to aim, as parts of it.
+struct Nearness {
+  double close, aim;
+};
+
+constexpr Nearness kPlain{0.997, 0.9985};
+constexpr Nearness kThorough{0.994, 0.997};  // errors vary by some thousandths
 
 }  // namespace
 
@@ -31,6 +38,7 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
+  thorough_ = effort >= kThoroughEffort;
   if (!shapes) {
     // Trajectories are many: half the time that prediction takes, for two bytes in a hundred.
     choice_.settings.neighbours = 12;
@@ -106,10 +114,14 @@ LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double r
   return m;
 }
 
-/// A trial of a started choice tells how far its estimate was off.
-void LinearCoder::learn_aim(const Measured& trial, double rmse, LinearChoice& choice) {
-  if (trial.rmse > 0 && !std::isinf(trial.rmse))
-    choice.aim = std::clamp(choice.aim * kAim * rmse / trial.rmse, 0.2, 5.0);
+/// A trial of a started choice tells how far its estimate was off, and what a bit saves of the
+/// squared error along the curve of rates.
+void LinearCoder::learn(const Measured& trial, double rmse, LinearChoice& choice) {
+  if (!(trial.rmse > 0) || std::isinf(trial.rmse))
+    return;
+  choice.aim = std::clamp(choice.aim * kPlain.aim * rmse / trial.rmse, 0.2, 5.0);
+  const double step = choice.settings.step, bits = 8 * std::max(trial.bytes, 1.0);
+  choice.price = trial.part.error.squared / (step * step) / (kRateSlope / 2 * bits);
 }
 
 double LinearCoder::probe(double rmse) {
@@ -118,7 +130,7 @@ double LinearCoder::probe(double rmse) {
     choice_ = started(choice_, rmse);
     const Measured trial = measured(choice_, rmse);
     probed_ = {rmse, trial.bytes, std::abs(trial.rmse / rmse - 1) < kNear};
-    learn_aim(trial, rmse, choice_);
+    learn(trial, rmse, choice_);
   }
   return probed_.bytes;
 }
@@ -142,12 +154,13 @@ void LinearCoder::choose_settings(double rmse) {
         least = trial.bytes;
         choice_ = changed;
         choice_.steps.push_back(step.name);
-        learn_aim(trial, rmse, choice_);
+        learn(trial, rmse, choice_);
       }
     }
     if (changes)
       earlier_.push_back(before);
   }
+  least_ = least;
 }
 
 std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
@@ -156,9 +169,13 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   if (!chosen_)
     choose_settings(rmse);
   std::optional<CodedPart> best = reached(choice_, rmse);
+  if (thorough_ && best && least_ > 0 && static_cast<double>(bytes(*best)) > least_)
+    turn_down(rmse, *best);
+  const double all_means =
+      best && least_ > 0 ? std::min(static_cast<double>(bytes(*best)) / least_, 1.0) : 1;
   // One trial tells a size but roughly: what a search of less effort ends with may be smaller yet.
   for (const Candidate& earlier : std::views::reverse(earlier_)) {
-    if (best && earlier.bytes * (1 - kDoubt) > static_cast<double>(bytes(*best)))
+    if (best && earlier.bytes * all_means * (1 - kDoubt) > static_cast<double>(bytes(*best)))
       continue;
     std::optional<CodedPart> part = reached(earlier.choice, rmse);
     if (part && (!best || bytes(*part) < bytes(*best))) {
@@ -167,23 +184,41 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
     }
   }
   earlier_.clear();
+  least_ = 0;
   return best;
+}
+
+/// Does without the means that take longer where that is smaller.
+void LinearCoder::turn_down(double rmse, CodedPart& best) {
+  thorough_ = false;
+  std::optional<CodedPart> plain = reached(choice_, rmse);
+  thorough_ = !plain || bytes(*plain) >= bytes(best);
+  if (!thorough_)
+    best = std::move(*plain);
 }
 
 std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) {
   choice = started(choice, rmse);
+  const Nearness& near = thorough_ ? kThorough : kPlain;
   std::optional<Measured> best;
   double inside = 0, outside = std::numeric_limits<double>::infinity();  // steps known to be so
   for (int round = 0; round < kStepRounds; ++round) {
-    Measured trial = measured(choice, rmse);
+    LinearChoice tried = choice;
+    if (thorough_) {
+      tried.settings.joint_lambda = choice.price;
+      tried.settings.refit_weights = true;
+    }
+    Measured trial = measured(tried, rmse);
     if (std::isinf(trial.rmse))
       break;
+    if (choice.price == 0)
+      learn(trial, rmse, choice);
     const double ratio = trial.rmse / rmse, step = choice.settings.step;
     const bool fits = ratio <= 1;
     (fits ? inside : outside) = step;
-    if (fits && (!best || trial.rmse > best->rmse))
+    if (fits && (!best || bytes(trial.part) < bytes(best->part)))
       best = std::move(trial);
-    if (best && best->rmse >= kClose * rmse)
+    if (fits && ratio >= near.close)
       break;
     if (outside < inside || round == 3) {
       // The components left out alone take most of the error: more of them.
@@ -191,7 +226,7 @@ std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) 
       outside = std::numeric_limits<double>::infinity();
     }
     // Aim just below the target: what counts is to end there from below.
-    double next = step * std::clamp(kAim / std::max(ratio, 1e-9), 0.25, 4.0);
+    double next = step * std::clamp(near.aim / std::max(ratio, 1e-9), 0.25, 4.0);
     if (next >= outside || next <= inside)
       next = std::isinf(outside) ? next : std::sqrt(std::max(inside, 0.5 * outside) * outside);
     choice.settings.step = next;

@@ -33,10 +33,12 @@ class LinearCoder : public SegmentCoder {
   /// it, and the settings as they are.
   void share_pose(std::shared_ptr<const EncodedPose> pose);
 
-  /// Takes over the settings of another coder.
+  /// Takes over the settings of another coder, and with what means it codes.
   void settings_of(const LinearCoder& other) {
     choice_.settings = other.choice_.settings;
     choice_.steps = other.choice_.steps;
+    choice_.price = other.choice_.price;
+    thorough_ = other.thorough_;
   }
 
   /// About the bytes that an error costs, from as few trials as come close to it, three at most.
@@ -64,8 +66,9 @@ class LinearCoder : public SegmentCoder {
   const LinearBasis& basis(ReferencePose pose, Base base);
   LinearChoice started(LinearChoice choice, double rmse);
   Measured measured(const LinearChoice& choice, double rmse);
-  static void learn_aim(const Measured& trial, double rmse, LinearChoice& choice);
+  static void learn(const Measured& trial, double rmse, LinearChoice& choice);
   void choose_settings(double rmse);
+  void turn_down(double rmse, CodedPart& best);
   std::optional<CodedPart> reached(LinearChoice choice, double rmse);
   size_t bytes(const CodedPart& part) const;
 
@@ -74,6 +77,8 @@ class LinearCoder : public SegmentCoder {
   BasisKind kind_;
   int effort_;
   LinearChoice choice_;
+  bool thorough_ = false;  ///< files are coded with joint rounding and refitted weights
+  double least_ = 0;       ///< bytes in the trial of the settings chosen, until an error is met
   Probed probed_;
   std::vector<Candidate> earlier_;  ///< until the first error is met
   bool chosen_ = false;

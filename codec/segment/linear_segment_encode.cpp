@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/linear_segment_encode.h"
 
+#include "codec/algebra/blocked_product.h"
 #include "codec/algebra/trajectory_gram.h"
+#include "codec/segment/coefficient_encoder.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
-#include "format/coefficient_coder.h"
 #include "format/time_weights.h"
-#include "sdk/prediction/encoder_predictor.h"
 #include "sdk/segment/affine_functions.h"
 
 #include <algorithm>
@@ -23,9 +23,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr int kFewestFractionBits = 4;  // with fewer, residency would add to the error
-constexpr double kBitsPerUnit = 65536;  // of BitCounter
 
 /// Values of the affine functions of a pose: vertices x 4.
 MatrixXd function_values(const Vector<int32_t>& pose) {
@@ -79,9 +76,6 @@ class WeightCoder {
   BinaryEncoder encoder_;
 };
 
-/// Coefficients in steps, a row per vertex: channels of component 0, of component 1, ...
-using Coefficients = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// The basis that goes best with the decoded weights `u` (a column per component), base taken out.
 Coefficients refitted(const FrameView& clip, const LinearBasis& basis,
                       const Eigen::Vector3d& origin, const MatrixXd& u,
@@ -121,99 +115,6 @@ Coefficients refitted(const FrameView& clip, const LinearBasis& basis,
   return y;
 }
 
-/// Rounds a residual with the cost of its candidates in mind. @pre |residual| < kCoefficientLimit - 1
-int32_t rounded(CoefficientModel& model, uint32_t v, uint32_t c, double residual, double lambda) {
-  double magnitude = std::abs(residual);
-  auto q = static_cast<int32_t>(magnitude + 0.5);
-  if (q == 0 || lambda <= 0 || q > 200)
-    return residual < 0 ? -q : q;
-  int32_t best = 0, sign = residual < 0 ? -1 : 1;
-  double least = 0;
-  for (int32_t candidate = q; candidate >= (q <= 2 ? 0 : q - 1); --candidate) {
-    double d = magnitude - candidate;
-    double cost =
-        d * d + lambda * static_cast<double>(model.cost(v, c, sign * candidate)) / kBitsPerUnit;
-    if (candidate == q || cost < least) {
-      least = cost;
-      best = candidate;
-    }
-  }
-  return sign * best;
-}
-
-/// Predicts, rounds and codes the coefficients of a basis, component by component.
-class CoefficientEncoder {
- public:
-  CoefficientEncoder(const LinearSettings& settings, const MeshLayout& layout,
-                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels)
-      : lambda_(settings.lambda),
-        target_(std::move(target)),
-        channels_(channels),
-        order_(order_of(settings, layout, pose)),
-        model_(static_cast<uint32_t>(target_.rows()), channels, order_.neighbours.data(),
-               static_cast<uint32_t>(order_.neighbour_count)) {
-    PredictionParameters prediction;
-    prediction.channels = static_cast<int>(channels);
-    prediction.radius = settings.radius;
-    prediction.schedule = settings.schedule;
-    if (predictor_.init(order_, pose.data(), prediction,
-                        static_cast<size_t>(target_.cols()) / channels) != Status::kOk)
-      throw Error(ErrorKind::kInternal, "the predictor refuses its parameters");
-  }
-
-  struct Component {
-    uint8_t omega = 0;  ///< for the next component
-    bool wide = false;  ///< whether 16 bits do not hold it in memory
-  };
-
-  /// Codes component j, after all those before it. Nothing if a coefficient is too large.
-  std::optional<Component> code(size_t j, BinaryEncoder& encoder) {
-    model_.begin_component();
-    double energy = 0, largest = 0;
-    for (uint32_t i = 0; i < target_.rows(); ++i) {
-      Index v = order_.order[i];
-      for (uint32_t c = 0; c < channels_; ++c) {
-        float p = predictor_.predict(i, static_cast<int>(c));
-        double residual = static_cast<double>(target_(v, static_cast<Index>(j * channels_ + c))) -
-                          static_cast<double>(p);
-        if (std::abs(residual) >= kCoefficientLimit - 1)
-          return std::nullopt;
-        int32_t q = rounded(model_, i, c, residual, lambda_);
-        model_.code(encoder, i, c, q);
-        float y = predictor_.commit(i, static_cast<int>(c), p, q);
-        energy += static_cast<double>(q) * q;
-        largest = std::max(largest, std::abs(static_cast<double>(y)));
-      }
-    }
-    model_.end_component();
-    Component component;
-    component.wide = largest * (1 << kFewestFractionBits) > INT16_MAX;
-    component.omega = omega_byte(energy / (static_cast<double>(target_.rows()) * channels_));
-    tbb::parallel_for(size_t{0}, predictor_.block_count(),
-                      [&](size_t b) { predictor_.update(b, b + 1, component.omega); });
-    predictor_.next_component();
-    return component;
-  }
-
- private:
-  static VertexOrder order_of(const LinearSettings& settings, const MeshLayout& layout,
-                              const Vector<int32_t>& pose) {
-    VertexOrder order;
-    const Vector<uint32_t>& triangles = layout.topology.triangles;
-    if (make_vertex_order(triangles.data(), triangles.size() / 3, pose.data(), pose.size() / 3,
-                          settings.neighbours, settings.passes_per_level, &order) != Status::kOk)
-      throw Error(ErrorKind::kInternal, "the vertex order cannot be made");
-    return order;
-  }
-
-  double lambda_;
-  Coefficients target_;
-  uint32_t channels_;
-  VertexOrder order_;
-  CoefficientModel model_;
-  EncoderPredictor predictor_;
-};
-
 /// A segment being coded.
 class LinearEncoder {
  public:
@@ -224,8 +125,7 @@ class LinearEncoder {
         settings_(settings),
         layout_(layout),
         shapes_(basis.kind == BasisKind::kEigenshapes),
-        count_(component_count(basis, settings, clip.vertex_count, clip.frame_count)),
-        weight_coder_(clip.frame_count, settings.weight_lambda) {
+        count_(component_count(basis, settings, clip.vertex_count, clip.frame_count)) {
     parameters_.affine = basis.base == Base::kAffine;
     parameters_.basis_step = settings.step;
     parameters_.weight_step = settings.weight_factor * settings.step;
@@ -241,62 +141,133 @@ class LinearEncoder {
 
   std::optional<EncodedSegment> run(std::shared_ptr<const EncodedPose> shared) {
     set_pose(std::move(shared));
-    if (!code_base() || !code_weights() || (count_ > 0 && !code_layers()))
+    set_base();
+    set_sigma();
+    const MatrixXd base =
+        parameters_.affine ? project_on_functions(clip_, origin_, functions_) : MatrixXd();
+    if (!code_time(base, basis_.time.leftCols(static_cast<Index>(count_))))
       return std::nullopt;
+    if (count_ > 0) {
+      CoefficientEncoder coefficients(settings_, layout_, pose(),
+                                      refitted(clip_, basis_, origin_, weights_, base_weights_,
+                                               functions_, still_, settings_.step),
+                                      shapes_ ? 3 : 1);
+      if (!code_layers(coefficients))
+        return std::nullopt;
+      if (settings_.refit_weights)
+        refit_time(coefficients.decoded(), base);
+    }
     encoded_.parameters = parameters_.write();
     return std::move(encoded_);
   }
 
  private:
   void set_pose(std::shared_ptr<const EncodedPose> shared) {
-    const double step = settings_.pose_factor * settings_.step /
-                        std::sqrt(static_cast<double>(clip_.frame_count));
-    encoded_.reference =
-        shared ? std::move(shared)
-               : encode_reference_pose(basis_.pose, basis_.origin, step, layout_);
+    const double step =
+        settings_.pose_factor * settings_.step / std::sqrt(static_cast<double>(clip_.frame_count));
+    encoded_.reference = shared ? std::move(shared)
+                                : encode_reference_pose(basis_.pose, basis_.origin, step, layout_);
     origin_ = Eigen::Vector3d(encoded_.reference->grid.origin);
   }
 
   const Vector<int32_t>& pose() const { return encoded_.reference->grid.points; }
 
   /// What the components are added to: an affine image of the pose in each frame, or the pose.
-  bool code_base() {
-    if (!parameters_.affine) {
-      still_.resize(static_cast<Index>(clip_.vertex_count), 3);
-      for (Index i = 0; i < still_.size(); ++i)
-        still_(i / 3, i % 3) = pose()[static_cast<size_t>(i)] * encoded_.reference->grid.step;
-      return true;
+  void set_base() {
+    if (parameters_.affine) {
+      functions_ = function_values(pose());
+      return;
     }
-    functions_ = function_values(pose());
-    base_weights_ = project_on_functions(clip_, origin_, functions_);
-    for (Index b = 0; b < base_weights_.cols(); ++b) {
-      if (!weight_coder_.code(3, parameters_.weight_step, base_weights_.col(b)))
-        return false;
-    }
-    return true;
+    still_.resize(static_cast<Index>(clip_.vertex_count), 3);
+    for (Index i = 0; i < still_.size(); ++i)
+      still_(i / 3, i % 3) = pose()[static_cast<size_t>(i)] * encoded_.reference->grid.step;
   }
 
-  bool code_weights() {
-    const uint32_t channels = shapes_ ? 1 : 3;
-    weights_ = basis_.time.leftCols(static_cast<Index>(count_));
-    for (Index j = 0; j < weights_.cols(); ++j) {
+  void set_sigma() {
+    for (Index j = 0; j < static_cast<Index>(count_); ++j) {
       // Weights of a component of next to no energy would have no step.
-      double sigma = std::max(std::sqrt(basis_.energies[j]), 1e-6 * parameters_.weight_step);
-      int32_t eighths = LinearParameters::sigma_eighths(sigma);
-      parameters_.sigma.push_back(eighths);
-      const double unit = parameters_.weight_step / LinearParameters::sigma_value(eighths);
-      if (!weight_coder_.code(channels, unit, weights_.col(j)))
+      const double sigma = std::max(std::sqrt(basis_.energies[j]), 1e-6 * parameters_.weight_step);
+      parameters_.sigma.push_back(LinearParameters::sigma_eighths(sigma));
+    }
+  }
+
+  /// Codes the time weights of base and components, and keeps what a decoder gets. False if one is
+  /// too large in its unit: then nothing has changed.
+  bool code_time(MatrixXd base, MatrixXd components) {
+    WeightCoder coder(clip_.frame_count, settings_.weight_lambda);
+    for (Index b = 0; b < base.cols(); ++b) {
+      if (!coder.code(3, parameters_.weight_step, base.col(b)))
         return false;
     }
-    encoded_.weights = weight_coder_.finish();
+    for (Index j = 0; j < components.cols(); ++j) {
+      const double unit = parameters_.weight_step /
+                          LinearParameters::sigma_value(parameters_.sigma[static_cast<size_t>(j)]);
+      if (!coder.code(shapes_ ? 1 : 3, unit, components.col(j)))
+        return false;
+    }
+    encoded_.weights = coder.finish();
+    base_weights_ = std::move(base);
+    weights_ = std::move(components);
     return true;
   }
 
-  bool code_layers() {
-    CoefficientEncoder coefficients(settings_, layout_, pose(),
-                                    refitted(clip_, basis_, origin_, weights_, base_weights_,
-                                             functions_, still_, settings_.step),
-                                    shapes_ ? 3 : 1);
+  /// The coefficients are no longer those that the weights were made for: the weights that are best
+  /// for what was coded. Nothing of the coefficients depends on them. `base`: the exact weights of
+  /// the base.
+  void refit_time(const Coefficients& decoded, const MatrixXd& base) {
+    const auto k = static_cast<Index>(count_);
+    if (shapes_) {
+      const MatrixXd fields = fields_of(decoded);
+      MatrixXd products = project_on_fields(clip_, origin_, fields);
+      products -= products_of_base(fields);
+      code_time(base, solved(fields, products));
+      return;
+    }
+    // The base is fitted with the components: their functions are no longer at right angles.
+    MatrixXd functions(static_cast<Index>(clip_.vertex_count), base.cols() + k);
+    functions << functions_, decoded.cast<double>() * settings_.step;
+    const MatrixXd all = solved(functions, project_on_functions(clip_, origin_, functions));
+    code_time(all.leftCols(base.cols()), all.rightCols(k));
+  }
+
+  /// products (fields' gram)^-1, for products with as many columns as there are fields.
+  static MatrixXd solved(const MatrixXd& fields, const MatrixXd& products) {
+    MatrixXd gram = MatrixXd::Zero(fields.cols(), fields.cols());
+    add_self_products(fields, gram);
+    mirror_upper(gram);
+    gram.diagonal().array() += 1e-12 * gram.trace();
+    return gram.ldlt().solve(products.transpose()).transpose();
+  }
+
+  /// Decoded shapes in scene units, a column each: row 3v + c is coordinate c of vertex v.
+  MatrixXd fields_of(const Coefficients& decoded) const {
+    MatrixXd fields(3 * decoded.rows(), static_cast<Index>(count_));
+    for (Index v = 0; v < decoded.rows(); ++v)
+      for (Index j = 0; j < fields.cols(); ++j)
+        for (Index c = 0; c < 3; ++c)
+          fields(3 * v + c, j) = static_cast<double>(decoded(v, 3 * j + c)) * settings_.step;
+    return fields;
+  }
+
+  /// The decoded base of every frame times the shapes: frames x components.
+  MatrixXd products_of_base(const MatrixXd& fields) const {
+    const auto frames = static_cast<Index>(clip_.frame_count);
+    MatrixXd products = MatrixXd::Zero(frames, fields.cols());
+    for (Index c = 0; c < 3; ++c) {
+      const auto rows = Eigen::seqN(c, still_.rows() + functions_.rows(), 3);
+      const MatrixXd of_axis = fields(rows, Eigen::all);
+      if (!parameters_.affine) {
+        products.rowwise() += (still_.col(c).transpose() * of_axis).row(0);
+        continue;
+      }
+      const MatrixXd by_function = functions_.transpose() * of_axis;
+      const MatrixXd of_frames = base_weights_(Eigen::seqN(c, frames, 3), Eigen::all);
+      products += of_frames * by_function;
+    }
+    return products;
+  }
+
+  bool code_layers(CoefficientEncoder& coefficients) {
     uint32_t layers = std::clamp<uint32_t>(settings_.layers, 1, static_cast<uint32_t>(count_));
     size_t begin = 0;
     for (uint32_t layer = 0; layer < layers; ++layer) {
@@ -337,9 +308,8 @@ class LinearEncoder {
   size_t count_;  ///< of components
   LinearParameters parameters_;
   EncodedSegment encoded_;
-  WeightCoder weight_coder_;
   Eigen::Vector3d origin_;
-  MatrixXd functions_, base_weights_;  ///< of an affine base
+  MatrixXd functions_, base_weights_;  ///< of an affine base: exact, and as decoded
   MatrixXd still_;                     ///< the pose as a base, vertices x 3
   MatrixXd weights_;                   ///< as decoded, a column per component
 };

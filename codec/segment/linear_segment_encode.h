@@ -5,6 +5,7 @@
 
 #include "codec/segment/encoded_segment.h"
 #include "codec/segment/linear_basis.h"
+#include "codec/segment/linear_settings.h"
 #include "sdk/segment/linear_segment.h"
 
 #include <cstdint>
@@ -14,23 +15,6 @@
 #include <vector>
 
 namespace anicodec {
-
-/// How finely a linear basis is coded, all steps tied to that of the coefficients.
-struct LinearSettings {
-  double step = 1;             ///< of the coefficients, scene units
-  double weight_factor = 2.4;  ///< step of time weights: weight_factor * step / sigma
-  double pose_factor = 2;      ///< step of the pose: pose_factor * step / sqrt(frames)
-  double lambda = 0.08;        ///< squared steps that a bit is worth when rounding coefficients
-  double weight_lambda = 0.1;  ///< the same for time weights
-  double rank_factor =
-      0.2;  ///< components with less energy per scalar, in squared steps, are left out
-  size_t components = 0;  ///< exact number of components; 0: as many as rank_factor says
-  uint8_t neighbours = 16;
-  uint8_t passes_per_level = 1;
-  uint8_t radius = 12;
-  RefitSchedule schedule = RefitSchedule::kDense;
-  uint32_t layers = 1;  ///< parts that the components are stored in
-};
 
 /// Components of a basis that are worth coding at these settings.
 size_t component_count(const LinearBasis& basis, const LinearSettings& settings, size_t vertices,
@@ -42,8 +26,9 @@ size_t component_count(const LinearBasis& basis, const LinearSettings& settings,
 /// Nothing if the format cannot hold a number: the step is too fine for the clip.
 /// Cost: O(vertices x components x neighbours^2), two passes over the clip.
 std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearBasis& basis,
-                             const LinearSettings& settings, const MeshLayout& layout,
-                             std::shared_ptr<const EncodedPose> shared = nullptr);
+                                            const LinearSettings& settings,
+                                            const MeshLayout& layout,
+                                            std::shared_ptr<const EncodedPose> shared = nullptr);
 
 }  // namespace anicodec
 

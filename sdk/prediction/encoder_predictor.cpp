@@ -70,6 +70,23 @@ float EncoderPredictor::predict(size_t rank, int channel) const {
   return rounded_prediction(p);
 }
 
+void EncoderPredictor::weights(float* out) const {
+  for (size_t rank = 0; rank < vertices_; ++rank) {
+    const float* from = state_.data() +
+                        rank / lanes_ * lanes_ * encoder_block_rows(neighbour_count_) +
+                        rank % lanes_;
+    for (size_t a = 0; a < neighbour_count_; ++a)
+      *out++ = from[a * lanes_];
+  }
+}
+
+bool EncoderPredictor::refits() const {
+  size_t count = 0;
+  const uint16_t* refits = refit_components(parameters_.schedule, &count);
+  return component_ + 1 < components_ &&
+         std::find(refits, refits + count, component_) != refits + count;
+}
+
 float EncoderPredictor::commit(size_t rank, int channel, float prediction, int32_t q) {
   const float y = limited_coefficient(prediction + static_cast<float>(q));
   y_[static_cast<size_t>(channel) * (vertices_ + 1) + rank] = y;
@@ -78,13 +95,14 @@ float EncoderPredictor::commit(size_t rank, int channel, float prediction, int32
 
 void EncoderPredictor::update(size_t first_block, size_t last_block, uint8_t omega) {
   size_t count = 0;
-  const uint16_t* refits = refit_components(parameters_.schedule, &count);
+  const uint16_t* components = refit_components(parameters_.schedule, &count);
   // Beyond the last refit nothing is learnt any more.
-  const bool learns = component_ + 1 < components_ && count > 0 && component_ <= refits[count - 1];
+  const bool learns =
+      component_ + 1 < components_ && count > 0 && component_ <= components[count - 1];
   if (!learns)
     return;
   EncoderJob j = job(omega);
-  j.refit = std::find(refits, refits + count, component_) != refits + count;
+  j.refit = refits();
   const FloatControl control;
   encoder_kernels().update_blocks(j, first_block, last_block);
 }

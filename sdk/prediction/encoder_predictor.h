@@ -37,6 +37,12 @@ class EncoderPredictor {
   /// Sets and returns the coefficient that a decoder reconstructs from q.
   float commit(size_t rank, int channel, float prediction, int32_t q);
 
+  /// The weights of the current component: rank x neighbour_count. They change with refits alone.
+  void weights(float* out) const;
+
+  /// Whether update() of the current component refits, so that the next one has other weights.
+  bool refits() const;
+
   /// Coefficients of the current component, by rank.
   const float* coefficients(int channel) const {
     return y_.data() + static_cast<size_t>(channel) * (vertices_ + 1);

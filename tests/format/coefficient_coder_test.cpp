@@ -5,6 +5,7 @@
 #include "tests/random.h"
 
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,29 @@ TEST(CoefficientModel, CostIsWhatCodingTakes) {
   const Bytes bytes = encoder.finish();
   EXPECT_EQ(bytes, encode(b));
   EXPECT_NEAR(static_cast<double>(total) / kBitCostOne / 8, static_cast<double>(bytes.size()), 3);
+}
+
+TEST(CoefficientModel, CostsAreThoseOfEachResidual) {
+  Random random(4);
+  const Basis b = make_basis(300, 3, 3, 8, [&](size_t) { return residual(random); });
+  CoefficientModel model(b.vertices, b.channels, b.neighbours.data(), b.stride);
+  BinaryEncoder encoder;
+  const int32_t* q = b.q.data();
+  for (uint32_t j = 0; j < b.components; ++j) {
+    model.begin_component();
+    for (uint32_t v = 0; v < b.vertices; ++v)
+      for (uint32_t c = 0; c < b.channels; ++c, ++q) {
+        const ResidualCosts costs = model.costs(v, c);
+        for (int32_t x = -3; x <= 3; ++x) {
+          const float sign = x == 0 ? 0 : x > 0 ? costs.positive : costs.negative;
+          ASSERT_NEAR(costs.magnitude[std::abs(x)] + sign,
+                      static_cast<float>(model.cost(v, c, x)) / kBitCostOne, 1e-4F);
+        }
+        model.code(encoder, v, c, *q);
+      }
+    model.end_component();
+  }
+  EXPECT_EQ(encoder.finish(), encode(b));
 }
 
 TEST(CoefficientModel, CodesQuietBasesInNextToNothing) {

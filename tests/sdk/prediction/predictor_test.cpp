@@ -187,6 +187,37 @@ TEST(Predictor, LearnsWeightsThatThePriorDoesNotHave) {
   EXPECT_LT(bits(RefitSchedule::kDense), 0.5 * bits(RefitSchedule::kNone));
 }
 
+TEST(Predictor, HandsOutTheWeightsThatItPredictsWith) {
+  const PredictionClip clip = prediction_clip(1, 1);
+  const VertexOrder order = order_of(clip, 16, 1);
+  const size_t n = order.vertex_count(), components = 4;
+  EncoderPredictor predictor;
+  ASSERT_EQ(predictor.init(order, clip.positions.data(), PredictionParameters{}, components),
+            Status::kOk);
+  std::vector<float> weights(16 * n), before;
+  SmallRandom random(2);
+  for (size_t j = 0; j < components; ++j) {
+    predictor.weights(weights.data());
+    for (size_t r = 0; r < n; ++r) {
+      double expected = 0;
+      for (size_t a = 0; a < 16 && order.neighbours[16 * r + a] >= 0; ++a)
+        expected += static_cast<double>(
+            weights[16 * r + a] *
+            predictor.coefficients(0)[static_cast<size_t>(order.neighbours[16 * r + a])]);
+      const float p = predictor.predict(r, 0);
+      ASSERT_NEAR(static_cast<double>(p), expected, 1.0 / 64);
+      predictor.commit(r, 0, p, static_cast<int32_t>(4 * random.symmetric()));
+    }
+    // The dense schedule refits after each of the first components, but for the last one.
+    EXPECT_EQ(predictor.refits(), j + 1 < components);
+    before = weights;
+    predictor.update(0, predictor.block_count(), omega_byte(1));
+    predictor.next_component();
+    predictor.weights(weights.data());
+    EXPECT_EQ(weights != before, j + 1 < components);
+  }
+}
+
 TEST(Predictor, SurvivesHostileInput) {
   const PredictionCase c{16, 2, 3, 20, 12, RefitSchedule::kDense, 0};
   PredictionClip clip = prediction_clip(c.components, 3);

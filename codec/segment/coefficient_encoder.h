@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEGMENT_COEFFICIENT_ENCODER_H_
+#define ANICODEC_CODEC_SEGMENT_COEFFICIENT_ENCODER_H_
+
+#include "codec/connectivity/mesh_layout.h"
+#include "codec/segment/joint_rounding.h"
+#include "codec/segment/linear_settings.h"
+#include "format/binary_coder.h"
+#include "format/coefficient_coder.h"
+#include "sdk/prediction/encoder_predictor.h"
+#include "sdk/prediction/vertex_order.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace anicodec {
+
+/// Coefficients in steps, a row per vertex: channels of component 0, of component 1, ...
+using Coefficients = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Predicts, rounds and codes the coefficients of a basis, component by component.
+class CoefficientEncoder {
+ public:
+  /// `pose`: vertices x 3 on its grid; `target`: what the coefficients would best be. The layout
+  /// must outlive the object.
+  CoefficientEncoder(const LinearSettings& settings, const MeshLayout& layout,
+                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels);
+
+  struct Component {
+    uint8_t omega = 0;  ///< for the next component
+    bool wide = false;  ///< whether 16 bits do not hold it in memory
+  };
+
+  /// Codes component j, after all those before it. Nothing if a coefficient is too large.
+  /// Cost: O(vertices m^2); rounding together takes about three times as long.
+  std::optional<Component> code(size_t j, BinaryEncoder& encoder);
+
+  /// What a decoder gets, of the components coded so far.
+  const Coefficients& decoded() const { return decoded_; }
+
+ private:
+  uint32_t ranks() const { return static_cast<uint32_t>(target_.rows()); }
+
+  template <class Coder, class Choose>
+  bool pass(CoefficientModel& model, Coder& coder, const Choose& choose);
+  auto nearest(CoefficientModel& model, const std::vector<float>& target) const;
+  auto chosen() const;
+  bool round_together();
+
+  double lambda_, joint_lambda_;
+  Coefficients target_, decoded_;
+  uint32_t channels_;
+  VertexOrder order_;
+  CoefficientModel model_;
+  EncoderPredictor predictor_;
+  JointRounding joint_;
+  bool new_weights_ = true;
+  // Of the component at hand, channels x ranks.
+  std::vector<float> component_;
+  std::vector<int32_t> residuals_;
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEGMENT_COEFFICIENT_ENCODER_H_

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEGMENT_JOINT_ROUNDING_H_
+#define ANICODEC_CODEC_SEGMENT_JOINT_ROUNDING_H_
+
+#include "format/coefficient_coder.h"
+#include "sdk/prediction/vertex_order.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace anicodec {
+
+/// Rounds the residuals of a component together. While the weights W of the prediction stay as they
+/// are, a decoder's coefficients are linear in the residuals, y = (I - W)^-1 q: a residual moves
+/// all vertices that are predicted from its own, directly or not. What one vertex alone would round
+/// to zero may be worth its bits there, and more often the other way round.
+///
+/// Everything is by rank; coefficients and residuals are in steps. Memory: about a kilobyte per
+/// vertex.
+class JointRounding {
+ public:
+  /// The order must outlive the object.
+  explicit JointRounding(const VertexOrder& order) : order_(order) {}
+
+  /// Weights of the prediction: rank x order.neighbour_count.
+  /// Cost: some thousand operations per vertex.
+  void set_weights(std::vector<float> weights);
+
+  /// Changes residuals of one channel one by one while that lowers |target - y|^2 + `price` times
+  /// the bits. `costs`: what each would take. Cost: some hundred operations per vertex
+  /// and sweep.
+  void improve(const float* target, const ResidualCosts* costs, double price, int32_t* q) const;
+
+ private:
+  struct Entry {
+    uint32_t rank;
+    float value;
+  };
+
+  const VertexOrder& order_;
+  std::vector<float> weights_;
+  // Columns of (I - W)^-1: what a residual of 1 does to all vertices.
+  std::vector<size_t> start_;
+  std::vector<Entry> column_;
+  std::vector<float> energy_;  ///< sum of the squares of a column
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEGMENT_JOINT_ROUNDING_H_

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEGMENT_LINEAR_SETTINGS_H_
+#define ANICODEC_CODEC_SEGMENT_LINEAR_SETTINGS_H_
+
+#include "sdk/prediction/predictor.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace anicodec {
+
+/// How finely a linear basis is coded, all steps tied to that of the coefficients.
+struct LinearSettings {
+  double step = 1;             ///< of the coefficients, scene units
+  double weight_factor = 2.4;  ///< step of time weights: weight_factor * step / sigma
+  double pose_factor = 2;      ///< step of the pose: pose_factor * step / sqrt(frames)
+  double lambda = 0.08;        ///< squared steps that a bit is worth when rounding coefficients
+  double weight_lambda = 0.1;  ///< the same for time weights
+  /// Not 0: the coefficients of a component are rounded together, at so many squared steps to a
+  /// bit, instead of one by one at `lambda`.
+  double joint_lambda = 0;
+  bool refit_weights = false;  ///< code the weights that are best for the decoded coefficients
+  double rank_factor =
+      0.2;  ///< components with less energy per scalar, in squared steps, are left out
+  size_t components = 0;  ///< exact number of components; 0: as many as rank_factor says
+  uint8_t neighbours = 16;
+  uint8_t passes_per_level = 1;
+  uint8_t radius = 12;
+  RefitSchedule schedule = RefitSchedule::kDense;
+  uint32_t layers = 1;  ///< parts that the components are stored in
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEGMENT_LINEAR_SETTINGS_H_

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/segment/joint_rounding.h"
+
+#include "tests/random.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+constexpr size_t kSide = 24;
+constexpr size_t kCount = kSide * kSide;
+
+/// A grid of triangles and its order, each vertex predicted as the mean of its neighbours.
+struct Grid {
+  VertexOrder order;
+  std::vector<float> weights;
+
+  Grid() {
+    Vector<uint32_t> triangles;
+    Vector<int32_t> positions;
+    for (uint32_t y = 0; y < kSide; ++y)
+      for (uint32_t x = 0; x < kSide; ++x) {
+        positions.insert(positions.end(),
+                         {static_cast<int32_t>(100 * x), static_cast<int32_t>(100 * y), 0});
+        if (x + 1 == kSide || y + 1 == kSide)
+          continue;
+        const uint32_t v = y * kSide + x;
+        for (const uint32_t d :
+             {0u, 1u, uint32_t{kSide} + 1, 0u, uint32_t{kSide} + 1, uint32_t{kSide}})
+          triangles.push_back(v + d);
+      }
+    EXPECT_EQ(make_vertex_order(triangles.data(), triangles.size() / 3, positions.data(), kCount, 8,
+                                1, &order),
+              Status::kOk);
+    weights.assign(order.neighbours.size(), 0.0F);
+    for (size_t i = 0; i < kCount; ++i) {
+      size_t valid = 0;
+      while (valid < 8 && order.neighbours[8 * i + valid] >= 0)
+        ++valid;
+      for (size_t a = 0; a < valid; ++a)
+        weights[8 * i + a] = 1.0F / static_cast<float>(valid);
+    }
+  }
+
+  std::vector<double> decoded(const std::vector<int32_t>& q) const {
+    std::vector<double> y(kCount);
+    for (size_t i = 0; i < kCount; ++i) {
+      y[i] = q[i];
+      for (size_t a = 0; a < 8; ++a)
+        if (order.neighbours[8 * i + a] >= 0)
+          y[i] += static_cast<double>(weights[8 * i + a]) *
+                  y[static_cast<size_t>(order.neighbours[8 * i + a])];
+    }
+    return y;
+  }
+
+  double squared_error(const std::vector<float>& target, const std::vector<int32_t>& q) const {
+    const std::vector<double> y = decoded(q);
+    double sum = 0;
+    for (size_t i = 0; i < kCount; ++i)
+      sum += (static_cast<double>(target[i]) - y[i]) * (static_cast<double>(target[i]) - y[i]);
+    return sum;
+  }
+
+  /// What rounding vertex by vertex makes of a target.
+  std::vector<int32_t> rounded(const std::vector<float>& target) const {
+    std::vector<int32_t> q(kCount);
+    std::vector<double> y(kCount);
+    for (size_t i = 0; i < kCount; ++i) {
+      double p = 0;
+      for (size_t a = 0; a < 8; ++a)
+        if (order.neighbours[8 * i + a] >= 0)
+          p += static_cast<double>(weights[8 * i + a]) *
+               y[static_cast<size_t>(order.neighbours[8 * i + a])];
+      q[i] = static_cast<int32_t>(std::lround(static_cast<double>(target[i]) - p));
+      y[i] = p + q[i];
+    }
+    return q;
+  }
+};
+
+std::vector<float> target(const Grid& grid) {
+  SmallRandom random(5);
+  std::vector<float> t(kCount);
+  for (size_t i = 0; i < kCount; ++i) {
+    const double x = grid.order.order[i] % kSide,
+                 y = static_cast<double>(grid.order.order[i] / kSide);
+    t[i] = static_cast<float>(6 * std::sin(0.3 * x) + 4 * std::cos(0.2 * y + 0.1 * x) +
+                              0.6 * random.symmetric());
+  }
+  return t;
+}
+
+ResidualCosts usual_costs() {
+  ResidualCosts costs;
+  costs.magnitude[0] = 0.4F;
+  costs.magnitude[1] = 2.5F;
+  costs.magnitude[2] = 4.5F;
+  costs.magnitude[3] = 6;
+  costs.positive = costs.negative = 1;
+  return costs;
+}
+
+double bits(const std::vector<int32_t>& q) {
+  const ResidualCosts costs = usual_costs();
+  double sum = 0;
+  for (const int32_t x : q) {
+    const int32_t magnitude = std::abs(x);
+    sum += static_cast<double>(costs.magnitude[std::min(magnitude, 3)]) + (x != 0) +
+           0.7 * std::max(magnitude - 3, 0);
+  }
+  return sum;
+}
+
+TEST(JointRounding, LowersErrorPlusBits) {
+  const Grid grid;
+  const std::vector<float> t = target(grid);
+  const std::vector<ResidualCosts> costs(kCount, usual_costs());
+  JointRounding joint(grid.order);
+  joint.set_weights(grid.weights);
+  const std::vector<int32_t> start = grid.rounded(t);
+  for (const double price : {0.02, 0.1, 0.5}) {
+    std::vector<int32_t> q = start;
+    joint.improve(t.data(), costs.data(), price, q.data());
+    const double before = grid.squared_error(t, start) + price * bits(start);
+    const double after = grid.squared_error(t, q) + price * bits(q);
+    EXPECT_LT(after, (price < 0.1 ? 0.995 : 0.97) * before) << price;
+  }
+}
+
+TEST(JointRounding, TakesFewerBitsTheDearerTheyAre) {
+  const Grid grid;
+  const std::vector<float> t = target(grid);
+  const std::vector<ResidualCosts> costs(kCount, usual_costs());
+  JointRounding joint(grid.order);
+  joint.set_weights(grid.weights);
+  double last_bits = 1e9, last_error = 0;
+  for (const double price : {0.02, 0.2, 1.0}) {
+    std::vector<int32_t> q = grid.rounded(t);
+    joint.improve(t.data(), costs.data(), price, q.data());
+    EXPECT_LT(bits(q), last_bits);
+    EXPECT_GT(grid.squared_error(t, q), last_error);
+    last_bits = bits(q);
+    last_error = grid.squared_error(t, q);
+  }
+}
+
+TEST(JointRounding, LeavesAnExactTargetAlone) {
+  const Grid grid;
+  std::vector<int32_t> q(kCount, 0);
+  SmallRandom random(9);
+  for (int32_t& x : q)
+    x = static_cast<int32_t>(random.below(7)) - 3;
+  const std::vector<double> y = grid.decoded(q);
+  const std::vector<float> t(y.begin(), y.end());
+  const std::vector<ResidualCosts> costs(kCount, usual_costs());
+  JointRounding joint(grid.order);
+  joint.set_weights(grid.weights);
+  std::vector<int32_t> improved = q;
+  joint.improve(t.data(), costs.data(), 0.0, improved.data());
+  EXPECT_EQ(improved, q);
+}
+
+}  // namespace
+}  // namespace anicodec
