@@ -46,7 +46,6 @@ uint32_t ternary(int x) {
 class DecisionCosts {
  public:
   static constexpr bool kAdapts = false;
-  static constexpr bool kDecodes = false;
 
   struct Decision {
     float yes = 0, no = 0;
