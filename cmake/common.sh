@@ -8,7 +8,7 @@
 packages=(
   g++ cmake ninja-build
   libzstd-dev libxxhash-dev libdraco-dev       # format, sdk
-  libeigen3-dev libtbb-dev libembree-dev       # codec
+  libeigen3-dev libtbb-dev                     # codec
   libopenmesh-dev                              # codec: remeshing
   libcli11-dev libfmt-dev nlohmann-json3-dev   # tools
   libpng-dev libgif-dev                        # tools: pictures

@@ -48,35 +48,37 @@ void copy_rows(const float* from, const std::vector<uint32_t>& rows, std::vector
 }
 
 /// In the source's vertex order whatever the file's.
-Comparison compare_positions(const Clip& clip, const EncoderInput& input) {
+Comparison compare_positions(const Clip& clip, const EncoderInput& input, const FrameRun& run) {
   const std::vector<uint32_t> played_of = played_vertices(clip, input.layout);
   const uint32_t vertices = input.sequence.vertex_count;
   std::vector<float> original, decoded, played(size_t{3} * vertices);
   CompareOptions options;
   options.sted = false;
   return compare(
-      input.sequence.polygons, vertices, input.sequence.frame_count,
+      input.sequence.polygons, vertices, run.count,
       [&](uint32_t f) -> std::span<const float> {
-        copy_rows(input.frames().frame(f), input.layout.source_coded, &original);
+        copy_rows(input.frames().frame(run.first + f), input.layout.source_coded, &original);
         return original;
       },
       [&](uint32_t f) -> std::span<const float> {
-        clip.positions(0, f, played.data());
+        clip.positions(0, run.first + f, played.data());
         copy_rows(played.data(), played_of, &decoded);
         return decoded;
       },
       options);
 }
 
-/// Measures one attribute that changes over time.
-void measure(const Clip& clip, const EncoderInput& input, const Attribute& attribute,
-             uint32_t first_frame, AttributeResult* result) {
+/// Measures one attribute that changes over time in some frames.
+AttributeError measure(const Clip& clip, const EncoderInput& input, const FrameRun& run,
+                       const Attribute& attribute, uint32_t first_frame, uint32_t number) {
+  AttributeError error;
+  error.attribute = static_cast<uint16_t>(number);
   const bool free = clip.record().order == OrderMode::kFree;
   const uint32_t vertices = input.sequence.vertex_count, n = attribute.components;
   std::vector<float> played(size_t{vertices} * n);
   double squared = 0;
-  for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-    clip.attribute_values(0, result->number, f, played.data());
+  for (uint32_t f = run.first; f < run.first + run.count; ++f) {
+    clip.attribute_values(0, number, f, played.data());
     const float* source = attribute.values.data() + size_t{f + first_frame} * vertices * n;
     for (uint32_t v = 0; v < vertices; ++v) {
       const float* values = source + size_t{free ? input.layout.vertex_source[v] : v} * n;
@@ -84,29 +86,42 @@ void measure(const Clip& clip, const EncoderInput& input, const Attribute& attri
         const double d =
             static_cast<double>(values[c]) - static_cast<double>(played[size_t{v} * n + c]);
         squared += d * d;
-        result->max_error = std::max(result->max_error, std::abs(d));
+        error.max_error = std::max(error.max_error, std::abs(d));
       }
     }
   }
-  result->rmse = std::sqrt(squared / n / vertices / clip.frame_count());
-  if (result->max_error > result->asked)
-    throw Error(ErrorKind::kInternal, attribute.name + ": the error is above what was asked for");
+  error.rmse = std::sqrt(squared / n / vertices / run.count);
+  return error;
 }
 
 }  // namespace
 
-Comparison check_file(const Bytes& file, const EncoderInput& input,
-                      const std::vector<StoredAttribute>& stored, uint32_t first_frame,
-                      std::vector<AttributeResult>* attributes) {
+std::vector<MeasuredClip> check_file(const Bytes& file, const EncoderInput& input,
+                                     const std::vector<StoredAttribute>& stored,
+                                     uint32_t first_frame,
+                                     std::vector<AttributeResult>* attributes) {
   const Clip clip = opened(file);
-  const Comparison comparison = compare_positions(clip, input);
-  for (AttributeResult& result : *attributes) {
-    if (!result.kept)
-      continue;
-    const auto of = std::ranges::find(stored, result.number, &StoredAttribute::number);
-    measure(clip, input, input.sequence.attributes[of->source], first_frame, &result);
+  std::vector<MeasuredClip> clips;
+  for (const InputClip& source : input.clips) {
+    MeasuredClip& measured = clips.emplace_back();
+    measured.positions = compare_positions(clip, input, source.frames);
+    for (AttributeResult& result : *attributes) {
+      if (!result.kept)
+        continue;
+      const auto of = std::ranges::find(stored, result.number, &StoredAttribute::number);
+      const Attribute& attribute = input.sequence.attributes[of->source];
+      const AttributeError error =
+          measure(clip, input, source.frames, attribute, first_frame, result.number);
+      if (error.max_error > result.asked)
+        throw Error(ErrorKind::kInternal,
+                    attribute.name + ": the error is above what was asked for");
+      result.max_error = std::max(result.max_error, error.max_error);
+      result.rmse = std::hypot(result.rmse, error.rmse * std::sqrt(static_cast<double>(source.frames.count) /
+                                                                   clip.frame_count()));
+      measured.attributes.push_back(error);
+    }
   }
-  return comparison;
+  return clips;
 }
 
 }  // namespace anicodec

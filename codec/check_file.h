@@ -13,14 +13,21 @@
 
 namespace anicodec {
 
-/// Opens a file as a decoder does, plays it and compares it with the source: positions, and the
-/// attributes that change over time, whose errors are filled in. `first_frame`: the frame of the
-/// source that the file begins with. Throws Error(kInternal) for a file that cannot be opened, that
+/// What a decoded clip is away from its source.
+struct MeasuredClip {
+  Comparison positions;
+  Vector<AttributeError> attributes;  ///< those that move
+};
+
+/// Opens a file as a decoder does, plays it and compares each clip with the source: positions, and
+/// the attributes that change over time, whose errors over all clips are filled in. `first_frame`:
+/// the frame of the source that the file begins with. Throws Error(kInternal) for a file that cannot be opened, that
 /// decodes to other integers, or with an attribute further off than was asked for. Cost: that of
 /// playing all frames.
-Comparison check_file(const Bytes& file, const EncoderInput& input,
-                      const std::vector<StoredAttribute>& stored, uint32_t first_frame,
-                      std::vector<AttributeResult>* attributes);
+std::vector<MeasuredClip> check_file(const Bytes& file, const EncoderInput& input,
+                                     const std::vector<StoredAttribute>& stored,
+                                     uint32_t first_frame,
+                                     std::vector<AttributeResult>* attributes);
 
 }  // namespace anicodec
 

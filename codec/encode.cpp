@@ -10,23 +10,48 @@
 #include "codec/sequence/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace anicodec {
 namespace {
 
 /// Whether a clip ends where it began.
-bool is_closed(const MeshSequence& sequence) {
-  return sequence.frame_count > 1 &&
-         std::ranges::equal(sequence.frame(0), sequence.frame(sequence.frame_count - 1));
+bool is_closed(const MeshSequence& sequence, const FrameRun& clip) {
+  return clip.count > 1 && std::ranges::equal(sequence.frame(clip.first),
+                                              sequence.frame(clip.first + clip.count - 1));
+}
+
+/// Counts, and errors over all clips.
+EncodeResult result_of(const std::vector<MeasuredClip>& clips, const EncoderInput& input) {
+  EncodeResult result;
+  result.vertices = input.sequence.vertex_count;
+  result.faces = static_cast<uint32_t>(input.sequence.polygons.size());
+  result.frames = input.sequence.frame_count;
+  result.rate = input.sequence.rate;
+  result.positions = uint64_t{result.vertices} * result.frames;
+  double squared = 0;
+  for (size_t c = 0; c < clips.size(); ++c) {
+    const Comparison& clip = clips[c].positions;
+    squared += clip.rmse * clip.rmse * input.clips[c].frames.count;
+    result.max_error = std::max(result.max_error, clip.max_error);
+  }
+  result.rmse = std::sqrt(squared / result.frames);
+  result.kg = clips.size() == 1 ? clips[0].positions.kg
+                                : 100 * std::sqrt(squared * result.vertices / input.kg_reference);
+  return result;
 }
 
 void check_part(const FrameRun& part, const MeshSequence& sequence, const EncodeOptions& options) {
   if (part.count == 0 || part.first >= sequence.frame_count ||
       part.count > sequence.frame_count - part.first)
     throw Error(ErrorKind::kUsage, "the sequence does not have all frames of the part");
+  if (!sequence.clips.empty())
+    throw Error(ErrorKind::kUsage, "a part is of one clip, not of several");
   if (options.keyframes || options.basis == BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage,
                 "parts are coded by eigenshapes or eigentrajectories, not by key-frames");
@@ -72,15 +97,24 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
       options.basis != BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage, "an interpolation can be chosen between key-frames only");
 
-  bool closed = is_closed(sequence);
+  std::vector<bool> closed;
+  uint32_t first = 0;
+  for (const ClipTiming& clip : clips_of(sequence)) {
+    closed.push_back(is_closed(sequence, {first, clip.frame_count}));
+    first += clip.frame_count;
+  }
   if (options.part) {
     check_part(*options.part, sequence, options);
     cut_timing(*options.part, sequence);
-    closed = false;
+    closed[0] = false;
   }
-  ClipRecord record = clip_record(sequence, options, target, clip_diagonal);
-  record.closed = closed;
+  ClipsRecord record = clips_record(sequence, options, target,
+                                    std::vector<double>(closed.size(), clip_diagonal));
+  for (size_t c = 0; c < closed.size(); ++c)
+    record.clips[c].closed = closed[c];
   EncoderInput input(std::move(sequence), options.part);
+  if (target.metric == ErrorMetric::kKg || target.metric == ErrorMetric::kRmse)
+    input.bound_clips(target.metric);
   const std::vector<StoredAttribute> stored =
       encode_attributes(input.sequence, options.attributes, &input.layout);
   if (options.part)
@@ -92,34 +126,35 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
 
   const Bytes file = coded.file(record, input.layout);
   std::vector<AttributeResult>& attributes = coded.attributes.results;
-  const Comparison measured =
+  const std::vector<MeasuredClip> measured =
       check_file(file, input, stored, options.part ? options.part->first : 0, &attributes);
-  const FileMeasures measures{measured.kg,
-                              measured.rmse,
-                              measured.max_error,
-                              file.size(),
-                              input.sequence.vertex_count,
-                              input.sequence.frame_count};
+  EncodeResult result = result_of(measured, input);
   std::optional<double> cap;
   if (options.cap)
     cap = in_scene_units(*options.cap, clip_diagonal).value;
-  if (!is_kept(target, cap, measures))
-    throw Error(ErrorKind::kInternal, "the encoded file does not keep what was asked");
-  record.kg = measured.kg;
-  record.rmse = measured.rmse;
-  record.max_error = measured.max_error;
-
-  EncodeResult result;
+  for (size_t c = 0; c < measured.size(); ++c) {
+    const Comparison& positions = measured[c].positions;
+    ClipRecord& clip = record.clips[c];
+    clip.kg = positions.kg;
+    clip.rmse = positions.rmse;
+    clip.max_error = positions.max_error;
+    clip.attribute_errors = measured[c].attributes;
+    if (measured.size() > 1)
+      clip.diagonal = positions.diagonal;
+    result.clips.push_back({std::string(clip.name.begin(), clip.name.end()), input.clips[c].frames.count,
+                            clip.kg, clip.rmse, clip.max_error});
+    const FileMeasures measures{clip.kg,     clip.rmse,       clip.max_error,
+                                file.size(), result.vertices, result.frames};
+    if (!is_kept(target, cap, measures))
+      throw Error(ErrorKind::kInternal, "the encoded file does not keep what was asked");
+  }
   result.file = coded.file(record, input.layout);
-  result.vertices = input.sequence.vertex_count;
-  result.faces = static_cast<uint32_t>(input.sequence.polygons.size());
-  result.frames = input.sequence.frame_count;
-  result.positions = uint64_t{result.vertices} * result.frames;
   result.kind = coded.positions.parts[0].encoded.sizes.kind;
-  result.components = coded.positions.parts[0].encoded.sizes.components;
-  result.kg = measured.kg;
-  result.rmse = measured.rmse;
-  result.max_error = measured.max_error;
+  for (const CodedPart& part : coded.positions.parts) {
+    const Limits::Segment& sizes = part.encoded.sizes;
+    result.components = std::max(result.components, sizes.components);
+    result.segments.push_back({sizes.first_frame, sizes.frames});
+  }
   result.diagonal = clip_diagonal;
   result.attributes = std::move(attributes);
   result.trials = search.trials();

@@ -71,6 +71,8 @@ EncodeResult encode_massaged(MeshSequence sequence, MassageMode mode,
                              const MassageOptions& massage_options, const EncodeOptions& options,
                              MassageVerdict* verdict, const Progress& progress) {
   *verdict = {};
+  if (mode != MassageMode::kOff && !sequence.clips.empty())
+    throw Error(ErrorKind::kUsage, "several clips are not massaged together");
   if (mode == MassageMode::kAuto) {
     check(sequence);
     if (sequence.frame_count < kFewestFrames ||

@@ -141,6 +141,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
                 std::to_string(scene.meshes.size()) + " meshes; at most 65535 are possible");
   for (const SceneMesh& mesh : scene.meshes)
     naming(mesh, [&] { check(mesh.sequence); });
+  if (!scene.clip.clips.empty())
+    throw Error(ErrorKind::kUsage, "several clips of several meshes are not encoded together");
   const double length = diagonal_of(scene);
   const Spread spread = spread_of(scene);
   EncodeOptions of_mesh = options;
@@ -150,6 +152,7 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
 
   EncodeResult all;
   all.frames = scene.clip.frame_count;
+  all.rate = scene.clip.rate;
   all.diagonal = length;
   Counts counts(all.frames);
   double squared = 0;
@@ -181,11 +184,12 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   all.rmse = std::sqrt(squared / spread.positions);
   all.kg = 100 * std::sqrt(squared / (spread.squared > 0 ? spread.squared : 1));
 
-  ClipRecord record =
-      clip_record(scene.clip, options, in_scene_units(options.target, length), length);
-  record.max_error = all.max_error;
-  record.rmse = all.rmse;
-  record.kg = all.kg;
+  ClipsRecord record =
+      clips_record(scene.clip, options, in_scene_units(options.target, length), {length});
+  ClipRecord& clip = record.clips[0];
+  clip.max_error = all.max_error;
+  clip.rmse = all.rmse;
+  clip.kg = all.kg;
   std::vector<PlacedPart> placed;
   for (auto& [result, part] : parts) {
     part.part.file = result.file;

@@ -37,9 +37,13 @@ bool has_attributes(const Vector<Limits::Mesh>& meshes) {
 
 Bytes Limits::write() const {
   ByteWriter w;
-  w.varint(frames);
+  w.varint(clip_frames.empty() ? 1 : clip_frames.size());
   w.varint(meshes.size());
   w.varint(segments.size());
+  if (clip_frames.empty())
+    w.varint(frames);
+  for (uint32_t count : clip_frames)
+    w.varint(count);
   for (const Mesh& m : meshes) {
     for (uint32_t x : {m.source_vertices, m.coded_vertices, m.triangles, m.polygons, m.corners})
       w.varint(x);
@@ -75,14 +79,24 @@ Bytes Limits::write() const {
 
 Status Limits::read(ByteView view, Limits* out) {
   ByteReader r(view);
-  out->frames = r.varint32(kMaxFrames);
+  uint32_t clip_count = r.varint32(kMaxFrames);
   uint32_t mesh_count = r.varint32(kMaxMeshes);
   uint32_t segment_count = r.varint32(kMaxFrames);
-  // A mesh takes at least 5 bytes, a segment 7: no allocation beyond what the chunk can hold.
-  if (!r.ok() || mesh_count > r.remaining() / 5 || segment_count > r.remaining() / 7)
+  // A clip takes at least a byte, a mesh 5, a segment 7: no allocation beyond what the chunk can
+  // hold.
+  if (!r.ok() || clip_count > r.remaining() || mesh_count > r.remaining() / 5 ||
+      segment_count > r.remaining() / 7)
     return Status::kRecord;
-  if (out->frames == 0 || mesh_count == 0 || segment_count == 0)
+  if (clip_count == 0 || mesh_count == 0 || segment_count == 0)
     return Status::kRecord;
+  out->frames = 0;
+  out->clip_frames.assign(clip_count, 0);
+  for (uint32_t& count : out->clip_frames) {
+    count = r.varint32(kMaxFrames - out->frames);
+    if (!r.ok() || count == 0)
+      return Status::kRecord;
+    out->frames += count;
+  }
   out->meshes.assign(mesh_count, {});
   out->segments.assign(segment_count, {});
   for (Mesh& m : out->meshes) {
@@ -161,104 +175,160 @@ Vector<uint32_t> Limits::segments_by_frame() const {
   return order;
 }
 
-Bytes ClipRecord::write() const {
-  ByteWriter w;
-  w.text(name);
-  w.text(encoder);
-  w.varint(rate_numerator);
-  w.varint(rate_denominator);
-  w.u8(static_cast<uint8_t>((rate_assumed ? kAssumed : 0) | (loop ? kLoop : 0) |
-                            (closed ? kClosed : 0) | (massaged ? kMassaged : 0) |
-                            (times.empty() ? 0 : kTimes) |
-                            (attribute_errors.empty() ? 0 : kAttributeErrors)));
-  w.u8(up);
-  w.u8(static_cast<uint8_t>(order));
-  w.f64(start_time);
-  w.f32(static_cast<float>(metres_per_unit));
-  for (double t : times)
-    w.f64(t);
-  w.u8(static_cast<uint8_t>(asked));
-  for (double x : {asked_value, max_error, rmse, kg, diagonal})
-    w.f64(x);
-  if (massaged) {
-    w.f64(surface_error);
-    w.f64(surface_error_mean);
+Vector<uint32_t> Limits::runs(uint32_t first, uint32_t count) const {
+  Vector<uint32_t> result;
+  uint32_t begin = 0;
+  for (uint32_t frames_of_clip : clip_frames) {
+    const uint32_t from = std::max(first, begin);
+    begin += frames_of_clip;
+    const uint32_t to = std::min(first + count, begin);
+    if (from < to)
+      result.push_back(to - from);
   }
-  if (!attribute_errors.empty()) {
-    w.varint(attribute_errors.size());
-    for (const AttributeError& e : attribute_errors) {
+  return result;
+}
+
+namespace {
+
+void write_clip(const ClipRecord& clip, ByteWriter& w) {
+  w.text(clip.name);
+  w.varint(clip.rate_numerator);
+  w.varint(clip.rate_denominator);
+  w.u8(static_cast<uint8_t>((clip.rate_assumed ? kAssumed : 0) | (clip.loop ? kLoop : 0) |
+                            (clip.closed ? kClosed : 0) | (clip.massaged ? kMassaged : 0) |
+                            (clip.times.empty() ? 0 : kTimes) |
+                            (clip.attribute_errors.empty() ? 0 : kAttributeErrors)));
+  w.f64(clip.start_time);
+  for (double t : clip.times)
+    w.f64(t);
+  w.u8(static_cast<uint8_t>(clip.asked));
+  for (double x : {clip.asked_value, clip.max_error, clip.rmse, clip.kg, clip.diagonal})
+    w.f64(x);
+  if (clip.massaged) {
+    w.f64(clip.surface_error);
+    w.f64(clip.surface_error_mean);
+  }
+  if (!clip.attribute_errors.empty()) {
+    w.varint(clip.attribute_errors.size());
+    for (const AttributeError& e : clip.attribute_errors) {
       w.varint(e.mesh);
       w.varint(e.attribute);
       w.f64(e.max_error);
       w.f64(e.rmse);
     }
   }
-  return std::move(w.bytes());
 }
 
-Status ClipRecord::read(ByteView view, uint32_t frames, ClipRecord* out) {
-  ByteReader r(view);
+/// Reads the times of a clip's frames. False: out of range.
+bool read_times(ByteReader& r, ClipRecord* out) {
+  if (r.remaining() / 8 < out->frames)
+    return false;
+  out->times.resize(out->frames);
+  double before = -INFINITY;
+  for (double& t : out->times) {
+    t = r.f64();
+    if (!std::isfinite(t) || t < before)
+      return false;
+    before = t;
+  }
+  return true;
+}
+
+bool read_attribute_errors(ByteReader& r, ClipRecord* out) {
+  constexpr size_t kLeastBytes = 18;
+  const uint64_t count = r.varint(r.remaining() / kLeastBytes);
+  if (!r.ok() || count == 0)
+    return false;
+  out->attribute_errors.resize(static_cast<size_t>(count));
+  uint32_t before = 0;
+  for (AttributeError& e : out->attribute_errors) {
+    e.mesh = static_cast<uint16_t>(r.varint32(kMaxMeshes - 1));
+    e.attribute = static_cast<uint16_t>(r.varint32(kMaxAttributes - 1));
+    e.max_error = r.f64();
+    e.rmse = r.f64();
+    const uint32_t key = e.mesh * kMaxAttributes + e.attribute + 1;
+    if (!is_length(e.max_error) || !is_length(e.rmse) || key <= before)
+      return false;
+    before = key;
+  }
+  return true;
+}
+
+/// Reads a clip that has its frames already. False: a field is out of its range.
+bool read_clip(ByteReader& r, ClipRecord* out) {
   out->name = r.text();
-  out->encoder = r.text();
   out->rate_numerator = r.varint32();
   out->rate_denominator = r.varint32();
-  uint8_t flags = r.u8();
+  const uint8_t flags = r.u8();
   out->rate_assumed = flags & kAssumed;
   out->loop = flags & kLoop;
   out->closed = flags & kClosed;
   out->massaged = flags & kMassaged;
-  out->up = r.u8();
-  uint8_t order = r.u8();
-  out->order = static_cast<OrderMode>(order);
   out->start_time = r.f64();
-  out->metres_per_unit = static_cast<double>(r.f32());
-  out->times.clear();
-  if (flags & kTimes) {
-    if (r.remaining() / 8 < frames)
-      return Status::kRecord;
-    out->times.resize(frames);
-    double before = -INFINITY;
-    for (double& t : out->times) {
-      t = r.f64();
-      if (!std::isfinite(t) || t < before)
-        return Status::kRecord;
-      before = t;
-    }
-  }
-  uint8_t asked = r.u8();
+  if ((flags & kTimes) && !read_times(r, out))
+    return false;
+  const uint8_t asked = r.u8();
   out->asked = static_cast<ErrorMetric>(asked);
   for (double* x : {&out->asked_value, &out->max_error, &out->rmse, &out->kg, &out->diagonal})
     *x = r.f64();
   out->surface_error = out->massaged ? r.f64() : 0;
   out->surface_error_mean = out->massaged ? r.f64() : 0;
   for (double x : {out->asked_value, out->max_error, out->rmse, out->kg, out->diagonal,
-                   out->surface_error, out->surface_error_mean, out->metres_per_unit}) {
+                   out->surface_error, out->surface_error_mean}) {
     if (!is_length(x))
-      return Status::kRecord;
+      return false;
   }
-  out->attribute_errors.clear();
-  if (flags & kAttributeErrors) {
-    constexpr size_t kLeastBytes = 18;
-    const uint64_t count = r.varint(r.remaining() / kLeastBytes);
-    if (!r.ok() || count == 0)
-      return Status::kRecord;
-    out->attribute_errors.resize(static_cast<size_t>(count));
-    uint32_t before = 0;
-    for (AttributeError& e : out->attribute_errors) {
-      e.mesh = static_cast<uint16_t>(r.varint32(kMaxMeshes - 1));
-      e.attribute = static_cast<uint16_t>(r.varint32(kMaxAttributes - 1));
-      e.max_error = r.f64();
-      e.rmse = r.f64();
-      const uint32_t key = e.mesh * kMaxAttributes + e.attribute + 1;
-      if (!is_length(e.max_error) || !is_length(e.rmse) || key <= before)
-        return Status::kRecord;
-      before = key;
-    }
+  if ((flags & kAttributeErrors) && !read_attribute_errors(r, out))
+    return false;
+  return r.ok() && out->rate_numerator != 0 && out->rate_denominator != 0 && !(flags & ~0x3F) &&
+         std::isfinite(out->start_time) && asked <= static_cast<uint8_t>(ErrorMetric::kBpfv);
+}
+
+}  // namespace
+
+size_t ClipsRecord::find(const char* name) const {
+  const auto found = std::find_if(clips.begin(), clips.end(),
+                                  [&](const ClipRecord& clip) { return clip.name == name; });
+  return static_cast<size_t>(found - clips.begin());
+}
+
+void ClipsRecord::place() {
+  uint32_t frame = 0;
+  for (ClipRecord& clip : clips) {
+    clip.first_frame = frame;
+    frame += clip.frames;
   }
-  if (out->rate_numerator == 0 || out->rate_denominator == 0 || (flags & ~0x3F) || out->up > 2 ||
-      order > static_cast<uint8_t>(OrderMode::kAll) || !std::isfinite(out->start_time) ||
-      asked > static_cast<uint8_t>(ErrorMetric::kBpfv))
+}
+
+Bytes ClipsRecord::write() const {
+  ByteWriter w;
+  w.text(encoder);
+  w.u8(up);
+  w.u8(static_cast<uint8_t>(order));
+  w.f32(static_cast<float>(metres_per_unit));
+  for (const ClipRecord& clip : clips)
+    write_clip(clip, w);
+  return std::move(w.bytes());
+}
+
+Status ClipsRecord::read(ByteView view, const Limits& limits, ClipsRecord* out) {
+  ByteReader r(view);
+  out->encoder = r.text();
+  out->up = r.u8();
+  const uint8_t order = r.u8();
+  out->order = static_cast<OrderMode>(order);
+  out->metres_per_unit = static_cast<double>(r.f32());
+  // A clip takes at least 53 bytes.
+  if (!r.ok() || out->up > 2 || order > static_cast<uint8_t>(OrderMode::kAll) ||
+      !is_length(out->metres_per_unit) || limits.clip_frames.size() > r.remaining() / 53)
     return Status::kRecord;
+  out->clips.assign(limits.clip_frames.size(), {});
+  for (size_t c = 0; c < out->clips.size(); ++c) {
+    out->clips[c].frames = limits.clip_frames[c];
+    if (!read_clip(r, &out->clips[c]))
+      return Status::kRecord;
+  }
+  out->place();
   return finished(r);
 }
 

@@ -28,7 +28,7 @@ inline constexpr uint32_t kPositions = UINT32_MAX;
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
 
 /// How key-frames are coded.
-enum class CoderId : uint8_t { kPlain = 0, kDraco = 1 };
+enum class CoderId : uint8_t { kNative = 0, kDraco = 1 };
 
 /// How the coordinates of a pose are told: how far each is from what is expected of it, or first
 /// whether it is exactly that of a neighbour or a parallelogram, or as entries of DependentSteps.
@@ -74,9 +74,13 @@ struct Limits {
     }
   };
 
-  uint32_t frames = 0;
+  uint32_t frames = 0;           ///< of all clips, one after the other
+  Vector<uint32_t> clip_frames;  ///< of each clip; empty before it is written: one clip
   Vector<Mesh> meshes;
   Vector<Segment> segments;
+
+  /// The frames first .. first + count - 1, cut where a clip ends: how many frames each piece has.
+  Vector<uint32_t> runs(uint32_t first, uint32_t count) const;
 
   /// Numbers of the segments, ascending by first frame among those of one mesh, or attribute of it.
   /// The meshes come first, then the attributes, both ascending. O(segments log segments).
@@ -105,21 +109,19 @@ struct AttributeError {
   double rmse = 0;
 };
 
-/// Chunk CLIP: the clock, the coordinate system, and what the encoder promises.
+/// A clip: some frames that follow one another, their clock, and what the encoder promises of them.
 struct ClipRecord {
   String name;
-  String encoder;                ///< name and version of the encoder
+  uint32_t first_frame = 0;  ///< of the file; told by the limits, as is their number
+  uint32_t frames = 0;
   uint32_t rate_numerator = 24;  ///< frames per second
   uint32_t rate_denominator = 1;
   bool rate_assumed = true;
   bool loop = false;
   bool closed = false;  ///< the last frame repeats the first
   bool massaged = false;
-  uint8_t up = 0;  ///< 0 unknown, 1 y, 2 z
-  OrderMode order = OrderMode::kVertices;
-  double start_time = 0;       ///< seconds
-  double metres_per_unit = 0;  ///< 0 unknown
-  Vector<double> times;        ///< seconds from start_time, one per frame; empty when even
+  double start_time = 0;  ///< seconds
+  Vector<double> times;   ///< seconds from start_time, one per frame; empty when even
 
   ErrorMetric asked = ErrorMetric::kNone;
   double asked_value = 0;                   ///< KG in per cent, lengths in scene units
@@ -130,9 +132,25 @@ struct ClipRecord {
   double surface_error = 0;                 ///< when massaged: how far the surface moved at most
   double surface_error_mean = 0;            ///< and on average
   Vector<AttributeError> attribute_errors;  ///< ascending by mesh and attribute
+};
+
+/// Chunk CLIP: what holds for the whole file, and its clips.
+struct ClipsRecord {
+  String encoder;  ///< name and version of the encoder
+  uint8_t up = 0;  ///< 0 unknown, 1 y, 2 z
+  OrderMode order = OrderMode::kVertices;
+  double metres_per_unit = 0;  ///< 0 unknown
+  Vector<ClipRecord> clips = Vector<ClipRecord>(1);  ///< in the order of their frames, at least one
+
+  /// Number of the first clip of a name; clips.size() if there is none.
+  size_t find(const char* name) const;
+
+  /// Makes the clips follow one another from frame 0 on, by how many frames each has.
+  void place();
 
   Bytes write() const;
-  static Status read(ByteView view, uint32_t frames, ClipRecord* out);
+  /// Reads as many clips as the limits announce.
+  static Status read(ByteView view, const Limits& limits, ClipsRecord* out);
 };
 
 /// Chunk MESH: connectivity and what restores the source's vertices and polygons.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace anicodec {
@@ -97,7 +98,7 @@ struct Trace {
 }  // namespace
 
 struct TimeWeightModel::State {
-  explicit State(uint32_t frames);
+  explicit State(const Vector<uint32_t>& runs);
 
   template <class Coder>
   bool code(Coder& coder, uint32_t channels, const Source* source, WeightPredictor& predictor,
@@ -137,7 +138,12 @@ struct TimeWeightModel::State {
   void select_bisection(int64_t f, int64_t s, int64_t spacing, uint32_t level, uint32_t c,
                         uint32_t m4);
 
-  uint32_t frames_;
+  /// Place of frame f of the run at hand in a component's arrays, which hold all runs.
+  size_t at(uint32_t c, size_t f) const { return size_t{c} * all_frames_ + begin_ + f; }
+
+  Vector<uint32_t> runs_;
+  uint32_t all_frames_ = 0;
+  uint32_t begin_ = 0, frames_ = 0;  ///< of the run at hand
   AdaptiveBit predictor_[kWeightPredictors];
   MixedSymbolModel<5> ordered_;
   MixedSymbolModel<6> bisection_;
@@ -153,15 +159,18 @@ struct TimeWeightModel::State {
   uint32_t slow_[3], all_;
 };
 
-TimeWeightModel::State::State(uint32_t frames)
-    : frames_(frames),
+TimeWeightModel::State::State(const Vector<uint32_t>& runs)
+    : runs_(runs),
       ordered_({kFine * 3, kMedium * kMedium, kFine * 3, kCoarse * kCoarse, kFine}, {kSelect, 3}),
       bisection_(
           {kFine * 3 * 8, kMedium * kMedium * 3, kFine * 8, kCoarse * kCoarse, 64, kMedium * 8},
           {kSelect, 8 * 3}),
       cosine_({kFine * 3, kMedium * 26, kMedium * kMedium, kCoarse * kCoarse, kMedium * 26},
               {kSelect, 26}),
-      signs_({27 * 24, 49 * 24, 33 * 3, 21 * 24}, {24, 17}, 1) {}
+      signs_({27 * 24, 49 * 24, 33 * 3, 21 * 24}, {24, 17}, 1) {
+  for (uint32_t run : runs_)
+    all_frames_ += run;
+}
 
 /// Codes the integer nearest to x, or one nearer to zero if that is worth the bits. x is ignored by
 /// a decoder.
@@ -206,7 +215,7 @@ void TimeWeightModel::State::prepare_sign(uint32_t family, uint32_t group, size_
   };
   int32_t evidence = 0;
   for (uint32_t e = 0; e < c; ++e)
-    evidence += agreement_[c][e] * sign(coded_[size_t{e} * frames_ + index]);
+    evidence += agreement_[c][e] * sign(coded_[at(e, index)]);
   const auto strength =
       magnitude_class<1>(static_cast<uint32_t>(evidence < 0 ? -evidence : evidence) >> 2, 16);
   const auto s = static_cast<uint32_t>(16 + sign(evidence) * static_cast<int32_t>(strength));
@@ -220,12 +229,12 @@ void TimeWeightModel::State::prepare_sign(uint32_t family, uint32_t group, size_
 /// rate: of the channel's running mean, in 1/32.
 void TimeWeightModel::State::learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate) {
   const uint32_t m = static_cast<uint32_t>(std::min(q < 0 ? -q : q, 65535)) * kUnit;
-  trace_.magnitude[size_t{c} * frames_ + index] = m;
-  coded_[size_t{c} * frames_ + index] = q;
+  trace_.magnitude[at(c, index)] = m;
+  coded_[at(c, index)] = q;
   if (q != 0)
     for (uint32_t e = 0; e < c; ++e) {
       int32_t& agreement = agreement_[c][e];
-      agreement += 32 * sign(q) * sign(coded_[size_t{e} * frames_ + index]) - agreement / 8;
+      agreement += 32 * sign(q) * sign(coded_[at(e, index)]) - agreement / 8;
     }
   slow_[c] = ((32 - rate) * slow_[c] + rate * m) >> 5;
   all_ = (31 * all_ + m) >> 5;
@@ -239,11 +248,11 @@ uint32_t TimeWeightModel::State::previous(const Trace& trace, int64_t f, int rea
   uint64_t sum = 0, weight = 0;
   for (uint32_t c = 0; c < trace.channels; ++c)
     for (int64_t d = -reach; d <= reach; ++d) {
-      const int64_t at = f + d;
-      if (at < 0 || at >= int64_t{frames_})
+      const int64_t near = f + d;
+      if (near < 0 || near >= int64_t{frames_})
         continue;
       const uint64_t w = reach == 1 && d == 0 ? 2 : 1;
-      sum += w * trace.magnitude[size_t{c} * frames_ + static_cast<size_t>(at)];
+      sum += w * trace.magnitude[at(c, static_cast<size_t>(near))];
       weight += w;
     }
   return static_cast<uint32_t>(sum / weight);
@@ -257,26 +266,26 @@ void TimeWeightModel::State::code_in_order(Coder& coder, uint32_t channels, cons
   for (uint32_t f = 0; f < frames_ && !exhausted(coder); ++f) {
     const uint32_t m4 = previous(before_[0], f, 1);
     for (uint32_t c = 0; c < channels; ++c) {
-      int32_t* v = values + size_t{c} * frames_ + f;
+      int32_t* v = values + at(c, f);
       const int32_t prediction = order == 0 || f == 0   ? 0
                                  : order == 1 || f == 1 ? v[-1]
                                                         : 2 * v[-1] - v[-2];
-      const uint32_t* m = &trace_.magnitude[size_t{c} * frames_ + f];
+      const uint32_t* m = &trace_.magnitude[at(c, f)];
       const uint32_t m1 = f == 0 ? 0 : f == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
       uint32_t m3 = 0;
       for (uint32_t e = 0; e < channels; ++e)
         if (e != c && (e < c || f > 0))
-          m3 += trace_.magnitude[size_t{e} * frames_ + f - (e < c ? 0 : 1)];
+          m3 += trace_.magnitude[at(e, f) - (e < c ? 0 : 1)];
       m3 /= std::max(channels - 1, 1u);
       const uint32_t slow = slow_[c], expected = (2 * m1 + 2 * slow + m3 + m4) / 6;
       ordered_.select(
           {fine((5 * m1 + 3 * slow) >> 3) * 3 + c, medium(m1) * kMedium + medium(m3),
            fine(m4) * 3 + std::min(f, 2u), coarse(slow) * kCoarse + coarse(m4), fine(all_)},
           f == 0 ? kSelect - 1 : selector(expected), c);
-      const int32_t* q0 = &coded_[size_t{c} * frames_ + f];
+      const int32_t* q0 = &coded_[at(c, f)];
       prepare_sign(0, static_cast<uint32_t>(order), f, c, f > 0 ? q0[-1] : 0, f > 1 ? q0[-2] : 0,
                    f > 2 ? q0[-3] : 0);
-      const double x = source ? source->x[size_t{c} * frames_ + f] - prediction * (1.0 / kStep) : 0;
+      const double x = source ? source->x[at(c, f)] - prediction * (1.0 / kStep) : 0;
       const int32_t q = code_value(coder, ordered_, x, source ? source->lambda : 0);
       *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
       learn(f, c, q, 5);
@@ -290,29 +299,29 @@ TimeWeightModel::State::Regressors TimeWeightModel::State::regressors(const int3
                                                                       int64_t s, int64_t spacing,
                                                                       uint32_t level) const {
   const int64_t frames = frames_;
-  const auto at = [&](int64_t g) { return row[g] * (1.0 / kStep); };
+  const auto value = [&](int64_t g) { return row[g] * (1.0 / kStep); };
   Regressors r;
   r.kind = level;
   if (s == 0) {
-    r.z[0] = f >= spacing ? at(f - spacing) : 0;
-    r.z[1] = f >= 2 * spacing ? at(f - 2 * spacing) : 0;
+    r.z[0] = f >= spacing ? value(f - spacing) : 0;
+    r.z[1] = f >= 2 * spacing ? value(f - 2 * spacing) : 0;
     r.weights[0] = 1;
     return r;
   }
-  const double a = at(f - s);
+  const double a = value(f - s);
   const bool left = f >= 3 * s;
   if (f + s >= frames) {
     r.kind = 6;
     r.z[0] = a;
-    r.z[1] = left ? at(f - 3 * s) : a;
+    r.z[1] = left ? value(f - 3 * s) : a;
     r.weights[0] = 1.25;
     r.weights[1] = -0.25;
     return r;
   }
   r.own = 4;
-  const double b = at(f + s);
-  const double before = left ? at(f - 3 * s) : 2 * a - b;
-  const double after = f + 3 * s < frames ? at(f + 3 * s) : 2 * b - a;
+  const double b = value(f + s);
+  const double before = left ? value(f - 3 * s) : 2 * a - b;
+  const double after = f + 3 * s < frames ? value(f + 3 * s) : 2 * b - a;
   r.z[0] = a + b;
   r.z[1] = before + after;
   r.z[2] = a - b;
@@ -356,7 +365,7 @@ bool TimeWeightModel::State::is_known(int64_t g, int64_t f, int64_t s) const {
 void TimeWeightModel::State::select_bisection(int64_t f, int64_t s, int64_t spacing, uint32_t level,
                                               uint32_t c, uint32_t m4) {
   uint32_t m1 = 8 * kUnit, m3 = 0;
-  const uint32_t* m = &trace_.magnitude[size_t{c} * frames_];
+  const uint32_t* m = &trace_.magnitude[at(c, 0)];
   if (s == 0) {
     if (f >= spacing)
       m1 = m[f - spacing];
@@ -370,14 +379,14 @@ void TimeWeightModel::State::select_bisection(int64_t f, int64_t s, int64_t spac
     m1 = sum / count;
   }
   for (uint32_t e = 0; e < c; ++e)
-    m3 += trace_.magnitude[size_t{e} * frames_ + static_cast<size_t>(f)];
+    m3 += trace_.magnitude[at(e, static_cast<size_t>(f))];
   m3 = c == 0 ? m1 : m3 / c;
   const uint32_t slow = slow_[c], expected = (slow + m3 + 2 * m4 + (c ? 0 : all_)) / 4;
   bisection_.select({(fine(slow) * 3 + c) * 8 + level, (medium(m3) * kMedium + medium(m4)) * 3 + c,
                      fine(m4) * 8 + level, coarse(m1) * kCoarse + coarse(m4),
                      magnitude_class<2>(expected, 64), medium(all_) * 8 + level},
                     selector(expected), level * 3 + c);
-  const int32_t* q0 = &coded_[size_t{c} * frames_];
+  const int32_t* q0 = &coded_[at(c, 0)];
   const auto near = [&](int64_t g) { return s != 0 && is_known(g, f, s) ? q0[g] : 0; };
   prepare_sign(1, level, static_cast<size_t>(f), c, near(f - 2 * s), near(f - s), near(f + s));
 }
@@ -389,16 +398,16 @@ void TimeWeightModel::State::code_frame(Coder& coder, uint32_t channels, const S
                                         int32_t* values) {
   const uint32_t m4 = previous(before_[0], f, 1);
   for (uint32_t c = 0; c < channels; ++c) {
-    const int32_t* row = values + size_t{c} * frames_;
+    const int32_t* row = values + at(c, 0);
     Regressors r = regressors(row, f, s, spacing, level);
     size_t size = r.own;
     if (s != 0)
       for (uint32_t e = 0; e < c; ++e)
-        r.z[size++] = coded_[size_t{e} * frames_ + static_cast<size_t>(f)];
+        r.z[size++] = coded_[at(e, static_cast<size_t>(f))];
     Filter& filter = filter_of(r, channels, c, size);
     const int32_t prediction = rounded_prediction(filter.predict(r.z));
     select_bisection(f, s, spacing, level, c, m4);
-    const size_t index = size_t{c} * frames_ + static_cast<size_t>(f);
+    const size_t index = at(c, static_cast<size_t>(f));
     const double x = source ? source->x[index] - prediction * (1.0 / kStep) : 0;
     const int32_t q = code_value(coder, bisection_, x, source ? source->lambda : 0);
     values[index] = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
@@ -432,7 +441,7 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
   Vector<double> target(source ? size_t{channels} * frames_ : 0);
   if (source)
     for (uint32_t c = 0; c < channels; ++c)
-      transform.forward(source->x + size_t{c} * frames_, &target[size_t{c} * frames_]);
+      transform.forward(source->x + at(c, 0), &target[size_t{c} * frames_]);
   std::fill_n(slow_, 3, 4 * kUnit);
   all_ = 0;
   for (uint32_t k = 0; k < frames_ && !exhausted(coder); ++k) {
@@ -440,13 +449,13 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
     // Half octaves of the frequency.
     const uint32_t band = magnitude_class<1>(k, 26);
     for (uint32_t c = 0; c < channels; ++c) {
-      const uint32_t* m = &trace_.magnitude[size_t{c} * frames_ + k];
+      const uint32_t* m = &trace_.magnitude[at(c, k)];
       const uint32_t m1 = k == 0 ? 20 * kUnit : k == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
       uint32_t m3 = 0;
       for (uint32_t e = 0; e < channels; ++e)
         if (e != c)
           m3 += e > c && k == 0 ? 10 * kUnit
-                                : trace_.magnitude[size_t{e} * frames_ + k - (e < c ? 0 : 1)];
+                                : trace_.magnitude[at(e, k) - (e < c ? 0 : 1)];
       m3 /= std::max(channels - 1, 1u);
       const uint32_t slow = slow_[c], expected = (m1 + 2 * slow + m3 + 2 * m4) / 6;
       cosine_.select(
@@ -454,7 +463,7 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
            coarse(slow) * kCoarse + coarse(m3), medium(m4) * 26 + band},
           selector(expected), band);
       const size_t index = size_t{c} * frames_ + k;
-      const int32_t* q0 = &coded_[index];
+      const int32_t* q0 = &coded_[at(c, k)];
       prepare_sign(2, std::min(band, 7u), k, c, k > 0 ? q0[-1] : 0, k > 1 ? q0[-2] : 0,
                    k > 2 ? q0[-3] : 0);
       int32_t q =
@@ -464,7 +473,7 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
     }
   }
   for (uint32_t c = 0; c < channels; ++c)
-    transform.inverse(&coded_[size_t{c} * frames_], values + size_t{c} * frames_);
+    transform.inverse(&coded_[at(c, 0)], values + at(c, 0));
 }
 
 template <class Coder>
@@ -476,19 +485,24 @@ bool TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source*
     ++p;
   predictor = static_cast<WeightPredictor>(p);
   const bool cosine = predictor == WeightPredictor::kCosine;
-  if (cosine && frames_ > CosineTransform::kMaxLength)
+  if (cosine && *std::max_element(runs_.begin(), runs_.end()) > CosineTransform::kMaxLength)
     return false;
-  std::fill_n(values, size_t{channels} * frames_, 0);
-  trace_.start(channels, frames_);
-  coded_.assign(size_t{channels} * frames_, 0);
+  std::fill_n(values, size_t{channels} * all_frames_, 0);
+  trace_.start(channels, all_frames_);
+  coded_.assign(size_t{channels} * all_frames_, 0);
   for (auto& row : agreement_)
     std::fill(std::begin(row), std::end(row), 0);
-  if (cosine)
-    code_cosine(coder, channels, source, values);
-  else if (predictor == WeightPredictor::kBisection)
-    code_bisection(coder, channels, source, values);
-  else
-    code_in_order(coder, channels, source, static_cast<int>(p), values);
+  begin_ = 0;
+  for (uint32_t run : runs_) {
+    frames_ = run;
+    if (cosine)
+      code_cosine(coder, channels, source, values);
+    else if (predictor == WeightPredictor::kBisection)
+      code_bisection(coder, channels, source, values);
+    else
+      code_in_order(coder, channels, source, static_cast<int>(p), values);
+    begin_ += run;
+  }
   std::swap(before_[cosine], trace_);
   return true;
 }
@@ -519,15 +533,19 @@ TimeWeightModel::StatePointer TimeWeightModel::make_state(const Source& source) 
   return made;
 }
 
-TimeWeightModel::TimeWeightModel(uint32_t frames) : frames_(frames), state_(make_state(frames)) {}
+TimeWeightModel::TimeWeightModel(const Vector<uint32_t>& runs)
+    : frames_(std::accumulate(runs.begin(), runs.end(), 0U)),
+      longest_run_(runs.empty() ? 0 : *std::max_element(runs.begin(), runs.end())),
+      state_(make_state(runs)) {}
 
 TimeWeightModel::~TimeWeightModel() = default;
 
 TimeWeightModel::TimeWeightModel(const TimeWeightModel& other)
-    : frames_(other.frames_), state_(make_state(*other.state_)) {}
+    : frames_(other.frames_), longest_run_(other.longest_run_), state_(make_state(*other.state_)) {}
 
 TimeWeightModel& TimeWeightModel::operator=(const TimeWeightModel& other) {
   frames_ = other.frames_;
+  longest_run_ = other.longest_run_;
   *state_ = *other.state_;
   return *this;
 }
@@ -553,7 +571,7 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
   for (uint32_t p = 0; p < kWeightPredictors; ++p) {
     auto predictor = static_cast<WeightPredictor>(p);
     if (!(allowed >> p & 1) ||
-        (predictor == WeightPredictor::kCosine && frames_ > CosineTransform::kMaxLength))
+        (predictor == WeightPredictor::kCosine && longest_run_ > CosineTransform::kMaxLength))
       continue;
     State trial = *state_;
     DryEncoder dry;

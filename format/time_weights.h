@@ -23,7 +23,7 @@ enum class WeightPredictor : uint8_t {
   kOrder2 = 2,  ///< a straight line through the two frames before
   kBisection =
       3,        ///< frames in halving distances, interpolated from both sides by adapting weights
-  kCosine = 4,  ///< discrete cosine transform over all frames
+  kCosine = 4,  ///< discrete cosine transform over all frames of a run
 };
 
 constexpr uint32_t kWeightPredictors = 5;
@@ -35,18 +35,22 @@ constexpr int kWeightFractionBits = 4;
 constexpr int32_t kWeightLimit = 1 << 22;
 
 /// Codes the time weights of the components of one segment, one component after the other:
-/// `channels` (1 or 3) rows of `frames` values each. Contexts and the bisection's weights carry
-/// over from component to component. Memory: about 0.5 MiB and 80 bytes per frame.
+/// `channels` (1 or 3) rows of `frames` values each. The frames are runs, one for each clip that the
+/// segment has frames of: nothing is predicted over the end of a run, which would be a hard cut.
+/// Contexts and the bisection's weights carry over from run to run and from component to component.
+/// Memory: about 0.5 MiB and 80 bytes per frame.
 class TimeWeightModel {
  public:
-  explicit TimeWeightModel(uint32_t frames);
+  /// `runs`: how many frames each run has, none of them 0.
+  explicit TimeWeightModel(const Vector<uint32_t>& runs);
+  explicit TimeWeightModel(uint32_t frames) : TimeWeightModel(Vector<uint32_t>(frames > 0, frames)) {}
   ~TimeWeightModel();
   TimeWeightModel(const TimeWeightModel&);
   TimeWeightModel& operator=(const TimeWeightModel&);
 
   /// Reads a component into `values`: channels x frames. kEntropy: not a stream of an encoder;
   /// values are then arbitrary but within limits. O(frames x channels), with kCosine O(frames^2 x
-  /// channels), which takes at most CosineTransform::kMaxLength frames.
+  /// channels) for each run, which takes at most CosineTransform::kMaxLength frames.
   Status decode(BinaryDecoder& decoder, uint32_t channels, int32_t* values);
 
   struct Choice {
@@ -76,7 +80,8 @@ class TimeWeightModel {
   template <class Source>
   static StatePointer make_state(const Source& source);
 
-  uint32_t frames_;
+  uint32_t frames_;       ///< of all runs
+  uint32_t longest_run_;  ///< in frames
   StatePointer state_;
 };
 

@@ -73,6 +73,8 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
                                          KeyframeMethod::kUniform};
   constexpr InterpolationChoice kInterpolations[] = {
       InterpolationChoice::kLinear, InterpolationChoice::kMsgi, InterpolationChoice::kAuto};
+  constexpr std::optional<KeyframePoses> kPoses[] = {std::nullopt, KeyframePoses::kDraco,
+                                                     KeyframePoses::kNative, KeyframePoses::kAuto};
   constexpr OrderMode kOrders[] = {OrderMode::kVertices, OrderMode::kFree, OrderMode::kAll};
   options.basis = chosen(host.basis, kBases, "basis");
   if (host.keyframes > 0) {
@@ -83,6 +85,7 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
   }
   options.select = chosen(host.selection, kMethods, "selection");
   options.interpolation = chosen(host.interpolation, kInterpolations, "interpolation");
+  options.keyframe_poses = chosen(host.keyframe_coder, kPoses, "coder of key-frames");
   options.order = chosen(host.order, kOrders, "order");
   options.effort = static_cast<int>(within(host.effort, 5, 9, "the effort"));
 }

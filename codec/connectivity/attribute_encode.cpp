@@ -3,6 +3,7 @@
 #include "codec/connectivity/attribute_encode.h"
 
 #include "codec/sequence/error.h"
+#include "codec/sequence/shared_normals.h"
 #include "format/attribute_record.h"
 #include "sdk/clip/attribute_coding.h"
 
@@ -93,9 +94,9 @@ class AttributeWriter {
     }
     if (!has_normals && !sequence_.shared_normals.empty()) {
       check_count(sequence_.shared_normals.size(), corners_.size(), "shared normals");
-      std::vector<int32_t> shared;
+      std::vector<uint32_t> shared;
       for (uint32_t c : corners_)
-        shared.push_back(static_cast<int32_t>(sequence_.shared_normals[c]));
+        shared.push_back(sequence_.shared_normals[c]);
       add_shared(shared);
     }
     add_labels(AttributeKind::kMaterial, sequence_.materials);
@@ -217,47 +218,22 @@ class AttributeWriter {
 
   /// A number for each canonical corner; those at a coded vertex with nearly the same normal share
   /// one.
-  std::vector<int32_t> normals_shared(const Attribute& normals) const {
-    constexpr uint32_t kComponents = 3;
-    const double kSame = std::cos(0.5 * std::numbers::pi / 180);
-    if (normals.components != kComponents)
-      throw Error(ErrorKind::kInput, normals.name + ": normals have three components");
-    check_count(normals.values.size(), rows_of(normals).size() * kComponents * normals.frames,
+  std::vector<uint32_t> normals_shared(const Attribute& normals) const {
+    check_count(normals.values.size(),
+                rows_of(normals).size() * size_t{normals.components} * normals.frames,
                 normals.name);
-    auto normal = [&](uint32_t corner) {
-      const size_t row =
-          normals.per_corner ? corners_[corner] : layout_.vertex_source[graph_.vertex(corner)];
-      return normals.values.data() + kComponents * row;
-    };
-    auto same = [&](uint32_t a, uint32_t b) {
-      double ab = 0, aa = 0, bb = 0;
-      for (uint32_t i = 0; i < kComponents; ++i) {
-        const auto x = static_cast<double>(normal(a)[i]), y = static_cast<double>(normal(b)[i]);
-        ab += x * y, aa += x * x, bb += y * y;
-      }
-      return ab >= kSame * std::sqrt(aa * bb);
-    };
-    constexpr uint32_t kNone = CornerGraph::kNone;
-    std::vector<int32_t> shared(corners_.size());
-    std::vector<uint32_t> newest(layout_.topology.coded_vertices, kNone),
-        older(corners_.size(), kNone);
+    std::vector<uint32_t> rows(corners_.size()), places(corners_.size());
     for (uint32_t c = 0; c < corners_.size(); ++c) {
-      uint32_t& first = newest[graph_.coded(c)];
-      uint32_t other = first;
-      while (other != kNone && !same(c, other))
-        other = older[other];
-      shared[c] = other == kNone ? static_cast<int32_t>(c) : shared[other];
-      if (other == kNone) {
-        older[c] = first;
-        first = c;
-      }
+      rows[c] = normals.per_corner ? corners_[c] : layout_.vertex_source[graph_.vertex(c)];
+      places[c] = graph_.coded(c);
     }
-    return shared;
+    return share_normals(normals, rows, places, layout_.topology.coded_vertices);
   }
 
-  void add_shared(const std::vector<int32_t>& shared) {
+  void add_shared(const std::vector<uint32_t>& shared) {
     if (!shared.empty())
-      code(add_header(AttributeKind::kNormal, AttributeDomain::kCorner, ""), shared);
+      code(add_header(AttributeKind::kNormal, AttributeDomain::kCorner, ""),
+           std::vector<int32_t>(shared.begin(), shared.end()));
   }
 
   void code(const AttributeHeader& header, const std::vector<int32_t>& truth) {

@@ -20,7 +20,7 @@ Bytes pose_record(const EncodedPose& pose) {
 
 }  // namespace
 
-Bytes clip_file(const ClipRecord& record, const MeshLayout& layout,
+Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
                 const std::vector<const EncodedSegment*>& segments) {
   constexpr uint16_t kMesh = 0;
   MeshRecord mesh;
@@ -28,6 +28,10 @@ Bytes clip_file(const ClipRecord& record, const MeshLayout& layout,
   mesh.faces = layout.faces;
   Limits limits;
   limits.meshes.push_back(layout.sizes);
+  for (const ClipRecord& clip : record.clips) {
+    if (record.clips.size() > 1)
+      limits.clip_frames.push_back(clip.frames);
+  }
   for (const EncodedSegment* segment : segments) {
     if (segment->sizes.attribute == kPositions)
       limits.frames += segment->sizes.frames;

@@ -11,10 +11,10 @@
 
 namespace anicodec {
 
-/// Puts a clip of one mesh together: limits, clip record, mesh, maps as the order mode asks, and
+/// Puts a file of one mesh together: limits, record of the clips, mesh, maps as the order mode asks, and
 /// for each segment its record, layers and corrections, in the order in which a reader needs them;
 /// segments come in the order of the file. The first reference pose is the mesh's.
-Bytes clip_file(const ClipRecord& record, const MeshLayout& layout,
+Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
                 const std::vector<const EncodedSegment*>& segments);
 
 }  // namespace anicodec

@@ -4,28 +4,35 @@
 
 namespace anicodec {
 
-ClipRecord clip_record(const MeshSequence& sequence, const EncodeOptions& options,
-                       const Target& target, double clip_diagonal) {
-  ClipRecord record;
-  record.name = sequence.name;
+ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& options,
+                         const Target& target, const std::vector<double>& diagonals) {
+  ClipsRecord record;
   record.encoder = options.encoder;
-  record.rate_numerator = sequence.rate.numerator;
-  record.rate_denominator = sequence.rate.denominator;
-  record.rate_assumed = sequence.rate.assumed;
-  record.loop = sequence.loop;
   record.up = static_cast<uint8_t>(sequence.up);
   record.order = options.order;
-  record.start_time = sequence.start_time;
   record.metres_per_unit = sequence.metres_per_unit;
-  record.times.assign(sequence.times.begin(), sequence.times.end());
-  record.massaged = options.surface_change.has_value();
-  if (record.massaged) {
-    record.surface_error = options.surface_change->max;
-    record.surface_error_mean = options.surface_change->mean;
+  record.clips.clear();
+  for (const ClipTiming& timing : clips_of(sequence)) {
+    const double diagonal = diagonals[record.clips.size()];
+    ClipRecord& clip = record.clips.emplace_back();
+    clip.name = timing.name;
+    clip.frames = timing.frame_count;
+    clip.rate_numerator = timing.rate.numerator;
+    clip.rate_denominator = timing.rate.denominator;
+    clip.rate_assumed = timing.rate.assumed;
+    clip.loop = timing.loop;
+    clip.start_time = timing.start_time;
+    clip.times.assign(timing.times.begin(), timing.times.end());
+    clip.massaged = options.surface_change.has_value();
+    if (clip.massaged) {
+      clip.surface_error = options.surface_change->max;
+      clip.surface_error_mean = options.surface_change->mean;
+    }
+    clip.asked = target.metric;
+    clip.asked_value = target.value;
+    clip.diagonal = diagonal;
   }
-  record.asked = target.metric;
-  record.asked_value = target.value;
-  record.diagonal = clip_diagonal;
+  record.place();
   return record;
 }
 

@@ -7,12 +7,14 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "format/records.h"
 
+#include <vector>
+
 namespace anicodec {
 
-/// The metadata of a clip without the errors, which are yet to be measured: names, clock,
-/// coordinates, and what was asked for, in scene units.
-ClipRecord clip_record(const MeshSequence& sequence, const EncodeOptions& options,
-                       const Target& target, double clip_diagonal);
+/// The metadata of a file and its clips without the errors, which are yet to be measured: names,
+/// clocks, coordinates, and what was asked for, in scene units. `diagonals`: of each clip.
+ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& options,
+                         const Target& target, const std::vector<double>& diagonals);
 
 }  // namespace anicodec
 

@@ -6,6 +6,7 @@
 #include "codec/connectivity/attribute_encode.h"
 #include "codec/file/target.h"
 #include "codec/keyframes/keyframe_selection.h"
+#include "codec/segment/keyframe_poses.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "format/records.h"
 
@@ -35,6 +36,9 @@ struct EncodeOptions {
   BasisChoice basis = BasisChoice::kAuto;
   std::optional<uint32_t> keyframes;  ///< exact number of key-frames
   KeyframeMethod select = KeyframeMethod::kPivot;
+  /// What codes the poses of key-frames; as a rule Draco those that were asked for, and the coder of
+  /// reference poses those that the search ends with by itself.
+  std::optional<KeyframePoses> keyframe_poses;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;  ///< only with key-frames alone
   OrderMode order = OrderMode::kVertices;
   /// Encodes these frames alone, as a part for join_clips(): mesh, reference pose and diagonal are
@@ -69,12 +73,22 @@ struct AttributeResult {
   double rmse = 0;
 };
 
+/// How a clip of several came out.
+struct ClipResult {
+  std::string name;
+  uint32_t frames = 0;
+  double kg = 0;         ///< per cent
+  double rmse = 0;       ///< scene units
+  double max_error = 0;  ///< scene units
+};
+
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
 struct EncodeResult {
   Bytes file;
   uint32_t vertices = 0;  ///< of the source; of several meshes, in the frame that shows most
   uint32_t faces = 0;
   uint32_t frames = 0;
+  FrameRate rate = {};     ///< the source's; average one of uneven times
   uint64_t positions = 0;  ///< vertices of all frames together
   BasisKind kind = BasisKind::kKeyframes;
   uint32_t components = 0;
@@ -83,6 +97,8 @@ struct EncodeResult {
   double max_error = 0;  ///< scene units
   double diagonal = 0;
   std::vector<AttributeResult> attributes;  ///< those that change
+  std::vector<ClipResult> clips;            ///< in the order of their frames
+  std::vector<FrameRun> segments;           ///< of positions: clips in one share its basis
   std::vector<Trial> trials;
 };
 

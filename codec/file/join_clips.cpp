@@ -25,10 +25,14 @@ struct OpenPart {
   explicit OpenPart(const ClipPart& source) : part(source) {
     check(reader.open(part.file));
     check(Limits::read(payload(required("LIMI")), &limits));
-    check(ClipRecord::read(payload(required("CLIP")), limits.frames, &record));
+    check(ClipsRecord::read(payload(required("CLIP")), limits, &record));
     if (limits.meshes.size() != 1)
       fail(part, ErrorKind::kUnsupported, "clips of several meshes are not joined");
+    if (record.clips.size() != 1)
+      fail(part, ErrorKind::kUnsupported, "has several clips, and is no part of one");
   }
+
+  const ClipRecord& clip() const { return record.clips[0]; }
 
   void check(const Failure& failure) const {
     if (!failure.ok())
@@ -62,7 +66,7 @@ struct OpenPart {
   ClipPart part;
   ContainerReader reader;
   Limits limits;
-  ClipRecord record;
+  ClipsRecord record;
 };
 
 bool equal(ByteView a, ByteView b) {
@@ -95,13 +99,14 @@ void check_same_mesh(const OpenPart& first, const OpenPart& next) {
 }
 
 double duration(const OpenPart& part) {
-  return part.limits.frames * double{1} * part.record.rate_denominator / part.record.rate_numerator;
+  return part.limits.frames * double{1} * part.clip().rate_denominator / part.clip().rate_numerator;
 }
 
 void check_follows(const OpenPart& before, const OpenPart& next) {
-  const ClipRecord &a = before.record, &b = next.record;
+  const ClipRecord &a = before.clip(), &b = next.clip();
   if (a.rate_numerator != b.rate_numerator || a.rate_denominator != b.rate_denominator ||
-      a.up != b.up || a.metres_per_unit != b.metres_per_unit || a.times.empty() != b.times.empty())
+      before.record.up != next.record.up ||
+      before.record.metres_per_unit != next.record.metres_per_unit || a.times.empty() != b.times.empty())
     fail(next.part, ErrorKind::kInput,
          "has another frame rate, up axis or unit than " + before.part.name);
   const double frame = double{1} * a.rate_denominator / a.rate_numerator;
@@ -115,12 +120,13 @@ void check_follows(const OpenPart& before, const OpenPart& next) {
              " s and has " + std::to_string(before.limits.frames) + " frames");
 }
 
-ClipRecord joined_record(const std::vector<OpenPart>& parts) {
-  ClipRecord record = parts[0].record;
+ClipsRecord joined_record(const std::vector<OpenPart>& parts) {
+  ClipsRecord joined = parts[0].record;
+  ClipRecord& record = joined.clips[0];
   double squared = 0, reference = 0, frames = 0;
   record.times = {};
   for (const OpenPart& part : parts) {
-    const ClipRecord& r = part.record;
+    const ClipRecord& r = part.clip();
     const double of_part = r.rmse * r.rmse * part.limits.frames;
     squared += of_part;
     if (r.kg > 0)
@@ -142,7 +148,7 @@ ClipRecord joined_record(const std::vector<OpenPart>& parts) {
   record.closed = false;
   record.rmse = std::sqrt(squared / frames);
   record.kg = reference > 0 ? 100 * std::sqrt(squared / reference) : 0;
-  return record;
+  return joined;
 }
 
 /// Adds a chunk of a segment under its new number, to a mesh.
@@ -183,7 +189,7 @@ Vector<AttributeError> joined_errors(const std::vector<PlacedMesh>& parts) {
 
   std::map<std::pair<uint16_t, uint16_t>, Sum> sums;
   for (const PlacedMesh& placed : parts) {
-    for (const AttributeError& e : placed.part->record.attribute_errors) {
+    for (const AttributeError& e : placed.part->clip().attribute_errors) {
       Sum& sum = sums[{placed.mesh, e.attribute}];
       sum.error.mesh = placed.mesh;
       sum.error.attribute = e.attribute;
@@ -209,8 +215,8 @@ struct PlacedSegment {
 
 /// One file of parts: mesh, maps and pose of the first one of each mesh, all segments in the order
 /// of time under new numbers.
-Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipRecord record) {
-  record.attribute_errors = joined_errors(parts);
+Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipsRecord record) {
+  record.clips[0].attribute_errors = joined_errors(parts);
   Limits limits;
   limits.frames = frames;
   std::vector<const OpenPart*> meshes;
@@ -271,7 +277,7 @@ Bytes join_clips(const std::vector<ClipPart>& sources) {
   for (const ClipPart& source : sources)
     parts.emplace_back(source);
   std::stable_sort(parts.begin(), parts.end(), [](const OpenPart& a, const OpenPart& b) {
-    return a.record.start_time < b.record.start_time;
+    return a.clip().start_time < b.clip().start_time;
   });
   uint32_t frames = 0;
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -289,7 +295,7 @@ Bytes join_clips(const std::vector<ClipPart>& sources) {
 }
 
 Bytes join_meshes(const std::vector<PlacedPart>& sources, uint32_t frames,
-                  const ClipRecord& record) {
+                  const ClipsRecord& record) {
   std::vector<OpenPart> parts;
   std::vector<PlacedMesh> placed;
   parts.reserve(sources.size());

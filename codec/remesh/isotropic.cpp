@@ -210,7 +210,7 @@ class Remesher {
 
   /// The corners of a triangle, one of which may be moved.
   std::array<Vec3d, 3> corners_of(TriMesh::FaceHandle f, VertexHandle moved = VertexHandle(),
-                                  const Vec3d& to = {}) const {
+                                  const Vec3d& to = Vec3d(0, 0, 0)) const {
     std::array<Vec3d, 3> corners;
     size_t k = 0;
     for (auto v : mesh_.fv_range(f))

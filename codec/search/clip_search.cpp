@@ -22,24 +22,27 @@ std::vector<const EncodedSegment*> all_segments(const CodedClip& clip) {
   return list;
 }
 
-/// What the file says of the errors of attributes that move; 0 until they are measured.
+/// Room for the errors of attributes that move, which are yet to be measured.
 Vector<AttributeError> errors_of(const std::vector<AttributeResult>& attributes) {
   Vector<AttributeError> errors;
   for (const AttributeResult& a : attributes) {
     if (a.kept)
-      errors.push_back({0, static_cast<uint16_t>(a.number), a.max_error, a.rmse});
+      errors.push_back({0, static_cast<uint16_t>(a.number), 0, 0});
   }
   return errors;
 }
 
 }  // namespace
 
-Bytes CodedClip::file(ClipRecord record, const MeshLayout& layout) const {
-  record.attribute_errors = errors_of(attributes.results);
+Bytes CodedClip::file(ClipsRecord record, const MeshLayout& layout) const {
+  for (ClipRecord& clip : record.clips) {
+    if (clip.attribute_errors.empty())
+      clip.attribute_errors = errors_of(attributes.results);
+  }
   return clip_file(record, layout, all_segments(*this));
 }
 
-CodedClip ClipSearch::run(const ClipRecord& record) {
+CodedClip ClipSearch::run(const ClipsRecord& record) {
   const std::optional<double> allowed =
       allowed_bytes(target_, input_.sequence.vertex_count, input_.sequence.frame_count);
   double positions_bytes = allowed.value_or(0);

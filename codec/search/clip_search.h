@@ -20,8 +20,8 @@ struct CodedClip {
   Solution positions;
   MovingAttributes attributes;
 
-  /// The file. Errors of attributes are those measured so far.
-  Bytes file(ClipRecord record, const MeshLayout& layout) const;
+  /// The file. Errors of attributes are those of the record, 0 where it has none.
+  Bytes file(ClipsRecord record, const MeshLayout& layout) const;
 };
 
 /// Searches positions and moving attributes for a target of the whole file: where that is a size,
@@ -40,7 +40,7 @@ class ClipSearch {
         control_(input, options, target, diagonal) {}
 
   /// `record`: for the size of the file. Throws Error(kUsage) when the target cannot be reached.
-  CodedClip run(const ClipRecord& record);
+  CodedClip run(const ClipsRecord& record);
 
   /// About how many trials of coders run() makes.
   double expected_trials() const { return control_.expected_trials(); }

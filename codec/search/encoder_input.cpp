@@ -19,6 +19,16 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
     first_pose.insert(first_pose.end(), position, position + 3);
   }
   const FrameRun kept = part.value_or(FrameRun{0, sequence.frame_count});
+  if (part || sequence.clips.empty()) {
+    clips.push_back({{0, kept.count}});
+  } else {
+    uint32_t first = 0;
+    for (const ClipTiming& clip : sequence.clips) {
+      clips.push_back({{first, clip.frame_count}});
+      first += clip.frame_count;
+    }
+  }
+  auto clip = clips.begin();
   std::vector<float> frame(size_t{3} * sequence.vertex_count);
   float* to = sequence.positions.data();  // never ahead of what is yet to be read
   for (size_t f = kept.first; f < size_t{kept.first} + kept.count; ++f) {
@@ -36,6 +46,9 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
       }
     }
     kg_reference += squares;
+    if (f - kept.first == size_t{clip->frames.first} + clip->frames.count)
+      ++clip;
+    clip->kg_reference += squares;
     for (uint32_t v : layout.coded_source)
       to = std::copy_n(frame.begin() + ptrdiff_t{3} * v, 3, to);
   }
@@ -50,10 +63,13 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
 EncoderInput::EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories)
     : layout(mesh.layout),
       coded(std::move(trajectories)),
+      clips(mesh.clips),
       copies(mesh.copies),
       on_trial(mesh.on_trial) {
   sequence.vertex_count = mesh.sequence.vertex_count;
   sequence.frame_count = mesh.sequence.frame_count;
+  for (InputClip& clip : clips)
+    clip.tolerance = 0;
   for (float x : coded) {
     const auto value = static_cast<double>(x);
     kg_reference += value * value;
@@ -78,6 +94,39 @@ double EncoderInput::rmse(double squared, size_t frames) const {
 
 double EncoderInput::rmse_of_kg(double kg) const {
   return kg / 100 * std::sqrt(kg_reference / sequence.vertex_count / sequence.frame_count);
+}
+
+Vector<uint32_t> EncoderInput::runs(uint32_t first, uint32_t count) const {
+  Limits limits;
+  for (const InputClip& clip : clips)
+    limits.clip_frames.push_back(clip.frames.count);
+  return limits.runs(first, count);
+}
+
+void EncoderInput::bound_clips(ErrorMetric metric) {
+  const double mean = kg_reference / sequence.frame_count;
+  for (InputClip& clip : clips) {
+    const double own = clip.kg_reference / clip.frames.count;
+    clip.tolerance = metric == ErrorMetric::kKg && own > 0 ? std::sqrt(own / mean) : 1;
+  }
+}
+
+std::vector<double> EncoderInput::excesses(const SegmentError& error, uint32_t first,
+                                           double rmse_of_all) const {
+  std::vector<double> result;
+  for (const InputClip& clip : clips) {
+    double squared = 0;
+    size_t frames = 0;
+    for (size_t f = 0; f < error.squared_by_frame.size(); ++f) {
+      if (first + f >= clip.frames.first && first + f - clip.frames.first < clip.frames.count) {
+        squared += error.squared_by_frame[f];
+        ++frames;
+      }
+    }
+    if (frames > 0)
+      result.push_back(rmse(squared, frames) / (rmse_of_all * clip.tolerance));
+  }
+  return result;
 }
 
 double EncoderInput::smallest_bound() const {

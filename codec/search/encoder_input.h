@@ -19,6 +19,14 @@
 
 namespace anicodec {
 
+/// A clip of what is coded.
+struct InputClip {
+  FrameRun frames;
+  double kg_reference = 0;  ///< as that of the whole
+  /// The root mean square error that it may have for each of the whole; 0: no matter.
+  double tolerance = 0;
+};
+
 /// What all ways of coding share: the clip by coded vertices, and how it leads back to the source.
 struct EncoderInput {
   /// Takes the positions over: they are put into coded order in place. Of a part, only its frames
@@ -42,6 +50,19 @@ struct EncoderInput {
   /// The root mean square error, scene units, of a KG error in per cent.
   double rmse_of_kg(double kg) const;
 
+  /// How many of `count` frames from `first` on each clip has (Limits::runs()).
+  Vector<uint32_t> runs(uint32_t first, uint32_t count) const;
+
+  /// Makes every clip keep a KG error of its own, or all the same root mean square error, where the
+  /// whole is coded to one.
+  void bound_clips(ErrorMetric metric);
+
+  bool bounds_clips() const { return clips[0].tolerance > 0 && clips.size() > 1; }
+
+  /// The error of each clip that has frames from `first` on, as a multiple of what it may be if the
+  /// whole may have `rmse`.
+  std::vector<double> excesses(const SegmentError& error, uint32_t first, double rmse) const;
+
   /// The smallest maximum error that float32 keeps at these coordinates, scene units.
   double smallest_bound() const;
 
@@ -51,6 +72,7 @@ struct EncoderInput {
   MeshSequence sequence;  ///< the source without its positions
   MeshLayout layout;
   std::vector<float> coded;       ///< frames x coded vertices x 3
+  std::vector<InputClip> clips;   ///< one at least, in the order of their frames
   std::vector<uint32_t> copies;   ///< source vertices of each coded one
   double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0
   double largest_coordinate = 0;  ///< in magnitude

@@ -34,11 +34,13 @@ std::vector<uint32_t> spread_frames(size_t frames, size_t count) {
 }  // namespace
 
 KeyframeCoder::KeyframeCoder(const EncoderInput& input, KeyframeMethod method,
-                             std::optional<uint32_t> count, Reconstruction reconstruction)
+                             std::optional<uint32_t> count, KeyframePoses poses,
+                             Reconstruction reconstruction)
     : input_(input),
       fitter_(input.frames()),
       method_(method),
       count_(count),
+      poses_(poses),
       reconstruction_(reconstruction) {
   if (reconstruction == Reconstruction::kMsgi) {
     weights_ = KeyframeWeights::kRigid;
@@ -93,12 +95,12 @@ const MsgiFit& KeyframeCoder::fit(double rmse) {
 
 std::optional<CodedPart> KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
   input_.begin_trial();
-  double finest = input_.largest_coordinate * 0x1p-22;
+  double finest = input_.largest_coordinate * 0x1p-21;
   double step = std::max(
       {step_for_rounding_error(fit.fit, rounding_rms), finest, std::numeric_limits<double>::min()});
   std::optional<EncodedSegment> encoded =
       encode_keyframes(input_.frames(), fit.fit, weights_, fitter_.gram().mean_position(), step,
-                       input_.layout, fit.leaf_faces);
+                       input_.layout, poses_, fit.leaf_faces);
   if (!encoded)
     return std::nullopt;
   CodedPart part;

@@ -6,6 +6,7 @@
 #include "codec/keyframes/msgi_weights.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/segment_coder.h"
+#include "codec/segment/keyframe_poses.h"
 
 #include <cstddef>
 #include <map>
@@ -17,11 +18,12 @@ namespace anicodec {
 /// and how finely to round them.
 class KeyframeCoder : public SegmentCoder {
  public:
-  /// `count`: the exact number of key-frames, or as many as the error needs. `reconstruction`: how
+  /// `count`: the exact number of key-frames, or as many as the error needs. `poses`: what codes
+  /// them. `reconstruction`: how
   /// frames are made from them; MSGI takes weights that sum to one and a rigid motion per frame,
   /// and tries key-frames spread evenly from the first frame to the last, too.
   KeyframeCoder(const EncoderInput& input, KeyframeMethod method, std::optional<uint32_t> count,
-                Reconstruction reconstruction);
+                KeyframePoses poses, Reconstruction reconstruction);
 
   std::optional<CodedPart> at_rmse(double rmse) override;
 
@@ -40,6 +42,7 @@ class KeyframeCoder : public SegmentCoder {
   KeyframeFitter fitter_;
   KeyframeMethod method_;
   std::optional<uint32_t> count_;
+  KeyframePoses poses_;
   Reconstruction reconstruction_;
   KeyframeWeights weights_ = KeyframeWeights::kLinear;
   MsgiFit fit_;                             ///< the last one by straight lines, leaf_faces 0

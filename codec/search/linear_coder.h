@@ -21,9 +21,10 @@ namespace anicodec {
 /// that give the smallest streams, and the step that meets an error.
 class LinearCoder : public SegmentCoder {
  public:
-  /// `effort` 1..9: how many settings are tried; more never ends with a larger file. The analysis must outlive the coder.
+  /// `effort` 1..9: how many settings are tried; more never ends with a larger file. The analysis,
+  /// of the frames from `first_frame` on, must outlive the coder.
   LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind, int effort,
-              uint32_t layers);
+              uint32_t layers, uint32_t first_frame = 0);
 
   std::optional<CodedPart> at_rmse(double rmse) override;
 
@@ -36,6 +37,7 @@ class LinearCoder : public SegmentCoder {
   /// Takes over the settings of another coder, and with what means it codes.
   void settings_of(const LinearCoder& other) {
     choice_.settings = other.choice_.settings;
+    choice_.settings.run_steps.clear();  // of other clips
     choice_.steps = other.choice_.steps;
     choice_.price = other.choice_.price;
     thorough_ = other.thorough_;
@@ -47,8 +49,9 @@ class LinearCoder : public SegmentCoder {
  private:
   struct Measured {
     CodedPart part;
-    double rmse = 0;
+    double rmse = 0;   ///< where clips have bounds, that of the clip furthest from its own
     double bytes = 0;  ///< as they would be at the error asked for
+    std::vector<double> excesses;  ///< of clips with bounds
   };
 
   /// The choice that a search begins with, tried at an error.
@@ -66,6 +69,7 @@ class LinearCoder : public SegmentCoder {
   const LinearBasis& basis(ReferencePose pose, Base base);
   LinearChoice started(LinearChoice choice, double rmse);
   Measured measured(const LinearChoice& choice, double rmse);
+  static void even_out(const Measured& trial, LinearChoice& choice);
   static void learn(const Measured& trial, double rmse, LinearChoice& choice);
   void choose_settings(double rmse);
   void turn_down(double rmse, CodedPart& best);
@@ -74,6 +78,8 @@ class LinearCoder : public SegmentCoder {
 
   const EncoderInput& input_;
   const LinearAnalysis& analysis_;
+  uint32_t first_frame_;
+  Vector<uint32_t> runs_;  ///< of clips
   BasisKind kind_;
   int effort_;
   LinearChoice choice_;

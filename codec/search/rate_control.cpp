@@ -25,7 +25,9 @@ Solution RateControl::solve() {
   } else {
     best = by_linear_bases();
     if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
-      KeyframeCoder keyframes(input_, options_.select, options_.keyframes, Reconstruction::kLinear);
+      KeyframeCoder keyframes(input_, options_.select, options_.keyframes,
+                              options_.keyframe_poses.value_or(KeyframePoses::kNative),
+                              Reconstruction::kLinear);
       offer(keyframes, &best);
     }
   }
@@ -47,8 +49,9 @@ void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
 std::optional<Solution> RateControl::by_keyframes_alone() {
   std::vector<std::unique_ptr<KeyframeCoder>> coders;
   const auto add = [&](Reconstruction reconstruction) {
-    coders.push_back(std::make_unique<KeyframeCoder>(input_, options_.select, options_.keyframes,
-                                                     reconstruction));
+    coders.push_back(std::make_unique<KeyframeCoder>(
+        input_, options_.select, options_.keyframes,
+        options_.keyframe_poses.value_or(KeyframePoses::kDraco), reconstruction));
   };
   if (options_.interpolation != InterpolationChoice::kMsgi)
     add(Reconstruction::kLinear);

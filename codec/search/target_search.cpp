@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/target_search.h"
 
+#include "codec/search/clip_bounds.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ TargetSearch::TargetSearch(const EncoderInput& input, const EncodeOptions& optio
 }
 
 std::optional<Solution> TargetSearch::at_rmse(SegmentCoder& coder, double rmse) {
-  std::optional<CodedPart> part = coder.at_rmse(rmse);
+  std::optional<CodedPart> part = within_bounds(coder, input_, 0, rmse);
   if (!part)
     return std::nullopt;
   std::vector<CodedPart> parts;

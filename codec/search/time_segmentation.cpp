@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/time_segmentation.h"
 
+#include "codec/search/clip_bounds.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +12,7 @@ namespace {
 
 constexpr uint32_t kShortest = 8;  // frames of a segment
 constexpr uint32_t kLong = 128;    // frames from which the middle is a candidate
+constexpr uint32_t kMostShared = 1500;  // frames of clips that share a basis: its cost is quadratic
 constexpr double kHardCut = 30;    // times the usual squared motion around it
 constexpr double kChunks = 160;    // bytes a segment costs in tables and records
 constexpr double kWorthIt = 0.99;  // a cut must save a hundredth
@@ -30,8 +33,8 @@ TimeSegmentation::TimeSegmentation(const EncoderInput& input, const LinearCoder&
   }
 }
 
-LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis) const {
-  LinearCoder coder(input_, analysis, whole_.kind(), 1, 1);
+LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis, const FrameRun& range) const {
+  LinearCoder coder(input_, analysis, whole_.kind(), 1, 1, range.first);
   coder.settings_of(whole_);
   coder.share_pose(pose_);
   return coder;
@@ -39,12 +42,13 @@ LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis) const {
 
 double TimeSegmentation::probed(const FrameRun& range) const {
   LinearAnalysis analysis(input_.frames(range.first, range.count));
-  return coder(analysis).probe(rmse_) + kChunks;
+  return coder(analysis, range).probe(rmse_) + kChunks;
 }
 
 std::optional<CodedPart> TimeSegmentation::coded(const FrameRun& range) const {
   LinearAnalysis analysis(input_.frames(range.first, range.count));
-  return coder(analysis).at_rmse(rmse_);
+  LinearCoder coder_of_range = coder(analysis, range);
+  return within_bounds(coder_of_range, input_, range.first, rmse_);
 }
 
 std::optional<uint32_t> TimeSegmentation::candidate(const FrameRun& range) const {
@@ -77,7 +81,29 @@ void TimeSegmentation::split(const FrameRun& range, double bytes, std::vector<Fr
   out->push_back(range);
 }
 
+std::vector<FrameRun> TimeSegmentation::of_clips() {
+  std::vector<FrameRun> ranges;
+  double bytes = 0;  // of the last range
+  for (const InputClip& clip : input_.clips) {
+    const double alone = probed(clip.frames);
+    if (!ranges.empty() && ranges.back().count + clip.frames.count <= kMostShared) {
+      const FrameRun both{ranges.back().first, ranges.back().count + clip.frames.count};
+      const double shared = probed(both);
+      if (shared < bytes + alone) {
+        ranges.back() = both;
+        bytes = shared;
+        continue;
+      }
+    }
+    ranges.push_back(clip.frames);
+    bytes = alone;
+  }
+  return ranges;
+}
+
 std::vector<FrameRun> TimeSegmentation::find() {
+  if (input_.clips.size() > 1)
+    return of_clips();
   FrameRun all{0, input_.sequence.frame_count};
   std::vector<FrameRun> ranges;
   if (!candidate(all))

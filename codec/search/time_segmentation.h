@@ -14,26 +14,29 @@
 
 namespace anicodec {
 
-/// Cuts a clip in time where that makes it smaller: at hard cuts, and long ranges in the middle.
-/// All segments share one reference pose; whether a cut pays is measured by coding both sides.
+/// Cuts a sequence in time where that makes it smaller: between clips, at hard cuts, and long ranges
+/// in the middle. All segments share one reference pose; whether a cut pays is measured by coding
+/// both sides.
 class TimeSegmentation {
  public:
   /// `whole` coded the whole clip, with `pose`, to the error `rmse`.
   TimeSegmentation(const EncoderInput& input, const LinearCoder& whole,
                    std::shared_ptr<const EncodedPose> pose, double rmse);
 
-  /// The ranges, in order; one when no cut pays. Cost: about one trial of the whole clip per level
-  /// of cutting.
+  /// The ranges, in order; one when no cut pays. Clips that follow one another share a range, and
+  /// so a basis, where that is smaller. Cost: about one trial of the whole per level of cutting, and
+  /// one of each range for every clip in it.
   std::vector<FrameRun> find();
 
   /// A range coded to the error.
   std::optional<CodedPart> coded(const FrameRun& range) const;
 
  private:
+  std::vector<FrameRun> of_clips();
   void split(const FrameRun& range, double bytes, std::vector<FrameRun>* out);
   std::optional<uint32_t> candidate(const FrameRun& range) const;
   double probed(const FrameRun& range) const;
-  LinearCoder coder(const LinearAnalysis& analysis) const;
+  LinearCoder coder(const LinearAnalysis& analysis, const FrameRun& range) const;
 
   const EncoderInput& input_;
   const LinearCoder& whole_;

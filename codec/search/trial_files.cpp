@@ -3,6 +3,7 @@
 #include "codec/search/trial_files.h"
 
 #include "codec/file/clip_file.h"
+#include "codec/file/clip_record.h"
 
 #include <string>
 #include <utility>
@@ -22,11 +23,8 @@ Solution TrialFiles::put_together(std::vector<CodedPart> parts) {
     }
     what += (what.empty() ? "" : " + ") + part.what;
   }
-  ClipRecord record;
-  record.name = input_.sequence.name;
-  record.encoder = options_.encoder;
-  record.times.assign(input_.sequence.times.begin(), input_.sequence.times.end());
-  record.order = options_.order;
+  const std::vector<double> diagonals(input_.clips.size());
+  const ClipsRecord record = clips_record(input_.sequence, options_, {}, diagonals);
   solution.bytes = clip_file(record, input_.layout, solution.segments()).size();
   trials_.push_back(
       {what, solution.bytes, input_.rmse(solution.squared_error()), solution.max_error()});

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -70,6 +71,7 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   context.pose = encoded.reference ? &encoded.reference->grid : nullptr;
   context.layers.assign(encoded.layers.begin(), encoded.layers.end());
   context.corrections = encoded.corrections;
+  context.runs = encoded.runs;
   Segment segment;
   Status status = open_segment(record, context, &segment);
   if (status == Status::kNonFinite)
@@ -96,8 +98,8 @@ SegmentError measure(const Segment& segment, const FrameView& source,
       largest[f] = std::max(largest[f], d);
     }
   });
-  return {std::accumulate(squared.begin(), squared.end(), 0.0),
-          std::sqrt(*std::max_element(largest.begin(), largest.end()))};
+  const double sum = std::accumulate(squared.begin(), squared.end(), 0.0);
+  return {sum, std::sqrt(*std::max_element(largest.begin(), largest.end())), std::move(squared)};
 }
 
 void correct(const FrameView& source, const std::vector<uint32_t>& copies, double bound,

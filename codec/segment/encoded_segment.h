@@ -26,6 +26,7 @@ struct EncodedPose {
 struct EncodedSegment {
   Limits::Segment sizes;
   Bytes parameters, pose, motion, weights;
+  Vector<uint32_t> runs;                         ///< frames of each clip; empty: of one
   std::vector<Bytes> layers;                     ///< chunks BASI
   Bytes corrections;                             ///< chunk CORR
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
@@ -39,6 +40,7 @@ struct EncodedSegment {
 struct SegmentError {
   double squared = 0;  ///< summed over the source's vertices and frames
   double max = 0;      ///< largest distance
+  std::vector<double> squared_by_frame;
 };
 
 /// Opens a segment as a decoder does, from streams in memory, and stores its hash in `encoded`.

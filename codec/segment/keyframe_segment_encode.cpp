@@ -3,7 +3,9 @@
 #include "codec/segment/keyframe_segment_encode.h"
 
 #include "codec/connectivity/draco_encode.h"
+#include "codec/segment/pose_partners.h"
 #include "sdk/mesh/plain_coding.h"
+#include "sdk/pose/pose_coding.h"
 #include "sdk/segment/keyframe_segment.h"
 #include "sdk/segment/series_coding.h"
 
@@ -43,7 +45,7 @@ std::optional<Pose> quantised(const std::vector<float>& points, const Eigen::Vec
   for (size_t i = 0; i < points.size(); ++i) {
     double q =
         std::round((static_cast<double>(points[i]) - origin[static_cast<int>(i % 3)]) / step);
-    if (!(std::abs(q) < kLargest))
+    if (!(std::abs(q) <= kMaxPoseCoordinate))
       return std::nullopt;
     pose[i] = static_cast<int32_t>(q);
   }
@@ -69,7 +71,7 @@ double edge_cost(const MeshLayout& layout, const Pose& pose, const Pose* parent)
 }
 
 /// For each key-frame 0, or one more than the earlier one it is cheapest to code against.
-Vector<uint32_t> choose_parents(const MeshLayout& layout, const std::vector<Pose>& poses) {
+Vector<uint32_t> choose_parents(const MeshLayout& layout, const Vector<Pose>& poses) {
   Vector<uint32_t> parents(poses.size(), 0);
   for (uint32_t j = 0; j < poses.size(); ++j) {
     double least = edge_cost(layout, poses[j], nullptr);
@@ -134,7 +136,7 @@ std::optional<Bytes> code_weights(const Eigen::MatrixXd& weights,
 
 /// Key-frames on their grid, and the steps of what moves them.
 struct QuantisedKeyframes {
-  std::vector<Pose> poses;
+  Vector<Pose> poses;
   /// How far a unit of each weight moves a frame, squared and summed.
   double spread = 0;
   double radius = 0;  ///< the largest root mean square distance of a key-frame from the origin
@@ -174,7 +176,7 @@ void choose_steps(const QuantisedKeyframes& keyframes, KeyframeParameters& param
 }
 
 /// Whether the key-frames take 32 bits a coordinate in memory.
-bool are_wide(const std::vector<Pose>& poses) {
+bool are_wide(const Vector<Pose>& poses) {
   int32_t largest = 0;
   for (const Pose& pose : poses) {
     for (int32_t q : pose)
@@ -183,34 +185,60 @@ bool are_wide(const std::vector<Pose>& poses) {
   return largest > INT16_MAX;
 }
 
-void subtract_parents(const Vector<uint32_t>& parents, std::vector<Pose>& poses) {
+/// By Draco: differences from parents, then the vertices in no triangle. False if Draco holds none.
+bool code_by_draco(const MeshLayout& layout, const Vector<uint32_t>& parents, Vector<Pose> poses,
+                   EncodedSegment* encoded) {
   for (size_t j = poses.size(); j-- > 0;) {
     if (uint32_t parent = parents[j]; parent != 0) {
       for (size_t i = 0; i < poses[j].size(); ++i)
         poses[j][i] -= poses[parent - 1][i];
     }
   }
-}
-
-/// Codes key-frames plainly, or by Draco where that takes fewer bytes.
-CoderId code_poses(const MeshLayout& layout, const std::vector<Pose>& poses,
-                   EncodedSegment* encoded) {
-  const auto plain_from = [&](size_t first) {
-    Pose rest;
-    for (const Pose& pose : poses)
-      rest.insert(rest.end(), pose.begin() + static_cast<ptrdiff_t>(3 * first), pose.end());
-    return encode_plain_integers(rest, 3);
-  };
   DracoPoses draco = encode_draco_poses(layout.topology, poses);
-  const Bytes loose = plain_from(layout.topology.vertices_in_triangles);
-  encoded->pose = plain_from(0);
-  if (draco.bytes.empty() || encoded->pose.size() <= draco.bytes.size() + loose.size())
-    return CoderId::kPlain;
+  if (draco.bytes.empty())
+    return false;
+  Pose rest;
+  for (const Pose& pose : poses)
+    rest.insert(rest.end(),
+                pose.begin() + static_cast<ptrdiff_t>(3 * layout.topology.vertices_in_triangles),
+                pose.end());
+  const Bytes loose = encode_plain_integers(rest, 3);
   encoded->sizes.draco_bytes = static_cast<uint32_t>(draco.bytes.size());
   encoded->sizes.draco_points = draco.points;
   encoded->pose = std::move(draco.bytes);
   encoded->pose.insert(encoded->pose.end(), loose.begin(), loose.end());
-  return CoderId::kDraco;
+  return true;
+}
+
+Bytes code_natively(const MeshLayout& layout, const Vector<uint32_t>& parents,
+                    const Vector<Pose>& poses) {
+  const PoseSurface surface(layout.topology);
+  Bytes best = encode_poses(surface, PoseCoding::kRounded, poses, parents);
+  Eigen::MatrixXd first(layout.topology.coded_vertices, 3);
+  for (Eigen::Index i = 0; i < first.size(); ++i)
+    first(i / 3, i % 3) = poses[0][static_cast<size_t>(i)];
+  const PosePartners partners = find_partners(first, surface);
+  if (!partners.partner.empty()) {
+    Bytes by_partners = encode_poses(surface, PoseCoding::kRounded, poses, parents, &partners);
+    if (by_partners.size() < best.size())
+      best = std::move(by_partners);
+  }
+  return best;
+}
+
+/// Codes key-frames, and tells by what.
+CoderId code_poses(const MeshLayout& layout, KeyframePoses coder, const Vector<uint32_t>& parents,
+                   const Vector<Pose>& poses, EncodedSegment* encoded) {
+  const bool draco =
+      coder != KeyframePoses::kNative && code_by_draco(layout, parents, poses, encoded);
+  if (draco && coder == KeyframePoses::kDraco)
+    return CoderId::kDraco;
+  Bytes native = code_natively(layout, parents, poses);
+  if (draco && encoded->pose.size() <= native.size())
+    return CoderId::kDraco;
+  encoded->sizes.draco_bytes = encoded->sizes.draco_points = 0;
+  encoded->pose = std::move(native);
+  return CoderId::kNative;
 }
 
 }  // namespace
@@ -225,7 +253,8 @@ double step_for_rounding_error(const KeyframeFit& fit, double rms) {
 std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const KeyframeFit& fit,
                                                KeyframeWeights kind,
                                                const Eigen::Vector3d& mean_position, double step,
-                                               const MeshLayout& layout, uint32_t leaf_faces) {
+                                               const MeshLayout& layout, KeyframePoses coder,
+                                               uint32_t leaf_faces) {
   KeyframeParameters parameters;
   parameters.sum_to_one = kind != KeyframeWeights::kLinear;
   parameters.rigid = kind == KeyframeWeights::kRigid;
@@ -239,7 +268,7 @@ std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const Keyf
     return std::nullopt;
   choose_steps(*keyframes, parameters);
 
-  std::vector<Pose>& poses = keyframes->poses;
+  Vector<Pose>& poses = keyframes->poses;
   EncodedSegment encoded;
   encoded.sizes.kind = BasisKind::kKeyframes;
   if (leaf_faces > 0)
@@ -248,8 +277,7 @@ std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const Keyf
   encoded.sizes.components = static_cast<uint32_t>(poses.size());
   encoded.sizes.wide_components = are_wide(poses) ? encoded.sizes.components : 0;
   parameters.parents = choose_parents(layout, poses);
-  subtract_parents(parameters.parents, poses);
-  parameters.coder = code_poses(layout, poses, &encoded);
+  parameters.coder = code_poses(layout, coder, parameters.parents, poses, &encoded);
 
   std::optional<Bytes> weights = code_weights(fit.weights, parameters);
   std::optional<Bytes> motion = parameters.rigid ? code_motions(fit.motions, parameters) : Bytes();

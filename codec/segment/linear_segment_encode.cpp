@@ -43,8 +43,15 @@ MatrixXd function_values(const Vector<int32_t>& pose) {
 /// in units of `unit`, each column by its own, and replaces them by what a decoder gets.
 class WeightCoder {
  public:
-  WeightCoder(size_t frames, double lambda)
-      : frames_(frames), lambda_(lambda), model_(static_cast<uint32_t>(frames)) {}
+  WeightCoder(size_t frames, const Vector<uint32_t>& runs, const LinearSettings& settings)
+      : frames_(frames),
+        lambda_(settings.weight_lambda),
+        model_(runs.empty() ? Vector<uint32_t>(1, static_cast<uint32_t>(frames)) : runs) {
+    for (size_t r = 0; r < settings.run_steps.size(); ++r)
+      factors_.insert(factors_.end(), runs[r],
+                      LinearParameters::sigma_value(settings.run_steps[r]));
+    factors_.resize(frames, 1);
+  }
 
   /// False if a weight is too large in its unit.
   bool code(uint32_t channels, double unit, Eigen::Ref<VectorXd> column) {
@@ -52,7 +59,7 @@ class WeightCoder {
     Vector<int32_t> values(x.size());
     for (size_t f = 0; f < frames_; ++f) {
       for (size_t c = 0; c < channels; ++c) {
-        double value = column[static_cast<Index>(channels * f + c)] / unit;
+        double value = column[static_cast<Index>(channels * f + c)] / (unit * factors_[f]);
         if (!(std::abs(value) < kWeightLimit / 2))
           return false;
         x[c * frames_ + f] = value;
@@ -62,7 +69,7 @@ class WeightCoder {
     for (size_t f = 0; f < frames_; ++f) {
       for (size_t c = 0; c < channels; ++c)
         column[static_cast<Index>(channels * f + c)] =
-            values[c * frames_ + f] * unit / (1 << kWeightFractionBits);
+            values[c * frames_ + f] * unit * factors_[f] / (1 << kWeightFractionBits);
     }
     return true;
   }
@@ -72,6 +79,7 @@ class WeightCoder {
  private:
   size_t frames_;
   double lambda_;
+  std::vector<double> factors_;  ///< of the unit, for each frame
   TimeWeightModel model_;
   BinaryEncoder encoder_;
 };
@@ -119,7 +127,7 @@ Coefficients refitted(const FrameView& clip, const LinearBasis& basis,
 class LinearEncoder {
  public:
   LinearEncoder(const FrameView& clip, const LinearBasis& basis, const LinearSettings& settings,
-                const MeshLayout& layout)
+                const MeshLayout& layout, const Vector<uint32_t>& runs)
       : clip_(clip),
         basis_(basis),
         settings_(settings),
@@ -133,7 +141,9 @@ class LinearEncoder {
     parameters_.colours = settings.passes_per_level;
     parameters_.radius = settings.radius;
     parameters_.schedule = settings.schedule;
+    parameters_.run_steps.assign(settings.run_steps.begin(), settings.run_steps.end());
     parameters_.omega.assign(count_, 128);
+    encoded_.runs = runs;
     encoded_.sizes.kind = basis.kind;
     encoded_.sizes.frames = static_cast<uint32_t>(clip.frame_count);
     encoded_.sizes.components = static_cast<uint32_t>(count_);
@@ -194,7 +204,7 @@ class LinearEncoder {
   /// Codes the time weights of base and components, and keeps what a decoder gets. False if one is
   /// too large in its unit: then nothing has changed.
   bool code_time(MatrixXd base, MatrixXd components) {
-    WeightCoder coder(clip_.frame_count, settings_.weight_lambda);
+    WeightCoder coder(clip_.frame_count, encoded_.runs, settings_);
     for (Index b = 0; b < base.cols(); ++b) {
       if (!coder.code(3, parameters_.weight_step, base.col(b)))
         return false;
@@ -329,8 +339,9 @@ size_t component_count(const LinearBasis& basis, const LinearSettings& settings,
 std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearBasis& basis,
                                             const LinearSettings& settings,
                                             const MeshLayout& layout,
-                                            std::shared_ptr<const EncodedPose> shared) {
-  return LinearEncoder(clip, basis, settings, layout).run(std::move(shared));
+                                            std::shared_ptr<const EncodedPose> shared,
+                                            const Vector<uint32_t>& runs) {
+  return LinearEncoder(clip, basis, settings, layout, runs).run(std::move(shared));
 }
 
 }  // namespace anicodec

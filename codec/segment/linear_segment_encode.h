@@ -22,13 +22,15 @@ size_t component_count(const LinearBasis& basis, const LinearSettings& settings,
 
 /// Quantises and codes a basis as a segment: pose, time weights, the basis refitted to the decoded
 /// weights (closed loop), its coefficients predicted and rounded with their cost in mind.
+/// `runs`: how many frames each clip has that the frames are of; empty: they are of one.
 /// `shared`: a pose that the file has already, from which the basis was made; null: the basis' own.
 /// Nothing if the format cannot hold a number: the step is too fine for the clip.
 /// Cost: O(vertices x components x neighbours^2), two passes over the clip.
 std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearBasis& basis,
                                             const LinearSettings& settings,
                                             const MeshLayout& layout,
-                                            std::shared_ptr<const EncodedPose> shared = nullptr);
+                                            std::shared_ptr<const EncodedPose> shared = nullptr,
+                                            const Vector<uint32_t>& runs = {});
 
 }  // namespace anicodec
 

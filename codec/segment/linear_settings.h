@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace anicodec {
 
@@ -17,6 +18,7 @@ struct LinearSettings {
   double pose_factor = 2;      ///< step of the pose: pose_factor * step / sqrt(frames)
   double lambda = 0.08;        ///< squared steps that a bit is worth when rounding coefficients
   double weight_lambda = 0.1;  ///< the same for time weights
+  std::vector<uint8_t> run_steps;  ///< of each clip, LinearParameters::run_steps
   /// Not 0: the coefficients of a component are rounded together, at so many squared steps to a
   /// bit, instead of one by one at `lambda`.
   double joint_lambda = 0;

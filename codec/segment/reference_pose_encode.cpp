@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/reference_pose_encode.h"
 
+#include "codec/segment/pose_partners.h"
 #include "sdk/pose/dependent_steps.h"
 #include "sdk/prediction/vertex_order.h"
 
@@ -90,7 +91,8 @@ Vector<int32_t> dependent_integers(const MatrixXd& values, const Vector<uint32_t
 
 std::shared_ptr<const EncodedPose> encode_pose_as(PoseCoding coding, const MatrixXd& pose,
                                                   const Eigen::Vector3d& origin, double step,
-                                                  const PoseSurface& surface) {
+                                                  const PoseSurface& surface,
+                                                  const PosePartners* partners) {
   auto encoded = std::make_shared<EncodedPose>();
   encoded->coding = coding;
   PoseGrid& grid = encoded->grid;
@@ -102,7 +104,7 @@ std::shared_ptr<const EncodedPose> encode_pose_as(PoseCoding coding, const Matri
   std::copy_n(origin.data(), 3, grid.origin);
   const MatrixXd values = pose / grid.step;
   grid.points = dependent ? dependent_integers(values, surface.order) : rounded_integers(values);
-  encoded->stream = encode_pose(surface, coding, grid.points);
+  encoded->stream = encode_pose(surface, coding, grid.points, partners);
   return encoded;
 }
 
@@ -110,9 +112,23 @@ std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
                                                          const Eigen::Vector3d& origin, double step,
                                                          const MeshLayout& layout) {
   const PoseSurface surface(layout.topology);
-  auto exact = encode_pose_as(PoseCoding::kExact, pose, origin, step, surface);
-  auto dependent = encode_pose_as(PoseCoding::kDependent, pose, origin, step, surface);
-  return exact->stream.size() < dependent->stream.size() ? exact : dependent;
+  const PosePartners partners = find_partners(pose, surface);
+  const PosePartners* by = partners.partner.empty() ? nullptr : &partners;
+  const auto coded = [&](PoseCoding coding, const PosePartners* those) {
+    return encode_pose_as(coding, pose, origin, step, surface, those);
+  };
+  std::shared_ptr<const EncodedPose> best = coded(PoseCoding::kDependent, by);
+  if (by) {
+    auto alone = coded(PoseCoding::kDependent, nullptr);
+    if (alone->stream.size() <= best->stream.size()) {
+      best = std::move(alone);
+      by = nullptr;
+    }
+  }
+  auto exact = coded(PoseCoding::kExact, by);
+  if (exact->stream.size() < best->stream.size())
+    best = std::move(exact);
+  return best;
 }
 
 }  // namespace anicodec

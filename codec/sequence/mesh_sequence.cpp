@@ -7,8 +7,38 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string_view>
 
 namespace anicodec {
+
+namespace {
+
+void check_clips(const MeshSequence& sequence) {
+  auto fail = [](const std::string& text) { throw Error(ErrorKind::kInput, text); };
+  uint64_t frames = 0;
+  std::set<std::string_view> names;
+  for (const ClipTiming& clip : sequence.clips) {
+    frames += clip.frame_count;
+    if (clip.frame_count == 0)
+      fail("clip '" + clip.name + "' has no frame");
+    if (!names.insert(clip.name).second)
+      fail("two clips have the name '" + clip.name + "'");
+    if (!clip.times.empty() && clip.times.size() != clip.frame_count)
+      fail("clip '" + clip.name + "': the table of times does not fit the number of frames");
+  }
+  if (!sequence.clips.empty() && frames != sequence.frame_count)
+    fail("the clips do not have all frames of the sequence");
+}
+
+}  // namespace
+
+std::vector<ClipTiming> clips_of(const MeshSequence& sequence) {
+  if (!sequence.clips.empty())
+    return sequence.clips;
+  return {{sequence.name, sequence.frame_count, sequence.rate, sequence.start_time, sequence.times,
+           sequence.loop}};
+}
 
 void check(const MeshSequence& sequence) {
   auto fail = [](const std::string& text) { throw Error(ErrorKind::kInput, text); };
@@ -23,6 +53,7 @@ void check(const MeshSequence& sequence) {
     fail("the positions do not fit the counts of vertices and frames");
   if (!sequence.times.empty() && sequence.times.size() != sequence.frame_count)
     fail("the table of times does not fit the number of frames");
+  check_clips(sequence);
   const Polygons& polygons = sequence.polygons;
   if (polygons.offsets.empty() || polygons.offsets.back() != polygons.corners.size())
     fail("the polygon offsets do not fit the corners");

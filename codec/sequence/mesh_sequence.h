@@ -75,6 +75,16 @@ struct MeshDetails {
   PolygonLabels parts;  ///< meshes or objects of the source
 };
 
+/// A clip of a sequence: some of its frames, with a name and a clock of their own.
+struct ClipTiming {
+  std::string name;
+  uint32_t frame_count = 0;
+  FrameRate rate;
+  double start_time = 0;      ///< seconds
+  std::vector<double> times;  ///< as in MeshSequence
+  bool loop = false;
+};
+
 /// An animated mesh: one connectivity, a position per vertex per frame. Positions are kept as
 /// given: nothing is rotated or scaled.
 struct MeshSequence : MeshDetails {
@@ -90,6 +100,9 @@ struct MeshSequence : MeshDetails {
   UpAxis up = UpAxis::kUnknown;
   double metres_per_unit = 0;  ///< 0: unknown
   bool loop = false;           ///< meant to be repeated
+  /// Several clips, one after the other: all frames together; name, rate, start, times and loop of
+  /// the sequence are then without meaning. Empty: it is one clip.
+  std::vector<ClipTiming> clips;
 
   /// Positions of one frame: vertex_count x 3.
   std::span<const float> frame(size_t f) const {
@@ -109,9 +122,12 @@ struct FrameRun {
   bool operator==(const FrameRun&) const = default;
 };
 
+/// The clips of a sequence, one at least.
+std::vector<ClipTiming> clips_of(const MeshSequence& sequence);
+
 /// Throws Error(kInput) naming the first fault: no frame, no vertex, a size that does not fit, a
 /// corner out of range, a position that is not finite (with frame and vertex), an attribute that
-/// moves in some frames only.
+/// moves in some frames only, clips that do not fit the frames or share a name.
 void check(const MeshSequence& sequence);
 
 /// Length of the diagonal of the box around all vertices of all frames, in scene units.

@@ -185,6 +185,7 @@ Scene split_parts(MeshSequence sequence) {
   clip.rate = sequence.rate;
   clip.start_time = sequence.start_time;
   clip.times = std::exchange(sequence.times, {});
+  clip.clips = std::exchange(sequence.clips, {});
   clip.up = sequence.up;
   clip.metres_per_unit = sequence.metres_per_unit;
   clip.loop = sequence.loop;

@@ -5,12 +5,15 @@
 #include "codec/sequence/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
-#include <embree3/rtcore.h>
+#include <unsupported/Eigen/BVH>
 
 namespace anicodec {
 namespace {
@@ -25,6 +28,12 @@ double dot(const Vector3d& a, const Vector3d& b) {
 
 Vector3d combination(const Vector3d& w, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   return w[0] * a + w[1] * b + w[2] * c;
+}
+
+/// As AlignedBox has it, without its branches.
+double square_distance(const Eigen::AlignedBox3d& box, const Vector3d& q) {
+  const Vector3d outside = (box.min() - q).cwiseMax(q - box.max()).cwiseMax(0.0);
+  return dot(outside, outside);
 }
 
 }  // namespace
@@ -88,36 +97,21 @@ ClosestPoint closest_on_triangle(const Vector3d& a, const Vector3d& b, const Vec
 }
 
 struct ClosestPointQuery::Tree {
+  using Hierarchy = Eigen::KdBVH<double, 3, uint32_t>;
+
   std::vector<uint32_t> triangles;
   std::vector<Vector3d> vertices;
-  // Embree sees the surface moved and scaled into [-1, 1]^3, so that it neither overflows nor loses
-  // small surfaces far from the origin.
-  Vector3d centre = Vector3d::Zero();
-  double scale = 1;
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  Hierarchy hierarchy;
 
   Tree(std::span<const uint32_t> triangle_list, std::span<const float> positions);
-
-  ~Tree() {
-    if (scene != nullptr)
-      rtcReleaseScene(scene);
-    if (device != nullptr)
-      rtcReleaseDevice(device);
-  }
-
-  Tree(const Tree&) = delete;
-  Tree& operator=(const Tree&) = delete;
 
   uint32_t size() const {
     return static_cast<uint32_t>(triangles.empty() ? vertices.size() : triangles.size() / 3);
   }
 
-  void normalise();
-  void build();
-  void bounds(uint32_t element, RTCBounds* out) const;
+  Eigen::AlignedBox3d box_of(uint32_t element) const;
   /// Takes the element if it is closer than the best so far, or as close and before it.
-  bool try_element(uint32_t element, const Vector3d& q, ClosestPoint* best) const;
+  void try_element(uint32_t element, const Vector3d& q, ClosestPoint* best) const;
 };
 
 ClosestPointQuery::Tree::Tree(std::span<const uint32_t> triangle_list,
@@ -133,67 +127,24 @@ ClosestPointQuery::Tree::Tree(std::span<const uint32_t> triangle_list,
   }
   if (vertices.empty())
     throw Error(ErrorKind::kInput, "a surface without vertices has no closest point");
-  normalise();
-  build();
+  std::vector<uint32_t> elements(size());
+  std::iota(elements.begin(), elements.end(), 0U);
+  std::vector<Eigen::AlignedBox3d> boxes(size());
+  std::ranges::transform(elements, boxes.begin(),
+                         [this](uint32_t element) { return box_of(element); });
+  hierarchy.init(elements.begin(), elements.end(), boxes.begin(), boxes.end());
 }
 
-void ClosestPointQuery::Tree::normalise() {
-  double half = 0;
-  for (Index axis = 0; axis < 3; ++axis) {
-    auto [low, high] = std::minmax_element(
-        vertices.begin(), vertices.end(),
-        [axis](const Vector3d& a, const Vector3d& b) { return a[axis] < b[axis]; });
-    centre[axis] = ((*low)[axis] + (*high)[axis]) / 2;
-    half = std::max(half, ((*high)[axis] - (*low)[axis]) / 2);
-  }
-  scale = half > 0 ? 1 / half : 1;
+Eigen::AlignedBox3d ClosestPointQuery::Tree::box_of(uint32_t element) const {
+  if (triangles.empty())
+    return Eigen::AlignedBox3d(vertices[element]);
+  Eigen::AlignedBox3d box;
+  for (size_t corner = 0; corner < 3; ++corner)
+    box.extend(vertices[triangles[size_t{3} * element + corner]]);
+  return box;
 }
 
-void ClosestPointQuery::Tree::build() {
-  device = rtcNewDevice(nullptr);
-  if (device != nullptr)
-    scene = rtcNewScene(device);
-  if (scene == nullptr)
-    throw Error(ErrorKind::kInternal, "Embree cannot be started");
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, size());
-  rtcSetGeometryUserData(geometry, this);
-  rtcSetGeometryBoundsFunction(
-      geometry,
-      [](const RTCBoundsFunctionArguments* args) {
-        static_cast<const Tree*>(args->geometryUserPtr)->bounds(args->primID, args->bounds_o);
-      },
-      nullptr);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
-    throw Error(ErrorKind::kInternal, "Embree cannot build its hierarchy");
-}
-
-void ClosestPointQuery::Tree::bounds(uint32_t element, RTCBounds* out) const {
-  float* low = &out->lower_x;
-  float* high = &out->upper_x;
-  for (Index axis = 0; axis < 3; ++axis) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    auto include = [&](uint32_t v) {
-      double x = (vertices[v][axis] - centre[axis]) * scale;
-      least = std::min(least, x);
-      most = std::max(most, x);
-    };
-    if (triangles.empty()) {
-      include(element);
-    } else {
-      for (size_t corner = 0; corner < 3; ++corner)
-        include(triangles[size_t{3} * element + corner]);
-    }
-    low[axis] = std::nextafter(static_cast<float>(least), -2.F);
-    high[axis] = std::nextafter(static_cast<float>(most), 2.F);
-  }
-}
-
-bool ClosestPointQuery::Tree::try_element(uint32_t element, const Vector3d& q,
+void ClosestPointQuery::Tree::try_element(uint32_t element, const Vector3d& q,
                                           ClosestPoint* best) const {
   ClosestPoint found;
   if (triangles.empty()) {
@@ -208,9 +159,8 @@ bool ClosestPointQuery::Tree::try_element(uint32_t element, const Vector3d& q,
   found.element = element;
   if (found.square_distance > best->square_distance ||
       (found.square_distance == best->square_distance && element > best->element))
-    return false;
+    return;
   *best = found;
-  return true;
 }
 
 ClosestPointQuery::ClosestPointQuery(std::span<const uint32_t> triangles,
@@ -222,52 +172,55 @@ ClosestPointQuery::ClosestPointQuery(ClosestPointQuery&&) noexcept = default;
 ClosestPointQuery& ClosestPointQuery::operator=(ClosestPointQuery&&) noexcept = default;
 
 ClosestPoint ClosestPointQuery::operator()(const Vector3d& q) const {
-  struct Context {
-    const Tree* tree;
-    const Vector3d* q;
-    double margin;
-    ClosestPoint best;
+  // Halves of halves: as deep as an index has bits, one box waiting at each depth.
+  constexpr size_t kDepth = 40;
+
+  struct Waiting {
+    double square_distance;
+    Tree::Hierarchy::Index node;
   };
 
-  Context context{tree_.get(), &q, 0, {}};
-  context.best.square_distance = std::numeric_limits<double>::infinity();
-  context.best.element = std::numeric_limits<uint32_t>::max();
-  RTCPointQuery query;
-  double reach = 1;
-  float* to = &query.x;
-  for (Index axis = 0; axis < 3; ++axis) {
-    double x = (q[axis] - tree_->centre[axis]) * tree_->scale;
-    reach = std::max(reach, std::abs(x));
-    to[axis] = static_cast<float>(x);
+  const Tree::Hierarchy& hierarchy = tree_->hierarchy;
+  ClosestPoint best;
+  best.square_distance = std::numeric_limits<double>::infinity();
+  best.element = std::numeric_limits<uint32_t>::max();
+  // A box farther away than this holds nothing closer. The margin is of some units in the last place
+  // of the numbers that the distance to a triangle is made of.
+  double square_reach = best.square_distance;
+  const double margin =
+      std::ldexp(hierarchy.getRootIndex() < 0
+                     ? 0
+                     : (q - hierarchy.getVolume(hierarchy.getRootIndex()).center()).norm() +
+                           hierarchy.getVolume(hierarchy.getRootIndex()).diagonal().norm(),
+                 -48);
+  std::array<Waiting, kDepth> stack;
+  size_t waiting = 0;
+  stack[waiting++] = {0, hierarchy.getRootIndex()};
+  while (waiting > 0) {
+    const Waiting next = stack[--waiting];
+    if (next.square_distance > square_reach)
+      continue;
+    Tree::Hierarchy::VolumeIterator box = nullptr, box_end = nullptr;
+    Tree::Hierarchy::ObjectIterator element = nullptr, element_end = nullptr;
+    hierarchy.getChildren(next.node, box, box_end, element, element_end);
+    for (; element != element_end; ++element) {
+      tree_->try_element(*element, q, &best);
+      const double reach = std::sqrt(best.square_distance) + margin;
+      square_reach = reach * reach;
+    }
+    Waiting children[2];
+    size_t count = 0;
+    for (; box != box_end; ++box) {
+      const double square = square_distance(hierarchy.getVolume(*box), q);
+      if (square <= square_reach)
+        children[count++] = {square, *box};
+    }
+    if (count == 2 && children[0].square_distance < children[1].square_distance)
+      std::swap(children[0], children[1]);  // the nearer one is looked at first
+    for (size_t i = 0; i < count; ++i)
+      stack[waiting++] = children[i];
   }
-  // So far away that single precision cannot tell the elements apart.
-  if (!(reach < 1e6)) {
-    for (uint32_t element = 0; element < tree_->size(); ++element)
-      tree_->try_element(element, q, &context.best);
-    return context.best;
-  }
-  query.time = 0;
-  query.radius = std::numeric_limits<float>::infinity();
-  // Sixteen units in the last place of the coordinates: more than rounding q and comparing boxes
-  // can err.
-  context.margin = reach * std::ldexp(1.0, -20);
-  RTCPointQueryContext stack;
-  rtcInitPointQueryContext(&stack);
-  rtcPointQuery(
-      tree_->scene, &query, &stack,
-      [](RTCPointQueryFunctionArguments* args) {
-        auto* c = static_cast<Context*>(args->userPtr);
-        if (!c->tree->try_element(args->primID, *c->q, &c->best))
-          return false;
-        double distance = std::sqrt(c->best.square_distance) * c->tree->scale;
-        auto radius = static_cast<float>(distance * (1 + std::ldexp(1.0, -20)) + c->margin);
-        if (!(radius < args->query->radius))
-          return false;
-        args->query->radius = radius;
-        return true;
-      },
-      &context);
-  return context.best;
+  return best;
 }
 
 }  // namespace anicodec

@@ -32,13 +32,12 @@ ClosestPoint closest_on_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d
                                  const Eigen::Vector3d& c, const Eigen::Vector3d& q);
 
 /// Closest points on a triangle mesh, or, if it has no triangle, closest vertices of a point cloud.
-/// Embree's box hierarchy finds the candidates in single precision with a margin for its rounding,
-/// their distances are computed in double: the result is that of a search through all elements.
-/// Memory: about 200 bytes an element. Cost: building n log n, a query 2 to 4 microseconds.
+/// A hierarchy of boxes finds the candidates, so that the result is that of a search through all
+/// elements. Memory: about 100 bytes an element. Cost: building n log n, a query QQ microseconds.
 class ClosestPointQuery {
  public:
   /// Copies what it needs. `positions` is x y z per vertex, all finite, at least one. Throws
-  /// Error(kInput) if there is none or one is not finite, Error(kInternal) if Embree fails.
+  /// Error(kInput) if there is none or one is not finite.
   ClosestPointQuery(std::span<const uint32_t> triangles, std::span<const float> positions);
   ~ClosestPointQuery();
   ClosestPointQuery(ClosestPointQuery&&) noexcept;

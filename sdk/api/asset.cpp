@@ -5,6 +5,7 @@
 #include "sdk/api/objects.h"
 #include "sdk/clip/clock.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace anicodec {
@@ -37,12 +38,53 @@ anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
   if (!asset || !is_sized(out))
     return ANIC_E_ARGUMENT;
   const Clip& clip = asset->clip;
-  const ClipRecord& record = clip.record();
-  const Clock clock(record, clip.frame_count());
+  anic_clip first = ANIC_INIT(anic_clip);
+  anic_clip_info(asset, 0, &first);
   anic_asset_info filled = ANIC_INIT(anic_asset_info);
   filled.mesh_count = static_cast<uint32_t>(clip.meshes().size());
   filled.segment_count = static_cast<uint32_t>(clip.segments().size());
   filled.frame_count = clip.frame_count();
+  filled.rate_numerator = first.rate_numerator;
+  filled.rate_denominator = first.rate_denominator;
+  filled.rate_assumed = first.rate_assumed;
+  filled.uneven = first.uneven;
+  filled.loop = first.loop;
+  filled.closed = first.closed;
+  filled.massaged = first.massaged;
+  filled.partial = clip.is_partial();
+  filled.up = static_cast<anic_up_axis>(clip.record().up);
+  filled.order = static_cast<anic_order>(clip.record().order);
+  filled.start_time = first.start_time;
+  filled.duration = first.duration;
+  filled.loop_duration = first.loop_duration;
+  filled.metres_per_unit = clip.record().metres_per_unit;
+  filled.diagonal = first.diagonal;
+  filled.max_error = first.max_error;
+  filled.rmse = first.rmse;
+  filled.kg = first.kg;
+  filled.surface_error = first.surface_error;
+  filled.surface_error_mean = first.surface_error_mean;
+  filled.name = first.name;
+  filled.encoder = clip.record().encoder.c_str();
+  filled.resident_bytes = asset->resident_bytes;
+  filled.context_bytes = asset->context_bytes;
+  give(filled, out);
+  return ANIC_OK;
+}
+
+uint32_t anic_clip_count(const anic_asset* asset) {
+  return asset ? static_cast<uint32_t>(asset->clip.clips().size()) : 0;
+}
+
+anic_status anic_clip_info(const anic_asset* asset, uint32_t clip, anic_clip* out) {
+  if (clip >= anic_clip_count(asset) || !is_sized(out))
+    return ANIC_E_ARGUMENT;
+  const ClipRecord& record = asset->clip.clips()[clip];
+  const Clock clock(record);
+  anic_clip filled = ANIC_INIT(anic_clip);
+  filled.name = record.name.c_str();
+  filled.first_frame = record.first_frame;
+  filled.frame_count = record.frames;
   filled.rate_numerator = record.rate_numerator;
   filled.rate_denominator = record.rate_denominator;
   filled.rate_assumed = record.rate_assumed;
@@ -50,25 +92,25 @@ anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
   filled.loop = record.loop;
   filled.closed = record.closed;
   filled.massaged = record.massaged;
-  filled.partial = clip.is_partial();
-  filled.up = static_cast<anic_up_axis>(record.up);
-  filled.order = static_cast<anic_order>(record.order);
+  filled.open = asset->clip.has_clip(clip);
   filled.start_time = clock.start();
-  filled.duration = clock.time(clip.frame_count() - 1);
+  filled.duration = clock.time(record.frames - 1);
   filled.loop_duration = clock.loop_duration();
-  filled.metres_per_unit = record.metres_per_unit;
   filled.diagonal = record.diagonal;
   filled.max_error = record.max_error;
   filled.rmse = record.rmse;
   filled.kg = record.kg;
   filled.surface_error = record.surface_error;
   filled.surface_error_mean = record.surface_error_mean;
-  filled.name = record.name.c_str();
-  filled.encoder = record.encoder.c_str();
-  filled.resident_bytes = asset->resident_bytes;
-  filled.context_bytes = asset->context_bytes;
   give(filled, out);
   return ANIC_OK;
+}
+
+anic_status anic_find_clip(const anic_asset* asset, const char* name, uint32_t* out) {
+  if (!asset || !name || !out)
+    return ANIC_E_ARGUMENT;
+  *out = static_cast<uint32_t>(asset->clip.record().find(name));
+  return *out < anic_clip_count(asset) ? ANIC_OK : ANIC_E_ABSENT;
 }
 
 anic_status anic_get_mesh(const anic_asset* asset, uint32_t mesh, anic_mesh* out) {
@@ -157,5 +199,10 @@ anic_status anic_get_coded_vertices(const anic_asset* asset, uint32_t mesh, cons
 }
 
 double anic_get_frame_time(const anic_asset* asset, uint32_t frame) {
-  return asset ? Clock(asset->clip.record(), asset->clip.frame_count()).time(frame) : 0;
+  if (!asset)
+    return 0;
+  const Clip& clip = asset->clip;
+  frame = std::min(frame, clip.frame_count() - 1);
+  const ClipRecord& record = clip.clips()[clip.clip_at(frame)];
+  return Clock(record).time(frame - record.first_frame);
 }

@@ -18,16 +18,35 @@ bool is_range(const Clip& clip, uint32_t mesh, uint32_t first, uint32_t count) {
   return first <= vertices && count <= vertices - first;
 }
 
-/// Makes the current state the previous one, and `mix` the current one.
-void choose(anic_context* context, const FrameMix& mix) {
+/// Makes `mix` the current state.
+void show(anic_context* context, const FrameMix& mix) {
   const Clip& clip = context->asset->clip;
-  std::swap(context->states[ANIC_WHEN_CURRENT], context->states[ANIC_WHEN_PREVIOUS]);
+  context->mix = mix;
   float* weights = context->states[ANIC_WHEN_CURRENT].weights;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
     context->states[ANIC_WHEN_CURRENT].samples[t] =
         make_sample(clip, t, mix, weights, context->scratch);
     weights += context->asset->buffers[t];
   }
+}
+
+/// Makes the current state the previous one, and `mix` the current one.
+void choose(anic_context* context, const FrameMix& mix) {
+  std::swap(context->states[ANIC_WHEN_CURRENT], context->states[ANIC_WHEN_PREVIOUS]);
+  show(context, mix);
+}
+
+/// A time of a clip as a mix of the file's frames.
+FrameMix mix_at(const ClipRecord& clip, double seconds, anic_sampling sampling, anic_wrap wrap) {
+  FrameMix mix = Clock(clip).at(seconds, static_cast<Sampling>(sampling), static_cast<Wrap>(wrap));
+  for (uint32_t t = 0; t < mix.count; ++t)
+    mix.terms[t].frame += clip.first_frame;
+  return mix;
+}
+
+bool is_time(double seconds, anic_sampling sampling, anic_wrap wrap) {
+  return std::isfinite(seconds) && sampling >= ANIC_SAMPLE_STEP && sampling <= ANIC_SAMPLE_CUBIC &&
+         wrap >= ANIC_WRAP_CLAMP && wrap <= ANIC_WRAP_PING_PONG;
 }
 
 }  // namespace
@@ -102,6 +121,8 @@ anic_status anic_create_context(const anic_asset* asset, const anic_allocator* a
     auto* context = create<anic_context>(memory, extra);
     context->asset = asset;
     context->extra = extra;
+    while (!asset->clip.has_clip(context->clip))
+      ++context->clip;
     auto* behind = reinterpret_cast<unsigned char*>(context + 1);
     for (anic_context::State& state : context->states) {
       state.samples = reinterpret_cast<Sample*>(behind);
@@ -126,6 +147,15 @@ void anic_destroy_context(anic_context* context) {
     destroy(context, context->extra);
 }
 
+anic_status anic_set_clip(anic_context* context, uint32_t clip) {
+  if (!context || clip >= context->asset->clip.clips().size())
+    return ANIC_E_ARGUMENT;
+  if (!context->asset->clip.has_clip(clip))
+    return ANIC_E_ABSENT;
+  context->clip = clip;
+  return ANIC_OK;
+}
+
 anic_status anic_seek_frame(anic_context* context, uint32_t frame) {
   if (!context)
     return ANIC_E_ARGUMENT;
@@ -143,16 +173,35 @@ anic_status anic_seek_frame(anic_context* context, uint32_t frame) {
 
 anic_status anic_seek_time(anic_context* context, double seconds, anic_sampling sampling,
                            anic_wrap wrap) {
-  if (!context || !std::isfinite(seconds) || sampling < ANIC_SAMPLE_STEP ||
-      sampling > ANIC_SAMPLE_CUBIC || wrap < ANIC_WRAP_CLAMP || wrap > ANIC_WRAP_PING_PONG)
+  if (!context || !is_time(seconds, sampling, wrap))
     return ANIC_E_ARGUMENT;
-  const Clip& clip = context->asset->clip;
-  choose(context, Clock(clip.record(), clip.frame_count())
-                      .at(seconds, static_cast<Sampling>(sampling), static_cast<Wrap>(wrap)));
+  choose(context,
+         mix_at(context->asset->clip.clips()[context->clip], seconds, sampling, wrap));
   if (!context->chosen) {
     context->chosen = true;
     anic_forget_previous(context);
   }
+  return ANIC_OK;
+}
+
+anic_status anic_blend(anic_context* context, uint32_t clip, double seconds, anic_sampling sampling,
+                       anic_wrap wrap, double weight) {
+  if (!context || clip >= context->asset->clip.clips().size() ||
+      !is_time(seconds, sampling, wrap) || !(weight >= 0 && weight <= 1))
+    return ANIC_E_ARGUMENT;
+  if (!context->chosen)
+    return ANIC_E_STATE;
+  const Clip& asset = context->asset->clip;
+  if (!asset.has_clip(clip))
+    return ANIC_E_ABSENT;
+  FrameMix mix = context->mix;
+  if (!mix.blend(mix_at(asset.clips()[clip], seconds, sampling, wrap), weight))
+    return ANIC_E_LIMIT;
+  for (uint32_t t = 0; t < asset.tracks().size(); ++t) {
+    if (part_count(asset, t, mix) > Sample::kMaxParts)
+      return ANIC_E_LIMIT;
+  }
+  show(context, mix);
   return ANIC_OK;
 }
 

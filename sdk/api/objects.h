@@ -7,6 +7,7 @@
 
 #include "sdk/api/versioned.h"
 #include "sdk/clip/clip.h"
+#include "sdk/clip/clock.h"
 #include "sdk/clip/sample.h"
 
 #include <anicodec/anicodec.h>
@@ -128,8 +129,10 @@ struct anic_context {
   };
 
   const anic_asset* asset;
-  size_t extra;  ///< bytes behind this object
+  size_t extra;       ///< bytes behind this object
+  uint32_t clip = 0;  ///< that times are of
   bool chosen = false;
+  anicodec::FrameMix mix;  ///< what is shown now
   State states[2];  ///< by anic_when
   float* scratch;   ///< of make_sample()
 };

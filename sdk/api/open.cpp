@@ -92,8 +92,14 @@ Failure find_requirements(ByteView head, const anic_options& options, anic_requi
 }  // namespace
 
 bool take_options(const anic_options* host, anic_options* out) {
-  return take(host, out) && out->quality >= 0 && out->quality <= 1 &&
-         (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER)) == 0 &&
+  if (!take(host, out))
+    return false;
+  for (uint32_t i = 0; out->clips && i < out->clip_count; ++i) {
+    if (!out->clips[i])
+      return false;
+  }
+  return true && out->quality >= 0 && out->quality <= 1 &&
+         (out->clips || out->clip_count == 0) && (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER)) == 0 &&
          !out->allocator.allocate == !out->allocator.release;
 }
 
@@ -141,6 +147,7 @@ OpenOptions open_options(const anic_options& options, uint64_t file_size) {
   limits.resident_bytes = std::min<uint64_t>(limits.resident_bytes, SIZE_MAX / 2);
   if (options.quality > 0)
     result.quality = options.quality;
+  result.clips = {options.clips, options.clip_count};
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "sdk/clip/memory_estimate.h"
 #include "sdk/play/attribute_values.h"
 #include "sdk/play/play.h"
+#include "sdk/segment/keep_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,26 @@ double opening_work(const Limits& limits, double quality) {
   for (const Limits::Segment& s : limits.segments)
     work += segment_work(s, limits.meshes[s.mesh], quality);
   return work;
+}
+
+struct FrameRange {
+  uint32_t first = 0, count = 0;
+};
+
+/// The frames of a segment, counted within it, from the first to the last that a wanted clip has.
+FrameRange wanted_frames(const ClipsRecord& record, const Vector<uint8_t>& wanted,
+                         const Limits::Segment& s) {
+  uint32_t begin = s.frames, end = 0;
+  for (size_t c = 0; c < wanted.size(); ++c) {
+    const ClipRecord& clip = record.clips[c];
+    const uint32_t from = std::max(clip.first_frame, s.first_frame);
+    const uint32_t to = std::min(clip.first_frame + clip.frames, s.first_frame + s.frames);
+    if (wanted[c] && from < to) {
+      begin = std::min(begin, from - s.first_frame);
+      end = std::max(end, to - s.first_frame);
+    }
+  }
+  return {begin, end > begin ? end - begin : 0};
 }
 
 Failure stopped() {
@@ -195,8 +216,10 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   ByteView payload;
   if (Failure f = required(file, "CLIP", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
-  if (Status s = ClipRecord::read(payload, limits_.frames, &record_); s != Status::kOk)
-    return at(*chunk, s, "the clip record is malformed");
+  if (Status s = ClipsRecord::read(payload, limits_, &record_); s != Status::kOk)
+    return at(*chunk, s, "the record of the clips is malformed");
+  if (Failure f = choose_clips(options.clips); !f.ok())
+    return f;
   if (Failure f = check_places(file, limits_, record_.order); !f.ok())
     return f;
   if (options.any_order)
@@ -228,6 +251,47 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   if (!failure.ok())
     *this = Clip();
   return failure;
+}
+
+Failure Clip::choose_clips(const ClipNames& names) {
+  wanted_.assign(record_.clips.size(), names.count == 0);
+  for (uint32_t i = 0; i < names.count; ++i) {
+    const size_t found = record_.find(names.names[i]);
+    if (found == wanted_.size())
+      return {Status::kAbsent, 0, chunk_type("CLIP"), "the file has no clip of a name asked for"};
+    wanted_[found] = 1;
+  }
+  return {};
+}
+
+void Clip::take_clip(uint32_t clip) {
+  Vector<uint8_t> only(clips().size(), 0);
+  only[clip] = 1;
+  const uint32_t begin = clips()[clip].first_frame;
+  for (size_t i = 0; i < segments_.size(); ++i) {
+    Limits::Segment& sizes = limits_.segments[i];
+    Segment& segment = segments_[i];
+    const FrameRange kept = wanted_frames(record_, only, sizes);
+    if (segment.frames > 0 && kept.count > 0 && kept.count < segment.frames)
+      keep_frames(sizes.first_frame + kept.first - segment.first_frame, kept.count, &segment);
+    if (kept.count == 0)  // the order of the first frames must stay
+      segment = Segment();
+    const bool before = sizes.first_frame < begin;
+    sizes.first_frame = segment.first_frame =
+        kept.count > 0 ? sizes.first_frame + kept.first - begin : before ? 0 : UINT32_MAX;
+    sizes.frames = kept.count;
+  }
+  record_.clips = Vector<ClipRecord>(1, ClipRecord(record_.clips[clip]));
+  record_.place();
+  wanted_.assign(1, 1);
+  limits_.frames = record_.clips[0].frames;
+  limits_.clip_frames.assign(1, limits_.frames);
+}
+
+uint32_t Clip::clip_at(uint32_t frame) const {
+  const auto after = std::partition_point(
+      clips().begin(), clips().end(), [&](const ClipRecord& c) { return c.first_frame <= frame; });
+  return static_cast<uint32_t>(after - clips().begin()) - 1;
 }
 
 Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOptions& options) {
@@ -333,6 +397,8 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
       return f;
   }
   for (uint32_t i = 0; i < segments_.size(); ++i) {
+    if (wanted_frames(record_, wanted_, limits_.segments[i]).count == 0)
+      continue;
     if (options.prefix && !has_arrived(file, limits_.segments[i], i, layers[i])) {
       partial_ = true;
       continue;
@@ -399,12 +465,18 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
       return f;
   }
   partial_ |= context.partial;
+  context.runs = limits_.runs(sizes.first_frame, sizes.frames);
   context.trace = options.trace;
   context.progress = options.progress;
   if (record.kind != BasisKind::kKeyframes)
     s = work.shared_graph(*context.topology, &context.graph);
+  else if (is_predicted(sizes) && work.is_shared())
+    context.surface = &work.pose_surface(*context.topology);
   if (s == Status::kOk)
     s = anicodec::open_segment(record, context, &segments_[number]);
+  const FrameRange kept = wanted_frames(record_, wanted_, sizes);
+  if (s == Status::kOk && kept.count < sizes.frames)
+    keep_frames(kept.first, kept.count, &segments_[number]);
   if (s == Status::kCancelled)
     return stopped();
   if (s == Status::kCoder && sizes.draco_bytes > 0)

@@ -18,6 +18,12 @@
 
 namespace anicodec {
 
+/// Clips by their names. The strings must outlive it.
+struct ClipNames {
+  const char* const* names = nullptr;
+  uint32_t count = 0;
+};
+
 /// The most that a host allows a file to ask for. Checked before anything is allocated.
 struct HostLimits {
   uint64_t vertices = uint64_t{1} << 31;
@@ -33,6 +39,9 @@ struct OpenOptions {
   /// Whether the bytes may be the first ones of a file: what has arrived is opened, with as many
   /// components as are there (spec/05-file-layout.md, section 7).
   bool prefix = false;
+  /// The clips to open, at least one of them in the file; none named: all. Segments that hold none
+  /// of their frames are not opened, of the others what they need stays resident.
+  ClipNames clips;
   /// Leaves the source's order of vertices and polygons alone, whatever the file keeps of it.
   bool any_order = false;
   /// Told after every mesh, level of the vertices and component; may end the opening with
@@ -66,7 +75,7 @@ struct Track {
   bool is_attribute() const { return attribute != kPositions; }
 };
 
-/// An opened file: immutable, so any number of threads may play it. Owns all it needs; the file's
+/// An opened file of one clip or more: immutable, so any number of threads may play it. Owns all it needs; the file's
 /// bytes may go after open(). Make and open it in the same MemoryScope.
 class Clip {
  public:
@@ -75,14 +84,28 @@ class Clip {
   /// all coefficients once; afterwards every frame costs the same.
   Failure open(ByteView file, const OpenOptions& options = {});
 
+  /// Makes the clip at hand the only one: frames are numbered from its first one on, and those of
+  /// others are given back. For programs that work on one clip of a file. O(what is resident).
+  void take_clip(uint32_t clip);
+
   const Limits& limits() const { return limits_; }
 
-  const ClipRecord& record() const { return record_; }
+  /// What the file says of itself and of its clips, opened or not.
+  const ClipsRecord& record() const { return record_; }
+
+  const Vector<ClipRecord>& clips() const { return record_.clips; }
+
+  /// The clip that holds a frame of the file. O(log clips).
+  uint32_t clip_at(uint32_t frame) const;
+
+  /// Whether the host wanted a clip (OpenOptions::clips).
+  bool has_clip(uint32_t clip) const { return wanted_[clip] != 0; }
 
   const Vector<Mesh>& meshes() const { return meshes_; }
 
   const Vector<Segment>& segments() const { return segments_; }
 
+  /// Of all clips; frames are numbered through the file.
   uint32_t frame_count() const { return limits_.frames; }
 
   uint32_t vertex_count(uint32_t mesh = 0) const { return limits_.meshes[mesh].source_vertices; }
@@ -123,6 +146,7 @@ class Clip {
   Failure check_hashes() const;
 
  private:
+  Failure choose_clips(const ClipNames& names);
   Failure open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
   void list_tracks();
   Failure open_attributes(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
@@ -132,7 +156,8 @@ class Clip {
                        const OpenOptions& options);
 
   Limits limits_;
-  ClipRecord record_;
+  ClipsRecord record_;
+  Vector<uint8_t> wanted_;  ///< by clip
   Vector<Mesh> meshes_;
   Vector<MeshWork> work_;  ///< while opening
   Vector<Segment> segments_;

@@ -29,6 +29,36 @@ void FrameMix::add(uint32_t frame, double weight) {
   terms[count++] = {frame, weight};
 }
 
+bool FrameMix::blend(const FrameMix& other, double share) {
+  if (share == 0)
+    return true;
+  if (share == 1) {
+    *this = other;
+    return true;
+  }
+  FrameMix result = *this;
+  for (uint32_t i = 0; i < other.count; ++i) {
+    uint32_t t = 0;
+    while (t < count && terms[t].frame != other.terms[i].frame)
+      ++t;
+    if (t == count) {
+      if (result.count == kMost)
+        return false;
+      result.terms[result.count++] = {other.terms[i].frame, 0};
+    }
+  }
+  for (uint32_t t = 0; t < result.count; ++t) {
+    double target = 0;
+    for (uint32_t i = 0; i < other.count; ++i) {
+      if (other.terms[i].frame == result.terms[t].frame)
+        target = other.terms[i].weight;
+    }
+    result.terms[t].weight += share * (target - result.terms[t].weight);
+  }
+  *this = result;
+  return true;
+}
+
 double Clock::since_start(uint32_t frame) const {
   frame = std::min(frame, frames_ - 1);
   if (!record_.times.empty())

@@ -19,18 +19,26 @@ struct FrameMix {
     double weight = 1;
   };
 
+  /// Of a time; four such can be blended.
+  static constexpr uint32_t kOfTime = 4, kMost = 4 * kOfTime;
+
   uint32_t count = 0;
-  Term terms[4];  ///< the first is the frame at the time or before it
+  Term terms[kMost];  ///< the first is the frame at the time or before it
 
   void add(uint32_t frame, double weight);
+
+  /// Goes over to another mix by a share between 0 and 1: at 0 nothing changes, at 1 the result is
+  /// `other`, and frames that both have with the same weight keep it, all to the last bit. False
+  /// when there are too many frames; then nothing has changed.
+  bool blend(const FrameMix& other, double share);
 };
 
-/// When the frames of a clip are, from its first frame on (spec/04-coordinates.md, section 2;
+/// When the frames of a clip are, from its first frame on; frames are counted within the clip (spec/04-coordinates.md, section 2;
 /// spec/10-seeking.md, section 2).
 class Clock {
  public:
-  /// `record` must outlive the clock; frames > 0.
-  Clock(const ClipRecord& record, uint32_t frames) : record_(record), frames_(frames) {}
+  /// `record` must outlive the clock; it has frames.
+  explicit Clock(const ClipRecord& record) : record_(record), frames_(record.frames) {}
 
   /// Seconds from frame 0 on; frames behind the last count as the last.
   double time(uint32_t frame) const { return since_start(frame) - since_start(0); }

@@ -12,10 +12,11 @@ namespace anicodec {
 namespace {
 
 constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
-constexpr uint64_t kPoseModels = uint64_t{1} << 18;
+constexpr uint64_t kPoseModels = uint64_t{3} << 17;
 constexpr uint64_t kFaceModels = uint64_t{3} << 18;   // of the coder of faces
 constexpr uint64_t kOrderModels = uint64_t{1} << 18;  // and of the order of the vertices
 constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
+constexpr uint64_t kClip = 256;
 constexpr uint64_t kStructure = 512;             // of a mesh or segment
 constexpr uint64_t kMatrix = 48;                 // bytes of a pose map or motion
 constexpr uint64_t kSymbol = 12;                 // bytes that Draco keeps of one that may occur
@@ -93,19 +94,22 @@ uint64_t draco(const Limits::Segment& s, const Limits::Mesh& m) {
          12 * points * components + uint64_t{160} * m.triangles + 80 * points;
 }
 
+/// The surface that a pose is predicted on, what is known of its vertices, and their partners.
+uint64_t predicting(const Limits::Mesh& m) {
+  return uint64_t{92} * m.coded_vertices + uint64_t{96} * m.triangles + kPoseModels;
+}
+
 uint64_t opening(const Limits::Mesh& m) {
   const uint64_t faces = uint64_t{44} * m.corners + uint64_t{8} * m.polygons +
                          uint64_t{28} * m.coded_vertices + kFaceModels;
   const uint64_t maps = uint64_t{40} * m.source_vertices + uint64_t{36} * m.polygons +
                         uint64_t{16} * m.corners + kOrderModels;
-  const uint64_t pose =
-      uint64_t{80} * m.coded_vertices + uint64_t{96} * m.triangles + kPoseModels;
   // Edges, entries and their numbers; or a permutation and a copy.
   const uint64_t attributes = m.attribute_bytes == 0
                                   ? 0
                                   : uint64_t{64} * m.corners + uint64_t{16} * m.source_vertices +
                                         2 * m.attribute_bytes + 65536;
-  return std::max({faces, maps + attributes, pose}) + kZstd;
+  return std::max({faces, maps + attributes, predicting(m)}) + kZstd;
 }
 
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
@@ -117,7 +121,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
     msgi = 12 * n * components + uint64_t{1000} * mesh.triangles + 2 * s.msgi_bytes;
   if (s.kind == BasisKind::kKeyframes)
     return 36 * n * components + 4 * frames * components + 28 * frames + kModels + msgi +
-           draco(s, mesh);
+           (s.draco_bytes > 0 ? draco(s, mesh) : predicting(mesh));
   const uint64_t channels = s.kind == BasisKind::kEigenshapes ? 3 : 1;
   return 8 * channels * (n + 1) * (components + 8) + 12 * frames * components + 80 * frames +
          (8 * kNeighbours + 256) * n + uint64_t{48} * mesh.triangles + kModels;
@@ -130,6 +134,7 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality) {
   CheckedSum open, until_open;
   uint64_t largest = 0;
   const Vector<uint32_t> predicted = predicted_segments(limits);
+  open.add(kClip * limits.clip_frames.size());
   for (size_t i = 0; i < limits.meshes.size(); ++i) {
     const Limits::Mesh& m = limits.meshes[i];
     open.add(resident(m));

@@ -17,7 +17,7 @@ namespace anicodec {
 /// Data of a mesh that its segments use while they open. All that follows from the connectivity alone
 /// is made once, so that no segment costs O(triangles); a lone segment keeps nothing of it.
 struct MeshWork {
-  uint32_t predicted_segments = 0;     ///< of the limits: those of eigenshapes or eigentrajectories
+  uint32_t predicted_segments = 0;     ///< of the limits
   std::optional<PoseSurface> surface;  ///< of the poses
   std::optional<MeshGraph> graph;      ///< of the orders of vertices
 
@@ -53,11 +53,16 @@ struct MeshWork {
   }
 };
 
+/// Whether a segment is predicted over the surface of its mesh: all that Draco did not code.
+inline bool is_predicted(const Limits::Segment& segment) {
+  return segment.kind != BasisKind::kKeyframes || segment.draco_bytes == 0;
+}
+
 /// By mesh: how many of its segments are predicted.
 inline Vector<uint32_t> predicted_segments(const Limits& limits) {
   Vector<uint32_t> counts(limits.meshes.size(), 0);
   for (const Limits::Segment& s : limits.segments)
-    counts[s.mesh] += s.kind != BasisKind::kKeyframes;
+    counts[s.mesh] += is_predicted(s);
   return counts;
 }
 

@@ -22,8 +22,8 @@ struct Group {
   const Segment* segment = nullptr;
   double share = 0;
   int count = 0;
-  uint32_t frames[4];  ///< of the segment
-  double weights[4];
+  uint32_t frames[FrameMix::kMost];  ///< of the segment
+  double weights[FrameMix::kMost];
 };
 
 template <class Map>
@@ -39,7 +39,7 @@ Affine mean_map(const Group& group, const Map& maps) {
 }
 
 Affine mean_motion(const Group& group, const Vector<Affine>& motions) {
-  UnitQuaternion rotations[4];
+  UnitQuaternion rotations[FrameMix::kMost];
   double translation[3] = {0, 0, 0};
   for (int t = 0; t < group.count; ++t) {
     const Affine& motion = motions[group.frames[t]];
@@ -71,6 +71,17 @@ FrameState mean_state(const Group& group, float* weights) {
 
 }  // namespace
 
+uint32_t part_count(const Clip& clip, uint32_t track, const FrameMix& mix) {
+  const Segment* found[FrameMix::kMost];
+  uint32_t count = 0;
+  for (uint32_t t = 0; t < mix.count; ++t) {
+    const Segment* segment = clip.segment_at(track, mix.terms[t].frame);
+    if (segment && mix.terms[t].weight != 0 && std::find(found, found + count, segment) == found + count)
+      found[count++] = segment;
+  }
+  return count;
+}
+
 Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float* buffer,
                    float* scratch) {
   const bool is_attribute = clip.tracks()[track].is_attribute();
@@ -87,6 +98,8 @@ Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float*
     uint32_t g = 0;
     while (g < count && groups[g].segment != segment)
       ++g;
+    if (g == Sample::kMaxParts)
+      continue;  // part_count() tells before
     count = std::max(count, g + 1);
     Group& group = groups[g];
     group.segment = segment;

@@ -31,6 +31,9 @@ struct Sample {
   void add_motion(uint32_t components, uint32_t first, uint32_t vertices, float* values) const;
 };
 
+/// How many parts the sample of a mix would have; make_sample() can make Sample::kMaxParts.
+uint32_t part_count(const Clip& clip, uint32_t track, const FrameMix& mix);
+
 /// Combines what depends on time. `buffer` holds sample_size().buffer() floats and must outlive the
 /// sample, as the clip must; `scratch` holds sample_size().scratch
 /// bytes. Rigid motions turn the shorter

@@ -10,8 +10,8 @@
 namespace anicodec {
 namespace {
 
-/// Parts that are made of several frames: any two of four frames can be in one segment.
-constexpr uint64_t kMixedParts = 2;
+/// Parts that are made of several frames: all of a blend may be.
+constexpr uint64_t kMixedParts = Sample::kMaxParts;
 
 SampleSize segment_size(const Segment& s) {
   SampleSize size;

@@ -8,7 +8,7 @@
 
 namespace anicodec {
 
-/// Dependent quantisation of a series of integers (spec/09b-reference-pose.md, section 6): which
+/// Dependent quantisation of a series of integers (spec/09b-reference-pose.md): which
 /// integers an entry may be, the even or the odd ones, follows from those before it by a trellis of
 /// eight states, so that a code has half of the integers to tell apart. After M. Marcellin and T.
 /// Fischer, "Trellis coded quantization of memoryless and Gauss-Markov sources", 1990.

@@ -9,13 +9,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 namespace anicodec {
 
 /// Coordinates that are exactly those of a parallelogram, a neighbour or the vertex before, as in
-/// shapes built along the axes (spec/09b-reference-pose.md, section 5).
+/// shapes built along the axes (spec/09b-reference-pose.md, section 6).
 class ExactCoordinates {
  public:
   explicit ExactCoordinates(uint32_t vertices) : hits_(vertices, {false, false, false}) {}
@@ -49,6 +50,8 @@ class ExactCoordinates {
       if (hit)
         *x = value;
     };
+    if (prediction.follows())
+      offer(kSlots - 1, std::floor(prediction.likely()[axis] + 0.5));
     for (size_t g = 0; g < std::min(prediction.gates().size(), kMostGates); ++g)
       offer(g, prediction.gates()[g][axis]);
     for (size_t i = 0; i < std::min(neighbours.size(), kMostNeighbours); ++i)
@@ -61,7 +64,7 @@ class ExactCoordinates {
 
  private:
   static constexpr size_t kMostGates = 2, kMostNeighbours = 3;
-  static constexpr size_t kSlots = kMostGates + kMostNeighbours + 1;
+  static constexpr size_t kSlots = kMostGates + kMostNeighbours + 2;
   static constexpr double kLimit = 0x1p31;
 
   Vector<std::array<bool, 3>> hits_;

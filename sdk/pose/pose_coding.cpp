@@ -6,66 +6,138 @@
 #include "sdk/base/float_control.h"
 #include "sdk/pose/dependent_steps.h"
 #include "sdk/pose/exact_coordinates.h"
+#include "sdk/pose/partner_names.h"
 #include "sdk/pose/pose_models.h"
 #include "sdk/pose/pose_prediction.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace anicodec {
 namespace {
 
-/// Codes the pose, or decodes into it; stops when a stream has run out.
+/// Codes poses one after the other, or decodes into them.
 template <class Coder>
-void code_pose(Coder& coder, const PoseSurface& surface, PoseCoding coding, Vector<int32_t>& pose) {
-  const FloatControl control;
-  PosePrediction prediction(surface.table);
-  PoseModels models;
-  std::optional<ExactCoordinates> exact;
-  if (coding == PoseCoding::kExact)
-    exact.emplace(surface.table.vertex_count());
-  size_t state[3] = {0, 0, 0};
-  for (const uint32_t v : surface.order) {
-    if constexpr (Coder::kDecodes) {
-      if (!coder.ok())
-        return;
-    }
-    prediction.begin(v, pose.data());
-    for (int step = 0; step < 3; ++step) {
-      const size_t axis = prediction.axis(step);
-      int32_t& x = pose[size_t{3} * v + axis];
-      const PosePrediction::Expectation expected = prediction.expect(step);
-      if (exact && exact->code(coder, prediction, expected.mean, pose.data(), v, axis, &x)) {
-        // One of the candidates.
-      } else if (coding == PoseCoding::kDependent) {
-        const int32_t parity = DependentSteps::parity(state[axis]);
-        const int32_t half =
-            models.code(coder, prediction.kind(), step, halved(expected, parity), (x - parity) / 2);
-        x = 2 * half + parity;
-        state[axis] = DependentSteps::next(state[axis], half);
-      } else {
-        x = models.code(coder, prediction.kind(), step, expected, x);
+class PosesCoder {
+ public:
+  PosesCoder(Coder& coder, const PoseSurface& surface, PoseCoding coding)
+      : coder_(coder), surface_(surface), coding_(coding), prediction_(surface.table) {}
+
+  /// False when the stream is no such pose. `parent`: an earlier pose, or null.
+  bool code(Vector<int32_t>& pose, const Vector<int32_t>* parent, const PosePartners* partners) {
+    prediction_.restart();
+    std::fill_n(state_, 3, size_t{0});
+    std::optional<ExactCoordinates> exact;
+    if (coding_ == PoseCoding::kExact)
+      exact.emplace(surface_.table.vertex_count());
+    std::optional<PartnerNames> names;
+    PoseTurn time;  // from the parent on
+    if (!parent && coder_.bit(kProbabilityOne / 2, partners != nullptr))
+      names.emplace(surface_.table);
+    for (const uint32_t v : surface_.order) {
+      if constexpr (Coder::kDecodes) {
+        if (!coder_.ok())
+          return false;
       }
-      prediction.learn(step, x);
+      prediction_.begin(v, pose.data());
+      if (parent) {
+        prediction_.follow(
+            time, [](uint32_t w) { return w; }, parent->data());
+      } else if (names) {
+        if (!names->code(
+                coder_, v, prediction_.neighbours(),
+                [&](uint32_t w) { return prediction_.is_known(w); }, partners))
+          return false;
+        if (names->has(v)) {
+          const uint32_t strand = names->strand(v);
+          prediction_.follow(
+              names->turn(strand),
+              [&](uint32_t w) {
+                const uint32_t u = names->image(w, strand);
+                return u != v ? u : PartnerNames::kNone;  // not known yet
+              },
+              pose.data());
+        }
+      }
+      for (int step = 0; step < 3; ++step)
+        code_step(v, step, exact ? &*exact : nullptr, pose);
     }
+    return true;
   }
+
+ private:
+  void code_step(uint32_t v, int step, ExactCoordinates* exact, Vector<int32_t>& pose) {
+    const size_t axis = prediction_.axis(step);
+    const bool follows = prediction_.follows();
+    int32_t& x = pose[size_t{3} * v + axis];
+    const PosePrediction::Expectation expected = prediction_.expect(step);
+    if (exact && exact->code(coder_, prediction_, expected.mean, pose.data(), v, axis, &x)) {
+      // One of the candidates.
+    } else if (coding_ == PoseCoding::kDependent) {
+      const int32_t parity = DependentSteps::parity(state_[axis]);
+      const int32_t half = models_.code(coder_, prediction_.kind(), follows, step,
+                                        halved(expected, parity), (x - parity) / 2);
+      x = 2 * half + parity;
+      state_[axis] = DependentSteps::next(state_[axis], half);
+    } else {
+      x = models_.code(coder_, prediction_.kind(), follows, step, expected, x);
+    }
+    prediction_.learn(step, x);
+  }
+
+  Coder& coder_;
+  const PoseSurface& surface_;
+  PoseCoding coding_;
+  PosePrediction prediction_;
+  PoseModels models_;
+  size_t state_[3] = {0, 0, 0};
+};
+
+template <class Coder>
+bool code_poses(Coder& coder, const PoseSurface& surface, PoseCoding coding,
+                const Vector<uint32_t>& parents, const PosePartners* partners,
+                Vector<Vector<int32_t>>& poses) {
+  const FloatControl control;
+  PosesCoder<Coder> poses_coder(coder, surface, coding);
+  for (size_t j = 0; j < poses.size(); ++j) {
+    if (!poses_coder.code(poses[j], parents[j] > 0 ? &poses[parents[j] - 1] : nullptr, partners))
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
 
-Bytes encode_pose(const PoseSurface& surface, PoseCoding coding, const Vector<int32_t>& pose) {
-  Vector<int32_t> copy = pose;
+Bytes encode_poses(const PoseSurface& surface, PoseCoding coding,
+                   const Vector<Vector<int32_t>>& poses, const Vector<uint32_t>& parents,
+                   const PosePartners* partners) {
+  Vector<Vector<int32_t>> copy = poses;
   BinaryEncoder encoder;
-  code_pose(encoder, surface, coding, copy);
+  code_poses(encoder, surface, coding, parents, partners, copy);
   return encoder.finish();
+}
+
+Status decode_poses(ByteView stream, const PoseSurface& surface, PoseCoding coding,
+                    const Vector<uint32_t>& parents, Vector<Vector<int32_t>>* poses) {
+  poses->assign(parents.size(), Vector<int32_t>(size_t{3} * surface.table.vertex_count(), 0));
+  BinaryDecoder decoder(stream.data, stream.size);
+  const bool coded = code_poses(decoder, surface, coding, parents, nullptr, *poses);
+  return coded && decoder.finish() ? Status::kOk : Status::kEntropy;
+}
+
+Bytes encode_pose(const PoseSurface& surface, PoseCoding coding, const Vector<int32_t>& pose,
+                  const PosePartners* partners) {
+  return encode_poses(surface, coding, {pose}, {0}, partners);
 }
 
 Status decode_pose(ByteView stream, const PoseSurface& surface, PoseCoding coding,
                    Vector<int32_t>* pose) {
-  pose->assign(size_t{3} * surface.table.vertex_count(), 0);
-  BinaryDecoder decoder(stream.data, stream.size);
-  code_pose(decoder, surface, coding, *pose);
-  return decoder.finish() ? Status::kOk : Status::kEntropy;
+  Vector<Vector<int32_t>> poses;
+  const Status status = decode_poses(stream, surface, coding, {0}, &poses);
+  *pose = std::move(poses[0]);
+  return status;
 }
 
 }  // namespace anicodec

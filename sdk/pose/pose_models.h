@@ -21,15 +21,15 @@ inline PosePrediction::Expectation halved(const PosePrediction::Expectation& e, 
 }
 
 /// Models of the coordinates of a pose: how far each is from what is expected of it, in mixed
-/// contexts of how well it is expected (spec/09b-reference-pose.md, section 4).
+/// contexts of how well it is expected (spec/09b-reference-pose.md, section 5).
 class PoseModels {
  public:
-  PoseModels() : distance_({128, 64, 192, 640, 480}, {16, 3 * PosePrediction::kKinds}) {}
+  PoseModels() : distance_({128, 64, 192, 640, 480}, {16, 6 * PosePrediction::kKinds}) {}
 
   /// Codes a coordinate. @pre |value| <= 2^22
   template <class Coder>
-  int32_t code(Coder& coder, uint32_t kind, int step, const PosePrediction::Expectation& e,
-               int32_t value) {
+  int32_t code(Coder& coder, uint32_t kind, bool follows, int step,
+               const PosePrediction::Expectation& e, int32_t value) {
     // Not a number is 0.
     const double mean = e.mean > -kFarthest ? std::min(e.mean, kFarthest)
                         : e.mean <= 0       ? -kFarthest
@@ -45,7 +45,8 @@ class PoseModels {
                       magnitude_class<1>(eighths(e.spread), 32) * 6 + last * 3 + kind / 2,
                       half_octaves * 20 + magnitude_class<0>(eighths(e.before), 10) * 2 + last,
                       half_octaves * (3 * PosePrediction::kKinds) + role},
-                     magnitude_class<0>(scale, 16), role);
+                     magnitude_class<0>(scale, 16),
+                     role + (follows ? 3 * PosePrediction::kKinds : 0));
     AdaptiveBit& sign = sign_[last][fraction < -0.25  ? 0
                                     : fraction < 0    ? 1
                                     : fraction < 0.25 ? 2

@@ -16,30 +16,78 @@ constexpr double kLeast = 1e-3;  // of a usual error
 
 PosePrediction::PosePrediction(const CornerTable& table)
     : table_(table), known_(table.vertex_count()) {
-  std::array<double, kVectors> no_vector{}, vector_variance{};
-  std::array<double, kHeights> no_height{}, height_variance{};
+  std::array<double, kVectors> vector_start{}, vector_variance{};
+  std::array<double, kHeights> height_start{}, height_variance{};
   std::array<double, kSizes> size_start{}, size_variance{};
   vector_variance.fill(0.05);
   height_variance.fill(0.05);
   size_variance.fill(0.1);
   size_start[0] = 0.5;  // the neighbours' errors
   size_start[1] = 0.1;  // how long edges are, or how far parallelograms are apart
-  for (size_t k = 0; k < kKinds; ++k) {
-    offset_[k].start(kVectors, no_vector, vector_variance);
-    height_[k].start(kHeights, no_height, height_variance);
-    size_of_[0][k].start(kSizes, size_start, size_variance);
-    size_of_[1][k].start(kSizes - 1, size_start, size_variance);
+  for (int follows = 0; follows < 2; ++follows) {
+    const bool more = follows == 1;
+    if (more) {
+      // Halfway between the two places that the other one tells.
+      vector_start[kOwnVectors] = vector_start[kOwnVectors + 1] = 0.5;
+      height_start[kOwnHeights] = height_start[kOwnHeights + 1] = 0.5;
+      size_start[1] = 0;
+    }
+    for (size_t k = 0; k < kKinds; ++k) {
+      offset_[follows][k].start(more ? kVectors : kOwnVectors, vector_start, vector_variance);
+      height_[follows][k].start(more ? kHeights : kOwnHeights, height_start, height_variance);
+      size_of_[follows][0][k].start(more ? kSizes : kOwnSizes, size_start, size_variance);
+      size_of_[follows][1][k].start(more ? kSizes - 1 : kOwnSizes - 1, size_start, size_variance);
+    }
   }
 }
 
-Vector3 PosePrediction::position(uint32_t v) const {
-  const int32_t* p = positions_ + size_t{3} * v;
+void PosePrediction::restart() {
+  std::fill(known_.begin(), known_.end(), Known());
+  any_ = false;
+}
+
+Vector3 PosePrediction::place(const int32_t* places, uint32_t v) {
+  const int32_t* p = places + size_t{3} * v;
   return {{double(p[0]), double(p[1]), double(p[2])}};
+}
+
+void PosePrediction::Frame::add(const Vector3& a, const Vector3& b, const Vector3& apex) {
+  normal += cross(b - a, apex - a);
+  forward += 0.5 * (a + b) - apex;
+  base += a + b - apex;
+  ++gates;
+}
+
+bool PosePrediction::Frame::finish() {
+  if (gates == 0)
+    return false;
+  base = (1.0 / gates) * base;
+  const double size = length(normal);
+  if (!(size > 0))
+    return false;
+  normal = (1 / size) * normal;
+  forward = forward - dot(forward, normal) * normal;
+  const double ahead = length(forward);
+  if (!(ahead > 0))
+    return false;
+  forward = (1 / ahead) * forward;
+  return true;
+}
+
+/// How far the image is from the parallelograms there, in the directions here.
+void PosePrediction::follow_frames(const Frame& here, const Frame& there, const Vector3& image) {
+  const Vector3 off = image - there.base;
+  const double along = dot(off, there.forward), up = dot(off, there.normal),
+               side = dot(off, cross(there.normal, there.forward));
+  const Vector3 turned = along * here.forward + side * cross(here.normal, here.forward) +
+                         (turn_->mirrors() ? -up : up) * here.normal;
+  vectors_[kOwnVectors + 1] = here.base + turned - base_;
 }
 
 void PosePrediction::begin(uint32_t v, const int32_t* positions) {
   positions_ = positions;
   vertex_ = v;
+  turn_ = nullptr;
   gather();
   if (!gates_.empty()) {
     kind_ = gates_.size() == 1 ? kOneGate : gates_.size() == 2 ? kTwoGates : kMoreGates;
@@ -58,6 +106,7 @@ void PosePrediction::gather() {
   double valences = 0;
   neighbours_.clear();
   gates_.clear();
+  gate_vertices_.clear();
   base_ = mean_ = Vector3{};
   const uint32_t corners = std::min(table_.valence(vertex_), kMostCorners);
   for (uint32_t i = 0; i < corners; ++i) {
@@ -72,6 +121,7 @@ void PosePrediction::gather() {
     const Vector3 a = position(va), b = position(vb), apex = position(table_.vertex(o));
     const Vector3 gate = a + b - apex;
     gates_.push_back(gate);
+    gate_vertices_.push_back({va, vb, table_.vertex(o)});
     base_ += gate;
     normal += cross(b - a, apex - a);
     forward += 0.5 * (a + b) - apex;
@@ -154,7 +204,9 @@ void PosePrediction::make_vectors(const Vector3& forward, double valences) {
               (6.0 / valence - 1) * forward,
               (valences / 12 - 1) * forward,
               gates_.size() > 1 ? gates_[0] - base_ : Vector3{},
-              gates_.size() > 2 ? gates_[1] - base_ : Vector3{}};
+              gates_.size() > 2 ? gates_[1] - base_ : Vector3{},
+              Vector3{},
+              Vector3{}};
 }
 
 /// An error as regressed, kept in reason.
@@ -169,7 +221,7 @@ PosePrediction::Expectation PosePrediction::expect(int step) {
     return expected_;
   }
   // Near the known neighbours or the last vertex.
-  const double usual = far_usual_[kind_];
+  const double usual = far_usual_[follows()][kind_];
   expected_ = {base_[axis_[step]], usual, usual, usual,
                step > 0 ? std::fabs(residual_[axis_[step - 1]]) : usual};
   return expected_;
@@ -179,11 +231,16 @@ void PosePrediction::expect_tangential(int step) {
   const size_t d = axis_[step];
   for (size_t m = 0; m < kVectors; ++m)
     z_[m] = vectors_[m][d];
-  regressed_ = offset_[kind_].predict(z_);
+  regressed_ = offset_[follows()][kind_].predict(z_);
   const double start = base_[d] + (step == 1 ? correlation_ * residual_[axis_[0]] : 0);
-  s_ = {error_[0], length_, spread_, usual_[0], step == 1 ? std::fabs(relative_error_) : 0};
-  const double usual = error_[0] > 0 ? error_[0] : usual_[0];
-  size_ = kept_within(size_of_[0][kind_].predict(s_), std::max(usual, kLeast));
+  s_ = {error_[0],
+        length_,
+        spread_,
+        usual_[follows()][0],
+        step == 1 ? std::fabs(relative_error_) : 0,
+        length(vectors_[kOwnVectors] - vectors_[kOwnVectors + 1])};
+  const double usual = error_[0] > 0 ? error_[0] : usual_[follows()][0];
+  size_ = kept_within(size_of_[follows()][0][kind_].predict(s_), std::max(usual, kLeast));
   const double share = share_[step];
   expected_ = {start + regressed_, size_ * share, error_[0] * share, spread_ * share,
                (step == 1 ? s_[4] : length_) * share};
@@ -206,12 +263,18 @@ void PosePrediction::expect_height() {
     spread += std::fabs(height_of(gate));
   spread /= static_cast<double>(gates_.size());
   h_ = {gates_.size() > 1 ? height_of(gates_[0]) : 0, height_of(mean_),
-        dot(normal_, drift_) / normal_[k]};
-  regressed_ = height_[kind_].predict(h_);
+        dot(normal_, drift_) / normal_[k], height_of(base_ + vectors_[kOwnVectors]),
+        height_of(base_ + vectors_[kOwnVectors + 1])};
+  regressed_ = height_[follows()][kind_].predict(h_);
   const double before = static_cast<double>(known_[vertex_].error[0]);
-  s_ = {error_[1], spread / share_[2], usual_[1], before, 0};
-  const double usual = error_[1] > 0 ? error_[1] : usual_[1];
-  size_ = kept_within(size_of_[1][kind_].predict(s_), std::max(usual, kLeast));
+  s_ = {error_[1],
+        spread / share_[2],
+        usual_[follows()][1],
+        before,
+        std::fabs(h_[kOwnHeights] - h_[kOwnHeights + 1]) / share_[2],
+        0};
+  const double usual = error_[1] > 0 ? error_[1] : usual_[follows()][1];
+  size_ = kept_within(size_of_[follows()][1][kind_].predict(s_), std::max(usual, kLeast));
   const double share = share_[2];
   expected_ = {ground_ + regressed_, size_ * share, error_[1] * share, spread, before * share};
 }
@@ -220,6 +283,8 @@ void PosePrediction::learn(int step, int32_t value) {
   gates_.empty() ? learn_far(step, value) : learn_near(step, value);
   if (step == 2) {
     known_[vertex_].known = true;
+    if (follows())
+      turn_->learn(there_, position(vertex_) - anchor_);
     last_ = vertex_;
     any_ = true;
   }
@@ -228,13 +293,13 @@ void PosePrediction::learn(int step, int32_t value) {
 void PosePrediction::learn_far(int step, int32_t value) {
   const size_t d = axis_[step];
   residual_[d] = value - base_[d];
-  far_usual_[kind_] += 0.1 * (std::fabs(residual_[d]) - far_usual_[kind_]);
+  far_usual_[follows()][kind_] += 0.1 * (std::fabs(residual_[d]) - far_usual_[follows()][kind_]);
   if (kind_ == kAlone)
     return;
   Known& known = known_[vertex_];
   known.error[0] += static_cast<float>(std::fabs(residual_[d]) / 3);
   if (step == 2)
-    known.error[1] = static_cast<float>(usual_[1]);
+    known.error[1] = static_cast<float>(usual_[follows()][1]);
 }
 
 void PosePrediction::learn_near(int step, int32_t value) {
@@ -246,15 +311,15 @@ void PosePrediction::learn_near(int step, int32_t value) {
   const int role = step == 2;
   if (role == 0) {
     residual_[d] = value - base_[d] - regressed_;
-    offset_[kind_].learn(z_, value - base_[d], noise);
+    offset_[follows()][kind_].learn(z_, value - base_[d], noise);
     known.error[0] += static_cast<float>(0.5 * magnitude);
   } else {
-    height_[kind_].learn(h_, value - ground_, noise);
+    height_[follows()][kind_].learn(h_, value - ground_, noise);
     known.error[1] = static_cast<float>(magnitude + kLeast);
   }
   known.offset[d] = static_cast<float>(value - base_[d]);
-  size_of_[role][kind_].learn(s_, magnitude, 0.1 + size_ * size_);
-  usual_[role] += 0.01 * (magnitude - usual_[role]);
+  size_of_[follows()][role][kind_].learn(s_, magnitude, 0.1 + size_ * size_);
+  usual_[follows()][role] += 0.01 * (magnitude - usual_[follows()][role]);
 }
 
 }  // namespace anicodec

@@ -8,6 +8,7 @@
 #include "format/memory.h"
 #include "format/recursive_least_squares.h"
 #include "sdk/base/vector3.h"
+#include "sdk/pose/pose_turn.h"
 #include "sdk/pose/surface_growth.h"
 
 #include <array>
@@ -22,7 +23,7 @@ namespace anicodec {
 ///
 /// IEEE binary64, round to nearest, every sum in the order written, nothing but + - * / and square
 /// root: a decoder repeats it exactly. Time per vertex is bounded whatever the triangles are, about
-/// 0.6 microseconds as a rule. Memory: 32 bytes per vertex.
+/// 0.6 microseconds as a rule. Memory: 28 bytes per vertex.
 class PosePrediction {
  public:
   /// How a vertex is surrounded: by nothing, by known vertices, by this many parallelograms of
@@ -34,10 +35,29 @@ class PosePrediction {
   /// The table must outlive it. O(vertices).
   explicit PosePrediction(const CornerTable& table);
 
+  /// Another pose begins: nothing is known of it. What was learnt of poses stays.
+  void restart();
+
   /// Turns to a vertex: each once. `positions`: vertices x 3, those of earlier ones are final.
   void begin(uint32_t v, const int32_t* positions);
 
+  /// The vertex is like another place, whose surroundings are known: predict from there, too.
+  ///   turn     of that place into this one; learns
+  ///   image    image(w): the vertex there that w is like, or UINT32_MAX
+  ///   places   positions of images, vertices x 3
+  /// Without an image of the vertex, or of any neighbour of it, nothing changes.
+  template <class Image>
+  void follow(PoseTurn& turn, const Image& image, const int32_t* places);
+
   Kind kind() const { return kind_; }
+
+  /// Whether there is another place to predict from.
+  bool follows() const { return turn_ != nullptr; }
+
+  bool is_known(uint32_t v) const { return known_[v].known; }
+
+  /// The vertex as that place has it. @pre follows()
+  const Vector3& likely() const { return likely_; }
 
   /// Axis of the coordinate that is coded as the step-th, 0..2.
   size_t axis(int step) const { return axis_[step]; }
@@ -65,7 +85,8 @@ class PosePrediction {
  private:
   static constexpr uint32_t kMostCorners = 32;  ///< of a vertex that are looked at
   static constexpr size_t kMostGates = 16;
-  static constexpr size_t kVectors = 7, kHeights = 3, kSizes = 5;
+  static constexpr size_t kVectors = 9, kHeights = 5, kSizes = 6;
+  static constexpr size_t kOwnVectors = 7, kOwnHeights = 3, kOwnSizes = 5;
 
   /// A list whose length is bounded.
   template <class T, size_t kMost>
@@ -101,7 +122,25 @@ class PosePrediction {
     bool known = false;
   };
 
-  Vector3 position(uint32_t v) const;
+  struct Gate {
+    uint32_t a, b, apex;
+  };
+
+  /// A frame of directions at an edge and the parallelogram over it.
+  struct Frame {
+    Vector3 normal, forward, base;
+    uint32_t gates = 0;
+
+    void add(const Vector3& a, const Vector3& b, const Vector3& apex);
+    /// Makes the directions perpendicular, of length one; false if there are none.
+    bool finish();
+  };
+
+  static Vector3 place(const int32_t* places, uint32_t v);
+
+  Vector3 position(uint32_t v) const { return place(positions_, v); }
+
+  void follow_frames(const Frame& here, const Frame& there, const Vector3& image);
   void note_neighbour(uint32_t w);
   void gather();
   void choose_axes(const Vector3& normal);
@@ -117,11 +156,13 @@ class PosePrediction {
   const int32_t* positions_ = nullptr;
   Vector<Known> known_;
 
-  Filter<kVectors> offset_[kKinds];
-  Filter<kHeights> height_[kKinds];
-  Filter<kSizes> size_of_[2][kKinds];
-  double usual_[2] = {100, 10};       ///< running means of the errors, tangential and normal
-  double far_usual_[2] = {1e4, 300};  ///< the same for kAlone and kBeside
+  // Of vertices that follow another place, and of the others.
+  Filter<kVectors> offset_[2][kKinds];
+  Filter<kHeights> height_[2][kKinds];
+  Filter<kSizes> size_of_[2][2][kKinds];
+  double usual_[2][2] = {{100, 10},
+                         {100, 10}};  ///< running means of the errors, tangential and normal
+  double far_usual_[2][2] = {{1e4, 300}, {100, 30}};  ///< the same for kAlone and kBeside
 
   // Of the vertex at hand.
   uint32_t vertex_ = 0, last_ = 0;
@@ -129,6 +170,9 @@ class PosePrediction {
   Kind kind_ = kAlone;
   List<uint32_t, size_t{2} * kMostCorners> neighbours_;
   List<Vector3, kMostGates> gates_;
+  List<Gate, kMostGates> gate_vertices_;
+  PoseTurn* turn_ = nullptr;
+  Vector3 there_, anchor_, likely_;  ///< the image from its neighbours; here: those, and the vertex
   Vector3 base_, normal_, mean_, drift_;
   std::array<Vector3, kVectors> vectors_{};
   size_t axis_[3] = {0, 1, 2};
@@ -146,6 +190,51 @@ class PosePrediction {
   double residual_[3] = {0, 0, 0};
   Expectation expected_;
 };
+
+template <class Image>
+void PosePrediction::follow(PoseTurn& turn, const Image& image, const int32_t* places) {
+  const uint32_t u = image(vertex_);
+  if (u == UINT32_MAX)
+    return;
+  // Neighbours on both sides; for the first vertex of a part, the one before it.
+  Vector3 here, there;
+  uint32_t count = 0;
+  const auto add = [&](uint32_t w) {
+    const uint32_t x = image(w);
+    if (x == UINT32_MAX)
+      return;
+    here += position(w);
+    there += place(places, x);
+    ++count;
+  };
+  for (const uint32_t w : neighbours_)
+    add(w);
+  if (kind_ == kAlone && any_)
+    add(last_);
+  if (count == 0)
+    return;
+  turn_ = &turn;
+  const double each = 1.0 / count;
+  anchor_ = each * here;
+  there_ = place(places, u) - each * there;
+  likely_ = anchor_ + turn.apply(there_);
+  if (gates_.empty()) {
+    base_ = likely_;
+    return;
+  }
+  Frame frame_here, frame_there;
+  for (const Gate& g : gate_vertices_) {
+    const uint32_t a = image(g.a), b = image(g.b), apex = image(g.apex);
+    if (a == UINT32_MAX || b == UINT32_MAX || apex == UINT32_MAX)
+      continue;
+    frame_here.add(position(g.a), position(g.b), position(g.apex));
+    frame_there.add(place(places, a), place(places, b), place(places, apex));
+  }
+  vectors_[kOwnVectors] = likely_ - base_;
+  vectors_[kOwnVectors + 1] = vectors_[kOwnVectors];
+  if (frame_here.finish() && frame_there.finish())
+    follow_frames(frame_here, frame_there, place(places, u));
+}
 
 }  // namespace anicodec
 

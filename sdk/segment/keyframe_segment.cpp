@@ -5,6 +5,7 @@
 #include "sdk/base/bounded_float.h"
 #include "sdk/mesh/draco_poses.h"
 #include "sdk/mesh/plain_coding.h"
+#include "sdk/pose/pose_coding.h"
 #include "sdk/segment/resident_writer.h"
 #include "sdk/segment/series_coding.h"
 
@@ -36,34 +37,54 @@ bool rigid_motion(const double q[4], const double t[3], Affine* map) {
   return true;
 }
 
-/// Key-frames as integers, coded vertices x 3 each, before the differences are undone.
-Status read_poses(const SegmentRecord& record, const SegmentContext& context,
-                  const KeyframeParameters& parameters, Vector<Vector<int32_t>>* poses) {
+/// What Draco coded: differences from parents, coded vertices x 3 each. Vertices that it does not hold
+/// are plain integers.
+Status read_draco_poses(const SegmentRecord& record, const SegmentContext& context,
+                        Vector<Vector<int32_t>>* poses) {
   const size_t n = context.topology->coded_vertices;
   const uint32_t k = context.sizes->components;
   const Limits::Segment& sizes = *context.sizes;
-  const bool draco = parameters.coder == CoderId::kDraco;
-  if (draco != (sizes.draco_bytes > 0) || sizes.draco_bytes > record.pose.size)
-    return Status::kSegment;
-  if (draco) {
-    const ByteView bytes{record.pose.data, sizes.draco_bytes};
-    if (Status s = decode_draco_poses(bytes, *context.topology, sizes.draco_points, k, poses);
-        s != Status::kOk)
-      return s;
-  }
-  // Plain are vertices that Draco does not hold.
-  const size_t held = draco ? context.topology->vertices_in_triangles : 0;
+  const ByteView bytes{record.pose.data, sizes.draco_bytes};
+  if (Status s = decode_draco_poses(bytes, *context.topology, sizes.draco_points, k, poses);
+      s != Status::kOk)
+    return s;
+  const size_t held = context.topology->vertices_in_triangles;
   const ByteView rest{record.pose.data + sizes.draco_bytes,
                       record.pose.size - sizes.draco_bytes};
   Vector<int32_t> plain;
   if (Status s = decode_plain_integers(rest, 3 * (n - held) * k, 3, &plain); s != Status::kOk)
     return s;
-  poses->resize(k);
-  for (size_t j = 0; j < k; ++j) {
-    (*poses)[j].resize(3 * held);
+  for (size_t j = 0; j < k; ++j)
     (*poses)[j].insert((*poses)[j].end(),
                        plain.begin() + static_cast<ptrdiff_t>(3 * (n - held) * j),
                        plain.begin() + static_cast<ptrdiff_t>(3 * (n - held) * (j + 1)));
+  return Status::kOk;
+}
+
+/// Key-frames as integers, coded vertices x 3 each.
+Status read_poses(const SegmentRecord& record, const SegmentContext& context,
+                  const KeyframeParameters& parameters, Vector<Vector<int32_t>>* poses) {
+  const Limits::Segment& sizes = *context.sizes;
+  const Vector<uint32_t>& parents = parameters.parents;
+  const bool draco = parameters.coder == CoderId::kDraco;
+  if (draco != (sizes.draco_bytes > 0) || sizes.draco_bytes > record.pose.size)
+    return Status::kSegment;
+  if (!draco) {
+    if (context.surface)
+      return decode_poses(record.pose, *context.surface, PoseCoding::kRounded, parents, poses);
+    return decode_poses(record.pose, PoseSurface(*context.topology), PoseCoding::kRounded, parents,
+                        poses);
+  }
+  if (Status s = read_draco_poses(record, context, poses); s != Status::kOk)
+    return s;
+  for (size_t j = 0; j < poses->size(); ++j) {
+    if (parents[j] == 0)
+      continue;
+    Vector<int32_t>& pose = (*poses)[j];
+    const Vector<int32_t>& parent = (*poses)[parents[j] - 1];
+    for (size_t i = 0; i < pose.size(); ++i)
+      pose[i] = static_cast<int32_t>(static_cast<uint32_t>(pose[i]) +
+                                     static_cast<uint32_t>(parent[i]));
   }
   return Status::kOk;
 }
@@ -210,12 +231,6 @@ Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& 
   if (Status s = read_poses(record, context, parameters, &poses); s != Status::kOk)
     return s;
   for (uint32_t j = 0; j < k; ++j) {
-    if (parameters.parents[j] != 0) {
-      const Vector<int32_t>& parent = poses[parameters.parents[j] - 1];
-      for (size_t i = 0; i < poses[j].size(); ++i)
-        poses[j][i] = static_cast<int32_t>(static_cast<uint32_t>(poses[j][i]) +
-                                           static_cast<uint32_t>(parent[i]));
-    }
     integers.add("key-frame", poses[j].data(), poses[j].size());
     if (!context.advance(poses[j].size()))
       return Status::kCancelled;

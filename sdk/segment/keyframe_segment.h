@@ -18,7 +18,7 @@ namespace anicodec {
 struct KeyframeParameters {
   bool sum_to_one = false;  ///< the weight of key-frame 0 is what the others leave of one
   bool rigid = false;       ///< there is a motion M_f
-  CoderId coder = CoderId::kPlain;
+  CoderId coder = CoderId::kNative;
   double origin[3] = {0, 0, 0};
   double step = 1;
   uint8_t weight_bits = 12;

@@ -14,13 +14,27 @@
 namespace anicodec {
 namespace {
 
-constexpr uint8_t kAffineFlag = 1;
+constexpr uint8_t kAffineFlag = 1, kRunStepsFlag = 2;
+constexpr uint8_t kMaxRunStep = 64;
+
+/// What the weight step of each frame is multiplied by.
+Vector<double> step_factors(const LinearParameters& parameters, const Vector<uint32_t>& runs) {
+  Vector<double> factors;
+  for (size_t r = 0; r < runs.size(); ++r)
+    factors.insert(factors.end(), runs[r],
+                   parameters.run_steps.empty()
+                       ? 1.0
+                       : LinearParameters::sigma_value(parameters.run_steps[r]));
+  return factors;
+}
 
 /// Time weights: those of the affine base become maps of the pose, the others stay integers.
-Status read_weights(ByteView bytes, const LinearParameters& parameters, const PoseGrid& pose,
-                    DecodedIntegers* integers, Segment* out, Vector<int32_t>* weights) {
+Status read_weights(ByteView bytes, const Vector<uint32_t>& runs,
+                    const LinearParameters& parameters, const Vector<double>& factors,
+                    const PoseGrid& pose, DecodedIntegers* integers, Segment* out,
+                    Vector<int32_t>* weights) {
   BinaryDecoder decoder(bytes.data, bytes.size);
-  TimeWeightModel model(out->frames);
+  TimeWeightModel model(runs);
   size_t frames = out->frames;
   AffineFunctions functions;
   double unit = parameters.weight_step / (1 << kWeightFractionBits);
@@ -38,7 +52,7 @@ Status read_weights(ByteView bytes, const LinearParameters& parameters, const Po
       double w[3][kAffineFunctions], map[12];
       for (size_t axis = 0; axis < 3; ++axis) {
         for (size_t b = 0; b < kAffineFunctions; ++b)
-          w[axis][b] = unit * values[b][axis * frames + f];
+          w[axis][b] = unit * factors[f] * values[b][axis * frames + f];
       }
       functions.map(w, map);
       for (size_t i = 0; i < 12; ++i) {
@@ -145,7 +159,8 @@ Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ra
 /// fit, and scales its weights accordingly. `largest`: magnitudes by sample.
 Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t stride,
                      const Vector<float>& largest, const LinearParameters& parameters,
-                     const Vector<int32_t>& weights, ResidentWriter& writer, Segment* out) {
+                     const Vector<int32_t>& weights, const Vector<double>& factors,
+                     ResidentWriter& writer, Segment* out) {
   uint32_t channels = out->channels(), weight_channels = out->weight_channels();
   Vector<float> scale(size_t{out->components} * channels);
   out->weights.resize(size_t{out->frames} * out->components * weight_channels);
@@ -167,7 +182,7 @@ Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t st
     const int32_t* w = weights.data() + size_t{j} * weight_channels * out->frames;
     for (size_t f = 0; f < out->frames; ++f) {
       for (size_t c = 0; c < weight_channels; ++c) {
-        if (!to_float(unit * w[c * out->frames + f],
+        if (!to_float(unit * factors[f] * w[c * out->frames + f],
                       &out->weights[(f * out->components + j) * weight_channels + c]))
           return Status::kNonFinite;
       }
@@ -200,11 +215,13 @@ int32_t LinearParameters::sigma_eighths(double sigma) {
 
 Bytes LinearParameters::write() const {
   ByteWriter w;
-  w.u8(affine ? kAffineFlag : 0);
+  w.u8(static_cast<uint8_t>((affine ? kAffineFlag : 0) | (run_steps.empty() ? 0 : kRunStepsFlag)));
   w.f64(basis_step);
   w.f64(weight_step);
   for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule)})
     w.u8(x);
+  for (uint8_t step : run_steps)
+    w.u8(step);
   // The components' table: what changes little from one to the next.
   BinaryEncoder encoder;
   SymbolModel<> omega_model, sigma_model;
@@ -219,7 +236,7 @@ Bytes LinearParameters::write() const {
   return std::move(w.bytes());
 }
 
-Status LinearParameters::read(ByteView bytes, uint32_t components) {
+Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs) {
   ByteReader r(bytes);
   uint8_t flags = r.u8();
   affine = flags & kAffineFlag;
@@ -230,13 +247,24 @@ Status LinearParameters::read(ByteView bytes, uint32_t components) {
   radius = r.u8();
   uint8_t id = r.u8();
   schedule = static_cast<RefitSchedule>(id);
-  if (!r.ok() || (flags & ~kAffineFlag))
+  if (!r.ok() || (flags & ~(kAffineFlag | kRunStepsFlag)))
     return Status::kRecord;
   if (!(std::isfinite(basis_step) && basis_step > 0) ||
       !(std::isfinite(weight_step) && weight_step > 0) || neighbours < 8 ||
       neighbours > kMaxNeighbours || neighbours % 4 != 0 || colours == 0 || colours > kMaxColours ||
       radius == 0 || id >= kRefitScheduleCount)
     return Status::kQuantizer;
+  run_steps.clear();
+  if (flags & kRunStepsFlag) {
+    if (r.remaining() < runs)
+      return Status::kRecord;
+    run_steps.resize(runs);
+    for (uint8_t& step : run_steps) {
+      step = r.u8();
+      if (step > kMaxRunStep)
+        return Status::kQuantizer;
+    }
+  }
   ByteView stream = r.raw(r.remaining());
   BinaryDecoder decoder(stream.data, stream.size);
   SymbolModel<> omega_model, sigma_model;
@@ -260,7 +288,9 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
                            DecodedIntegers& integers, Segment* out) {
   LinearParameters parameters;
   uint32_t components = context.sizes->components;
-  if (Status s = parameters.read(record.parameters, components); s != Status::kOk)
+  const Vector<uint32_t> runs =
+      context.runs.empty() ? Vector<uint32_t>(1, out->frames) : context.runs;
+  if (Status s = parameters.read(record.parameters, components, runs.size()); s != Status::kOk)
     return s;
   if (record.motion.size != 0 || record.pose.size != 0)
     return Status::kRecord;
@@ -272,7 +302,9 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   integers.add("pose", pose.points.data(), pose.points.size());
 
   Vector<int32_t> weights;
-  if (Status s = read_weights(record.weights, parameters, pose, &integers, out, &weights);
+  const Vector<double> factors = step_factors(parameters, runs);
+  if (Status s = read_weights(record.weights, runs, parameters, factors, pose, &integers, out,
+                              &weights);
       s != Status::kOk)
     return s;
   uint32_t wanted = wanted_components(context.quality, components);
@@ -321,7 +353,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
 
   size_t stride = coefficient_stride(samples);
   const Vector<float> largest = hash_coefficients(y, stride, n, samples, integers);
-  return make_resident(order, y, stride, largest, parameters, weights, writer, out);
+  return make_resident(order, y, stride, largest, parameters, weights, factors, writer, out);
 }
 
 }  // namespace anicodec

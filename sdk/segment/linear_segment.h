@@ -26,13 +26,16 @@ struct LinearParameters {
   uint8_t colours = 1;
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
+  /// Of each run of frames that a clip has: its weights have weight_step * 2^(run_steps / 8). Empty:
+  /// all have weight_step.
+  Vector<uint8_t> run_steps;
 
   /// Per component, in the order of the file.
   Vector<uint8_t> omega;  ///< see omega_value()
   Vector<int32_t> sigma;  ///< in eighths of an octave: sigma(j) = 2^(sigma / 8)
 
   Bytes write() const;
-  Status read(ByteView bytes, uint32_t components);
+  Status read(ByteView bytes, uint32_t components, size_t runs);
 
   /// 2^(eighths / 8).
   static double sigma_value(int32_t eighths);

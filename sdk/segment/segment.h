@@ -9,6 +9,7 @@
 #include "sdk/base/host_progress.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/msgi/msgi.h"
+#include "sdk/pose/pose_coding.h"
 #include "sdk/pose/reference_pose.h"
 #include "sdk/prediction/vertex_order.h"
 #include "sdk/segment/decoded_integers.h"
@@ -97,8 +98,11 @@ struct SegmentContext {
   const Vector<uint32_t>* vertex_coded = nullptr;
   const PoseGrid* pose = nullptr;  ///< null when the file has none for the segment
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
+  const PoseSurface* surface = nullptr;  ///< of the topology; null: made when needed
   Vector<ByteView> layers;           ///< chunks BASI in file order
   ByteView corrections;              ///< chunk CORR, empty when there is none
+  /// The segment's frames cut where a clip ends (Limits::runs()); empty: they are one run.
+  Vector<uint32_t> runs;
   double quality = 1;                ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;

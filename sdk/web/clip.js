@@ -360,7 +360,7 @@ export class ClipMesh {
     return { offsets: decoder.view(Uint32Array, offsets, count + 1).slice(), corners: decoder.view(Uint32Array, corners, this.cornerCount).slice() };
   }
 
-  /** What a shader needs at a time, beside basis(): see anic_part of anicodec.h. Arrays are good until the next call. */
+  /** Data that a shader needs at a time, beside basis(): see anic_part of anicodec.h. Arrays are good until the next call. */
   parts(time, options) {
     const context = this.#clip.seek(time, options), decoder = this.#clip.decoder;
     decoder.call('parts', context, this.#index);

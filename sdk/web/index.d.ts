@@ -99,7 +99,7 @@ export interface Group {
   material: string | undefined;
 }
 
-/** What a shader needs at a time, beside a Basis: anic_part of anicodec.h. Addresses are in the decoder's memory. */
+/** Data that a shader needs at a time, beside a Basis: anic_part of anicodec.h. Addresses are in the decoder's memory. */
 export interface Part {
   segment: number;
   share: number;

@@ -34,7 +34,7 @@ inline Bytes two_segments(const MeshSequence& clip) {
     part->encoded.sizes.first_frame = first;
     parts.push_back(std::move(*part));
   }
-  return clip_file(ClipRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
+  return clip_file(ClipsRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
 }
 
 inline const Bytes& cut_clip() {

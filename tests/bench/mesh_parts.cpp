@@ -5,6 +5,7 @@
 #include "codec/surface/closest_point.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
+#include "tests/bench/joined_quads.h"
 #include "tests/bench/stopwatch.h"
 #include "tools/peers/draco_frames.h"
 
@@ -20,6 +21,8 @@ Table run_mesh(const BenchOptions& options, int runs) {
                {"faces_us", "faces us", "{:.2f}"},
                {"order_bytes", "order bytes", ""},
                {"order_us", "order us", "{:.2f}"},
+               {"quads", "joined quads", ""},
+               {"quad_bytes", "quads' faces bytes", ""},
                {"draco_bytes", "Draco mesh bytes", ""},
                {"draco_us", "Draco mesh us", "{:.2f}"}});
   for (const std::string& word : options.clips) {
@@ -37,6 +40,9 @@ Table run_mesh(const BenchOptions& options, int runs) {
       Vector<uint32_t> map;
       require(decode_vertex_map(layout.vertex_map, layout.topology, &map));
     });
+    MeshSequence quads = sequence;
+    quads.polygons = join_triangles(sequence);
+    const MeshLayout quad_layout = lay_out_mesh(quads);
     const std::vector<char> draco =
         draco_frame(sequence, fan_triangles(sequence.polygons), 0, kBits);
     const double mesh = median_thread_seconds(runs, [&] { decode_draco(draco); });
@@ -49,6 +55,8 @@ Table run_mesh(const BenchOptions& options, int runs) {
                {"faces_us", us * faces},
                {"order_bytes", layout.vertex_map.size()},
                {"order_us", us * order},
+               {"quads", sequence.polygons.size() - quads.polygons.size()},
+               {"quad_bytes", quad_layout.faces.size()},
                {"draco_bits", kBits},
                {"draco_bytes", draco.size()},
                {"draco_us", us * mesh}});

@@ -2,16 +2,22 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/connectivity/draco_encode.h"
 #include "codec/search/encoder_input.h"
+#include "codec/segment/pose_partners.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
+#include "codec/surface/closest_point.h"
 #include "sdk/mesh/draco_poses.h"
 #include "sdk/pose/pose_coding.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/stopwatch.h"
+#include "tools/peers/draco_frames.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace anicodec::bench {
 
@@ -21,12 +27,21 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
                {"rounded", "rounded", ""},
                {"exact", "exact", ""},
                {"dependent", "dependent steps", ""},
+               {"partners", "vertices with partners", ""},
+               {"exact_partners", "exact by partners", ""},
+               {"dependent_partners", "dependent by partners", ""},
+               {"search_us", "search us", "{:.2f}"},
+               {"partners_us", "by partners us", "{:.2f}"},
                {"draco", "Draco pose", ""},
                {"surface_us", "surface us", "{:.2f}"},
                {"pose_us", "pose us", "{:.2f}"},
-               {"draco_us", "Draco pose us", "{:.2f}"}});
+               {"draco_us", "Draco pose us", "{:.2f}"},
+               {"static_us", "faces and pose us", "{:.2f}"},
+               {"draco_mesh_us", "Draco mesh us", "{:.2f}"},
+               {"ratio", "ours : Draco", "{:.2f}"}});
   for (const std::string& name : options.clips) {
-    const EncoderInput input(load_clip(name));
+    const MeshSequence sequence = load_clip(name);
+    const EncoderInput input(sequence);
     const MeshLayout& layout = input.layout;
     Eigen::Vector3d origin;
     const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
@@ -57,8 +72,41 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
             (void)decode_draco_poses(draco.bytes, layout.topology, draco.points, 1, &poses);
           });
     }
+    PosePartners partners;
+    row["search_us"] =
+        1e6 / n * median_thread_seconds(runs, [&] { partners = find_partners(pose, surface); });
+    row["partners"] = partners.partner.size() - static_cast<size_t>(std::ranges::count(
+                                                    partners.partner, PosePartners::kNone));
+    if (!partners.partner.empty()) {
+      for (const auto& [key, coding] : codings) {
+        const auto encoded = encode_pose_as(coding, pose, origin, step, surface, &partners);
+        row[std::string(key) + "_partners"] = encoded->stream.size();
+        Vector<int32_t> decoded;
+        row["partners_us"] = 1e6 / n * median_thread_seconds(runs, [&] {
+                               (void)decode_pose(encoded->stream, surface, coding, &decoded);
+                             });
+        if (decoded != encoded->grid.points)
+          throw Error(ErrorKind::kInternal, "the pose does not come back");
+      }
+    }
     row["surface_us"] =
         1e6 / n * median_thread_seconds(runs, [&] { PoseSurface{layout.topology}; });
+    // All that a file of free order opens before its motion, as the encoder makes it.
+    const auto best = encode_reference_pose(pose, origin, step, layout);
+    const double opening = median_thread_seconds(runs, [&] {
+      Topology topology;
+      Vector<int32_t> decoded;
+      if (decode_faces(layout.faces, layout.sizes, &topology) != Status::kOk ||
+          decode_pose(best->stream, PoseSurface(topology), best->coding, &decoded) != Status::kOk)
+        throw Error(ErrorKind::kInternal, "the mesh cannot be decoded");
+    });
+    const double extent = (pose.colwise().maxCoeff() - pose.colwise().minCoeff()).maxCoeff();
+    const int bits = std::clamp(static_cast<int>(std::ceil(std::log2(extent / step))), 1, 30);
+    const std::vector<char> mesh = draco_frame(sequence, fan_triangles(sequence.polygons), 0, bits);
+    const double draco_opening = median_thread_seconds(runs, [&] { decode_draco(mesh); });
+    row["static_us"] = 1e6 / n * opening;
+    row["draco_mesh_us"] = 1e6 / n * draco_opening;
+    row["ratio"] = opening / draco_opening;
     table.add(row);
   }
   return table;

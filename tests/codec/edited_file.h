@@ -52,8 +52,8 @@ struct EditedFile {
   void change_clip(Change change) {
     Limits limits;
     Limits::read(part("LIMI").payload, &limits);
-    ClipRecord record;
-    ClipRecord::read(part("CLIP").payload, limits.frames, &record);
+    ClipsRecord record;
+    ClipsRecord::read(part("CLIP").payload, limits, &record);
     change(record);
     part("CLIP").payload = record.write();
   }

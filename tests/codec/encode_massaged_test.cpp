@@ -21,7 +21,7 @@ EncodeOptions at_kg(double kg) {
 ClipRecord record_of(const EncodeResult& result) {
   Clip clip;
   EXPECT_TRUE(clip.open(result.file).ok());
-  return clip.record();
+  return clip.clips()[0];
 }
 
 TEST(EncodeMassaged, RecordsThatAndHowFarTheSurfaceMoved) {

@@ -124,7 +124,7 @@ TEST(Encode, FreeOrderLeavesOutTheVertexMapAndNothingElse) {
     EditedFile free(encode(corpus::make_clip(clip), options).file);
     ASSERT_EQ(ordered.part("VMAP").chunk.type, chunk_type("VMAP"));
     std::erase_if(ordered.parts, [](const auto& p) { return p.chunk.type == chunk_type("VMAP"); });
-    ordered.change_clip([](ClipRecord& r) { r.order = OrderMode::kFree; });
+    ordered.change_clip([](ClipsRecord& r) { r.order = OrderMode::kFree; });
     EXPECT_EQ(ordered.bytes(), free.bytes()) << clip;
   }
 }

@@ -5,12 +5,15 @@
 #ifndef ANICODEC_TESTS_CODEC_MASSAGE_MESHES_H_
 #define ANICODEC_TESTS_CODEC_MASSAGE_MESHES_H_
 
+#include "codec/sequence/mesh_sequence.h"
 #include "codec/surface/surface.h"
 
 #include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 namespace anicodec {
 
@@ -77,6 +80,38 @@ inline TestMesh sphere(uint32_t n) {
   for (uint32_t i = 0; i < points.size(); ++i)
     positions.row(i) = points[i].transpose();
   return {SurfaceTopology(corners, static_cast<uint32_t>(points.size())), std::move(positions)};
+}
+
+/// Moves inner vertices of a flat sheet in its plane.
+inline void shake(TestMesh* mesh, double by) {
+  for (uint32_t i = 0; i < mesh->topology.vertex_count; ++i) {
+    if (mesh->topology.kind[i] == VertexKind::kInner)
+      mesh->positions.row(i) +=
+          by * Eigen::RowVector3d(std::sin(7.0 * i), std::cos(5.0 * i + 1), 0);
+  }
+}
+
+/// A sheet that turns and bends, with other noise in each frame.
+inline MeshSequence bending_sheet(const TestMesh& sheet, uint32_t frames, double noise) {
+  MeshSequence clip;
+  clip.vertex_count = sheet.topology.vertex_count;
+  clip.frame_count = frames;
+  for (const SurfaceTopology::Triangle& t : sheet.topology.triangles)
+    clip.polygons.add(t);
+  for (uint32_t f = 0; f < frames; ++f) {
+    const Eigen::AngleAxisd turn(0.3 * f, Eigen::Vector3d(1, 2, 3).normalized());
+    for (uint32_t i = 0; i < clip.vertex_count; ++i) {
+      Eigen::Vector3d p = row(sheet.positions, i);
+      p[2] = std::sin(0.4 * f) * std::cos(0.3 * p[0]);
+      p = turn * p;
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t c = 3 * i + k;
+        clip.positions.push_back(
+            static_cast<float>(p[k] + noise * std::sin(12.9898 * c + 78.233 * f + 0.37 * c * f)));
+      }
+    }
+  }
+  return clip;
 }
 
 }  // namespace anicodec

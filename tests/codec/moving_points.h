@@ -96,6 +96,46 @@ inline double squared_distance(const float* a, const float* b, size_t vertices) 
   return sum;
 }
 
+/// Numbers in -1..1.
+inline std::vector<float> noise_values(size_t count, uint32_t seed) {
+  std::vector<float> out(count);
+  SmallRandom random(seed);
+  for (float& x : out)
+    x = static_cast<float>(random.symmetric());
+  return out;
+}
+
+/// Frames x vertices x 3 numbers of a cloud that an affine map and a few other functions of time
+/// move.
+inline std::vector<float> affine_points(size_t frames, size_t vertices) {
+  const std::vector<float> shape = noise_values(9 * vertices, 3);
+  std::vector<float> out;
+  for (size_t f = 0; f < frames; ++f) {
+    const float t = static_cast<float>(f);
+    for (size_t v = 0; v < vertices; ++v) {
+      const float* p = shape.data() + 9 * v;
+      for (size_t c = 0; c < 3; ++c)
+        out.push_back(100 + 10 * p[c] + 0.3f * t * p[(c + 1) % 3] + 0.1f * p[3 + c] * std::sin(t) +
+                      0.05f * p[6 + c] * std::cos(0.3f * t));
+    }
+  }
+  return out;
+}
+
+/// 3 frames x vertices, about an origin.
+inline Eigen::MatrixXd trajectories(const std::vector<float>& x, size_t frames,
+                                    const Eigen::Vector3d& origin) {
+  const size_t n = x.size() / 3 / frames;
+  using Eigen::Index;
+  Eigen::MatrixXd out(static_cast<Index>(3 * frames), static_cast<Index>(n));
+  for (size_t f = 0; f < frames; ++f)
+    for (size_t v = 0; v < n; ++v)
+      for (size_t c = 0; c < 3; ++c)
+        out(static_cast<Index>(3 * f + c), static_cast<Index>(v)) =
+            static_cast<double>(x[(f * n + v) * 3 + c]) - origin[static_cast<Index>(c)];
+  return out;
+}
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_TESTS_CODEC_MOVING_POINTS_H_

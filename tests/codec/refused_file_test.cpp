@@ -179,14 +179,44 @@ TEST_F(RefusedFile, DracoBitstreamThatAnnouncesTooMuch) {
 }
 
 TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
-  EditedFile file(encoded("one_triangle", BasisChoice::kKeyframes));
+  EditedFile file(encoded("leftovers", BasisChoice::kKeyframes));
+  Limits limits;
+  ASSERT_EQ(Limits::read(file.part("LIMI").payload, &limits), Status::kOk);
+  const uint32_t draco = limits.segments[0].draco_bytes;
+  ASSERT_GT(draco, 0U);
   for (const Bytes& frame : {Bytes{0x50, 0x2A, 0x4D, 0x18, 0, 0, 0, 0},  // skippable, empty
                              Bytes{0x28, 0xB5, 0x2F, 0xFD, 0x00, 0x58, 1, 0, 0},  // states no size
                              Bytes{}}) {
-    file.change_record<SegmentRecord>("SEGM",
-                                      [&](SegmentRecord& record) { record.pose = frame; });
+    file.change_record<SegmentRecord>("SEGM", [&](SegmentRecord& record) {
+      changed_.assign(record.pose.data, record.pose.data + draco);
+      changed_.insert(changed_.end(), frame.begin(), frame.end());
+      record.pose = changed_;
+    });
     EXPECT_EQ(status_of(file), Status::kZstd);
   }
+}
+
+TEST_F(RefusedFile, NativeKeyframesThatRunOut) {
+  EncodeOptions options;
+  options.keyframes = 3;
+  options.keyframe_poses = KeyframePoses::kNative;
+  const Bytes bytes = encode(corpus::make_clip("limb"), options).file;
+  EditedFile whole(bytes);
+  ASSERT_EQ(status_of(whole), Status::kOk);
+  for (const size_t kept : {size_t{0}, size_t{1}, size_t{100}}) {
+    EditedFile file(bytes);
+    file.change_record<SegmentRecord>("SEGM", [&](SegmentRecord& record) {
+      record.pose.size = std::min(record.pose.size, kept);
+    });
+    EXPECT_EQ(status_of(file), Status::kEntropy) << kept;
+  }
+  EditedFile longer(bytes);
+  longer.change_record<SegmentRecord>("SEGM", [&](SegmentRecord& record) {
+    changed_.assign(record.pose.data, record.pose.data + record.pose.size);
+    changed_.push_back(1);
+    record.pose = changed_;
+  });
+  EXPECT_EQ(status_of(longer), Status::kEntropy);
 }
 
 TEST_F(RefusedFile, NumbersTooLargeToPlay) {

@@ -151,18 +151,15 @@ std::string mesh_facts(const Clip& clip, uint32_t mesh, const Positions& frames)
       .str();
 }
 
-std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
-  const ClipRecord& r = clip.record();
+std::string clip_facts(const ClipRecord& r) {
   Object out;
-  out.add("name", quoted(r.name)).add("encoder", quoted(r.encoder));
+  out.add("name", quoted(r.name)).add("frames", integer(r.frames));
   out.add("rate", list(std::vector<uint64_t>{r.rate_numerator, r.rate_denominator}, integer));
   out.add("rate_assumed", r.rate_assumed).add("loop", r.loop).add("closed", r.closed);
-  out.add("massaged", r.massaged).add("up", integer(r.up));
-  out.add("order", integer(static_cast<uint64_t>(r.order)));
-  out.add("metres_per_unit", number(r.metres_per_unit));
+  out.add("massaged", r.massaged);
   out.add("start_time", number(r.start_time));
   std::vector<double> times(r.times.begin(), r.times.end());
-  for (uint32_t f = 0; r.times.empty() && f < clip.frame_count(); ++f)
+  for (uint32_t f = 0; r.times.empty() && f < r.frames; ++f)
     times.push_back(1.0 * f * r.rate_denominator / r.rate_numerator);
   out.add("times", list(times, number));
   out.add("asked", integer(static_cast<uint64_t>(r.asked)));
@@ -178,13 +175,25 @@ std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
             return "[" + integer(e.mesh) + "," + integer(e.attribute) + "," + number(e.max_error) +
                    "," + number(e.rmse) + "]";
           }));
+  return out.str();
+}
+
+std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
+  Object out;
+  out.add("encoder", quoted(clip.record().encoder));
+  out.add("up", integer(clip.record().up));
+  out.add("order", integer(static_cast<uint64_t>(clip.record().order)));
+  out.add("metres_per_unit", number(clip.record().metres_per_unit));
+  std::vector<std::string> clips;
+  for (const ClipRecord& record : clip.clips())
+    clips.push_back(clip_facts(record));
+  out.add("clips", list(clips, [](const std::string& c) { return c; }));
   std::vector<std::string> meshes;
   for (uint32_t m = 0; m < clip.meshes().size(); ++m)
     meshes.push_back(mesh_facts(clip, m, positions[m]));
   out.add("meshes", list(meshes, [](const std::string& m) { return m; }));
   return out.str();
 }
-
 int refused(const Failure& failure) {
   std::fprintf(stderr, "%d %s: %s\n", static_cast<int>(failure.status),
                status_string(failure.status), failure.detail);

@@ -4,7 +4,7 @@
 """Runs a decoder on the conformance files.
 
 usage: run.py [--memory BYTES] [--folder FOLDER] [--stop] COMMAND...
-       as: run.py anicodec decode -q -f {file} -o {out}.pc2
+       as: run.py anicodec decode -q -f --clip all {file} -o {out}.pc2
 
 COMMAND decodes {file}, or refuses it by an exit status other than 0, without a signal. Of a file that it decodes it writes
   {out}.pc2, {out}.obj      positions and faces of the first mesh

@@ -29,6 +29,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -65,10 +66,11 @@ struct Recipe {
 /// A file of one mesh, one segment after the other, each over a reference pose that is in the file
 /// for it alone. Its errors are measured.
 Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
-              const std::function<void(ClipRecord&)>& describe = {}) {
+              const std::function<void(ClipsRecord&)>& describe = {}) {
   const double clip_diagonal = diagonal(clip);
   const MeshSequence source = clip;
-  ClipRecord record = clip_record(clip, {}, {}, clip_diagonal);
+  ClipsRecord record =
+      clips_record(clip, {}, {}, std::vector<double>(clips_of(clip).size(), clip_diagonal));
   const EncoderInput input(std::move(clip));
   std::vector<EncodedSegment> segments;
   uint32_t first = 0;
@@ -80,7 +82,8 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
         analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
                        shapes ? Base::kPose : Base::kAffine, 1000, 0);
     std::optional<EncodedSegment> coded =
-        encode_linear(frames, basis, recipe.settings, input.layout);
+        encode_linear(frames, basis, recipe.settings, input.layout, nullptr,
+                      input.runs(first, recipe.frames));
     if (!coded)
       throw Error(ErrorKind::kInternal, "the step is too fine");
     EncodedSegment& segment = segments.emplace_back(std::move(*coded));
@@ -104,9 +107,11 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
   CompareOptions options;
   options.sted = false;
   const Comparison measured = compare(source, shown, options);
-  record.max_error = measured.max_error;
-  record.rmse = measured.rmse;
-  record.kg = measured.kg;
+  for (ClipRecord& of_clip : record.clips) {  // of the whole, which every clip then keeps
+    of_clip.max_error = measured.max_error;
+    of_clip.rmse = measured.rmse;
+    of_clip.kg = measured.kg;
+  }
   return clip_file(record, input.layout, list);
 }
 
@@ -183,18 +188,56 @@ Bytes vertex_order() {
   Recipe r = recipe(9, BasisKind::kEigentrajectories, 0.004, 16, 3, 12, RefitSchedule::kDense);
   r.settings.pose_factor = 0.02;  // the grid of the order shifts it
   r.change = round_pose;
-  return file_of(hub(), {r}, [](ClipRecord& record) {
+  return file_of(hub(), {r}, [](ClipsRecord& file) {
+    ClipRecord& record = file.clips[0];
     record.name = String("tab\there \"quoted\" \xff");
     record.rate_numerator = 30000;
     record.rate_denominator = 1001;
     record.rate_assumed = false;
     record.loop = record.massaged = true;
-    record.up = 2;
+    file.up = 2;
     record.start_time = -1.5;
-    record.metres_per_unit = 0.01;
+    file.metres_per_unit = 0.01;
     record.surface_error = 0.25;
     record.surface_error_mean = 0.125;
   });
+}
+
+/// The reference pose by partners without reason in runs along the vertices: more strands than are
+/// told apart, vertices that are like themselves.
+std::function<void(EncodedSegment&, const EncoderInput&)> with_partners(
+    std::optional<PoseCoding> coding) {
+  return [coding](EncodedSegment& segment, const EncoderInput& input) {
+    auto pose = std::make_shared<EncodedPose>(*segment.reference);
+    pose->coding = coding.value_or(pose->coding);
+    const uint32_t n = input.layout.topology.coded_vertices;
+    Numbers numbers;
+    PosePartners partners;
+    uint32_t ahead = 1;
+    for (uint32_t v = 0; v < n; ++v) {
+      if (numbers.below(3) == 0)
+        ahead = 1 + numbers.below(n);
+      const uint32_t kind = numbers.below(8);
+      partners.partner.push_back(kind == 0 ? PosePartners::kNone : kind == 1 ? v : (v + ahead) % n);
+      partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
+    }
+    pose->stream =
+        encode_pose(PoseSurface(input.layout.topology), pose->coding, pose->grid.points, &partners);
+    segment.reference = std::move(pose);
+  };
+}
+
+Bytes partners() {
+  const MeshSequence clip = corpus::make_scaled("limb", 700, 9);
+  const double step = 0.004 * diagonal(clip);
+  std::vector<Recipe> recipes;
+  for (const auto& coding : {std::optional<PoseCoding>(), std::optional(PoseCoding::kExact),
+                             std::optional(PoseCoding::kRounded)}) {
+    recipes.push_back(
+        recipe(3, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse));
+    recipes.back().change = with_partners(coding);
+  }
+  return file_of(clip, recipes);
 }
 
 /// Weights in time by each predictor, of numbers that suit none.
@@ -203,7 +246,8 @@ void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
   const uint32_t rows = segment.sizes.kind == BasisKind::kEigentrajectories ? 3 : 1;
   Numbers numbers;
   BinaryEncoder encoder;
-  TimeWeightModel model(frames);
+  TimeWeightModel model(segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames)
+                                             : segment.runs);
   std::vector<int32_t> decoded(size_t{3} * frames);
   for (uint32_t j = 0; j < 4 + segment.sizes.components; ++j) {
     const uint32_t channels = j < 4 ? 3 : rows;
@@ -230,10 +274,36 @@ Bytes weights_in_time() {
   return file_of(clip, {shapes, short_one});
 }
 
+/// Clips whose borders lie within a segment, with weight steps of their own, and between segments;
+/// every predictor over runs of many lengths.
+Bytes clips() {
+  MeshSequence library = corpus::make_scaled("waves", 100, 300);
+  const double step = 0.01 * diagonal(library);
+  for (uint32_t frames : {1U, 70U, 29U, 2U, 68U, 130U}) {
+    ClipTiming& clip = library.clips.emplace_back();
+    clip.name = "clip of " + std::to_string(frames);
+    clip.frame_count = frames;
+    clip.rate = {frames, 3, false};
+    clip.loop = frames == 70;
+    clip.start_time = frames;
+  }
+  for (uint32_t f = 0; f < 29; ++f)
+    library.clips[2].times.push_back(0.01 * f * f);
+  Recipe shared =
+      recipe(150, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kSparse);
+  Recipe next = recipe(150, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kNone);
+  shared.settings.run_steps = {0, 7, 64, 16, 3};  // the last of these clips goes on in the next
+  for (Recipe* r : {&shared, &next}) {
+    r->settings.components = 9;
+    r->change = scramble_weights;
+  }
+  return file_of(library, {shared, next});
+}
+
 /// Residuals at their limits: predictions saturate, refits see numbers that are not finite.
 void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
   LinearParameters parameters;
-  if (parameters.read(segment.parameters, segment.sizes.components) != Status::kOk)
+  if (parameters.read(segment.parameters, segment.sizes.components, 1) != Status::kOk)
     throw Error(ErrorKind::kInternal, "the parameters cannot be read");
   Numbers numbers;
   for (uint8_t& omega : parameters.omega)
@@ -311,7 +381,199 @@ Bytes other_parents() {
   EncodeOptions options;
   options.basis = BasisChoice::kKeyframes;
   options.keyframes = 6;
+  options.keyframe_poses = KeyframePoses::kNative;
   return encode(clip, options).file;
+}
+
+/// Faces, copies and an order of vertices for which every rule of spec/07 has to act.
+class Tangle {
+ public:
+  MeshSequence make() {
+    sheet();
+    fan();
+    book();
+    crossings();
+    crowd();
+    leftovers();
+    scramble();
+    return std::move(clip_);
+  }
+
+ private:
+  using Polygon = std::vector<uint32_t>;
+
+  /// A vertex at a place; vertices of one place and kind are copies of one another.
+  uint32_t vertex(uint32_t place) {
+    places_.push_back(place);
+    return static_cast<uint32_t>(places_.size() - 1);
+  }
+
+  uint32_t new_place() { return place_count_++; }
+
+  /// Adds a polygon, now and then several times.
+  void add(Polygon polygon, uint32_t one_in = 9) {
+    const uint32_t times = numbers_.below(one_in) == 0 ? 2 + numbers_.below(4) : 1;
+    polygons_.insert(polygons_.end(), times, polygon);
+  }
+
+  /// Triangles to nonagons with holes, turned here and there; seams of copies run through it.
+  void sheet() {
+    constexpr uint32_t kSide = 14;
+    uint32_t place[kSide][kSide];
+    std::vector<uint32_t> copies[kSide][kSide];
+    for (auto& row : place)
+      for (uint32_t& p : row)
+        p = new_place();
+    const auto corner = [&](uint32_t x, uint32_t y) {
+      std::vector<uint32_t>& here = copies[y][x];
+      if (here.empty() || numbers_.below(7) == 0)
+        here.push_back(vertex(place[y][x]));
+      return here[numbers_.below(3) == 0 ? numbers_.below(static_cast<uint32_t>(here.size()))
+                                         : here.size() - 1];
+    };
+    for (uint32_t y = 0; y + 1 < kSide; ++y) {
+      for (uint32_t x = 0; x + 1 < kSide; ++x) {
+        if (numbers_.below(8) == 0)
+          continue;
+        Polygon quad{corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)};
+        if (x + 4 < kSide && numbers_.below(5) == 0) {  // a long one over several columns
+          const uint32_t columns = 2 + numbers_.below(3);
+          quad.clear();
+          for (uint32_t i = 0; i <= columns; ++i)
+            quad.push_back(corner(x + i, y));
+          for (uint32_t i = columns + 1; i-- > 0;)
+            quad.push_back(corner(x + i, y + 1));
+          x += columns - 1;
+        } else if (numbers_.below(3) == 0) {
+          add({quad[0], quad[1], quad[2]});
+          quad.erase(quad.begin() + 1);
+        }
+        if (numbers_.below(12) == 0)
+          std::ranges::reverse(quad);
+        add(quad);
+      }
+    }
+  }
+
+  /// More triangles at one vertex than are looked at, in no order, some from the other side.
+  void fan() {
+    constexpr uint32_t kBlades = 100;
+    const uint32_t hub = vertex(new_place());
+    Polygon rim;
+    for (uint32_t i = 0; i < kBlades; ++i)
+      rim.push_back(vertex(new_place()));
+    for (uint32_t i = 0; i < kBlades; ++i) {
+      const uint32_t a = rim[i * 37 % kBlades], b = rim[(i * 37 + 1) % kBlades];
+      add(i % 5 == 0 ? Polygon{hub, b, a} : Polygon{hub, a, b}, 30);
+    }
+    for (uint32_t i = 0; i < 40; ++i)  // beside the fan: their edges are far down the list
+      add({hub, rim[i], vertex(new_place())}, 30);
+  }
+
+  /// Many triangles at one edge, in either direction.
+  void book() {
+    const uint32_t a = vertex(new_place()), b = vertex(new_place());
+    for (uint32_t i = 0; i < 90; ++i)
+      add(i % 3 == 0 ? Polygon{a, b, vertex(new_place())} : Polygon{b, a, vertex(new_place())}, 30);
+  }
+
+  /// Polygons over the same few vertices, so that far ones meet.
+  void crossings() {
+    Polygon few;
+    for (uint32_t i = 0; i < 40; ++i)
+      few.push_back(vertex(new_place()));
+    for (uint32_t i = 0; i < 130; ++i) {
+      Polygon polygon;
+      for (uint32_t tries = 0, n = 3 + numbers_.below(4); polygon.size() < n && tries < 30;
+           ++tries) {
+        const uint32_t v = few[(i + numbers_.below(i % 2 ? 6 : 40)) % 40];
+        if (std::ranges::find(polygon, v) == polygon.end())
+          polygon.push_back(v);
+      }
+      if (polygon.size() >= 3)
+        add(polygon);
+    }
+  }
+
+  /// Many copies at few places, asked for at random.
+  void crowd() {
+    constexpr uint32_t kCopies = 40;
+    Polygon at[4];
+    for (Polygon& copies : at) {
+      const uint32_t place = new_place();
+      for (uint32_t i = 0; i < kCopies; ++i)
+        copies.push_back(vertex(place));
+    }
+    for (uint32_t i = 0; i < 150; ++i) {
+      const uint32_t shown = std::min(i / 2 + 1, kCopies);
+      add({at[0][numbers_.below(shown)], at[1][numbers_.below(shown)],
+           at[2 + i % 2][numbers_.below(shown)]});
+    }
+  }
+
+  /// Vertices of no polygon, at places of others and alone; polygons that are none.
+  void leftovers() {
+    for (uint32_t i = 0; i < 12; ++i)
+      vertex(i % 3 == 0 ? new_place() : numbers_.below(place_count_));
+    const auto any = [&] { return numbers_.below(static_cast<uint32_t>(places_.size())); };
+    for (uint32_t i = 0; i < 10; ++i) {
+      const uint32_t v = any(), w = any();
+      add(i % 3 == 0 ? Polygon{v, w} : i % 3 == 1 ? Polygon{v, w, v} : Polygon{v, v, w, w});
+    }
+  }
+
+  /// Numbers the vertices row by row, with jumps, back and forth; polygons start at any corner.
+  void scramble() {
+    std::vector<uint32_t> number(places_.size());
+    std::iota(number.begin(), number.end(), 0U);
+    for (size_t i = 0; i + 1 < number.size(); ++i) {
+      const size_t reach = i / 60 % 3 == 0 ? 1 : i / 60 % 3 == 1 ? 5 : number.size();
+      std::swap(
+          number[i],
+          number[std::min(i + numbers_.below(static_cast<uint32_t>(reach)), number.size() - 1)]);
+    }
+    std::reverse(number.begin() + 100, number.begin() + 180);
+    clip_.name = "tangle";
+    clip_.vertex_count = static_cast<uint32_t>(places_.size());
+    clip_.frame_count = 2;
+    clip_.positions.resize(size_t{6} * places_.size());
+    for (size_t v = 0; v < places_.size(); ++v) {
+      const uint32_t p = places_[v];
+      const float at[] = {static_cast<float>(p % 16), static_cast<float>(p / 16),
+                          static_cast<float>(p * 7 % 5)};
+      for (size_t c = 0; c < 3; ++c) {
+        clip_.positions[3 * number[v] + c] = at[c];
+        clip_.positions[3 * (places_.size() + number[v]) + c] = at[c] + (c == 2 ? 1 : 0);
+      }
+    }
+    for (size_t i = 0; i + 1 < polygons_.size(); ++i) {
+      if (numbers_.below(6) == 0)
+        std::swap(polygons_[i], polygons_[std::min(i + numbers_.below(40), polygons_.size() - 1)]);
+    }
+    for (Polygon& polygon : polygons_) {
+      for (uint32_t& v : polygon)
+        v = number[v];
+      if (numbers_.below(4) == 0)
+        std::ranges::rotate(
+            polygon, polygon.begin() + numbers_.below(static_cast<uint32_t>(polygon.size())));
+      clip_.polygons.add(polygon);
+    }
+  }
+
+  Numbers numbers_;
+  MeshSequence clip_;
+  uint32_t place_count_ = 0;
+  std::vector<uint32_t> places_;  ///< of each vertex
+  std::vector<Polygon> polygons_;
+};
+
+Bytes tangle() {
+  EncodeOptions options;
+  options.basis = BasisChoice::kKeyframes;
+  options.keyframes = 1;
+  options.keyframe_poses = KeyframePoses::kNative;
+  options.order = OrderMode::kAll;
+  return encode(Tangle().make(), options).file;
 }
 
 struct Vector {
@@ -322,9 +584,12 @@ struct Vector {
 constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"vertex_order", vertex_order},
                                {"weights_in_time", weights_in_time},
+                               {"clips", clips},
                                {"saturated", saturated},
+                               {"partners", partners},
                                {"other_parents", other_parents},
-                               {"scene", scene}};
+                               {"scene", scene},
+                               {"tangle", tangle}};
 
 int run(int argc, char** argv) {
   for (const Vector& vector : kVectors) {

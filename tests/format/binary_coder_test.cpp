@@ -3,12 +3,12 @@
 #include "format/binary_coder.h"
 
 #include "format/symbol_model.h"
+#include "tests/format/coded_integers.h"
 #include "tests/random.h"
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -18,46 +18,6 @@ namespace anicodec {
 namespace {
 
 using Bytes = Vector<uint8_t>;
-
-// Values with many zeros and a few large ones. No std:: distribution: their results differ by
-// library.
-std::vector<int32_t> skewed(size_t n, uint32_t seed) {
-  Random random(seed);
-  std::vector<int32_t> v(n);
-  for (int32_t& x : v) {
-    const uint32_t r = random();
-    if (r % 8 == 0)
-      x = static_cast<int32_t>(random()) >> (random() % 31);
-    if (x == std::numeric_limits<int32_t>::min())
-      x = 0;
-  }
-  return v;
-}
-
-Bytes encode(const std::vector<int32_t>& values) {
-  BinaryEncoder encoder;
-  SymbolModel<> model;
-  for (const int32_t v : values)
-    model.code(encoder, v);
-  return encoder.finish();
-}
-
-std::vector<int32_t> decode(const Bytes& bytes, size_t count, bool* exact) {
-  BinaryDecoder decoder(bytes.data(), bytes.size());
-  SymbolModel<> model;
-  std::vector<int32_t> values(count);
-  for (int32_t& v : values)
-    v = model.code(decoder);
-  *exact = decoder.finish();
-  return values;
-}
-
-void expect_round_trip(const std::vector<int32_t>& values) {
-  const Bytes bytes = encode(values);
-  bool exact = false;
-  EXPECT_EQ(decode(bytes, values.size(), &exact), values);
-  EXPECT_TRUE(exact);
-}
 
 TEST(BinaryCoder, ReturnsRandomBitsOfEveryProbability) {
   Random random(1);
@@ -113,10 +73,10 @@ TEST(BinaryCoder, CarriesThroughRunsOfFullBytes) {
 
 TEST(BinaryCoder, EndsWithFewBytes) {
   EXPECT_EQ(BinaryEncoder().finish(), Bytes());
-  EXPECT_THAT(encode({0}).size(), testing::Le(1u));
-  EXPECT_THAT(encode(std::vector<int32_t>(100, 0)).size(), testing::Le(2u));
-  EXPECT_THAT(encode({1}).size(), testing::Le(1u));
-  EXPECT_THAT(encode(std::vector<int32_t>(100000, 0)).size(), testing::Le(60u));
+  EXPECT_THAT(encode_integers({0}).size(), testing::Le(1u));
+  EXPECT_THAT(encode_integers(std::vector<int32_t>(100, 0)).size(), testing::Le(2u));
+  EXPECT_THAT(encode_integers({1}).size(), testing::Le(1u));
+  EXPECT_THAT(encode_integers(std::vector<int32_t>(100000, 0)).size(), testing::Le(60u));
 }
 
 TEST(BinaryCoder, StaysWithinHalfAByteOfTheProbabilities) {
@@ -138,11 +98,11 @@ TEST(BinaryCoder, RejectsLeftOverBytes) {
   for (uint32_t seed = 0; seed < 20; ++seed) {
     const std::vector<int32_t> values = skewed(seed * 30, seed);
     for (const uint8_t extra : Bytes{0, 1, 128, 255}) {
-      Bytes bytes = encode(values);
+      Bytes bytes = encode_integers(values);
       for (int i = 0; i < 40; ++i) {
         bytes.push_back(extra);
         bool exact = true;
-        const std::vector<int32_t> read = decode(bytes, values.size(), &exact);
+        const std::vector<int32_t> read = decode_integers(bytes, values.size(), &exact);
         EXPECT_FALSE(exact && read == values) << i << " bytes of " << int{extra};
       }
     }
@@ -157,8 +117,8 @@ TEST(BinaryCoder, AcceptsOnlyWhatAnEncoderWrites) {
     for (uint8_t& b : bytes)
       b = static_cast<uint8_t>(random() % 4 ? random() : 0);
     bool exact = false;
-    const std::vector<int32_t> values = decode(bytes, 1 + random() % 12, &exact);
-    EXPECT_EQ(exact, encode(values) == bytes);
+    const std::vector<int32_t> values = decode_integers(bytes, 1 + random() % 12, &exact);
+    EXPECT_EQ(exact, encode_integers(values) == bytes);
     accepted += exact;
   }
   EXPECT_GT(accepted, 10);
@@ -166,7 +126,7 @@ TEST(BinaryCoder, AcceptsOnlyWhatAnEncoderWrites) {
 
 TEST(BinaryCoder, NoticesThatAStreamRanOut) {
   const std::vector<int32_t> values = skewed(1000, 6);
-  const Bytes bytes = encode(values);
+  const Bytes bytes = encode_integers(values);
   for (size_t kept = 0; kept + 8 < bytes.size(); ++kept) {
     BinaryDecoder decoder(bytes.data(), kept);
     SymbolModel<> model;
@@ -185,7 +145,7 @@ TEST(BinaryCoder, SurvivesAnyBytes) {
     for (uint8_t& b : bytes)
       b = static_cast<uint8_t>(kind == 0 ? 255 : kind == 1 ? random() : 255 * (random() % 2));
     bool exact = false;
-    decode(bytes, 500, &exact);
+    decode_integers(bytes, 500, &exact);
     BinaryDecoder decoder(bytes.data(), bytes.size());
     for (int i = 0; i < 2000; ++i)
       decoder.bit(1 + random() % 65535);
@@ -204,82 +164,6 @@ TEST(BinaryCoder, CountsWhatTheEncoderWrites) {
   }
   EXPECT_NEAR(static_cast<double>(total) / kBitCostOne / 8,
               static_cast<double>(encoder.finish().size()), 20);
-}
-
-TEST(BitCost, IsTheLogarithm) {
-  for (uint32_t p = 1; p <= 65536; ++p)
-    ASSERT_NEAR(bit_cost(p) / 65536.0, -std::log2(p / 65536.0), 0.001) << p;
-}
-
-TEST(SymbolModel, ReturnsSkewedAndExtremeValues) {
-  constexpr int32_t kMax = std::numeric_limits<int32_t>::max();
-  expect_round_trip({});
-  expect_round_trip({0});
-  expect_round_trip({kMax, -kMax, 0, 1, -1, kMax, 2, -2, 3, -3, 4, 1 << 30, -(1 << 30)});
-  expect_round_trip(std::vector<int32_t>(10000, 0));
-  expect_round_trip(std::vector<int32_t>(3000, -kMax));
-  for (uint32_t seed = 0; seed < 20; ++seed)
-    expect_round_trip(skewed(seed * 300, seed));
-  std::vector<int32_t> alternating(2000);
-  for (size_t i = 0; i < alternating.size(); ++i)
-    alternating[i] = i % 2 ? 1 << (i % 31) : 0;
-  expect_round_trip(alternating);
-}
-
-TEST(SymbolModel, CodesUnsignedValuesWithoutASign) {
-  BinaryEncoder encoder, plain;
-  UnsignedModel model;
-  SymbolModel<> with_sign;
-  for (int32_t i = 0; i < 1000; ++i) {
-    model.code(encoder, i % 50);
-    with_sign.code(plain, i % 50);
-  }
-  const Bytes bytes = encoder.finish();
-  EXPECT_NEAR(static_cast<double>(bytes.size()),
-              static_cast<double>(plain.finish().size()) - 980 / 8.0, 2);
-  BinaryDecoder decoder(bytes.data(), bytes.size());
-  UnsignedModel again;
-  for (int32_t i = 0; i < 1000; ++i)
-    ASSERT_EQ(again.code(decoder), i % 50);
-  EXPECT_TRUE(decoder.finish());
-}
-
-TEST(SymbolModel, LearnsTheSign) {
-  BinaryEncoder encoder;
-  SymbolModel<Sign::kModelled> model;
-  for (int i = 0; i < 8000; ++i)
-    model.code(encoder, -1);
-  EXPECT_LT(encoder.finish().size(), 20u);
-}
-
-TEST(SymbolModel, TruncatedOrCorruptStreamsEndInTime) {
-  const std::vector<int32_t> values = skewed(300, 11);
-  const Bytes whole = encode(values);
-  bool exact = false;
-  for (size_t kept = 0; kept < whole.size(); ++kept)
-    decode(Bytes(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(kept)), values.size(),
-           &exact);
-  Random random(12);
-  for (int round = 0; round < 2000; ++round) {
-    Bytes bytes = whole;
-    for (uint32_t i = random() % 4 + 1; i > 0; --i)
-      bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
-    decode(bytes, values.size(), &exact);
-  }
-}
-
-// The bytes that spec/08-entropy.md cites.
-TEST(SymbolModel, WritesTheBytesOfTheSpecification) {
-  std::vector<int32_t> values;
-  for (int32_t i = 0; i < 40; ++i)
-    values.push_back(i % 3 == 0 ? i * i * (i % 2 ? -1 : 1) : i % 5 - 2);
-  Bytes bytes = encode(values);
-  std::string hex;
-  for (const uint8_t b : bytes) {
-    constexpr char kDigits[] = "0123456789abcdef";
-    hex += {kDigits[b >> 4], kDigits[b & 15]};
-  }
-  EXPECT_EQ(hex, "88049a424faff8560e66e534014c9972dfb17e613d181fa545648bcf0204d1a3910c88a0");
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace anicodec {
@@ -202,38 +201,33 @@ TEST(TimeWeightModel, WritesThePinnedBytes) {
     EXPECT_EQ(hash(encode(130, components, 1u << p).bytes), kHashes[p]) << p;
 }
 
-TEST(CosineTransform, InvertsTheForwardTransform) {
-  for (const uint32_t n : {1u, 2u, 3u, 5u, 48u, 201u, 1000u, 4096u}) {
-    const CosineTransform transform(n);
-    std::vector<double> x(n), y(n);
-    Random random(n);
-    for (double& v : x)
-      v = static_cast<double>(random() % 20000) - 10000;
-    transform.forward(x.data(), y.data());
-    std::vector<int32_t> q(n), back(n);
-    double energy = 0, error = 0, rounding = 0;
-    for (uint32_t k = 0; k < n; ++k) {
-      q[k] = static_cast<int32_t>(std::lround(y[k]));
-      energy += x[k] * x[k] - y[k] * y[k];
-      rounding += (q[k] - y[k]) * (q[k] - y[k]);
+TEST(TimeWeights, NothingIsPredictedOverTheEndOfARun) {
+  const Vector<uint32_t> runs = {1, 40, 3, 64};
+  const Vector<uint32_t> one(1, 108);
+  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+    std::vector<double> x(3 * 108);
+    for (size_t i = 0; i < x.size(); ++i) {
+      const size_t f = i % 108, run = f < 1 ? 0 : f < 41 ? 1 : f < 44 ? 2 : 3;
+      x[i] = 3000.0 * (static_cast<double>(run % 2) - 0.5) + 100 * std::sin(0.1 * double(f));
     }
-    EXPECT_NEAR(energy / n, 0, 1) << n;
-    transform.inverse(q.data(), back.data());
-    for (uint32_t k = 0; k < n; ++k)
-      error += (back[k] / 16.0 - x[k]) * (back[k] / 16.0 - x[k]);
-    EXPECT_NEAR(error / n, rounding / n, 0.05) << n;
-  }
-}
-
-TEST(CosineTransform, StaysWithinLimits) {
-  for (const uint32_t n : {1u, 2u, 48u, CosineTransform::kMaxLength}) {
-    std::vector<int32_t> y(n), x(n);
-    for (const int32_t sign : {-1, 1}) {
-      for (uint32_t k = 0; k < n; ++k)
-        y[k] = k % 2 ? CosineTransform::kLimit : sign * CosineTransform::kLimit;
-      CosineTransform(n).inverse(y.data(), x.data());
-      for (const int32_t v : x)
-        ASSERT_LE(std::abs(int64_t{v}), CosineTransform::kValueLimit);
+    size_t bytes[2];
+    for (size_t k = 0; k < 2; ++k) {
+      const Vector<uint32_t>& cut = k == 0 ? runs : one;
+      BinaryEncoder encoder;
+      TimeWeightModel model(cut), decoding(cut);
+      std::vector<int32_t> values(x.size()), decoded(x.size());
+      for (int j = 0; j < 6; ++j)
+        model.encode(encoder, 3, x.data(), 0, values.data(), 1u << p);
+      const Bytes stream = encoder.finish();
+      bytes[k] = stream.size();
+      BinaryDecoder decoder(stream.data(), stream.size());
+      for (int j = 0; j < 6; ++j)
+        ASSERT_EQ(decoding.decode(decoder, 3, decoded.data()), Status::kOk);
+      EXPECT_TRUE(decoder.finish());
+      EXPECT_EQ(decoded, values);
+    }
+    if (static_cast<WeightPredictor>(p) == WeightPredictor::kCosine) {
+      EXPECT_LT(bytes[0], bytes[1]);
     }
   }
 }

@@ -28,8 +28,9 @@ endif()
 
 set(program "${build}/sdk/examples/example_frame_to_obj_c")
 set(clips "${SOURCE_DIR}/tests/conformance")
-# All but key-frames by Draco.
-foreach(clip soup polygons_all quad_box_corrected limb_effort9 uneven_times heated schedules)
+# All but key-frames by Draco, among them one that default settings made.
+foreach(clip soup polygons_all quad_box_corrected limb_effort9 uneven_times heated schedules limb_native
+             limb_default)
   run(obj "${program}" "${clips}/${clip}.anic")
   if(NOT obj MATCHES "^v .*\nf [0-9 ]+\n$")
     message(FATAL_ERROR "no OBJ of ${clip}: ${obj}")

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 """Opened clips."""
+import base64
 import io
+import os
 import pickle
+import sys
+import types
 from concurrent.futures import ThreadPoolExecutor
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -137,3 +142,37 @@ def test_threads_share_a_clip(clip):
     with ThreadPoolExecutor(4) as pool:
         for found, wanted in zip(pool.map(lambda f: clip.at(f / 50), range(40)), expected):
             assert np.array_equal(found, wanted)
+
+
+@pytest.fixture
+def page(clip):
+    try:
+        return clip.page()
+    except anicodec.UnsupportedError as error:
+        pytest.skip(str(error))
+
+
+def test_page_holds_the_clip(clip, page):
+    assert base64.b64encode(clip.data).decode() in page and 'data-name="wave.anic"' in page
+    assert clip.page(against=clip).count(base64.b64encode(clip.data).decode()) == 2
+
+
+def test_show_opens_the_browser(clip, page, monkeypatch):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    path = clip.show()
+    try:
+        assert opened == ["file://" + path]
+        with open(path, encoding="utf-8") as file:
+            assert file.read() == page
+    finally:
+        os.remove(path)
+
+
+def test_show_plays_in_a_notebook(clip, page, monkeypatch):
+    display = types.SimpleNamespace(HTML=lambda text: text)
+    shell = types.SimpleNamespace(get_ipython=lambda: types.SimpleNamespace(kernel=None), display=display)
+    monkeypatch.setitem(sys.modules, "IPython", shell)
+    monkeypatch.setitem(sys.modules, "IPython.display", display)
+    frame = ElementTree.fromstring(clip.show(height=300).replace(' allow="fullscreen"', ""))
+    assert frame.get("srcdoc").split() == page.split() and "height: 300px" in frame.get("style")

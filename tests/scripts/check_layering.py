@@ -24,7 +24,7 @@ ALLOWED = {
     "sdk": ["<stddef.h>", "<stdint.h>", "<string.h>", '"sdk/', '"format/', "<anicodec/", *SIMD],
     "sdk/web": ["<anicodec/", "<stdlib.h>", "<string.h>"],
     "sdk/python": ['"sdk/python/', '"codec/', "<anicodec/", "<nanobind/"],
-    "codec": ['"codec/', '"sdk/', '"format/', "<anicodec/", "<Eigen/", "<tbb/", "<embree3/"],
+    "codec": ['"codec/', '"sdk/', '"format/', "<anicodec/", "<Eigen/", "<unsupported/Eigen/BVH>", "<tbb/"],
     "corpus": ['"corpus/', '"codec/', "<xxhash.h>"],
     "tools": ['"tools/', '"corpus/', '"codec/', '"sdk/', '"format/', "<anicodec/",
               "<fmt/", "<nlohmann/", "<tbb/", *POSIX],

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 """Checks that every unit is tested: by a suite of its own, by a test that includes its header, or through
-another unit, which THROUGH names.
+another unit, which THROUGH names; and that a suite named for a unit stands in that unit's file.
 
 usage: check_tests.py CHECKOUT      one line for every fault; exit status 1 if there is any
 """
@@ -14,7 +14,6 @@ MODULES = ("format", "sdk", "codec", "corpus", "tools")
 # A unit, or a folder of units: the tests that run it, and the reason that they stand elsewhere.
 THROUGH = {
     "format/attribute_record": ("tests/api/attribute_values_test.cpp", "a record is read where a file is opened"),
-    "format/bit_cost": ("tests/format/coefficient_coder_test.cpp", "costs that the coders' encoders weigh"),
     "format/mixing": ("tests/format/binary_coder_test.cpp", "tables of the coders that use it"),
     "format/status": ("tests/api/asset_test.cpp", "texts that the C interface returns"),
     "format/zstd_block": ("tests/format/container_test.cpp", "one way to store a chunk"),
@@ -46,7 +45,6 @@ THROUGH = {
     "tools/io/assimp": ("tests/tools/topology_test.cpp", "files of formats that assimp reads, through the command"),
     "tools/io/base": ("tests/tools/io/formats", "parts that all readers of text share"),
     "tools/io/files": ("tests/tools/io/files", "steps of writing a set of files"),
-    "tools/io/formats": ("tests/tools/io/formats/ply_test.cpp", "parts of one reader"),
     "tools/io/gltf": ("tests/tools/io/gltf/gltf_test.cpp", "parts of one reader and one writer"),
     "tools/listing": ("tests/tools/commands/inspect_command_test.cpp", "what `dump` prints"),
     "tools/main": ("tests/tools/commands/command_line_test.cpp", "the process itself"),
@@ -57,6 +55,7 @@ THROUGH = {
     "tools/words": ("tests/tools/commands/command_line_test.cpp", "what the command prints"),
 }
 
+SUITE = re.compile(r"^TEST(?:_F|_P)?\(\s*(\w+),", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 # Programs and libraries that are tested as a whole.
 WHOLE = ("sdk/python/", "sdk/examples/", "codec/examples/")
@@ -75,7 +74,19 @@ def units_without_a_suite(checkout):
                 yield unit
 
 
+def suites_in_other_files(checkout):
+    """(file, suite) of suites that are named for a unit and stand in another one's file."""
+    units = {path.stem for module in MODULES for path in (checkout / module).rglob("*.h")}
+    for path in sorted((checkout / "tests").rglob("*_test.cpp")):
+        for suite in dict.fromkeys(SUITE.findall(path.read_text(encoding="utf-8"))):
+            unit = re.sub(r"(?<!^)(?=[A-Z])", "_", suite.removeprefix("Slow")).lower()
+            if unit in units and path.stem != unit + "_test":
+                yield path.relative_to(checkout).as_posix(), suite
+
+
 def faults(checkout):
+    for file, suite in suites_in_other_files(checkout):
+        yield f"{file} has {suite}, the suite of another unit"
     used = set()
     for unit in units_without_a_suite(checkout):
         row = unit if unit in THROUGH else unit.rpartition("/")[0]

@@ -17,13 +17,14 @@ import sys
 import tempfile
 
 import anic_file
+import broken_rules
 import conformance_facts
 import traces
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests" / "conformance"
 VECTORS = [
-    ("triangle.anic", "one_triangle", "--kg 0.1 --order free --basis keyframes"),
+    ("triangle.anic", "one_triangle", "--kg 0.1 --order free --basis keyframes --keyframe-coder native"),
     ("nonmanifold_keyframes.anic", "nonmanifold", "--kg 0.5 --basis keyframes"),
     ("polygons_all.anic", "polygons", "--kg 0.2 --order all --basis eigenshapes"),
     ("quad_box_corrected.anic", "quad_box", "--kg 1 --max-error 0.5% --basis eigentrajectories"),
@@ -36,6 +37,8 @@ VECTORS = [
     ("one_frame.anic", "one_frame", "--kg 0.5"),
     ("one_vertex.anic", "one_vertex", "--kg 0.5"),
     ("nonmanifold_interpolated.anic", "nonmanifold", "--keyframes 3 --interpolation msgi"),
+    ("limb_default.anic", "limb --vertices 200 --frame-count 12", ""),
+    ("limb_native.anic", "limb --vertices 200 --frame-count 12", "--keyframes 4 --keyframe-coder native"),
     ("painted_box.anic", "painted_box", "--kg 0.5 --order all --basis keyframes"),
     ("heated.anic", "heated", "--kg 0.5 --fps 24 --basis eigenshapes --effort 1"),
 ]
@@ -159,7 +162,7 @@ def broken_attributes(data):
     chunks = anic_file.read_chunks(data)
     limits = next(c for c in chunks if c.type == "LIMI")
     good = limits.payload
-    counts, at = read_varints(good, 0, 3)
+    counts, at = read_varints(good, 0, 4)  # of one clip: its frames are the fourth
     mesh, at = read_varints(good, at, 5)
     segments = []
     for _ in range(counts[2]):
@@ -212,7 +215,7 @@ def greedy_files(data):
         "corrections": (4, 1, 1, (3, 3, 1, 1, 3), (0, 0, 0, 4, 2, 0, 2**32 - 1, 0)),
     }
     for name, (frames, meshes, segments, mesh, segment) in huge.items():
-        limits.payload = anic_file.varints((frames, meshes, segments) + mesh + segment)
+        limits.payload = anic_file.varints((1, meshes, segments, frames) + mesh + segment)
         yield name, anic_file.write_chunks(chunks)
     limits.payload = good
 
@@ -229,7 +232,7 @@ def write_seeds(folder):
             path = folder / "chunk" / f"seed_{pathlib.Path(file).stem}_{i}_{chunk.type.lower()}"
             path.write_bytes(bytes([number, i]) + chunk.payload)
             if chunk.type == "LIMI":
-                vertices, coded, _, polygons, corners = read_varints(chunk.payload, 0, 8)[0][3:]
+                vertices, coded, _, polygons, corners = read_varints(chunk.payload, 0, 9)[0][4:]
             if chunk.type == "MESH":  # no name is longer than a byte tells
                 eights = min((coded - 1) // 8, 255)
                 times = next((n for n in range(1, 10) if polygons % n == 0 and polygons // n < 256), 1)
@@ -299,7 +302,7 @@ def main():
         path = FOLDER / "invalid" / f"{status}_{CODES[str(status)].lower()}.anic"
         path.write_bytes(data)
         add("invalid", path, str(status), CODES[str(status)], what or detail)
-    for status, what, data, text in broken_attributes(files[-1][1]):
+    for status, what, data, text in [*broken_attributes(files[-1][1]), *broken_rules.broken_rules(command, FOLDER, lambda file: library.status(file)[0])]:
         seen, detail = library.status(data)
         if seen != status:
             sys.exit(f"{what} is answered with {seen}: {detail}")

@@ -3,11 +3,11 @@
 //
 // What stands beside the positions, from file to file by the command.
 #include "corpus/clips.h"
+#include "tests/tools/clip_testing.h"
 #include "tests/tools/command_testing.h"
 #include "tools/io/load_sequence.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,15 +19,6 @@ namespace anicodec::tools {
 namespace {
 
 using testing::HasSubstr;
-
-const Attribute* find(const MeshSequence& clip, AttributeKind kind) {
-  const auto found = std::ranges::find(clip.attributes, kind, &Attribute::kind);
-  return found == clip.attributes.end() ? nullptr : &*found;
-}
-
-MeshSequence load(const std::string& path) {
-  return load_sequence(std::vector<std::string>{path});
-}
 
 class AttributesOfFiles : public testing::Test {
  protected:
@@ -59,17 +50,17 @@ TEST_F(AttributesOfFiles, AreSaidByInfo) {
 
 TEST_F(AttributesOfFiles, ComeBackAsObj) {
   ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b_%03d.obj"}).status, 0);
-  const MeshSequence back = load(folder_ / "b_*.obj");
+  const MeshSequence back = load_file(folder_ / "b_*.obj");
   ASSERT_EQ(back.polygons, source_.polygons);
   EXPECT_EQ(back.materials, source_.materials);
   EXPECT_EQ(back.parts, source_.parts);
-  const Attribute *uv = find(back, AttributeKind::kUv),
-                  *colour = find(back, AttributeKind::kColour);
+  const Attribute *uv = find_attribute(back, AttributeKind::kUv),
+                  *colour = find_attribute(back, AttributeKind::kColour);
   ASSERT_TRUE(uv && colour);
   EXPECT_EQ(uv->values, source_.attributes[0].values);  // multiples of the step
   EXPECT_EQ(colour->values, source_.attributes[1].values);
   // Normals of one side of the box differ from those of the others.
-  const Attribute* normals = find(back, AttributeKind::kNormal);
+  const Attribute* normals = find_attribute(back, AttributeKind::kNormal);
   ASSERT_TRUE(normals);
   std::set<std::vector<float>> distinct;
   for (size_t i = 0; i < normals->values.size(); i += 3)
@@ -85,12 +76,12 @@ TEST_F(AttributesOfFiles, ComeBackAsObj) {
 
 TEST_F(AttributesOfFiles, ComeBackAsGlb) {
   ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b.glb"}).status, 0);
-  const MeshSequence back = load(folder_ / "b.glb");
+  const MeshSequence back = load_file(folder_ / "b.glb");
   EXPECT_EQ(back.frame_count, source_.frame_count);
   EXPECT_EQ(back.vertex_count, 6U * 25);  // every side for itself
-  const Attribute *uv = find(back, AttributeKind::kUv),
-                  *normals = find(back, AttributeKind::kNormal);
-  ASSERT_TRUE(uv && normals && find(back, AttributeKind::kColour));
+  const Attribute *uv = find_attribute(back, AttributeKind::kUv),
+                  *normals = find_attribute(back, AttributeKind::kNormal);
+  ASSERT_TRUE(uv && normals && find_attribute(back, AttributeKind::kColour));
   std::set<std::pair<float, float>> here, there;
   for (size_t i = 0; i < uv->values.size(); i += 2)
     here.insert({uv->values[i], uv->values[i + 1]});
@@ -136,10 +127,11 @@ class AttributesThatMove : public testing::Test {
 };
 
 TEST_F(AttributesThatMove, AreReadFromPlyAndSaidByInfoAndEncode) {
-  const MeshSequence read = load(folder_ / "a_*.ply");
+  const MeshSequence read = load_file(folder_ / "a_*.ply");
   ASSERT_EQ(read.attributes.size(), 3U);
-  const Attribute *colour = find(read, AttributeKind::kColour),
-                  *heat = find(read, AttributeKind::kCustom), *uv = find(read, AttributeKind::kUv);
+  const Attribute *colour = find_attribute(read, AttributeKind::kColour),
+                  *heat = find_attribute(read, AttributeKind::kCustom),
+                  *uv = find_attribute(read, AttributeKind::kUv);
   ASSERT_TRUE(colour && heat && uv);
   EXPECT_EQ(colour->frames, source_.frame_count);
   EXPECT_EQ(colour->values, source_.attributes[1].values);
@@ -163,10 +155,11 @@ TEST_F(AttributesThatMove, ComeBackAsPlyAsciiAndBinary) {
     ASSERT_EQ(
         anicodec({"decode", folder_ / "a.anic", "-f", "-o", folder_ / "b_%03d.ply", format}).status,
         0);
-    const MeshSequence back = load(folder_ / "b_*.ply");
+    const MeshSequence back = load_file(folder_ / "b_*.ply");
     ASSERT_EQ(back.attributes.size(), 3U);
-    EXPECT_EQ(find(back, AttributeKind::kColour)->values, source_.attributes[1].values);  // bytes
-    const std::vector<float>& heat = find(back, AttributeKind::kCustom)->values;
+    EXPECT_EQ(find_attribute(back, AttributeKind::kColour)->values,
+              source_.attributes[1].values);  // bytes
+    const std::vector<float>& heat = find_attribute(back, AttributeKind::kCustom)->values;
     for (size_t i = 0; i < heat.size(); ++i)
       ASSERT_NEAR(heat[i], source_.attributes[2].values[i], 0.46);
   }
@@ -174,16 +167,16 @@ TEST_F(AttributesThatMove, ComeBackAsPlyAsciiAndBinary) {
 
 TEST_F(AttributesThatMove, ComeBackAsObjAndGlb) {
   ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b_%03d.obj"}).status, 0);
-  const MeshSequence obj = load(folder_ / "b_*.obj");
-  const Attribute* colour = find(obj, AttributeKind::kColour);
+  const MeshSequence obj = load_file(folder_ / "b_*.obj");
+  const Attribute* colour = find_attribute(obj, AttributeKind::kColour);
   ASSERT_TRUE(colour);
   EXPECT_EQ(colour->frames, source_.frame_count);
   ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b.glb"}).status, 0);
-  const MeshSequence glb = load(folder_ / "b.glb");
+  const MeshSequence glb = load_file(folder_ / "b.glb");
   const std::vector<float>& source = source_.attributes[1].values;
   ASSERT_EQ(glb.frame_count, source_.frame_count);
   for (const MeshSequence* back : {&obj, &glb}) {
-    const Attribute* rgb = find(*back, AttributeKind::kColour);
+    const Attribute* rgb = find_attribute(*back, AttributeKind::kColour);
     ASSERT_TRUE(rgb);
     ASSERT_EQ(rgb->frames, source_.frame_count);
     const size_t n = rgb->components, count = rgb->values.size() / n;
@@ -193,7 +186,7 @@ TEST_F(AttributesThatMove, ComeBackAsObjAndGlb) {
         ASSERT_NEAR(rgb->values[n * i + c], source[4 * i + c], 0.5 / 255 + 1e-5);
     }
   }
-  const Attribute* uv = find(glb, AttributeKind::kUv);
+  const Attribute* uv = find_attribute(glb, AttributeKind::kUv);
   ASSERT_TRUE(uv);
   ASSERT_EQ(uv->values.size(), source_.attributes[0].values.size());
   for (size_t i = 0; i < uv->values.size(); ++i)
@@ -224,30 +217,6 @@ TEST_F(AttributesThatMove, HaveTheErrorThatIsAskedFor) {
       anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "c.anic", "--attribute-error", "-1"})
           .status,
       0);
-}
-
-TEST(PlyAttributes, TakeColoursCoordinatesNormalsAndNumbersByTheirNames) {
-  TemporaryFolder folder;
-  const std::string header =
-      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-      "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
-      "property ushort red\nproperty ushort green\nproperty ushort blue\nproperty float s\n"
-      "property float t\nproperty double quality\nproperty list uchar int rings\n"
-      "property float broken\nelement face 1\nproperty list uchar int vertex_indices\n"
-      "end_header\n";
-  folder.write("a.ply", header +
-                            "0 0 0 0 0 1 65535 0 0 0.25 0.5 7.5 2 1 2 nan\n"
-                            "1 0 0 0 0 1 0 65535 0 0.5 0.5 -1 0 2\n"
-                            "0 1 0 0 0 1 0 0 13107 0.75 0.5 3 1 1 4\n3 0 1 2\n");
-  const MeshSequence clip = load(folder / "a.ply");
-  ASSERT_EQ(clip.attributes.size(), 4U);  // what is not finite is left out
-  EXPECT_EQ(find(clip, AttributeKind::kColour)->values,
-            (std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.2F}));
-  EXPECT_EQ(find(clip, AttributeKind::kUv)->values,
-            (std::vector<float>{0.25F, 0.5F, 0.5F, 0.5F, 0.75F, 0.5F}));
-  EXPECT_EQ(find(clip, AttributeKind::kNormal)->components, 3U);
-  EXPECT_EQ(find(clip, AttributeKind::kCustom)->name, "quality");
-  EXPECT_EQ(find(clip, AttributeKind::kCustom)->values, (std::vector<float>{7.5F, -1, 3}));
 }
 
 TEST(ObjAttributes, WithoutTheirNumbersAreRefused) {

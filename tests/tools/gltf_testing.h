@@ -3,6 +3,8 @@
 #ifndef ANICODEC_TESTS_TOOLS_GLTF_TESTING_H_
 #define ANICODEC_TESTS_TOOLS_GLTF_TESTING_H_
 
+#include "codec/sequence/mesh_sequence.h"
+#include "corpus/clips.h"
 #include "tools/io/base/byte_order.h"
 
 #include <bit>
@@ -98,6 +100,14 @@ inline GltfScene triangle_scene() {
       {{{"name", "triangle"},
         {"primitives", nlohmann::json::array({{{"attributes", {{"POSITION", positions}}}}})}}});
   return scene;
+}
+
+/// The limb of the corpus, in the axes of glTF.
+inline MeshSequence gltf_limb() {
+  MeshSequence clip = corpus::make_clip("limb");
+  clip.up = UpAxis::kY;
+  clip.metres_per_unit = 1;
+  return clip;
 }
 
 }  // namespace anicodec::tools

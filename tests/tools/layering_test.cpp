@@ -109,6 +109,19 @@ TEST(Layering, FindsUnitsWithoutATest) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("attic/included has")));
 }
 
+TEST(Layering, FindsSuitesInTheFilesOfOtherUnits) {
+  TemporaryFolder folder;
+  for (const char* source : {"codec/attic/own.h", "codec/attic/other_unit.h"})
+    folder.write(source, "");
+  folder.write("tests/codec/attic/own_test.cpp",
+               "TEST(Own, Works) {}\nTEST(OtherUnit, Works) {}\n");
+  Outcome outcome =
+      run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_tests.py", folder / ""});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("own_test.cpp has OtherUnit, the suite of another unit"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("has Own,")));
+}
+
 TEST(Documents, PointToWhatExists) {
   Outcome outcome = run_program(
       {"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_links.py", ANICODEC_SOURCE_DIR});

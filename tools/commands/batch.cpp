@@ -7,6 +7,7 @@
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/output_folder.h"
+#include "tools/io/files/staging.h"
 #include "tools/program/print.h"
 #include "tools/words/quantity.h"
 
@@ -19,6 +20,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -175,6 +177,7 @@ class Batch {
         faults_(clips.size()) {}
 
   void run() {
+    recover();
     std::vector<std::thread> workers;
     const unsigned jobs = std::min<unsigned>(options_.jobs, static_cast<unsigned>(clips_.size()));
     const unsigned all = std::max(1U, std::thread::hardware_concurrency());
@@ -193,6 +196,19 @@ class Batch {
   }
 
  private:
+  std::string output_of(const BatchClip& clip) const {
+    return (fs::path(options_.folder) / (clip.name + ".anic")).string();
+  }
+
+  /// A killed run may have left something although all clips are done, when nothing is written.
+  void recover() const {
+    std::set<std::string> folders;
+    for (const BatchClip& clip : clips_)
+      folders.insert(fs::path(output_of(clip)).parent_path().string());
+    for (const std::string& folder : folders)
+      recover_folder(folder);
+  }
+
   void run_clip(size_t i) {
     const BatchClip& clip = clips_[i];
     try {
@@ -234,7 +250,7 @@ class Batch {
   }
 
   BatchLine process(const BatchClip& clip) {
-    const std::string path = (fs::path(options_.folder) / (clip.name + ".anic")).string();
+    const std::string path = output_of(clip);
     // One clip is read at a time: until it has been, nobody knows how much memory it takes.
     std::unique_lock reading(read_);
     MeshSequence sequence = load_(clip);

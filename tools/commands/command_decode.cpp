@@ -48,7 +48,7 @@ constexpr Word<std::string_view> kFormats[] = {{"pc2", "pc2"}, {"mdd", "mdd"}, {
 
 struct DecodeCommand {
   std::vector<std::string> inputs;
-  std::string output, frames, quality;
+  std::string output, clip, frames, quality;
   std::string_view format;
   uint32_t start = 0;
   bool ascii = false, hold = false, normals = false;
@@ -159,6 +159,7 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   open_clip(paths.input, bytes, open_options, clip, Topologies::kAny);
   if (Failure failure = clip.check_hashes(); open_options.quality == 1 && !failure.ok())
     fail_clip(paths.input, failure);
+  choose_clip(paths.input, command.clip, clip);
   bytes = {};
 
   FrameRange range{0, clip.frame_count(), 1};
@@ -169,6 +170,7 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   options.ascii = command.ascii;
   options.step = command.hold;
   options.normals = command.normals;
+  options.group_faces = clip.record().order != OrderMode::kAll;
   options.first_number = command.start;
   options.progress = line.callback();
   check_sequence_output(paths.output, range.size(), options);
@@ -243,6 +245,8 @@ void add_decode(Commands& commands, CommonOptions& common) {
       .required();
   options.choice("--format", c->format, {kFormats},
                  "Write each clip in this format to the folder OUT, by its name");
+  options.option("--clip", c->clip, "NAME", "The clip to write, of a file that has several; all: one after the other, at the rate "
+                 "of the first");
   options.option("--frames", c->frames, "A:B[:STEP]",
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");

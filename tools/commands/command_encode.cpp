@@ -41,6 +41,11 @@ standard output, and nothing else; decode, info and verify read one from -.
 A scene is baked: skins, morph targets and moving nodes become vertices that move, all its meshes
 (or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. --clip names
 or numbers the clip; without it the first one that moves anything is taken, --clip none takes none.
+--clips takes several animations of a glTF scene as clips of one file, and so do several vertex
+caches of one mesh: the mesh, its attributes and the reference pose are stored once, and clips of a
+kind share a basis where that is smaller (-v says which). Every clip keeps the target for itself; a
+--size is that of the file.
+
 An archive has a frame for each of its samples (or at --fps); --mesh takes one mesh by its path.
 
 --split-objects stores each object of the input (node of a scene, o of an OBJ) as a mesh with its
@@ -81,6 +86,8 @@ Examples:
   anicodec encode dance.obj dance.pc2 -o dance.anic --fps 30
   anicodec encode 'frames/*.obj' -o clip.anic --kg 0.1
   anicodec encode fox.glb --clip Run --fps 60 -o run.anic
+  anicodec encode fox.glb --clips all -o fox.anic --kg 0.1
+  anicodec encode hero.obj walk.pc2 run.pc2 -o hero.anic --fps 30
   anicodec encode flag.mdd --mesh flag.obj -o flag.anic --size 200k --max-error 1%
   anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45
   anicodec encode --batch clips -o encoded -j 4)";
@@ -238,7 +245,8 @@ void run(EncodeArguments command, const CommonOptions& common) {
   }
   output->write({reinterpret_cast<const char*>(result.file.data()), result.file.size()});
   output->commit();
-  const EncodeReport report{command.output, result, massage, command.massage == MassageMode::kAuto};
+  const EncodeReport report{command.output, result, massage, command.massage == MassageMode::kAuto,
+                            !command.rate.empty()};
   if (common.json)
     print_json(report.json());
   else if (!common.quiet)

@@ -27,7 +27,9 @@ for each instance), format, encoder, name, vertices, coded_vertices, faces (of t
 meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of those that show
 it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats the first), up,
 metres_per_unit, order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg,
-massaged, surface_error, surface_error_mean, attributes (mesh, kind, of, name, components, labels,
+massaged, surface_error, surface_error_mean (those of a clip, of the first one), clips (name,
+first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error, rmse,
+kg), attributes (mesh, kind, of, name, components, labels,
 moves; of those that move, bytes, max_error, rmse in units of their values), segments (mesh, basis,
 of, reconstruction, first_frame, frames, components, corrections), chunks (type, offset, size,
 required, mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
@@ -86,8 +88,15 @@ const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t
   return nullptr;
 }
 
+/// What codes the poses of its key-frames; null for another basis.
+const char* coder_of(const Limits::Segment& s) {
+  if (s.kind != BasisKind::kKeyframes)
+    return nullptr;
+  return name_of(s.draco_bytes > 0 ? CoderId::kDraco : CoderId::kNative);
+}
+
 nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
-  const ClipRecord& record = c.clip.record();
+  const ClipRecord& record = c.clip.clips()[0];
   const Limits& limits = c.clip.limits();
   nlohmann::ordered_json json;
   json["file"] = path;
@@ -98,7 +107,7 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
   json["opening_bytes"] = c.memory.opening_bytes;
   json["context_bytes"] = c.memory.context_bytes;
   json["format"] = fmt::format("{}.{}", c.container.version_major(), c.container.version_minor());
-  json["encoder"] = record.encoder;
+  json["encoder"] = c.clip.record().encoder;
   json["name"] = record.name;
   json["vertices"] = limits.meshes[0].source_vertices;
   json["coded_vertices"] = limits.meshes[0].coded_vertices;
@@ -120,11 +129,11 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
   json["start_time"] = record.start_time;
   json["loop"] = record.loop;
   json["closed"] = record.closed;
-  json["up"] = up_name(record.up);
+  json["up"] = up_name(c.clip.record().up);
   json["metres_per_unit"] = nullptr;
-  if (record.metres_per_unit > 0)
-    json["metres_per_unit"] = record.metres_per_unit;
-  json["order"] = name_of(record.order);
+  if (c.clip.record().metres_per_unit > 0)
+    json["metres_per_unit"] = c.clip.record().metres_per_unit;
+  json["order"] = name_of(c.clip.record().order);
   json["diagonal"] = record.diagonal;
   json["asked"] = {{"metric", name_of(record.asked)}, {"value", record.asked_value}};
   json["max_error"] = record.max_error;
@@ -134,6 +143,22 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
   json["massaged"] = record.massaged;
   json["surface_error"] = record.surface_error;
   json["surface_error_mean"] = record.surface_error_mean;
+  json["clips"] = nlohmann::ordered_json::array();
+  for (const ClipRecord& clip : c.clip.clips())
+    json["clips"].push_back(
+        {{"name", clip.name},
+         {"first_frame", clip.first_frame},
+         {"frames", clip.frames},
+         {"fps", {clip.rate_numerator, clip.rate_denominator}},
+         {"fps_assumed", clip.rate_assumed},
+         {"start_time", clip.start_time},
+         {"loop", clip.loop},
+         {"closed", clip.closed},
+         {"diagonal", clip.diagonal},
+         {"asked", {{"metric", name_of(clip.asked)}, {"value", clip.asked_value}}},
+         {"max_error", clip.max_error},
+         {"rmse", clip.rmse},
+         {"kg", clip.kg}});
   json["attributes"] = nlohmann::ordered_json::array();
   for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
     const Vector<MeshAttribute>& attributes = c.clip.meshes()[m].attributes;
@@ -155,7 +180,7 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
     }
   }
   json["segments"] = nlohmann::ordered_json::array();
-  for (const Limits::Segment& s : limits.segments)
+  for (const Limits::Segment& s : limits.segments) {
     json["segments"].push_back({{"mesh", s.mesh},
                                 {"basis", name_of(s.kind)},
                                 {"of", moved_by(s)},
@@ -164,6 +189,9 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
                                 {"frames", s.frames},
                                 {"components", s.components},
                                 {"corrections", s.corrections}});
+    if (const char* coder = coder_of(s))
+      json["segments"].back()["coder"] = coder;
+  }
   json["chunks"] = nlohmann::ordered_json::array();
   for (const Chunk& chunk : c.container.chunks()) {
     nlohmann::ordered_json entry = {
@@ -249,7 +277,7 @@ void print_meshes(const Contents& c) {
     }
     for (uint32_t i = 0; i < mesh.attributes.size(); ++i) {
       row("attribute", attribute_text(mesh.attributes[i].header));
-      if (const AttributeError* error = error_of(c.clip.record(), m, i))
+      if (const AttributeError* error = error_of(c.clip.clips()[0], m, i))
         row("", fmt::format("{}, {} bytes, max error {:.4g}, RMSE {:.4g}",
                             moves(c.clip, m, i) ? "moves" : "as in frame 0",
                             grouped(moving_bytes(c, m, i)), error->max_error, error->rmse));
@@ -259,36 +287,64 @@ void print_meshes(const Contents& c) {
 
 void print_segments(const Limits& limits) {
   for (const Limits::Segment& s : limits.segments)
-    row("segment",
-        fmt::format("{}{}frames {}:{}, {} {}{}, {} corrections",
-                    limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
-                    s.attribute == kPositions ? "" : moved_by(s) + ", ", s.first_frame,
-                    s.first_frame + s.frames, s.components, components_of(s.kind),
-                    s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "", s.corrections));
+    row("segment", fmt::format("{}{}frames {}:{}, {}{}{}, {}",
+                               limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
+                               s.attribute == kPositions ? "" : moved_by(s) + ", ", s.first_frame,
+                               s.first_frame + s.frames, counted_components(s.components, s.kind),
+                               s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "",
+                               coder_of(s) ? fmt::format(", coder {}", coder_of(s)) : "",
+                               counted(s.corrections, "correction")));
+}
+
+std::string traits_of(const ClipRecord& clip) {
+  return fmt::format("{}{}", clip.loop ? ", loops" : "",
+                     clip.closed ? ", the last frame repeats the first" : "");
+}
+
+void print_promise(const ClipRecord& clip) {
+  row("asked", asked_text(clip));
+  row("measured",
+      fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %",
+                  clip.max_error, percent(clip), clip.rmse, clip.kg));
+  if (clip.massaged)
+    row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
+                                clip.surface_error_mean, clip.surface_error));
+}
+
+/// The clips of a file that has several.
+void print_clips(const Contents& c) {
+  for (const ClipRecord& clip : c.clip.clips()) {
+    row("clip", fmt::format("{}: frames {}:{}, {}{}", clip.name, clip.first_frame,
+                            clip.first_frame + clip.frames, rate_text(clip), traits_of(clip)));
+    print_promise(clip);
+  }
 }
 
 void print_text(const std::string& path, const Contents& c) {
-  const ClipRecord& record = c.clip.record();
+  const ClipsRecord& all = c.clip.record();
+  const ClipRecord& record = c.clip.clips()[0];
+  const bool several = c.clip.clips().size() > 1;
   const Limits& limits = c.clip.limits();
   const Limits::Mesh& mesh = limits.meshes[0];
   row("file", path);
-  row("name", std::string(record.name.begin(), record.name.end()));
+  if (!several)
+    row("name", std::string(record.name.begin(), record.name.end()));
   row("format", fmt::format("{}.{}, written by {}", c.container.version_major(),
-                            c.container.version_minor(), record.encoder));
+                            c.container.version_minor(), all.encoder));
   const std::string what =
       limits.meshes.size() > 1
           ? fmt::format("{} meshes", limits.meshes.size())
           : fmt::format("{} vertices ({} coded), {} faces", mesh.source_vertices,
                         mesh.coded_vertices, mesh.polygons);
-  row("clip", fmt::format("{}, {} frames at {}", what, limits.frames, rate_text(record)));
-  std::string traits = fmt::format(
-      "up {}, unit {}", up_name(record.up),
-      record.metres_per_unit > 0 ? fmt::format("{:.6g} m", record.metres_per_unit) : "unknown");
-  traits += record.loop ? ", loops" : "";
-  traits += record.closed ? ", the last frame repeats the first" : "";
-  row("", traits);
+  row(several ? "clips" : "clip",
+      several ? fmt::format("{}, {} clips, {} frames", what, c.clip.clips().size(), limits.frames)
+              : fmt::format("{}, {} frames at {}", what, limits.frames, rate_text(record)));
+  row("", fmt::format("up {}, unit {}{}", up_name(all.up),
+                      all.metres_per_unit > 0 ? fmt::format("{:.6g} m", all.metres_per_unit)
+                                              : "unknown",
+                      several ? "" : traits_of(record)));
   print_meshes(c);
-  row("order", name_of(record.order));
+  row("order", name_of(all.order));
   row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv", grouped(c.bytes),
                           12 * positions(c.clip) / static_cast<double>(c.bytes),
                           8 * static_cast<double>(c.bytes) / positions(c.clip)));
@@ -296,13 +352,10 @@ void print_text(const std::string& path, const Contents& c) {
       fmt::format("{} open, {} at most while opening, {} for each instance",
                   readable_bytes(c.memory.resident_bytes), readable_bytes(c.memory.opening_bytes),
                   readable_bytes(c.memory.context_bytes)));
-  row("asked", asked_text(record));
-  row("measured",
-      fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %",
-                  record.max_error, percent(record), record.rmse, record.kg));
-  if (record.massaged)
-    row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
-                                record.surface_error_mean, record.surface_error));
+  if (several)
+    print_clips(c);
+  else
+    print_promise(record);
   print_segments(limits);
   print_chunks(c);
 }

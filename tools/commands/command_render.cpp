@@ -154,11 +154,9 @@ class Drawing {
     }
     if (!command_.error_range.empty())
       largest_ = static_cast<float>(parse_positive(command_.error_range, "--error-range"));
-    const MeshSequence& sequence = clip_->sequence();
-    clip_view_.emplace(sequence.polygons, sequence.vertex_count, box, width_, height_);
+    clip_view_.emplace(clip_->sequence(), box, width_, height_);
     if (original_)
-      original_view_.emplace(original_->sequence().polygons, original_->sequence().vertex_count,
-                             box, width_, height_);
+      original_view_.emplace(original_->sequence(), box, width_, height_);
     clip_frames_ = clip_->frames();
     if (original_)
       original_frames_ = original_->frames();

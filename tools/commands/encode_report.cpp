@@ -25,6 +25,10 @@ struct Rate {
   double bpfv = 0;   ///< bits per frame and vertex
 };
 
+const char* origin_of(const FrameRate& rate, bool asked) {
+  return asked ? "asked" : rate.assumed ? "assumed" : "source";
+}
+
 double percent(double length, double diagonal) {
   return length == 0 ? 0 : 100 * length / diagonal;
 }
@@ -41,6 +45,8 @@ nlohmann::ordered_json EncodeReport::json() const {
   json["vertices"] = result.vertices;
   json["faces"] = result.faces;
   json["frames"] = result.frames;
+  json["fps"] = result.rate.value();
+  json["fps_from"] = origin_of(result.rate, rate_asked);
   json["basis"] = name_of(result.kind);
   json["components"] = result.components;
   json["kg"] = result.kg;
@@ -51,6 +57,13 @@ nlohmann::ordered_json EncodeReport::json() const {
   json["massaged"] = massage.change.has_value();
   json["surface_error"] = massage.change ? massage.change->max : 0;
   json["surface_error_mean"] = massage.change ? massage.change->mean : 0;
+  json["clips"] = nlohmann::ordered_json::array();
+  for (const ClipResult& clip : result.clips)
+    json["clips"].push_back({{"name", clip.name},
+                             {"frames", clip.frames},
+                             {"kg", clip.kg},
+                             {"rmse", clip.rmse},
+                             {"max_error", clip.max_error}});
   json["moving_attributes"] = nlohmann::ordered_json::array();
   for (const AttributeResult& a : result.attributes)
     json["moving_attributes"].push_back({{"kind", name_of(a.kind)},
@@ -62,6 +75,25 @@ nlohmann::ordered_json EncodeReport::json() const {
                                          {"max_error", a.max_error},
                                          {"rmse", a.rmse}});
   return json;
+}
+
+/// What the clips reached, and which of them share a basis.
+void EncodeReport::print_clips(int verbosity) const {
+  uint32_t first = 0;
+  for (const ClipResult& clip : result.clips) {
+    print_line("  clip \"{}\": {} frames, max error {:.4g}, KG {:.3g} %", clip.name, clip.frames,
+               clip.max_error, clip.kg);
+    for (const FrameRun& segment : result.segments) {
+      if (verbosity == 0 || segment.first + segment.count <= first ||
+          segment.first >= first + clip.frames)
+        continue;
+      const bool shared =
+          segment.first < first || segment.first + segment.count > first + clip.frames;
+      print_line("    frames {}:{} by a basis {}", segment.first, segment.first + segment.count,
+                 shared ? "shared among clips" : "of its own, on the shared pose");
+    }
+    first += clip.frames;
+  }
 }
 
 void EncodeReport::print_text(int verbosity) const {
@@ -82,11 +114,17 @@ void EncodeReport::print_text(int verbosity) const {
   else if (massage_was_choice)
     fmt::print("not massaged: the clip would not become smaller\n");
   Rate rate(result);
+  std::string frames = counted(result.frames, "frame");
+  if (result.frames > 1)
+    frames +=
+        fmt::format(" at {:.6g} fps ({})", result.rate.value(), origin_of(result.rate, rate_asked));
   print_line(
-      "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {} {}; max error {:.4g} ({:.3g} %), KG {:.3g} %",
-      path, grouped(result.file.size()), rate.ratio, rate.bpfv, result.components,
-      components_of(result.kind), result.max_error, percent(result.max_error, result.diagonal),
-      result.kg);
+      "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {}; {}; max error {:.4g} ({:.3g} %), KG {:.3g} %",
+      path, grouped(result.file.size()), rate.ratio, rate.bpfv, frames,
+      counted_components(result.components, result.kind), result.max_error,
+      percent(result.max_error, result.diagonal), result.kg);
+  if (result.clips.size() > 1)
+    print_clips(verbosity);
   for (const AttributeResult& a : result.attributes) {
     if (a.kept)
       print_line("  {} \"{}\": {} bytes, max error {:.3g} of {:.3g}", name_of(a.kind), a.name,

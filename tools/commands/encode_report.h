@@ -19,11 +19,14 @@ struct EncodeReport {
   const EncodeResult& result;
   const MassageVerdict& massage;
   bool massage_was_choice = false;  ///< --massage auto
+  bool rate_asked = false;          ///< --fps
 
   nlohmann::ordered_json json() const;
 
   /// `verbosity` above 0: what was tried, too.
   void print_text(int verbosity) const;
+
+  void print_clips(int verbosity) const;
 };
 
 }  // namespace anicodec::tools

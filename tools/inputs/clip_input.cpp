@@ -132,6 +132,21 @@ void open_clip(const std::string& path, const std::string& bytes, const OpenOpti
                             path, clip.meshes().size()));
 }
 
+void choose_clip(const std::string& path, const std::string& name, Clip& clip) {
+  if (name == "all" || (name.empty() && clip.clips().size() == 1))
+    return;
+  const size_t chosen = clip.record().find(name.c_str());
+  if (!name.empty() && chosen < clip.clips().size())
+    return clip.take_clip(static_cast<uint32_t>(chosen));
+  std::string names;
+  for (const ClipRecord& c : clip.clips())
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", c.name);
+  throw Error(ErrorKind::kUsage,
+              name.empty() ? fmt::format("{}: has several clips, one of them must be chosen, or all: {}",
+                                         path, names)
+                           : fmt::format("{}: there is no clip '{}'; it has {}", path, name, names));
+}
+
 std::vector<uint32_t> meshes_of(const Clip& clip) {
   std::vector<uint32_t> meshes(clip.meshes().size());
   std::iota(meshes.begin(), meshes.end(), 0U);
@@ -155,14 +170,16 @@ MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes
   MeshSequence sequence = described.size() == 1 && described[0].mesh_name.empty()
                               ? std::move(described[0])
                               : merge_meshes(described);
-  const ClipRecord& record = clip.record();
+  const ClipRecord& record = clip.clips()[0];
   sequence.name.assign(record.name.begin(), record.name.end());
   sequence.frame_count = clip.frame_count();
   sequence.rate = {record.rate_numerator, record.rate_denominator, record.rate_assumed};
   sequence.start_time = record.start_time;
-  sequence.times.assign(record.times.begin(), record.times.end());
-  sequence.up = static_cast<UpAxis>(record.up);
-  sequence.metres_per_unit = record.metres_per_unit;
+  sequence.loop = record.loop;
+  if (clip.clips().size() == 1)
+    sequence.times.assign(record.times.begin(), record.times.end());
+  sequence.up = static_cast<UpAxis>(clip.record().up);
+  sequence.metres_per_unit = clip.record().metres_per_unit;
   return sequence;
 }
 

@@ -48,6 +48,10 @@ bool takes_turns(const Clip& clip);
 void open_clip(const std::string& path, const std::string& bytes, const OpenOptions& options,
                Clip& clip, Topologies allowed = Topologies::kOne);
 
+/// Makes one clip of a file the only one (Clip::take_clip()), by its name; without a name there must
+/// be no other, "all" takes all. Throws Error(kUsage) that lists the clips.
+void choose_clip(const std::string& path, const std::string& name, Clip& clip);
+
 /// Numbers of all meshes of a clip.
 std::vector<uint32_t> meshes_of(const Clip& clip);
 
@@ -55,7 +59,7 @@ std::vector<uint32_t> meshes_of(const Clip& clip);
 std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh);
 
 /// Some meshes of the clip as one, see merge_meshes(): counts, polygons, metadata, and the timing
-/// of all frames.
+/// of all frames: of several clips, at the rate of the first.
 MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes);
 
 /// Plays some meshes of the clip, which must outlive the source, as one. Frames are given in any

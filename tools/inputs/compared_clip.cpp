@@ -40,6 +40,7 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
     bytes_ = bytes.size();
     clip_ = std::make_unique<Clip>();
     open_clip(path, bytes, {}, *clip_);
+    choose_clip(path, part.clip, *clip_);
     sequence_ = describe_clip(*clip_, meshes_of(*clip_));
   } else {
     LoadOptions options;

@@ -61,6 +61,10 @@ constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
 constexpr Word<InterpolationChoice> kInterpolations[] = {{InterpolationChoice::kLinear, "linear"},
                                                          {InterpolationChoice::kMsgi, "msgi"},
                                                          {InterpolationChoice::kAuto, "auto"}};
+constexpr Word<std::optional<KeyframePoses>> kKeyframePoses[] = {
+    {KeyframePoses::kDraco, "draco"},
+    {KeyframePoses::kNative, "native"},
+    {KeyframePoses::kAuto, "auto"}};
 constexpr Word<OrderChoice> kOrders[] = {{OrderChoice::kAuto, "auto"},
                                          {OrderChoice::kVertices, "vertices"},
                                          {OrderChoice::kFree, "free"},
@@ -70,6 +74,32 @@ constexpr Word<TopologyChanges> kTopologyChanges[] = {{TopologyChanges::kRefuse,
                                                       {TopologyChanges::kTransfer, "transfer"}};
 constexpr Word<MassageMode> kMassageModes[] = {
     {MassageMode::kOff, "off"}, {MassageMode::kOn, "on"}, {MassageMode::kAuto, "auto"}};
+
+/// The parts of a list that commas separate.
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  for (size_t begin = 0; begin < list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    words.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+void set_names(const std::string& list, MeshSequence& sequence) {
+  if (list.empty())
+    return;
+  if (sequence.clips.empty()) {
+    sequence.name = list;
+    return;
+  }
+  const std::vector<std::string> names = words_of(list);
+  if (names.size() != sequence.clips.size())
+    throw Error(ErrorKind::kUsage, fmt::format("--name: {} names for {} clips", names.size(),
+                                               sequence.clips.size()));
+  for (size_t c = 0; c < names.size(); ++c)
+    sequence.clips[c].name = names[c];
+}
 
 void add_target(Options& options, EncodeArguments& a) {
   options.group("Target");
@@ -91,6 +121,9 @@ void add_method(Options& options, EncodeArguments& a) {
                  "How key-frames are chosen (default pivot)");
   options.choice("--interpolation", a.interpolation, {kInterpolations},
                  "How frames come from key-frames (default linear)");
+  options.choice("--keyframe-coder", a.keyframe_coder, {kKeyframePoses},
+                 "Coder of key-frames: draco (default), native, which needs no Draco to play, or the "
+                 "smaller (auto)");
   options.choice("--order", a.order, {kOrders},
                  "Source order kept: that of vertices, none (free), of faces too (all); default auto: "
                  "vertices, of glTF and FBX scenes none");
@@ -133,8 +166,8 @@ void add_attributes(Options& options, EncodeArguments& a) {
 void add_metadata(Options& options, EncodeArguments& a) {
   options.group("Metadata (positions stay as they are)");
   options.option("--fps", a.rate, "N[/D]",
-                 "Frames per second (default: as in the input, else 24; of a scene: the rate of "
-                 "its keys, at least 30)");
+                 "Frames per second (default: as in the input, else 24; of a scene: the grid that "
+                 "its keys stand on, or without one a rate of 30 or more that ends with the last)");
   options.choice("--up", a.up, {kUpAxes}, "Axis that points up");
   options.option("--unit", a.unit, "METRES", "Length of a scene unit: metres, or m cm mm km in ft");
   options.flag("--loop", a.loop, "The clip is meant to be repeated");
@@ -151,6 +184,11 @@ void add_arguments(Options& options, EncodeArguments& a) {
       "Mesh of a lone vertex cache (default: same stem beside it), or the name of one in "
       "a scene (default: all)");
   options.option("--clip", a.clip, "NAME|INDEX", "Animation of a scene, or none");
+  options.option("--clips", a.clips, "all|NAME,...",
+                 "Several animations of a glTF scene, as clips of one file");
+  options.option("--name", a.names, "NAME,...",
+                 "Name of the clip, or of each (default: of the cache or animation)");
+  options.exclude({"--clip", "--clips"});
   options.option("--part", a.part, "A:B", "Encode only frames A to B - 1, as a part for join");
   options.option("--batch", a.batch, "DIR|LIST",
                  "Encode all clips in a folder, or in a list with a clip per line");
@@ -199,6 +237,9 @@ EncodeOptions encode_options(const EncodeArguments& command) {
       options.basis != BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage, "--interpolation goes with --basis keyframes or --keyframes");
   options.interpolation = command.interpolation;
+  if (command.keyframe_coder && options.basis != BasisChoice::kKeyframes)
+    throw Error(ErrorKind::kUsage, "--keyframe-coder goes with --basis keyframes or --keyframes");
+  options.keyframe_poses = command.keyframe_coder;
   options.order = order_of(command.order, command.inputs);
   options.attributes = command.attributes;
   options.attributes.keep = !command.no_attributes;
@@ -225,6 +266,7 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   LoadOptions options;
   options.mesh = command.mesh;
   options.clip = command.clip;
+  options.clips = words_of(command.clips);
   options.progress = progress;
   options.allow_outside = command.allow_outside;
   if (!command.memory.empty() && command.batch.empty())
@@ -252,6 +294,9 @@ void set_metadata(const EncodeArguments& command, MeshSequence& sequence) {
   if (!command.unit.empty())
     sequence.metres_per_unit = parse_unit(command.unit, "--unit");
   sequence.loop = command.loop;
+  for (ClipTiming& clip : sequence.clips)
+    clip.loop = command.loop;
+  set_names(command.names, sequence);
 }
 
 std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) {
@@ -260,6 +305,7 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
   for (int choice :
        {static_cast<int>(c.basis), static_cast<int>(c.selection), static_cast<int>(c.order),
         static_cast<int>(c.interpolation), static_cast<int>(c.massage),
+        c.keyframe_coder ? static_cast<int>(*c.keyframe_coder) : -1,
         static_cast<int>(c.split_objects)})
     settings.push_back(choice);
   settings.push_back(c.massage_strength);

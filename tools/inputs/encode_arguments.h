@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,12 +29,13 @@ enum class OrderChoice { kAuto, kVertices, kFree, kAll };
 /// The arguments of encode on the command line.
 struct EncodeArguments {
   std::vector<std::string> inputs;
-  std::string output, mesh, clip, batch, memory, part;
+  std::string output, mesh, clip, clips, names, batch, memory, part;
   std::string kg, max_error, rmse, size, bpfv;
   BasisChoice basis = BasisChoice::kAuto;
   uint32_t keyframes = 0;
   KeyframeMethod selection = KeyframeMethod::kPivot;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;
+  std::optional<KeyframePoses> keyframe_coder;
   OrderChoice order = OrderChoice::kAuto;
   int effort = 5;
   TopologyChanges topology_changes = TopologyChanges::kRefuse;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/load_sequence.h"
 
+#include "codec/sequence/clip_library.h"
 #include "codec/sequence/error.h"
 #include "tools/io/alembic/alembic.h"
 #include "tools/io/assimp/assimp_scene.h"
@@ -239,6 +240,7 @@ GltfOptions scene_options(const LoadOptions& options) {
   scene.memory_limit = options.memory;
   scene.allow_outside = options.allow_outside;
   scene.progress = options.progress;
+  scene.note = options.note;
   return scene;
 }
 
@@ -252,6 +254,14 @@ void load_scene(const std::string& path, const LoadOptions& options, MeshSequenc
     read_file((fs::path(path).parent_path() / name).string(), file);
     return file;
   };
+  if (!options.clips.empty()) {
+    if (kind_of(path) == FileKind::kAssimp)
+      fail_usage("--clips: " + path + " is no glTF scene");
+    const bool all = options.clips == std::vector<std::string>{"all"};
+    sequence = clip_library(parse_gltf_clips(bytes, path, resolve, scene,
+                                             all ? std::vector<std::string>{} : options.clips));
+    return;
+  }
   sequence = kind_of(path) == FileKind::kAssimp ? load_assimp(path, scene)
                                                 : parse_gltf(bytes, path, resolve, scene);
   sequence.name = sequence.name.empty() ? stem : stem + " " + sequence.name;
@@ -333,21 +343,28 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
     return load_scene(paths[0], options, sequence);
   if (!options.clip.empty())
     fail_usage("--clip " + options.clip + ": " + paths[0] + " is no scene with clips");
+  if (!options.clips.empty())
+    fail_usage("--clips: " + paths[0] + " is no scene with clips");
   if (kind_of(paths[0]) == FileKind::kAlembic)
     return load_archive(paths[0], options, sequence);
   std::vector<std::string> caches, meshes;
   for (const std::string& path : paths)
     (is_cache(kind_of(path)) ? caches : meshes).push_back(path);
-  if (caches.size() > 1)
-    fail_usage(caches[1] + ": a second vertex cache; a clip has one");
-  if (caches.size() == 1) {
+  if (!caches.empty()) {
     if (meshes.size() + (options.mesh.empty() ? 0 : 1) > 1)
       fail_usage(caches[0] + ": a vertex cache goes with one mesh, but " +
                  std::to_string(meshes.size() + (options.mesh.empty() ? 0 : 1)) + " are given");
     std::string mesh = !meshes.empty()         ? meshes[0]
                        : !options.mesh.empty() ? options.mesh
                                                : mesh_beside(caches[0]);
-    load_cache(caches[0], mesh, options, sequence);
+    if (caches.size() == 1)
+      return load_cache(caches[0], mesh, options, sequence);
+    std::vector<MeshSequence> clips(caches.size());
+    for (size_t c = 0; c < caches.size(); ++c) {
+      load_cache(caches[c], mesh, options, clips[c]);
+      clips[c].name = fs::path(caches[c]).stem().string();
+    }
+    sequence = clip_library(std::move(clips));
     return;
   }
   if (!options.mesh.empty())
@@ -391,6 +408,8 @@ MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOption
   if (options.rate) {
     sequence.rate = *options.rate;
     sequence.rate.assumed = false;
+    for (ClipTiming& clip : sequence.clips)
+      clip.rate = sequence.rate;
   }
   return sequence;
 }

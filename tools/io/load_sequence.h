@@ -26,6 +26,9 @@ struct LoadOptions {
   std::string mesh = {};
   /// Animation of a scene, see GltfOptions.
   std::string clip = {};
+  /// Several animations of a glTF scene as one sequence of several clips, by their names; "all":
+  /// all that move anything.
+  std::vector<std::string> clips = {};
   /// See StlWeld.
   bool weld_stl = true;
   /// Most bytes that may be taken for what a file announces and does not hold: decompressed data,

@@ -91,10 +91,10 @@ std::string mesh_of_cache(const std::string& cache) {
 }
 
 void write_cache(const std::string& path, const MeshSequence& clip, const Frames& frames,
-                 bool overwrite) {
+                 const WriteOptions& options) {
   std::vector<AtomicFile> files;
-  files.emplace_back(path, overwrite);
-  files.emplace_back(mesh_of_cache(path), overwrite);
+  files.emplace_back(path, options.overwrite);
+  files.emplace_back(mesh_of_cache(path), options.overwrite);
 
   bool is_pc2 = kind_of(path) == FileKind::kPc2;
   std::string bytes;
@@ -110,7 +110,7 @@ void write_cache(const std::string& path, const MeshSequence& clip, const Frames
     files[0].write(bytes);
     bytes.clear();
     if (f == 0) {
-      const ObjDetails details(clip);
+      const ObjDetails details(clip, options.group_faces);
       append_obj(clip.polygons, positions, bytes, &details);
       files[1].write(bytes);
       bytes.clear();
@@ -171,7 +171,7 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
   std::string bytes;
   std::optional<ObjDetails> details;
   if (kind == FileKind::kObj)
-    details.emplace(clip);
+    details.emplace(clip, options.group_faces);
   std::vector<Attribute> attributes = clip.attributes;
   const PlyProperties properties(attributes);
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
@@ -230,7 +230,7 @@ void write_sequence(const std::string& path, const MeshSequence& clip, const Fra
   Frames frames(clip, source, options.progress);
   FileKind kind = kind_of(path);
   if (is_cache(kind))
-    write_cache(path, clip, frames, options.overwrite);
+    write_cache(path, clip, frames, options);
   else if (kind == FileKind::kGlb)
     write_glb(path, clip, frames, own);
   else if (kind == FileKind::kAlembic)

@@ -19,6 +19,7 @@ struct WriteOptions {
   bool ascii = false;         ///< PLY and STL as text
   bool step = false;          ///< GLB: frames stand until the next instead of moving to it
   bool normals = false;       ///< Alembic: those of every corner in every frame
+  bool group_faces = false;   ///< OBJ: faces object by object, and in each material by material
   uint32_t first_number = 0;  ///< of frame files
   Progress progress = {};     ///< stage "writing"
   /// Attributes in the form of those of the clip; empty: those of the clip.

@@ -16,9 +16,11 @@ namespace {
 constexpr const char* kUnread = "(not understood)";
 
 void list_limits(FieldReader& r) {
-  r.varint("frames");
+  uint64_t clips = r.varint("clips");
   uint64_t meshes = r.varint("meshes");
   uint64_t segments = r.varint("segments");
+  for (uint64_t i = 0; i < clips && r.ok(); ++i)
+    r.varint(fmt::format("clip {} frames", i));
   for (uint64_t i = 0; i < meshes && r.ok(); ++i) {
     for (const char* name :
          {"source vertices", "coded vertices", "triangles", "polygons", "corners"})
@@ -50,15 +52,12 @@ void list_limits(FieldReader& r) {
     r.varint(fmt::format("mesh {} attribute bytes", i));
 }
 
-/// The number of frames is in another chunk: the table of times, when there is one, is what is left
-/// before the fields of fixed size at the end.
-void list_clip(FieldReader& r, uint32_t frames) {
+void list_clip(FieldReader& r, const std::string& clip, uint32_t frames) {
   constexpr uint8_t kMassaged = 8, kTimes = 16, kAttributeErrors = 32;
-  r.text("name");
-  r.text("encoder");
-  r.varint("rate numerator");
-  r.varint("rate denominator");
-  uint8_t flags = r.u8("flags");
+  r.text(clip + "name");
+  r.varint(clip + "rate numerator");
+  r.varint(clip + "rate denominator");
+  uint8_t flags = r.u8(clip + "flags");
   std::string meaning;
   constexpr const char* kFlags[] = {"rate assumed", "loop",  "closed",
                                     "massaged",     "times", "attribute errors"};
@@ -68,26 +67,33 @@ void list_clip(FieldReader& r, uint32_t frames) {
   }
   if (!meaning.empty())
     r.explain(meaning);
+  r.f64(clip + "start time");
+  for (uint32_t f = 0; (flags & kTimes) && f < frames && r.ok(); ++f)
+    r.f64(fmt::format("{}time of frame {}", clip, f));
+  r.explain(name_of(static_cast<ErrorMetric>(r.u8(clip + "asked"))));
+  for (const char* name : {"asked value", "max error", "RMSE", "KG", "diagonal"})
+    r.f64(clip + name);
+  if (flags & kMassaged) {
+    r.f64(clip + "surface error");
+    r.f64(clip + "surface error, mean");
+  }
+  const uint64_t errors = flags & kAttributeErrors ? r.varint(clip + "attributes with an error") : 0;
+  for (uint64_t i = 0; i < errors && r.ok(); ++i) {
+    r.varint(fmt::format("{}error {} mesh", clip, i));
+    r.varint(fmt::format("{}error {} attribute", clip, i));
+    r.f64(fmt::format("{}error {} max error", clip, i));
+    r.f64(fmt::format("{}error {} RMSE", clip, i));
+  }
+}
+
+/// `frames` of each clip: they are in another chunk.
+void list_clips(FieldReader& r, const std::vector<uint32_t>& frames) {
+  r.text("encoder");
   r.explain(up_name(r.u8("up axis")));
   r.explain(name_of(static_cast<OrderMode>(r.u8("order"))));
-  r.f64("start time");
   r.f32("metres per unit");
-  for (uint32_t f = 0; (flags & kTimes) && f < frames && r.ok(); ++f)
-    r.f64(fmt::format("time of frame {}", f));
-  r.explain(name_of(static_cast<ErrorMetric>(r.u8("asked"))));
-  for (const char* name : {"asked value", "max error", "RMSE", "KG", "diagonal"})
-    r.f64(name);
-  if (flags & kMassaged) {
-    r.f64("surface error");
-    r.f64("surface error, mean");
-  }
-  const uint64_t errors = flags & kAttributeErrors ? r.varint("attributes with an error") : 0;
-  for (uint64_t i = 0; i < errors && r.ok(); ++i) {
-    r.varint(fmt::format("error {} mesh", i));
-    r.varint(fmt::format("error {} attribute", i));
-    r.f64(fmt::format("error {} max error", i));
-    r.f64(fmt::format("error {} RMSE", i));
-  }
+  for (size_t c = 0; c < frames.size() && r.ok(); ++c)
+    list_clip(r, frames.size() > 1 ? fmt::format("clip {} ", c) : "", frames[c]);
 }
 
 void list_mesh(FieldReader& r) {
@@ -132,13 +138,13 @@ void list_attributes(FieldReader& r) {
   r.bytes("values", r.remaining());
 }
 
-void list_payload(const Chunk& chunk, ByteView payload, uint32_t frames,
+void list_payload(const Chunk& chunk, ByteView payload, const std::vector<uint32_t>& frames,
                   std::vector<ListedField>& out) {
   FieldReader r(payload, chunk.offset, out);
   if (chunk.type == chunk_type("LIMI"))
     list_limits(r);
   else if (chunk.type == chunk_type("CLIP"))
-    list_clip(r, frames);
+    list_clips(r, frames);
   else if (chunk.type == chunk_type("MESH"))
     list_mesh(r);
   else if (chunk.type == chunk_type("POSE"))
@@ -185,15 +191,22 @@ std::vector<Chunk> list_table(ByteView file, std::vector<ListedField>& out) {
   return chunks;
 }
 
-uint32_t frame_count(ByteView file, const std::vector<Chunk>& chunks) {
+/// Frames of each clip; a damaged table of limits ends early.
+std::vector<uint32_t> clip_frames(ByteView file, const std::vector<Chunk>& chunks) {
+  std::vector<uint32_t> frames;
   for (const Chunk& chunk : chunks) {
     if (chunk.type == chunk_type("LIMI") && chunk.offset <= file.size &&
         chunk.size <= file.size - chunk.offset) {
       ByteReader r({file.data + chunk.offset, static_cast<size_t>(chunk.size)});
-      return r.varint32();
+      const uint32_t clips = r.varint32();
+      r.varint32();
+      r.varint32();
+      for (uint32_t c = 0; c < clips && r.ok() && r.remaining() > 0; ++c)
+        frames.push_back(r.varint32());
+      break;
     }
   }
-  return 0;
+  return frames;
 }
 
 }  // namespace
@@ -201,7 +214,7 @@ uint32_t frame_count(ByteView file, const std::vector<Chunk>& chunks) {
 std::vector<ListedField> list_fields(ByteView file) {
   std::vector<ListedField> out;
   std::vector<Chunk> chunks = list_table(file, out);
-  uint32_t frames = frame_count(file, chunks);
+  const std::vector<uint32_t> frames = clip_frames(file, chunks);
   uint64_t at = out.back().offset + out.back().size;
   auto gap_to = [&](uint64_t end, const char* name) {
     if (end > at)

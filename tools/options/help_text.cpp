@@ -48,23 +48,32 @@ std::string help_row(const std::string& name, const std::string& text) {
               : fmt::format("  {}\n{:{}}{}\n", name, "", kColumn, wrapped(text));
 }
 
-std::string help_text(const Options& options) {
-  std::vector<std::string> headings = {"Arguments"};
+std::vector<std::pair<std::string, std::vector<const Option*>>> options_by_heading(
+    const Options& options) {
+  std::vector<std::pair<std::string, std::vector<const Option*>>> groups = {{"Arguments", {}}};
+  std::vector<const Option*> general;
   for (const Option& option : options.all()) {
     const std::string heading = heading_of(option);
-    if (heading != kGeneralGroup &&
-        std::find(headings.begin(), headings.end(), heading) == headings.end())
-      headings.push_back(heading);
+    if (heading == kGeneralGroup) {
+      general.push_back(&option);
+      continue;
+    }
+    auto group = std::ranges::find(groups, heading, [](const auto& g) { return g.first; });
+    if (group == groups.end())
+      group = groups.insert(groups.end(), {heading, {}});
+    group->second.push_back(&option);
   }
-  headings.emplace_back(kGeneralGroup);
+  groups.emplace_back(kGeneralGroup, std::move(general));
+  std::erase_if(groups, [](const auto& group) { return group.second.empty(); });
+  return groups;
+}
+
+std::string help_text(const Options& options) {
   std::string text;
-  for (const std::string& heading : headings) {
-    std::string rows;
-    for (const Option& option : options.all())
-      if (heading_of(option) == heading)
-        rows += row_of(option);
-    if (!rows.empty())
-      text += fmt::format("\n{}:\n{}", heading, rows);
+  for (const auto& [heading, group] : options_by_heading(options)) {
+    text += fmt::format("\n{}:\n", heading);
+    for (const Option* option : group)
+      text += row_of(*option);
   }
   return text;
 }

@@ -126,15 +126,17 @@ Option& Options::whole(const std::string& names, const std::string& word, Bounds
 Option& Options::one_of(const std::string& names, std::vector<std::string> words,
                         const std::string& text, std::function<void(size_t)> set) {
   const std::string list = fmt::format("{}", fmt::join(words, "|"));
-  return add(Option::Kind::kValue, names, list, text,
-             [words = std::move(words), list, set = std::move(set),
-              name = long_name_of(names)](const std::string& given) {
-               const auto found = std::find(words.begin(), words.end(), given);
-               if (found == words.end())
-                 throw Error(ErrorKind::kUsage,
-                             fmt::format("{}: '{}' is not one of {}", name, given, list));
-               set(static_cast<size_t>(found - words.begin()));
-             });
+  Option& option = add(
+      Option::Kind::kValue, names, list, text,
+      [words, list, set = std::move(set), name = long_name_of(names)](const std::string& given) {
+        const auto found = std::find(words.begin(), words.end(), given);
+        if (found == words.end())
+          throw Error(ErrorKind::kUsage,
+                      fmt::format("{}: '{}' is not one of {}", name, given, list));
+        set(static_cast<size_t>(found - words.begin()));
+      });
+  option.words = std::move(words);
+  return option;
 }
 
 }  // namespace anicodec::tools

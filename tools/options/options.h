@@ -24,10 +24,11 @@ struct Option {
   enum class Kind : uint8_t { kArgument, kArguments, kFlag, kValue };
 
   Kind kind = Kind::kValue;
-  std::string names;  ///< "-o,--output"; of an argument its name in the help
-  std::string value;  ///< what stands for the value in the help, such as A:B
-  std::string text;   ///< one sentence; the help wraps it
-  std::string group;  ///< heading in the help
+  std::string names;               ///< "-o,--output"; of an argument its name in the help
+  std::string value;               ///< what stands for the value in the help, such as A:B
+  std::string text;                ///< one sentence; the help wraps it
+  std::string group;               ///< heading in the help
+  std::vector<std::string> words;  ///< the only values, if any
   bool is_required = false;
   bool repeats = false;   ///< may be given more than once
   bool is_alone = false;  ///< such as --help: where it is given, nothing else is read or checked

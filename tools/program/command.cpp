@@ -6,7 +6,9 @@
 #include "tools/options/help_text.h"
 #include "tools/options/nearest_word.h"
 #include "tools/options/parse_options.h"
+#include "tools/program/manual_page.h"
 #include "tools/program/print.h"
+#include "tools/program/shell_completion.h"
 #include "tools/words/version.h"
 
 #include <algorithm>
@@ -57,7 +59,7 @@ void print_help(const Program& program, const Commands& commands, const Command&
   std::vector<std::string> names;
   for (const Command& command : commands)
     names.push_back(command.help.name);
-  for (const char* word : {"help", "version"})
+  for (const char* word : {"help", "version", "manual", "completion"})
     names.emplace_back(word);
   const std::string meant = nearest_word(name, names);
   throw Error(ErrorKind::kUsage,
@@ -114,6 +116,31 @@ void run_help(const Program& program, Commands& commands, std::vector<std::strin
   print_help(program, commands, command);
 }
 
+/// The page of the manual that "manual COMMAND" asks for.
+void run_manual(const Program& program, Commands& commands, std::vector<std::string> words) {
+  if (words.empty()) {
+    fmt::print("{}", manual_page(program, commands));
+    return;
+  }
+  const Command& command = take_command(program, commands, words);
+  if (!words.empty())
+    throw Error(ErrorKind::kUsage, fmt::format("manual: '{}' is one argument too many", words[0]));
+  fmt::print("{}", manual_page(program, command));
+}
+
+void run_completion(const Program& program, const Commands& commands,
+                    const std::vector<std::string>& words) {
+  constexpr Word<Shell> kShells[] = {
+      {Shell::kBash, "bash"}, {Shell::kZsh, "zsh"}, {Shell::kFish, "fish"}};
+  for (const Word<Shell>& shell : kShells) {
+    if (words.size() == 1 && words[0] == shell.text) {
+      fmt::print("{}", shell_completion(program, commands, shell.value));
+      return;
+    }
+  }
+  throw Error(ErrorKind::kUsage, "completion: one of bash, zsh and fish is required");
+}
+
 void parse_and_run(const Program& program, CommonOptions& common, std::vector<std::string> words) {
   Commands commands;
   program.declare(commands, common);
@@ -124,6 +151,10 @@ void parse_and_run(const Program& program, CommonOptions& common, std::vector<st
     run_help(program, commands, {words.begin() + 1, words.end()});
   } else if (begins_with(words, {"version", "-V", "--version"})) {
     print_version(program);
+  } else if (begins_with(words, {"manual"})) {
+    run_manual(program, commands, {words.begin() + 1, words.end()});
+  } else if (begins_with(words, {"completion"})) {
+    run_completion(program, commands, {words.begin() + 1, words.end()});
   } else {
     Command& command = take_command(program, commands, words);
     run_command(program, commands, command, common, words);

@@ -28,13 +28,14 @@ struct Camera {
   bool z_up = false;
 };
 
-/// Pictures of a surface, ray by ray (Embree): two lights, smooth normals, both sides visible, four
-/// samples per pixel. The same camera distance for every frame, so that motion stays motion.
+/// Pictures of a surface by a depth buffer: two lights, both sides visible, four samples per pixel,
+/// smooth but for the edges that the clip says are hard. The same camera distance for every frame, so
+/// that motion stays motion.
 class ShadedView {
  public:
-  /// Throws Error(kInput) when there is no triangle.
-  ShadedView(const Polygons& polygons, uint32_t vertex_count, const Box& box, uint32_t width,
-             uint32_t height);
+  /// Takes polygons and hard edges, as known_shared_normals() has them. Throws Error(kInput) when there is
+  /// no triangle.
+  ShadedView(const MeshSequence& sequence, const Box& box, uint32_t width, uint32_t height);
   ~ShadedView();
 
   /// One frame: vertices x 3. `colours`, if any: red, green, blue within [0, 1] of each vertex.

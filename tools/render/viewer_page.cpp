@@ -52,7 +52,7 @@ std::string escaped(std::string_view text) {
 
 }  // namespace
 
-std::string load_viewer() {
+std::string find_viewer() {
   std::error_code none;
   const std::filesystem::path command = std::filesystem::read_symlink("/proc/self/exe", none);
   for (const std::filesystem::path& path :
@@ -63,6 +63,12 @@ std::string load_viewer() {
     if (page.find(kMark) != std::string::npos)
       return page;
   }
+  return {};
+}
+
+std::string load_viewer() {
+  if (std::string page = find_viewer(); !page.empty())
+    return page;
   throw Error(ErrorKind::kUnsupported,
               "this build has no viewer for .html: build the preset wasm (sdk/web/README.md)");
 }

@@ -17,7 +17,11 @@ struct PageClip {
   std::string_view bytes;
 };
 
-/// The viewer's page: that of an installation beside the command, else that of this checkout. Throws
+/// The viewer's page: that of an installation beside the command, else that of this checkout, else
+/// empty.
+std::string find_viewer();
+
+/// The same where it is needed. Throws
 /// Error(kUnsupported) where neither is: the preset wasm makes it.
 std::string load_viewer();
 

@@ -14,7 +14,7 @@ namespace anicodec::tools {
 namespace {
 
 constexpr double kLegendLine = 20;
-constexpr double kWidth = 640, kHeight = 360, kLeft = 62, kRight = 14, kTop = 12, kBottom = 44;
+constexpr double kWidth = 460, kHeight = 300, kLeft = 62, kRight = 14, kTop = 12, kBottom = 44;
 
 /// One direction of a chart: from values to positions, with ticks at round values.
 class Axis {
@@ -185,8 +185,10 @@ std::string svg_of(const Chart& chart) {
   const std::string inside = plot(chart);
   if (inside.empty())
     return "<p>Nothing to draw.</p>";
-  std::string out = fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\">{}</svg>", kWidth,
-                                kHeight, inside);
+  std::string out = "<figure>";
+  if (!chart.title.empty())
+    out += "<p>" + escaped(chart.title) + "</p>";
+  out += fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\">{}</svg>", kWidth, kHeight, inside);
   if (chart.series.size() > 1) {
     out += "<figcaption class=\"legend\">";
     for (size_t s = 0; s < chart.series.size(); ++s)

@@ -17,6 +17,7 @@ struct Series {
 };
 
 struct Chart {
+  std::string title;  ///< above it, if any
   std::string x_label, y_label;
   bool log_x = false, log_y = false;  ///< values that are not above 0 are then left out
   bool dots = true;

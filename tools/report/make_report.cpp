@@ -13,6 +13,7 @@
 #include "tools/peers/gltfpack.h"
 #include "tools/peers/raw_cache.h"
 #include "tools/render/shaded_view.h"
+#include "tools/render/viewer_page.h"
 #include "tools/report/report.h"
 #include "tools/words/names.h"
 #include "tools/words/version.h"
@@ -50,7 +51,7 @@ class ReportMaker {
     report_.vertices = sequence_.vertex_count;
     report_.faces = static_cast<uint32_t>(sequence_.polygons.size());
     report_.frames = sequence_.frame_count;
-    report_.frame_rate = sequence_.rate.value();
+    report_.rate = sequence_.rate;
     report_.diagonal = diagonal(sequence_);
     tbb::task_group stages;
     for (double kg : kLinearTargets)
@@ -141,8 +142,18 @@ class ReportMaker {
       report_.shown_bytes = result.file.size();
       report_.shown = comparison;
       add_shares(result.file);
+      add_player(result.file);
       draw_frames(frames);
     }
+  }
+
+  void add_player(const Bytes& file) {
+    const std::string viewer = find_viewer();
+    if (viewer.empty() || !can_draw())
+      return;
+    const PageClip clip[] = {{sequence_.name.empty() ? "clip" : sequence_.name,
+                              {reinterpret_cast<const char*>(file.data()), file.size()}}};
+    report_.player = viewer_page(viewer, clip);
   }
 
   void add_shares(const Bytes& file) {
@@ -247,8 +258,7 @@ class ReportMaker {
       std::span<const float> original = sequence_.frame(f), decoded = frames(f);
       Box around;
       around.add(original);
-      ShadedView view(sequence_.polygons, sequence_.vertex_count, around, kPictureSize,
-                      kPictureSize);
+      ShadedView view(sequence_, around, kPictureSize, kPictureSize);
       std::vector<float> colours;
       for (size_t v = 0; v < sequence_.vertex_count; ++v) {
         double squared = 0;
@@ -279,8 +289,7 @@ class ReportMaker {
     for (uint32_t f : fit.keyframes) {
       Box around;
       around.add(sequence_.frame(f));
-      ShadedView view(sequence_.polygons, sequence_.vertex_count, around, kThumbnailSize,
-                      kThumbnailSize);
+      ShadedView view(sequence_, around, kThumbnailSize, kThumbnailSize);
       report_.keyframes.push_back(
           {fmt::format("frame {}", f), view.draw(sequence_.frame(f), camera())});
     }
@@ -303,7 +312,7 @@ Report make_report(const MeshSequence& sequence, const ReportOptions& options) {
 nlohmann::ordered_json report_json(const Report& report) {
   nlohmann::ordered_json json = {
       {"name", report.name},     {"vertices", report.vertices},     {"faces", report.faces},
-      {"frames", report.frames}, {"frame_rate", report.frame_rate}, {"diagonal", report.diagonal}};
+      {"frames", report.frames}, {"frame_rate", report.rate.value()}, {"diagonal", report.diagonal}};
   json["rates"] = nlohmann::ordered_json::array();
   for (const RatePoint& p : report.rates)
     json["rates"].push_back({{"codec", p.codec},

@@ -24,8 +24,8 @@ p{max-width:46em}.quiet{color:var(--quiet)}
 .tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(140px,1fr));gap:12px;margin:20px 0}
 .tiles div{background:var(--card);border-radius:8px;padding:12px 14px}
 .tiles b{display:block;font-size:1.35rem;font-variant-numeric:tabular-nums}
-.charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(420px,100%),1fr));gap:16px}
-figure{margin:0;min-width:0}svg{width:100%;height:auto;display:block}
+.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(420px,100%),1fr));gap:16px}
+figure{margin:0;min-width:0}figure p{margin:0 0 4px}iframe{width:100%;height:520px;border:0;border-radius:8px}svg{width:100%;height:auto;display:block}
 .legend{font-size:.85rem;line-height:1.9}.legend span{white-space:nowrap;margin-right:12px}
 .legend i{display:inline-block;width:18px;border-top:3px solid;margin-right:5px;vertical-align:middle}
 .legend .dashed i{border-top-style:dashed}
@@ -189,10 +189,11 @@ std::string report_page(const Report& report) {
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
       "<title>{0} – anicodec</title><style>{7}{1}</style></head><body><main><h1>{0}</h1>"
-      "<p class=\"quiet\">{2} vertices, {3} faces, {4} frames at {5:.4g} per second. Made by "
-      "anicodec {6}.</p>",
+      "<p class=\"quiet\">{2} vertices, {3} faces, {4} frames at {5:.4g} per second{8}. Made "
+      "by anicodec {6}.</p>",
       name, kStyle, grouped(report.vertices), grouped(report.faces), report.frames,
-      report.frame_rate, version(), kChartStyle);
+      report.rate.value(), version(), kChartStyle,
+      report.rate.assumed ? ", which is assumed: the source names no rate" : "");
   const double raw = 12.0 * report.vertices * report.frames;
   if (report.shown_bytes > 0) {
     const auto bytes = static_cast<double>(report.shown_bytes);
@@ -206,6 +207,9 @@ std::string report_page(const Report& report) {
                 "largest error, of the diagonal") +
            "</div>";
   }
+  if (!report.player.empty())
+    out += "<iframe loading=\"lazy\" title=\"The clip, playing\" srcdoc=\"" +
+           escaped(report.player) + "\"></iframe>";
   out +=
       "<h2>Size against error</h2><p>Whole files, of positions and faces. Lower and further left "
       "is better. Other codecs "
@@ -239,12 +243,17 @@ std::string report_page(const Report& report) {
       "<h2>Key-frames and components</h2><p>The clip expressed by so many exact key-frames, chosen "
       "by Neural Gas (gas), pivoting (pivot) or evenly (uniform), or by principal components "
       "(pca, dashed). Nothing is quantised.</p><div class=\"charts\">";
-  for (const char* weights : {"linear", "sum-to-one", "rigid"}) {
-    const Chart chart = basis_chart(report, [&](const std::string& method) {
-      const bool rigid = std::string(weights) == "rigid";
+  constexpr std::pair<const char*, const char*> kWeights[] = {
+      {"linear", "Any weights"},
+      {"sum-to-one", "Weights that sum to one, so that a clip far from the origin costs nothing"},
+      {"rigid", "A rigid motion for each frame, then weights of what it leaves"}};
+  for (const auto& [weights, title] : kWeights) {
+    const bool rigid = std::string(weights) == "rigid";
+    Chart chart = basis_chart(report, [&](const std::string& method) {
       return method.find(std::string("-") + weights) != std::string::npos ||
              (!rigid && starts_with(method, "pca") && method != "pca-mean-rigid");
     });
+    chart.title = title;
     out += svg_of(chart);
   }
   out += "</div>";

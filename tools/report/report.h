@@ -51,7 +51,8 @@ struct ReportPicture {
 struct Report {
   std::string name;
   uint32_t vertices = 0, faces = 0, frames = 0;
-  double diagonal = 0, frame_rate = 0;
+  double diagonal = 0;
+  FrameRate rate;
   std::vector<RatePoint> rates;
   std::vector<std::string> missing;  ///< commands of other codecs that are not installed
   double shown_kg = 0;               ///< KG error asked for in all that follows
@@ -60,6 +61,7 @@ struct Report {
   Comparison shown;                  ///< that file against the clip, frame by frame
   std::vector<BasisError> basis_errors;
   std::vector<ShapeSpaceError> shape_spaces;
+  std::string player;                    ///< a page that plays it, where the viewer is installed
   std::vector<ReportPicture> pictures;   ///< original, decoded, error, side by side
   std::vector<ReportPicture> keyframes;  ///< the contact sheet
   std::optional<MassageStudy> massage;   ///< where it was asked for

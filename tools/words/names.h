@@ -8,6 +8,7 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "format/attribute_record.h"
 #include "format/records.h"
+#include "tools/words/quantity.h"
 #include "tools/words/word_table.h"
 
 #include <cstdint>
@@ -22,7 +23,7 @@ inline constexpr Word<BasisKind> kBasisKinds[] = {
     {BasisKind::kEigentrajectories, "eigentrajectories"}};
 
 inline constexpr Word<CoderId> kCoders[] = {{CoderId::kDraco, "draco"},
-                                            {CoderId::kPlain, "plain"}};
+                                            {CoderId::kNative, "native"}};
 
 inline constexpr Word<PoseCoding> kPoseCodings[] = {{PoseCoding::kRounded, "rounded"},
                                                     {PoseCoding::kExact, "exact"},
@@ -93,9 +94,16 @@ inline const char* up_name(uint8_t up) {
   return name_of(UpAxis{up});
 }
 
-/// The name of a basis's components, in the plural, for people.
-inline const char* components_of(BasisKind kind) {
-  return kind == BasisKind::kKeyframes ? "key-frames" : name_of(kind);
+/// "1 key-frame", "12 eigenshapes", "3 eigentrajectories": components of a basis, for people.
+inline std::string counted_components(uint32_t number, BasisKind kind) {
+  switch (kind) {
+    case BasisKind::kKeyframes:
+      return counted(number, "key-frame");
+    case BasisKind::kEigentrajectories:
+      return counted(number, "eigentrajectory", "eigentrajectories");
+    default:
+      return counted(number, "eigenshape");
+  }
 }
 
 }  // namespace anicodec::tools

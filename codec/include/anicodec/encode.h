@@ -23,7 +23,7 @@
  *
  * Conventions
  * - Threads: an encoder is used by one thread at a time; different encoders are independent.
- *   anic_encode() computes on threads of its own unless anic_encode_options say 1. The bytes of the
+ *   anic_encode() starts threads unless anic_encode_options say 1. The bytes of the
  *   file do not depend on their number.
  * - Memory: malloc(). While anic_encode() runs it holds all positions as float32, and about twice
  *   as much again.
@@ -38,7 +38,7 @@
 
 #ifndef __cplusplus
 typedef int32_t anic_scalar, anic_goal, anic_basis_choice, anic_selection, anic_interpolation,
-    anic_massage;
+    anic_keyframe_coder, anic_massage;
 #endif
 
 #ifdef __cplusplus
@@ -48,7 +48,7 @@ extern "C" {
 /** Version of the library that is linked: major << 16 | minor << 8 | patch. */
 ANIC_API uint32_t anic_get_encoder_version(void);
 
-/** What is to be encoded, and how it went. */
+/** A clip to be encoded, and how it went. */
 typedef struct anic_encoder anic_encoder;
 
 /** - Errors: ANIC_E_ARGUMENT, ANIC_E_MEMORY */
@@ -58,7 +58,7 @@ ANIC_API anic_status anic_create_encoder(anic_encoder** out);
 ANIC_API void anic_destroy_encoder(anic_encoder* encoder);
 
 /**
- * What was wrong with the last call: one line of English without a full stop; empty if nothing was.
+ * The fault of the last call: one line of English without a full stop; empty if there was none.
  * The text belongs to the encoder and is good until the next call. Never NULL.
  */
 ANIC_API const char* anic_get_encoder_text(const anic_encoder* encoder);
@@ -145,7 +145,7 @@ typedef struct anic_source_attribute {
   uint32_t frames;        /**< frames that `values` has, 1 or all of the mesh; 0 counts as 1 */
   const float* values;    /**< frames x elements x components */
   const uint32_t* labels; /**< of each corner: those of a vertex with the same label share a
-                                     normal (ANIC_ATTRIBUTE_NORMAL). Of each polygon: 0 for none, or
+                                     normal (ANIC_ATTRIBUTE_NORMAL). For each polygon: 0 for none, or
                                      one more than the number of a name (ANIC_ATTRIBUTE_MATERIAL,
                                      ANIC_ATTRIBUTE_PART) */
   const char* const* label_names; /**< label_count; UTF-8 */
@@ -162,7 +162,7 @@ ANIC_API anic_status anic_add_source_attribute(anic_encoder* encoder, uint32_t m
 
 /* ---- encoding -------------------------------------------------------------------------------- */
 
-/** What the file keeps to. Spec: 04, section 4. */
+/** The promise that the file keeps. Spec: 04, section 4. */
 enum anic_goal ANIC_INT32 {
   ANIC_GOAL_DEFAULT = 0,   /**< with `keyframes` none, else a largest error of 0.05 % */
   ANIC_GOAL_MAX_ERROR = 1, /**< largest distance of any vertex of any frame from its place */
@@ -192,6 +192,14 @@ enum anic_interpolation ANIC_INT32 {
   ANIC_INTERPOLATE_LINEAR = 0,
   ANIC_INTERPOLATE_MSGI = 1,
   ANIC_INTERPOLATE_BEST = 2
+};
+
+/** What codes the poses of key-frames. */
+enum anic_keyframe_coder ANIC_INT32 {
+  ANIC_KEYFRAMES_USUAL = 0, /**< Draco if key-frames were asked for, else the coder of poses */
+  ANIC_KEYFRAMES_DRACO = 1,
+  ANIC_KEYFRAMES_NATIVE = 2, /**< the coder of poses: any decoder plays the file */
+  ANIC_KEYFRAMES_SMALLEST = 3
 };
 
 /** Whether vertices are moved along their surface first, of one mesh alone. */
@@ -239,6 +247,7 @@ typedef struct anic_encode_options {
   uint32_t keyframes; /**< exact number of key-frames; 0: as few as do */
   anic_selection selection;
   anic_interpolation interpolation;
+  anic_keyframe_coder keyframe_coder;
   anic_massage massage;
   uint32_t uv_bits;         /**< texture coordinates in steps of 2^-uv_bits; 0 means 12 */
   uint32_t colour_bits;     /**< of a component of a colour; 0 means 8 */

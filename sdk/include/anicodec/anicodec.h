@@ -47,7 +47,8 @@
  *   axis up; a host with z up takes (x, -z, y) of a clip with y up. A left-handed host negates one
  *   axis and either swaps two corners of each triangle or culls the other side. Multiplying by
  *   metres_per_unit gives metres.
- * - Time: seconds, and 0 is the first frame of the clip.
+ * - Frames: numbered through the file, over all its clips. Time: seconds, and 0 is the first frame of
+ *   a clip.
  * - "Spec" names a section in the folder spec/ of the project.
  */
 #ifndef ANICODEC_ANICODEC_H_
@@ -178,7 +179,7 @@ typedef struct anic_failure {
 /* ---- the host's memory and threads ----------------------------------------------------------- */
 
 /**
- * Where memory comes from. All zero: malloc() and free().
+ * The source of memory. All zero: malloc() and free().
  *
  * allocate() returns `size` bytes (never 0) at a multiple of `alignment` (a power of two, at most
  * 16), or NULL. After NULL the call that needed the memory gives back what it had and fails with
@@ -260,9 +261,13 @@ typedef struct anic_options {
   double quality; /**< share of the components to open, in (0, 1]; 0 means 1. Fewer components are
                      coarser, smaller, and faster to open and to play. Spec: 09a, section 4 */
   uint64_t flags; /**< ANIC_OPEN_... */
+  const char* const* clips; /**< names of the clips to open, clip_count of them; read while the call
+                               lasts, and by a stream until it is destroyed */
+  uint32_t clip_count;      /**< 0: all clips. Frames of others are ANIC_E_ABSENT, and take memory
+                               only while a segment opens that clips share */
 } anic_options;
 
-/** What opening a file takes, known from its first bytes. Spec: 11, section 3. */
+/** Memory that opening a file takes, known from its first bytes. Spec: 11, section 3. */
 typedef struct anic_requirements {
   size_t struct_size;
   uint64_t head_bytes;     /**< first bytes of the file that anic_get_requirements() has to see */
@@ -285,7 +290,7 @@ typedef struct anic_requirements {
  *
  * `head` holds the first `size` bytes of the file: header, chunk table and first chunk, which are a
  * few hundred bytes in most files. If they do not suffice, head_bytes says how many will, or how
- * many will tell.
+ * many will tell. It tells what all clips take, whichever the options name.
  *
  * - Errors: ANIC_E_TRUNCATED: head_bytes are needed; others: anic_open_asset() refuses the file too
  * - Memory: 32 bytes for each chunk, mesh and segment for a moment, from options->allocator
@@ -354,14 +359,15 @@ enum anic_order ANIC_INT32 {
   ANIC_ORDER_ALL = 2       /**< vertices, polygons and their first corners as in the source */
 };
 
-/** Spec: 04 (time, coordinates, promise), 06 section 3. Strings belong to the asset. */
+/** Name, clock and promise are those of clip 0: anic_clip_info() has those of each clip. Spec: 04
+ * (time, coordinates, promise), 06 section 3. Strings belong to the asset. */
 typedef struct anic_asset_info {
   size_t struct_size;
   const char* name;
   const char* encoder;
   uint32_t mesh_count;
   uint32_t segment_count;
-  uint32_t frame_count;
+  uint32_t frame_count;    /**< of all clips */
   uint32_t rate_numerator; /**< frames per second = numerator / denominator; a hint if `uneven` */
   uint32_t rate_denominator;
   anic_up_axis up;
@@ -391,6 +397,46 @@ typedef struct anic_asset_info {
 
 /** - Errors: ANIC_E_ARGUMENT */
 ANIC_API anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out);
+
+/** A clip: frames first_frame .. first_frame + frame_count - 1 of the file, with a clock and a promise of
+ * their own. The string belongs to the asset. Spec: 04, 06 section 3. */
+typedef struct anic_clip {
+  size_t struct_size;
+  const char* name;
+  uint32_t first_frame;
+  uint32_t frame_count;
+  uint32_t rate_numerator; /**< as in anic_asset_info, and so are those that follow */
+  uint32_t rate_denominator;
+  uint8_t rate_assumed;
+  uint8_t uneven;
+  uint8_t loop;
+  uint8_t closed;
+  uint8_t massaged;
+  uint8_t open; /**< the host asked for it: see anic_options.clips */
+  double start_time;
+  double duration;
+  double loop_duration;
+  double diagonal; /**< of the box around its frames of the source */
+  double max_error;
+  double rmse;
+  double kg;
+  double surface_error;
+  double surface_error_mean;
+} anic_clip;
+
+/** How many clips the file has; 0 for NULL. */
+ANIC_API uint32_t anic_clip_count(const anic_asset* asset);
+
+/** - Errors: ANIC_E_ARGUMENT: there is no such clip, too */
+ANIC_API anic_status anic_clip_info(const anic_asset* asset, uint32_t clip, anic_clip* out);
+
+/**
+ * Finds a clip by its name.
+ *
+ * - Errors: ANIC_E_ABSENT: no clip has this name; ANIC_E_ARGUMENT
+ * - Cost: O(clips)
+ */
+ANIC_API anic_status anic_find_clip(const anic_asset* asset, const char* name, uint32_t* out);
 
 /** A mesh. The string belongs to the asset. */
 typedef struct anic_mesh {
@@ -440,7 +486,7 @@ ANIC_API anic_status anic_write_indices(const anic_asset* asset, uint32_t mesh,
 ANIC_API anic_status anic_get_coded_vertices(const anic_asset* asset, uint32_t mesh,
                                              const uint32_t** out);
 
-/** What an attribute means. Numbers are fixed. Spec: 06, section 10. */
+/** The meaning of an attribute. Numbers are fixed. Spec: 06, section 10. */
 enum anic_attribute_kind ANIC_INT32 {
   ANIC_ATTRIBUTE_UV = 0,     /**< v upwards: (0, 0) is the lower left corner of an image; some
                                   graphics interfaces want 1 - v */
@@ -488,8 +534,8 @@ ANIC_API anic_status anic_get_attribute(const anic_asset* asset, uint32_t mesh, 
 ANIC_API const char* anic_get_label_name(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
                                          uint32_t label);
 
-/** Time of a frame in seconds; 0 for frame 0. Frames behind the last count as the last. Spec: 04,
- * section 2. */
+/** Time of a frame in seconds, from the first frame of its clip on. Frames behind the last count as
+ * the last. Spec: 04, section 2. */
 ANIC_API double anic_get_frame_time(const anic_asset* asset, uint32_t frame);
 
 /* ---- sampling -------------------------------------------------------------------------------- */
@@ -510,14 +556,14 @@ ANIC_API anic_status anic_create_context(const anic_asset* asset, const anic_all
 /** NULL is allowed. */
 ANIC_API void anic_destroy_context(anic_context* context);
 
-/** What is shown between two frames. Spec: 10, section 2. */
+/** The picture between two frames. Spec: 10, section 2. */
 enum anic_sampling ANIC_INT32 {
   ANIC_SAMPLE_STEP = 0,   /**< the frame before */
   ANIC_SAMPLE_LINEAR = 1, /**< a straight line from the frame before to the frame after */
   ANIC_SAMPLE_CUBIC = 2 /**< a smooth curve through four frames (Catmull-Rom; knows uneven times) */
 };
 
-/** What is shown outside the clip. */
+/** The picture before the first frame and after the last one. */
 enum anic_wrap ANIC_INT32 {
   ANIC_WRAP_CLAMP = 0,    /**< the first and the last frame stay */
   ANIC_WRAP_LOOP = 1,     /**< frame 0 follows the last frame; if info.closed, they are one */
@@ -525,7 +571,17 @@ enum anic_wrap ANIC_INT32 {
 };
 
 /**
- * Chooses a frame. The frame or time chosen before becomes ANIC_WHEN_PREVIOUS.
+ * Chooses the clip whose times anic_seek_time() means; that of a new context is the first one that is
+ * open. Shows nothing new by itself.
+ *
+ * - Errors: ANIC_E_ARGUMENT; ANIC_E_ABSENT: the clip was not opened
+ * - Cost: O(1), and nothing is allocated
+ */
+ANIC_API anic_status anic_set_clip(anic_context* context, uint32_t clip);
+
+/**
+ * Chooses a frame of the file, whatever the clip. The frame or time chosen before becomes
+ * ANIC_WHEN_PREVIOUS.
  *
  * - Errors: ANIC_E_FRAME_RANGE, ANIC_E_ARGUMENT
  * - Cost: O(log segments), the same for every frame. In segments of ANIC_RECONSTRUCTION_MSGI the
@@ -534,8 +590,8 @@ enum anic_wrap ANIC_INT32 {
 ANIC_API anic_status anic_seek_frame(anic_context* context, uint32_t frame);
 
 /**
- * Chooses a time in seconds; 0 is frame 0. The frame or time chosen before becomes
- * ANIC_WHEN_PREVIOUS. To play at another speed or backwards, ask for other times.
+ * Chooses a time of the context's clip in seconds; 0 is its first frame. The frame or time chosen
+ * before becomes ANIC_WHEN_PREVIOUS. To play at another speed or backwards, ask for other times.
  *
  * Weights and maps are interpolated, not positions: a time between frames costs what a whole frame
  * does, and rigid motions turn the shorter way. Frames in different segments are each made and
@@ -548,6 +604,23 @@ ANIC_API anic_status anic_seek_frame(anic_context* context, uint32_t frame);
  */
 ANIC_API anic_status anic_seek_time(anic_context* context, double seconds, anic_sampling sampling,
                                     anic_wrap wrap);
+
+/**
+ * Cross-fades what is shown with a moment of a clip, open and the same or another one: weight 0 changes
+ * nothing, 1 shows the moment alone. May be called again: each time what is shown then counts as one.
+ * What was shown before the last seek stays ANIC_WHEN_PREVIOUS.
+ *
+ * Where moments share a basis, weights are mixed, which costs what one moment does, and rigid motions
+ * turn the shorter way; otherwise positions are. Corrections are applied at a single whole frame only.
+ * A blend of equal moments is that moment to the last bit.
+ *
+ * - Errors: ANIC_E_STATE: nothing is chosen yet; ANIC_E_ABSENT: the clip was not opened; ANIC_E_LIMIT:
+ *   more than 16 frames, or frames of more than ANIC_MAX_PARTS segments of a mesh; ANIC_E_ARGUMENT: no
+ *   such clip, a weight not from 0 to 1, and as anic_seek_time(). The context is then as before
+ * - Cost: as anic_seek_time()
+ */
+ANIC_API anic_status anic_blend(anic_context* context, uint32_t clip, double seconds,
+                                anic_sampling sampling, anic_wrap wrap, double weight);
 
 /**
  * Makes ANIC_WHEN_PREVIOUS the same as ANIC_WHEN_CURRENT: no motion, after a cut.
@@ -581,7 +654,7 @@ enum anic_format ANIC_INT32 {
 };
 
 /**
- * Where to write positions or normals. Every component is written once, at ascending addresses, and
+ * The place for positions or normals. Every component is written once, at ascending addresses, and
  * nothing is read: the memory may be write-combined. Bytes between elements stay untouched.
  */
 typedef struct anic_output {
@@ -615,7 +688,7 @@ enum anic_value_format ANIC_INT32 {
   ANIC_VALUE_UNORM16 = 3  /**< round(65535 x), x clamped to 0 .. 1 */
 };
 
-/** Where to write values of an attribute; written as anic_output is. */
+/** The place for values of an attribute; written as anic_output is. */
 typedef struct anic_value_output {
   size_t struct_size;
   void* data;    /**< of the first element asked for; any alignment */
@@ -786,7 +859,7 @@ ANIC_API anic_status anic_create_render_plan(const anic_asset* asset, uint32_t m
 /** NULL is allowed. */
 ANIC_API void anic_destroy_render_plan(anic_render_plan* plan);
 
-/** What a plan holds. The arrays belong to it. */
+/** Contents of a plan. The arrays belong to it. */
 typedef struct anic_render_info {
   size_t struct_size;
   const uint32_t* vertices; /**< vertex of each render vertex, ascending: every value of a vertex is
@@ -932,7 +1005,7 @@ enum anic_basis_kind ANIC_INT32 {
   ANIC_BASIS_EIGENTRAJECTORIES = 2
 };
 
-/** What a basis moves. */
+/** Vertices or values that a basis moves. */
 enum anic_target ANIC_INT32 {
   ANIC_TARGET_POSITIONS = 0, /**< the positions of a mesh */
   ANIC_TARGET_ATTRIBUTE = 1  /**< three components of an attribute of its vertices, or fewer */
@@ -998,7 +1071,7 @@ typedef struct anic_correction {
 } anic_correction;
 
 /**
- * What a shader needs for one time, beside the basis of a segment:
+ * Data that a shader needs for one time, beside the basis of a segment:
  * - x = pose_map * (pose(v), 1) + sum over j of weights[j * weight_channels + c] * basis(j, v)[c]
  * - x = motion * (x + origin, 1)
  * - x = x + delta of the corrections of v, which are few and ascending by vertex

@@ -187,7 +187,7 @@ class Asset {
     });
   }
 
-  /// What has arrived of a stream.
+  /// The part of a stream that has arrived.
   Status open(const Stream& stream, anic_failure* failure = nullptr) {
     return detail::receive<anic_asset>(&handle_, [&](anic_asset** out) {
       return anic_open_asset_from_stream(stream.get(), out, failure);
@@ -316,7 +316,7 @@ class Context {
     return anic_get_parts(get(), mesh, when, out);
   }
 
-  /// Of three components of an attribute.
+  /// For three components of an attribute.
   Status attribute_parts(uint32_t attribute, uint32_t first_component, anic_parts* out,
                          anic_when when = ANIC_WHEN_CURRENT, uint32_t mesh = 0) const {
     return anic_get_attribute_parts(get(), mesh, attribute, first_component, when, out);

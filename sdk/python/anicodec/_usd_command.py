@@ -26,7 +26,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("-j", "--threads", type=int)
     parser.add_argument("--mesh", help="path of a prim")
     for name in ("max-error", "rmse", "kg", "size", "bpfv", "fps", "basis", "order", "unit", "up", "topology-changes",
-                 "keyframe-selection", "interpolation", "attribute-error"):
+                 "keyframe-selection", "interpolation", "keyframe-coder", "attribute-error"):
         parser.add_argument("--" + name)
     for name in ("effort", "keyframes", "uv-bits", "colour-bits"):
         parser.add_argument("--" + name, type=int)

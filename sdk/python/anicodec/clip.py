@@ -10,7 +10,7 @@ from typing import Any, Dict, Iterator, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
-from . import _anicodec, _arrays
+from . import _anicodec, _arrays, _page
 from ._convert import to_package
 from .errors import FrameError, InputError
 
@@ -220,6 +220,18 @@ class Clip:
         """Raises CorruptError if this machine decodes other numbers than the encoder meant."""
         self._asset.verify()
 
+    def page(self, against: Optional["Clip"] = None) -> str:
+        """One page of HTML with the clip and a player inside, which any browser shows without a network; `against`
+        stands beside it. Raises UnsupportedError where the package was built without the viewer."""
+        return _page.page(self.data, self.name, against and against.data)
+
+    def show(self, against: Optional["Clip"] = None, height: Union[int, str] = 480) -> Any:
+        """Plays the clip: in a notebook as its output, `height` in pixels or as CSS has it, else in the browser.
+
+        Returns what the notebook displays, or the path of the page. Raises UnsupportedError as page() does.
+        """
+        return _page.show(self.page(against), height)
+
     def __len__(self) -> int:
         return self.frame_count
 
@@ -244,7 +256,7 @@ class Clip:
                 f"{len(self.data)} bytes>")
 
 
-#: What a clip of one mesh passes on to it.
+#: Names that a clip of one mesh passes on to it.
 _OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "polygons", "shown_in", "to", "triangles",
             "vertex_count"}
 

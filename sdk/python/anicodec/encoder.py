@@ -18,6 +18,7 @@ _GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5}
 _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
             "selection": {"pivot": 0, "gas": 1, "uniform": 2},
             "interpolation": {"linear": 0, "msgi": 1, "auto": 2},
+            "keyframe_coder": {"draco": 1, "native": 2, "auto": 3},
             "massage": {"off": 0, "on": 1, "auto": 2},
             "order": {"vertices": 0, "none": 1, "faces": 2}}
 _NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
@@ -241,7 +242,7 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     uv, colours, normals, custom, materials, parts: see SourceMesh.
     fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop: stored.
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
-        interpolation ("linear", "msgi", "auto"), massage ("off", "on", "auto"), massage_strength, massage_tolerance,
+        interpolation ("linear", "msgi", "auto"), keyframe_coder ("draco", "native", "auto"), massage ("off", "on", "auto"), massage_strength, massage_tolerance,
         order ("vertices", "none", "faces"), effort (1 to 9), uv_bits, colour_bits,
         attribute_error, normal_error (degrees), no_attributes: as of the command.
     threads: 0 for all. max_bytes: of memory, else LimitError.

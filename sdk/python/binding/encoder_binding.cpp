@@ -184,6 +184,7 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
   set("keyframes", options.keyframes);
   set("selection", options.selection);
   set("interpolation", options.interpolation);
+  set("keyframe_coder", options.keyframe_coder);
   set("massage", options.massage);
   set("uv_bits", options.uv_bits);
   set("colour_bits", options.colour_bits);

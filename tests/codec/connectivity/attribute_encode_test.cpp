@@ -92,9 +92,9 @@ std::vector<size_t> sets(const std::vector<uint32_t>& shared) {
   return out;
 }
 
-class Attributes : public testing::TestWithParam<const char*> {};
+class AttributeEncodeOf : public testing::TestWithParam<const char*> {};
 
-TEST_P(Attributes, ComeBackInTheOrderOfTheSource) {
+TEST_P(AttributeEncodeOf, ComeBackInTheOrderOfTheSource) {
   const MeshSequence clip = detailed(GetParam());
   const MeshSequence back = decoded(encode(clip, quick(OrderMode::kAll)).file);
   ASSERT_EQ(back.polygons.corners, clip.polygons.corners);
@@ -114,7 +114,7 @@ TEST_P(Attributes, ComeBackInTheOrderOfTheSource) {
     ASSERT_NEAR(weight->values[i], clip.attributes[3].values[i], 2000.0 / 4095 / 2 + 1e-3) << i;
 }
 
-TEST_P(Attributes, KeepTheHardEdges) {
+TEST_P(AttributeEncodeOf, KeepTheHardEdges) {
   const MeshSequence clip = detailed(GetParam());
   const MeshSequence back = decoded(encode(clip, quick(OrderMode::kAll)).file);
   EXPECT_EQ(find(back, AttributeKind::kNormal), nullptr);
@@ -135,7 +135,7 @@ TEST_P(Attributes, KeepTheHardEdges) {
             places.size());
 }
 
-TEST_P(Attributes, FollowThePolygonsInEveryOrder) {
+TEST_P(AttributeEncodeOf, FollowThePolygonsInEveryOrder) {
   MeshSequence clip = detailed(GetParam());
   clip.attributes.resize(2);
   for (OrderMode order : {OrderMode::kVertices, OrderMode::kFree}) {
@@ -163,7 +163,7 @@ TEST_P(Attributes, FollowThePolygonsInEveryOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Clips, Attributes, testing::Values("limb", "quad_box", "nonmanifold"));
+INSTANTIATE_TEST_SUITE_P(Clips, AttributeEncodeOf, testing::Values("limb", "quad_box", "nonmanifold"));
 
 TEST(AttributeEncode, LeavesFilesWithoutAttributesAsTheyWere) {
   MeshSequence clip = corpus::make_clip("quad_box");

@@ -80,8 +80,8 @@ TEST(JoinClips, MakesOneClipThatKeepsThePromiseOfItsParts) {
       }
     }
     EXPECT_LE(largest, 0.001 * diagonal(source));
-    EXPECT_NEAR(clip.record().max_error, largest, 1e-6 * largest);
-    EXPECT_NEAR(clip.record().rmse, std::sqrt(squared / source.vertex_count / source.frame_count),
+    EXPECT_NEAR(clip.clips()[0].max_error, largest, 1e-6 * largest);
+    EXPECT_NEAR(clip.clips()[0].rmse, std::sqrt(squared / source.vertex_count / source.frame_count),
                 1e-6 * largest);
     size_t together = 0;
     for (const Bytes& part : files)
@@ -96,11 +96,11 @@ TEST(JoinClips, KeepsTimesAndErrorsOfTheWhole) {
   Clip clip;
   const Bytes file = joined(parts_of(source, {10}, options));
   ASSERT_TRUE(clip.open(file).ok());
-  ASSERT_EQ(clip.record().times.size(), source.times.size());
+  ASSERT_EQ(clip.clips()[0].times.size(), source.times.size());
   for (size_t f = 0; f < source.times.size(); ++f)
-    EXPECT_NEAR(clip.record().times[f], source.times[f], 1e-9);
-  EXPECT_LE(clip.record().kg, 0.5);
-  EXPECT_GT(clip.record().kg, 0.1);
+    EXPECT_NEAR(clip.clips()[0].times[f], source.times[f], 1e-9);
+  EXPECT_LE(clip.clips()[0].kg, 0.5);
+  EXPECT_GT(clip.clips()[0].kg, 0.1);
 }
 
 TEST(JoinClips, TakesPartsInAnyOrder) {

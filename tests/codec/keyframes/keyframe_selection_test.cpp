@@ -32,7 +32,7 @@ double error_of(const MatrixXd& gram, const std::vector<uint32_t>& keyframes, Ke
       .squared_errors.sum();
 }
 
-TEST(FrameSelection, ReturnsDistinctFramesAscending) {
+TEST(KeyframeSelection, ReturnsDistinctFramesAscending) {
   const MatrixXd gram = gram_of(swinging_points(50, 40, 8, 1, 0.05));
   for (KeyframeMethod method : kMethods) {
     for (KeyframeSpan span : kSpans) {
@@ -47,7 +47,7 @@ TEST(FrameSelection, ReturnsDistinctFramesAscending) {
   }
 }
 
-TEST(FrameSelection, PivotReproducesAClipOfLowRankWithAsManyFrames) {
+TEST(KeyframeSelection, PivotReproducesAClipOfLowRankWithAsManyFrames) {
   const MatrixXd gram = gram_of(swinging_points(60, 50, 5, 2));
   const double all = gram.trace();
   for (KeyframeSpan span : kSpans) {
@@ -58,7 +58,7 @@ TEST(FrameSelection, PivotReproducesAClipOfLowRankWithAsManyFrames) {
   }
 }
 
-TEST(FrameSelection, PivotIsNoWorseThanUniformAndExchangesOnlyHelp) {
+TEST(KeyframeSelection, PivotIsNoWorseThanUniformAndExchangesOnlyHelp) {
   for (uint32_t seed = 1; seed <= 6; seed++) {
     const MatrixXd gram = gram_of(swinging_points(70, 40, 12, seed, 0.02));
     for (KeyframeSpan span : kSpans) {
@@ -79,7 +79,7 @@ TEST(FrameSelection, PivotIsNoWorseThanUniformAndExchangesOnlyHelp) {
   }
 }
 
-TEST(FrameSelection, TakesNoMoreFramesThanAreOfUse) {
+TEST(KeyframeSelection, TakesNoMoreFramesThanAreOfUse) {
   MovingPoints clip = random_points(15, 20, 3);
   for (size_t f = 0; f < 15; f++) {
     std::copy_n(clip.frame(f % 3), 60, clip.frame(f));
@@ -92,7 +92,7 @@ TEST(FrameSelection, TakesNoMoreFramesThanAreOfUse) {
   }
 }
 
-TEST(FrameSelection, AlwaysReturnsAFrame) {
+TEST(KeyframeSelection, AlwaysReturnsAFrame) {
   for (KeyframeMethod method : kMethods) {
     for (KeyframeSpan span : kSpans) {
       EXPECT_THAT(select_keyframes(MatrixXd::Zero(5, 5), 3, method, span),
@@ -103,14 +103,14 @@ TEST(FrameSelection, AlwaysReturnsAFrame) {
   }
 }
 
-TEST(FrameSelection, UniformTakesTheMiddlesOfEqualParts) {
+TEST(KeyframeSelection, UniformTakesTheMiddlesOfEqualParts) {
   const MatrixXd gram = gram_of(random_points(20, 10, 4));
   EXPECT_THAT(select_keyframes(gram, 4, KeyframeMethod::kUniform),
               testing::ElementsAre(2, 7, 12, 17));
   EXPECT_THAT(select_keyframes(gram, 1, KeyframeMethod::kUniform), testing::ElementsAre(10));
 }
 
-TEST(FrameSelection, IsTheSameForAnyNumberOfThreads) {
+TEST(KeyframeSelection, IsTheSameForAnyNumberOfThreads) {
   const MatrixXd gram = gram_of(swinging_points(90, 30, 9, 5, 0.1));
   for (KeyframeMethod method : kMethods) {
     const auto compute = [&](size_t threads) {

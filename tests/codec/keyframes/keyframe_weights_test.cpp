@@ -21,7 +21,7 @@ MatrixXd gram_of(const MovingPoints& clip) {
   return frame_gram(clip.view()).clip_centred();
 }
 
-TEST(FrameWeights, SumToOneWhenAsked) {
+TEST(KeyframeWeights, SumToOneWhenAsked) {
   const MatrixXd gram = gram_of(swinging_points(40, 30, 6, 1, 0.1));
   const std::vector<uint32_t> keyframes = {0, 9, 18, 33};
   const FrameWeights fit = fit_weights(gram, keyframes, WeightConstraint::kSumToOne);
@@ -30,7 +30,7 @@ TEST(FrameWeights, SumToOneWhenAsked) {
   }
 }
 
-TEST(FrameWeights, AreUnitVectorsForKeyframes) {
+TEST(KeyframeWeights, AreUnitVectorsForKeyframes) {
   const MatrixXd gram = gram_of(swinging_points(40, 30, 6, 2, 0.1));
   const std::vector<uint32_t> keyframes = {3, 4, 39};
   for (WeightConstraint constraint : kConstraints) {
@@ -42,7 +42,7 @@ TEST(FrameWeights, AreUnitVectorsForKeyframes) {
   }
 }
 
-TEST(FrameWeights, LeaveTheErrorThatTheVerticesShow) {
+TEST(KeyframeWeights, LeaveTheErrorThatTheVerticesShow) {
   for (uint32_t seed = 1; seed <= 4; seed++) {
     const MovingPoints clip = swinging_points(30, 50 * seed, 7, seed, 0.05);
     KeyframeFitter fitter(clip.view());
@@ -59,7 +59,7 @@ TEST(FrameWeights, LeaveTheErrorThatTheVerticesShow) {
   }
 }
 
-TEST(FrameWeights, CannotBeImproved) {
+TEST(KeyframeWeights, CannotBeImproved) {
   const MatrixXd gram = gram_of(swinging_points(30, 40, 7, 5, 0.05));
   const std::vector<uint32_t> keyframes = {2, 11, 19, 27};
   const double free_error =
@@ -81,7 +81,7 @@ TEST(FrameWeights, CannotBeImproved) {
   }
 }
 
-TEST(FrameWeights, OfSumOneDoNotChangeWhenTheClipMoves) {
+TEST(KeyframeWeights, OfSumOneDoNotChangeWhenTheClipMoves) {
   MovingPoints clip = swinging_points(20, 40, 5, 6, 0.1);
   const std::vector<uint32_t> keyframes = {1, 8, 15};
   const auto there =
@@ -94,7 +94,7 @@ TEST(FrameWeights, OfSumOneDoNotChangeWhenTheClipMoves) {
   EXPECT_LT((there.weights - here.weights).norm(), 1e-4);
 }
 
-TEST(FrameWeights, StayFiniteForDependentKeyframes) {
+TEST(KeyframeWeights, StayFiniteForDependentKeyframes) {
   MovingPoints clip = swinging_points(20, 40, 2, 7);
   std::copy_n(clip.frame(3), 120, clip.frame(4));
   const MatrixXd gram = gram_of(clip);
@@ -106,7 +106,7 @@ TEST(FrameWeights, StayFiniteForDependentKeyframes) {
   }
 }
 
-TEST(FrameWeights, OfOneKeyframe) {
+TEST(KeyframeWeights, OfOneKeyframe) {
   const MatrixXd gram = gram_of(random_points(5, 10, 8));
   const std::vector<uint32_t> keyframes = {2};
   const FrameWeights fit = fit_weights(gram, keyframes, WeightConstraint::kSumToOne);

@@ -80,9 +80,9 @@ TEST_P(MovingAttributesOf, StayWithinTheirErrorsOverAPoseOfThePositionsOrOfTheir
     EXPECT_LE(a.max_error, a.asked);
     EXPECT_GT(a.rmse, 0);
     EXPECT_DOUBLE_EQ(largest_error(back, i, clip.attributes[i]), a.max_error);
-    EXPECT_EQ(back.record().attribute_errors[i].attribute, i);
-    EXPECT_EQ(back.record().attribute_errors[i].max_error, a.max_error);
-    EXPECT_EQ(back.record().attribute_errors[i].rmse, a.rmse);
+    EXPECT_EQ(back.clips()[0].attribute_errors[i].attribute, i);
+    EXPECT_EQ(back.clips()[0].attribute_errors[i].max_error, a.max_error);
+    EXPECT_EQ(back.clips()[0].attribute_errors[i].rmse, a.rmse);
   }
   EXPECT_NEAR(result.attributes[1].asked, 0.5 / 255, 1e-9);
   EXPECT_EQ(back.frame_count(), clip.frame_count);
@@ -210,10 +210,10 @@ TEST(SlowMovingAttributes, AreJoinedFromParts) {
   }
   const Clip back = opened(join_clips({{"a", files[0]}, {"b", files[1]}}));
   ASSERT_EQ(back.frame_count(), clip.frame_count);
-  ASSERT_EQ(back.record().attribute_errors.size(), 3U);
+  ASSERT_EQ(back.clips()[0].attribute_errors.size(), 3U);
   for (uint32_t i = 0; i < 3; ++i)
     EXPECT_LE(largest_error(back, i, clip.attributes[i]),
-              back.record().attribute_errors[i].max_error * (1 + 1e-9));
+              back.clips()[0].attribute_errors[i].max_error * (1 + 1e-9));
 }
 
 TEST(MovingAttributes, RefuseValuesThatDoNotFitOrAreNotFinite) {

@@ -47,7 +47,7 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
     parts.push_back(std::move(*part));
   }
   Clip opened;
-  Bytes file = clip_file(ClipRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
+  Bytes file = clip_file(ClipsRecord{}, input.layout, {&parts[0].encoded, &parts[1].encoded});
   ASSERT_TRUE(opened.open(file).ok());
   EXPECT_TRUE(opened.check_hashes().ok());
   ASSERT_EQ(opened.segments().size(), 2U);

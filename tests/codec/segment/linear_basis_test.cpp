@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/linear_basis.h"
 
-#include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/trajectory_gram.h"
-#include "tests/random.h"
+#include "tests/codec/moving_points.h"
 
 #include <cmath>
 #include <vector>
@@ -21,42 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-std::vector<float> noise(size_t count, uint32_t seed) {
-  std::vector<float> out(count);
-  SmallRandom random(seed);
-  for (float& x : out)
-    x = static_cast<float>(random.symmetric());
-  return out;
-}
-
-/// Frames of a cloud that an affine map and a few other functions of time move.
-std::vector<float> clip(size_t frames, size_t vertices) {
-  const std::vector<float> shape = noise(9 * vertices, 3);
-  std::vector<float> out;
-  for (size_t f = 0; f < frames; ++f) {
-    const float t = static_cast<float>(f);
-    for (size_t v = 0; v < vertices; ++v) {
-      const float* p = shape.data() + 9 * v;
-      for (size_t c = 0; c < 3; ++c)
-        out.push_back(100 + 10 * p[c] + 0.3f * t * p[(c + 1) % 3] + 0.1f * p[3 + c] * std::sin(t) +
-                      0.05f * p[6 + c] * std::cos(0.3f * t));
-    }
-  }
-  return out;
-}
-
-// 3 frames x vertices, about the analysis' origin.
-MatrixXd trajectories(const std::vector<float>& x, size_t frames, const Vector3d& origin) {
-  const size_t n = x.size() / 3 / frames;
-  MatrixXd out(static_cast<Index>(3 * frames), static_cast<Index>(n));
-  for (size_t f = 0; f < frames; ++f)
-    for (size_t v = 0; v < n; ++v)
-      for (size_t c = 0; c < 3; ++c)
-        out(static_cast<Index>(3 * f + c), static_cast<Index>(v)) =
-            static_cast<double>(x[(f * n + v) * 3 + c]) - origin[static_cast<Index>(c)];
-  return out;
-}
 
 MatrixXd residual(const MatrixXd& x, const LinearBasis& basis) {
   MatrixXd rest = x;
@@ -82,7 +45,7 @@ MatrixXd as_frames(const MatrixXd& trajectories) {
 
 TEST(LinearBasis, HasOrthonormalComponentsWithTheEnergiesOfTheClip) {
   const size_t frames = 17, n = 301;
-  const std::vector<float> x = clip(frames, n);
+  const std::vector<float> x = affine_points(frames, n);
   const LinearAnalysis analysis(FrameView(x.data(), frames, n));
   for (const auto pose : {ReferencePose::kMean, ReferencePose::kFrame, ReferencePose::kRankThree})
     for (const auto base : {Base::kPose, Base::kAffine})
@@ -109,7 +72,7 @@ TEST(LinearBasis, HasOrthonormalComponentsWithTheEnergiesOfTheClip) {
 
 TEST(LinearBasis, KnowsTheReferenceOfTheKgError) {
   const size_t frames = 5, n = 40;
-  const std::vector<float> x = clip(frames, n);
+  const std::vector<float> x = affine_points(frames, n);
   const LinearAnalysis analysis(FrameView(x.data(), frames, n));
   MatrixXd rows = trajectories(x, frames, Vector3d::Zero());
   rows.colwise() -= rows.rowwise().mean().eval();
@@ -118,7 +81,7 @@ TEST(LinearBasis, KnowsTheReferenceOfTheKgError) {
 
 TEST(LinearBasis, LeavesNothingOfAnAffineMotion) {
   const size_t frames = 6, n = 50;
-  const std::vector<float> p = noise(3 * n, 5);
+  const std::vector<float> p = noise_values(3 * n, 5);
   std::vector<float> x;
   for (size_t f = 0; f < frames; ++f)
     for (size_t v = 0; v < n; ++v)
@@ -133,7 +96,7 @@ TEST(LinearBasis, LeavesNothingOfAnAffineMotion) {
 }
 
 TEST(LinearBasis, AcceptsFlatAndStillClips) {
-  std::vector<float> x = clip(4, 30);
+  std::vector<float> x = affine_points(4, 30);
   for (size_t i = 2; i < x.size(); i += 3)
     x[i] = 7;
   const LinearAnalysis flat(FrameView(x.data(), 4, 30));
@@ -150,7 +113,7 @@ TEST(LinearBasis, AcceptsFlatAndStillClips) {
 
 TEST(LinearBasis, IsTheSameForAnyNumberOfThreads) {
   const size_t frames = 30, n = 3000;
-  const std::vector<float> x = clip(frames, n);
+  const std::vector<float> x = affine_points(frames, n);
   const auto make = [&] {
     const LinearAnalysis analysis(FrameView(x.data(), frames, n));
     return analysis.basis(BasisKind::kEigentrajectories, ReferencePose::kRankThree, Base::kAffine,
@@ -162,60 +125,6 @@ TEST(LinearBasis, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(many.energies, single.energies);
   EXPECT_EQ(many.time, single.time);
   EXPECT_EQ(many.pose, single.pose);
-}
-
-TEST(LeadingEigenpairs, AgreeWithTheFullDecomposition) {
-  for (const Index n : {20, 700}) {
-    const Index rank = std::min<Index>(n, 240);
-    const std::vector<float> values = noise(static_cast<size_t>(n * rank), 11);
-    MatrixXd a(n, rank);
-    for (Index j = 0; j < rank; ++j)
-      for (Index i = 0; i < n; ++i)
-        a(i, j) = static_cast<double>(values[static_cast<size_t>(j * n + i)]) *
-                  std::exp(-0.1 * static_cast<double>(j));
-    const MatrixXd symmetric = a * a.transpose();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> full(symmetric);
-    const double smallest = full.eigenvalues()[n - 15];
-    for (const Index count : {Index{5}, Index{1000}}) {
-      const Eigenpairs pairs = leading_eigenpairs(symmetric, count, smallest);
-      ASSERT_EQ(pairs.values.size(), std::min<Index>(count, 14));
-      for (Index j = 0; j < pairs.values.size(); ++j) {
-        EXPECT_NEAR(pairs.values[j], full.eigenvalues()[n - 1 - j], 1e-8 * pairs.values[0]);
-        EXPECT_LT(
-            (symmetric * pairs.vectors.col(j) - pairs.values[j] * pairs.vectors.col(j)).norm(),
-            2e-5 * pairs.values[j]);
-      }
-      EXPECT_LT((pairs.vectors.transpose() * pairs.vectors -
-                 MatrixXd::Identity(pairs.values.size(), pairs.values.size()))
-                    .cwiseAbs()
-                    .maxCoeff(),
-                1e-10);
-    }
-  }
-}
-
-TEST(LeadingEigenpairs, FindAllOfASpectrumThatDoesNotDecay) {
-  const MatrixXd identity = MatrixXd::Identity(400, 400);
-  EXPECT_EQ(leading_eigenpairs(identity, 1000, 0.5).values.size(), 400);
-  EXPECT_EQ(leading_eigenpairs(MatrixXd::Zero(400, 400), 1000, 0).values.size(), 0);
-}
-
-TEST(TrajectoryGram, CombinesRows) {
-  const size_t frames = 9, n = 500;
-  const std::vector<float> x = clip(frames, n);
-  const Vector3d origin(1, -2, 3);
-  const FrameView view(x.data(), frames, n);
-  const MatrixXd rows = trajectories(x, frames, origin);
-  EXPECT_LT((trajectory_gram(view, origin) - rows * rows.transpose()).norm(),
-            1e-12 * (rows * rows.transpose()).norm());
-  const MatrixXd weights = MatrixXd::Random(static_cast<Index>(3 * frames), 4);
-  MatrixXd combined(static_cast<Index>(n), 4);
-  combine_rows(view, origin, weights, [&](size_t first, const MatrixXd& block) {
-    combined.middleRows(static_cast<Index>(first), block.rows()) = block;
-  });
-  EXPECT_LT((combined - rows.transpose() * weights).norm(), 1e-10 * combined.norm());
-  EXPECT_LT((project_on_functions(view, origin, combined) - rows * combined).norm(),
-            1e-10 * (rows * combined).norm());
 }
 
 }  // namespace

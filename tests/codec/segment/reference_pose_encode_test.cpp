@@ -50,5 +50,16 @@ TEST(DependentIntegers, TheirMeanErrorIsThatOfRoundingToTheStepTheyStandFor) {
   EXPECT_NEAR(squared / static_cast<double>(values.size()), kStep * kStep / 12, 0.005);
 }
 
+TEST(ReferencePoseOfCorpus, IsCodedByPartnersIfThatIsSmaller) {
+  const EncoderInput input(corpus::make_clip("quad_box"));
+  Eigen::Vector3d origin;
+  const MatrixXd pose = input.centred_first_pose(&origin);
+  const double step = pose.cwiseAbs().maxCoeff() / 4096;
+  const PoseSurface surface(input.layout.topology);
+  const size_t best = encode_reference_pose(pose, origin, step, input.layout)->stream.size();
+  for (PoseCoding coding : {PoseCoding::kExact, PoseCoding::kDependent})
+    EXPECT_LE(best, encode_pose_as(coding, pose, origin, step, surface)->stream.size());
+}
+
 }  // namespace
 }  // namespace anicodec

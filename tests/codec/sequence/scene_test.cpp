@@ -7,17 +7,12 @@
 #include "sdk/clip/clip.h"
 #include "tests/two_boxes.h"
 
-#include <cmath>
-#include <span>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace anicodec {
 namespace {
-
-using testing::HasSubstr;
 
 TEST(Scene, IsASequenceTakenApart) {
   const MeshSequence whole = two_boxes();
@@ -88,58 +83,6 @@ TEST(Scene, ThatIsNoSequenceIsRefused) {
   whole.polygons.corners[3] = whole.vertex_count;
   EXPECT_THROW(split_parts(whole), Error);
   EXPECT_THROW(split_parts({}), Error);
-}
-
-TEST(EncodeScene, KeepsTheErrorOfTheWholeAndTheRunsOfEach) {
-  const MeshSequence whole = two_boxes();
-  EncodeOptions options;
-  options.target = {ErrorMetric::kKg, 0.1, false};
-  const EncodeResult result = encode_scene(split_parts(whole), options);
-  EXPECT_LE(result.kg, 0.1);
-  EXPECT_EQ(result.vertices, whole.vertex_count);
-  Clip clip;
-  ASSERT_TRUE(clip.open(result.file).ok());
-  ASSERT_EQ(clip.meshes().size(), 2U);
-  EXPECT_EQ(clip.meshes()[0].name, "turning");
-  // A box that only turns and moves is a key-frame with a rigid motion.
-  EXPECT_EQ(clip.limits().segments[0].kind, BasisKind::kKeyframes);
-  EXPECT_EQ(clip.limits().segments[0].components, 1U);
-  std::vector<float> positions(size_t{3} * whole.vertex_count);
-  double worst = 0;
-  for (uint32_t f = 0; f < kBoxFrames; ++f) {
-    size_t first = 0;
-    for (uint32_t m = 0; m < 2; ++m) {
-      const size_t count = size_t{3} * clip.vertex_count(m);
-      const bool hidden = m == 1 && f >= 4 && f < 8;
-      EXPECT_EQ(clip.positions(m, f, positions.data()), hidden ? Status::kAbsent : Status::kOk);
-      for (size_t i = 0; i < count && !hidden; i += 3)
-        worst =
-            std::max(worst, std::hypot(double{positions[i]} - whole.frame(f)[first + i],
-                                       double{positions[i + 1]} - whole.frame(f)[first + i + 1],
-                                       double{positions[i + 2]} - whole.frame(f)[first + i + 2]));
-      first += count;
-    }
-  }
-  EXPECT_LE(worst, result.max_error * 1.0001);
-}
-
-TEST(EncodeScene, NamesTheMeshThatFails) {
-  Scene scene = split_parts(two_boxes());
-  scene.meshes[1].sequence.positions[5] = NAN;
-  EncodeOptions options;
-  options.target = {ErrorMetric::kMaxError, 0.1, true};
-  try {
-    encode_scene(std::move(scene), options);
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("mesh 'still': "));
-  }
-}
-
-TEST(EncodeScene, RefusesATargetSize) {
-  EncodeOptions options;
-  options.target = {ErrorMetric::kSize, 1e6, false};
-  EXPECT_THROW(encode_scene(split_parts(two_boxes()), options), Error);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/surface/mesh_quality.h"
 
+#include "codec/massage/untangle.h"
+#include "codec/metrics/hausdorff.h"
 #include "tests/codec/massage_meshes.h"
 
 #include <cmath>
@@ -11,6 +13,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace anicodec {
 namespace {
@@ -90,6 +93,28 @@ TEST(MeshQuality, TwoSidesOfASheetAreNotTurned) {
   };
   EXPECT_EQ(turned(std::span(both).first(3)) + turned(std::span(both).last(3)), 1U);
   EXPECT_EQ(turned(both), 0U);
+}
+
+TEST(MeshQuality, DoesNotMistakeTheFarSideOfAThinPart) {
+  // A plate, thinner than its triangles are off it.
+  const TestMesh top = flat_sheet(6);
+  std::vector<uint32_t> corners;
+  Positions both(2 * top.positions.rows(), 3);
+  both << top.positions, top.positions;
+  both.col(2).tail(top.positions.rows()).setConstant(-0.01);
+  for (const SurfaceTopology::Triangle& t : top.topology.triangles)
+    corners.insert(corners.end(), t.begin(), t.end());
+  const size_t count = corners.size();
+  for (size_t c = 0; c < count; c += 3) {
+    for (size_t k : {size_t{0}, size_t{2}, size_t{1}})
+      corners.push_back(corners[c + k] + top.topology.vertex_count);
+  }
+  const SurfaceTopology plate(corners, 2 * top.topology.vertex_count);
+  Surface surface(plate, both);
+  surface.build_index();
+  Positions v = top.positions;
+  v.row(14)[2] = -0.05;  // its triangles lie below the plate
+  EXPECT_TRUE(turned_triangles(top.topology, v, surface).empty());
 }
 
 }  // namespace

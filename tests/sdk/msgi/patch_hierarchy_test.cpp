@@ -4,7 +4,6 @@
 
 #include "tests/sdk/triangle_lists.h"
 
-#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -13,49 +12,8 @@
 namespace anicodec {
 namespace {
 
-FaceGraph graph_of(const std::vector<uint32_t>& triangles, uint32_t vertices) {
-  return make_face_graph(triangles.data(), triangles.size() / 3, vertices);
-}
-
-size_t hinge_count(const FaceGraph& graph) {
-  size_t ends = 0;
-  for (size_t f = 0; f < graph.face_count(); ++f)
-    ends += graph.hinge_end[f] - graph.begin[f];
-  return ends / 2;
-}
-
-TEST(FaceGraph, AnEdgeOfManyFacesHasAChainOfHinges) {
-  FaceGraph graph = graph_of({0, 1, 2, 1, 0, 3, 0, 1, 4, 0, 1, 5}, 6);
-  EXPECT_EQ(hinge_count(graph), 3U);
-  EXPECT_EQ(graph.component_count, 1U);
-  EXPECT_EQ(graph.edges.size(), 9U);
-}
-
-TEST(FaceGraph, DuplicateFacesStayWithTheirNeighbours) {
-  FaceGraph graph = graph_of({0, 1, 2, 0, 1, 2, 1, 3, 2, 2, 1, 0}, 4);
-  EXPECT_EQ(graph.component_count, 1U);
-  EXPECT_EQ(hinge_count(graph), 3U + 2U + 2U);
-}
-
-TEST(FaceGraph, FacesThatShareAVertexAreOneComponent) {
-  FaceGraph graph = graph_of({0, 1, 2, 2, 3, 4, 5, 6, 7}, 9);
-  EXPECT_EQ(graph.component_count, 2U);
-  EXPECT_EQ(hinge_count(graph), 0U);
-  EXPECT_EQ(graph.neighbours.size(), 2U);  // the join of the first two
-  EXPECT_EQ(graph.vertex_component[4], 0U);
-  EXPECT_EQ(graph.vertex_component[6], 1U);
-  EXPECT_EQ(graph.vertex_component[8], kNoIndex);
-}
-
-TEST(FaceGraph, KeepsFacesWithTwoEqualCornersOnly) {
-  FaceGraph graph = graph_of({0, 0, 1, 2, 2, 2, 0, 1, 3}, 4);
-  EXPECT_EQ(graph.face_count(), 2U);
-  EXPECT_EQ(graph.component_count, 1U);
-  EXPECT_EQ(graph.vertex_component[2], kNoIndex);
-}
-
 void expect_sound(const std::vector<uint32_t>& triangles, uint32_t vertices, uint32_t leaf_faces) {
-  FaceGraph graph = graph_of(triangles, vertices);
+  FaceGraph graph = make_face_graph(triangles.data(), triangles.size() / 3, vertices);
   PatchHierarchy h = make_patch_hierarchy(graph, leaf_faces);
   size_t roots = 0, inner_links = 0;
   for (size_t n = 0; n < h.nodes.size(); ++n) {
@@ -106,7 +64,8 @@ TEST(PatchHierarchy, IsSoundForAllKindsOfMeshes) {
 
 TEST(PatchHierarchy, HasBalancedLeavesOnAGrid) {
   TriangleList grid = grid_list(40, 40);
-  PatchHierarchy h = make_patch_hierarchy(graph_of(grid.triangles, grid.vertex_count), 16);
+  PatchHierarchy h = make_patch_hierarchy(
+      make_face_graph(grid.triangles.data(), grid.triangles.size() / 3, grid.vertex_count), 16);
   // 3042 faces halved 8 times leave about 12 each.
   EXPECT_GE(h.leaf_count(), 3042U / 16);
   EXPECT_LE(h.leaf_count(), 3042U / 6);

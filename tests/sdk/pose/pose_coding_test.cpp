@@ -61,8 +61,45 @@ Vector<int32_t> dependent(const PoseSurface& surface, Vector<int32_t> pose) {
   return pose;
 }
 
+/// Partners without rhyme or reason.
+PosePartners random_partners(uint32_t vertices, unsigned seed) {
+  std::mt19937 random(seed);
+  PosePartners partners;
+  for (uint32_t v = 0; v < vertices; ++v) {
+    const uint32_t kind = random() % 4;
+    partners.partner.push_back(kind == 0   ? PosePartners::kNone
+                               : kind == 1 ? v
+                                           : static_cast<uint32_t>(random() % vertices));
+    partners.flips.push_back(static_cast<uint8_t>(random() % 8));
+  }
+  return partners;
+}
+
+/// Two sheets, the second a copy of the first with its axes flipped, moved, and partners of it.
+Sample two_sheets(uint32_t n, uint32_t flips, PosePartners* partners) {
+  Sample s = sheet(n);
+  const uint32_t count = s.topology.coded_vertices;
+  const size_t corners = s.topology.triangles.size();
+  for (size_t i = 0; i < corners; i += 3) {
+    const uint32_t* t = s.topology.triangles.data() + i;
+    const bool mirrored = (flips ^ flips >> 1 ^ flips >> 2) & 1;
+    const uint32_t a = t[0] + count, b = t[mirrored ? 2 : 1] + count,
+                   c = t[mirrored ? 1 : 2] + count;
+    s.topology.triangles.insert(s.topology.triangles.end(), {a, b, c});
+  }
+  s.topology.coded_vertices = 2 * count;
+  for (size_t i = 0; i < size_t{3} * count; ++i)
+    s.pose.push_back((flips >> i % 3 & 1 ? -1 : 1) * s.pose[i] + 9000);
+  partners->partner.assign(count, PosePartners::kNone);
+  for (uint32_t v = 0; v < count; ++v)
+    partners->partner.push_back(v);
+  partners->flips.assign(size_t{2} * count, static_cast<uint8_t>(flips));
+  return s;
+}
+
 void expect_round_trip(const Sample& s) {
   const PoseSurface surface(s.topology);
+  const PosePartners partners = random_partners(s.topology.coded_vertices, 3);
   for (PoseCoding coding : {PoseCoding::kRounded, PoseCoding::kExact, PoseCoding::kDependent}) {
     const Vector<int32_t> pose =
         coding == PoseCoding::kDependent ? dependent(surface, s.pose) : s.pose;
@@ -70,7 +107,21 @@ void expect_round_trip(const Sample& s) {
     Vector<int32_t> decoded;
     ASSERT_EQ(decode_pose(bytes, surface, coding, &decoded), Status::kOk);
     EXPECT_EQ(decoded, pose);
+    const Bytes by_partners = encode_pose(surface, coding, pose, &partners);
+    ASSERT_EQ(decode_pose(by_partners, surface, coding, &decoded), Status::kOk);
+    EXPECT_EQ(decoded, pose);
   }
+  // Key-frames: later ones by earlier ones, the last one alone.
+  Vector<Vector<int32_t>> poses(4, s.pose);
+  for (size_t i = 0; i < s.pose.size(); ++i) {
+    poses[1][i] = s.pose[i] / 2 + 5;
+    poses[2][i] = static_cast<int32_t>(i) % 1000 - s.pose[i];
+  }
+  const Vector<uint32_t> parents{0, 1, 2, 0};
+  const Bytes bytes = encode_poses(surface, PoseCoding::kRounded, poses, parents, &partners);
+  Vector<Vector<int32_t>> decoded;
+  ASSERT_EQ(decode_poses(bytes, surface, PoseCoding::kRounded, parents, &decoded), Status::kOk);
+  EXPECT_EQ(decoded, poses);
 }
 
 TEST(PoseCoding, ASmoothSheetTakesFewBits) {
@@ -88,6 +139,41 @@ TEST(PoseCoding, CoordinatesThatRepeatTakeLessThanHalfWhenExact) {
   const PoseSurface surface(s.topology);
   EXPECT_LT(2 * encode_pose(surface, PoseCoding::kExact, s.pose).size(),
             encode_pose(surface, PoseCoding::kRounded, s.pose).size());
+}
+
+TEST(PoseCoding, ACopyOfAPartTakesNextToNothingHoweverItIsFlipped) {
+  for (uint32_t flips = 0; flips < 8; ++flips) {
+    PosePartners partners;
+    const Sample s = two_sheets(30, flips, &partners);
+    const PoseSurface surface(s.topology);
+    const size_t one =
+        encode_pose(PoseSurface(sheet(30).topology), PoseCoding::kRounded, sheet(30).pose).size();
+    const Bytes bytes = encode_pose(surface, PoseCoding::kRounded, s.pose, &partners);
+    EXPECT_LT(bytes.size(), one + one / 6) << flips;
+    Vector<int32_t> decoded;
+    ASSERT_EQ(decode_pose(bytes, surface, PoseCoding::kRounded, &decoded), Status::kOk);
+    EXPECT_EQ(decoded, s.pose);
+    const Bytes exact = encode_pose(surface, PoseCoding::kExact, s.pose, &partners);
+    ASSERT_EQ(decode_pose(exact, surface, PoseCoding::kExact, &decoded), Status::kOk);
+    EXPECT_EQ(decoded, s.pose);
+  }
+}
+
+TEST(PoseCoding, ALaterMomentTakesAFractionOfAnEarlierOne) {
+  const Sample s = sheet(40);
+  const PoseSurface surface(s.topology);
+  // Turned by 0.3, and bent a little.
+  Vector<Vector<int32_t>> poses(2, s.pose);
+  for (size_t v = 0; v < s.topology.coded_vertices; ++v) {
+    const double x = s.pose[3 * v], y = s.pose[3 * v + 1], z = s.pose[3 * v + 2] + 1e-5 * x * x;
+    poses[1][3 * v] = static_cast<int32_t>(std::lround(std::cos(0.3) * x - std::sin(0.3) * z));
+    poses[1][3 * v + 1] = static_cast<int32_t>(std::lround(y));
+    poses[1][3 * v + 2] = static_cast<int32_t>(std::lround(std::sin(0.3) * x + std::cos(0.3) * z));
+  }
+  const auto bytes = [&](uint32_t parent) {
+    return encode_poses(surface, PoseCoding::kRounded, poses, {0, parent}).size();
+  };
+  EXPECT_LT(bytes(1), 0.8 * static_cast<double>(bytes(0)));
 }
 
 TEST(PoseCoding, AnyTrianglesAndPositionsComeBack) {
@@ -159,6 +245,9 @@ TEST(PoseCoding, ArbitraryBytesDoNoHarm) {
       b = static_cast<uint8_t>(round % 4 == 0 ? 255 : random());
     (void)decode_pose(bytes, surface, static_cast<PoseCoding>(round % 3), &decoded);
     EXPECT_EQ(decoded.size(), s.pose.size());
+    Vector<Vector<int32_t>> poses;
+    (void)decode_poses(bytes, surface, PoseCoding::kRounded, {0, 1, 0, 2}, &poses);
+    EXPECT_EQ(poses.size(), 4);
   }
 }
 

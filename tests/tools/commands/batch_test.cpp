@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "tools/commands/batch.h"
+
 #include "corpus/clips.h"
 #include "tests/tools/command_testing.h"
-#include "tools/inputs/batch_clips.h"
 #include "tools/io/write_sequence.h"
 
 #include <filesystem>
@@ -20,45 +21,6 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
-
-std::vector<std::string> names_of(const std::vector<BatchClip>& clips) {
-  std::vector<std::string> names;
-  for (const BatchClip& clip : clips)
-    names.push_back(clip.name);
-  return names;
-}
-
-TEST(BatchClips, AreScenesCachesAndNumberedFramesOfAllFolders) {
-  TemporaryFolder folder;
-  for (const char* file : {"walk.pc2", "walk.obj", "fox.glb", "readme.txt", "scan/frame_2.ply",
-                           "scan/frame_10.ply", "scan/frame_1.ply", "scan/1.off", "scan/2.off",
-                           "lone_1.obj", "deep/run.mdd", "deep/run.obj"})
-    folder.write(file, "x");
-  std::vector<BatchClip> clips = find_clips(folder / ".");
-  EXPECT_THAT(names_of(clips), ElementsAre("fox", "walk", "deep/run", "scan/scan", "scan/frame"));
-  ASSERT_THAT(clips, SizeIs(5));
-  ASSERT_THAT(clips[4].inputs, SizeIs(3));
-  EXPECT_THAT(clips[4].inputs[2], HasSubstr("frame_10.ply"));
-  EXPECT_THAT(clips[1].inputs, SizeIs(1));
-}
-
-TEST(BatchClips, ComeFromAListWithInputsBetweenTabs) {
-  TemporaryFolder folder;
-  const std::string list =
-      folder.write("list.txt", "# clips\n\na/walk.obj\ta/walk.pc2\r\nruns/*.obj\n");
-  std::vector<BatchClip> clips = find_clips(list);
-  EXPECT_THAT(names_of(clips), ElementsAre("walk", "runs"));
-  EXPECT_THAT(clips[0].inputs, ElementsAre("a/walk.obj", "a/walk.pc2"));
-}
-
-TEST(BatchClips, MustBeFoundAndHaveDifferentNames) {
-  TemporaryFolder folder;
-  EXPECT_THAT(fault([&] { find_clips(folder / "."); }), HasSubstr("no clip is found"));
-  folder.write("a.glb", "x");
-  folder.write("a.mdd", "x");
-  EXPECT_THAT(fault([&] { find_clips(folder / "."); }, ErrorKind::kUsage),
-              HasSubstr("a.mdd: would be written to a.anic, and so would "));
-}
 
 class BatchCommand : public testing::Test {
  protected:
@@ -89,6 +51,15 @@ TEST_F(BatchCommand, EncodesEveryClipOnceWithALineForEach) {
   Outcome again = batch();
   EXPECT_EQ(again.status, 0);
   EXPECT_THAT(again.out, HasSubstr("0 encoded, 3 done before, 0 failed"));
+}
+
+TEST_F(BatchCommand, RemovesWhatAKilledRunLeftEvenWithNothingToDo) {
+  ASSERT_EQ(batch().status, 0);
+  const std::string left = folder_ / "out/.anicodec-stage-AbCdEf";
+  fs::create_directory(left);
+  folder_.write("out/.anicodec-stage-AbCdEf/0", "half a file");
+  EXPECT_THAT(batch().out, HasSubstr("0 encoded, 3 done before, 0 failed"));
+  EXPECT_FALSE(fs::exists(left));
 }
 
 TEST_F(BatchCommand, PrintsAnObjectForEachClip) {

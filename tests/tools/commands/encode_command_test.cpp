@@ -20,6 +20,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 /// A folder with a clip of the corpus as a.pc2 and a.obj.
@@ -44,6 +45,38 @@ TEST_F(EncodeCommand, PromisesATwentiethPerCentByDefault) {
   nlohmann::json info = anicodec({"info", folder_ / "a.anic", "--json"}).json();
   EXPECT_EQ(info["asked"]["metric"], "max_error");
   EXPECT_NEAR(info["asked"]["value"], 0.0005 * double(info["diagonal"]), 1e-9);
+}
+
+TEST_F(EncodeCommand, MakesOneFileOfSeveralClips) {
+  write_sequence(folder_ / "b.pc2", corpus::make_clip("limb"));
+  const std::string library = folder_ / "library.anic";
+  const std::vector<std::string> encode_all{"encode", folder_ / "a.obj", folder_ / "a.pc2",
+                                            folder_ / "b.pc2", "-o", library, "-f", "--json",
+                                            "--kg", "1", "--effort", "1"};
+  nlohmann::json report = anicodec(encode_all).json();
+  ASSERT_EQ(report["clips"].size(), 2U);
+  EXPECT_EQ(report["clips"][1]["name"], "b");
+  for (const nlohmann::json& clip : report["clips"])
+    EXPECT_LE(clip["kg"], 1);
+  std::vector<std::string> named = encode_all;
+  named.insert(named.end(), {"--name", "walk,run"});
+  anicodec(named);
+  EXPECT_EQ(anicodec({"info", library, "--json"}).json()["clips"][1]["name"], "run");
+  EXPECT_THAT(anicodec({"info", library}).out, HasSubstr("2 clips"));
+  EXPECT_EQ(anicodec({"verify", library}).status, 0);
+  EXPECT_THAT(anicodec({"dump", library}).out, HasSubstr("clip 1 name"));
+  EXPECT_THAT(anicodec({"decode", library, "-o", folder_ / "c.pc2"}).err,
+              HasSubstr("one of them must be chosen, or all: 'walk', 'run'"));
+  EXPECT_THAT(anicodec({"decode", library, "--clip", "fly", "-o", folder_ / "c.pc2"}).err,
+              HasSubstr("there is no clip 'fly'"));
+  EXPECT_EQ(anicodec({"decode", library, "--clip", "run", "-o", folder_ / "c.pc2"}).status, 0);
+  nlohmann::json same =
+      anicodec({"compare", folder_ / "a.pc2", folder_ / "c.pc2", "--json"}).json();
+  EXPECT_LE(same["kg"], 1);
+  named.back() = "walk,walk";
+  EXPECT_THAT(anicodec(named).err, HasSubstr("two clips have the name 'walk'"));
+  named.back() = "walk";
+  EXPECT_THAT(anicodec(named).err, HasSubstr("1 names for 2 clips"));
 }
 
 TEST_F(EncodeCommand, KeepsEveryKindOfTarget) {
@@ -88,6 +121,33 @@ TEST_F(EncodeCommand, RebuildsFramesAsAskedFor) {
   Outcome wrong = encode({"--basis", "eigenshapes", "--interpolation", "msgi", "-f"});
   EXPECT_EQ(wrong.status, 1);
   EXPECT_THAT(wrong.err, HasSubstr("--interpolation goes with"));
+}
+
+TEST_F(EncodeCommand, CodesKeyframesAsAskedFor) {
+  const auto coded = [&](const std::string& coder) {
+    Outcome outcome = encode({"--keyframes", "5", "--keyframe-coder", coder, "-f"});
+    EXPECT_EQ(outcome.status, 0) << outcome;
+    EXPECT_EQ(anicodec({"verify", folder_ / "a.anic"}).status, 0);
+    return anicodec({"info", folder_ / "a.anic", "--json"}).json();
+  };
+  const nlohmann::json draco = coded("draco"), native = coded("native"), best = coded("auto");
+  EXPECT_EQ(draco["segments"][0]["coder"], "draco");
+  EXPECT_EQ(native["segments"][0]["coder"], "native");
+  EXPECT_LT(native["bytes"], draco["bytes"]);
+  EXPECT_EQ(best["bytes"], native["bytes"]);
+  Outcome wrong = encode({"--keyframe-coder", "native", "-f"});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("--keyframe-coder goes with"));
+}
+
+TEST_F(EncodeCommand, NeedsNoDracoUnlessAskedFor) {
+  // One that ends with a basis, and two with key-frames.
+  for (const std::string name : {"limb", "one_frame", "one_triangle"}) {
+    const std::string source = folder_ / (name + ".pc2");
+    write_sequence(source, corpus::make_clip(name));
+    ASSERT_EQ(anicodec({"encode", source, "-o", folder_ / "clip.anic", "-f"}).status, 0);
+    EXPECT_THAT(anicodec({"info", folder_ / "clip.anic"}).out, Not(HasSubstr("draco"))) << name;
+  }
 }
 
 TEST_F(EncodeCommand, UsesTheBasisAskedFor) {

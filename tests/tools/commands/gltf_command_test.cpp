@@ -4,15 +4,13 @@
 // Scenes through the command: GLB in, out, and what the Khronos validator says about it.
 #include "corpus/clips.h"
 #include "tests/real_data.h"
+#include "tests/tools/clip_testing.h"
 #include "tests/tools/command_testing.h"
 #include "tests/tools/gltf_testing.h"
 #include "tests/two_boxes.h"
-#include "tools/io/gltf/glb_output.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -24,116 +22,6 @@ namespace anicodec::tools {
 namespace {
 
 using testing::HasSubstr;
-
-MeshSequence load(const std::string& path) {
-  return load_sequence(std::vector<std::string>{path});
-}
-
-/// In the axes of glTF.
-MeshSequence limb() {
-  MeshSequence clip = corpus::make_clip("limb");
-  clip.up = UpAxis::kY;
-  clip.metres_per_unit = 1;
-  return clip;
-}
-
-double largest_difference(const MeshSequence& a, const MeshSequence& b) {
-  double largest = a.positions.size() == b.positions.size() ? 0 : HUGE_VAL;
-  for (size_t i = 0; i < a.positions.size() && largest < HUGE_VAL; ++i)
-    largest = std::max(largest, std::abs(static_cast<double>(a.positions[i]) -
-                                         static_cast<double>(b.positions[i])));
-  return largest;
-}
-
-TEST(GlbOutput, ReadsBackTheSameClip) {
-  TemporaryFolder folder;
-  MeshSequence clip = limb();
-  clip.rate = {25, 1, false};
-  write_sequence(folder / "a.glb", clip);
-  MeshSequence back = load(folder / "a.glb");
-  EXPECT_EQ(back.frame_count, clip.frame_count);
-  EXPECT_EQ(back.rate.numerator, 25U) << "less than 30, but written down";
-  EXPECT_LT(largest_difference(back, clip), 1e-6 * diagonal(clip));
-}
-
-TEST(GlbOutput, KeepsMaterialsAndAttributesOfVertices) {
-  TemporaryFolder folder;
-  GltfScene scene = triangle_scene();
-  scene.primitive()["attributes"]["TEXCOORD_0"] =
-      scene.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 5126, 2);
-  scene.primitive()["attributes"]["COLOR_0"] = scene.quads({1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 0.5});
-  scene.primitive()["material"] = 1;
-  scene.document["materials"] = {{{"name", "red"}}, {{"name", "blue"}}};
-  folder.write("a.glb", scene.glb());
-  MeshSequence first = load(folder / "a.glb");
-  write_sequence(folder / "b.glb", first);
-  MeshSequence back = load(folder / "b.glb");
-  EXPECT_EQ(back.materials, first.materials);
-  ASSERT_EQ(back.attributes.size(), 2U);
-  for (size_t i = 0; i < 2; ++i)
-    EXPECT_EQ(back.attributes[i].values, first.attributes[i].values);
-}
-
-TEST(GlbOutput, MakesAMeshOfEachObjectAndKeepsTheirNames) {
-  TemporaryFolder folder;
-  MeshSequence scene = two_boxes();
-  write_sequence(folder / "a.glb", scene);
-  const MeshSequence back = load(folder / "a.glb");
-  const size_t quads = scene.polygons.size() / 2;  // of an object
-  EXPECT_EQ(back.parts.names, scene.parts.names);
-  EXPECT_EQ(back.polygons.size(), 4 * quads);
-  EXPECT_EQ(std::ranges::count(back.parts.of_polygon, 1U), 2 * quads);
-  EXPECT_LT(largest_difference(back, scene), 1e-6 * diagonal(scene));
-  LoadOptions one;
-  one.mesh = "still";
-  EXPECT_EQ(load_sequence(std::vector<std::string>{folder / "a.glb"}, one).vertex_count,
-            scene.vertex_count / 2);
-
-  std::vector<uint32_t>& part = scene.parts.of_polygon;
-  std::swap(part[1], part[quads + 1]);
-  part[2] = kNoLabel;
-  write_sequence(folder / "b.glb", scene);
-  const MeshSequence mixed = load(folder / "b.glb");
-  EXPECT_GT(mixed.vertex_count, scene.vertex_count) << "corners of two objects";
-  EXPECT_EQ(std::ranges::count(mixed.parts.of_polygon, kNoLabel), 2);
-  EXPECT_EQ(std::ranges::count(mixed.parts.of_polygon, 0U), 2 * (quads - 1));
-}
-
-TEST(GlbOutput, TurnsClipsWithZUpAndScalesUnits) {
-  TemporaryFolder folder;
-  MeshSequence clip;
-  clip.vertex_count = 3;
-  clip.frame_count = 1;
-  clip.positions = {0, 0, 0, 1, 0, 0, 0, 0, 100};
-  clip.polygons.add(std::vector<uint32_t>{0, 1, 2});
-  clip.up = UpAxis::kZ;
-  clip.metres_per_unit = 0.01;
-  write_sequence(folder / "a.glb", clip);
-  EXPECT_NEAR(load(folder / "a.glb").positions[7], 1, 1e-6) << "y";
-}
-
-TEST(GlbOutput, IsSparseWhereLittleMoves) {
-  TemporaryFolder folder;
-  MeshSequence clip = limb();
-  for (uint32_t f = 1; f < clip.frame_count; ++f) {
-    std::copy(clip.frame(0).begin(), clip.frame(0).end(), clip.frame(f).begin());
-    clip.frame(f)[0] += 1.0F;
-  }
-  write_sequence(folder / "a.glb", clip);
-  EXPECT_LT(std::filesystem::file_size(folder / "a.glb"), size_t{12} * clip.vertex_count +
-                                                              4 * clip.polygons.corners.size() * 2 +
-                                                              size_t{900} * clip.frame_count);
-  EXPECT_LT(largest_difference(load(folder / "a.glb"), clip), 1e-6 * diagonal(clip));
-}
-
-TEST(GlbOutput, StepsWhereAskedTo) {
-  TemporaryFolder folder;
-  MeshSequence clip = corpus::make_clip("limb");
-  for (bool step : {false, true}) {
-    write_sequence(folder / "a.glb", clip, {.overwrite = true, .step = step});
-    EXPECT_THAT(folder.read("a.glb"), HasSubstr(step ? "\"STEP\"" : "\"LINEAR\""));
-  }
-}
 
 TEST(GltfCommand, EncodesAndDecodesScenes) {
   TemporaryFolder folder;
@@ -148,7 +36,7 @@ TEST(GltfCommand, EncodesAndDecodesScenes) {
   EXPECT_LE(compared.json()["max_error_percent"], 0.0501);
   ASSERT_EQ(
       anicodec({"decode", folder / "a.anic", "-o", folder / "one.glb", "--frames", "3"}).status, 0);
-  EXPECT_EQ(load(folder / "one.glb").frame_count, 1U);
+  EXPECT_EQ(load_file(folder / "one.glb").frame_count, 1U);
   EXPECT_EQ(anicodec({"decode", folder / "a.anic", "-o", folder / "b.gltf"}).status, 1);
 }
 

@@ -57,6 +57,7 @@ TEST_F(InspectCommand, InfoAccountsForTheWholeFile) {
   EXPECT_GT(info["opening_bytes"], info["resident_bytes"]);
   EXPECT_GT(info["context_bytes"], 0);
   EXPECT_EQ(info["segments"][0]["basis"], "keyframes");
+  EXPECT_EQ(info["segments"][0]["coder"], "draco");
   size_t end = 40 + 32 * info["chunks"].size();
   for (const nlohmann::json& chunk : info["chunks"]) {
     EXPECT_EQ(chunk["offset"], (end + 7) / 8 * 8);

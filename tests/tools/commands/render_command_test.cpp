@@ -97,23 +97,5 @@ TEST_F(RenderCommand, SaysWhatItCannotDo) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "p.gif"));
 }
 
-TEST(ShadedView, ShowsATriangleWhereItIs) {
-  Polygons triangle;
-  triangle.offsets = {0, 3};
-  triangle.corners = {0, 1, 2};
-  const std::vector<float> positions = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
-  Box box;
-  box.add(positions);
-  ShadedView view(triangle, 3, box, 65, 65);
-  Camera front;
-  front.azimuth = front.elevation = 0;
-  const std::vector<float> red = {1, 0, 0, 1, 0, 0, 1, 0, 0};
-  Image image = view.draw(positions, front, red);
-  const uint8_t *centre = image.pixel(32, 32), *corner = image.pixel(2, 2);
-  EXPECT_GT(centre[0], 100);
-  EXPECT_LT(centre[1], 10);
-  EXPECT_GT(corner[1], 200);
-}
-
 }  // namespace
 }  // namespace anicodec::tools

@@ -106,11 +106,25 @@ TEST(LoadSequence, RejectsInputsThatMakeNoClip) {
   std::string other = folder.write("b.off", "OFF\n");
   std::string cache = folder.write("a.pc2", pc2(3, 2));
   EXPECT_THAT(usage_fault({}), HasSubstr("no input"));
-  EXPECT_THAT(usage_fault({cache, cache}), HasSubstr("a second vertex cache"));
   EXPECT_THAT(usage_fault({mesh, cache, mesh}), HasSubstr("one mesh, but 2 are given"));
   EXPECT_THAT(usage_fault({mesh, cache}, {.mesh = mesh}), HasSubstr("one mesh, but 2 are given"));
   EXPECT_THAT(usage_fault({mesh}, {.mesh = mesh}), HasSubstr("but there is none"));
   EXPECT_THAT(usage_fault({mesh, other}), HasSubstr("b.off: frames are of one format"));
+}
+
+TEST(LoadSequence, CachesOfOneMeshAreClips) {
+  TemporaryFolder folder;
+  const std::string mesh = folder.write("a.obj", triangle("0"));
+  const std::vector<std::string> inputs{mesh, folder.write("walk.pc2", pc2(3, 2)),
+                                        folder.write("run.pc2", pc2(3, 4))};
+  const MeshSequence library = load_sequence(inputs, {.rate = FrameRate{30, 1, false}});
+  ASSERT_EQ(library.clips.size(), 2U);
+  EXPECT_EQ(library.frame_count, 6U);
+  EXPECT_EQ(library.clips[0].name, "walk");
+  EXPECT_EQ(library.clips[1].name, "run");
+  EXPECT_EQ(library.clips[1].frame_count, 4U);
+  EXPECT_EQ(library.clips[1].rate.numerator, 30U);
+  EXPECT_THAT(usage_fault({mesh, inputs[1]}, {.clips = {"all"}}), HasSubstr("no scene with clips"));
 }
 
 TEST(LoadSequence, RejectsFilesThatCannotBeRead) {

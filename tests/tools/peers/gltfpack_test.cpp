@@ -8,8 +8,6 @@
 #include "tools/io/files/private_folder.h"
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -77,18 +75,6 @@ TEST_F(Gltfpack, IsMissedWhereItIsNot) {
   EXPECT_EQ(gltfpack_version(), "");
   EXPECT_THROW(gltfpack_at_kg(corpus::make_clip("limb"), 1), Error);
   ::setenv("PATH", path.c_str(), 1);
-}
-
-TEST(PrivateFolder, GoesWithAllThatIsInIt) {
-  std::string file;
-  {
-    const tools::PrivateFolder folder;
-    file = folder / "a";
-    std::ofstream(file) << "x";
-    EXPECT_TRUE(std::filesystem::exists(file));
-  }
-  EXPECT_FALSE(std::filesystem::exists(file));
-  EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(file).parent_path()));
 }
 
 }  // namespace

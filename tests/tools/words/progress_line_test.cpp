@@ -16,11 +16,11 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A terminal that keeps what is printed, with a clock that is set by hand.
-class Progress : public testing::Test {
+class ProgressLineTest : public testing::Test {
  protected:
-  Progress() : stream_(::open_memstream(&text_, &size_)) {}
+  ProgressLineTest() : stream_(::open_memstream(&text_, &size_)) {}
 
-  ~Progress() override {
+  ~ProgressLineTest() override {
     std::fclose(stream_);
     std::free(text_);
   }
@@ -40,7 +40,7 @@ class Progress : public testing::Test {
   std::FILE* stream_;
 };
 
-TEST_F(Progress, IsSilentForASecond) {
+TEST_F(ProgressLineTest, IsSilentForASecond) {
   ProgressLine line(stream_, clock());
   now_ += 0.9;
   line.show("reading", 0.9);
@@ -50,7 +50,7 @@ TEST_F(Progress, IsSilentForASecond) {
   EXPECT_THAT(printed(), HasSubstr("reading  95 %"));
 }
 
-TEST_F(Progress, SaysNoHundredWhileSomethingIsLeft) {
+TEST_F(ProgressLineTest, SaysNoHundredWhileSomethingIsLeft) {
   ProgressLine line(stream_, clock());
   line.show("fitting", 0);
   now_ += 30;
@@ -61,7 +61,7 @@ TEST_F(Progress, SaysNoHundredWhileSomethingIsLeft) {
   EXPECT_THAT(printed(), HasSubstr("fitting 100 %\033"));
 }
 
-TEST_F(Progress, SaysTheTimeLeftOfTheStage) {
+TEST_F(ProgressLineTest, SaysTheTimeLeftOfTheStage) {
   ProgressLine line(stream_, clock());
   now_ += 50;
   line.show("fitting", 0);
@@ -70,7 +70,7 @@ TEST_F(Progress, SaysTheTimeLeftOfTheStage) {
   EXPECT_THAT(printed(), HasSubstr("fitting  25 %, 1:30 left"));
 }
 
-TEST_F(Progress, IsNotShownMoreOftenThanTenTimesASecond) {
+TEST_F(ProgressLineTest, IsNotShownMoreOftenThanTenTimesASecond) {
   ProgressLine line(stream_, clock());
   now_ += 2;
   line.show("fitting", 0.50);
@@ -79,7 +79,7 @@ TEST_F(Progress, IsNotShownMoreOftenThanTenTimesASecond) {
   EXPECT_THAT(printed(), Not(HasSubstr("51")));
 }
 
-TEST_F(Progress, RemovesItsLineAtTheEnd) {
+TEST_F(ProgressLineTest, RemovesItsLineAtTheEnd) {
   {
     ProgressLine line(stream_, clock());
     now_ += 2;
@@ -88,12 +88,12 @@ TEST_F(Progress, RemovesItsLineAtTheEnd) {
   EXPECT_TRUE(printed().ends_with("\r\033[K")) << printed();
 }
 
-TEST_F(Progress, PrintsNothingWhenNothingWasShown) {
+TEST_F(ProgressLineTest, PrintsNothingWhenNothingWasShown) {
   { ProgressLine line(stream_, clock()); }
   EXPECT_EQ(printed(), "");
 }
 
-TEST_F(Progress, IsEmptyWhenQuiet) {
+TEST_F(ProgressLineTest, IsEmptyWhenQuiet) {
   ProgressLine line(true);
   EXPECT_FALSE(line.callback());
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <ranges>
 #include <string>
 
 namespace anicodec::tools {
@@ -63,6 +64,14 @@ FrameRate snap(double fps, double tolerance) {
   return relative_distance(nearest, fps) <= tolerance
              ? nearest
              : simplest(std::min(fps, kMaxTerm), tolerance);
+}
+
+/// Whether all times, counted from the first, are whole frames.
+bool on_grid(std::span<const double> times, double rounding, double fps) {
+  return std::ranges::all_of(times, [&](double t) {
+    const double frames = (t - times.front()) * fps;
+    return std::abs(frames - std::round(frames)) <= 0.01 + 4 * rounding * fps;
+  });
 }
 
 /// Digits only, all of the text, at most 2^32 - 1.
@@ -140,6 +149,46 @@ Timing timing_of(std::span<const double> times, double rounding, std::string_vie
       timing.times.push_back(t - start);
   }
   return timing;
+}
+
+std::optional<FrameRate> grid_rate(std::span<const double> times, double rounding) {
+  constexpr double kLeast = 10, kUsual = 30, kMost = 240;
+  double gap = std::numeric_limits<double>::infinity();
+  for (size_t i = 1; i < times.size(); ++i) {
+    const double step = times[i] - times[i - 1];
+    if (step > 0.02 / kMost + 4 * rounding)  // else one key
+      gap = std::min(gap, step);
+  }
+  if (!std::isfinite(gap))
+    return {};
+  const double length = times.back() - times.front();
+  const double frames = std::round(length / gap);
+  if (frames / length <= kMost && on_grid(times, rounding, frames / length)) {
+    FrameRate rate = snap(frames / length, std::max(2e-6, 4 * rounding / length));
+    if (rate.value() < kLeast) {
+      const double times_finer = std::ceil(kUsual / rate.value());
+      rate = snap(times_finer * rate.value(), 2e-6);
+    }
+    return rate;
+  }
+  for (double whole : {30, 24, 25, 60, 48, 50, 120, 100}) {
+    if (on_grid(times, rounding, whole))
+      return rational(static_cast<uint64_t>(whole), 1);
+  }
+  for (uint64_t whole : {30U, 24U, 60U}) {
+    const FrameRate ntsc = rational(whole * 1000, 1001);
+    if (on_grid(times, rounding, ntsc.value()))
+      return ntsc;
+  }
+  return {};
+}
+
+FrameRate covering_rate(double seconds, double least) {
+  constexpr double kRounding = 1e-3;  // of a frame
+  const double frames = std::max(1.0, std::ceil(seconds * least - kRounding));
+  FrameRate rate = simplest(frames / seconds, kRounding / (2 * frames));
+  rate.assumed = false;
+  return rate;
 }
 
 }  // namespace anicodec::tools

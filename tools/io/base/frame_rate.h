@@ -5,6 +5,7 @@
 
 #include "codec/sequence/mesh_sequence.h"
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,14 @@ Timing timing_of(std::span<const float> times, std::string_view name);
 
 /// The same for times that are off by at most `rounding` seconds.
 Timing timing_of(std::span<const double> times, double rounding, std::string_view name);
+
+/// The rate of a grid of frames on which all of these ascending times stand, the first on a frame:
+/// that of their smallest gap, or a usual one of which they use some frames. No rate below 10, as
+/// far as whole multiples of theirs go. Nothing for fewer than two times, and for times on no grid.
+std::optional<FrameRate> grid_rate(std::span<const double> times, double rounding);
+
+/// The least rate from `least` on at which `seconds` are whole frames.
+FrameRate covering_rate(double seconds, double least);
 
 }  // namespace anicodec::tools
 

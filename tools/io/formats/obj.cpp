@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -275,11 +276,27 @@ void parse_obj(std::string_view text, std::string_view name, Mesh& mesh, MeshDet
     parse(mesh.vertex_count());
 }
 
-ObjDetails::ObjDetails(const MeshSequence& clip)
+ObjDetails::ObjDetails(const MeshSequence& clip, bool group_faces)
     : clip_(clip), objects_(names("o", clip.parts)), materials_(names("usemtl", clip.materials)) {
   if (!clip.shared_normals.empty())
     normals_.emplace(clip);
   set_attributes(clip.attributes);
+  order_.resize(clip.polygons.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  if (group_faces)
+    group_polygons();
+}
+
+/// Objects, and materials in each, come in the order in which they are met first.
+void ObjDetails::group_polygons() {
+  for (const Names* names : {&materials_, &objects_}) {
+    if (names->of_polygon.empty())
+      continue;
+    std::map<uint32_t, uint32_t> rank;
+    for (uint32_t label : names->of_polygon)
+      rank.try_emplace(label, static_cast<uint32_t>(rank.size()));
+    std::ranges::stable_sort(order_, {}, [&](uint32_t p) { return rank[names->of_polygon[p]]; });
+  }
 }
 
 void ObjDetails::set_attributes(const std::vector<Attribute>& attributes) {
@@ -317,7 +334,8 @@ ObjDetails::Names ObjDetails::names(const char* keyword, const PolygonLabels& la
   for (const std::string& label : labels.names) {
     std::string name = printable(label);
     // One joins lines, the other begins a comment.
-    std::ranges::replace_if(name, [](char c) { return c == '\\' || c == '#'; }, '_');
+    std::ranges::replace_if(
+        name, [](char c) { return c == '\\' || c == '#'; }, '_');
     result.lines.push_back(std::string(keyword) + " " + name + "\n");
   }
   result.none = std::string(keyword) + " " + std::string(kNoName) + "\n";
@@ -348,17 +366,18 @@ void append_obj(const Polygons& polygons, std::span<const float> positions, std:
       out += '\n';
     }
   }
-  auto name = [&](const ObjDetails::Names& names, size_t p) {
-    if (names.of_polygon.empty())
+  uint32_t object = kNoLabel, material = kNoLabel;
+  auto name = [&](const ObjDetails::Names& names, size_t p, uint32_t& current) {
+    if (names.of_polygon.empty() || names.of_polygon[p] == current)
       return;
-    const uint32_t label = names.of_polygon[p];
-    if (label != (p > 0 ? names.of_polygon[p - 1] : kNoLabel))
-      out += label == kNoLabel ? names.none : names.lines[label];
+    current = names.of_polygon[p];
+    out += current == kNoLabel ? names.none : names.lines[current];
   };
-  for (size_t p = 0; p < polygons.size(); ++p) {
+  for (size_t i = 0; i < polygons.size(); ++i) {
+    const size_t p = details ? details->order_[i] : i;
     if (details) {
-      name(details->objects_, p);
-      name(details->materials_, p);
+      name(details->objects_, p, object);
+      name(details->materials_, p, material);
     }
     out += 'f';
     for (uint32_t c = polygons.offsets[p]; c < polygons.offsets[p + 1]; ++c) {

@@ -28,8 +28,9 @@ void parse_obj(std::string_view text, std::string_view name, Mesh& mesh,
 /// colours, materials, objects, and which corners share a normal.
 class ObjDetails {
  public:
-  /// `clip` must outlive it.
-  explicit ObjDetails(const MeshSequence& clip);
+  /// `clip` must outlive it. `group_faces`: they are written object by object and in each material by
+  /// material, so that no program makes two objects of one; else in their order.
+  explicit ObjDetails(const MeshSequence& clip, bool group_faces = false);
 
   /// Takes texture coordinates and colours of a frame of its own.
   void set_attributes(const std::vector<Attribute>& attributes);
@@ -45,7 +46,10 @@ class ObjDetails {
 
   static Names names(const char* keyword, const PolygonLabels& labels);
 
+  void group_polygons();
+
   const MeshSequence& clip_;
+  std::vector<uint32_t> order_;          ///< in which polygons are written
   std::string texture_coordinates_;      ///< lines of vt
   std::vector<uint32_t> uv_;             ///< of each corner, or empty
   std::vector<float> colours_;           ///< vertices x 3, or empty

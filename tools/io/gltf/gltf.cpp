@@ -9,6 +9,7 @@
 #include "tools/io/gltf/gltf_animation.h"
 #include "tools/io/gltf/gltf_bake.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -16,7 +17,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr uint32_t kLeastRate = 30;
+constexpr double kLeastRate = 30, kMostRate = 240;  // of keys on no grid
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -73,7 +74,8 @@ uint32_t first_animation(const GltfDocument& document, const std::vector<bool>& 
   return longest != kGltfNone ? longest : any;
 }
 
-FrameRate default_rate(const GltfAnimation& animation, const GltfClip& clip) {
+FrameRate default_rate(const GltfAnimation& animation, const GltfClip& clip,
+                       const GltfOptions& options) {
   if (!animation.rate.empty()) {
     try {
       return parse_frame_rate(animation.rate);
@@ -81,22 +83,31 @@ FrameRate default_rate(const GltfAnimation& animation, const GltfClip& clip) {
       // Not what anicodec writes.
     }
   }
-  FrameRate rate = clip.key_rate();
-  if (rate.value() < kLeastRate)
-    rate = {kLeastRate, 1, false};
-  rate.assumed = false;
+  const double length = clip.last_time() - clip.first_time();
+  if (length == 0)
+    return {};
+  if (const std::optional<FrameRate> grid = clip.key_grid())
+    return *grid;
+  const FrameRate rate =
+      covering_rate(length, std::clamp(std::round(clip.key_density()), kLeastRate, kMostRate));
+  if (options.note)
+    options.note("the keys stand on no common frames: sampled at " + std::to_string(rate.value()) +
+                 " frames per second, a whole number of them");
   return rate;
 }
 
 uint32_t count_frames(const GltfDocument& document, uint32_t animation, const GltfClip& clip,
-                      const FrameRate& rate) {
+                      const FrameRate& rate, const GltfOptions& options) {
   constexpr double kRounding = 1e-3;  // of a frame: times are floats
-  const double frames =
-      std::floor((clip.last_time() - clip.first_time()) * rate.value() + kRounding) + 1;
+  const double length = (clip.last_time() - clip.first_time()) * rate.value();
+  const double frames = std::floor(length + kRounding) + 1;
   if (frames > static_cast<double>(kMaxFrames))
     fail_gltf(document, animation_path(animation),
               "from " + std::to_string(clip.first_time()) + " to " +
                   std::to_string(clip.last_time()) + " s there are more than 2^24 - 1 frames");
+  if (length - (frames - 1) > kRounding && options.note)
+    options.note("the last " + std::to_string((length - (frames - 1)) / rate.value()) +
+                 " s of the animation lie behind the last frame");
   return static_cast<uint32_t>(frames);
 }
 
@@ -107,6 +118,34 @@ MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const Glt
   return bake_gltf(
       parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside),
       options);
+}
+
+std::vector<MeshSequence> parse_gltf_clips(std::string_view bytes, std::string_view name,
+                                           const GltfResolver& resolve, GltfOptions options,
+                                           const std::vector<std::string>& names) {
+  const GltfDocument document =
+      parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside);
+  std::vector<uint32_t> animations;
+  for (const std::string& wanted : names)
+    animations.push_back(named_animation(document, wanted));
+  const std::vector<bool> nodes = GltfBake(document, options).moving_nodes();
+  for (uint32_t i = 0; names.empty() && i < document.animations.size(); ++i) {
+    if (document.animations[i].channels.empty())
+      continue;
+    const GltfClip clip(document, i, options.memory_limit);
+    if (clip.last_time() > clip.first_time() && clip.moves(nodes))
+      animations.push_back(i);
+  }
+  if (animations.empty())
+    throw Error(ErrorKind::kUsage, document.name + ": no animation moves anything");
+  std::vector<MeshSequence> clips;
+  for (uint32_t i : animations) {
+    options.clip = std::to_string(i);
+    clips.push_back(bake_gltf(document, options));
+    clips.back().name = document.animations[i].name.empty() ? "clip " + std::to_string(i)
+                                                            : document.animations[i].name;
+  }
+  return clips;
 }
 
 MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options) {
@@ -122,11 +161,12 @@ MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options)
   if (document.animations[animation].channels.empty())
     fail_empty(document, animation);
   const GltfClip clip(document, animation, options.memory_limit);
-  out.rate = options.rate ? *options.rate : default_rate(document.animations[animation], clip);
+  out.rate =
+      options.rate ? *options.rate : default_rate(document.animations[animation], clip, options);
   out.start_time = clip.first_time();
   if (document.animations.size() > 1)
     out.name = document.animations[animation].name;
-  bake.add_frames(&clip, count_frames(document, animation, clip, out.rate), options, out);
+  bake.add_frames(&clip, count_frames(document, animation, clip, out.rate, options), options, out);
   return out;
 }
 

@@ -8,14 +8,17 @@
 #include "tools/io/gltf/gltf_document.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace anicodec::tools {
 
 struct GltfOptions {
-  /// Of the frames; default: that of the keys, at least 30, or what anicodec wrote beside them.
+  /// Of the frames; default: what anicodec wrote beside the keys, else the grid that they stand on
+  /// (grid_rate), else one from 30 on that ends with the last key.
   std::optional<FrameRate> rate = {};
   /// Name of the mesh or node to take; empty: all of the scene.
   std::string mesh = {};
@@ -30,6 +33,8 @@ struct GltfOptions {
   bool isolate = true;
   /// Stage "reading".
   Progress progress = {};
+  /// Told what is left out, and what was chosen where the file does not say.
+  std::function<void(const std::string& text)> note = {};
 };
 
 /// Bakes a .gltf or .glb: all triangles of the scene's meshes become one mesh in world space (Y up,
@@ -42,6 +47,13 @@ struct GltfOptions {
 /// clip that is not there.
 MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
                         const GltfOptions& options = {});
+
+/// Several animations of a document, baked one by one with their names: those named, or all that
+/// have a length and move a vertex if none is. An animation without a name is "clip N". Throws as
+/// parse_gltf(), Error(kUsage) for a document without any.
+std::vector<MeshSequence> parse_gltf_clips(std::string_view bytes, std::string_view name,
+                                           const GltfResolver& resolve, GltfOptions options,
+                                           const std::vector<std::string>& names);
 
 /// The same for a document that has been read.
 MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options);

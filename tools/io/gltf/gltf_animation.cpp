@@ -66,24 +66,34 @@ GltfClip::GltfClip(const GltfDocument& document, uint32_t animation, uint64_t me
   }
 }
 
-FrameRate GltfClip::key_rate() const {
-  auto most = std::max_element(tracks_.begin(), tracks_.end(), [](const Track& a, const Track& b) {
-    return a.times.size() < b.times.size();
-  });
-  std::vector<float> times;
-  if (most != tracks_.end())
-    std::unique_copy(most->times.begin(), most->times.end(), std::back_inserter(times));
-  if (times.size() < 2)
-    return {};
-  Timing timing = timing_of(times, "keys");
-  if (timing.times.empty())
-    return timing.rate;
+std::optional<FrameRate> GltfClip::key_grid() const {
+  std::vector<double> times;
+  for (const Track& track : tracks_)
+    times.insert(times.end(), track.times.begin(), track.times.end());
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const auto last = static_cast<float>(last_time_);
+  const float rounding = last - std::nextafter(last, 0.0F);
+  return grid_rate(times, static_cast<double>(rounding));
+}
+
+double GltfClip::key_density() const {
+  const auto most =
+      std::ranges::max_element(tracks_, {}, [](const Track& track) { return track.times.size(); });
+  if (most == tracks_.end())
+    return 0;
   std::vector<double> gaps;
-  for (size_t k = 1; k < times.size(); ++k)
-    gaps.push_back(static_cast<double>(times[k]) - static_cast<double>(times[k - 1]));
-  auto median = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), median, gaps.end());
-  return {static_cast<uint32_t>(std::clamp(std::round(1 / *median), 1.0, 1e6)), 1, false};
+  for (size_t k = 1; k < most->times.size(); ++k) {
+    const double gap =
+        static_cast<double>(most->times[k]) - static_cast<double>(most->times[k - 1]);
+    if (gap > 0)
+      gaps.push_back(gap);
+  }
+  if (gaps.empty())
+    return 0;
+  const auto median = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::ranges::nth_element(gaps, median);
+  return 1 / *median;
 }
 
 bool GltfClip::moves(const std::vector<bool>& nodes) const {

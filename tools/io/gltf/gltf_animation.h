@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace anicodec::tools {
@@ -33,9 +34,11 @@ class GltfClip {
 
   double last_time() const { return last_time_; }
 
-  /// Rate of the keys: that of the channel with most of them, by the median of the gaps where they
-  /// are uneven.
-  FrameRate key_rate() const;
+  /// The grid of frames that the keys of all channels stand on. Nothing where they stand on none.
+  std::optional<FrameRate> key_grid() const;
+
+  /// The rate of the channel with most keys, by the median of the gaps between them; 0 without.
+  double key_density() const;
 
   /// True when a channel changes a value of one of the nodes.
   bool moves(const std::vector<bool>& nodes) const;

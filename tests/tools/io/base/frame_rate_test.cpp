@@ -99,5 +99,30 @@ TEST(FrameRate, RejectsTimesThatDoNotIncrease) {
               HasSubstr("a.mdd: the time of frame 1 is not finite"));
 }
 
+TEST(GridRate, IsTheRateOfTheSmallestGap) {
+  const auto rate = [](std::vector<double> times) {
+    return grid_rate(times, 1e-7).value_or(FrameRate{1, 1000, false}).value();
+  };
+  EXPECT_EQ(rate({0, 0.04, 0.2, 0.96}), 25);
+  EXPECT_EQ(rate({3, 3.04, 3.2}), 25);
+  EXPECT_EQ(rate({0, 1.0 / 12, 0.5}), 12);
+  EXPECT_EQ(rate({0, 0.25, 1}), 32) << "four keys a second are no frames";
+  EXPECT_EQ(rate({0, 0.5, 2}), 30);
+  EXPECT_EQ(rate({0, 2 / 24.0, 5 / 24.0}), 24) << "no key but the first on frame 1";
+  EXPECT_EQ(rate({0, 0.5, 0.5001, 1}), 30) << "a hard cut";
+  EXPECT_NEAR(rate({0, 1001 / 24000.0, 4004 / 24000.0}), 24000 / 1001.0, 1e-4);
+  EXPECT_FALSE(grid_rate(std::vector<double>{0, 0.3137, 1.0071}, 1e-7));
+  EXPECT_FALSE(grid_rate(std::vector<double>{0.5}, 1e-7));
+  EXPECT_FALSE(grid_rate({}, 1e-7));
+}
+
+TEST(CoveringRate, EndsOnAFrame) {
+  EXPECT_EQ(covering_rate(2, 30).value(), 30);
+  const FrameRate rate = covering_rate(1.0071, 30);
+  EXPECT_GE(rate.value(), 30);
+  EXPECT_NEAR(1.0071 * rate.value(), 31, 1e-3);
+  EXPECT_NEAR(0.001 * covering_rate(0.001, 30).value(), 1, 1e-3);
+}
+
 }  // namespace
 }  // namespace anicodec::tools

@@ -39,6 +39,26 @@ TEST(Obj, RoundTripsExactly) {
               std::bit_cast<uint32_t>(clip.positions[i]));
 }
 
+TEST(ObjDetails, GroupFacesByObjectAndMaterial) {
+  MeshSequence clip;
+  clip.vertex_count = 3;
+  for (int p = 0; p < 4; ++p)
+    clip.polygons.add(std::vector<uint32_t>{0, 1, 2});
+  clip.parts = {{"ball", "box"}, {1, 0, 1, 0}};
+  clip.materials = {{"red"}, {kNoLabel, 0, 0, 0}};
+  const std::vector<float> positions(9);
+  const auto faces = [&](const ObjDetails& details) {
+    std::string text;
+    append_obj(clip.polygons, positions, text, &details);
+    return text.substr(text.find("o "));
+  };
+  const std::string face = "f 1 2 3\n";
+  EXPECT_EQ(faces(ObjDetails(clip, true)),
+            "o box\n" + face + "usemtl red\n" + face + "o ball\n" + face + face);
+  EXPECT_EQ(faces(ObjDetails(clip)), "o box\n" + face + "o ball\nusemtl red\n" + face + "o box\n" +
+                                         face + "o ball\n" + face);
+}
+
 TEST(Obj, ReadsAllFormsOfFaces) {
   Mesh mesh = parse(std::string(kThree) +
                     "vt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\n"

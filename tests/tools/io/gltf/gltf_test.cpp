@@ -310,7 +310,7 @@ TEST(Gltf, TakesTheClipNamedOrNumberedOrTheFirstThatMovesAnything) {
             "a.glb: there is no clip 'run'; the clips are: 'still', 'walk', '0'");
 }
 
-TEST(Gltf, SamplesAtTheRateOfTheKeysButAtLeastThirty) {
+TEST(Gltf, SamplesAtTheGridOfTheKeys) {
   auto rate_of = [](const std::vector<float>& times) {
     GltfScene scene = triangle_scene();
     std::vector<float> values;
@@ -323,8 +323,29 @@ TEST(Gltf, SamplesAtTheRateOfTheKeysButAtLeastThirty) {
   };
   EXPECT_EQ(rate_of({0, 1}), std::pair(30.0, 31U));
   EXPECT_EQ(rate_of({0, 1 / 60.0F, 2 / 60.0F, 3 / 60.0F}), std::pair(60.0, 4U));
+  EXPECT_EQ(rate_of({0, 1 / 25.0F, 5 / 25.0F, 24 / 25.0F}), std::pair(25.0, 25U));
+  EXPECT_EQ(rate_of({0, 1 / 12.0F, 2 / 12.0F}), std::pair(12.0, 3U));
   // A hard cut: two keys almost at once.
   EXPECT_EQ(rate_of({0, 1 / 50.0F, 2 / 50.0F, 2.01F / 50.0F, 3 / 50.0F, 4 / 50.0F}).first, 50.0);
+}
+
+TEST(Gltf, CoversAnAnimationWhoseKeysStandOnNoGrid) {
+  GltfScene scene = triangle_scene();
+  scene.animate(0, "translation", {0, 0.3137F, 1.0071F},
+                scene.vectors({0, 0, 0, 1, 0, 0, 2, 0, 0}));
+  GltfOptions options;
+  std::vector<std::string> notes;
+  options.note = [&notes](const std::string& text) { notes.push_back(text); };
+  const MeshSequence s = parse(scene, options);
+  EXPECT_GE(s.rate.value(), 30);
+  EXPECT_LT(s.rate.value(), 32);
+  EXPECT_EQ(s.frame_count, 32U);
+  EXPECT_FLOAT_EQ(s.frame(31)[0], 2) << "the last key is a frame";
+  EXPECT_THAT(notes, ElementsAre(testing::HasSubstr("no common frames")));
+  notes.clear();
+  options.rate = FrameRate{2, 1, false};
+  parse(scene, options);
+  EXPECT_THAT(notes, ElementsAre(testing::HasSubstr("behind the last frame")));
 }
 
 TEST(Gltf, StartsAtTheFirstKey) {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_CLIP_BOUNDS_H_
+#define ANICODEC_CODEC_SEARCH_CLIP_BOUNDS_H_
+
+#include "codec/search/encoder_input.h"
+#include "codec/search/segment_coder.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace anicodec {
+
+/// Codes frames from `first` on so that every clip among them keeps its share of the error `rmse`
+/// (InputClip::tolerance), the worst of them close to it. Where clips have no bound of their own, as
+/// SegmentCoder::at_rmse(). Cost: a few searches of the step for each further one.
+std::optional<CodedPart> within_bounds(SegmentCoder& coder, const EncoderInput& input,
+                                       uint32_t first, double rmse);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_CLIP_BOUNDS_H_

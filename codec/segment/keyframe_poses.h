@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEGMENT_KEYFRAME_POSES_H_
+#define ANICODEC_CODEC_SEGMENT_KEYFRAME_POSES_H_
+
+#include <cstdint>
+
+namespace anicodec {
+
+/// What codes the poses of key-frames: Draco as the thesis' codec does, the coder of reference poses
+/// with each key-frame predicted from an earlier one, or whichever takes fewer bytes.
+enum class KeyframePoses : uint8_t { kDraco, kNative, kAuto };
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEGMENT_KEYFRAME_POSES_H_

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEQUENCE_SHARED_NORMALS_H_
+#define ANICODEC_CODEC_SEQUENCE_SHARED_NORMALS_H_
+
+#include "codec/sequence/mesh_sequence.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace anicodec {
+
+/// A number below the number of corners for each corner, the same where corners of one place have
+/// normals at most half a degree apart. `rows` says which of the attribute's values a corner has,
+/// `places` (any numbers below place_count) where it is. Throws Error(kInput) unless normals have
+/// three components. Cost: O(corners x normals at a place).
+std::vector<uint32_t> share_normals(const Attribute& normals, std::span<const uint32_t> rows,
+                                    std::span<const uint32_t> places, uint32_t place_count);
+
+/// What sequence.shared_normals would say of a source that gives normals: those of the first frame,
+/// vertices at one position taken as one. What it says where it says something; else empty.
+std::vector<uint32_t> known_shared_normals(const MeshSequence& sequence);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEQUENCE_SHARED_NORMALS_H_

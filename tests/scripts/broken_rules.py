@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Invalid files, one for each rule of the specification that a record, or the list of chunks, can break."""
+import re
+import struct
+import subprocess
+
+import anic_file
+
+LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
+COLUMN = 29  # of the values
+NONE, NO_MESH = 0xFFFFFFFF, 0xFFFF
+
+
+def f64(x):
+    return struct.pack("<d", x)
+
+
+def varint(x):
+    return anic_file.varints([x])
+
+
+def varint_value(data):
+    return sum((byte & 127) << 7 * i for i, byte in enumerate(data))
+
+
+INFINITE, NAN = f64(float("inf")), f64(float("nan"))
+
+
+class File:
+    """A good file whose fields and chunks are changed, all checksums made right."""
+
+    def __init__(self, command, path):
+        self.data = path.read_bytes()
+        self.name = path.name
+        self.fields = {}
+        starts = [(struct.unpack_from("<Q", self.data, 40 + 32 * i + 16)[0], i)
+                  for i in range(struct.unpack_from("<I", self.data, 12)[0])]
+        for row in subprocess.run([command, "dump", path], check=True, capture_output=True, text=True).stdout.splitlines():
+            match = LINE.match(row)
+            at, size, text = int(match[1], 16), int(match[2]), match[3]
+            label = (text[:COLUMN] if text[COLUMN - 1:COLUMN] in ("", " ") else text.rpartition(" ")[0]).strip()
+            chunk = max(((start, i) for start, i in starts if start <= at), default=None)
+            if chunk and label != "padding":
+                self.fields.setdefault(label, []).append((chunk[1], at - chunk[0], size))
+
+    def chunks(self):
+        return anic_file.read_chunks(self.data)
+
+    def field(self, label, number=0):
+        """Bytes of a field; `number`: which of several of that name."""
+        chunk, at, size = self.fields[label][number]
+        return self.chunks()[chunk].payload[at:at + size]
+
+    def put(self, label, new, number=0):
+        """The file with other bytes in a field. `new` may be a function of those that are there."""
+        chunk, at, size = self.fields[label][number]
+        chunks = self.chunks()
+        payload = chunks[chunk].payload
+        value = new(payload[at:at + size]) if callable(new) else new
+        chunks[chunk].payload = payload[:at] + value + payload[at + size:]
+        return anic_file.write_chunks(chunks)
+
+    def grown(self, label, change=lambda old: old + b"\1"):
+        """The file with another block of SEGM; its length stands before it."""
+        chunk, at, size = self.fields[label + " length"][0]
+        chunks = self.chunks()
+        payload = chunks[chunk].payload
+        blocks = self.fields.get(label)
+        end = at + size + (blocks[0][2] if blocks else 0)
+        block = change(payload[at + size:end])
+        chunks[chunk].payload = payload[:at] + varint(len(block)) + block + payload[end:]
+        return anic_file.write_chunks(chunks)
+
+    def end(self, kind, more=b"", less=0):
+        """The file with more, or fewer, bytes at the end of the first chunk of a type."""
+        chunks = self.chunks()
+        chunk = next(c for c in chunks if c.type == kind)
+        chunk.payload = chunk.payload[:len(chunk.payload) - less] + more
+        return anic_file.write_chunks(chunks)
+
+    def without(self, kind):
+        """The file without the last chunk of a type."""
+        chunks = self.chunks()
+        chunks.remove([c for c in chunks if c.type == kind][-1])
+        return anic_file.write_chunks(chunks)
+
+    def twice(self, kind):
+        """The file with a chunk of a type once more."""
+        chunks = self.chunks()
+        return anic_file.write_chunks(chunks + [next(c for c in chunks if c.type == kind)])
+
+    def more(self, kind, mesh=NO_MESH, segment=NONE, payload=b"\0"):
+        """The file with a chunk that does not belong into it."""
+        return anic_file.write_chunks(self.chunks() + [anic_file.Chunk(kind, 1, mesh, segment, payload)])
+
+
+def set_byte(at, value):
+    return lambda old: old[:at] + bytes([value]) + old[at + 1:]
+
+
+def set_bytes(at, value):
+    return lambda old: old[:at] + value + old[at + len(value):]
+
+
+def chunk_rules(files):
+    """(status, name, file, what) for spec/06, section 1."""
+    triangle, corrected, painted, moved = (files(name) for name in ("triangle", "quad_box_corrected", "painted_box", "heated"))
+    for file, kinds in ((triangle, ("CLIP", "MESH", "SEGM")), (corrected, ("VMAP", "POSE", "BASI", "CORR")),
+                        (painted, ("FMAP", "ATTR"))):
+        for kind in kinds:
+            yield 26, f"no_{kind.lower()}", file.without(kind), f"no {kind}, or one layer less"
+            if kind != "BASI":
+                yield 25, f"two_{kind.lower()}", file.twice(kind), f"two {kind} of the same mesh and segment"
+    yield 25, "two_limi", triangle.twice("LIMI"), "two LIMI"
+    yield 44, "vmap_of_free_order", triangle.more("VMAP", 0), "VMAP although the order is free"
+    yield 44, "fmap_of_vertices", corrected.more("FMAP", 0), "FMAP although the order is that of vertices"
+    yield 44, "mesh_beyond", triangle.more("MESH", 1), "MESH of a mesh that LIMI does not have"
+    yield 44, "mesh_of_segment", triangle.more("MESH", 0, 0), "MESH with a segment"
+    yield 44, "segm_beyond", triangle.more("SEGM", 0, 1), "SEGM of a segment that LIMI does not have"
+    yield 44, "pose_of_keyframes", triangle.more("POSE", 0, 0), "POSE of a segment of key-frames"
+    yield 44, "basi_of_keyframes", triangle.more("BASI", 0, 0), "BASI of a segment of key-frames"
+    yield 44, "corr_not_announced", triangle.more("CORR", 0, 0), "CORR although LIMI says no corrections"
+    yield 44, "attr_not_announced", triangle.more("ATTR", 0), "ATTR although LIMI says no attributes"
+    chunks = moved.chunks()
+    next(c for c in chunks if c.type == "SEGM").mesh = 1
+    yield 44, "segm_of_other_mesh", anic_file.write_chunks(chunks), "SEGM of a segment with another mesh"
+    chunks = triangle.chunks()
+    chunks[1].flags |= 2
+    yield 21, "reserved_flag", anic_file.write_chunks(chunks), "a reserved flag of a chunk is set"
+    count = struct.unpack_from("<I", triangle.data, 12)[0]
+    yield 21, "table_beyond", triangle.data[:12] + struct.pack("<I", count + 1000) + triangle.data[16:], \
+        "more chunks than the file has room for"
+    size_at = 40 + 32 * (count - 1) + 24
+    yield 23, "chunk_beyond", anic_file.checked_header(triangle.data[:size_at] + struct.pack("<Q", 1 << 63) +
+                                                       triangle.data[size_at + 8:]), "a chunk of 2^63 bytes"
+
+
+def limit_rules(files):
+    """The same for LIMI, section 2."""
+    triangle, corrected, far, scene, moved, clips = (
+        files(name) for name in ("triangle", "quad_box_corrected", "far_rigid", "scene", "heated", "clips"))
+    yield 40, "limi_clip_frames", clips.put("LIMI clip 1 frames", b"\0"), "a clip without a frame"
+    yield 40, "limi_clips_frames", clips.put("LIMI clip 1 frames", varint((1 << 24) - 1)), \
+        "clips of more than 2^24 - 1 frames together"
+    for name, label, value, status in (
+            ("frames", "clip 0 frames", 0, 40), ("clips", "clips", 0, 40), ("many_clips", "clips", 2000, 40),
+            ("meshes", "meshes", 0, 40), ("segments", "segments", 0, 40),
+            ("many_meshes", "meshes", 65536, 40), ("many_segments", "segments", 3000, 40),
+            ("many_frames", "clip 0 frames", 1 << 24, 40), ("source_vertices", "mesh 0 source vertices", 0, 40),
+            ("coded_vertices", "mesh 0 coded vertices", 0, 40), ("more_coded", "mesh 0 coded vertices", 4, 40),
+            ("triangles", "mesh 0 triangles", (1 << 32) // 3 + 1, 40), ("segment_mesh", "segment 0 mesh", 1, 40),
+            ("first_frame", "segment 0 first frame", 5, 40), ("segment_frames", "segment 0 frames", 0, 40),
+            ("past_the_end", "segment 0 frames", 6, 40), ("components", "segment 0 components", (1 << 20) + 1, 40),
+            ("wide", "segment 0 wide components", 3, 40), ("basis", "segment 0 basis", 3, 12),
+            ("other_basis", "segment 0 basis", 17, 12)):
+        yield status, f"limi_{name}", triangle.put(f"LIMI {label}", varint(value)), f"LIMI {label} {value}"
+    yield 48, "limi_no_keyframe", triangle.put("LIMI segment 0 components", b"\0"), "key-frames without a key-frame"
+    yield 40, "limi_points", far.put("LIMI segment 0 Draco points", b"\0"), "bytes of Draco without points"
+    yield 40, "limi_shared_frame", scene.put("LIMI segment 2 first frame", scene.field("LIMI segment 1 first frame")), \
+        "two segments of a mesh share frames"
+    yield 40, "limi_attribute_bytes", moved.put("LIMI mesh 0 attribute bytes", lambda old: varint(6932)), \
+        "attribute bytes that are not those of the attributes"
+    yield 40, "limi_more", triangle.end("LIMI", b"\0"), "a byte after the last field, which is no attribute bytes"
+    yield 40, "limi_short", triangle.end("LIMI", less=1), "LIMI that ends early"
+    yield 40, "limi_long_varint", triangle.put("LIMI clip 0 frames", b"\x85\0"), "a varint that is not the shortest"
+    yield 41, "limi_fewer_corrections", corrected.put("LIMI segment 0 corrections", lambda old: varint(1)), \
+        "more corrections than announced"
+
+
+def clip_rules(files):
+    """The same for CLIP, section 3."""
+    triangle, timed, moved, special, clips = (
+        files(name) for name in ("triangle", "uneven_times", "heated", "vertex_order", "clips"))
+    yield 40, "clip_of_many_rate", clips.put("CLIP clip 5 rate numerator", b"\0"), "the last of several clips has no rate"
+    yield 40, "clip_of_many_time", clips.put("CLIP clip 2 time of frame 3", NAN), "a time of a clip that is not a number"
+    for name, label, value in (
+            ("rate", "rate numerator", b"\0"), ("rate_denominator", "rate denominator", b"\0"), ("flags", "flags", b"\x40"),
+            ("up", "up axis", b"\3"), ("order", "order", b"\3"), ("start", "start time", INFINITE),
+            ("metres", "metres per unit", struct.pack("<f", -1)), ("asked", "asked", b"\6"),
+            ("asked_value", "asked value", NAN), ("max_error", "max error", f64(-1)), ("rmse", "RMSE", INFINITE),
+            ("kg", "KG", NAN), ("diagonal", "diagonal", f64(-1))):
+        yield 40, f"clip_{name}", triangle.put(f"CLIP {label}", value), f"CLIP {label} that is out of range"
+    yield 40, "clip_name", triangle.put("CLIP name", lambda old: b"\xff\x7f" + old[1:]), "a name longer than the record"
+    yield 40, "clip_more", triangle.end("CLIP", b"\0"), "a byte after the last field"
+    yield 40, "clip_short", triangle.end("CLIP", less=1), "CLIP that ends early"
+    yield 40, "clip_times_fall", timed.put("CLIP time of frame 3", f64(0.01)), "a time before that of the frame before"
+    yield 40, "clip_time", timed.put("CLIP time of frame 3", NAN), "a time that is not a number"
+    yield 40, "clip_errors", moved.put("CLIP error 1 attribute", b"\0"), "two errors of one attribute"
+    yield 40, "clip_attribute_error", moved.put("CLIP error 1 RMSE", NAN), "an error that is not a number"
+    yield 40, "clip_no_errors", moved.put("CLIP attributes with an error", b"\0"), "a list of no errors"
+    yield 40, "clip_surface_error", special.put("CLIP surface error", f64(-1)), "a surface error below 0"
+
+
+def mesh_rules(files):
+    """The same for MESH, VMAP, FMAP, POSE and ATTR, sections 4 to 6 and 10."""
+    triangle, corrected, painted, moved, polygons = (
+        files(name) for name in ("triangle", "quad_box_corrected", "painted_box", "heated", "polygons_all"))
+    yield 40, "mesh_name", triangle.put("MESH name", b"\x7f"), "a name longer than the record"
+    yield 43, "faces_triangles", triangle.put("LIMI mesh 0 triangles", b"\2"), "fewer triangles than announced"
+    yield 43, "faces_polygons", triangle.put("LIMI mesh 0 polygons", b"\2"), "fewer polygons than announced"
+    yield 43, "faces_corners", triangle.put("LIMI mesh 0 corners", b"\2"), "more corners than announced"
+    yield 41, "faces_more", triangle.end("MESH", b"\1"), "bytes that no encoder writes after the faces"
+    yield 41, "faces_zero", triangle.end("MESH", b"\0"), "a zero byte after the faces, which no encoder writes"
+    yield 41, "vmap_more", corrected.end("VMAP", b"\1"), "bytes after the order of the vertices"
+    yield 41, "fmap_more", polygons.end("FMAP", b"\1"), "bytes after the order of the polygons"
+    yield 13, "pose_coding", corrected.put("POSE coding", b"\3"), "a way of coding that does not exist"
+    for name, label, value in (("origin", "origin y", NAN), ("step", "step", f64(0)), ("step_below", "step", f64(-1)),
+                               ("step_infinite", "step", INFINITE)):
+        yield 45, f"pose_{name}", corrected.put(f"POSE {label}", value), f"POSE {label} that is out of range"
+    yield 41, "pose_more", corrected.end("POSE", b"\1"), "bytes after the pose"
+    yield 41, "pose_short", corrected.end("POSE", less=20), "a pose that ends early"
+    yield 40, "attr_none", painted.put("ATTR attributes", b"\0"), "ATTR without attributes"
+    yield 12, "attr_kind", painted.put("ATTR attribute 0 kind", b"\7"), "a kind of attribute that does not exist"
+    yield 12, "attr_domain", painted.put("ATTR attribute 0 domain", b"\3"), "a domain that does not exist"
+    yield 40, "attr_kind_of_domain", painted.put("ATTR attribute 0 kind", b"\5"), "a material of each corner"
+    yield 40, "attr_components", painted.put("ATTR attribute 0 components", b"\x11"), "17 components"
+    yield 40, "attr_no_components", moved.put("ATTR attribute 0 components", b"\0"), "vertices without components"
+    yield 45, "attr_origin", painted.put("ATTR attribute 0 origin 0", NAN), "an origin that is not a number"
+    yield 45, "attr_scale", painted.put("ATTR attribute 0 scale 0", f64(0)), "a scale of 0"
+    yield 40, "attr_name", painted.put("ATTR attribute 0 name", lambda old: b"\xff\x7f" + old[1:]), "a name longer than the record"
+    yield 41, "attr_more", painted.end("ATTR", b"\1"), "bytes after the values"
+
+
+def segment_rules(files):
+    """The same for SEGM, BASI and CORR, sections 7 to 9, and the parameters of spec/09a."""
+    triangle, far, corrected, shapes, msgi = (
+        files(name) for name in ("triangle", "far_rigid", "quad_box_corrected", "polygons_all", "nonmanifold_interpolated"))
+    yield 12, "segm_basis", triangle.put("SEGM basis", b"\3"), "a basis that does not exist"
+    yield 48, "segm_other_basis", triangle.put("SEGM basis", b"\1"), "another basis than LIMI says"
+    yield 12, "segm_reconstruction", triangle.put("SEGM reconstruction", b"\2"), "a reconstruction that does not exist"
+    yield 40, "segm_shapes_by_msgi", shapes.put("SEGM reconstruction", b"\1"), "eigenshapes by geometry interpolation"
+    yield 48, "segm_other_reconstruction", triangle.put("SEGM reconstruction", b"\1"), "another reconstruction than LIMI says"
+    yield 40, "segm_more", triangle.end("SEGM", b"\0"), "a byte after the last block"
+    yield 40, "segm_short", triangle.end("SEGM", less=1), "a block longer than the record"
+    parameters = "SEGM parameters"
+    yield 45, "parameters_run_step", files("clips").put(parameters, set_byte(23, 65)), "a run step of 65"
+    for name, file, status, change, what in (
+            ("flags", triangle, 40, set_byte(0, 8), "a reserved flag"),
+            ("coder", triangle, 13, set_byte(1, 250), "a coder that does not exist"),
+            ("origin", triangle, 45, set_bytes(2, NAN), "an origin that is not a number"),
+            ("step", triangle, 45, set_bytes(26, f64(0)), "a step of 0"),
+            ("weight_bits", triangle, 45, set_byte(34, 25), "25 bits of weights"),
+            ("frame", triangle, 40, set_byte(35, 5), "a key-frame from a frame that is not there"),
+            ("parent", triangle, 40, set_byte(38, 2), "a key-frame coded against itself"),
+            ("rotation_bits", far, 45, set_byte(35, 28), "28 bits of rotations"),
+            ("translation_step", far, 45, set_bytes(36, f64(-1)), "a step of translations below 0"),
+            ("linear_flags", corrected, 40, set_byte(0, 4), "a reserved flag of eigentrajectories"),
+            ("basis_step", corrected, 45, set_bytes(1, f64(0)), "a basis step of 0"),
+            ("weight_step", corrected, 45, set_bytes(9, INFINITE), "a weight step that is infinite"),
+            ("neighbours", corrected, 45, set_byte(17, 9), "9 neighbours"),
+            ("passes", corrected, 45, set_byte(18, 9), "9 parts of a level"),
+            ("radius", corrected, 45, set_byte(19, 0), "a radius of 0"),
+            ("schedule", corrected, 45, set_byte(20, 4), "a schedule that does not exist")):
+        yield status, f"parameters_{name}", file.put(parameters, change), f"parameters with {what}"
+    yield 40, "layer_components", corrected.put("BASI data", lambda old: b"\x7f" + old[1:]), \
+        "a layer of more components than are left"
+    last = len(corrected.fields["BASI data"]) - 1
+    yield 41, "layer_more", corrected.put("BASI data", lambda old: old + b"\1", last), "bytes after a layer"
+    yield 45, "corrections_step", corrected.put("CORR data", set_bytes(0, f64(0))), "corrections with a step of 0"
+    yield 45, "corrections_not_finite", corrected.put("CORR data", set_bytes(0, NAN)), "corrections with a step that is no number"
+    yield 26, "corrections_empty", corrected.put("CORR data", b""), "corrections without a byte"
+    yield 41, "corrections_more", corrected.end("CORR", b"\1"), "bytes after the corrections"
+    yield 48, "parameters_patches", msgi.grown(parameters, without_patches), \
+        "geometry interpolation without patches"
+    yield 41, "weights_more", far.grown("SEGM weights"), "bytes after the weights"
+    yield 41, "motions_more", far.grown("SEGM motion"), "bytes after the motions"
+    yield 40, "motion_of_shapes", shapes.grown("SEGM motion"), "eigenshapes with a motion"
+    yield 41, "keyframes_more", triangle.grown("SEGM pose"), "bytes after native key-frames"
+    loose = files("leftovers")
+    draco = varint_value(loose.field("LIMI segment 0 Draco bytes"))
+    for name, change, what in (
+            ("trailing", lambda old: old + b"\0", "a byte after the frame"),
+            ("skippable", lambda old: b"\x50\x2a\x4d\x18\0\0\0\0", "a skippable frame"),
+            ("empty", lambda old: b"", "no frame")):
+        yield 42, f"keyframes_{name}", loose.grown("SEGM pose", lambda old, c=change: old[:draco] + c(old[draco:])), \
+            f"vertices that Draco does not hold with {what}"
+
+
+def stream_rules(files, status_of):
+    """(status, name, file, what) of streams whose symbols make no sense: bytes whose change causes it."""
+    for name, kind, status, count in (("polygons_all", "FMAP", 44, 6), ("tangle", "FMAP", 44, 6), ("tangle", "VMAP", 44, 3),
+                                      ("tangle", "MESH", 43, 3), ("tangle", "MESH", 44, 2), ("heated", "ATTR", 41, 1),
+                                      ("quad_box_corrected", "BASI", 41, 1), ("quad_box_corrected", "CORR", 41, 2),
+                                      ("limb_small", "POSE", 41, 1), ("soup", "SEGM", 41, 1)):
+        chunks, found = files(name).chunks(), []
+        chunk = next(c for c in chunks if c.type == kind)
+        good = chunk.payload
+        for part in range(count):  # spread over the stream
+            for at in range(len(good) * part // count, len(good)):
+                chunk.payload = good[:at] + bytes([good[at] ^ 1]) + good[at + 1:]
+                data = anic_file.write_chunks(chunks)
+                if status_of(data) == status and data not in found:
+                    found.append(data)
+                    yield status, f"stream_{name}_{kind.lower()}_{len(found)}", data, f"byte {at} of {kind} of {name}.anic changed"
+                    break
+        chunk.payload = good
+
+
+def without_patches(parameters):
+    """Parameters of geometry interpolation without the size of a leaf."""
+    at = 44 if parameters[0] & 2 else 35
+    return bytes([parameters[0] & ~4]) + parameters[1:at] + parameters[at + 1:]
+
+
+def broken_rules(command, folder, status_of):
+    """(status, name, file, what) of all of them. `folder` holds the valid files, status_of tells what opening gives."""
+    opened = {}
+
+    def files(name):
+        if name not in opened:
+            opened[name] = File(command, folder / f"{name}.anic")
+        return opened[name]
+
+    for rules in (chunk_rules, limit_rules, clip_rules, mesh_rules, segment_rules):
+        yield from rules(files)
+    yield from stream_rules(files, status_of)
