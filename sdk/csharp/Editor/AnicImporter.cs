@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+using System.IO;
+using UnityEditor.AssetImporters;
+using UnityEngine;
+
+namespace Anicodec.Unity
+{
+    /// <summary>Imports .anic files: a clip, and a prefab with a player for each mesh of it.</summary>
+    [ScriptedImporter(1, "anic")]
+    public sealed class AnicImporter : ScriptedImporter
+    {
+        /// <summary>AnicPlay.compute, for players on the graphics card.</summary>
+        public ComputeShader shader;
+
+        public override void OnImportAsset(AssetImportContext context)
+        {
+            AnicClip clip = ScriptableObject.CreateInstance<AnicClip>();
+            clip.name = Path.GetFileNameWithoutExtension(context.assetPath);
+            clip.SetBytes(File.ReadAllBytes(context.assetPath));
+            try
+            {
+                GameObject root = new GameObject(clip.name);
+                context.AddObjectToAsset("prefab", root);
+                context.SetMainObject(root);
+                context.AddObjectToAsset("clip", clip);
+                for (int m = 0; m < clip.Asset.MeshCount; ++m)
+                    AddMesh(context, clip, m, root);
+            }
+            catch (AnicException failure)
+            {
+                context.LogImportError(context.assetPath + ": " + failure.Message);
+            }
+            finally
+            {
+                clip.Close();
+            }
+        }
+
+        private void AddMesh(AssetImportContext context, AnicClip clip, int index, GameObject root)
+        {
+            string name = clip.Asset.GetMesh(index).Name;
+            Mesh mesh = AnicMesh.Create(clip, index, name);
+            context.AddObjectToAsset("mesh " + index, mesh);
+            GameObject child = new GameObject(name);
+            child.transform.SetParent(root.transform, false);
+            child.AddComponent<MeshFilter>().sharedMesh = mesh;
+            Material material = new Material(Shader.Find("Standard")) { name = name };
+            context.AddObjectToAsset("material " + index, material);
+            Material[] materials = new Material[mesh.subMeshCount];
+            for (int i = 0; i < materials.Length; ++i)
+                materials[i] = material;
+            child.AddComponent<MeshRenderer>().sharedMaterials = materials;
+            AnicPlayer player = child.AddComponent<AnicPlayer>();
+            player.clip = clip;
+            player.mesh = index;
+            player.shader = shader;
+        }
+    }
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+using System;
+using System.IO;
+using System.Text;
+
+namespace Anicodec
+{
+    /// <summary>An opened file. Immutable; threads and contexts may share it.</summary>
+    public sealed unsafe class Asset : IDisposable
+    {
+        internal readonly AssetHandle handle;
+        private readonly Native.anic_asset_info info;
+
+        internal Asset(AssetHandle opened)
+        {
+            handle = opened;
+            Native.anic_asset_info filled = default(Native.anic_asset_info);
+            filled.struct_size = (UIntPtr)sizeof(Native.anic_asset_info);
+            Native.Check(Native.anic_get_asset_info(handle, &filled));
+            info = filled;
+        }
+
+        /// <summary>major &lt;&lt; 16 | minor &lt;&lt; 8 | patch, of the native library.</summary>
+        public static uint LibraryVersion { get { return Native.anic_get_version(); } }
+
+        /// <summary>Opens a whole file in memory; the bytes are not needed afterwards.</summary>
+        /// <exception cref="AnicException">the file is damaged, breaks a limit, or memory ran out</exception>
+        public static Asset Open(ReadOnlySpan<byte> file, OpenOptions options = default(OpenOptions))
+        {
+            using (NativeOptions native = new NativeOptions(options))
+            {
+                Native.anic_options given = native.Options;
+                Native.anic_failure failure = Failure();
+                AssetHandle handle;
+                fixed (byte* bytes = file)
+                {
+                    if (Native.anic_open_asset(bytes, (UIntPtr)file.Length, &given, out handle, &failure) != Status.Ok)
+                        throw new AnicException(failure);
+                }
+                return new Asset(handle);
+            }
+        }
+
+        /// <summary>Opens a file of the file system.</summary>
+        public static Asset Open(string path, OpenOptions options = default(OpenOptions))
+        {
+            return Open(File.ReadAllBytes(path), options);
+        }
+
+        /// <summary>Tells from the first bytes of a file what it will take.</summary>
+        /// <exception cref="AnicException">Status.Truncated: result.HeadBytes are needed</exception>
+        public static Requirements GetRequirements(ReadOnlySpan<byte> head, OpenOptions options = default(OpenOptions))
+        {
+            Native.anic_requirements r = default(Native.anic_requirements);
+            r.struct_size = (UIntPtr)sizeof(Native.anic_requirements);
+            using (NativeOptions native = new NativeOptions(options))
+            {
+                Native.anic_options given = native.Options;
+                fixed (byte* bytes = head)
+                    Native.Check(Native.anic_get_requirements(bytes, (UIntPtr)head.Length, &given, &r));
+            }
+            return new Requirements
+            {
+                HeadBytes = r.head_bytes, FileBytes = r.file_bytes, ResidentBytes = r.resident_bytes, OpeningBytes = r.opening_bytes,
+                DracoBytes = r.draco_bytes, BlockBytes = r.block_bytes, ContextBytes = r.context_bytes,
+                MeshCount = (int)r.mesh_count, SegmentCount = (int)r.segment_count, FrameCount = (int)r.frame_count,
+                MaxVertices = (int)r.max_vertices, MaxComponents = (int)r.max_components
+            };
+        }
+
+        internal static Native.anic_failure Failure()
+        {
+            Native.anic_failure failure = default(Native.anic_failure);
+            failure.struct_size = (UIntPtr)sizeof(Native.anic_failure);
+            return failure;
+        }
+
+        public void Dispose()
+        {
+            handle.Dispose();
+        }
+
+        public string Name { get { return Native.Text(info.name); } }
+        public int MeshCount { get { return (int)info.mesh_count; } }
+        public int SegmentCount { get { return (int)info.segment_count; } }
+
+        /// <summary>Of all clips.</summary>
+        public int FrameCount { get { return (int)info.frame_count; } }
+
+        public int ClipCount { get { return (int)Native.anic_clip_count(handle); } }
+        public UpAxis Up { get { return info.up; } }
+        public VertexOrder Order { get { return info.order; } }
+
+        /// <summary>Seconds from the first frame of clip 0 to its last one.</summary>
+        public double Duration { get { return info.duration; } }
+
+        /// <summary>0: unknown.</summary>
+        public double MetresPerUnit { get { return info.metres_per_unit; } }
+
+        /// <summary>Of the box around all frames of the source.</summary>
+        public double Diagonal { get { return info.diagonal; } }
+
+        /// <summary>Largest distance of a vertex from its place in the source, in units of the clip.</summary>
+        public double MaxError { get { return info.max_error; } }
+
+        public bool Partial { get { return info.partial != 0; } }
+        public long ResidentBytes { get { return (long)info.resident_bytes; } }
+        public long ContextBytes { get { return (long)info.context_bytes; } }
+
+        public ClipInfo GetClip(int clip)
+        {
+            Native.anic_clip c = default(Native.anic_clip);
+            c.struct_size = (UIntPtr)sizeof(Native.anic_clip);
+            Native.Check(Native.anic_clip_info(handle, (uint)clip, &c));
+            return new ClipInfo
+            {
+                Name = Native.Text(c.name), FirstFrame = (int)c.first_frame, FrameCount = (int)c.frame_count,
+                FramesPerSecond = c.rate_numerator / (double)c.rate_denominator, Uneven = c.uneven != 0, Loop = c.loop != 0,
+                Closed = c.closed != 0, Open = c.open != 0, StartTime = c.start_time, Duration = c.duration,
+                LoopDuration = c.loop_duration, Diagonal = c.diagonal, MaxError = c.max_error
+            };
+        }
+
+        /// <summary>Number of the clip of a name; -1: there is none.</summary>
+        public int FindClip(string name)
+        {
+            byte[] bytes = Encoding.UTF8.GetBytes(name + "\0");
+            uint clip = 0;
+            fixed (byte* first = bytes)
+                return Native.Present(Native.anic_find_clip(handle, first, &clip)) ? (int)clip : -1;
+        }
+
+        public MeshInfo GetMesh(int mesh = 0)
+        {
+            Native.anic_mesh m = Mesh(mesh);
+            return new MeshInfo
+            {
+                Name = Native.Text(m.name), VertexCount = (int)m.vertex_count, CodedVertexCount = (int)m.coded_vertex_count,
+                PolygonCount = (int)m.polygon_count, CornerCount = (int)m.corner_count, TriangleCount = (int)m.triangle_count,
+                AttributeCount = (int)m.attribute_count
+            };
+        }
+
+        internal Native.anic_mesh Mesh(int mesh)
+        {
+            Native.anic_mesh m = default(Native.anic_mesh);
+            m.struct_size = (UIntPtr)sizeof(Native.anic_mesh);
+            Native.Check(Native.anic_get_mesh(handle, (uint)mesh, &m));
+            return m;
+        }
+
+        /// <summary>Polygon p has the corners offsets[p] .. offsets[p + 1] - 1. Good as long as the asset is open.</summary>
+        public void GetPolygons(int mesh, out ReadOnlySpan<uint> offsets, out ReadOnlySpan<uint> corners)
+        {
+            Native.anic_polygons p = default(Native.anic_polygons);
+            p.struct_size = (UIntPtr)sizeof(Native.anic_polygons);
+            Native.Check(Native.anic_get_polygons(handle, (uint)mesh, &p));
+            offsets = new ReadOnlySpan<uint>(p.offsets, (int)p.polygon_count + 1);
+            corners = new ReadOnlySpan<uint>(p.corners, (int)Mesh(mesh).corner_count);
+        }
+
+        /// <summary>Writes TriangleCount x 3 indices, counter-clockwise seen from the front.</summary>
+        public void WriteIndices(Span<uint> to, int mesh = 0)
+        {
+            fixed (uint* first = to)
+                Native.Check(Native.anic_write_indices(handle, (uint)mesh, 4, first, (UIntPtr)(4L * to.Length)));
+        }
+
+        /// <summary>The same for meshes of at most 65536 vertices.</summary>
+        public void WriteIndices(Span<ushort> to, int mesh = 0)
+        {
+            fixed (ushort* first = to)
+                Native.Check(Native.anic_write_indices(handle, (uint)mesh, 2, first, (UIntPtr)(2L * to.Length)));
+        }
+
+        /// <summary>Coded vertex of each vertex: those of the same number share their position in every frame.</summary>
+        public ReadOnlySpan<uint> GetCodedVertices(int mesh = 0)
+        {
+            uint* first = null;
+            Native.Check(Native.anic_get_coded_vertices(handle, (uint)mesh, &first));
+            return new ReadOnlySpan<uint>(first, (int)Mesh(mesh).vertex_count);
+        }
+
+        public Attribute GetAttribute(int attribute, int mesh = 0)
+        {
+            Native.anic_attribute a = default(Native.anic_attribute);
+            a.struct_size = (UIntPtr)sizeof(Native.anic_attribute);
+            Native.Check(Native.anic_get_attribute(handle, (uint)mesh, (uint)attribute, &a));
+            Attribute result = default(Attribute);
+            result.Name = Native.Text(a.name);
+            result.Kind = a.kind;
+            result.Domain = a.domain;
+            result.Count = (int)a.count;
+            result.Components = (int)a.components;
+            if (a.values != null)
+                result.Values = new ReadOnlySpan<float>(a.values, (int)(a.count * a.components));
+            if (a.labels != null)
+                result.Labels = new ReadOnlySpan<uint>(a.labels, (int)a.count);
+            result.LabelCount = (int)a.label_count;
+            result.Moves = a.moves != 0;
+            return result;
+        }
+
+        /// <summary>Null if there is no such label.</summary>
+        public string GetLabelName(int attribute, int label, int mesh = 0)
+        {
+            return Native.Text(Native.anic_get_label_name(handle, (uint)mesh, (uint)attribute, (uint)label));
+        }
+
+        /// <summary>Seconds from the first frame of its clip on.</summary>
+        public double GetFrameTime(int frame)
+        {
+            return Native.anic_get_frame_time(handle, (uint)frame);
+        }
+
+        /// <summary>The box of a frame; false when the mesh is not there. Needs OpenFlags.Bounds.</summary>
+        public bool GetFrameBounds(int frame, out Box box, int mesh = 0)
+        {
+            fixed (Box* to = &box)
+                return Native.Present(Native.anic_get_frame_bounds(handle, (uint)mesh, (uint)frame, to));
+        }
+
+        /// <summary>The box around all frames; false when the mesh is in none. Needs OpenFlags.Bounds.</summary>
+        public bool GetClipBounds(out Box box, int mesh = 0)
+        {
+            fixed (Box* to = &box)
+                return Native.Present(Native.anic_get_clip_bounds(handle, (uint)mesh, to));
+        }
+
+        /// <summary>Compares the hashes in the file with what was decoded.</summary>
+        /// <exception cref="AnicException">Status.Hash, or Status.State of what is not complete</exception>
+        public void Verify()
+        {
+            Native.Check(Native.anic_verify_asset(handle));
+        }
+
+        public Basis GetBasis(int segment)
+        {
+            Native.anic_basis b = default(Native.anic_basis);
+            b.struct_size = (UIntPtr)sizeof(Native.anic_basis);
+            Native.Check(Native.anic_get_basis(handle, (uint)segment, &b));
+            Basis result = default(Basis);
+            result.Kind = b.kind;
+            result.Reconstruction = b.reconstruction;
+            result.Target = b.target;
+            result.Mesh = (int)b.mesh;
+            result.FirstFrame = (int)b.first_frame;
+            result.FrameCount = (int)b.frame_count;
+            result.VertexCount = (int)b.vertex_count;
+            result.Components = (int)b.components;
+            result.WideComponents = (int)b.wide_components;
+            result.Channels = (int)b.channels;
+            result.WeightChannels = (int)b.weight_channels;
+            result.Origin = new Point { X = b.origin[0], Y = b.origin[1], Z = b.origin[2] };
+            if (b.pose != null)
+                result.Pose = new ReadOnlySpan<float>(b.pose, (int)b.pose_count);
+            result.Wide = new ReadOnlySpan<int>(b.wide, (int)b.wide_count);
+            result.Narrow = new ReadOnlySpan<short>(b.narrow, (int)b.narrow_count);
+            return result;
+        }
+    }
+}

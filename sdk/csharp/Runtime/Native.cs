@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// anicodec.h, as it is: structs, functions, and handles that close themselves. Fields keep the names of the header, and
+// tests compare their offsets with those of a C compiler.
+using System;
+using System.Runtime.InteropServices;
+using System.Text;
+
+namespace Anicodec
+{
+    internal sealed class AssetHandle : SafeHandle
+    {
+        public AssetHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+
+        protected override bool ReleaseHandle()
+        {
+            Native.anic_close_asset(handle);
+            return true;
+        }
+    }
+
+    internal sealed class StreamHandle : SafeHandle
+    {
+        public StreamHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+
+        protected override bool ReleaseHandle()
+        {
+            Native.anic_destroy_stream(handle);
+            return true;
+        }
+    }
+
+    /// <summary>A context keeps its asset open, whichever the garbage collector finds first.</summary>
+    internal sealed class ContextHandle : SafeHandle
+    {
+        private AssetHandle asset;
+
+        public ContextHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+
+        public void Keep(AssetHandle kept)
+        {
+            bool added = false;
+            kept.DangerousAddRef(ref added);
+            asset = kept;
+        }
+
+        protected override bool ReleaseHandle()
+        {
+            Native.anic_destroy_context(handle);
+            if (asset != null)
+                asset.DangerousRelease();
+            return true;
+        }
+    }
+
+    internal sealed class NormalPlanHandle : SafeHandle
+    {
+        public NormalPlanHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+
+        protected override bool ReleaseHandle()
+        {
+            Native.anic_destroy_normal_plan(handle);
+            return true;
+        }
+    }
+
+    internal sealed class RenderPlanHandle : SafeHandle
+    {
+        public RenderPlanHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+
+        protected override bool ReleaseHandle()
+        {
+            Native.anic_destroy_render_plan(handle);
+            return true;
+        }
+    }
+
+    internal sealed class MorpherHandle : SafeHandle
+    {
+        public MorpherHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+
+        protected override bool ReleaseHandle()
+        {
+            Native.anic_destroy_morpher(handle);
+            return true;
+        }
+    }
+
+    internal static unsafe class Native
+    {
+#if UNITY_IOS && !UNITY_EDITOR || UNITY_WEBGL && !UNITY_EDITOR
+        private const string Library = "__Internal";  // linked into the program
+#else
+        private const string Library = "anicodec";
+#endif
+
+        static Native()
+        {
+            NativeLibraries.Prepare();
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_failure
+        {
+            public UIntPtr struct_size;
+            public Status status;
+            public fixed byte chunk[8];
+            public ulong offset;
+            public byte* detail;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_allocator
+        {
+            public IntPtr user, allocate, release;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_threads
+        {
+            public IntPtr user, run;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_progress
+        {
+            public IntPtr user, report;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_options
+        {
+            public UIntPtr struct_size;
+            public ulong max_vertices, max_frames, max_components, max_bytes;
+            public anic_allocator allocator;
+            public anic_threads threads;
+            public anic_progress progress;
+            public double quality;
+            public ulong flags;
+            public byte** clips;
+            public uint clip_count;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_requirements
+        {
+            public UIntPtr struct_size;
+            public ulong head_bytes, file_bytes, resident_bytes, opening_bytes, draco_bytes, block_bytes, context_bytes;
+            public uint mesh_count, segment_count, frame_count, max_vertices, max_components;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_reader
+        {
+            public IntPtr user, read;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_asset_info
+        {
+            public UIntPtr struct_size;
+            public byte* name;
+            public byte* encoder;
+            public uint mesh_count, segment_count, frame_count, rate_numerator, rate_denominator;
+            public UpAxis up;
+            public VertexOrder order;
+            public byte rate_assumed, uneven, loop, closed, massaged, partial;
+            public double start_time, duration, loop_duration, metres_per_unit, diagonal, max_error, rmse, kg, surface_error,
+                surface_error_mean;
+            public ulong resident_bytes, context_bytes;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_clip
+        {
+            public UIntPtr struct_size;
+            public byte* name;
+            public uint first_frame, frame_count, rate_numerator, rate_denominator;
+            public byte rate_assumed, uneven, loop, closed, massaged, open;
+            public double start_time, duration, loop_duration, diagonal, max_error, rmse, kg, surface_error, surface_error_mean;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_mesh
+        {
+            public UIntPtr struct_size;
+            public byte* name;
+            public uint vertex_count, coded_vertex_count, polygon_count, corner_count, triangle_count, attribute_count;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_polygons
+        {
+            public UIntPtr struct_size;
+            public uint* offsets;
+            public uint* corners;
+            public uint polygon_count;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_attribute
+        {
+            public UIntPtr struct_size;
+            public byte* name;
+            public AttributeKind kind;
+            public Domain domain;
+            public uint count, components;
+            public float* values;
+            public uint* labels;
+            public uint label_count;
+            public byte moves;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_output
+        {
+            public UIntPtr struct_size;
+            public void* data;
+            public UIntPtr size, stride;
+            public VertexFormat format;
+            public fixed float offset[3];
+            public fixed float scale[3];
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_value_output
+        {
+            public UIntPtr struct_size;
+            public void* data;
+            public UIntPtr size, stride;
+            public ValueFormat format;
+            public uint components;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_normal_plan_options
+        {
+            public UIntPtr struct_size;
+            public double crease_angle;
+            public uint reference_frame;
+            public byte per_corner, source_edges;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_render_plan_options
+        {
+            public UIntPtr struct_size;
+            public double crease_angle;
+            public uint reference_frame;
+            public byte source_edges;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_render_info
+        {
+            public UIntPtr struct_size;
+            public uint* vertices;
+            public uint* corners;
+            public uint* indices;
+            public uint* triangle_polygons;
+            public uint* group_materials;
+            public uint* group_begin;
+            public uint mesh, vertex_count, triangle_count, group_count, normal_group_count;
+            public uint* normal_groups;
+            public uint* normal_centres;
+            public uint* normal_begin;
+            public uint* normal_corners;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_morpher_options
+        {
+            public UIntPtr struct_size;
+            public ulong max_bytes;
+            public uint* pins;
+            public uint pin_count, leaf_faces, sweeps;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_morpher_info
+        {
+            public UIntPtr struct_size;
+            public ulong resident_bytes, scratch_bytes;
+            public double largest_turn;
+            public uint vertex_count, mesh_count;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_basis
+        {
+            public UIntPtr struct_size;
+            public BasisKind kind;
+            public Reconstruction reconstruction;
+            public Target target;
+            public uint mesh, attribute, first_component, first_frame, frame_count, vertex_count, components, wide_components,
+                channels, weight_channels;
+            public fixed float origin[3];
+            public float* pose;
+            public int* wide;
+            public short* narrow;
+            public UIntPtr pose_count, wide_count, narrow_count;
+            public uint* vertex_shape;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_part
+        {
+            public uint segment;
+            public float share;
+            public float* weights;
+            public float* shape;
+            public fixed float pose_map[12];
+            public fixed float motion[12];
+            public Correction* corrections;
+            public uint correction_count;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_parts
+        {
+            public UIntPtr struct_size;
+            public uint count;
+            public anic_part part0, part1, part2, part3;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_stream_info
+        {
+            public UIntPtr struct_size;
+            public ulong received_bytes, file_bytes;
+            public uint segment_count, playable_segments, layers, arrived_layers;
+            public byte playable, complete;
+        }
+
+        [DllImport(Library)] public static extern uint anic_get_version();
+        [DllImport(Library)] public static extern byte* anic_get_status_text(Status status);
+        [DllImport(Library)] public static extern Status anic_init_block_allocator(void* block, UIntPtr size, anic_allocator* result);
+        [DllImport(Library)] public static extern Status anic_get_requirements(void* head, UIntPtr size, anic_options* options, anic_requirements* result);
+        [DllImport(Library)] public static extern Status anic_open_asset(void* file, UIntPtr size, anic_options* options, out AssetHandle result, anic_failure* failure);
+        [DllImport(Library)] public static extern Status anic_open_asset_from_reader(anic_reader* reader, ulong file_size, anic_options* options, out AssetHandle result, anic_failure* failure);
+        [DllImport(Library)] public static extern void anic_close_asset(IntPtr asset);
+        [DllImport(Library)] public static extern Status anic_verify_asset(AssetHandle asset);
+        [DllImport(Library)] public static extern Status anic_get_asset_info(AssetHandle asset, anic_asset_info* result);
+        [DllImport(Library)] public static extern uint anic_clip_count(AssetHandle asset);
+        [DllImport(Library)] public static extern Status anic_clip_info(AssetHandle asset, uint clip, anic_clip* result);
+        [DllImport(Library)] public static extern Status anic_find_clip(AssetHandle asset, byte* name, uint* result);
+        [DllImport(Library)] public static extern Status anic_get_mesh(AssetHandle asset, uint mesh, anic_mesh* result);
+        [DllImport(Library)] public static extern Status anic_get_polygons(AssetHandle asset, uint mesh, anic_polygons* result);
+        [DllImport(Library)] public static extern Status anic_write_indices(AssetHandle asset, uint mesh, uint index_bytes, void* result, UIntPtr size);
+        [DllImport(Library)] public static extern Status anic_get_coded_vertices(AssetHandle asset, uint mesh, uint** result);
+        [DllImport(Library)] public static extern Status anic_get_attribute(AssetHandle asset, uint mesh, uint attribute, anic_attribute* result);
+        [DllImport(Library)] public static extern byte* anic_get_label_name(AssetHandle asset, uint mesh, uint attribute, uint label);
+        [DllImport(Library)] public static extern double anic_get_frame_time(AssetHandle asset, uint frame);
+        [DllImport(Library)] public static extern Status anic_create_context(AssetHandle asset, anic_allocator* allocator, out ContextHandle result);
+        [DllImport(Library)] public static extern void anic_destroy_context(IntPtr context);
+        [DllImport(Library)] public static extern Status anic_set_clip(ContextHandle context, uint clip);
+        [DllImport(Library)] public static extern Status anic_seek_frame(ContextHandle context, uint frame);
+        [DllImport(Library)] public static extern Status anic_seek_time(ContextHandle context, double seconds, Sampling sampling, Wrap wrap);
+        [DllImport(Library)] public static extern Status anic_blend(ContextHandle context, uint clip, double seconds, Sampling sampling, Wrap wrap, double weight);
+        [DllImport(Library)] public static extern Status anic_forget_previous(ContextHandle context);
+        [DllImport(Library)] public static extern Status anic_write_positions(ContextHandle context, uint mesh, When when, uint first, uint count, anic_output* result);
+        [DllImport(Library)] public static extern Status anic_write_attribute(ContextHandle context, uint mesh, uint attribute, When when, uint first, uint count, anic_value_output* result);
+        [DllImport(Library)] public static extern Status anic_write_frames(AssetHandle asset, uint mesh, uint* frames, uint frame_count, uint first, uint count, anic_output* outputs);
+        [DllImport(Library)] public static extern Status anic_compute_bounds(ContextHandle context, uint mesh, When when, Box* result);
+        [DllImport(Library)] public static extern Status anic_get_frame_bounds(AssetHandle asset, uint mesh, uint frame, Box* result);
+        [DllImport(Library)] public static extern Status anic_get_clip_bounds(AssetHandle asset, uint mesh, Box* result);
+        [DllImport(Library)] public static extern Status anic_create_normal_plan(AssetHandle asset, uint mesh, anic_normal_plan_options* options, anic_allocator* allocator, out NormalPlanHandle result);
+        [DllImport(Library)] public static extern void anic_destroy_normal_plan(IntPtr plan);
+        [DllImport(Library)] public static extern uint anic_get_normal_count(NormalPlanHandle plan);
+        [DllImport(Library)] public static extern Status anic_write_normals(NormalPlanHandle plan, float* positions, UIntPtr stride, uint first, uint count, anic_output* result);
+        [DllImport(Library)] public static extern Status anic_create_render_plan(AssetHandle asset, uint mesh, anic_render_plan_options* options, anic_allocator* allocator, out RenderPlanHandle result);
+        [DllImport(Library)] public static extern void anic_destroy_render_plan(IntPtr plan);
+        [DllImport(Library)] public static extern Status anic_get_render_info(RenderPlanHandle plan, anic_render_info* result);
+        [DllImport(Library)] public static extern Status anic_write_render_positions(RenderPlanHandle plan, ContextHandle context, When when, uint first, uint count, anic_output* result);
+        [DllImport(Library)] public static extern Status anic_write_render_normals(RenderPlanHandle plan, float* positions, UIntPtr stride, uint first, uint count, anic_output* result);
+        [DllImport(Library)] public static extern Status anic_write_render_attribute(RenderPlanHandle plan, ContextHandle context, uint attribute, When when, uint first, uint count, anic_value_output* result);
+        [DllImport(Library)] public static extern Status anic_create_morpher(uint* triangles, uint triangle_count, uint vertex_count, float** meshes, uint mesh_count, anic_morpher_options* options, anic_allocator* allocator, out MorpherHandle result);
+        [DllImport(Library)] public static extern void anic_destroy_morpher(IntPtr morpher);
+        [DllImport(Library)] public static extern Status anic_get_morpher_info(MorpherHandle morpher, anic_morpher_info* result);
+        [DllImport(Library)] public static extern Status anic_morph(MorpherHandle morpher, double* weights, float* pin_positions, anic_threads* threads, void* scratch, UIntPtr scratch_size, float* result);
+        [DllImport(Library)] public static extern Status anic_get_basis(AssetHandle asset, uint segment, anic_basis* result);
+        [DllImport(Library)] public static extern Status anic_get_parts(ContextHandle context, uint mesh, When when, anic_parts* result);
+        [DllImport(Library)] public static extern Status anic_get_attribute_parts(ContextHandle context, uint mesh, uint attribute, uint first_component, When when, anic_parts* result);
+        [DllImport(Library)] public static extern Status anic_create_stream(anic_options* options, out StreamHandle result);
+        [DllImport(Library)] public static extern void anic_destroy_stream(IntPtr stream);
+        [DllImport(Library)] public static extern Status anic_push_bytes(StreamHandle stream, void* bytes, UIntPtr size);
+        [DllImport(Library)] public static extern Status anic_get_stream_info(StreamHandle stream, anic_stream_info* result);
+        [DllImport(Library)] public static extern Status anic_get_stream_failure(StreamHandle stream, anic_failure* result);
+        [DllImport(Library)] public static extern Status anic_open_asset_from_stream(StreamHandle stream, out AssetHandle result, anic_failure* failure);
+
+        /// <summary>A string of the library; UTF-8.</summary>
+        public static string Text(byte* text)
+        {
+            if (text == null)
+                return null;
+            int length = 0;
+            while (text[length] != 0)
+                ++length;
+            return Encoding.UTF8.GetString(text, length);
+        }
+
+        /// <summary>Throws unless the status is OK.</summary>
+        public static void Check(Status status)
+        {
+            if (status != Status.Ok)
+                throw new AnicException(status);
+        }
+
+        /// <summary>False when the mesh is not there; throws what else goes wrong.</summary>
+        public static bool Present(Status status)
+        {
+            if (status == Status.Absent)
+                return false;
+            Check(status);
+            return true;
+        }
+    }
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+using System;
+using System.Runtime.InteropServices;
+
+namespace Anicodec
+{
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Point
+    {
+        public float X, Y, Z;
+    }
+
+    /// <summary>An axis-aligned box.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Box
+    {
+        public Point Min, Max;
+    }
+
+    /// <summary>Moves one vertex in one frame, after everything else.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Correction
+    {
+        public uint Vertex;
+        public Point Delta;
+    }
+
+    /// <summary>How to open a file. 0 in every field: by default. anic_options describes them.</summary>
+    public struct OpenOptions
+    {
+        public ulong MaxVertices, MaxFrames, MaxComponents, MaxBytes;
+
+        /// <summary>Share of the components to open, in (0, 1]; 0 means 1.</summary>
+        public double Quality;
+
+        public OpenFlags Flags;
+
+        /// <summary>Names of the clips to open; null: all.</summary>
+        public string[] Clips;
+    }
+
+    /// <summary>Memory that a file takes; anic_requirements.</summary>
+    public struct Requirements
+    {
+        public ulong HeadBytes, FileBytes, ResidentBytes, OpeningBytes, DracoBytes, BlockBytes, ContextBytes;
+        public int MeshCount, SegmentCount, FrameCount, MaxVertices, MaxComponents;
+    }
+
+    /// <summary>A clip: frames FirstFrame .. FirstFrame + FrameCount - 1 of the file; anic_clip.</summary>
+    public sealed class ClipInfo
+    {
+        public string Name;
+        public int FirstFrame, FrameCount;
+        public double FramesPerSecond;
+        public bool Uneven, Loop, Closed, Open;
+
+        /// <summary>Seconds, from the first to the last frame.</summary>
+        public double Duration;
+
+        /// <summary>Seconds of one turn of Wrap.Loop.</summary>
+        public double LoopDuration;
+
+        public double StartTime, Diagonal, MaxError;
+    }
+
+    /// <summary>A mesh; anic_mesh.</summary>
+    public sealed class MeshInfo
+    {
+        public string Name;
+        public int VertexCount, CodedVertexCount, PolygonCount, CornerCount, TriangleCount, AttributeCount;
+    }
+
+    /// <summary>An attribute as in frame 0; anic_attribute. Its spans are good as long as the asset is open.</summary>
+    public unsafe ref struct Attribute
+    {
+        public string Name;
+        public AttributeKind Kind;
+        public Domain Domain;
+
+        /// <summary>Elements, and numbers of each.</summary>
+        public int Count, Components;
+
+        /// <summary>Count x Components; empty without components.</summary>
+        public ReadOnlySpan<float> Values;
+
+        /// <summary>Count; empty with components.</summary>
+        public ReadOnlySpan<uint> Labels;
+
+        public int LabelCount;
+        public bool Moves;
+    }
+
+    /// <summary>The basis of a segment, for a graphics card; anic_basis. Good as long as the asset is open.</summary>
+    public unsafe ref struct Basis
+    {
+        public BasisKind Kind;
+        public Reconstruction Reconstruction;
+        public Target Target;
+        public int Mesh, FirstFrame, FrameCount, VertexCount, Components, WideComponents, Channels, WeightChannels;
+        public Point Origin;
+        public ReadOnlySpan<float> Pose;
+        public ReadOnlySpan<int> Wide;
+        public ReadOnlySpan<short> Narrow;
+    }
+
+    /// <summary>
+    /// One summand of what a context shows, for a graphics card; anic_part. Good until the next but one seek.
+    /// </summary>
+    public unsafe ref struct Part
+    {
+        public int Segment;
+
+        /// <summary>The position is the sum of Share * x over the parts.</summary>
+        public float Share;
+
+        public ReadOnlySpan<float> Weights;
+
+        /// <summary>Three floats for each point; empty unless the basis is of Reconstruction.Msgi.</summary>
+        public ReadOnlySpan<float> Shape;
+
+        /// <summary>Matrices of three rows of four.</summary>
+        public fixed float PoseMap[12], Motion[12];
+
+        public ReadOnlySpan<Correction> Corrections;
+    }
+
+    /// <summary>The place for positions or normals, at an address of the host; anic_output.</summary>
+    public unsafe struct Output
+    {
+        internal Native.anic_output native;
+
+        /// <param name="data">of the first element asked for</param>
+        /// <param name="size">bytes that may be written</param>
+        /// <param name="stride">bytes from an element to the next; 0: packed</param>
+        public Output(void* data, long size, VertexFormat format = VertexFormat.Float32x3, int stride = 0)
+        {
+            native = default(Native.anic_output);
+            native.struct_size = (UIntPtr)sizeof(Native.anic_output);
+            native.data = data;
+            native.size = (UIntPtr)size;
+            native.stride = (UIntPtr)stride;
+            native.format = format;
+        }
+
+        /// <summary>Offset and scale of the 16-bit formats, for positions in a box.</summary>
+        public Output Within(Box box)
+        {
+            Output result = this;
+            bool centred = native.format >= VertexFormat.Snorm16x3;
+            result.Set(0, box.Min.X, box.Max.X, centred);
+            result.Set(1, box.Min.Y, box.Max.Y, centred);
+            result.Set(2, box.Min.Z, box.Max.Z, centred);
+            return result;
+        }
+
+        private void Set(int axis, float min, float max, bool centred)
+        {
+            fixed (float* offset = native.offset, scale = native.scale)
+            {
+                offset[axis] = centred ? min + (max - min) / 2 : min;
+                scale[axis] = centred ? (max - min) / 2 : max - min;
+            }
+        }
+    }
+
+    /// <summary>How to make normals; anic_normal_plan_options, anic_render_plan_options.</summary>
+    public struct NormalOptions
+    {
+        /// <summary>Degrees; 0: no edge is hard.</summary>
+        public double CreaseAngle;
+
+        public int ReferenceFrame;
+
+        /// <summary>Normals for corners instead of vertices; of a NormalPlan.</summary>
+        public bool PerCorner;
+
+        /// <summary>The hard edges of the source, if the file tells.</summary>
+        public bool SourceEdges;
+    }
+}

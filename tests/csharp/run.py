@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Packs sdk/csharp with a library, and tests what is in the packages under Mono, and under .NET where there is one.
+
+usage: run.py CHECKOUT LIBRARY WORK C_COMPILER      exit status 77: skipped, for the reason printed
+"""
+import json
+import os
+import pathlib
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+
+SKIPPED = 77
+CPU = {"x86_64": "x64", "aarch64": "arm64"}
+# The constants of the header by their prefix, and the enumeration that has them.
+ENUMERATIONS = {"ANIC_E_": "Status", "ANIC_UP_": "UpAxis", "ANIC_ORDER_": "VertexOrder", "ANIC_ATTRIBUTE_": "AttributeKind",
+                "ANIC_DOMAIN_": "Domain", "ANIC_SAMPLE_": "Sampling", "ANIC_WRAP_": "Wrap", "ANIC_WHEN_": "When",
+                "ANIC_FORMAT_": "VertexFormat", "ANIC_VALUE_": "ValueFormat", "ANIC_BASIS_": "BasisKind",
+                "ANIC_TARGET_": "Target", "ANIC_RECONSTRUCTION_": "Reconstruction", "ANIC_OPEN_": "OpenFlags"}
+# Names that are a constant of no enumeration of the header.
+EXTRA = {("Status", "Ok"), ("OpenFlags", "None")}
+# Fixed arrays of the header that C# writes as fields.
+ARRAYS = {("anic_parts", f"part{i}"): f"parts[{i}]" for i in range(4)}
+
+
+def run(*command, **options):
+    result = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            **options)
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{result.stdout}")
+    return result.stdout
+
+
+def mcs(out, sources, *options):
+    kind = "exe" if out.suffix == ".exe" else "library"
+    run("mcs", "-unsafe", "-langversion:latest", "-warnaserror", f"-target:{kind}", f"-out:{out}", *options, *sources)
+
+
+def constants(header):
+    """{(enumeration, name): number} of the header, with the names that C# gives them."""
+    found = {}
+    for name, number in re.findall(r"\b(ANIC_[A-Z0-9_]+) = (\d+)", header):
+        prefix = max((p for p in ENUMERATIONS if name.startswith(p)), key=len, default=None)
+        if prefix:
+            words = name.removeprefix(prefix).split("_")
+            found[ENUMERATIONS[prefix], "".join(word.capitalize() for word in words)] = int(number)
+    return found
+
+
+def layout_faults(layout, checkout, work, compiler):
+    """Differences between what C# declares and the header."""
+    path = checkout / "sdk" / "include" / "anicodec" / "anicodec.h"
+    header = path.read_text(encoding="utf-8")
+    lines = [line.split() for line in layout.splitlines()]
+    prints = []
+    for kind, struct, *rest in lines:
+        if kind == "struct":
+            prints.append(f'printf("struct {struct} %zu\\n", sizeof({struct}));')
+        elif kind == "field":
+            member = ARRAYS.get((struct, rest[0]), rest[0])
+            prints.append(f'printf("field {struct} {rest[0]} %zu\\n", offsetof({struct}, {member}));')
+    source = work / "layout.c"
+    source.write_text("#include <anicodec/anicodec.h>\n#include <stdio.h>\nint main(void) {\n" + "\n".join(prints) +
+                      "\nreturn 0;\n}\n", encoding="utf-8")
+    run(compiler, "-std=c11", "-I", path.parent.parent, source, "-o", work / "layout")
+    ours = {line for line in layout.splitlines() if line.startswith(("struct", "field"))}
+    theirs = set(run(work / "layout").splitlines())
+    yield from (f"C has {line}" for line in sorted(theirs - ours))
+    known = {(words[1], words[2]) for words in lines if words[0] == "field"}
+    for struct, body in re.findall(r"^typedef struct (anic_\w+) \{\n(.*?)^\}", header, re.MULTILINE | re.DOTALL):
+        declared = {words[1] for words in lines if words[0] == "struct"}
+        if struct in ("anic_box", "anic_correction"):
+            continue  # public structs of the package with names of their own
+        if struct not in declared:
+            yield f"C# has no struct {struct}"
+            continue
+        code = re.sub(r"/\*.*?\*/", "", body, flags=re.DOTALL)
+        code = re.sub(r"\(\*(\w+)\)\(.*?\);", r"\1;", code, flags=re.DOTALL)
+        for field in re.findall(r"(\w+)(?:\[\w+\])?\s*[;,]", code):
+            if (struct, field) not in known and (struct, field) != ("anic_parts", "parts"):
+                yield f"C# has no {struct}.{field}"
+    functions = {name for name in re.findall(r"\b(anic_\w+)\(", re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL))}
+    functions &= set(re.findall(r"ANIC_API[^;]*?\b(anic_\w+)\(", header))
+    ours = {words[1] for words in lines if words[0] == "function"}
+    yield from (f"C# has no function {name}" for name in sorted(functions - ours))
+    yield from (f"the header has no function {name}" for name in sorted(ours - functions))
+    numbers = {(words[1], words[2]): int(words[3]) for words in lines if words[0] == "constant"}
+    wanted = constants(header)
+    for key in sorted(numbers.keys() | wanted.keys()):
+        if key not in EXTRA and numbers.get(key) != wanted.get(key):
+            yield f"{'.'.join(key)} is {numbers.get(key)} in C#, {wanted.get(key)} in the header"
+
+
+def unpack(packages, work, rid):
+    """The NuGet package as a program finds it: the assembly, and the library below it."""
+    nuget = next(packages.glob("*.nupkg"))
+    folder = work / "program"
+    with zipfile.ZipFile(nuget) as archive:
+        names = set(archive.namelist())
+        wanted = {"[Content_Types].xml", "_rels/.rels", "Anicodec.nuspec", "README.md", "lib/netstandard2.1/Anicodec.dll",
+                  f"runtimes/{rid}/native/libanicodec.so"}
+        if not wanted <= names:
+            sys.exit(f"{nuget.name} lacks {wanted - names}")
+        for name in names:
+            if name.startswith("lib/netstandard2.1/"):
+                (folder / pathlib.PurePosixPath(name).name).write_bytes(archive.read(name))
+            elif name.startswith("runtimes/"):
+                archive.extract(name, folder)
+    return folder
+
+
+def check_unity_package(packages):
+    path = next(packages.glob("*.tgz"))
+    with tarfile.open(path) as archive:
+        names = set(archive.getnames())
+        manifest = json.load(archive.extractfile("package/package.json"))
+        for name in names:
+            if name.endswith(".asmdef"):
+                json.load(archive.extractfile(name))
+    assert path.name == f"{manifest['name']}-{manifest['version']}.tgz", path.name
+    lonely = {name for name in names if not name.endswith(".meta") and f"{name}.meta" not in names}
+    assert not lonely, f"files without .meta: {lonely}"
+
+
+def main():
+    if len(sys.argv) != 5:
+        sys.exit(__doc__)
+    checkout, library, work = (pathlib.Path(path).resolve() for path in sys.argv[1:4])
+    missing = [name for name in ("mcs", "mono") if not shutil.which(name)]
+    if missing:
+        print(f"skipped: there is no {' and no '.join(missing)} (Debian: mono-mcs mono-runtime)")
+        sys.exit(SKIPPED)
+    if "sanitize" in (library.parents[2] / "CMakeCache.txt").read_text(encoding="utf-8", errors="replace"):
+        print("skipped: a library with sanitizers cannot be loaded into a Mono without them")
+        sys.exit(SKIPPED)
+    shutil.rmtree(work, ignore_errors=True)
+    (work / "program").mkdir(parents=True)
+    tests, sdk, files = checkout / "tests" / "csharp", checkout / "sdk" / "csharp", checkout / "tests" / "conformance"
+    rid = f"linux-{CPU.get(platform.machine(), platform.machine())}"
+    run(sys.executable, sdk / "pack.py", work / "packages", f"{rid}={library}")
+    check_unity_package(work / "packages")
+    program = unpack(work / "packages", work, rid)
+    assembly = program / "Anicodec.dll"
+    mcs(program / "package_test.exe", [tests / "check.cs", tests / "package_test.cs"], f"-r:{assembly}", "-r:System.Core.dll")
+    mcs(program / "unity_stubs.dll", [tests / "unity_stubs.cs"])
+    unity = [path for folder in ("Unity", "Editor", "Timeline") for path in sorted((sdk / folder).glob("*.cs"))]
+    mcs(program / "Anicodec.Unity.dll", unity, f"-r:{assembly}", f"-r:{program / 'unity_stubs.dll'}")
+    mcs(program / "unity_test.exe", [tests / "check.cs", tests / "unity_test.cs"], f"-r:{assembly}",
+        f"-r:{program / 'unity_stubs.dll'}", f"-r:{program / 'Anicodec.Unity.dll'}")
+    environment = {name: value for name, value in os.environ.items() if name != "LD_LIBRARY_PATH"}
+    faults = list(layout_faults(run("mono", program / "package_test.exe", "--layout", env=environment), checkout, work,
+                                sys.argv[4]))
+    if faults:
+        sys.exit("\n".join(faults))
+    for name in ("package_test", "unity_test"):
+        print(f"{name}: {run('mono', program / (name + '.exe'), files, env=environment)}", end="")
+    for kernel in ("Positions", "Normals") if shutil.which("glslangValidator") else ():
+        run("glslangValidator", "-D", "-S", "comp", "-e", kernel, "-V", "-o", work / "kernel.spv", sdk / "Unity" / "AnicPlay.compute")
+        print(f"kernel {kernel} compiles")
+    if shutil.which("dotnet"):
+        print(run_with_dotnet(tests, assembly, program, work, files, environment))
+    else:
+        print("there is no dotnet: Mono alone")
+
+
+def run_with_dotnet(tests, assembly, program, work, files, environment):
+    """The same test of the package as a program of .NET."""
+    project = work / "dotnet"
+    project.mkdir()
+    (project / "package_test.csproj").write_text(f"""<Project Sdk="Microsoft.NET.Sdk">
+  <PropertyGroup>
+    <OutputType>Exe</OutputType><TargetFramework>net6.0</TargetFramework><RollForward>Major</RollForward>
+    <AllowUnsafeBlocks>true</AllowUnsafeBlocks><LangVersion>7.3</LangVersion>
+  </PropertyGroup>
+  <ItemGroup>
+    <Compile Include="{tests}/check.cs;{tests}/package_test.cs" />
+    <Compile Include="{tests.parent.parent}/sdk/csharp/Runtime/*.cs" />
+  </ItemGroup>
+</Project>
+""", encoding="utf-8")
+    library = next(program.glob("runtimes/*/native/*"))
+    return run("dotnet", "run", "--project", project, "--", files, env={**environment, "ANICODEC_LIBRARY": str(library)})
+
+
+if __name__ == "__main__":
+    main()
