@@ -59,7 +59,7 @@ Bitstream with_poses(const MeshLayout& layout, uint32_t count, uint32_t size,
 }
 
 /// Decodes; the heap keeps within what is announced.
-Status tried(const Bitstream& stream, Vector<Vector<int32_t>>* poses) {
+Status tried(const Bitstream& stream, std::vector<std::vector<int32_t>>* poses) {
   Limits limits;
   limits.meshes.push_back(stream.layout->sizes);
   Limits::Segment& segment = limits.segments.emplace_back();
@@ -83,8 +83,10 @@ Status tried(const Bitstream& stream, Vector<Vector<int32_t>>* poses) {
                                            segment.draco_points, segment.components, &decoded);
   EXPECT_LE(heap.peak(), announced) << stream.name;
   const HeapPause own;
-  if (poses)
-    poses->assign(decoded.begin(), decoded.end());
+  for (const Vector<int32_t>& pose : decoded) {  // whose memory ends here
+    if (poses)
+      poses->emplace_back(pose.begin(), pose.end());
+  }
   return status;
 }
 
@@ -115,7 +117,7 @@ TEST(SlowDracoBounds, LetThroughWhatTheEncoderWrites) {
         continue;
       for (const uint32_t size : {1U, 7U, 1000U, 1U << 17, 1U << 21}) {
         const Bitstream stream = with_poses(layout, count, size, random);
-        Vector<Vector<int32_t>> poses;
+        std::vector<std::vector<int32_t>> poses;
         ASSERT_EQ(tried(stream, &poses), Status::kOk)
             << list.name << " " << layout.sizes.triangles << " " << stream.name;
         ASSERT_EQ(poses.size(), stream.poses.size());
