@@ -186,7 +186,7 @@ std::optional<FrameRate> grid_rate(std::span<const double> times, double roundin
 FrameRate covering_rate(double seconds, double least) {
   constexpr double kRounding = 1e-3;  // of a frame
   const double frames = std::max(1.0, std::ceil(seconds * least - kRounding));
-  FrameRate rate = simplest(frames / seconds, kRounding / (2 * frames));
+  FrameRate rate = simplest(std::min(frames / seconds, kMaxTerm), kRounding / (2 * frames));
   rate.assumed = false;
   return rate;
 }

@@ -122,6 +122,7 @@ TEST(CoveringRate, EndsOnAFrame) {
   EXPECT_GE(rate.value(), 30);
   EXPECT_NEAR(1.0071 * rate.value(), 31, 1e-3);
   EXPECT_NEAR(0.001 * covering_rate(0.001, 30).value(), 1, 1e-3);
+  EXPECT_EQ(covering_rate(1e-30, 30).value(), 4294967295.0) << "the largest there is";
 }
 
 }  // namespace
