@@ -15,6 +15,7 @@
 #include "tools/words/names.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
+#include "tools/words/word_list.h"
 
 #include <algorithm>
 #include <charconv>
@@ -77,9 +78,7 @@ std::vector<View> parse_views(const RenderCommand& command) {
   if (text.empty())
     text = command.against.empty() ? "clip" : "original,clip,error";
   std::vector<View> views;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
-    const std::string name = text.substr(begin, end - begin);
+  for (const std::string& name : split_at_commas(text)) {
     if (name == "clip")
       views.push_back(View::kClip);
     else if (name == "original")
@@ -90,7 +89,6 @@ std::vector<View> parse_views(const RenderCommand& command) {
       throw Error(ErrorKind::kUsage, "--view: clip, original or error, separated by commas");
     if (views.back() != View::kClip && command.against.empty())
       throw Error(ErrorKind::kUsage, "--view " + name + " needs --against");
-    begin = end + 1;
   }
   return views;
 }

@@ -8,6 +8,7 @@
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
 #include "tools/words/version.h"
+#include "tools/words/word_list.h"
 
 #include <algorithm>
 #include <optional>
@@ -61,10 +62,9 @@ constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
 constexpr Word<InterpolationChoice> kInterpolations[] = {{InterpolationChoice::kLinear, "linear"},
                                                          {InterpolationChoice::kMsgi, "msgi"},
                                                          {InterpolationChoice::kAuto, "auto"}};
-constexpr Word<std::optional<KeyframePoses>> kKeyframePoses[] = {
-    {KeyframePoses::kDraco, "draco"},
-    {KeyframePoses::kNative, "native"},
-    {KeyframePoses::kAuto, "auto"}};
+constexpr Word<std::optional<KeyframePoses>> kKeyframePoses[] = {{KeyframePoses::kDraco, "draco"},
+                                                                 {KeyframePoses::kNative, "native"},
+                                                                 {KeyframePoses::kAuto, "auto"}};
 constexpr Word<OrderChoice> kOrders[] = {{OrderChoice::kAuto, "auto"},
                                          {OrderChoice::kVertices, "vertices"},
                                          {OrderChoice::kFree, "free"},
@@ -75,17 +75,6 @@ constexpr Word<TopologyChanges> kTopologyChanges[] = {{TopologyChanges::kRefuse,
 constexpr Word<MassageMode> kMassageModes[] = {
     {MassageMode::kOff, "off"}, {MassageMode::kOn, "on"}, {MassageMode::kAuto, "auto"}};
 
-/// The parts of a list that commas separate.
-std::vector<std::string> words_of(const std::string& list) {
-  std::vector<std::string> words;
-  for (size_t begin = 0; begin < list.size();) {
-    const size_t end = std::min(list.find(',', begin), list.size());
-    words.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
-}
-
 void set_names(const std::string& list, MeshSequence& sequence) {
   if (list.empty())
     return;
@@ -93,10 +82,10 @@ void set_names(const std::string& list, MeshSequence& sequence) {
     sequence.name = list;
     return;
   }
-  const std::vector<std::string> names = words_of(list);
+  const std::vector<std::string> names = split_at_commas(list);
   if (names.size() != sequence.clips.size())
-    throw Error(ErrorKind::kUsage, fmt::format("--name: {} names for {} clips", names.size(),
-                                               sequence.clips.size()));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("--name: {} names for {} clips", names.size(), sequence.clips.size()));
   for (size_t c = 0; c < names.size(); ++c)
     sequence.clips[c].name = names[c];
 }
@@ -121,12 +110,14 @@ void add_method(Options& options, EncodeArguments& a) {
                  "How key-frames are chosen (default pivot)");
   options.choice("--interpolation", a.interpolation, {kInterpolations},
                  "How frames come from key-frames (default linear)");
-  options.choice("--keyframe-coder", a.keyframe_coder, {kKeyframePoses},
-                 "Coder of key-frames: draco (default), native, which needs no Draco to play, or the "
-                 "smaller (auto)");
-  options.choice("--order", a.order, {kOrders},
-                 "Source order kept: that of vertices, none (free), of faces too (all); default auto: "
-                 "vertices, of glTF and FBX scenes none");
+  options.choice(
+      "--keyframe-coder", a.keyframe_coder, {kKeyframePoses},
+      "Coder of key-frames: draco (default), native, which needs no Draco to play, or the "
+      "smaller (auto)");
+  options.choice(
+      "--order", a.order, {kOrders},
+      "Source order kept: that of vertices, none (free), of faces too (all); default auto: "
+      "vertices, of glTF and FBX scenes none");
   options.choice("--topology-changes", a.topology_changes, {kTopologyChanges},
                  "Frames whose faces differ: refuse them (default), keep them as meshes of the "
                  "file, or transfer the faces of the first frame to all");
@@ -266,7 +257,7 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   LoadOptions options;
   options.mesh = command.mesh;
   options.clip = command.clip;
-  options.clips = words_of(command.clips);
+  options.clips = split_at_commas(command.clips);
   options.progress = progress;
   options.allow_outside = command.allow_outside;
   if (!command.memory.empty() && command.batch.empty())

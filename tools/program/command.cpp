@@ -34,6 +34,8 @@ void print_help(const Program& program, const Commands& commands) {
   fmt::print("Usage: {} COMMAND [options]\n{}\n\nCommands:\n", program.name, program.description);
   for (const Command& command : commands)
     fmt::print("{}", help_row(command.help.name, command.help.description));
+  for (const ProgramWord& word : kProgramWords)
+    fmt::print("{}", help_row(fmt::format("{} {}", word.name, word.usage), word.text));
   fmt::print("\nOptions:\n{}{}\n{}\n", help_row("-h,--help", "Print this help"),
              help_row("-V,--version", "Print the version"), program.footer);
 }
@@ -59,8 +61,8 @@ void print_help(const Program& program, const Commands& commands, const Command&
   std::vector<std::string> names;
   for (const Command& command : commands)
     names.push_back(command.help.name);
-  for (const char* word : {"help", "version", "manual", "completion"})
-    names.emplace_back(word);
+  for (const ProgramWord& word : kProgramWords)
+    names.emplace_back(word.name);
   const std::string meant = nearest_word(name, names);
   throw Error(ErrorKind::kUsage,
               fmt::format("there is no command '{}'{}", name,

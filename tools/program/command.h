@@ -58,6 +58,19 @@ using Commands = std::deque<Command>;
 Options& add_command(Commands& commands, CommonOptions& common, unsigned common_options,
                      CommandHelp help, std::function<void()> run);
 
+/// A word that every program takes in the place of a command.
+struct ProgramWord {
+  const char* name;
+  const char* usage;  ///< what follows
+  const char* text;   ///< one line
+};
+
+inline constexpr ProgramWord kProgramWords[] = {
+    {"help", "[COMMAND]", "Print the help of the program or of a command"},
+    {"version", "", "Print the version"},
+    {"manual", "[COMMAND]", "Print a page of the manual"},
+    {"completion", "SHELL", "Print the completion for bash, zsh or fish"}};
+
 /// A program of several commands.
 struct Program {
   std::string name, description;

@@ -77,6 +77,9 @@ std::string manual_page(const Program& program, const Commands& commands) {
   for (const Command& command : commands)
     page += fmt::format(".TP\n.BR {} (1)\n{}\n", plain(page_name(program, command)),
                         plain(command.help.description));
+  for (const ProgramWord& word : kProgramWords)
+    page += fmt::format(".TP\n.B {}\n{}\n", plain(fmt::format("{} {}", word.name, word.usage)),
+                        plain(word.text));
   return page + notes(program.footer);
 }
 

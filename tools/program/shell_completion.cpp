@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/program/shell_completion.h"
 
+#include "tools/words/word_list.h"
+
 #include <algorithm>
 #include <string_view>
 #include <vector>
@@ -11,17 +13,6 @@
 
 namespace anicodec::tools {
 namespace {
-
-/// "-o" and "--output" of "-o,--output".
-std::vector<std::string> names_of(const Option& option) {
-  std::vector<std::string> names;
-  for (size_t begin = 0; begin <= option.names.size();) {
-    const size_t end = std::min(option.names.find(',', begin), option.names.size());
-    names.push_back(option.names.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return names;
-}
 
 /// In single quotes; the characters of `escaped` after a backslash.
 std::string quoted(std::string_view text, std::string_view escaped = "") {
@@ -69,7 +60,7 @@ std::string bash(const Program& program, const Commands& commands) {
     for (const Option& option : command.options.all()) {
       if (option.is_argument())
         continue;
-      const std::vector<std::string> names = names_of(option);
+      const std::vector<std::string> names = split_at_commas(option.names);
       words.insert(words.end(), names.begin(), names.end());
       if (option.kind != Option::Kind::kValue)
         continue;
@@ -88,6 +79,9 @@ _{0}() {{
   local command=${{COMP_WORDS[1]}} words=
 )",
                                    program.name);
+  std::vector<std::string> first = next_words(commands, "");
+  for (const ProgramWord& word : kProgramWords)
+    first.emplace_back(word.name);
   if (const std::string modes = mode_patterns(commands); !modes.empty())
     script += fmt::format(R"(  if ((COMP_CWORD > 2)); then
     case "$command ${{COMP_WORDS[2]}}" in
@@ -97,7 +91,7 @@ _{0}() {{
 )",
                           modes);
   return script + fmt::format(R"(  if ((COMP_CWORD == 1)); then
-    words='{1} help version manual completion'
+    words='{1}'
   else
     case "$command:$before" in
 {2}    *)
@@ -109,14 +103,13 @@ _{0}() {{
 }}
 complete -o default -F _{0} {0}
 )",
-                              program.name, fmt::join(next_words(commands, ""), " "), values,
-                              options);
+                              program.name, fmt::join(first, " "), values, options);
 }
 
 /// An option as _arguments takes it.
 std::string zsh_argument(const Option& option) {
   constexpr std::string_view kSpecial = "[]:\\";
-  const std::vector<std::string> names = names_of(option);
+  const std::vector<std::string> names = split_at_commas(option.names);
   std::string value;
   if (option.kind == Option::Kind::kValue)
     value = option.words.empty()
@@ -150,14 +143,14 @@ std::string zsh(const Program& program, const Commands& commands) {
       described +=
           fmt::format("    {}\n", quoted(command.help.name + ":" + command.help.description));
   }
+  for (const ProgramWord& word : kProgramWords)
+    described += fmt::format("    {}\n", quoted(fmt::format("{}:{}", word.name, word.text)));
   std::string modes = mode_patterns(commands);
   return fmt::format(R"(#compdef {0}
 # Completion of {0} for zsh.
 _{0}() {{
   local -a commands=(
-{1}    'help:Print the help of a command'
-    'version:Print the version'
-  )
+{1}  )
   if ((CURRENT == 2)); then
     _describe command commands
     return
@@ -180,14 +173,19 @@ _{0} "$@"
 std::string fish(const Program& program, const Commands& commands) {
   std::string script = fmt::format("# Completion of {} for fish.\n", program.name);
   const std::string start = fmt::format("complete -c {}", program.name);
+  const auto add_word = [&](const std::string& name, const std::string& text) {
+    script +=
+        fmt::format("{} -n __fish_use_subcommand -a {} -d {}\n", start, quoted(name), quoted(text));
+  };
+  for (const ProgramWord& word : kProgramWords)
+    add_word(word.name, word.text);
   for (const Command& command : commands) {
     const std::string& name = command.help.name;
     const size_t blank = name.find(' ');
     const std::string first = name.substr(0, blank);
     std::string when = "__fish_seen_subcommand_from " + first;
     if (blank == std::string::npos) {
-      script += fmt::format("{} -n __fish_use_subcommand -a {} -d {}\n", start, quoted(name),
-                            quoted(command.help.description));
+      add_word(name, command.help.description);
       const std::vector<std::string> modes = next_words(commands, name);
       if (!modes.empty())
         when += "; and not __fish_seen_subcommand_from " + fmt::format("{}", fmt::join(modes, " "));
@@ -201,7 +199,7 @@ std::string fish(const Program& program, const Commands& commands) {
       if (option.is_argument())
         continue;
       script += start + " -n " + quoted(when);
-      for (const std::string& spelling : names_of(option))
+      for (const std::string& spelling : split_at_commas(option.names))
         script +=
             spelling.starts_with("--") ? " -l " + spelling.substr(2) : " -s " + spelling.substr(1);
       if (option.kind == Option::Kind::kValue)

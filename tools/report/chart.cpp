@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/report/chart.h"
 
-#include "tools/io/base/printable.h"
+#include "tools/render/html_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,32 +90,6 @@ svg text{fill:var(--quiet);font:12px system-ui,sans-serif}.grid{stroke:var(--rul
 .s4{color:var(--c4)}.s5{color:var(--c5)}.s6{color:var(--c6)}.s7{color:var(--c7)}
 )";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : printable(text)) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 namespace {
 
 /// The content of the SVG element without the legend; empty if there is nothing to draw.
@@ -156,10 +130,10 @@ std::string plot(const Chart& chart) {
         "text-anchor=\"end\">{5}</text>",
         kLeft, py(tick), kWidth - kRight, kLeft - 6, py(tick) + 4, label_of(tick));
   out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
-                     (kLeft + kWidth - kRight) / 2, kHeight - 8, escaped(chart.x_label));
+                     (kLeft + kWidth - kRight) / 2, kHeight - 8, html_text(chart.x_label));
   out += fmt::format(
       "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-      (kTop + kHeight - kBottom) / 2, escaped(chart.y_label));
+      (kTop + kHeight - kBottom) / 2, html_text(chart.y_label));
   for (size_t s = 0; s < chart.series.size(); ++s) {
     const Series& series = chart.series[s];
     std::string path, dots;
@@ -171,7 +145,7 @@ std::string plot(const Chart& chart) {
         dots += fmt::format(
             "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"><title>{}: {:.6g}, "
             "{:.4g}</title></circle>",
-            px(p.first), py(p.second), escaped(series.name), p.first, p.second);
+            px(p.first), py(p.second), html_text(series.name), p.first, p.second);
     }
     out += fmt::format("<g class=\"{}\"><path class=\"line\" d=\"{}\"/>{}</g>", classes(series, s),
                        path, dots);
@@ -187,13 +161,13 @@ std::string svg_of(const Chart& chart) {
     return "<p>Nothing to draw.</p>";
   std::string out = "<figure>";
   if (!chart.title.empty())
-    out += "<p>" + escaped(chart.title) + "</p>";
+    out += "<p>" + html_text(chart.title) + "</p>";
   out += fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\">{}</svg>", kWidth, kHeight, inside);
   if (chart.series.size() > 1) {
     out += "<figcaption class=\"legend\">";
     for (size_t s = 0; s < chart.series.size(); ++s)
       out += fmt::format("<span class=\"{}\"><i></i>{}</span> ", classes(chart.series[s], s),
-                         escaped(chart.series[s].name));
+                         html_text(chart.series[s].name));
     out += "</figcaption>";
   }
   return out + "</figure>";
@@ -211,7 +185,7 @@ std::string svg_file(const Chart& chart) {
     out += fmt::format(
         "<g class=\"{0}\"><path class=\"line\" d=\"M{1} {2}h24\"/></g><text x=\"{3}\" "
         "y=\"{4}\">{5}</text>",
-        classes(chart.series[s], s), kLeft, y, kLeft + 32, y + 4, escaped(chart.series[s].name));
+        classes(chart.series[s], s), kLeft, y, kLeft + 32, y + 4, html_text(chart.series[s].name));
   }
   return out + "</svg>\n";
 }

@@ -34,9 +34,6 @@ std::string svg_file(const Chart& chart);
 /// Colours and lines of charts, in a light and in a dark surrounding: CSS.
 extern const char* const kChartStyle;
 
-/// Text as it may stand in HTML.
-std::string escaped(const std::string& text);
-
 }  // namespace anicodec::tools
 
 #endif  // ANICODEC_TOOLS_REPORT_CHART_H_

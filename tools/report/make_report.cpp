@@ -310,9 +310,12 @@ Report make_report(const MeshSequence& sequence, const ReportOptions& options) {
 }
 
 nlohmann::ordered_json report_json(const Report& report) {
-  nlohmann::ordered_json json = {
-      {"name", report.name},     {"vertices", report.vertices},     {"faces", report.faces},
-      {"frames", report.frames}, {"frame_rate", report.rate.value()}, {"diagonal", report.diagonal}};
+  nlohmann::ordered_json json = {{"name", report.name},
+                                 {"vertices", report.vertices},
+                                 {"faces", report.faces},
+                                 {"frames", report.frames},
+                                 {"frame_rate", report.rate.value()},
+                                 {"diagonal", report.diagonal}};
   json["rates"] = nlohmann::ordered_json::array();
   for (const RatePoint& p : report.rates)
     json["rates"].push_back({{"codec", p.codec},

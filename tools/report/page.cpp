@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "tools/render/html_text.h"
 #include "tools/report/chart.h"
 #include "tools/report/report.h"
 #include "tools/words/quantity.h"
@@ -39,25 +40,11 @@ img{max-width:100%;height:auto;border-radius:8px;display:block}
 figcaption{color:var(--quiet);font-size:.85rem;margin-top:4px}
 )";
 
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t j = 0; j < 3; ++j)
-      group = group << 8 | (i + j < bytes.size() ? static_cast<uint8_t>(bytes[i + j]) : 0U);
-    for (size_t j = 0; j < 4; ++j)
-      out += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63] : '=';
-  }
-  return out;
-}
-
 std::string picture(const ReportPicture& p) {
   return fmt::format(
       "<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" src=\"data:image/png;base64,{3}\">"
       "<figcaption>{0}</figcaption></figure>",
-      escaped(p.caption), p.image.width, p.image.height, base64(png_bytes(p.image)));
+      html_text(p.caption), p.image.width, p.image.height, base64(png_bytes(p.image)));
 }
 
 std::string tile(const std::string& value, const std::string& what) {
@@ -106,10 +93,10 @@ std::string rate_table(const Report& report) {
     out += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td></"
         "tr>",
-        escaped(p.codec), grouped(p.bytes), p.bpfv, p.kg, p.max_error_percent, p.sted);
+        html_text(p.codec), grouped(p.bytes), p.bpfv, p.kg, p.max_error_percent, p.sted);
   out += "</table></div>";
   for (const std::string& command : report.missing)
-    out += fmt::format("<p>Left out, because it is not installed: {}.</p>", escaped(command));
+    out += fmt::format("<p>Left out, because it is not installed: {}.</p>", html_text(command));
   return out;
 }
 
@@ -120,9 +107,9 @@ std::string share_bar(const Report& report) {
     const double percent =
         100 * static_cast<double>(share.bytes) / static_cast<double>(report.shown_bytes);
     bar += fmt::format("<span class=\"s{}\" style=\"width:{:.2f}%\" title=\"{}\"></span>", i % 8,
-                       percent, escaped(share.what));
+                       percent, html_text(share.what));
     legend += fmt::format("<span class=\"s{}\"><i></i>{}: {} bytes, {:.1f} %</span> ", i % 8,
-                          escaped(share.what), grouped(share.bytes), percent);
+                          html_text(share.what), grouped(share.bytes), percent);
   }
   return "<div class=\"bar\">" + bar + "</div><div class=\"legend\">" + legend + "</div>";
 }
@@ -165,7 +152,7 @@ std::string space_table(const Report& report) {
   for (const ShapeSpaceError& e : report.shape_spaces)
     out += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.3g}</td><td>{}</td><td>{}</td><td>{:.3g}</td></tr>",
-        escaped(e.space), e.k, e.kg, grouped(e.numbers), grouped(e.bytes), e.residual_percent);
+        html_text(e.space), e.k, e.kg, grouped(e.numbers), grouped(e.bytes), e.residual_percent);
   return out + "</table></div>";
 }
 
@@ -184,7 +171,7 @@ std::string rate_figure(const Report& report) {
 }
 
 std::string report_page(const Report& report) {
-  const std::string name = escaped(report.name.empty() ? "clip" : report.name);
+  const std::string name = html_text(report.name.empty() ? "clip" : report.name);
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
@@ -209,7 +196,7 @@ std::string report_page(const Report& report) {
   }
   if (!report.player.empty())
     out += "<iframe loading=\"lazy\" title=\"The clip, playing\" srcdoc=\"" +
-           escaped(report.player) + "\"></iframe>";
+           html_text(report.player) + "\"></iframe>";
   out +=
       "<h2>Size against error</h2><p>Whole files, of positions and faces. Lower and further left "
       "is better. Other codecs "

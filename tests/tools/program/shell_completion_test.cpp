@@ -68,6 +68,7 @@ TEST_F(ShellCompletion, CompletesInBash) {
     GTEST_SKIP() << "no bash";
   EXPECT_EQ(options, "--help --version --force --colour --output\n");
   EXPECT_EQ(completed("brush p", 1), "paint\n");
+  EXPECT_EQ(completed("brush ma", 1), "manual\n");
   EXPECT_EQ(completed("brush paint --colour ''", 3), "red green\n");
   EXPECT_EQ(completed("brush paint -o ''", 3), "\n") << "files, by the shell itself";
   EXPECT_EQ(completed("brush mix t", 2), "twice\n");
@@ -92,12 +93,14 @@ TEST_F(ShellCompletion, CompletesInFish) {
   const std::string said = run("fish",
                                text +
                                    "complete -C 'brush paint --col'\n"
+                                   "complete -C 'brush comp'\n"
                                    "complete -C 'brush mix twice --sp'\n",
                                &found);
   if (!found)
     GTEST_SKIP() << "no fish";
   EXPECT_THAT(said, HasSubstr("--colour\t"));
   EXPECT_THAT(said, HasSubstr("--speed\t"));
+  EXPECT_THAT(said, HasSubstr("completion\t"));
 }
 
 }  // namespace
