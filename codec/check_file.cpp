@@ -116,8 +116,9 @@ std::vector<MeasuredClip> check_file(const Bytes& file, const EncoderInput& inpu
         throw Error(ErrorKind::kInternal,
                     attribute.name + ": the error is above what was asked for");
       result.max_error = std::max(result.max_error, error.max_error);
-      result.rmse = std::hypot(result.rmse, error.rmse * std::sqrt(static_cast<double>(source.frames.count) /
-                                                                   clip.frame_count()));
+      result.rmse = std::hypot(
+          result.rmse,
+          error.rmse * std::sqrt(static_cast<double>(source.frames.count) / clip.frame_count()));
       measured.attributes.push_back(error);
     }
   }

@@ -108,8 +108,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     cut_timing(*options.part, sequence);
     closed[0] = false;
   }
-  ClipsRecord record = clips_record(sequence, options, target,
-                                    std::vector<double>(closed.size(), clip_diagonal));
+  ClipsRecord record =
+      clips_record(sequence, options, target, std::vector<double>(closed.size(), clip_diagonal));
   for (size_t c = 0; c < closed.size(); ++c)
     record.clips[c].closed = closed[c];
   EncoderInput input(std::move(sequence), options.part);
@@ -141,8 +141,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     clip.attribute_errors = measured[c].attributes;
     if (measured.size() > 1)
       clip.diagonal = positions.diagonal;
-    result.clips.push_back({std::string(clip.name.begin(), clip.name.end()), input.clips[c].frames.count,
-                            clip.kg, clip.rmse, clip.max_error});
+    result.clips.push_back({std::string(clip.name.begin(), clip.name.end()),
+                            input.clips[c].frames.count, clip.kg, clip.rmse, clip.max_error});
     const FileMeasures measures{clip.kg,     clip.rmse,       clip.max_error,
                                 file.size(), result.vertices, result.frames};
     if (!is_kept(target, cap, measures))

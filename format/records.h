@@ -139,7 +139,7 @@ struct ClipsRecord {
   String encoder;  ///< name and version of the encoder
   uint8_t up = 0;  ///< 0 unknown, 1 y, 2 z
   OrderMode order = OrderMode::kVertices;
-  double metres_per_unit = 0;  ///< 0 unknown
+  double metres_per_unit = 0;                        ///< 0 unknown
   Vector<ClipRecord> clips = Vector<ClipRecord>(1);  ///< in the order of their frames, at least one
 
   /// Number of the first clip of a name; clips.size() if there is none.

@@ -454,8 +454,7 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
       uint32_t m3 = 0;
       for (uint32_t e = 0; e < channels; ++e)
         if (e != c)
-          m3 += e > c && k == 0 ? 10 * kUnit
-                                : trace_.magnitude[at(e, k) - (e < c ? 0 : 1)];
+          m3 += e > c && k == 0 ? 10 * kUnit : trace_.magnitude[at(e, k) - (e < c ? 0 : 1)];
       m3 /= std::max(channels - 1, 1u);
       const uint32_t slow = slow_[c], expected = (m1 + 2 * slow + m3 + 2 * m4) / 6;
       cosine_.select(

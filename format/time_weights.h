@@ -43,7 +43,10 @@ class TimeWeightModel {
  public:
   /// `runs`: how many frames each run has, none of them 0.
   explicit TimeWeightModel(const Vector<uint32_t>& runs);
-  explicit TimeWeightModel(uint32_t frames) : TimeWeightModel(Vector<uint32_t>(frames > 0, frames)) {}
+
+  explicit TimeWeightModel(uint32_t frames)
+      : TimeWeightModel(Vector<uint32_t>(frames > 0, frames)) {}
+
   ~TimeWeightModel();
   TimeWeightModel(const TimeWeightModel&);
   TimeWeightModel& operator=(const TimeWeightModel&);

@@ -106,7 +106,8 @@ void check_follows(const OpenPart& before, const OpenPart& next) {
   const ClipRecord &a = before.clip(), &b = next.clip();
   if (a.rate_numerator != b.rate_numerator || a.rate_denominator != b.rate_denominator ||
       before.record.up != next.record.up ||
-      before.record.metres_per_unit != next.record.metres_per_unit || a.times.empty() != b.times.empty())
+      before.record.metres_per_unit != next.record.metres_per_unit ||
+      a.times.empty() != b.times.empty())
     fail(next.part, ErrorKind::kInput,
          "has another frame rate, up axis or unit than " + before.part.name);
   const double frame = double{1} * a.rate_denominator / a.rate_numerator;

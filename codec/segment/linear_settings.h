@@ -13,11 +13,11 @@ namespace anicodec {
 
 /// How finely a linear basis is coded, all steps tied to that of the coefficients.
 struct LinearSettings {
-  double step = 1;             ///< of the coefficients, scene units
-  double weight_factor = 2.4;  ///< step of time weights: weight_factor * step / sigma
-  double pose_factor = 2;      ///< step of the pose: pose_factor * step / sqrt(frames)
-  double lambda = 0.08;        ///< squared steps that a bit is worth when rounding coefficients
-  double weight_lambda = 0.1;  ///< the same for time weights
+  double step = 1;                 ///< of the coefficients, scene units
+  double weight_factor = 2.4;      ///< step of time weights: weight_factor * step / sigma
+  double pose_factor = 2;          ///< step of the pose: pose_factor * step / sqrt(frames)
+  double lambda = 0.08;            ///< squared steps that a bit is worth when rounding coefficients
+  double weight_lambda = 0.1;      ///< the same for time weights
   std::vector<uint8_t> run_steps;  ///< of each clip, LinearParameters::run_steps
   /// Not 0: the coefficients of a component are rounded together, at so many squared steps to a
   /// bit, instead of one by one at `lambda`.

@@ -175,8 +175,7 @@ anic_status anic_seek_time(anic_context* context, double seconds, anic_sampling 
                            anic_wrap wrap) {
   if (!context || !is_time(seconds, sampling, wrap))
     return ANIC_E_ARGUMENT;
-  choose(context,
-         mix_at(context->asset->clip.clips()[context->clip], seconds, sampling, wrap));
+  choose(context, mix_at(context->asset->clip.clips()[context->clip], seconds, sampling, wrap));
   if (!context->chosen) {
     context->chosen = true;
     anic_forget_previous(context);

@@ -133,8 +133,8 @@ struct anic_context {
   uint32_t clip = 0;  ///< that times are of
   bool chosen = false;
   anicodec::FrameMix mix;  ///< what is shown now
-  State states[2];  ///< by anic_when
-  float* scratch;   ///< of make_sample()
+  State states[2];         ///< by anic_when
+  float* scratch;          ///< of make_sample()
 };
 
 namespace anicodec {

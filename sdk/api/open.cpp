@@ -98,8 +98,8 @@ bool take_options(const anic_options* host, anic_options* out) {
     if (!out->clips[i])
       return false;
   }
-  return true && out->quality >= 0 && out->quality <= 1 &&
-         (out->clips || out->clip_count == 0) && (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER)) == 0 &&
+  return true && out->quality >= 0 && out->quality <= 1 && (out->clips || out->clip_count == 0) &&
+         (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER)) == 0 &&
          !out->allocator.allocate == !out->allocator.release;
 }
 

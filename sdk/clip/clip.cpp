@@ -189,8 +189,7 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
     uint64_t weights = uint64_t{4} * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
-    if (s.draco_bytes > file.file_size() ||
-        s.draco_points / 3 > out->meshes[s.mesh].triangles)
+    if (s.draco_bytes > file.file_size() || s.draco_points / 3 > out->meshes[s.mesh].triangles)
       return at(*chunk, Status::kLimit, "more of Draco than the mesh or the file can hold");
     if (s.reconstruction == Reconstruction::kMsgi && s.msgi_bytes < out->meshes[s.mesh].triangles)
       return at(*chunk, Status::kLimit, "more triangles than what is kept of them can be of");
@@ -277,8 +276,10 @@ void Clip::take_clip(uint32_t clip) {
     if (kept.count == 0)  // the order of the first frames must stay
       segment = Segment();
     const bool before = sizes.first_frame < begin;
-    sizes.first_frame = segment.first_frame =
-        kept.count > 0 ? sizes.first_frame + kept.first - begin : before ? 0 : UINT32_MAX;
+    sizes.first_frame = segment.first_frame = kept.count > 0
+                                                  ? sizes.first_frame + kept.first - begin
+                                              : before ? 0
+                                                       : UINT32_MAX;
     sizes.frames = kept.count;
   }
   record_.clips = Vector<ClipRecord>(1, ClipRecord(record_.clips[clip]));

@@ -15,12 +15,12 @@ constexpr uint64_t kModels = uint64_t{1} << 22;  // of the entropy coder
 constexpr uint64_t kPoseModels = uint64_t{3} << 17;
 constexpr uint64_t kFaceModels = uint64_t{3} << 18;   // of the coder of faces
 constexpr uint64_t kOrderModels = uint64_t{1} << 18;  // and of the order of the vertices
-constexpr uint64_t kNeighbours = 24;             // at most, of a vertex
+constexpr uint64_t kNeighbours = 24;                  // at most, of a vertex
 constexpr uint64_t kClip = 256;
-constexpr uint64_t kStructure = 512;             // of a mesh or segment
-constexpr uint64_t kMatrix = 48;                 // bytes of a pose map or motion
-constexpr uint64_t kSymbol = 12;                 // bytes that Draco keeps of one that may occur
-constexpr uint64_t kZstd = uint64_t{1} << 17;    // what zstd decodes in
+constexpr uint64_t kStructure = 512;           // of a mesh or segment
+constexpr uint64_t kMatrix = 48;               // bytes of a pose map or motion
+constexpr uint64_t kSymbol = 12;               // bytes that Draco keeps of one that may occur
+constexpr uint64_t kZstd = uint64_t{1} << 17;  // what zstd decodes in
 
 /// A sum that stays at its end instead of wrapping.
 class CheckedSum {

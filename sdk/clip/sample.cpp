@@ -76,7 +76,8 @@ uint32_t part_count(const Clip& clip, uint32_t track, const FrameMix& mix) {
   uint32_t count = 0;
   for (uint32_t t = 0; t < mix.count; ++t) {
     const Segment* segment = clip.segment_at(track, mix.terms[t].frame);
-    if (segment && mix.terms[t].weight != 0 && std::find(found, found + count, segment) == found + count)
+    if (segment && mix.terms[t].weight != 0 &&
+        std::find(found, found + count, segment) == found + count)
       found[count++] = segment;
   }
   return count;

@@ -35,8 +35,8 @@ void keep_components(const Vector<uint32_t>& used, uint32_t components, uint32_t
   auto to = kept.begin();
   for (size_t b = 0; b < blocks; ++b) {
     for (uint32_t j : used)
-      to = std::copy_n(
-          coefficients->begin() + static_cast<ptrdiff_t>((b * components + j) * width), width, to);
+      to = std::copy_n(coefficients->begin() + static_cast<ptrdiff_t>((b * components + j) * width),
+                       width, to);
   }
   *coefficients = std::move(kept);
 }

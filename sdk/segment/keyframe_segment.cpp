@@ -49,8 +49,7 @@ Status read_draco_poses(const SegmentRecord& record, const SegmentContext& conte
       s != Status::kOk)
     return s;
   const size_t held = context.topology->vertices_in_triangles;
-  const ByteView rest{record.pose.data + sizes.draco_bytes,
-                      record.pose.size - sizes.draco_bytes};
+  const ByteView rest{record.pose.data + sizes.draco_bytes, record.pose.size - sizes.draco_bytes};
   Vector<int32_t> plain;
   if (Status s = decode_plain_integers(rest, 3 * (n - held) * k, 3, &plain); s != Status::kOk)
     return s;
@@ -83,8 +82,8 @@ Status read_poses(const SegmentRecord& record, const SegmentContext& context,
     Vector<int32_t>& pose = (*poses)[j];
     const Vector<int32_t>& parent = (*poses)[parents[j] - 1];
     for (size_t i = 0; i < pose.size(); ++i)
-      pose[i] = static_cast<int32_t>(static_cast<uint32_t>(pose[i]) +
-                                     static_cast<uint32_t>(parent[i]));
+      pose[i] =
+          static_cast<int32_t>(static_cast<uint32_t>(pose[i]) + static_cast<uint32_t>(parent[i]));
   }
   return Status::kOk;
 }

@@ -303,8 +303,8 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
 
   Vector<int32_t> weights;
   const Vector<double> factors = step_factors(parameters, runs);
-  if (Status s = read_weights(record.weights, runs, parameters, factors, pose, &integers, out,
-                              &weights);
+  if (Status s =
+          read_weights(record.weights, runs, parameters, factors, pose, &integers, out, &weights);
       s != Status::kOk)
     return s;
   uint32_t wanted = wanted_components(context.quality, components);

@@ -96,14 +96,14 @@ struct SegmentContext {
   const Topology* topology = nullptr;
   /// Coded vertex of each vertex of the opened segment; null: it holds the coded vertices.
   const Vector<uint32_t>* vertex_coded = nullptr;
-  const PoseGrid* pose = nullptr;  ///< null when the file has none for the segment
+  const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
   const PoseSurface* surface = nullptr;  ///< of the topology; null: made when needed
-  Vector<ByteView> layers;           ///< chunks BASI in file order
-  ByteView corrections;              ///< chunk CORR, empty when there is none
+  Vector<ByteView> layers;               ///< chunks BASI in file order
+  ByteView corrections;                  ///< chunk CORR, empty when there is none
   /// The segment's frames cut where a clip ends (Limits::runs()); empty: they are one run.
   Vector<uint32_t> runs;
-  double quality = 1;                ///< share of the components wanted
+  double quality = 1;  ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;
   DecodingTrace* trace = nullptr;    ///< sees every integer decoded; may be null

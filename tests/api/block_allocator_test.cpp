@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include <anicodec/anicodec.h>
+
 #include <cstring>
 #include <random>
 #include <vector>
 
-#include <anicodec/anicodec.h>
 #include <gtest/gtest.h>
 
 namespace anicodec {

@@ -194,6 +194,7 @@ std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
   out.add("meshes", list(meshes, [](const std::string& m) { return m; }));
   return out.str();
 }
+
 int refused(const Failure& failure) {
   std::fprintf(stderr, "%d %s: %s\n", static_cast<int>(failure.status),
                status_string(failure.status), failure.detail);

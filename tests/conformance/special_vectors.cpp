@@ -81,9 +81,8 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
     const LinearBasis basis =
         analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
                        shapes ? Base::kPose : Base::kAffine, 1000, 0);
-    std::optional<EncodedSegment> coded =
-        encode_linear(frames, basis, recipe.settings, input.layout, nullptr,
-                      input.runs(first, recipe.frames));
+    std::optional<EncodedSegment> coded = encode_linear(
+        frames, basis, recipe.settings, input.layout, nullptr, input.runs(first, recipe.frames));
     if (!coded)
       throw Error(ErrorKind::kInternal, "the step is too fine");
     EncodedSegment& segment = segments.emplace_back(std::move(*coded));

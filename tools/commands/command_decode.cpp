@@ -245,8 +245,10 @@ void add_decode(Commands& commands, CommonOptions& common) {
       .required();
   options.choice("--format", c->format, {kFormats},
                  "Write each clip in this format to the folder OUT, by its name");
-  options.option("--clip", c->clip, "NAME", "The clip to write, of a file that has several; all: one after the other, at the rate "
-                 "of the first");
+  options.option(
+      "--clip", c->clip, "NAME",
+      "The clip to write, of a file that has several; all: one after the other, at the rate "
+      "of the first");
   options.option("--frames", c->frames, "A:B[:STEP]",
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");

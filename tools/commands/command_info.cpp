@@ -339,10 +339,10 @@ void print_text(const std::string& path, const Contents& c) {
   row(several ? "clips" : "clip",
       several ? fmt::format("{}, {} clips, {} frames", what, c.clip.clips().size(), limits.frames)
               : fmt::format("{}, {} frames at {}", what, limits.frames, rate_text(record)));
-  row("", fmt::format("up {}, unit {}{}", up_name(all.up),
-                      all.metres_per_unit > 0 ? fmt::format("{:.6g} m", all.metres_per_unit)
-                                              : "unknown",
-                      several ? "" : traits_of(record)));
+  row("", fmt::format(
+              "up {}, unit {}{}", up_name(all.up),
+              all.metres_per_unit > 0 ? fmt::format("{:.6g} m", all.metres_per_unit) : "unknown",
+              several ? "" : traits_of(record)));
   print_meshes(c);
   row("order", name_of(all.order));
   row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv", grouped(c.bytes),

@@ -142,9 +142,10 @@ void choose_clip(const std::string& path, const std::string& name, Clip& clip) {
   for (const ClipRecord& c : clip.clips())
     names += fmt::format("{}'{}'", names.empty() ? "" : ", ", c.name);
   throw Error(ErrorKind::kUsage,
-              name.empty() ? fmt::format("{}: has several clips, one of them must be chosen, or all: {}",
-                                         path, names)
-                           : fmt::format("{}: there is no clip '{}'; it has {}", path, name, names));
+              name.empty()
+                  ? fmt::format("{}: has several clips, one of them must be chosen, or all: {}",
+                                path, names)
+                  : fmt::format("{}: there is no clip '{}'; it has {}", path, name, names));
 }
 
 std::vector<uint32_t> meshes_of(const Clip& clip) {

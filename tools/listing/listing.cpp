@@ -77,7 +77,8 @@ void list_clip(FieldReader& r, const std::string& clip, uint32_t frames) {
     r.f64(clip + "surface error");
     r.f64(clip + "surface error, mean");
   }
-  const uint64_t errors = flags & kAttributeErrors ? r.varint(clip + "attributes with an error") : 0;
+  const uint64_t errors =
+      flags & kAttributeErrors ? r.varint(clip + "attributes with an error") : 0;
   for (uint64_t i = 0; i < errors && r.ok(); ++i) {
     r.varint(fmt::format("{}error {} mesh", clip, i));
     r.varint(fmt::format("{}error {} attribute", clip, i));

@@ -163,7 +163,8 @@ TEST_P(AttributeEncodeOf, FollowThePolygonsInEveryOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Clips, AttributeEncodeOf, testing::Values("limb", "quad_box", "nonmanifold"));
+INSTANTIATE_TEST_SUITE_P(Clips, AttributeEncodeOf,
+                         testing::Values("limb", "quad_box", "nonmanifold"));
 
 TEST(AttributeEncode, LeavesFilesWithoutAttributesAsTheyWere) {
   MeshSequence clip = corpus::make_clip("quad_box");

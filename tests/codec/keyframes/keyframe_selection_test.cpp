@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/algebra/gram.h"
 #include "codec/keyframes/keyframe_selection.h"
+
+#include "codec/algebra/gram.h"
 #include "codec/keyframes/keyframe_weights.h"
 #include "tests/codec/moving_points.h"
 

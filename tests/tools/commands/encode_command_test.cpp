@@ -50,9 +50,18 @@ TEST_F(EncodeCommand, PromisesATwentiethPerCentByDefault) {
 TEST_F(EncodeCommand, MakesOneFileOfSeveralClips) {
   write_sequence(folder_ / "b.pc2", corpus::make_clip("limb"));
   const std::string library = folder_ / "library.anic";
-  const std::vector<std::string> encode_all{"encode", folder_ / "a.obj", folder_ / "a.pc2",
-                                            folder_ / "b.pc2", "-o", library, "-f", "--json",
-                                            "--kg", "1", "--effort", "1"};
+  const std::vector<std::string> encode_all{"encode",
+                                            folder_ / "a.obj",
+                                            folder_ / "a.pc2",
+                                            folder_ / "b.pc2",
+                                            "-o",
+                                            library,
+                                            "-f",
+                                            "--json",
+                                            "--kg",
+                                            "1",
+                                            "--effort",
+                                            "1"};
   nlohmann::json report = anicodec(encode_all).json();
   ASSERT_EQ(report["clips"].size(), 2U);
   EXPECT_EQ(report["clips"][1]["name"], "b");
