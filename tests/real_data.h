@@ -3,6 +3,8 @@
 #ifndef ANICODEC_TESTS_REAL_DATA_H_
 #define ANICODEC_TESTS_REAL_DATA_H_
 
+#include "build_paths.h"
+
 #include <cstdlib>
 #include <string>
 

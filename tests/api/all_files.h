@@ -3,6 +3,7 @@
 #ifndef ANICODEC_TESTS_API_ALL_FILES_H_
 #define ANICODEC_TESTS_API_ALL_FILES_H_
 
+#include "build_paths.h"
 #include "codec/file/clip_file.h"
 #include "codec/search/time_segmentation.h"
 #include "tests/api/opened.h"

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The C interface of the encoder.
+#include "build_paths.h"
 #include "codec/encode.h"
 #include "corpus/clips.h"
 

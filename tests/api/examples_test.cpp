@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Runs the built examples on clips of the corpus.
+#include "build_paths.h"
 #include "tests/api/opened.h"
 
 #include <array>

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Damaged and greedy files: those of tests/conformance, every prefix of them, every byte changed.
+#include "build_paths.h"
 #include "format/container.h"
 #include "tests/api/opened.h"
 #include "tests/codec/edited_file.h"

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The files of tests/conformance/, and the example that the specification takes apart.
+#include "build_paths.h"
 #include "corpus/clips.h"
 #include "sdk/clip/clip.h"
 

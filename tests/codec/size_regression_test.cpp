@@ -3,6 +3,7 @@
 //
 // Sizes of the corpus clips as tests/regression/sizes.csv states them. After a change that is meant
 // to alter them, ANICODEC_UPDATE_SIZES=1 writes the file anew.
+#include "build_paths.h"
 #include "codec/encode.h"
 #include "corpus/clips.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "build_paths.h"
 #include "corpus/clips.h"
 
 #include <cstdlib>

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The streams that spec/08-entropy.md shows, section 7: what the text says they hold is what they hold.
+#include "build_paths.h"
 #include "format/binary_coder.h"
 #include "format/coefficient_coder.h"
 #include "format/time_weights.h"

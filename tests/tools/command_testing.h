@@ -3,6 +3,7 @@
 #ifndef ANICODEC_TESTS_TOOLS_COMMAND_TESTING_H_
 #define ANICODEC_TESTS_TOOLS_COMMAND_TESTING_H_
 
+#include "build_paths.h"
 #include "tests/tools/io_testing.h"
 
 #include <chrono>

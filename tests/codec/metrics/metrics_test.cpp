@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/metrics/metrics.h"
 
+#include "build_paths.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "tests/random.h"
