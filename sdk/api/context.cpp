@@ -25,7 +25,7 @@ void show(anic_context* context, const FrameMix& mix) {
   float* weights = context->states[ANIC_WHEN_CURRENT].weights;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
     context->states[ANIC_WHEN_CURRENT].samples[t] =
-        make_sample(clip, t, mix, weights, context->scratch);
+        make_sample(clip, t, mix, weights, context->scratch, context->quality);
     weights += context->asset->buffers[t];
   }
 }
@@ -153,6 +153,13 @@ anic_status anic_set_clip(anic_context* context, uint32_t clip) {
   if (!context->asset->clip.has_clip(clip))
     return ANIC_E_ABSENT;
   context->clip = clip;
+  return ANIC_OK;
+}
+
+anic_status anic_set_quality(anic_context* context, double quality) {
+  if (!context || !(quality > 0 && quality <= 1))
+    return ANIC_E_ARGUMENT;
+  context->quality = quality;
   return ANIC_OK;
 }
 

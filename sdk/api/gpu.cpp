@@ -3,6 +3,7 @@
 //
 // The C interface: what a GPU needs.
 #include "sdk/api/objects.h"
+#include "sdk/play/shader_data.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -30,8 +31,17 @@ void give_parts(const Clip& clip, const Sample& sample, anic_parts* host) {
     std::copy_n(state.motion.m, 12, part.motion);
     part.corrections = reinterpret_cast<const anic_correction*>(state.corrections);
     part.correction_count = state.correction_count;
+    parts.components[p] = state.components;
   }
   give(parts, host);
+}
+
+/// The segment, if it is there and a shader can combine it.
+anic_status find_basis(const anic_asset* asset, uint32_t segment, const Segment** out) {
+  if (!asset || segment >= asset->clip.segments().size())
+    return ANIC_E_ARGUMENT;
+  *out = &asset->clip.segments()[segment];
+  return (*out)->frames > 0 && (*out)->msgi.empty() ? ANIC_OK : ANIC_E_STATE;
 }
 
 }  // namespace
@@ -104,5 +114,69 @@ anic_status anic_get_attribute_parts(const anic_context* context, uint32_t mesh,
       sample = &context->states[when].samples[t];
   }
   give_parts(clip, *sample, out);
+  return ANIC_OK;
+}
+
+anic_status anic_get_texture_layout(const anic_asset* asset, uint32_t segment, uint32_t max_size,
+                                    anic_texture_layout* out) {
+  const Segment* found = nullptr;
+  if (!is_sized(out) || max_size == 0)
+    return ANIC_E_ARGUMENT;
+  if (anic_status status = find_basis(asset, segment, &found); status != ANIC_OK)
+    return status;
+  TextureLayout layout;
+  if (!TextureLayout::find(*found, max_size, &layout))
+    return ANIC_E_LIMIT;
+  anic_texture_layout filled = ANIC_INIT(anic_texture_layout);
+  filled.width = layout.width;
+  filled.rows = layout.rows;
+  filled.pose_height = layout.height(*found, BasisTexture::kPose);
+  filled.wide_height = layout.height(*found, BasisTexture::kWide);
+  filled.narrow_height = layout.height(*found, BasisTexture::kNarrow);
+  filled.state_floats = static_cast<uint32_t>(state_floats(*found));
+  give(filled, out);
+  return ANIC_OK;
+}
+
+anic_status anic_write_texture(const anic_asset* asset, uint32_t segment, anic_texture texture,
+                               const anic_texture_layout* layout, size_t row_bytes, void* out,
+                               size_t size) {
+  const Segment* found = nullptr;
+  anic_texture_layout host;
+  if (!layout || !take(layout, &host) || texture < ANIC_TEXTURE_POSE ||
+      texture > ANIC_TEXTURE_NARROW)
+    return ANIC_E_ARGUMENT;
+  if (anic_status status = find_basis(asset, segment, &found); status != ANIC_OK)
+    return status;
+  const TextureLayout ours = {host.width, host.rows};
+  if (!ours.holds(*found))
+    return ANIC_E_ARGUMENT;
+  const auto which = static_cast<BasisTexture>(texture);
+  const uint32_t height = ours.height(*found, which);
+  const size_t row = texel_bytes(which) * ours.width;
+  const size_t stride = row_bytes == 0 ? row : row_bytes;
+  if (height == 0)
+    return ANIC_OK;
+  if (!out || stride < row)
+    return ANIC_E_ARGUMENT;
+  if (size < row || (size - row) / stride < size_t{height} - 1)
+    return ANIC_E_BUFFER_SIZE;
+  write_texture(*found, which, ours, stride, out);
+  return ANIC_OK;
+}
+
+anic_status anic_write_state(const anic_context* context, uint32_t mesh, anic_when when,
+                             uint32_t part, float* out, size_t size) {
+  const Sample* sample = nullptr;
+  if (anic_status status = find_sample(context, mesh, when, &sample); status != ANIC_OK)
+    return status;
+  if (part >= sample->count || !out)
+    return ANIC_E_ARGUMENT;
+  const FrameState& state = sample->parts[part];
+  if (state.shape)
+    return ANIC_E_STATE;
+  if (size / sizeof(float) < state_floats(*state.segment))
+    return ANIC_E_BUFFER_SIZE;
+  write_state(state, sample->share[part], out);
   return ANIC_OK;
 }

@@ -132,6 +132,7 @@ struct anic_context {
   size_t extra;       ///< bytes behind this object
   uint32_t clip = 0;  ///< that times are of
   bool chosen = false;
+  double quality = 1;      ///< of what is chosen next
   anicodec::FrameMix mix;  ///< what is shown now
   State states[2];         ///< by anic_when
   float* scratch;          ///< of make_sample()

@@ -50,13 +50,14 @@ Affine mean_motion(const Group& group, const Vector<Affine>& motions) {
   return motion_of(mean_rotation(rotations, group.weights, group.count), translation);
 }
 
-FrameState mean_state(const Group& group, float* weights) {
+FrameState mean_state(const Group& group, uint32_t components, float* weights) {
   const Segment& s = *group.segment;
-  const size_t n = weight_count(s);
+  const size_t n = weight_count(s), played = size_t{components} * s.weight_channels();
   FrameState state;
   state.segment = &s;
+  state.components = components;
   state.weights = weights;
-  for (size_t i = 0; i < n; ++i) {
+  for (size_t i = 0; i < played; ++i) {
     double sum = 0;
     for (int t = 0; t < group.count; ++t)
       sum += group.weights[t] * double{s.weights[group.frames[t] * n + i]};
@@ -84,7 +85,7 @@ uint32_t part_count(const Clip& clip, uint32_t track, const FrameMix& mix) {
 }
 
 Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float* buffer,
-                   float* scratch) {
+                   float* scratch, double quality) {
   const bool is_attribute = clip.tracks()[track].is_attribute();
   Group groups[Sample::kMaxParts];
   uint32_t count = 0;
@@ -117,13 +118,14 @@ Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float*
     sample.share[g] = static_cast<float>(group.share / total);
     if (group.count == 1) {
       sample.parts[g] = frame_state(*group.segment, group.frames[0]);
+      sample.parts[g].components = played_components(*group.segment, quality);
       if (mix.count > 1)
         sample.parts[g].correction_count = 0;
       continue;
     }
     for (int t = 0; t < group.count; ++t)
       group.weights[t] /= group.share;
-    sample.parts[g] = mean_state(group, buffer);
+    sample.parts[g] = mean_state(group, played_components(*group.segment, quality), buffer);
     buffer += weight_count(*group.segment);
   }
   for (uint32_t g = 0; g < count; ++g) {

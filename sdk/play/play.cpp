@@ -34,10 +34,12 @@ OutputScale output_scale(const VertexOutput& output) {
   return scale;
 }
 
-void set_segment(const Segment& segment, PlayJob* job) {
+void set_segment(const Segment& segment, uint32_t components, PlayJob* job) {
   job->channels = segment.channels();
-  job->wide_components = segment.wide_components;
-  job->narrow_components = segment.components - segment.wide_components;
+  job->wide_row = segment.wide_components;
+  job->narrow_row = segment.components - segment.wide_components;
+  job->wide_components = std::min(components, segment.wide_components);
+  job->narrow_components = components - job->wide_components;
   job->wide = segment.wide.data();
   job->narrow = segment.narrow.data();
   job->pose = segment.pose.empty() ? nullptr : segment.pose.data();
@@ -104,6 +106,11 @@ double* aligned(float* p) {
 
 }  // namespace
 
+uint32_t played_components(const Segment& segment, double quality) {
+  return segment.kind == BasisKind::kKeyframes ? segment.components
+                                               : wanted_components(quality, segment.components);
+}
+
 size_t shape_size(const Segment& segment) {
   return segment.msgi.empty() ? 0 : size_t{3} * segment.msgi[0].vertex_count();
 }
@@ -142,6 +149,7 @@ void make_shape(FrameState* state, float* shape, float* scratch) {
 FrameState frame_state(const Segment& segment, uint32_t frame) {
   FrameState state;
   state.segment = &segment;
+  state.components = segment.components;
   state.weights =
       segment.weights.data() + size_t{frame} * segment.components * segment.weight_channels();
   if (!segment.pose_maps.empty())
@@ -201,7 +209,7 @@ void play_with(const PlayKernels& kernels, const FrameState* states, uint32_t fr
       continue;
     }
     PlayJob job;
-    set_segment(*states[f].segment, &job);
+    set_segment(*states[f].segment, states[f].components, &job);
     job.first = first;
     job.end = first + count;
     do {
@@ -209,7 +217,8 @@ void play_with(const PlayKernels& kernels, const FrameState* states, uint32_t fr
       ++job.frames;
       ++f;
     } while (f < frames && job.frames < kMaxPlayedFrames &&
-             states[f].segment == states[f - 1].segment);
+             states[f].segment == states[f - 1].segment &&
+             states[f].components == states[f - 1].components);
     kernels.play(job);
   }
 }

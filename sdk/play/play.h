@@ -19,12 +19,16 @@ struct FrameState {
   Affine motion;                                     ///< M_f, where the segment has motions
   const Segment::Correction* corrections = nullptr;  ///< ascending by vertex
   uint32_t correction_count = 0;
+  uint32_t components = 0;       ///< the first ones of the segment, which are played
   const float* shape = nullptr;  ///< segments of MSGI: coded vertices x 3, before the motion
 };
 
 /// A whole frame, 0 .. frames - 1 of the segment. O(1). In a segment of MSGI, where it lacks what
 /// make_shape() computes.
 FrameState frame_state(const Segment& segment, uint32_t frame);
+
+/// How many of the segment's components are played at a quality in (0, 1]; key-frames are, all.
+uint32_t played_components(const Segment& segment, double quality);
 
 /// Floats that make_shape() fills, and floats that it works in, which states may share; 0 for
 /// segments that are not of MSGI.

@@ -14,7 +14,8 @@ namespace anicodec {
 
 /// Frames that one pass over the coefficients makes.
 #if defined(ANICODEC_SMALL)
-inline constexpr uint32_t kMaxPlayedFrames = 1;  // kernels for more are as large as all else of playing
+inline constexpr uint32_t kMaxPlayedFrames =
+    1;  // kernels for more are as large as all else of playing
 #else
 inline constexpr uint32_t kMaxPlayedFrames = 4;
 #endif
@@ -39,11 +40,12 @@ struct PlayJob {
     OutputScale scale = {};
   };
 
-  uint32_t channels = 3;  // of a coefficient: 3, or 1 and three weights
-  uint32_t wide_components = 0, narrow_components = 0;
-  const int32_t* wide = nullptr;    // blocks x wide components x channels x 16
-  const int16_t* narrow = nullptr;  // blocks x narrow components x channels x 16
-  const float* pose = nullptr;      // blocks x 3 x 16; null: the base is `origin`
+  uint32_t channels = 3;                  // of a coefficient: 3, or 1 and three weights
+  uint32_t wide_row = 0, narrow_row = 0;  // components in a block
+  uint32_t wide_components = 0, narrow_components = 0;  // the first ones of them, which are played
+  const int32_t* wide = nullptr;                        // blocks x wide_row x channels x 16
+  const int16_t* narrow = nullptr;                      // blocks x narrow_row x channels x 16
+  const float* pose = nullptr;  // blocks x 3 x 16; null: the base is `origin`
   float origin[3] = {0, 0, 0};
   uint32_t first = 0, end = 0;  // vertices
   uint32_t frames = 0;          // 1 .. kMaxPlayedFrames, all of one segment

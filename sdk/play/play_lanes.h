@@ -142,16 +142,16 @@ struct LaneKernel {
     return n * W / kBlock * block_elements + n * W % kBlock;
   }
 
-  /// s += the components of a block from its vertex h on, `count` of them; `block` may be null when
-  /// there are none.
+  /// s += the first `count` of the `row` components of a block from its vertex h on; `block` may be
+  /// null when there are none.
   template <uint32_t Channels, uint32_t F, size_t N, class Int>
-  static ANICODEC_INLINE void add(const Int* block, size_t h, uint32_t count,
+  static ANICODEC_INLINE void add(const Int* block, size_t h, uint32_t count, uint32_t row,
                                   const float* const* weights, Float (&s)[F][3][N]) {
     constexpr size_t kWeights = Channels == 1 ? 3 : 1;
     if (count == 0)
       return;
     const Int* q = block + h;
-    const size_t block_elements = size_t{count} * Channels * kBlock;
+    const size_t block_elements = size_t{row} * Channels * kBlock;
     constexpr size_t kBlocks = N * W > kBlock ? N * W / kBlock : 1;
     size_t ahead = kAhead;
     if constexpr (kBlocks > 1) {  // the same place in blocks to come, as those between are read now
@@ -195,8 +195,8 @@ struct LaneKernel {
       narrow_weights[f] = weights[f] + size_t{job.wide_components} * (Channels == 1 ? 3 : 1);
     }
     const size_t scalars = size_t{block} * Channels * kBlock;
-    const int32_t* wide = job.wide + scalars * job.wide_components;
-    const int16_t* narrow = job.narrow + scalars * job.narrow_components;
+    const int32_t* wide = job.wide + scalars * job.wide_row;
+    const int16_t* narrow = job.narrow + scalars * job.narrow_row;
     for (size_t h = 0; h < kBlock; h += N * W) {
       Float s[F][3][N];
       if (job.pose) {
@@ -210,8 +210,8 @@ struct LaneKernel {
             ANICODEC_UNROLL for (size_t c = 0; c < 3; ++c)
                 ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) s[f][c][n] = Float{};
       }
-      add<Channels>(wide, h, job.wide_components, weights, s);
-      add<Channels>(narrow, h, job.narrow_components, narrow_weights, s);
+      add<Channels>(wide, h, job.wide_components, job.wide_row, weights, s);
+      add<Channels>(narrow, h, job.narrow_components, job.narrow_row, narrow_weights, s);
       if (!job.pose) {  // last, as it may be large
         ANICODEC_UNROLL for (uint32_t f = 0; f < F; ++f)
             ANICODEC_UNROLL for (size_t c = 0; c < 3; ++c)

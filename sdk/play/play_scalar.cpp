@@ -49,8 +49,8 @@ void play_block(const PlayJob& job, const PlayJob::Frame& frame, uint32_t block,
     __builtin_memset(sum, 0, sizeof sum);
   }
   const size_t scalars = size_t{block} * Channels * kBlock;
-  const int32_t* wide = job.wide + scalars * job.wide_components;
-  const int16_t* narrow = job.narrow + scalars * job.narrow_components;
+  const int32_t* wide = job.wide + scalars * job.wide_row;
+  const int16_t* narrow = job.narrow + scalars * job.narrow_row;
   if (Channels == 3) {
     add_vectors(wide, frame.weights, job.wide_components, sum);
     add_vectors(narrow, frame.weights + job.wide_components, job.narrow_components, sum);

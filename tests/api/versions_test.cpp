@@ -84,6 +84,8 @@ TEST(AnicVersions, StructsThatAreFilledMayHaveAnyLength) {
       [&](anic_basis* out) { return anic_get_basis(a, 0, out); });
   expect_every_length_is_filled<anic_parts>(
       [&](anic_parts* out) { return anic_get_parts(context.get(), 0, ANIC_WHEN_CURRENT, out); });
+  expect_every_length_is_filled<anic_texture_layout>(
+      [&](anic_texture_layout* out) { return anic_get_texture_layout(a, 0, 4096, out); });
   expect_every_length_is_filled<anic_requirements>([&](anic_requirements* out) {
     return anic_get_requirements(file.data(), file.size(), nullptr, out);
   });

@@ -86,6 +86,17 @@ TEST(AnicWrapper, OpensPlaysAndGivesBack) {
     ASSERT_TRUE(asset.basis(shown.parts[0].segment, &basis));
     EXPECT_EQ(basis.vertex_count, mesh.vertex_count);
 
+    anic_texture_layout layout = ANIC_INIT(anic_texture_layout);
+    ASSERT_TRUE(asset.texture_layout(shown.parts[0].segment, 4096, &layout));
+    std::vector<unsigned char> texture(size_t{8} * layout.width * layout.narrow_height);
+    ASSERT_TRUE(asset.write_texture(shown.parts[0].segment, ANIC_TEXTURE_NARROW, layout, texture));
+    std::vector<float> state(layout.state_floats);
+    ASSERT_TRUE(context.write_state(0, state));
+    ASSERT_TRUE(context.set_clip(0));
+    ASSERT_TRUE(context.set_quality(0.5));
+    ASSERT_TRUE(context.blend(0, asset.frame_time(3), 1));
+    ASSERT_TRUE(context.set_quality(1));
+
     const std::array<uint32_t, 2> frames = {2, 7};
     std::vector<float> two[2] = {points, points};
     const std::array<anic_output, 2> outputs = {anic::output(two[0]), anic::output(two[1])};

@@ -175,6 +175,30 @@ internal static class PackageTest
         }
     }
 
+    private static void PlaysCoarserAndFillsTextures()
+    {
+        using (Asset asset = Asset.Open(Bytes("limb_default")))
+        using (Context context = new Context(asset))
+        {
+            float[] fine = new float[3 * asset.GetMesh().VertexCount], coarse = new float[fine.Length];
+            context.Seek(0.2);
+            context.WritePositions(fine);
+            context.SetQuality(0.3);
+            context.Seek(0.2);
+            context.WritePositions(coarse);
+            Check.That(!fine.SequenceEqual(coarse), "fewer components");
+            Part part = context.GetPart(0);
+            Check.That(part.Weights.Length < asset.GetBasis(0).Components * asset.GetBasis(0).WeightChannels, "fewer weights");
+            TextureLayout layout = asset.GetTextureLayout(0, 4096);
+            byte[] texture = new byte[8 * layout.Width * layout.Height(BasisTexture.Narrow)];
+            asset.WriteTexture(0, BasisTexture.Narrow, layout, texture);
+            Check.That(BitConverter.ToInt16(texture, 0) == asset.GetBasis(0).Narrow[0], "the first number of the texture");
+            float[] state = new float[layout.StateFloats];
+            Check.That(context.WriteState(0, state) && state[26] == 1, "a share of one");
+            Check.Throws(Status.Limit, () => asset.GetTextureLayout(0, 4), "a small texture");
+        }
+    }
+
     private static void ReadsStreams()
     {
         byte[] file = Bytes("limb_default");
@@ -328,6 +352,7 @@ internal static class PackageTest
         PlaysAndBlends();
         MakesWhatACardNeeds();
         GivesTheBasis();
+        PlaysCoarserAndFillsTextures();
         ReadsStreams();
         RefusesWhatIsWrong();
         OpensNamedClips();

@@ -60,6 +60,9 @@ namespace UnityEngine
     [AttributeUsage(AttributeTargets.Field)] public sealed class SerializeField : System.Attribute { }
     [AttributeUsage(AttributeTargets.Field)] public sealed class HideInInspector : System.Attribute { }
 
+    [AttributeUsage(AttributeTargets.Field)]
+    public sealed class RangeAttribute : System.Attribute { public RangeAttribute(float min, float max) { } }
+
     [AttributeUsage(AttributeTargets.Class)]
     public sealed class AddComponentMenu : System.Attribute
     {

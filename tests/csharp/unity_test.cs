@@ -120,6 +120,9 @@ internal static class UnityTest
         player.Show(0.1);
         Check.That(player.shader.Dispatches == 2, "two passes");
         Check.That(player.shader.Numbers["components"] == player.clip.Asset.GetBasis(0).Components, "all components");
+        player.quality = 0.5f;
+        player.Show(0.1);
+        Check.That(player.shader.Numbers["components"] == (player.clip.Asset.GetBasis(0).Components + 1) / 2, "half of them");
         Check.That(GraphicsBuffer.Alive > 0, "buffers are made");
         Call(player, "OnDisable");
         player.clip.Close();

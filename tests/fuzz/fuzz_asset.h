@@ -119,6 +119,32 @@ class GuardedOutput {
   size_t element_ = 0, size_ = 0;
 };
 
+/// Textures of a segment, to the byte.
+inline void check_textures(const anic_asset* asset, uint32_t segment) {
+  anic_texture_layout layout = ANIC_INIT(anic_texture_layout);
+  if (anic_get_texture_layout(asset, segment, 4096, &layout) != ANIC_OK)
+    return;
+  const uint32_t heights[3] = {layout.pose_height, layout.wide_height, layout.narrow_height};
+  for (int32_t t = 0; t < 3; ++t) {
+    std::vector<unsigned char> bytes((t == 2 ? size_t{8} : size_t{16}) * layout.width * heights[t]);
+    require(anic_write_texture(asset, segment, static_cast<anic_texture>(t), &layout, 0,
+                               bytes.data(), bytes.size()) == ANIC_OK);
+  }
+}
+
+/// State of a part, to the byte.
+inline void check_state(const anic_asset* asset, const anic_context* context, uint32_t mesh,
+                        anic_when when, uint32_t part, uint32_t segment) {
+  anic_texture_layout layout = ANIC_INIT(anic_texture_layout);
+  if (anic_get_texture_layout(asset, segment, UINT32_MAX, &layout) != ANIC_OK)
+    return;
+  std::vector<float> state(layout.state_floats);
+  require(anic_write_state(context, mesh, when, part, state.data(), sizeof(float) * state.size()) ==
+          ANIC_OK);
+  for (float x : state)
+    require(std::isfinite(x));
+}
+
 /// What a host does with an asset, some of it wrong; nothing of it allocates.
 inline void sample(const anic_asset* asset, CappedMemory* memory, Script script) {
   anic_asset_info info = ANIC_INIT(anic_asset_info);
@@ -132,6 +158,7 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
     const uint32_t mesh = script.below(info.mesh_count);
     anic_mesh sizes = ANIC_INIT(anic_mesh);
     require(anic_get_mesh(asset, mesh, &sizes) == ANIC_OK);
+    require(anic_set_quality(context, (3 - step % 3) / 3.0) == ANIC_OK);
     if (script.byte() % 2) {
       const anic_status status = anic_seek_frame(context, script.below(info.frame_count + 1));
       require(status == ANIC_OK || status == ANIC_E_FRAME_RANGE);
@@ -175,7 +202,10 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
         for (uint32_t k = 0; k < shown.parts[p].correction_count; ++k)
           require(shown.parts[p].corrections[k].vertex < sizes.vertex_count);
         for (uint32_t j = 0; j < basis.components * basis.weight_channels; ++j)
-          require(std::isfinite(shown.parts[p].weights[j]));
+          require(j >= shown.components[p] * basis.weight_channels ||
+                  std::isfinite(shown.parts[p].weights[j]));
+        check_textures(asset, shown.parts[p].segment);
+        check_state(asset, context, mesh, when, p, shown.parts[p].segment);
       }
     }
     if (anic_get_attribute_parts(context, mesh, attribute, 3 * script.below(6), when, &shown) ==

@@ -235,6 +235,24 @@ namespace Anicodec
             Native.Check(Native.anic_verify_asset(handle));
         }
 
+        /// <summary>The layout of a segment's basis in textures of at most so many texels in width and height.</summary>
+        public TextureLayout GetTextureLayout(int segment, int maxSize)
+        {
+            TextureLayout layout = default(TextureLayout);
+            layout.native.struct_size = (UIntPtr)sizeof(Native.anic_texture_layout);
+            Native.Check(Native.anic_get_texture_layout(handle, (uint)segment, (uint)maxSize, &layout.native));
+            return layout;
+        }
+
+        /// <summary>Writes a texture, ready to be uploaded.</summary>
+        /// <param name="rowBytes">from a row to the next; 0: packed</param>
+        public void WriteTexture(int segment, BasisTexture texture, TextureLayout layout, Span<byte> to, int rowBytes = 0)
+        {
+            fixed (byte* first = to)
+                Native.Check(Native.anic_write_texture(handle, (uint)segment, texture, &layout.native, (UIntPtr)rowBytes, first,
+                    (UIntPtr)to.Length));
+        }
+
         public Basis GetBasis(int segment)
         {
             Native.anic_basis b = default(Native.anic_basis);

@@ -33,6 +33,12 @@ namespace Anicodec
             Native.Check(Native.anic_set_clip(handle, (uint)clip));
         }
 
+        /// <summary>The share of the components to play from the next seek on, in (0, 1].</summary>
+        public void SetQuality(double quality)
+        {
+            Native.Check(Native.anic_set_quality(handle, quality));
+        }
+
         /// <summary>Chooses a time of the clip in seconds; 0 is its first frame.</summary>
         public void Seek(double seconds, Sampling sampling = Sampling.Linear, Wrap wrap = Wrap.Clamp)
         {
@@ -121,7 +127,7 @@ namespace Anicodec
             Part result = default(Part);
             result.Segment = (int)p->segment;
             result.Share = p->share;
-            result.Weights = new ReadOnlySpan<float>(p->weights, (int)(basis.components * basis.weight_channels));
+            result.Weights = new ReadOnlySpan<float>(p->weights, (int)(parts.components[part] * basis.weight_channels));
             if (p->shape != null)
                 result.Shape = new ReadOnlySpan<float>(p->shape, 3 * (int)asset.Mesh(mesh).coded_vertex_count);
             for (int i = 0; i < 12; ++i)
@@ -131,6 +137,13 @@ namespace Anicodec
             }
             result.Corrections = new ReadOnlySpan<Correction>(p->corrections, (int)p->correction_count);
             return result;
+        }
+
+        /// <summary>Writes what a shader needs of one part; false when the mesh is not there.</summary>
+        public bool WriteState(int part, Span<float> to, int mesh = 0, When when = When.Current)
+        {
+            fixed (float* first = to)
+                return Native.Present(Native.anic_write_state(handle, (uint)mesh, when, (uint)part, first, (UIntPtr)(4L * to.Length)));
         }
 
         private bool Find(int mesh, When when, Native.anic_parts* parts)

@@ -58,6 +58,9 @@ namespace Anicodec
     /// <summary>How positions come from a basis.</summary>
     public enum Reconstruction { Linear = 0, Msgi = 1 }
 
+    /// <summary>Textures of a basis, of four numbers a texel: float32, int32, int16.</summary>
+    public enum BasisTexture { Pose = 0, Wide = 1, Narrow = 2 }
+
     /// <summary>How to open a file; ANIC_OPEN_...</summary>
     [Flags]
     public enum OpenFlags { None = 0, Bounds = 1, AnyOrder = 2 }

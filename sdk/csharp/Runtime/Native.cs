@@ -328,6 +328,14 @@ namespace Anicodec
             public UIntPtr struct_size;
             public uint count;
             public anic_part part0, part1, part2, part3;
+            public fixed uint components[4];
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_texture_layout
+        {
+            public UIntPtr struct_size;
+            public uint width, rows, pose_height, wide_height, narrow_height, state_floats;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -361,6 +369,7 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_create_context(AssetHandle asset, anic_allocator* allocator, out ContextHandle result);
         [DllImport(Library)] public static extern void anic_destroy_context(IntPtr context);
         [DllImport(Library)] public static extern Status anic_set_clip(ContextHandle context, uint clip);
+        [DllImport(Library)] public static extern Status anic_set_quality(ContextHandle context, double quality);
         [DllImport(Library)] public static extern Status anic_seek_frame(ContextHandle context, uint frame);
         [DllImport(Library)] public static extern Status anic_seek_time(ContextHandle context, double seconds, Sampling sampling, Wrap wrap);
         [DllImport(Library)] public static extern Status anic_blend(ContextHandle context, uint clip, double seconds, Sampling sampling, Wrap wrap, double weight);
@@ -388,6 +397,9 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_get_basis(AssetHandle asset, uint segment, anic_basis* result);
         [DllImport(Library)] public static extern Status anic_get_parts(ContextHandle context, uint mesh, When when, anic_parts* result);
         [DllImport(Library)] public static extern Status anic_get_attribute_parts(ContextHandle context, uint mesh, uint attribute, uint first_component, When when, anic_parts* result);
+        [DllImport(Library)] public static extern Status anic_get_texture_layout(AssetHandle asset, uint segment, uint max_size, anic_texture_layout* result);
+        [DllImport(Library)] public static extern Status anic_write_texture(AssetHandle asset, uint segment, BasisTexture texture, anic_texture_layout* layout, UIntPtr row_bytes, void* result, UIntPtr size);
+        [DllImport(Library)] public static extern Status anic_write_state(ContextHandle context, uint mesh, When when, uint part, float* result, UIntPtr size);
         [DllImport(Library)] public static extern Status anic_create_stream(anic_options* options, out StreamHandle result);
         [DllImport(Library)] public static extern void anic_destroy_stream(IntPtr stream);
         [DllImport(Library)] public static extern Status anic_push_bytes(StreamHandle stream, void* bytes, UIntPtr size);

@@ -104,6 +104,25 @@ namespace Anicodec
         public ReadOnlySpan<short> Narrow;
     }
 
+    /// <summary>How a basis lies in textures; anic_texture_layout.</summary>
+    public struct TextureLayout
+    {
+        internal Native.anic_texture_layout native;
+
+        public int Width { get { return (int)native.width; } }
+        public int Rows { get { return (int)native.rows; } }
+
+        /// <summary>Rows of a texture; 0: there is none.</summary>
+        public int Height(BasisTexture texture)
+        {
+            return (int)(texture == BasisTexture.Pose ? native.pose_height
+                : texture == BasisTexture.Wide ? native.wide_height : native.narrow_height);
+        }
+
+        /// <summary>Floats that Context.WriteState() writes.</summary>
+        public int StateFloats { get { return (int)native.state_floats; } }
+    }
+
     /// <summary>
     /// One summand of what a context shows, for a graphics card; anic_part. Good until the next but one seek.
     /// </summary>

@@ -26,6 +26,9 @@ namespace Anicodec.Unity
         public Sampling sampling = Sampling.Linear;
         public Wrap wrap = Wrap.Loop;
 
+        /// <summary>Share of the components to play: less for what is far away.</summary>
+        [Range(0.01f, 1)] public float quality = 1;
+
         /// <summary>AnicPlay.compute, to play on the graphics card; none: the CPU does.</summary>
         public ComputeShader shader;
 
@@ -122,6 +125,7 @@ namespace Anicodec.Unity
         {
             if (context == null)
                 return;
+            context.SetQuality(quality);
             context.Seek(seconds, sampling, wrap);
             if (other >= 0)
                 context.Blend(other, otherSeconds, weight, sampling, wrap);

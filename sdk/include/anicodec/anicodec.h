@@ -79,7 +79,7 @@
 #define ANIC_INT32
 typedef int32_t anic_status, anic_up_axis, anic_order, anic_attribute_kind, anic_domain,
     anic_sampling, anic_wrap, anic_when, anic_format, anic_value_format, anic_basis_kind,
-    anic_target, anic_reconstruction;
+    anic_target, anic_reconstruction, anic_texture;
 #endif
 
 /* ANIC_INIT(type): a struct with its struct_size, and 0 in every other field. */
@@ -580,6 +580,17 @@ enum anic_wrap ANIC_INT32 {
 ANIC_API anic_status anic_set_clip(anic_context* context, uint32_t clip);
 
 /**
+ * Chooses the share of the asset's components that a context plays, in (0, 1], from the next seek or
+ * blend on: coarser, and as much faster, for instances that are small on the screen. Whichever it is,
+ * the asset stays as it is; the picture is that of an asset opened at this anic_options.quality.
+ * Key-frames are played all.
+ *
+ * - Errors: ANIC_E_ARGUMENT: not in (0, 1]
+ * - Cost: O(1), and nothing is allocated
+ */
+ANIC_API anic_status anic_set_quality(anic_context* context, double quality);
+
+/**
  * Chooses a frame of the file, whatever the clip. The frame or time chosen before becomes
  * ANIC_WHEN_PREVIOUS.
  *
@@ -869,7 +880,8 @@ typedef struct anic_render_info {
   const uint32_t* indices;  /**< triangle_count x 3 render vertices; polygons are fans, as
                                anic_write_indices() makes them, ordered by material */
   const uint32_t* triangle_polygons; /**< polygon of each triangle */
-  const uint32_t* group_materials; /**< of each group the label of its polygons' material, ascending:
+  const uint32_t*
+      group_materials;         /**< of each group the label of its polygons' material, ascending:
                                       0 for none, or one more than the number of a name */
   const uint32_t* group_begin; /**< group g has the triangles begin[g] .. begin[g + 1] - 1; the
                                   groups follow one another and hold all triangles */
@@ -1101,6 +1113,9 @@ typedef struct anic_parts {
   size_t struct_size;
   uint32_t count;
   anic_part parts[ANIC_MAX_PARTS];
+  uint32_t
+      components[ANIC_MAX_PARTS]; /**< of each part: how many weights are to be used, all unless
+                                          anic_set_quality() said otherwise */
 } anic_parts;
 
 /**
@@ -1124,6 +1139,82 @@ ANIC_API anic_status anic_get_parts(const anic_context* context, uint32_t mesh, 
 ANIC_API anic_status anic_get_attribute_parts(const anic_context* context, uint32_t mesh,
                                               uint32_t attribute, uint32_t first_component,
                                               anic_when when, anic_parts* out);
+
+/** Textures that hold the basis of a segment for shaders, of four numbers a texel. */
+enum anic_texture ANIC_INT32 {
+  ANIC_TEXTURE_POSE = 0,  /**< float32: x, y, z, 0 */
+  ANIC_TEXTURE_WIDE = 1,  /**< int32 */
+  ANIC_TEXTURE_NARROW = 2 /**< int16 */
+};
+
+/**
+ * How a basis lies in textures: a layer is `rows` rows of `width` texels, a texel for each vertex;
+ * layers lie below one another. Vertex v is texel v % width of row v / width of a layer. Components
+ * come in groups of four, filled up with zeros, first the wide ones, in a texture of their own:
+ * - with one channel a group is a layer: its texel holds four numbers, one for each component;
+ * - with three it is three layers: the twelve numbers x, y, z of component 0, x, y, z of component
+ *   1 and so on.
+ */
+typedef struct anic_texture_layout {
+  size_t struct_size;
+  uint32_t width; /**< texels of a row */
+  uint32_t rows;  /**< of a layer: 1 unless the mesh has more vertices than a row may have texels */
+  uint32_t pose_height;   /**< rows of the texture; 0: there is none */
+  uint32_t wide_height;   /**< as above */
+  uint32_t narrow_height; /**< as above */
+  uint32_t state_floats;  /**< that anic_write_state() writes */
+} anic_texture_layout;
+
+/**
+ * Finds the layout that wastes least.
+ *
+ * - Params: max_size: texels that a texture may have in width and height
+ * - Errors: ANIC_E_LIMIT: no texture of this size holds it; ANIC_E_STATE: the segment has not arrived
+ *   yet, or is of ANIC_RECONSTRUCTION_MSGI; ANIC_E_ARGUMENT
+ */
+ANIC_API anic_status anic_get_texture_layout(const anic_asset* asset, uint32_t segment,
+                                             uint32_t max_size, anic_texture_layout* out);
+
+/**
+ * Writes a texture, ready to be uploaded, once and in order: the memory may be write-combined.
+ *
+ * - Params: layout: by anic_get_texture_layout(), for this segment; row_bytes: from a row to the
+ *   next, as the graphics interface wants it; 0: packed. Bytes between rows stay untouched
+ * - Errors: ANIC_E_BUFFER_SIZE: `size` bytes do not hold it; others as anic_get_texture_layout()
+ * - Cost: O(size)
+ */
+ANIC_API anic_status anic_write_texture(const anic_asset* asset, uint32_t segment,
+                                        anic_texture texture, const anic_texture_layout* layout,
+                                        size_t row_bytes, void* out, size_t size);
+
+/** Floats of anic_write_state() before the weights. */
+#define ANIC_STATE_FLOATS 28
+
+/**
+ * Writes what a shader needs of one part (anic_get_parts()), seven texels of four floats and the
+ * weights, ready to be uploaded for each instance:
+ * - texels 0 to 2: the rows of pose_map, with the origin of the basis added
+ * - texels 3 to 5: the rows of motion
+ * - texel 6: how many groups of components are to be summed, wide and narrow; share; how many
+ *   corrections there are, which are not written
+ * - texels 7 on: weights of the wide components, then of the narrow ones, each filled up with zeros
+ *   to whole groups of four: one texel a group for vectors, three for numbers
+ *
+ * So a vertex is motion * (pose_map * (pose, 1) + sum over groups). For vectors, with the texels a, b,
+ * c of a group and its weights w, the group is
+ * w.x a.xyz + w.y (a.w, b.xy) + w.z (b.zw, c.x) + w.w c.yzw;
+ * for numbers, with the texel a and the weights u, v, w,
+ * a.x u.xyz + a.y (u.w, v.xy) + a.z (v.zw, w.x) + a.w w.yzw.
+ *
+ * Components that anic_set_quality() leaves out have weight 0.
+ *
+ * - Params: part: below anic_parts.count; size: bytes at out, state_floats x 4 or more
+ * - Errors: ANIC_E_BUFFER_SIZE; ANIC_E_STATE: a segment of ANIC_RECONSTRUCTION_MSGI, too; others as
+ *   anic_write_positions()
+ * - Cost: O(components)
+ */
+ANIC_API anic_status anic_write_state(const anic_context* context, uint32_t mesh, anic_when when,
+                                      uint32_t part, float* out, size_t size);
 
 /* ---- streams --------------------------------------------------------------------------------- */
 

@@ -270,6 +270,15 @@ class Asset {
     return anic_get_basis(get(), segment, out);
   }
 
+  Status texture_layout(uint32_t segment, uint32_t max_size, anic_texture_layout* out) const {
+    return anic_get_texture_layout(get(), segment, max_size, out);
+  }
+
+  Status write_texture(uint32_t segment, anic_texture texture, const anic_texture_layout& layout,
+                       Span<unsigned char> out, size_t row_bytes = 0) const {
+    return anic_write_texture(get(), segment, texture, &layout, row_bytes, out.data(), out.size());
+  }
+
  private:
   detail::Handle<anic_asset, anic_close_asset> handle_;
 };
@@ -294,6 +303,15 @@ class Context {
     return anic_seek_time(get(), seconds, sampling, wrap);
   }
 
+  Status set_clip(uint32_t clip) { return anic_set_clip(get(), clip); }
+
+  Status blend(uint32_t clip, double seconds, double weight,
+               anic_sampling sampling = ANIC_SAMPLE_LINEAR, anic_wrap wrap = ANIC_WRAP_CLAMP) {
+    return anic_blend(get(), clip, seconds, sampling, wrap, weight);
+  }
+
+  Status set_quality(double quality) { return anic_set_quality(get(), quality); }
+
   Status forget_previous() { return anic_forget_previous(get()); }
 
   Status write_positions(const anic_output& out, uint32_t first, uint32_t count,
@@ -314,6 +332,12 @@ class Context {
 
   Status parts(anic_parts* out, anic_when when = ANIC_WHEN_CURRENT, uint32_t mesh = 0) const {
     return anic_get_parts(get(), mesh, when, out);
+  }
+
+  /// One part, ready for a shader.
+  Status write_state(uint32_t part, Span<float> out, anic_when when = ANIC_WHEN_CURRENT,
+                     uint32_t mesh = 0) const {
+    return anic_write_state(get(), mesh, when, part, out.data(), out.size_bytes());
   }
 
   /// For three components of an attribute.
