@@ -9,6 +9,8 @@
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 #include "format/binary_coder.h"
@@ -91,6 +93,8 @@ struct MixWeights {
   using Lanes = std::array<int16_t, kLanes>;
 #if defined(__SSE2__)
   using Inputs = __m128i;
+#elif defined(__wasm_simd128__)
+  using Inputs = v128_t;
 #else
   using Inputs = const Lanes&;
 #endif
@@ -106,6 +110,10 @@ struct MixWeights {
     sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, _MM_SHUFFLE(1, 0, 3, 2)));
     sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, _MM_SHUFFLE(2, 3, 0, 1)));
     return _mm_cvtsi128_si32(sum);
+#elif defined(__wasm_simd128__)
+    v128_t sum = wasm_i32x4_dot_i16x8(wasm_v128_load(w.data()), inputs);
+    sum = wasm_i32x4_add(sum, wasm_i32x4_shuffle(sum, sum, 2, 3, 0, 1));
+    return wasm_i32x4_extract_lane(sum, 0) + wasm_i32x4_extract_lane(sum, 1);
 #else
     int32_t sum = 0;
     for (size_t i = 0; i < kLanes; ++i)
@@ -129,6 +137,13 @@ struct MixWeights {
     const __m128i step1 = _mm_srai_epi32(_mm_add_epi32(_mm_unpackhi_epi16(low, high), half), 14);
     _mm_store_si128(reinterpret_cast<__m128i*>(w.data()),
                     _mm_adds_epi16(load(w), _mm_packs_epi32(step0, step1)));
+#elif defined(__wasm_simd128__)
+    const v128_t factor = wasm_i16x8_splat(scaled), half = wasm_i32x4_splat(1 << 13);
+    const v128_t low = wasm_i32x4_extmul_low_i16x8(inputs, factor);
+    const v128_t high = wasm_i32x4_extmul_high_i16x8(inputs, factor);
+    const v128_t step = wasm_i16x8_narrow_i32x4(wasm_i32x4_shr(wasm_i32x4_add(low, half), 14),
+                                                wasm_i32x4_shr(wasm_i32x4_add(high, half), 14));
+    wasm_v128_store(w.data(), wasm_i16x8_add_sat(wasm_v128_load(w.data()), step));
 #else
     for (size_t i = 0; i < kLanes; ++i) {
       const int32_t sum = w[i] + ((int32_t{scaled} * inputs[i] + (1 << 13)) >> 14);
@@ -191,6 +206,9 @@ class MixedModel {
 #if defined(__SSE2__)
     const MixWeights::Inputs inputs = _mm_set_epi16(input(7), input(6), input(5), input(4),
                                                     input(3), input(2), input(1), input(0));
+#elif defined(__wasm_simd128__)
+    const MixWeights::Inputs inputs = wasm_i16x8_make(input(0), input(1), input(2), input(3),
+                                                      input(4), input(5), input(6), input(7));
 #else
     const MixWeights::Lanes inputs{input(0), input(1), input(2), input(3),
                                    input(4), input(5), input(6), input(7)};

@@ -5,9 +5,11 @@
 #include "sdk/api/bounds.h"
 
 #include "sdk/base/float_control.h"
+#include "sdk/base/lanes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace anicodec {
 namespace {
@@ -17,8 +19,38 @@ constexpr uint32_t kRange = 16 * kBlock;
 
 constexpr anic_box kNothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
+/// The same for 4 n points: three vectors hold four of them, and each lane is always of one axis.
+void include_fours(const float* points, size_t count, anic_box* box) {
+  using Float = LaneTypes<4>::Float;
+  constexpr size_t kLanes = 12;
+  float low[kLanes], high[kLanes];
+  for (size_t i = 0; i < kLanes; ++i) {
+    low[i] = box->min[i % 3];
+    high[i] = box->max[i % 3];
+  }
+  Float least[3], most[3];
+  std::memcpy(least, low, sizeof low);
+  std::memcpy(most, high, sizeof high);
+  for (size_t i = 0; i < count; i += 4) {
+    Float p[3];
+    std::memcpy(p, points + 3 * i, sizeof p);
+    for (size_t v = 0; v < 3; ++v) {
+      least[v] = p[v] < least[v] ? p[v] : least[v];
+      most[v] = p[v] > most[v] ? p[v] : most[v];
+    }
+  }
+  std::memcpy(low, least, sizeof low);
+  std::memcpy(high, most, sizeof high);
+  for (size_t i = 0; i < kLanes; ++i) {
+    box->min[i % 3] = std::min(box->min[i % 3], low[i]);
+    box->max[i % 3] = std::max(box->max[i % 3], high[i]);
+  }
+}
+
 void include(const float* points, size_t count, anic_box* box) {
-  for (size_t i = 0; i < count; ++i) {
+  const size_t fours = count / 4 * 4;
+  include_fours(points, fours, box);
+  for (size_t i = fours; i < count; ++i) {
     for (size_t c = 0; c < 3; ++c) {
       box->min[c] = std::min(box->min[c], points[3 * i + c]);
       box->max[c] = std::max(box->max[c], points[3 * i + c]);

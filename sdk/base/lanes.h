@@ -10,6 +10,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#if defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#endif
+
+// Small loops with constant bounds over registers must be unrolled, at every optimisation level.
+#define ANICODEC_INLINE inline __attribute__((always_inline))
+#define ANICODEC_UNROLL _Pragma("GCC unroll 8")
+
 namespace anicodec {
 namespace {
 
@@ -22,11 +30,16 @@ struct LaneTypes {
   typedef uint32_t Bits __attribute__((vector_size(4 * W)));
 };
 
+#if defined(__wasm_simd128__)
+/// Four integers as floats. LLVM 14 would join both conversions, and make scalar code of that.
+ANICODEC_INLINE LaneTypes<4>::Float widened_four(const int16_t* q) {
+  v128_t v = wasm_i32x4_load16x4(q);
+  __asm__("" : "+r"(v));
+  return reinterpret_cast<LaneTypes<4>::Float>(wasm_f32x4_convert_i32x4(v));
+}
+#endif
+
 }  // namespace
 }  // namespace anicodec
-
-// Small loops with constant bounds over registers must be unrolled, at every optimisation level.
-#define ANICODEC_INLINE inline __attribute__((always_inline))
-#define ANICODEC_UNROLL _Pragma("GCC unroll 8")
 
 #endif  // ANICODEC_SDK_BASE_LANES_H_

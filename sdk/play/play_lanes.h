@@ -16,8 +16,6 @@
 #include <immintrin.h>
 #elif defined(__aarch64__)
 #include <arm_neon.h>
-#elif defined(__wasm_simd128__)
-#include <wasm_simd128.h>
 #endif
 
 namespace anicodec {
@@ -96,8 +94,8 @@ struct LaneKernel {
       return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(v, v), 16));
     }
 #elif defined(__wasm_simd128__)
-    if constexpr (W == 4 && sizeof(Int) == 2)  // LLVM 14 makes scalar code of the conversion below
-      return reinterpret_cast<Float>(wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(q)));
+    if constexpr (W == 4 && sizeof(Int) == 2)
+      return widened_four(q);
 #endif
     typedef Int Vector __attribute__((vector_size(sizeof(Int) * W)));
     Vector v;

@@ -38,6 +38,9 @@ ANICODEC_INLINE V square_root(V x) {
 #if defined(__SSE2__)
   if constexpr (sizeof(V) == 16)
     return reinterpret_cast<V>(_mm_sqrt_ps(reinterpret_cast<__m128>(x)));
+#elif defined(__wasm_simd128__)
+  if constexpr (sizeof(V) == 16)
+    return reinterpret_cast<V>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(x)));
 #endif
   for (size_t l = 0; l < sizeof(V) / sizeof(float); ++l)
     x[l] = __builtin_sqrtf(x[l]);
@@ -331,6 +334,12 @@ class BatchDecoder {
 
   template <typename Narrow>
   Float load(const Narrow* q) const {
+#if defined(__wasm_simd128__)
+    if constexpr (W == 4 && sizeof(Narrow) == 2) {
+      if (count_ == W)
+        return widened_four(q);
+    }
+#endif
     typedef Narrow Vector __attribute__((vector_size(sizeof(Narrow) * W)));
     Vector v;
     if (count_ == W) {
