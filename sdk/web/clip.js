@@ -20,6 +20,7 @@ export class Clip {
   #decoder;
   #context;
   #seeked;
+  #first;
   #scratch = { at: 0, size: 0 };
 
   constructor(decoder) {
@@ -41,10 +42,31 @@ export class Clip {
       closedLoop: !!closedLoop, partial: !!partial, startTime, duration, loopDuration, up: [undefined, 'y', 'z'][up],
       metresPerUnit: metresPerUnit || undefined, diagonal, maxError, rmse, kg, segments, residentBytes, contextBytes,
     });
+    this.clips = Object.freeze(Array.from({ length: decoder.run('clip_count') }, (_, i) => this.#clipInfo(i)));
+    this.#first = this.clips.find(({ isOpen }) => isOpen);
     // Meshes that the host holds stay the same objects.
     this.meshes ??= Array.from({ length: meshes }, (_, i) => new ClipMesh(this, i));
     for (const mesh of this.meshes)
       mesh.replaced();
+  }
+
+  #clipInfo(index) {
+    const decoder = this.#decoder;
+    decoder.call('clip', index);
+    const [name, firstFrame, frames, rate, rateAssumed, uneven, loop, closedLoop, isOpen, startTime, duration, loopDuration, diagonal,
+      maxError, rmse, kg] = decoder.numbers(16);
+    return Object.freeze({
+      index, name: decoder.string(name), firstFrame, frames, rate, rateAssumed: !!rateAssumed, uneven: !!uneven, loop: !!loop,
+      closedLoop: !!closedLoop, isOpen: !!isOpen, startTime, duration, loopDuration, diagonal, maxError, rmse, kg,
+    });
+  }
+
+  /** One of the clips of the file, by its name or number; without either the first one that is open. */
+  find(clip) {
+    const found = clip === undefined ? this.#first : typeof clip === 'number' ? this.clips[clip] : this.clips.find(({ name }) => name === clip);
+    if (!found?.isOpen)
+      throw new AnicError(ABSENT, found ? `the clip ${found.name} was not opened` : `there is no clip ${clip}, but ${this.clips.map(({ name }) => name).join(', ')}`);
+    return found;
   }
 
   /** Takes a finer version of the same file. */
@@ -66,8 +88,9 @@ export class Clip {
     return this.info.frames;
   }
 
+  /** Of the first clip that is open. */
   get duration() {
-    return this.info.duration;
+    return this.find().duration;
   }
 
   /** Bytes that the clip's decoder holds. */
@@ -80,19 +103,28 @@ export class Clip {
     this.decoder.call('verify');
   }
 
-  /** Time of a frame, in seconds from the first one. */
+  /** Time of a frame of the file, in seconds from the first one of its clip. */
   frameTime(frame) {
     return this.decoder.run('frame_time', frame);
   }
 
   /** Chooses what the following calls show. */
-  seek(time, { sampling = 'linear', wrap = this.info.loop ? 'loop' : 'clamp' } = {}) {
+  seek(time, { clip, sampling = 'linear', wrap, blend = [] } = {}) {
     const decoder = this.decoder;
-    const key = `${time} ${sampling} ${wrap}`;
+    const moments = [{ clip, time, sampling, wrap }, ...[blend].flat()].map((moment) => {
+      const found = this.find(moment.clip);
+      return [found.index, Number(moment.time), number(SAMPLING, moment.sampling ?? sampling, 'sampling'),
+        number(WRAP, moment.wrap ?? wrap ?? (found.loop ? 'loop' : 'clamp'), 'wrap'), Number(moment.weight ?? 1)];
+    });
+    const key = moments.join();
     if (this.#seeked === key)
       return this.#context;
     this.#seeked = undefined;
-    decoder.call('seek_time', this.#context, Number(time), number(SAMPLING, sampling, 'sampling'), number(WRAP, wrap, 'wrap'));
+    const [index, ...first] = moments[0];
+    decoder.call('set_clip', this.#context, index);
+    decoder.call('seek_time', this.#context, ...first.slice(0, 3));
+    for (const moment of moments.slice(1))
+      decoder.call('blend', this.#context, ...moment);
     this.#seeked = key;
     return this.#context;
   }

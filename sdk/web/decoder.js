@@ -120,14 +120,25 @@ export class Decoder {
     }
   }
 
+  /** Names the clips that will be opened; none: all. */
+  #choose(clips) {
+    if (!clips)
+      return;
+    const names = new TextEncoder().encode(clips.map((name) => `${name}\0`).join('')), at = this.allocate(names.length);
+    new Uint8Array(this.memory.buffer).set(names, at);
+    this.call('choose_clips', at, names.length);
+  }
+
   /** Opens a whole file. */
-  open(bytes, { quality = 1, bounds = true, maxBytes = 0 } = {}) {
+  open(bytes, { quality = 1, bounds = true, maxBytes = 0, clips = undefined } = {}) {
+    this.#choose(clips);
     const status = this.withBytes(bytes, (at) => this.run('open', at, bytes.byteLength, quality, bounds ? OPEN_BOUNDS : 0, maxBytes));
     if (status !== 0)
       throw this.failure(status);
   }
 
-  beginStream({ quality = 1, bounds = true, maxBytes = 0 } = {}) {
+  beginStream({ quality = 1, bounds = true, maxBytes = 0, clips = undefined } = {}) {
+    this.#choose(clips);
     this.call('stream_begin', quality, bounds ? OPEN_BOUNDS : 0, maxBytes);
   }
 

@@ -27,6 +27,8 @@ export interface OpenOptions {
   maxBytes?: number;
   /** Gives a clip as soon as it plays coarsely; it becomes exact later: see Clip.finished. Default false. */
   progressive?: boolean;
+  /** Names of the clips to open, of a file with several; others take no memory. Default: all. */
+  clips?: string[];
   /** Decodes in a worker. Default: where there are workers, but in Node in the calling thread. */
   worker?: boolean;
   signal?: AbortSignal;
@@ -39,6 +41,39 @@ export interface OpenOptions {
 export interface SampleOptions {
   sampling?: 'step' | 'linear' | 'cubic';
   wrap?: 'clamp' | 'loop' | 'pingpong';
+  /** The clip that the time is of, by its name or number. Default: the first one that is open. */
+  clip?: string | number;
+  /** Moments that are faded in, one after the other: what is shown then counts 1 - weight. */
+  blend?: Moment | Moment[];
+}
+
+/** A time of a clip, and its weight in a cross-fade, from 0 to 1. */
+export interface Moment extends Omit<SampleOptions, 'blend'> {
+  time: number;
+  weight: number;
+}
+
+/** One of the clips of a file: what a file's character does. Fields as in ClipInfo. */
+export interface NamedClip {
+  readonly index: number;
+  readonly name: string;
+  /** Its frames in the file are firstFrame .. firstFrame + frames - 1. */
+  readonly firstFrame: number;
+  readonly frames: number;
+  readonly rate: number;
+  readonly rateAssumed: boolean;
+  readonly uneven: boolean;
+  readonly loop: boolean;
+  readonly closedLoop: boolean;
+  /** OpenOptions.clips names it, or all were opened. */
+  readonly isOpen: boolean;
+  readonly startTime: number;
+  readonly duration: number;
+  readonly loopDuration: number;
+  readonly diagonal: number;
+  readonly maxError: number;
+  readonly rmse: number;
+  readonly kg: number;
 }
 
 export interface Box {
@@ -46,8 +81,10 @@ export interface Box {
   max: [number, number, number];
 }
 
+/** Name, clock and errors are those of the first clip of the file: Clip.clips has those of each. */
 export interface ClipInfo {
   readonly name: string;
+  /** Of all clips. */
   readonly frames: number;
   /** Frames per second. */
   readonly rate: number;
@@ -136,7 +173,7 @@ export interface Basis {
 
 /**
  * A mesh of a clip. Its vertices are render vertices: one for each vertex of the source and what its corners carry, such
- * as texture coordinates and the sides of hard edges. Times are seconds from the first frame. Without `out`, functions
+ * as texture coordinates and the sides of hard edges. Times are seconds from the first frame of the clip. Without `out`, functions
  * make an array; with it they fill it and return it.
  */
 export declare class ClipMesh {
@@ -177,11 +214,16 @@ export declare class ClipMesh {
   parts(time: number, options?: SampleOptions): Part[];
 }
 
-/** An opened clip. Its memory goes with close(), or when nothing refers to it any more. */
+/** An opened file. Its memory goes with close(), or when nothing refers to it any more. */
 export declare class Clip {
   readonly info: ClipInfo;
+  /** What the file holds: one clip, or several of the same meshes. */
+  readonly clips: readonly NamedClip[];
+  /** One of them, by its name or number. Throws if there is none, or it was not opened. */
+  find(clip?: string | number): NamedClip;
   readonly meshes: ClipMesh[];
   readonly frames: number;
+  /** Seconds, of the first clip that is open. */
   readonly duration: number;
   readonly closed: boolean;
   readonly memoryBytes: number;
@@ -189,6 +231,7 @@ export declare class Clip {
   readonly finished: Promise<Clip>;
   /** The box around all frames of all meshes. */
   readonly bounds: Box;
+  /** Time of a frame of the file, in seconds from the first one of its clip. */
   frameTime(frame: number): number;
   verify(): void;
   basis(segment: number): Basis;

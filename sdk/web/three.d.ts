@@ -5,6 +5,13 @@ import type {
 } from 'three';
 import type { Clip, ClipMesh, OpenOptions, Progress, SampleOptions } from './index.js';
 
+export interface PlayOptions {
+  speed?: number;
+  loop?: boolean;
+  /** Seconds. */
+  fade?: number;
+}
+
 /** Loads `.anic` files as AnicMesh objects, by the conventions of three's loaders. */
 export declare class AnicLoader extends Loader<AnicMesh> {
   constructor(manager?: LoadingManager);
@@ -23,15 +30,21 @@ export declare class AnicMesh extends Group {
   constructor(clip: Clip, material?: Material);
   readonly clip: Clip;
   readonly parts: (Mesh | Points)[];
-  /** Seconds from the first frame. AnimationMixer can drive it: `animations` has a clip with this track. */
+  /** Seconds from the first frame of the clip that is shown. */
   time: number;
+  /** Name of the clip that is shown; set by name or number. */
+  get current(): string;
+  set current(clip: string | number);
+  /** One for each clip of the file, in its order: for an AnimationMixer, which may fade and warp them. While actions play,
+   * `time` and `current` are those of the largest weight. */
   animations: AnimationClip[];
   set sampling(sampling: SampleOptions['sampling']);
   set wrap(wrap: SampleOptions['wrap']);
   /** Fills the geometry for the time at once. */
   refresh(force?: boolean): void;
-  /** Plays by a mixer of its own, which update() moves on. */
-  play(options?: { speed?: number; loop?: boolean }): AnimationAction;
+  /** Plays a clip by a mixer of its own, which update() moves on. What played before fades out within `fade` seconds. */
+  play(clip?: string | number, options?: PlayOptions): AnimationAction;
+  play(options: PlayOptions): AnimationAction;
   update(seconds: number): void;
   dispose(): void;
 }
@@ -44,6 +57,8 @@ export declare class AnicMesh extends Group {
 export declare class AnicInstances extends InstancedMesh {
   constructor(mesh: ClipMesh, count: number, material?: Material, options?: SampleOptions);
   readonly times: Float64Array;
+  /** Numbers of the clips that the times are of. */
+  readonly clips: Uint16Array;
   options: SampleOptions;
   /** Instances that the last update() left to the CPU. */
   readonly madeByCpu: number;

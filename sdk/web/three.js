@@ -3,7 +3,7 @@
 //
 // Clips in three.js: a loader, and an object that shows a clip at a time.
 import {
-  AnimationClip, AnimationMixer, Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, Loader, LoopOnce, Mesh,
+  AnimationClip, AnimationMixer, Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, Loader, LoopOnce, LoopRepeat, Mesh,
   MeshStandardMaterial, NumberKeyframeTrack, Points, PointsMaterial, Sphere, Vector3,
 } from 'three';
 import { open } from './index.js';
@@ -78,10 +78,12 @@ function namedAttributes(mesh) {
 
 /** Shows a clip at `time`: a group of one object for each mesh of the clip. */
 export class AnicMesh extends Group {
-  #shown = NaN;
+  #shown = '';
   #time = 0;
+  #current;
   #options = {};
   #mixer;
+  #action;
   #parts;
 
   constructor(clip, material) {
@@ -90,9 +92,14 @@ export class AnicMesh extends Group {
     this.clip = clip;
     this.name = clip.info.name;
     this.#parts = clip.meshes.map((mesh) => this.#part(mesh, material));
-    // `.time` as a track, so that an AnimationMixer can play it, fade it and change its speed.
-    const end = Math.max(clip.info.loop ? clip.info.loopDuration : clip.duration, 1e-6);
-    this.animations = [new AnimationClip(clip.info.name || 'anic', end, [new NumberKeyframeTrack('.time', [0, end], [0, end])])];
+    // A mixer mixes numbers: of each clip its weight, and its time by the weight. Both are 0 while no action plays it.
+    this.clipWeights = clip.clips.map(() => 0);
+    this.clipTimes = clip.clips.map(() => 0);
+    this.animations = clip.clips.map(({ name, loop, duration, loopDuration }, i) => {
+      const end = Math.max(loop ? loopDuration : duration, 1e-6), track = (path, ...values) => new NumberKeyframeTrack(path, [0, end], values);
+      return new AnimationClip(name || 'anic', end, [track(`.clipWeights[${i}]`, 1, 1), track(`.clipTimes[${i}]`, 0, end)]);
+    });
+    this.#current = clip.find().index;
     if (clip.info.up === 'z')
       this.rotation.x = -Math.PI / 2;
     this.refresh();
@@ -126,36 +133,51 @@ export class AnicMesh extends Group {
     return this.#parts.map(({ object }) => object);
   }
 
-  /** Seconds from the first frame. */
-  get time() { return this.#time; }
+  /** What is shown: of each clip that a mixer plays its number, time and weight; or else the clip and time that were set. */
+  #moments() {
+    const moments = this.clipWeights.map((weight, clip) => ({ clip, weight, time: this.clipTimes[clip] / weight })).filter(({ weight }) => weight > 0);
+    return moments.length > 0 ? moments.sort((a, b) => b.weight - a.weight) : [{ clip: this.#current, weight: 1, time: this.#time }];
+  }
+
+  /** Seconds from the first frame of the clip: of the one with the largest weight. */
+  get time() { return this.#moments()[0].time; }
 
   set time(seconds) { this.#time = seconds; }
 
-  /** 'step', 'linear' or 'cubic', and 'clamp', 'loop' or 'pingpong'. */
-  set sampling(sampling) { this.#options = { ...this.#options, sampling }; this.#shown = NaN; }
+  /** Name of the clip that is shown: of the one with the largest weight. Set by name or number. */
+  get current() { return this.clip.clips[this.#moments()[0].clip].name; }
 
-  set wrap(wrap) { this.#options = { ...this.#options, wrap }; this.#shown = NaN; }
+  set current(clip) { this.#current = this.clip.find(clip).index; }
+
+  /** 'step', 'linear' or 'cubic', and 'clamp', 'loop' or 'pingpong'. */
+  set sampling(sampling) { this.#options = { ...this.#options, sampling }; }
+
+  set wrap(wrap) { this.#options = { ...this.#options, wrap }; }
 
   /** Fills the geometry for the time, unless it shows it already. */
   refresh(force = false) {
-    if (this.#shown === this.#time && !force)
+    const [{ clip, time, weight }, ...others] = this.#moments(), { sampling, wrap } = this.#options;
+    let all = weight;
+    const blend = others.map((moment) => ({ ...moment, weight: moment.weight / (all += moment.weight) }));
+    const shown = JSON.stringify([clip, time, blend, sampling, wrap]), options = { sampling, wrap, clip, blend };
+    if (this.#shown === shown && !force)
       return;
     for (const { mesh, object, moving } of this.#parts) {
-      object.visible = mesh.isPresent(this.#time, this.#options);
+      object.visible = mesh.isPresent(time, options);
       if (!object.visible)
         continue;
       const { position, normal } = object.geometry.attributes;
       if (mesh.triangleCount > 0)
-        mesh.surfaceAt(this.#time, position.array, normal.array, this.#options);
+        mesh.surfaceAt(time, position.array, normal.array, options);
       else
-        mesh.positions(this.#time, position.array, this.#options);
+        mesh.positions(time, position.array, options);
       position.needsUpdate = normal.needsUpdate = true;
       for (const [name, a] of moving) {
-        mesh.attribute(a.index, this.#time, object.geometry.attributes[name].array, this.#options);
+        mesh.attribute(a.index, time, object.geometry.attributes[name].array, options);
         object.geometry.attributes[name].needsUpdate = true;
       }
     }
-    this.#shown = this.#time;
+    this.#shown = shown;
   }
 
   updateMatrixWorld(force) {
@@ -163,15 +185,27 @@ export class AnicMesh extends Group {
     super.updateMatrixWorld(force);
   }
 
-  /** Plays by a mixer of its own; call update() with the seconds since the last frame. Returns the action. */
-  play({ speed = 1, loop = true } = {}) {
+  /**
+   * Plays a clip, by its name or number, by a mixer of its own; call update() with the seconds since the last frame. The clip
+   * that played before fades out within `fade` seconds. Returns the action.
+   */
+  play(clip, options = {}) {
+    if (typeof clip === 'object')
+      return this.play(undefined, clip);
+    const { speed = 1, loop = true, fade = 0 } = options;
     this.#mixer ??= new AnimationMixer(this);
-    const action = this.#mixer.clipAction(this.animations[0]);
+    const action = this.#mixer.clipAction(this.animations[this.clip.find(clip).index]), before = this.#action;
+    action.reset().setLoop(loop ? LoopRepeat : LoopOnce, Infinity).setEffectiveWeight(1);
     action.timeScale = speed;
     action.clampWhenFinished = true;
-    if (!loop)
-      action.setLoop(LoopOnce);
-    return action.reset().play();
+    if (before && before !== action) {
+      if (fade > 0)
+        action.crossFadeFrom(before, fade, false);
+      else
+        before.stop();
+    }
+    this.#action = action;
+    return action.play();
   }
 
   update(seconds) {

@@ -138,7 +138,7 @@ function basisTextures(basis) {
   };
 }
 
-/** Instances of a mesh of a clip. `times` are seconds; setMatrixAt() and all else is as for InstancedMesh. */
+/** Instances of a mesh of a clip. `times` are seconds, of the clips that `clips` numbers; setMatrixAt() and all else is as for InstancedMesh. */
 export class AnicInstances extends InstancedMesh {
   #mesh;
   #clip;
@@ -172,6 +172,7 @@ export class AnicInstances extends InstancedMesh {
     this.#clip = mesh.clip;
     this.options = options;
     this.times = new Float64Array(count);
+    this.clips = new Uint16Array(count).fill(mesh.clip.find(options.clip).index);
     this.madeByCpu = 0;  // instances, by the last update()
     this.#rows = rowsOf(mesh.vertexCount);
     this.#sourceRows = rowsOf(mesh.sourceVertexCount);
@@ -273,10 +274,14 @@ export class AnicInstances extends InstancedMesh {
     return true;
   }
 
-  /** The parts at a time; none when the mesh is not there. */
-  #partsAt(time) {
+  #optionsOf(instance) {
+    return { ...this.options, clip: this.clips[instance] };
+  }
+
+  /** What an instance shows; no parts when the mesh is not there. */
+  #partsOf(instance) {
     try {
-      return this.#mesh.parts(time, this.options);
+      return this.#mesh.parts(this.times[instance], this.#optionsOf(instance));
     } catch (error) {
       if (error.status === 'ANIC_E_ABSENT')
         return [];
@@ -291,7 +296,7 @@ export class AnicInstances extends InstancedMesh {
     const segments = new Set(), byCpu = [];
     this.#stateOf(LINEAR_TEXELS);
     for (let i = 0; i < this.count; ++i) {
-      const parts = this.#partsAt(this.times[i]), width = this.#width;
+      const parts = this.#partsOf(i), width = this.#width;
       if (parts.length === 1 && this.#place(i, parts[0])) {
         segments.add(parts[0].segment);
       } else {
@@ -336,7 +341,7 @@ export class AnicInstances extends InstancedMesh {
   #upload(renderer, instance, present) {
     const data = new Float32Array(4 * WIDTH * this.#sourceRows);
     if (present) {
-      const p = this.#mesh.sourcePositions(this.times[instance], undefined, this.options);
+      const p = this.#mesh.sourcePositions(this.times[instance], undefined, this.#optionsOf(instance));
       for (let v = 0; 3 * v < p.length; ++v)
         data.set(p.subarray(3 * v, 3 * v + 3), 4 * v);
     }
@@ -363,9 +368,9 @@ export class AnicInstances extends InstancedMesh {
       this.getMatrixAt(i, matrix);
       this.#ray.matrixWorld.multiplyMatrices(this.matrixWorld, matrix);
       sphere.copy(this.geometry.boundingSphere).applyMatrix4(this.#ray.matrixWorld);
-      if (!raycaster.ray.intersectsSphere(sphere) || !this.#mesh.isPresent(this.times[i], this.options))
+      if (!raycaster.ray.intersectsSphere(sphere) || !this.#mesh.isPresent(this.times[i], this.#optionsOf(i)))
         continue;
-      geometry.setAttribute('position', new BufferAttribute(this.#mesh.positions(this.times[i], undefined, this.options), 3).setUsage(DynamicDrawUsage));
+      geometry.setAttribute('position', new BufferAttribute(this.#mesh.positions(this.times[i], undefined, this.#optionsOf(i)), 3).setUsage(DynamicDrawUsage));
       geometry.boundingSphere = this.geometry.boundingSphere;
       const hits = [];
       this.#ray.raycast(raycaster, hits);

@@ -129,6 +129,47 @@ test('three.js shows, plays and hits a clip', { skip }, async () => {
   assert.ok(result.attributes.includes('uv') && result.attributes.includes('color'));
 });
 
+test('a mixer of three.js plays the clips of a file, and fades them into each other', { skip }, async () => {
+  const { result } = await inPage(async () => {
+    const { AnimationMixer } = await import('three');
+    const { AnicLoader } = await import('anicodec/three');
+    const mesh = await new AnicLoader().loadAsync('/tests/conformance/clips.anic'), { clip } = mesh, [a, b] = ['clip of 70', 'clip of 29'];
+    const shown = () => { mesh.refresh(); return mesh.parts[0].geometry.attributes.position.array.slice(); };
+    const expected = (time, options) => clip.positions(time, undefined, options);
+    const far = (p, q) => p.reduce((most, v, i) => Math.max(most, Math.abs(v - q[i])), 0) / clip.info.diagonal;
+    const steps = {};
+    mesh.current = b;
+    mesh.time = 0.5;
+    steps.set = far(shown(), expected(0.5, { clip: b }));
+    mesh.play(a);
+    mesh.update(0.25);
+    steps.playing = far(shown(), expected(0.25, { clip: a }));
+    const names = [mesh.current];
+    mesh.play(b, { fade: 1 });
+    mesh.update(0.25);
+    steps.fading = far(shown(), expected(0.5, { clip: a, blend: { clip: b, time: 0.25, weight: 0.25 } }));
+    mesh.update(1);
+    names.push(mesh.current);
+    steps.after = far(shown(), expected(1.25, { clip: b }));
+    mesh.dispose();
+    // Another mixer, with actions of its own.
+    const other = await new AnicLoader().loadAsync('/tests/conformance/clips.anic'), mixer = new AnimationMixer(other);
+    const actions = [a, b].map((name) => mixer.clipAction(other.animations.find((one) => one.name === name)).play());
+    actions[0].setEffectiveWeight(0.75);
+    actions[1].setEffectiveWeight(0.25);
+    mixer.update(0.1);
+    other.refresh();
+    steps.weights = far(other.parts[0].geometry.attributes.position.array, other.clip.positions(0.1, undefined, { clip: a, blend: { clip: b, time: 0.1, weight: 0.25 } }));
+    mixer.stopAllAction();
+    const still = other.clipWeights.every((w) => w === 0) && other.time === 0;
+    other.dispose();
+    return { steps, names, still };
+  });
+  assert.ok(Object.values(result.steps).every((far) => far < 1e-6), JSON.stringify(result));
+  assert.deepEqual(result.names, ['clip of 70', 'clip of 29']);
+  assert.ok(result.still);
+});
+
 test('the viewer plays the clips that are in it, without a network', { skip: skip || (existsSync(VIEWER) ? false : 'there is no viewer') }, async () => {
   const clip = `<script class="clip" type="application/octet-stream" data-name="heated.anic">${Buffer.from(bytesOf('heated.anic')).toString('base64')}</script>`;
   const viewer = readFileSync(VIEWER, 'utf8').replace('<!-- the clip -->', () => clip + clip);
@@ -154,6 +195,11 @@ test('the viewer plays the clips that are in it, without a network', { skip: ski
       done(counts);
     }))));
     assert.ok(lit.every((count) => count > 100), String(lit));
+    await page.setInputFiles('#files', { name: 'clips.anic', mimeType: '', buffer: Buffer.from(bytesOf('clips.anic')) });
+    await page.waitForFunction(() => document.getElementById('clip').options.length > 1);
+    await page.locator('#clip').selectOption('clip of 29');
+    await page.locator('#time').evaluate((range) => { range.value = 1; range.dispatchEvent(new Event('input')); });
+    await page.waitForFunction(() => document.getElementById('clock').textContent.startsWith('7.84 s'));
     await page.setInputFiles('#files', { name: 'bad.anic', mimeType: '', buffer: Buffer.from('this is no clip') });
     await page.waitForFunction(() => !document.getElementById('message').hidden);
     assert.match(await page.locator('#message').textContent(), /bad\.anic: ANIC_E_MAGIC/);

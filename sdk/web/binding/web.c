@@ -20,6 +20,9 @@ static anic_stream* stream;
 static anic_failure failure;
 static int is_without_memory;
 static double numbers[512];
+static char* clip_names_text;
+static const char** clip_names;
+static uint32_t clip_names_count;
 
 static void* allocate(void* user, size_t size, size_t alignment) {
   void* memory;
@@ -51,6 +54,8 @@ static anic_options options_of(double quality, uint32_t flags, double max_bytes)
   options.allocator.allocate = allocate;
   options.allocator.release = release;
   options.progress.report = report;
+  options.clips = clip_names;
+  options.clip_count = clip_names_count;
   return options;
 }
 
@@ -101,6 +106,24 @@ EXPORT(failure_chunk) const char* web_failure_chunk(void) {
 }
 
 /* ---- opening ---- */
+
+/* Names of the clips that will be opened, each behind the last with a zero at its end; none: all.
+ * Takes memory of web_allocate(). */
+EXPORT(choose_clips) int web_choose_clips(char* names, uint32_t size) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < size; ++i)
+    count += names[i] == 0;
+  free(clip_names_text);
+  free((void*)clip_names);
+  clip_names_text = names;
+  clip_names_count = 0;
+  clip_names = malloc(count * sizeof *clip_names + 1);
+  if (clip_names == NULL)
+    return ANIC_E_MEMORY;
+  for (uint32_t begin = 0; clip_names_count < count; begin += (uint32_t)strlen(names + begin) + 1)
+    clip_names[clip_names_count++] = names + begin;
+  return ANIC_OK;
+}
 
 EXPORT(open)
 
@@ -190,6 +213,34 @@ EXPORT(name) const char* web_name(void) {
   return anic_get_asset_info(asset, &info) == ANIC_OK ? info.name : "";
 }
 
+EXPORT(clip_count) uint32_t web_clip_count(void) {
+  return anic_clip_count(asset);
+}
+
+EXPORT(clip) int web_clip(uint32_t clip) {
+  anic_clip info = ANIC_INIT(anic_clip);
+  const anic_status status = anic_clip_info(asset, clip, &info);
+  const double all[] = {
+      address(info.name),
+      info.first_frame,
+      info.frame_count,
+      (double)info.rate_numerator / (info.rate_denominator ? info.rate_denominator : 1),
+      info.rate_assumed,
+      info.uneven,
+      info.loop,
+      info.closed,
+      info.open,
+      info.start_time,
+      info.duration,
+      info.loop_duration,
+      info.diagonal,
+      info.max_error,
+      info.rmse,
+      info.kg};
+  memcpy(numbers, all, sizeof all);
+  return status;
+}
+
 EXPORT(mesh) int web_mesh(uint32_t mesh) {
   anic_mesh info = ANIC_INIT(anic_mesh);
   const anic_status status = anic_get_mesh(asset, mesh, &info);
@@ -260,6 +311,17 @@ int web_seek_time(anic_context* context, double seconds, int32_t sampling, int32
 
 EXPORT(seek_frame) int web_seek_frame(anic_context* context, uint32_t frame) {
   return anic_seek_frame(context, frame);
+}
+
+EXPORT(set_clip) int web_set_clip(anic_context* context, uint32_t clip) {
+  return anic_set_clip(context, clip);
+}
+
+EXPORT(blend)
+
+int web_blend(anic_context* context, uint32_t clip, double seconds, int32_t sampling, int32_t wrap,
+              double weight) {
+  return anic_blend(context, clip, seconds, sampling, wrap, weight);
 }
 
 EXPORT(write_positions)

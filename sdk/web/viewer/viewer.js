@@ -10,7 +10,7 @@ import { ClipView, Orbit, SurfaceView } from './surface_view.js';
 const SPEEDS = [-1, 0.1, 0.25, 0.5, 1, 2, 4];
 const $ = (id) => document.getElementById(id);
 const orbit = new Orbit();
-const state = { clips: [], time: 0, playing: false, speed: 1, loop: true, wires: false, error: false, about: true, dirty: true, fps: 0, decode: 0 };
+const state = { clips: [], name: undefined, time: 0, playing: false, speed: 1, loop: true, wires: false, error: false, about: true, dirty: true, fps: 0, decode: 0 };
 let view;
 
 function fromBase64(text) {
@@ -51,6 +51,7 @@ function describe() {
     return [title, rows([
       ['file', inBytes(bytes.length)], ['per vertex and frame', `${bits.toPrecision(3)} bits`],
       ['vertices', number(sum('sourceVertexCount'))], ['triangles', number(sum('triangleCount'))], ['meshes', number(clip.meshes.length)],
+      ...(clip.clips.length > 1 ? [['clips', number(clip.clips.length)]] : []),
       ['frames', `${number(info.frames)}, ${+info.rate.toFixed(3)} a second${info.rateAssumed ? ' (assumed)' : ''}`],
       ['largest error', `${info.maxError.toPrecision(3)}, ${(100 * info.maxError / info.diagonal).toPrecision(2)} % of the size`],
       ['opened in', `${openMs.toFixed(0)} ms`], ['memory', inBytes(clip.memoryBytes)],
@@ -61,14 +62,18 @@ function describe() {
 const correspond = () => state.clips.length === 2 && state.clips[0].clip.meshes.length === state.clips[1].clip.meshes.length &&
   state.clips[0].clip.meshes.every((mesh, m) => mesh.sourceVertexCount === state.clips[1].clip.meshes[m].sourceVertexCount);
 
+/** The clip of a file that is shown: the one that was chosen, where the file has it. */
+const shown = (clip) => clip.clips.find(({ name }) => name === state.name) ?? clip.find();
+
 /** Distances of the vertices of the second clip from those of the first at this time. */
 function measure() {
   const [a, b] = state.clips.map(({ clip }) => clip);
   let largest = 0, sum = 0, count = 0;
+  const [of, by] = [a, b].map((clip) => ({ clip: shown(clip).index }));
   const distances = b.meshes.map((mesh, m) => {
-    if (!mesh.isPresent(state.time) || !a.meshes[m].isPresent(state.time))
+    if (!mesh.isPresent(state.time, by) || !a.meshes[m].isPresent(state.time, of))
       return undefined;
-    const p = a.meshes[m].sourcePositions(state.time), q = mesh.sourcePositions(state.time);
+    const p = a.meshes[m].sourcePositions(state.time, undefined, of), q = mesh.sourcePositions(state.time, undefined, by);
     const far = Float32Array.from({ length: p.length / 3 }, (_, v) => Math.hypot(p[3 * v] - q[3 * v], p[3 * v + 1] - q[3 * v + 1], p[3 * v + 2] - q[3 * v + 2]));
     for (const d of far) {
       largest = Math.max(largest, d);
@@ -86,17 +91,17 @@ function background() {
   return [r, g, b];
 }
 
-const duration = () => Math.max(...state.clips.map(({ clip }) => (clip.info.loop && state.loop ? clip.info.loopDuration : clip.duration)), 0);
+const duration = () => Math.max(...state.clips.map(({ clip }) => shown(clip)).map((c) => (c.loop && state.loop ? c.loopDuration : c.duration)), 0);
 
 function draw() {
-  const options = { wrap: state.loop ? 'loop' : 'clamp' }, before = performance.now();
-  for (const clip of state.clips)
-    clip.seek(state.time, options);
+  const before = performance.now();
+  for (const one of state.clips)
+    one.seek(state.time, { clip: shown(one.clip).index, wrap: state.loop ? 'loop' : 'clamp' });
   state.decode = performance.now() - before;
   if (correspond())
     measure();
   view.draw(state.clips, orbit, { wires: state.wires, unlit: false, background: background() });
-  const end = duration(), frame = state.clips.length ? Math.round(Math.min(state.time, end) * state.clips[0].clip.info.rate) : 0;
+  const end = duration(), frame = state.clips.length ? Math.round(Math.min(state.time, end) * shown(state.clips[0].clip).rate) : 0;
   $('time').value = end > 0 ? state.time / end : 0;
   $('clock').textContent = `${state.time.toFixed(2)} s, ${frame}`;
   if (state.about && $('figures'))
@@ -156,7 +161,16 @@ async function add(name, bytes) {
   $('drop').hidden = true;
   $('controls').hidden = false;
   $('error').hidden = !correspond();
-  set('playing', state.clips[0].clip.frames > 1);
+  const { clips } = state.clips[0].clip;
+  $('clip').replaceChildren(...clips.map((one) => Object.assign(document.createElement('option'), { value: one.name, textContent: one.name || `clip ${one.index}` })));
+  $('clip').hidden = clips.length === 1;
+  choose(shown(state.clips[0].clip).name);
+}
+
+function choose(name) {
+  state.name = $('clip').value = name;
+  state.time = 0;
+  set('playing', state.clips.some(({ clip }) => shown(clip).frames > 1));
 }
 
 async function addFiles(files) {
@@ -173,6 +187,7 @@ function listen() {
   for (const speed of SPEEDS)
     $('speed').append(Object.assign(document.createElement('option'), { value: speed, textContent: `${speed} ×` }));
   $('speed').onchange = () => set('speed', Number($('speed').value));
+  $('clip').onchange = () => choose($('clip').value);
   $('play').onclick = () => set('playing', !state.playing);
   for (const id of ['loop', 'wires', 'error', 'about'])
     $(id).onclick = () => set(id, !state[id]);
@@ -226,13 +241,18 @@ function listen() {
   }, { passive: false });
 
   const step = (frames) => {
-    state.time = Math.min(Math.max(state.time + frames / (state.clips[0]?.clip.info.rate ?? 1), 0), duration());
+    state.time = Math.min(Math.max(state.time + frames / (state.clips.length ? shown(state.clips[0].clip).rate : 1), 0), duration());
     set('playing', false);
+  };
+  const other = () => {
+    const clips = state.clips[0]?.clip.clips ?? [];
+    if (clips.length > 1)
+      choose(clips[(shown(state.clips[0].clip).index + 1) % clips.length].name);
   };
   const speed = (by) => set('speed', SPEEDS[Math.min(Math.max(SPEEDS.indexOf(state.speed) + by, 0), SPEEDS.length - 1)]);
   const keys = {
     ' ': () => set('playing', !state.playing), l: () => set('loop', !state.loop), w: () => set('wires', !state.wires),
-    e: () => correspond() && set('error', !state.error), i: () => set('about', !state.about), o: () => $('files').click(),
+    e: () => correspond() && set('error', !state.error), i: () => set('about', !state.about), c: other, o: () => $('files').click(),
     ',': () => step(-1), '.': () => step(1), '[': () => speed(-1), ']': () => speed(1), Home: () => step(-1e9),
     '+': () => orbit.zoom(0.9), '-': () => orbit.zoom(1.1), ArrowLeft: () => orbit.turn(0.1, 0), ArrowRight: () => orbit.turn(-0.1, 0),
     ArrowUp: () => orbit.turn(0, 0.1), ArrowDown: () => orbit.turn(0, -0.1),
