@@ -24,6 +24,7 @@ if $packages_wanted; then
   install_packages
   install_optional blender python3-numpy || say "No Blender: the test of its add-on is skipped"
   install_optional libsdl2-dev libgl-dev libgl1-mesa-dri || say "No SDL2: the example that draws is left out"
+  install_optional libogre-1.12-dev xvfb xauth || say "No OGRE: its plug-in is left out"
   install_optional mono-mcs mono-runtime glslang-tools || say "No Mono: the test of the C# package is skipped"
   if command -v npm >/dev/null && [[ ! -d tests/gltf/node_modules ]]; then
     say "Installing the glTF validator"

@@ -154,6 +154,17 @@ internal static class UnityTest
         player.clip.Close();
     }
 
+    private static void ImportsMeshesThatComeLater(string folder)
+    {
+        AssetImportContext made = Import(Path.Combine(folder, "scene.anic"));
+        Check.That(made.Errors.Count == 0, "imports a scene");
+        using (Asset asset = Asset.Open(Path.Combine(folder, "scene.anic")))
+        {
+            for (int m = 0; m < asset.MeshCount; ++m)
+                Check.That(((Mesh)made.Added["mesh " + m]).Streams.Count == 2, "mesh " + m);
+        }
+    }
+
     private static void ReportsDamagedFiles(string folder)
     {
         string path = Path.Combine(Path.GetTempPath(), "anicodec_damaged_" + Guid.NewGuid() + ".anic");
@@ -169,6 +180,7 @@ internal static class UnityTest
         PlaysAndCrossFades(arguments[0]);
         PlaysOnTheGraphicsCard(arguments[0]);
         MixesOnTheTimeline(arguments[0]);
+        ImportsMeshesThatComeLater(arguments[0]);
         ReportsDamagedFiles(arguments[0]);
         Check.Done();
     }

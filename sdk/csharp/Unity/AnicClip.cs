@@ -38,10 +38,23 @@ namespace Anicodec.Unity
             RenderPlan plan;
             if (!plans.TryGetValue(mesh, out plan))
             {
-                plan = new RenderPlan(Asset, mesh, new NormalOptions { SourceEdges = true, CreaseAngle = 60 });
+                plan = new RenderPlan(Asset, mesh, new NormalOptions
+                {
+                    SourceEdges = true, CreaseAngle = 60, ReferenceFrame = FirstFrame(mesh)
+                });
                 plans.Add(mesh, plan);
             }
             return plan;
+        }
+
+        /// <summary>The first frame that shows a mesh.</summary>
+        public int FirstFrame(int mesh)
+        {
+            Box box;
+            int frame = 0;
+            while (frame + 1 < Asset.FrameCount && !Asset.GetFrameBounds(frame, out box, mesh))
+                ++frame;
+            return frame;
         }
 
         /// <summary>The basis of a segment on the graphics card, uploaded once for all players.</summary>

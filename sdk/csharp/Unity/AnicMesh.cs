@@ -29,7 +29,7 @@ namespace Anicodec.Unity
                 new VertexAttributeDescriptor(VertexAttribute.TexCoord0, VertexAttributeFormat.Float32, 2, 1));
             using (Context context = new Context(clip.Asset))
             {
-                context.SeekFrame(0);
+                context.SeekFrame(clip.FirstFrame(index));
                 NativeArray<float> vertices = new NativeArray<float>(Floats * count, Allocator.Temp);
                 if (Fill(clip, index, context, vertices))
                     Store(mesh, vertices, count);
