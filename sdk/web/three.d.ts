@@ -22,14 +22,9 @@ export declare class AnicLoader extends Loader<AnicMesh> {
   parseAsync(bytes: ArrayBuffer | ArrayBufferView): Promise<AnicMesh>;
 }
 
-/**
- * Shows a clip at `time`: a group of one Mesh (Points without polygons) for each mesh of the clip, with positions, normals,
- * and moving attributes made on the CPU when a frame is drawn or hit by a ray. A clip with z up is turned.
- */
-export declare class AnicMesh extends Group {
-  constructor(clip: Clip, material?: Material);
+/** Plays clips by actions of a mixer; what moves is up to those that extend it. */
+export declare class AnicPlayer extends Group {
   readonly clip: Clip;
-  readonly parts: (Mesh | Points)[];
   /** Seconds from the first frame of the clip that is shown. */
   time: number;
   /** Name of the clip that is shown; set by name or number. */
@@ -40,12 +35,31 @@ export declare class AnicMesh extends Group {
   animations: AnimationClip[];
   set sampling(sampling: SampleOptions['sampling']);
   set wrap(wrap: SampleOptions['wrap']);
-  /** Fills the geometry for the time at once. */
+  /** Shows the time at once. */
   refresh(force?: boolean): void;
   /** Plays a clip by a mixer of its own, which update() moves on. What played before fades out within `fade` seconds. */
   play(clip?: string | number, options?: PlayOptions): AnimationAction;
   play(options: PlayOptions): AnimationAction;
   update(seconds: number): void;
+  stop(): void;
+}
+
+/**
+ * A plug-in of GLTFLoader for the extension ANIC_mesh_animation: loader.register((parser) => new AnicGLTFExtension(parser)).
+ * Clips become animations of the result; `userData.anicPlayers` of the result has an AnicPlayer for each file.
+ */
+export declare class AnicGLTFExtension {
+  constructor(parser: unknown, options?: OpenOptions);
+  readonly name: string;
+}
+
+/**
+ * Shows a clip at `time`: a group of one Mesh (Points without polygons) for each mesh of the clip, with positions, normals,
+ * and moving attributes made on the CPU when a frame is drawn or hit by a ray. A clip with z up is turned.
+ */
+export declare class AnicMesh extends AnicPlayer {
+  constructor(clip: Clip, material?: Material);
+  readonly parts: (Mesh | Points)[];
   dispose(): void;
 }
 

@@ -3,11 +3,12 @@
 //
 // Clips in three.js: a loader, and an object that shows a clip at a time.
 import {
-  AnimationClip, AnimationMixer, Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, Loader, LoopOnce, LoopRepeat, Mesh,
-  MeshStandardMaterial, NumberKeyframeTrack, Points, PointsMaterial, Sphere, Vector3,
+  Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Loader, Mesh, MeshStandardMaterial, Points, PointsMaterial, Sphere, Vector3,
 } from 'three';
 import { open } from './index.js';
+import { AnicPlayer } from './three_player.js';
 
+export { AnicGLTFExtension } from './three_gltf.js';
 export { AnicInstances } from './three_instances.js';
 
 /** Loads `.anic` files as AnicMesh objects. */
@@ -77,29 +78,14 @@ function namedAttributes(mesh) {
 }
 
 /** Shows a clip at `time`: a group of one object for each mesh of the clip. */
-export class AnicMesh extends Group {
-  #shown = '';
-  #time = 0;
-  #current;
-  #options = {};
-  #mixer;
-  #action;
+export class AnicMesh extends AnicPlayer {
   #parts;
 
   constructor(clip, material) {
-    super();
+    super(clip);
     this.type = 'AnicMesh';
-    this.clip = clip;
     this.name = clip.info.name;
     this.#parts = clip.meshes.map((mesh) => this.#part(mesh, material));
-    // A mixer mixes numbers: of each clip its weight, and its time by the weight. Both are 0 while no action plays it.
-    this.clipWeights = clip.clips.map(() => 0);
-    this.clipTimes = clip.clips.map(() => 0);
-    this.animations = clip.clips.map(({ name, loop, duration, loopDuration }, i) => {
-      const end = Math.max(loop ? loopDuration : duration, 1e-6), track = (path, ...values) => new NumberKeyframeTrack(path, [0, end], values);
-      return new AnimationClip(name || 'anic', end, [track(`.clipWeights[${i}]`, 1, 1), track(`.clipTimes[${i}]`, 0, end)]);
-    });
-    this.#current = clip.find().index;
     if (clip.info.up === 'z')
       this.rotation.x = -Math.PI / 2;
     this.refresh();
@@ -133,35 +119,7 @@ export class AnicMesh extends Group {
     return this.#parts.map(({ object }) => object);
   }
 
-  /** What is shown: of each clip that a mixer plays its number, time and weight; or else the clip and time that were set. */
-  #moments() {
-    const moments = this.clipWeights.map((weight, clip) => ({ clip, weight, time: this.clipTimes[clip] / weight })).filter(({ weight }) => weight > 0);
-    return moments.length > 0 ? moments.sort((a, b) => b.weight - a.weight) : [{ clip: this.#current, weight: 1, time: this.#time }];
-  }
-
-  /** Seconds from the first frame of the clip: of the one with the largest weight. */
-  get time() { return this.#moments()[0].time; }
-
-  set time(seconds) { this.#time = seconds; }
-
-  /** Name of the clip that is shown: of the one with the largest weight. Set by name or number. */
-  get current() { return this.clip.clips[this.#moments()[0].clip].name; }
-
-  set current(clip) { this.#current = this.clip.find(clip).index; }
-
-  /** 'step', 'linear' or 'cubic', and 'clamp', 'loop' or 'pingpong'. */
-  set sampling(sampling) { this.#options = { ...this.#options, sampling }; }
-
-  set wrap(wrap) { this.#options = { ...this.#options, wrap }; }
-
-  /** Fills the geometry for the time, unless it shows it already. */
-  refresh(force = false) {
-    const [{ clip, time, weight }, ...others] = this.#moments(), { sampling, wrap } = this.#options;
-    let all = weight;
-    const blend = others.map((moment) => ({ ...moment, weight: moment.weight / (all += moment.weight) }));
-    const shown = JSON.stringify([clip, time, blend, sampling, wrap]), options = { sampling, wrap, clip, blend };
-    if (this.#shown === shown && !force)
-      return;
+  show(time, options) {
     for (const { mesh, object, moving } of this.#parts) {
       object.visible = mesh.isPresent(time, options);
       if (!object.visible)
@@ -177,44 +135,11 @@ export class AnicMesh extends Group {
         object.geometry.attributes[name].needsUpdate = true;
       }
     }
-    this.#shown = shown;
-  }
-
-  updateMatrixWorld(force) {
-    this.refresh();
-    super.updateMatrixWorld(force);
-  }
-
-  /**
-   * Plays a clip, by its name or number, by a mixer of its own; call update() with the seconds since the last frame. The clip
-   * that played before fades out within `fade` seconds. Returns the action.
-   */
-  play(clip, options = {}) {
-    if (typeof clip === 'object')
-      return this.play(undefined, clip);
-    const { speed = 1, loop = true, fade = 0 } = options;
-    this.#mixer ??= new AnimationMixer(this);
-    const action = this.#mixer.clipAction(this.animations[this.clip.find(clip).index]), before = this.#action;
-    action.reset().setLoop(loop ? LoopRepeat : LoopOnce, Infinity).setEffectiveWeight(1);
-    action.timeScale = speed;
-    action.clampWhenFinished = true;
-    if (before && before !== action) {
-      if (fade > 0)
-        action.crossFadeFrom(before, fade, false);
-      else
-        before.stop();
-    }
-    this.#action = action;
-    return action.play();
-  }
-
-  update(seconds) {
-    this.#mixer?.update(seconds);
   }
 
   /** Gives memory back, on the graphics card and in the decoder. */
   dispose() {
-    this.#mixer?.stopAllAction();
+    this.stop();
     for (const { object } of this.#parts) {
       object.geometry.dispose();
       for (const material of [object.material].flat())

@@ -5,19 +5,23 @@
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { bytesOf, files } from './files.mjs';
+import { Anicodec } from '../../sdk/web/index.js';
+import { bytesOf, files, movingGlb } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
 const IMPORTS = JSON.stringify({ imports: {
   anicodec: '/sdk/web/index.js', 'anicodec/three': '/sdk/web/three.js',
   three: '/tests/web/node_modules/three/build/three.module.js', 'three/webgpu': '/tests/web/node_modules/three/build/three.webgpu.js',
-  'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js',
+  'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js', 'three/addons/': '/tests/web/node_modules/three/examples/jsm/',
 } });
 const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
 const skip = CHROMIUM ? false : 'there is no Chromium';
 const VIEWER = new URL('../../sdk/web/dist/viewer.html', import.meta.url);
 let server;
-before(async () => { server = await serve({ '/page': PAGE }); });
+before(async () => {
+  const bytes = bytesOf('clips.anic'), clip = await Anicodec.open(bytes);
+  server = await serve({ '/page': PAGE, '/moving.glb': movingGlb(bytes, clip), '/beside.glb': movingGlb(bytes, clip, { uri: 'tests/conformance/clips.anic' }) });
+});
 after(() => server.close());
 
 /** Runs a function in a page that can import the package; nothing may be said on the console. */
@@ -170,6 +174,37 @@ test('a mixer of three.js plays the clips of a file, and fades them into each ot
   assert.ok(result.still);
 });
 
+test('GLTFLoader plays scenes whose meshes move by a clip', { skip }, async () => {
+  const { result } = await inPage(async () => {
+    const { AnimationMixer } = await import('three');
+    const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js');
+    const { AnicGLTFExtension } = await import('anicodec/three');
+    const { Anicodec } = await import('anicodec');
+    const clip = await Anicodec.open('/tests/conformance/clips.anic'), name = 'clip of 29', outcome = {};
+    for (const url of ['/moving.glb', '/beside.glb']) {
+      const gltf = await new GLTFLoader().register((parser) => new AnicGLTFExtension(parser)).loadAsync(url), { scene, animations } = gltf;
+      const mesh = scene.getObjectByName('shown'), mixer = new AnimationMixer(scene);
+      const animation = animations.find((one) => one.name === name), { startTime } = clip.find(name);
+      mixer.clipAction(animation).play();
+      mixer.setTime(startTime + 0.5);
+      scene.updateMatrixWorld();
+      const far = (p, q) => p.reduce((most, v, i) => Math.max(most, Math.abs(v - q[i])), 0);
+      const { position, normal } = mesh.geometry.attributes, length = normal.array.reduce((sum, v) => sum + v * v, 0) / normal.count;
+      outcome[url] = { far: far(position.array, clip.meshes[0].sourcePositions(0.5, undefined, { clip: name })), length, names: animations.map((one) => one.name),
+        material: mesh.material.name, players: gltf.userData.anicPlayers.length };
+    }
+    const plain = await new GLTFLoader().loadAsync('/moving.glb');
+    outcome.still = plain.animations.length === 0 && plain.scene.getObjectByName('shown').isMesh;
+    return outcome;
+  });
+  for (const url of ['/moving.glb', '/beside.glb']) {
+    const one = result[url];
+    assert.ok(one.far < 1e-4 && Math.abs(one.length - 1) < 0.05, JSON.stringify(result));
+    assert.deepEqual([one.material, one.players, one.names.length], ['paint', 1, 6]);
+  }
+  assert.ok(result.still);
+});
+
 test('the viewer plays the clips that are in it, without a network', { skip: skip || (existsSync(VIEWER) ? false : 'there is no viewer') }, async () => {
   const clip = `<script class="clip" type="application/octet-stream" data-name="heated.anic">${Buffer.from(bytesOf('heated.anic')).toString('base64')}</script>`;
   const viewer = readFileSync(VIEWER, 'utf8').replace('<!-- the clip -->', () => clip + clip);
@@ -195,7 +230,7 @@ test('the viewer plays the clips that are in it, without a network', { skip: ski
       done(counts);
     }))));
     assert.ok(lit.every((count) => count > 100), String(lit));
-    await page.setInputFiles('#files', { name: 'clips.anic', mimeType: '', buffer: Buffer.from(bytesOf('clips.anic')) });
+    await page.setInputFiles('#files', { name: 'moving.glb', mimeType: '', buffer: movingGlb(bytesOf('clips.anic'), await Anicodec.open(bytesOf('clips.anic'))) });
     await page.waitForFunction(() => document.getElementById('clip').options.length > 1);
     await page.locator('#clip').selectOption('clip of 29');
     await page.locator('#time').evaluate((range) => { range.value = 1; range.dispatchEvent(new Event('input')); });

@@ -15,3 +15,34 @@ export const files = readFileSync(new URL('MANIFEST', folder), 'utf8').trim().sp
 });
 
 export const factsOf = (file) => JSON.parse(readFileSync(new URL(`facts/${file.replace('.anic', '.json')}`, folder), 'utf8'));
+
+/**
+ * A GLB whose one primitive moves by an .anic file, an open clip of which is given: with the surface of its first frame, and the
+ * file inside or, with `uri`, beside it.
+ */
+export function movingGlb(bytes, clip, { uri } = {}) {
+  const [mesh] = clip.meshes, { offsets, corners } = mesh.polygons, indices = [];
+  for (let p = 0; p + 1 < offsets.length; ++p) {
+    for (let c = offsets[p] + 2; c < offsets[p + 1]; ++c)
+      indices.push(corners[offsets[p]], corners[c - 1], corners[c]);
+  }
+  const positions = mesh.sourcePositions(0), { min, max } = mesh.bounds, normals = new Float32Array(positions.length).fill(Math.sqrt(1 / 3));
+  const parts = [positions, normals, Uint32Array.from(indices), ...(uri ? [] : [bytes])], views = [];
+  let binary = Buffer.alloc(0);
+  for (const { buffer, byteOffset, byteLength } of parts) {
+    views.push({ buffer: 0, byteOffset: binary.length, byteLength });
+    binary = Buffer.concat([binary, Buffer.from(buffer, byteOffset, byteLength), Buffer.alloc(-byteLength & 3)]);
+  }
+  const NAME = 'ANIC_mesh_animation', accessor = (bufferView, componentType, type, count, more) => ({ bufferView, componentType, type, count, ...more });
+  const json = {
+    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0, name: 'shown' }], extensionsUsed: [NAME],
+    extensions: { [NAME]: { files: [uri ? { uri } : { bufferView: 3 }] } },
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1 }, indices: 2, material: 0, extensions: { [NAME]: { file: 0 } } }] }],
+    materials: [{ name: 'paint', doubleSided: true }], buffers: [{ byteLength: binary.length }], bufferViews: views,
+    accessors: [accessor(0, 5126, 'VEC3', positions.length / 3, { min, max }), accessor(1, 5126, 'VEC3', positions.length / 3), accessor(2, 5125, 'SCALAR', indices.length)],
+  };
+  let text = Buffer.from(JSON.stringify(json));
+  text = Buffer.concat([text, Buffer.alloc(-text.length & 3, ' ')]);
+  const words = (...values) => Buffer.from(Uint32Array.from(values).buffer);
+  return Buffer.concat([Buffer.from('glTF'), words(2, 28 + text.length + binary.length, text.length), Buffer.from('JSON'), text, words(binary.length), Buffer.from('BIN\0'), binary]);
+}

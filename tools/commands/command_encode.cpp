@@ -9,6 +9,7 @@
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/encode_arguments.h"
 #include "tools/inputs/massage_transfer.h"
+#include "tools/io/base/file_kind.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/load_sequence.h"
 #include "tools/program/command.h"
@@ -21,6 +22,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -45,6 +47,11 @@ or numbers the clip; without it the first one that moves anything is taken, --cl
 caches of one mesh: the mesh, its attributes and the reference pose are stored once, and clips of a
 kind share a basis where that is smaller (-v says which). Every clip keeps the target for itself; a
 --size is that of the file.
+
+-o model.glb of a glTF scene writes the scene with its clip inside (extension ANIC_mesh_animation):
+materials, textures, cameras, lights, nodes and extras stay, what moved the vertices goes, and
+viewers that do not know the extension show the first frame. decode, info and verify read the clip
+in such a file.
 
 An archive has a frame for each of its samples (or at --fps); --mesh takes one mesh by its path.
 
@@ -87,6 +94,7 @@ Examples:
   anicodec encode 'frames/*.obj' -o clip.anic --kg 0.1
   anicodec encode fox.glb --clip Run --fps 60 -o run.anic
   anicodec encode fox.glb --clips all -o fox.anic --kg 0.1
+  anicodec encode fox.glb --clips all -o small/fox.glb
   anicodec encode hero.obj walk.pc2 run.pc2 -o hero.anic --fps 30
   anicodec encode flag.mdd --mesh flag.obj -o flag.anic --size 200k --max-error 1%
   anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45
@@ -178,10 +186,47 @@ EncodeResult encode_meshes(const EncodeArguments& command, EncodeOptions options
   }
 }
 
-/// Encodes frames of one connectivity.
+/// Throws Error(kUsage) where no glTF scene can carry the clip.
+void check_glb_output(const EncodeArguments& command) {
+  const FileKind kind =
+      command.inputs.size() == 1 ? kind_of(command.inputs[0]) : FileKind::kUnknown;
+  if (kind != FileKind::kGltf && kind != FileKind::kGlb)
+    throw Error(ErrorKind::kUsage, command.output +
+                                       ": a .glb carries the clip of one .gltf or .glb, which is "
+                                       "the input; others become an .anic file");
+  if (!command.part.empty() || command.split_objects || !command.batch.empty() ||
+      command.topology_changes != TopologyChanges::kRefuse)
+    throw Error(
+        ErrorKind::kUsage,
+        command.output + ": a .glb goes without --part, --split-objects and --topology-changes");
+  if (command.order == OrderChoice::kFree)
+    throw Error(ErrorKind::kUsage,
+                command.output + ": the surface in a .glb counts on the order of its vertices");
+}
+
+/// What the scene that carries the clip shows where nobody plays it. Takes from the clip what the
+/// scene keeps.
+StillSurface split_surface(MeshSequence& sequence) {
+  StillSurface still;
+  still.positions.assign(sequence.frame(0).begin(), sequence.frame(0).end());
+  for (const Attribute& attribute : sequence.attributes) {
+    if (attribute.kind == AttributeKind::kNormal && !attribute.per_corner)
+      still.normals = attribute.values;
+  }
+  std::erase_if(sequence.attributes, [](const Attribute& attribute) {
+    return attribute.kind == AttributeKind::kUv || attribute.kind == AttributeKind::kColour;
+  });
+  return still;
+}
+
+/// Encodes frames of one connectivity. `still`: of a scene that carries the clip, or null.
 EncodeResult encode_clip(const EncodeArguments& command, EncodeOptions options,
-                         MassageVerdict* massage, const Progress& progress) {
+                         MassageVerdict* massage, StillSurface* still, const Progress& progress) {
   MeshSequence sequence = load(command, progress, &options);
+  if (still) {
+    *still = split_surface(sequence);
+    options.order = OrderMode::kVertices;
+  }
   if (options.keyframes && *options.keyframes > sequence.frame_count)
     throw Error(ErrorKind::kUsage,
                 fmt::format("--keyframes {}: {} has only {} frames", *options.keyframes,
@@ -224,7 +269,11 @@ void run(EncodeArguments command, const CommonOptions& common) {
       command.massage != MassageMode::kOff)
     throw Error(ErrorKind::kUsage, "--topology-changes goes without --massage");
   EncodeOptions options = encode_options(command);
-  check_anic_output(command.output);
+  const bool in_scene = kind_of(command.output) == FileKind::kGlb;
+  if (in_scene)
+    check_glb_output(command);
+  else
+    check_anic_output(command.output);
   const bool to_standard_output = command.output == "-";
   std::optional<AtomicFile> output;
   if (!to_standard_output)
@@ -235,22 +284,32 @@ void run(EncodeArguments command, const CommonOptions& common) {
     command.note = notes_above(line);
   MassageVerdict massage;
   const bool several = command.topology_changes == TopologyChanges::kKeep || command.split_objects;
-  EncodeResult result = several ? encode_meshes(command, options, progress)
-                                : encode_clip(command, options, &massage, progress);
+  StillSurface still;
+  EncodeResult result =
+      several ? encode_meshes(command, options, progress)
+              : encode_clip(command, options, &massage, in_scene ? &still : nullptr, progress);
+  std::string_view written(reinterpret_cast<const char*>(result.file.data()), result.file.size());
+  std::string scene;
+  if (in_scene)
+    written = scene = carry_clip(command.inputs[0], load_options(command, {}), still, written);
   line.clear();
   if (to_standard_output) {
-    if (std::fwrite(result.file.data(), 1, result.file.size(), stdout) != result.file.size())
+    if (std::fwrite(written.data(), 1, written.size(), stdout) != written.size())
       throw Error(ErrorKind::kInternal, "the standard output cannot be written");
     return;
   }
-  output->write({reinterpret_cast<const char*>(result.file.data()), result.file.size()});
+  output->write(written);
   output->commit();
-  const EncodeReport report{command.output, result, massage, command.massage == MassageMode::kAuto,
-                            !command.rate.empty()};
+  const EncodeReport report{
+      command.output,        result,      massage, command.massage == MassageMode::kAuto,
+      !command.rate.empty(), scene.size()};
   if (common.json)
     print_json(report.json());
   else if (!common.quiet)
     report.print_text(common.verbosity);
+  if (in_scene && !common.json && !common.quiet)
+    print_line(stdout, "{}: {} bytes with surface, materials and images", command.output,
+               scene.size());
 }
 
 }  // namespace

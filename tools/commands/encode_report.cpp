@@ -40,6 +40,8 @@ nlohmann::ordered_json EncodeReport::json() const {
   nlohmann::ordered_json json;
   json["file"] = path;
   json["bytes"] = result.file.size();
+  if (glb_bytes > 0)
+    json["glb_bytes"] = glb_bytes;
   json["ratio"] = rate.ratio;
   json["bpfv"] = rate.bpfv;
   json["vertices"] = result.vertices;

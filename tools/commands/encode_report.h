@@ -6,6 +6,7 @@
 #include "codec/encode.h"
 #include "codec/encode_massaged.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -20,6 +21,7 @@ struct EncodeReport {
   const MassageVerdict& massage;
   bool massage_was_choice = false;  ///< --massage auto
   bool rate_asked = false;          ///< --fps
+  size_t glb_bytes = 0;             ///< of the scene that carries the clip; 0: it stands alone
 
   nlohmann::ordered_json json() const;
 

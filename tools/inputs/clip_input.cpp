@@ -6,13 +6,16 @@
 #include "codec/sequence/scene.h"
 #include "format/container.h"
 #include "tools/io/files/byte_source.h"
+#include "tools/io/load_sequence.h"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -104,11 +107,12 @@ void fail_clip(const std::string& path, const Failure& failure) {
 
 std::string read_bytes(const std::string& path) {
   std::string bytes;
-  if (path == "-") {
+  if (path == "-")
     read_standard_input(bytes);
-    return bytes;
-  }
-  read_file(path, bytes);
+  else
+    read_file(path, bytes);
+  if (std::optional<std::string> clip = clip_of_glb(bytes, path))
+    return *std::move(clip);
   return bytes;
 }
 

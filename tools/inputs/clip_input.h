@@ -30,7 +30,8 @@ ErrorKind error_kind(Status status);
 /// Throws the Error of a failure: "clip.anic: offset 0x1f40, chunk SEGM: reason (detail)".
 [[noreturn]] void fail_clip(const std::string& path, const Failure& failure);
 
-/// The bytes of a file, or of the standard input if the path is "-". Throws Error(kInput).
+/// The bytes of a file, or of the standard input if the path is "-"; of a GLB that moves by a clip
+/// (clip_of_glb), those of the clip. Throws Error(kInput).
 std::string read_bytes(const std::string& path);
 
 inline ByteView view_of(const std::string& bytes) {

@@ -168,7 +168,9 @@ void add_metadata(Options& options, EncodeArguments& a) {
 
 void add_arguments(Options& options, EncodeArguments& a) {
   options.arguments("INPUT", a.inputs, "Mesh and vertex cache, frames, or a scene");
-  options.option("-o,--output", a.output, "FILE", "The .anic file to write; of --batch: the folder")
+  options
+      .option("-o,--output", a.output, "FILE",
+              "The .anic file to write, or a .glb for a glTF scene; of --batch: the folder")
       .required();
   options.option(
       "--mesh", a.mesh, "FILE|NAME",

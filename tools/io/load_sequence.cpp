@@ -244,16 +244,21 @@ GltfOptions scene_options(const LoadOptions& options) {
   return scene;
 }
 
+/// Reads files by their names relative to a scene.
+GltfResolver resolver_of(const std::string& scene) {
+  return [folder = fs::path(scene).parent_path()](const std::string& name) {
+    std::string file;
+    read_file((folder / name).string(), file);
+    return file;
+  };
+}
+
 void load_scene(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
   const GltfOptions scene = scene_options(options);
   const std::string stem = sequence.name;
   std::string bytes;
   read_file(path, bytes);
-  auto resolve = [&path](const std::string& name) {
-    std::string file;
-    read_file((fs::path(path).parent_path() / name).string(), file);
-    return file;
-  };
+  const GltfResolver resolve = resolver_of(path);
   if (!options.clips.empty()) {
     if (kind_of(path) == FileKind::kAssimp)
       fail_usage("--clips: " + path + " is no glTF scene");
@@ -460,6 +465,13 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
     report(options.progress, f + 1, paths.size());
   }
   return scene;
+}
+
+std::string carry_clip(const std::string& scene, const LoadOptions& options,
+                       const StillSurface& still, std::string_view clip) {
+  std::string bytes;
+  read_file(scene, bytes);
+  return write_moving_glb(bytes, scene, resolver_of(scene), scene_options(options), still, clip);
 }
 
 }  // namespace anicodec::tools

@@ -7,12 +7,14 @@
 #include "codec/sequence/progress.h"
 #include "codec/sequence/scene.h"
 #include "tools/io/base/machine_memory.h"
+#include "tools/io/gltf/moving_glb.h"
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace anicodec::tools {
@@ -59,6 +61,11 @@ MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOption
 /// of frames that share one. Of an Alembic archive: a mesh for each object and connectivity. Throws
 /// as load_sequence().
 Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& options = {});
+
+/// A glTF scene in one file with its clip as an extension, see write_moving_glb(): `clip` is that of
+/// load_sequence() with the same options.
+std::string carry_clip(const std::string& scene, const LoadOptions& options,
+                       const StillSurface& still, std::string_view clip);
 
 /// The files behind such inputs, in the order of load_sequence(), patterns expanded. Throws as it
 /// for a pattern without a match, folders and unknown kinds.

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The viewer: one page that holds the decoder, and a clip where `anicodec render` has put one.
+import { clipInGlb } from '../glb.js';
 import { open } from '../index.js';
 import { provideModule } from '../module.js';
 import { MEANINGS, chunkSizes } from './chunks.js';
@@ -143,8 +144,8 @@ function set(name, value) {
 }
 
 /** Adds a file; a third one begins anew. */
-async function add(name, bytes) {
-  const before = performance.now(), clip = await open(bytes, { worker: false });
+async function add(name, file) {
+  const bytes = clipInGlb(file), before = performance.now(), clip = await open(bytes, { worker: false });
   if (state.clips.length === 2) {
     for (const old of state.clips)
       old.dispose();

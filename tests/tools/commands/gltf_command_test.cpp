@@ -57,6 +57,27 @@ TEST(GltfCommand, LeavesTheOrderOfVerticesOutUnlessAskedForIt) {
   EXPECT_EQ(order_of({folder / "a.obj", folder / "a.pc2", "--order", "free"}), "free");
 }
 
+TEST(GltfCommand, PutsTheClipIntoTheScene) {
+  TemporaryFolder folder;
+  write_sequence(folder / "a.glb", gltf_limb());
+  const Outcome encoded =
+      anicodec({"encode", folder / "a.glb", "-o", folder / "b.glb", "--json", "--effort", "1"});
+  ASSERT_EQ(encoded.status, 0) << encoded;
+  EXPECT_EQ(encoded.json()["glb_bytes"], std::filesystem::file_size(folder / "b.glb"));
+  EXPECT_EQ(anicodec({"verify", folder / "b.glb"}).status, 0);
+  EXPECT_EQ(anicodec({"info", folder / "b.glb", "--json"}).json()["order"], "vertices");
+  ASSERT_EQ(anicodec({"decode", folder / "b.glb", "-o", folder / "c.glb"}).status, 0);
+  const Outcome compared =
+      anicodec({"compare", folder / "a.glb", folder / "c.glb", "--no-sted", "--json"});
+  ASSERT_EQ(compared.status, 0) << compared;
+  EXPECT_LE(compared.json()["max_error_percent"], 0.0501);
+  EXPECT_EQ(load_file(folder / "b.glb").frame_count, 1U);  // what others see
+  for (const char* option : {"--split-objects", "--part=0:2", "--order=free"})
+    EXPECT_EQ(anicodec({"encode", folder / "a.glb", "-o", folder / "d.glb", option}).status, 1);
+  write_sequence(folder / "a.pc2", gltf_limb());
+  EXPECT_EQ(anicodec({"encode", folder / "a.pc2", "-o", folder / "d.glb"}).status, 1);
+}
+
 TEST(GltfCommand, AnalyzesAnAnimationAtARate) {
   TemporaryFolder folder;
   GltfScene scene = triangle_scene();
@@ -130,7 +151,11 @@ TEST(GltfValidator, FindsNothingWrong) {
                                .components = 2,
                                .values = std::vector<float>(size_t{2} * clip.vertex_count, 0.5F)});
     write_sequence(base + "_one.glb", clip);
-    arguments.insert(arguments.end(), {base + ".glb", base + "_step.glb", base + "_one.glb"});
+    const Outcome moving =
+        anicodec({"encode", base + ".glb", "-o", base + "_moving.glb", "--effort", "1"});
+    EXPECT_EQ(moving.status, 0) << moving;
+    arguments.insert(arguments.end(),
+                     {base + ".glb", base + "_step.glb", base + "_one.glb", base + "_moving.glb"});
   }
   Outcome outcome = run_program(arguments);
   EXPECT_EQ(outcome.status, 0) << outcome;

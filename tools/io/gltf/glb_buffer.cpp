@@ -15,6 +15,7 @@ namespace {
 
 using Json = GlbBuffer::Json;
 
+constexpr const char* kTooLarge = "the GLB would be larger than the 4 GiB that are possible";
 constexpr int kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
 template <typename Number>
@@ -71,6 +72,27 @@ bool is_sparse_smaller(size_t elements, size_t count, size_t components) {
 }
 
 }  // namespace
+
+std::string pack_glb(std::string json, std::string_view binary) {
+  constexpr size_t kHeader = 12, kChunkHeader = 8;
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const size_t padded = (binary.size() + 3) / 4 * 4;
+  const size_t size = kHeader + kChunkHeader + json.size() + kChunkHeader + padded;
+  if (size > UINT32_MAX)
+    throw Error(ErrorKind::kInput, kTooLarge);
+  std::string out = "glTF";
+  out.reserve(size);
+  auto add = [&out](size_t x) { append(static_cast<uint32_t>(x), std::endian::little, out); };
+  add(2);
+  add(size);
+  add(json.size());
+  out += "JSON" + json;
+  add(padded);
+  out += std::string_view("BIN\0", 4);
+  out += binary;
+  out.resize(size);
+  return out;
+}
 
 size_t GlbBuffer::add_indices(std::span<const uint32_t> indices, uint32_t vertices) {
   const PackedIndices packed(indices, vertices);
@@ -137,7 +159,7 @@ void GlbBuffer::describe_in(Json& document) const {
 
 void GlbBuffer::check_size(uint64_t more) const {
   if (bytes_.size() + more > UINT32_MAX)
-    throw Error(ErrorKind::kInput, "the GLB would be larger than the 4 GiB that are possible");
+    throw Error(ErrorKind::kInput, kTooLarge);
 }
 
 size_t GlbBuffer::add_view(std::string_view bytes, GlbTarget target) {

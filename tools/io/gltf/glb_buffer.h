@@ -15,6 +15,9 @@
 
 namespace anicodec::tools {
 
+/// A GLB of a document's text and its binary data. Throws Error(kInput) beyond 4 GiB.
+std::string pack_glb(std::string json, std::string_view binary);
+
 /// The use of a buffer view (glTF 2.0, bufferView.target).
 enum class GlbTarget : int { kNone = 0, kVertices = 34962, kIndices = 34963 };
 
@@ -38,14 +41,15 @@ class GlbBuffer {
   size_t add_sparse(uint64_t count, std::span<const uint32_t> elements,
                     std::span<const float> values);
 
+  /// Bytes that are no accessor's; returns the number of their view.
+  size_t add_bytes(std::string_view bytes) { return add_view(bytes, GlbTarget::kNone); }
+
   const std::string& bytes() const { return bytes_; }
 
   void describe_in(Json& document) const;
 
-  /// Throws when a GLB of this and `more` bytes would be too large.
-  void check_size(uint64_t more) const;
-
  private:
+  void check_size(uint64_t more) const;
   size_t add_view(std::string_view bytes, GlbTarget target);
   size_t add_accessor(Json accessor);
   size_t add_sparse(Json accessor, std::span<const uint32_t> elements,

@@ -4,17 +4,14 @@
 
 #include "codec/sequence/error.h"
 #include "codec/sequence/frame_normals.h"
-#include "tools/io/base/byte_order.h"
 #include "tools/io/gltf/glb_buffer.h"
 #include "tools/io/gltf/glb_vertices.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace anicodec::tools {
@@ -90,7 +87,7 @@ class GlbOutput::Writer {
     if (clip_.frame_count > 1)
       document["animations"] = Json::array({animation(times)});
     buffer_.describe_in(document);
-    return packed(document);
+    return pack_glb(document.dump(-1, ' ', false, Json::error_handler_t::replace), buffer_.bytes());
   }
 
  private:
@@ -239,25 +236,6 @@ class GlbOutput::Writer {
       animation["extras"]["anicodec"]["rate"] =
           std::to_string(clip_.rate.numerator) + "/" + std::to_string(clip_.rate.denominator);
     return animation;
-  }
-
-  std::string packed(const Json& document) const {
-    std::string json = document.dump(-1, ' ', false, Json::error_handler_t::replace);
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    constexpr uint32_t kHeader = 12, kChunkHeader = 8;
-    const size_t binary = (buffer_.bytes().size() + 3) / 4 * 4;
-    buffer_.check_size(json.size() + kHeader + 2 * kChunkHeader + 3);
-    std::string out = "glTF";
-    auto add = [&out](size_t x) { append(static_cast<uint32_t>(x), std::endian::little, out); };
-    add(2);
-    add(kHeader + kChunkHeader + json.size() + kChunkHeader + binary);
-    add(json.size());
-    out += "JSON" + json;
-    add(binary);
-    out += std::string_view("BIN\0", 4);
-    out += buffer_.bytes();
-    out.resize(out.size() + binary - buffer_.bytes().size());
-    return out;
   }
 
   const MeshSequence& clip_;

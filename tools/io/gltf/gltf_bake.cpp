@@ -231,6 +231,14 @@ bool GltfBake::is_skinned(const Piece& piece) const {
   return document_.nodes[piece.node].skin != kGltfNone && piece.geometry->vertices.influences > 0;
 }
 
+std::vector<GltfBaked> GltfBake::primitives() const {
+  std::vector<GltfBaked> out;
+  for (const Piece& piece : pieces_)
+    out.push_back({piece.node, piece.mesh, piece.primitive, piece.geometry.get(),
+                   piece.first_vertex, piece.owns_vertices});
+  return out;
+}
+
 std::vector<bool> GltfBake::moving_nodes() const {
   std::vector<bool> moving(document_.nodes.size());
   auto add = [&](uint32_t node) {

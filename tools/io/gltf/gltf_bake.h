@@ -18,6 +18,15 @@
 
 namespace anicodec::tools {
 
+/// A primitive of the scene among what is baked.
+struct GltfBaked {
+  uint32_t node = 0, mesh = 0;
+  size_t primitive = 0;
+  const GltfGeometry* geometry = nullptr;  ///< as in the document; of the bake
+  uint32_t first_vertex = 0;               ///< of its vertices among all
+  bool owns_vertices = true;               ///< false: those of an earlier primitive of the node
+};
+
 /// The meshes of a document's scene as one, moved by an animation.
 class GltfBake {
  public:
@@ -31,6 +40,9 @@ class GltfBake {
 
   /// All but positions and normals.
   MeshSequence still() const;
+
+  /// The primitives, those of a node one after the other.
+  std::vector<GltfBaked> primitives() const;
 
   /// Nodes whose transforms or weights move a vertex.
   std::vector<bool> moving_nodes() const;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Scenes of GLTFLoader whose meshes move by clips.
+import { Box3, BufferAttribute, DynamicDrawUsage, LoaderUtils, Mesh, Sphere, Vector3 } from 'three';
+import { EXTENSION } from './glb.js';
+import { GltfSurface } from './gltf_surface.js';
+import { open } from './index.js';
+import { AnicPlayer } from './three_player.js';
+
+/** Moves the meshes of a scene that a clip is for. It is in the scene, and shows nothing itself. */
+class ScenePlayer extends AnicPlayer {
+  #surfaces = new Map();
+  #parts = [];
+
+  constructor(clip) {
+    super(clip, { below: true });
+    this.type = 'AnicScenePlayer';
+    this.name = EXTENSION;
+  }
+
+  /** Lets a mesh of the scene follow. */
+  move(object, { mesh = 0, firstVertex = 0 }) {
+    const moving = this.clip.meshes[mesh], { geometry } = object, { position, normal } = geometry.attributes;
+    if (!moving)
+      throw new Error(`${EXTENSION}: the clip has no mesh ${mesh}`);
+    if (!this.#surfaces.has(mesh))
+      this.#surfaces.set(mesh, new GltfSurface(moving));
+    const free = (attribute) => attribute && new BufferAttribute(new Float32Array(3 * attribute.count), 3).setUsage(DynamicDrawUsage);
+    geometry.setAttribute('position', free(position));
+    if (normal)
+      geometry.setAttribute('normal', free(normal));
+    const { bounds } = moving;
+    if (bounds) {
+      geometry.boundingBox = new Box3(new Vector3(...bounds.min), new Vector3(...bounds.max));
+      geometry.boundingSphere = geometry.boundingBox.getBoundingSphere(new Sphere());
+    }
+    object.raycast = (...args) => {
+      this.refresh();
+      Mesh.prototype.raycast.apply(object, args);
+    };
+    this.#parts.push({ object, mesh, firstVertex });
+  }
+
+  show(time, options) {
+    const present = new Map([...this.#surfaces].map(([mesh, surface]) => [mesh, surface.seek(time, options)]));
+    for (const { object, mesh, firstVertex } of this.#parts) {
+      object.visible = present.get(mesh);
+      if (!object.visible)
+        continue;
+      const { position, normal } = object.geometry.attributes;
+      this.#surfaces.get(mesh).take(firstVertex, position.count, position.array, normal?.array);
+      position.needsUpdate = true;
+      if (normal)
+        normal.needsUpdate = true;
+    }
+  }
+}
+
+/**
+ * A plug-in of GLTFLoader: loader.register((parser) => new AnicGLTFExtension(parser)). Each clip becomes an animation of the
+ * result, or joins the one of its name.
+ */
+export class AnicGLTFExtension {
+  /** Options of open(). */
+  constructor(parser, options = {}) {
+    Object.assign(this, { name: EXTENSION, parser, options });
+  }
+
+  async #open({ bufferView, uri }) {
+    const { parser } = this;
+    const source = bufferView === undefined ? LoaderUtils.resolveURL(uri, parser.options.path) : await parser.getDependency('bufferView', bufferView);
+    return open(source, this.options);
+  }
+
+  async afterRoot(result) {
+    const { json, associations } = this.parser, files = json.extensions?.[EXTENSION]?.files;
+    if (!files)
+      return;
+    const players = (await Promise.all(files.map((file) => this.#open(file)))).map((clip) => new ScenePlayer(clip));
+    for (const scene of result.scenes) {
+      scene.traverse((object) => {
+        const { meshes, primitives } = associations.get(object) ?? {};
+        const moved = json.meshes?.[meshes]?.primitives[primitives ?? 0].extensions?.[EXTENSION];
+        if (moved && object.isMesh)
+          players[moved.file ?? 0].move(object, moved);
+      });
+    }
+    for (const player of players) {
+      result.scene.add(player);
+      player.refresh();
+      for (const animation of player.animations) {
+        const same = result.animations.find(({ name }) => name === animation.name);
+        if (same)
+          Object.assign(same, { tracks: [...same.tracks, ...animation.tracks] }).resetDuration();
+        else
+          result.animations.push(animation);
+      }
+    }
+    result.userData.anicPlayers = players;
+  }
+}
