@@ -39,6 +39,17 @@ class Attribute(NamedTuple):
     moves: bool  #: other frames have other values: Mesh.attribute_at()
 
 
+class ClipInfo(NamedTuple):
+    """A clip of a file that holds one or more: frames first_frame .. first_frame + frame_count - 1."""
+
+    name: str
+    first_frame: int
+    frame_count: int
+    duration: float  #: seconds from its first frame to its last
+    loop_duration: float  #: seconds of one turn, when it goes round
+    loop: bool  #: it is meant to go round
+
+
 class Mesh:
     """A mesh of a clip: `mesh[10]` are the positions of frame 10, vertices x 3, float32; `mesh[10:20]` those of ten
     frames in one array. Threads may share it."""
@@ -186,6 +197,7 @@ class Clip:
         self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
         self.info["up"] = UP[self.info["up"]]
         self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
+        self.clips = tuple(ClipInfo(**c) for c in self._asset.clips())  #: what the file holds; frames count through it
 
     @property
     def name(self) -> str:

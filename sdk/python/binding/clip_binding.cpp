@@ -3,6 +3,7 @@
 //
 // Opened clips.
 #include "sdk/python/binding/binding.h"
+#include "sdk/python/binding/instance.h"
 
 #include <algorithm>
 #include <memory>
@@ -218,6 +219,30 @@ class Asset {
     return new NormalPlan(asset_.get(), mesh, crease, frame, per_corner, source_edges);
   }
 
+  RenderPlan* render_plan(uint32_t mesh, double crease, uint32_t frame, bool source_edges) const {
+    return new RenderPlan(asset_.get(), mesh, crease, frame, source_edges);
+  }
+
+  Instance* instance() const { return new Instance(asset_.get()); }
+
+  /// The clips of the file, a dictionary for each.
+  nb::list clips() const {
+    nb::list all;
+    for (uint32_t i = 0; i < anic_clip_count(asset_.get()); ++i) {
+      anic_clip clip = ANIC_INIT(anic_clip);
+      check_status(anic_clip_info(asset_.get(), i, &clip));
+      nb::dict d;
+      d["name"] = clip.name;
+      d["first_frame"] = clip.first_frame;
+      d["frame_count"] = clip.frame_count;
+      d["duration"] = clip.duration;
+      d["loop_duration"] = clip.loop_duration;
+      d["loop"] = clip.loop != 0;
+      all.append(d);
+    }
+    return all;
+  }
+
   bool shows(uint32_t mesh, uint32_t frame) {
     const std::lock_guard<std::mutex> lock(mutex_);
     check_status(anic_seek_frame(context_.get(), frame));
@@ -286,6 +311,10 @@ void bind_clip(nb::module_& module) {
       .def("attribute_at", &Asset::attribute_at)
       .def("normal_plan", &Asset::normal_plan, nb::rv_policy::take_ownership,
            nb::keep_alive<0, 1>())
+      .def("render_plan", &Asset::render_plan, nb::rv_policy::take_ownership,
+           nb::keep_alive<0, 1>())
+      .def("instance", &Asset::instance, nb::rv_policy::take_ownership, nb::keep_alive<0, 1>())
+      .def("clips", &Asset::clips)
       .def("shows", &Asset::shows)
       .def("verify", &Asset::verify);
 }

@@ -4,6 +4,7 @@
 // The extension module, and its exceptions.
 #include "codec/sequence/error.h"
 #include "sdk/python/binding/binding.h"
+#include "sdk/python/binding/instance.h"
 
 #include <anicodec/encode.h>
 
@@ -86,6 +87,7 @@ NB_MODULE(_anicodec, module) {
                            std::to_string(ANIC_VERSION_MINOR) + "." +
                            std::to_string(ANIC_VERSION_PATCH);
   nb::register_exception_translator(translate);
+  bind_instance(module);
   bind_clip(module);
   bind_encoder(module);
   bind_library(module);
