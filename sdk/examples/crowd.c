@@ -18,6 +18,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { MAX_MODELS = 16, HEAD_TEXELS = 4, NO_DISPLAY = 3 };
 
@@ -598,6 +599,62 @@ static void save_picture(const char* path, int width, int height) {
   free(pixels);
 }
 
+/* Of this program on the processor, whatever else runs. */
+static double processor_milliseconds(clock_t* since) {
+  const clock_t now = clock();
+  const double passed = 1000.0 * (double)(now - *since) / CLOCKS_PER_SEC;
+  *since = now;
+  return passed;
+}
+
+/* The other way to play: positions and normals in vertex buffers, of instances of each clip. */
+static void print_buffers(const Instance* instances, uint32_t count) {
+  enum { MOST = 400 };
+
+  for (uint32_t m = 0; m < model_count; ++m) {
+    const Model* model = &models[m];
+    anic_render_plan* plan = NULL;
+    anic_render_info render = ANIC_INIT(anic_render_info);
+    anic_basis basis = ANIC_INIT(anic_basis);
+    check(anic_create_render_plan(model->asset, model->mesh, NULL, NULL, &plan), "plan");
+    check(anic_get_render_info(plan, &render), "plan");
+    check(anic_get_basis(model->asset, 0, &basis), "basis");
+    anic_output positions = ANIC_INIT(anic_output), normals = ANIC_INIT(anic_output);
+    positions.size = 12 * (size_t)render.vertex_count;
+    positions.data = room(positions.size);
+    normals.size = 8 * (size_t)render.vertex_count;
+    normals.data = room(normals.size);
+    normals.format = ANIC_FORMAT_SNORM16X4;
+    double placing = 0, shading = 0;
+    uint32_t made = 0;
+    for (uint32_t i = 0; made < MOST; i = (i + 1) % count) {
+      if (instances[i].model != m)
+        continue;
+      clock_t since = clock();
+      anic_set_quality(instances[i].context, 1);
+      anic_seek_time(instances[i].context, instances[i].start + made / 30.0, ANIC_SAMPLE_LINEAR,
+                     ANIC_WRAP_LOOP);
+      check(anic_write_render_positions(plan, instances[i].context, ANIC_WHEN_CURRENT, 0,
+                                        render.vertex_count, &positions),
+            "positions");
+      placing += processor_milliseconds(&since);
+      check(anic_write_render_normals(plan, positions.data, 0, 0, render.vertex_count, &normals),
+            "normals");
+      shading += processor_milliseconds(&since);
+      ++made;
+    }
+    const double vertices = (double)MOST * render.vertex_count;
+    printf(
+        "buffers  %8.3f ms for ten of %u vertices by %u components: %.2f ns a vertex for "
+        "positions, %.2f for normals\n",
+        10 * (placing + shading) / MOST, render.vertex_count, basis.components,
+        1e6 * placing / vertices, 1e6 * shading / vertices);
+    free(positions.data);
+    free(normals.data);
+    anic_destroy_render_plan(plan);
+  }
+}
+
 static double milliseconds(Uint64* since) {
   const Uint64 now = SDL_GetPerformanceCounter();
   const double passed = 1000 * (double)(now - *since) / (double)SDL_GetPerformanceFrequency();
@@ -628,6 +685,7 @@ static int usage(void) {
           "  --size N         width of the picture [960]\n"
           "  --picture FILE   saves the last picture as PPM\n"
           "  --no-drawing     CPU and upload alone\n"
+          "  --buffers        measures vertex buffers filled by the CPU too\n"
           "  --check          compares positions of the shader with those of the library\n"
           "  --es             OpenGL ES 3 instead of OpenGL 3.3\n");
   return 1;
@@ -635,12 +693,14 @@ static int usage(void) {
 
 int main(int argc, char** argv) {
   uint32_t count = 1000, frames = 0;
-  int width = 960, checks = 0, embedded = 0, draws = 1, file_count = 0;
+  int width = 960, buffers = 0, checks = 0, embedded = 0, draws = 1, file_count = 0;
   const char* picture = NULL;
   char** files = argv;
   for (int i = 1; i < argc; ++i) {
     if (strcmp(argv[i], "--check") == 0)
       checks = 1;
+    else if (strcmp(argv[i], "--buffers") == 0)
+      buffers = 1;
     else if (strcmp(argv[i], "--es") == 0)
       embedded = 1;
     else if (strcmp(argv[i], "--no-drawing") == 0)
@@ -740,18 +800,19 @@ int main(int argc, char** argv) {
     for (SDL_Event event; SDL_PollEvent(&event);)
       open &= event.type != SDL_QUIT;
     const double time = frames == 0 ? SDL_GetTicks() / 1000.0 : drawn / 30.0;
-    Uint64 clock = SDL_GetPerformanceCounter();
+    clock_t processor = clock();
     memset(&counts, 0, sizeof counts);
     for (uint32_t m = 0; m < model_count; ++m)
       models[m].staged_count = 0;
     for (uint32_t i = 0; i < count; ++i)
       stage(&instances[i], time, view, eye, &counts);
-    cpu += milliseconds(&clock);
+    cpu += processor_milliseconds(&processor);
+    Uint64 since = SDL_GetPerformanceCounter();
     glActiveTexture(GL_TEXTURE0);
     for (uint32_t m = 0; m < model_count; ++m)
       upload(&models[m]);
     glFinish();
-    uploads += milliseconds(&clock);
+    uploads += milliseconds(&since);
     if (!draws)
       continue;
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -768,7 +829,7 @@ int main(int argc, char** argv) {
                               NULL, (GLsizei)models[m].staged_count);
     }
     glFinish();
-    drawing += milliseconds(&clock);
+    drawing += milliseconds(&since);
     if (picture != NULL && drawn + 1 == frames)
       save_picture(picture, width, height);
     SDL_GL_SwapWindow(window);
@@ -799,6 +860,8 @@ int main(int argc, char** argv) {
       "a vertex-animation texture of 16 bits takes %.2f MB, %.1f times as much as the textures\n",
       vertex_animation / 1e6, (double)vertex_animation / (double)textures);
 
+  if (buffers)
+    print_buffers(instances, count);
   for (uint32_t i = 0; i < count; ++i)
     anic_destroy_context(instances[i].context);
   for (uint32_t m = 0; m < model_count; ++m) {
