@@ -164,7 +164,18 @@ MeshSequence painted_box(ClipSize size) {
   MeshSequence clip = animate_twisted(quad_box(kCells), size.frames);
   Attribute uv{AttributeKind::kUv, "atlas", true, 2, 1, {}};
   Attribute colour{AttributeKind::kColour, "paint", false, 3, 1, {}};
-  clip.materials.names = {"wood", "metal"};
+  clip.materials.names = {"wood", "metal"};  // of the second nothing else is known
+  MaterialLook wood;
+  wood.known = true;
+  wood.base_colour = {0.5F, 0.25F, 0.125F, 0.75F};
+  wood.roughness = 0.875F;
+  wood.emissive = {0, 0.0625F, 0};
+  wood.alpha = AlphaMode::kMask;
+  wood.alpha_cutoff = 0.25F;
+  wood.double_sided = true;
+  wood.texture(TextureSlot::kBaseColour) = "textures/wood grain.png";
+  wood.texture(TextureSlot::kNormal) = "textures/wood_normal.png";
+  clip.materials.looks = {wood, {}};
   clip.parts.names = {"box", "lid"};
   for (uint32_t p = 0; p < clip.polygons.size(); ++p) {
     const uint32_t side = p / (kCells * kCells), cell = p % (kCells * kCells);

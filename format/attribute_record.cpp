@@ -8,7 +8,21 @@
 namespace anicodec {
 namespace {
 
-constexpr uint64_t kTextBytes = 64;
+constexpr uint64_t kTextBytes = 64, kLookBytes = 384;
+
+/// False: a field is out of its range, or there are more looks than memory.
+bool read_looks(ByteReader& r, uint64_t most_bytes, AttributeHeader* out) {
+  const uint8_t looks = r.u8();
+  if (!r.ok() || looks > 1)
+    return false;
+  if (looks == 0)
+    return true;
+  if (out->labels.empty() || out->labels.size() > most_bytes / kLookBytes)
+    return false;
+  out->looks.resize(out->labels.size());
+  return std::all_of(out->looks.begin(), out->looks.end(),
+                     [&](MaterialLook& look) { return look.read(r); });
+}
 
 }  // namespace
 
@@ -31,6 +45,11 @@ uint64_t attribute_bytes(const Vector<AttributeHeader>& attributes, const Limits
     bytes += kTextBytes + a.name.size();
     for (const String& label : a.labels)
       bytes += kTextBytes + label.size();
+    for (const MaterialLook& look : a.looks) {
+      bytes += kLookBytes;
+      for (const String& texture : look.textures)
+        bytes += texture.size();
+    }
   }
   return bytes;
 }
@@ -46,6 +65,11 @@ Bytes AttributeRecord::write() const {
       w.varint(a.labels.size());
       for (const String& label : a.labels)
         w.text(label);
+      if (a.kind == AttributeKind::kMaterial) {
+        w.u8(!a.looks.empty());
+        for (const MaterialLook& look : a.looks)
+          look.write(w);
+      }
       continue;
     }
     w.varint(a.grids.size());
@@ -58,7 +82,7 @@ Bytes AttributeRecord::write() const {
   return std::move(w.bytes());
 }
 
-Status AttributeRecord::read(ByteView view, AttributeRecord* out) {
+Status AttributeRecord::read(ByteView view, uint64_t most_bytes, AttributeRecord* out) {
   ByteReader r(view);
   const uint32_t count = r.varint32(kMaxAttributes);
   if (!r.ok() || count == 0)
@@ -76,11 +100,13 @@ Status AttributeRecord::read(ByteView view, AttributeRecord* out) {
       return Status::kRecord;
     if (a.domain == AttributeDomain::kPolygon) {
       const uint64_t labels = r.varint();
-      if (!r.ok() || labels > r.remaining())
+      if (!r.ok() || labels > std::min<uint64_t>(r.remaining(), most_bytes / kTextBytes))
         return Status::kRecord;
       a.labels.resize(static_cast<size_t>(labels));
       for (String& label : a.labels)
         label = r.text();
+      if (a.kind == AttributeKind::kMaterial && !read_looks(r, most_bytes, &a))
+        return Status::kRecord;
       continue;
     }
     const uint32_t components = r.varint32(kMaxAttributeComponents);

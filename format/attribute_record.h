@@ -7,6 +7,7 @@
 #define ANICODEC_FORMAT_ATTRIBUTE_RECORD_H_
 
 #include "format/bytes.h"
+#include "format/material_look.h"
 #include "format/memory.h"
 #include "format/records.h"
 #include "format/status.h"
@@ -40,8 +41,9 @@ struct AttributeHeader {
   AttributeKind kind = AttributeKind::kUv;
   AttributeDomain domain = AttributeDomain::kVertex;
   String name;
-  Vector<Grid> grids;     ///< one for each component, empty for polygons
-  Vector<String> labels;  ///< only for polygons
+  Vector<Grid> grids;          ///< one for each component, empty for polygons
+  Vector<String> labels;       ///< only for polygons
+  Vector<MaterialLook> looks;  ///< of materials: one for each label, or none
 
   uint32_t components() const { return static_cast<uint32_t>(grids.size()); }
 
@@ -50,7 +52,8 @@ struct AttributeHeader {
 };
 
 /// Bytes that the attributes of a mesh keep in memory, for Limits::Mesh::attribute_bytes: 4 for each
-/// number, label or shared value of an element, 64 and its length for each text.
+/// number, label or shared value of an element, 64 and its length for each text, 384 and the lengths of
+/// its textures for each look.
 uint64_t attribute_bytes(const Vector<AttributeHeader>& attributes, const Limits::Mesh& mesh);
 
 struct AttributeRecord {
@@ -58,7 +61,8 @@ struct AttributeRecord {
   ByteView stream;  ///< entropy-coded values of all, one after the other
 
   Bytes write() const;
-  static Status read(ByteView view, AttributeRecord* out);
+  /// `most_bytes`: of memory that the limits announce for the attributes.
+  static Status read(ByteView view, uint64_t most_bytes, AttributeRecord* out);
 };
 
 }  // namespace anicodec

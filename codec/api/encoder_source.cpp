@@ -3,6 +3,7 @@
 //
 // Meshes, positions and attributes of the host.
 #include "codec/api/encoder_objects.h"
+#include "sdk/api/versioned.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,13 +116,42 @@ PolygonLabels polygon_labels(const anic_source_attribute& host, size_t count) {
   return result;
 }
 
+/// Throws for numbers that are not finite or below 0.
+MaterialLook look_of(const anic_material* host) {
+  MaterialLook look;
+  if (!host)
+    return look;
+  anic_material m = ANIC_INIT(anic_material);
+  if (!take(host, &m))
+    fail(ANIC_E_ARGUMENT, "a material's struct_size is not set, or of a later version");
+  if (m.alpha < ANIC_ALPHA_OPAQUE || m.alpha > ANIC_ALPHA_BLEND)
+    fail(ANIC_E_ARGUMENT, "alpha of a material is none of ANIC_ALPHA");
+  look.known = true;
+  std::copy_n(m.base_colour, 4, look.base_colour.begin());
+  look.metallic = m.metallic;
+  look.roughness = m.roughness;
+  std::copy_n(m.emissive, 3, look.emissive.begin());
+  look.alpha = static_cast<AlphaMode>(m.alpha);
+  look.alpha_cutoff = m.alpha_cutoff;
+  look.double_sided = m.double_sided != 0;
+  const char* textures[kTextureSlots] = {m.base_colour_texture, m.metallic_roughness_texture,
+                                         m.normal_texture, m.occlusion_texture, m.emissive_texture};
+  for (size_t i = 0; i < kTextureSlots; ++i)
+    look.textures[i] = textures[i] ? textures[i] : "";
+  if (!look.in_range())
+    fail(ANIC_E_ARGUMENT, "a number of a material is not finite or below 0");
+  return look;
+}
+
 void take_labels(const anic_source_attribute& host, size_t count, MeshSequence* mesh) {
   if (!host.labels && count > 0)
     fail(ANIC_E_ARGUMENT, "an attribute without components has labels");
   const bool polygons = host.domain == ANIC_DOMAIN_POLYGONS;
-  if (polygons && host.kind == ANIC_ATTRIBUTE_MATERIAL)
+  if (polygons && host.kind == ANIC_ATTRIBUTE_MATERIAL) {
     mesh->materials = polygon_labels(host, count);
-  else if (polygons && host.kind == ANIC_ATTRIBUTE_PART)
+    for (uint32_t i = 0; host.materials && i < host.label_count; ++i)
+      mesh->materials.looks.push_back(look_of(host.materials[i]));
+  } else if (polygons && host.kind == ANIC_ATTRIBUTE_PART)
     mesh->parts = polygon_labels(host, count);
   else if (host.domain == ANIC_DOMAIN_CORNERS && host.kind == ANIC_ATTRIBUTE_NORMAL)
     mesh->shared_normals.assign(host.labels, host.labels + count);
@@ -165,7 +195,8 @@ SourceMesh take_mesh(const anic_source_mesh& host, uint32_t clip_frames) {
     result.host.vertex_stride =
         host.scalar == ANIC_SCALAR_FLOAT64 ? 3 * sizeof(double) : 3 * sizeof(float);
   if (host.frame_stride == 0)
-    result.host.frame_stride = result.host.vertex_stride * static_cast<ptrdiff_t>(host.vertex_count);
+    result.host.frame_stride =
+        result.host.vertex_stride * static_cast<ptrdiff_t>(host.vertex_count);
   result.mesh.present_in = runs_of(host, clip_frames);
   MeshSequence& mesh = result.mesh.sequence;
   mesh.mesh_name = text_of(host.name);

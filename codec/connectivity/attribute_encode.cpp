@@ -251,6 +251,11 @@ class AttributeWriter {
     AttributeHeader& header = add_header(kind, AttributeDomain::kPolygon, "");
     for (const std::string& name : labels.names)
       header.labels.push_back(text(name));
+    const auto known = [](const MaterialLook& look) { return look.known; };
+    if (std::ranges::any_of(labels.looks, known)) {
+      check_count(labels.looks.size(), labels.names.size(), "materials");
+      header.looks.assign(labels.looks.begin(), labels.looks.end());
+    }
     Vector<uint32_t> values;
     for (uint32_t p : layout_.polygon_source) {
       const uint32_t label = labels.of_polygon[p];
@@ -332,6 +337,7 @@ void restore_attributes(const Vector<MeshAttribute>& decoded, MeshSequence* sequ
       labels = {};
       for (const String& name : header.labels)
         labels.names.emplace_back(name.begin(), name.end());
+      labels.looks.assign(header.looks.begin(), header.looks.end());
       for (uint32_t label : a.labels)
         labels.of_polygon.push_back(label == 0 ? kNoLabel : label - 1);
     } else if (header.components() == 0) {

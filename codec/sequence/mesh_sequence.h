@@ -58,7 +58,8 @@ inline constexpr uint32_t kNoLabel = UINT32_MAX;
 /// Names, each of some polygons.
 struct PolygonLabels {
   std::vector<std::string> names;
-  std::vector<uint32_t> of_polygon;  ///< a name's number or kNoLabel; empty: none has any
+  std::vector<uint32_t> of_polygon;      ///< a name's number or kNoLabel; empty: none has any
+  std::vector<MaterialLook> looks = {};  ///< of materials: one for each name; empty: none is known
 
   bool operator==(const PolygonLabels&) const = default;
 };

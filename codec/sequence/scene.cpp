@@ -19,6 +19,16 @@ std::vector<uint32_t> taken(const std::vector<uint32_t>& values,
   return out;
 }
 
+/// Adds a name, and its look where that is known.
+void append_name(const PolygonLabels& labels, uint32_t label, PolygonLabels& out) {
+  out.names.push_back(labels.names[label]);
+  if (!labels.looks.empty() || !out.looks.empty()) {
+    out.looks.resize(out.names.size());
+    if (!labels.looks.empty())
+      out.looks.back() = labels.looks[label];
+  }
+}
+
 /// The labels of some polygons, without names that none of them has.
 PolygonLabels taken(const PolygonLabels& labels, const std::vector<uint32_t>& polygons) {
   PolygonLabels out;
@@ -28,7 +38,7 @@ PolygonLabels taken(const PolygonLabels& labels, const std::vector<uint32_t>& po
       const auto [number, is_new] =
           numbers.try_emplace(label, static_cast<uint32_t>(out.names.size()));
       if (is_new)
-        out.names.push_back(labels.names[label]);
+        append_name(labels, label, out);
       label = number->second;
     }
     out.of_polygon.push_back(label);
@@ -124,7 +134,7 @@ void append(const PolygonLabels& labels, size_t polygons, PolygonLabels& out) {
     const auto name = std::find(out.names.begin(), out.names.end(), labels.names[label]);
     out.of_polygon.push_back(static_cast<uint32_t>(name - out.names.begin()));
     if (name == out.names.end())
-      out.names.push_back(labels.names[label]);
+      append_name(labels, label, out);
   }
 }
 

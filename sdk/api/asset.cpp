@@ -160,6 +160,35 @@ const char* anic_get_label_name(const anic_asset* asset, uint32_t mesh, uint32_t
   return m->attributes[attribute].header.labels[label].c_str();
 }
 
+anic_status anic_get_material(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
+                              uint32_t label, anic_material* out) {
+  const Mesh* m = find_mesh(asset, mesh);
+  if (!m || !is_sized(out) || attribute >= m->attributes.size())
+    return ANIC_E_ARGUMENT;
+  const AttributeHeader& a = m->attributes[attribute].header;
+  if (a.kind != AttributeKind::kMaterial || label >= a.labels.size())
+    return ANIC_E_ARGUMENT;
+  if (a.looks.empty() || !a.looks[label].known)
+    return ANIC_E_ABSENT;
+  const MaterialLook& look = a.looks[label];
+  anic_material filled = ANIC_INIT(anic_material);
+  filled.name = a.labels[label].c_str();
+  std::copy(look.base_colour.begin(), look.base_colour.end(), filled.base_colour);
+  filled.metallic = look.metallic;
+  filled.roughness = look.roughness;
+  std::copy(look.emissive.begin(), look.emissive.end(), filled.emissive);
+  filled.alpha = static_cast<anic_alpha>(look.alpha);
+  filled.alpha_cutoff = look.alpha_cutoff;
+  filled.double_sided = look.double_sided;
+  filled.base_colour_texture = look.texture(TextureSlot::kBaseColour).c_str();
+  filled.metallic_roughness_texture = look.texture(TextureSlot::kMetallicRoughness).c_str();
+  filled.normal_texture = look.texture(TextureSlot::kNormal).c_str();
+  filled.occlusion_texture = look.texture(TextureSlot::kOcclusion).c_str();
+  filled.emissive_texture = look.texture(TextureSlot::kEmissive).c_str();
+  give(filled, out);
+  return ANIC_OK;
+}
+
 anic_status anic_get_polygons(const anic_asset* asset, uint32_t mesh, anic_polygons* out) {
   const Mesh* m = find_mesh(asset, mesh);
   if (!m || !is_sized(out))

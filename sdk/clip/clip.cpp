@@ -349,7 +349,7 @@ Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
   if (Failure f = required(file, "ATTR", mesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
   AttributeRecord record;
-  Status s = AttributeRecord::read(payload, &record);
+  Status s = AttributeRecord::read(payload, limits_.meshes[mesh].attribute_bytes, &record);
   if (s == Status::kOk)
     s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology,
                           &meshes_[mesh].attributes);

@@ -154,6 +154,22 @@ TEST(AnicAsset, GivesTheAttributesOfTheSource) {
   EXPECT_EQ(anic_get_label_name(asset.get(), 0, 3, 2), nullptr);
   EXPECT_EQ(anic_get_label_name(asset.get(), 0, 9, 0), nullptr);
   EXPECT_EQ(anic_get_attribute(asset.get(), 0, 5, &a), ANIC_E_ARGUMENT);
+  anic_material wood = ANIC_INIT(anic_material);
+  ASSERT_EQ(anic_get_material(asset.get(), 0, 3, 0, &wood), ANIC_OK);
+  EXPECT_STREQ(wood.name, "wood");
+  EXPECT_THAT(wood.base_colour, ElementsAreArray(source.materials.looks[0].base_colour));
+  EXPECT_EQ(wood.metallic, 0);
+  EXPECT_EQ(wood.roughness, 0.875F);
+  EXPECT_EQ(wood.emissive[1], 0.0625F);
+  EXPECT_EQ(wood.alpha, ANIC_ALPHA_MASK);
+  EXPECT_EQ(wood.alpha_cutoff, 0.25F);
+  EXPECT_TRUE(wood.double_sided);
+  EXPECT_STREQ(wood.base_colour_texture, "textures/wood grain.png");
+  EXPECT_STREQ(wood.normal_texture, "textures/wood_normal.png");
+  EXPECT_STREQ(wood.emissive_texture, "");
+  EXPECT_EQ(anic_get_material(asset.get(), 0, 3, 1, &wood), ANIC_E_ABSENT);
+  EXPECT_EQ(anic_get_material(asset.get(), 0, 3, 2, &wood), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_get_material(asset.get(), 0, 4, 0, &wood), ANIC_E_ARGUMENT);
   EXPECT_EQ(anic_get_attribute(asset.get(), 1, 0, &a), ANIC_E_ARGUMENT);
 }
 

@@ -182,6 +182,16 @@ TEST_F(AnicEncoder, KeepsAttributesAndLabels) {
   material.labels = labels.data();
   material.label_names = &name;
   material.label_count = 1;
+  anic_material look = ANIC_INIT(anic_material);
+  look.base_colour[0] = 0.5F;
+  look.roughness = 0.25F;
+  look.normal_texture = "n.png";
+  const anic_material* looks[] = {&look};
+  material.materials = looks;
+  look.roughness = -1;
+  ASSERT_EQ(anic_add_source_attribute(encoder_, 0, &material), ANIC_E_ARGUMENT);
+  EXPECT_EQ(text(), "a number of a material is not finite or below 0");
+  look.roughness = 0.25F;
   ASSERT_EQ(anic_add_source_attribute(encoder_, 0, &material), ANIC_OK) << text();
   ASSERT_EQ(encode(), ANIC_OK) << text();
 
@@ -193,6 +203,11 @@ TEST_F(AnicEncoder, KeepsAttributesAndLabels) {
   EXPECT_FLOAT_EQ(read.values[1], 0.25F);
   ASSERT_EQ(anic_get_attribute(asset, 0, 1, &read), ANIC_OK);
   EXPECT_STREQ(anic_get_label_name(asset, 0, 1, 0), "skin");
+  anic_material kept = ANIC_INIT(anic_material);
+  ASSERT_EQ(anic_get_material(asset, 0, 1, 0, &kept), ANIC_OK);
+  EXPECT_EQ(kept.base_colour[0], 0.5F);
+  EXPECT_EQ(kept.roughness, 0.25F);
+  EXPECT_STREQ(kept.normal_texture, "n.png");
   EXPECT_EQ(std::count(read.labels, read.labels + read.count, 0U), 1) << "in any order";
   anic_close_asset(asset);
 

@@ -105,6 +105,25 @@ std::string faces(const Topology& topology) {
   return out;
 }
 
+std::string numbers(const float* from, size_t count) {
+  return list(std::vector<float>(from, from + count), [](float x) { return number(double{x}); });
+}
+
+std::string look(const MaterialLook& look) {
+  if (!look.known)
+    return "null";
+  Object out;
+  out.add("base_colour", numbers(look.base_colour.data(), 4));
+  out.add("metallic", number(double{look.metallic}));
+  out.add("roughness", number(double{look.roughness}));
+  out.add("emissive", numbers(look.emissive.data(), 3));
+  out.add("alpha", integer(static_cast<uint64_t>(look.alpha)));
+  out.add("alpha_cutoff", number(double{look.alpha_cutoff}));
+  out.add("double_sided", look.double_sided);
+  out.add("textures", list(Vector<String>(look.textures.begin(), look.textures.end()), quoted));
+  return out.str();
+}
+
 std::string attribute(const Clip& clip, uint32_t mesh, uint32_t which) {
   const MeshAttribute& a = clip.meshes()[mesh].attributes[which];
   const auto [first, end] = clip.attribute_tracks(mesh, which);
@@ -116,6 +135,7 @@ std::string attribute(const Clip& clip, uint32_t mesh, uint32_t which) {
   out.add("labels", list(a.header.labels, quoted));
   out.add("moves", first != end);
   out.add("groups", list(a.labels, integer));
+  out.add("looks", list(a.header.looks, look));
   std::vector<std::vector<float>> values{{a.values.begin(), a.values.end()}};
   for (uint32_t f = 1; first != end && f < clip.frame_count(); ++f) {
     values.emplace_back(a.values.size());

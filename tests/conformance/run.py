@@ -103,7 +103,7 @@ def fact_faults(seen, facts):
             yield f"mesh {number}: {len(mesh['attributes'])} attributes, not {len(expected['attributes'])}"
             continue
         for which, (attribute, wanted) in enumerate(zip(mesh["attributes"], expected["attributes"])):
-            for key in ("kind", "domain", "name", "components", "labels", "moves", "groups"):
+            for key in ("kind", "domain", "name", "components", "labels", "moves", "groups", "looks"):
                 if attribute.get(key) != wanted[key]:
                     yield f"mesh {number}: attribute {which}: {key} is {attribute.get(key)}, not {wanted[key]}"
             sizes = [len(frame) for frame in attribute["values"]]

@@ -219,6 +219,16 @@ def mesh_rules(files):
     yield 45, "attr_origin", painted.put("ATTR attribute 0 origin 0", NAN), "an origin that is not a number"
     yield 45, "attr_scale", painted.put("ATTR attribute 0 scale 0", f64(0)), "a scale of 0"
     yield 40, "attr_name", painted.put("ATTR attribute 0 name", lambda old: b"\xff\x7f" + old[1:]), "a name longer than the record"
+    look = "ATTR look 0"
+    yield 40, "attr_looks", painted.put("ATTR attribute 3 looks", b"\2"), "looks that are neither there nor not"
+    yield 40, "look_flags", painted.put(f"{look} flags", b"\x17"), "a reserved flag of a material"
+    yield 40, "look_alpha", painted.put(f"{look} flags", b"\x0f"), "an alpha that does not exist"
+    yield 40, "look_unknown", painted.put("ATTR look 1 flags", b"\2"), "flags of an unknown material"
+    yield 40, "look_number", painted.put(f"{look} roughness", struct.pack("<f", -1)), "a roughness below 0"
+    yield 40, "look_not_finite", painted.put(f"{look} red", struct.pack("<f", float("nan"))), "a colour that is not a number"
+    yield 40, "look_textures", painted.put(f"{look} textures", b"\x25"), "an image for a purpose that does not exist"
+    yield 40, "look_image", painted.put(f"{look} base_colour", b"\0"), "an image without a name"
+    yield 40, "limi_fewer_looks", painted.put("LIMI mesh 0 attribute bytes", varint(500)), "less memory than names and looks take"
     yield 41, "attr_more", painted.end("ATTR", b"\1"), "bytes after the values"
 
 

@@ -10,7 +10,7 @@ import clip_output
 POINTS = 24  # of each mesh
 SAMPLES = 12  # of each attribute
 MESH_KEYS = ("name", "low", "high")
-ATTRIBUTE_KEYS = ("kind", "domain", "name", "components", "labels", "moves", "groups")
+ATTRIBUTE_KEYS = ("kind", "domain", "name", "components", "labels", "moves", "groups", "looks")
 
 
 class Places:

@@ -4,6 +4,7 @@
 #include "sdk/clip/clip.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/io/base/file_kind.h"
+#include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
@@ -37,7 +38,7 @@ or .abc.
 Examples:
   anicodec decode clip.anic -o clip.pc2
   anicodec decode clip.anic -o frames/frame_%04d.ply --frames 0:100:2
-  anicodec decode clip.anic -o clip.glb
+  anicodec decode clip.anic -o clip.glb --textures scene.glb
   anicodec decode clip.anic -o clip.abc --normals
   anicodec decode clip.anic -o first.obj --frames 0
   anicodec decode *.anic --format glb -o decoded)";
@@ -48,7 +49,7 @@ constexpr Word<std::string_view> kFormats[] = {{"pc2", "pc2"}, {"mdd", "mdd"}, {
 
 struct DecodeCommand {
   std::vector<std::string> inputs;
-  std::string output, clip, frames, quality;
+  std::string output, clip, frames, quality, textures;
   std::string_view format;
   uint32_t start = 0;
   bool ascii = false, hold = false, normals = false;
@@ -173,6 +174,13 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   options.group_faces = clip.record().order != OrderMode::kAll;
   options.first_number = command.start;
   options.progress = line.callback();
+  std::vector<GltfImage> images;
+  if (!command.textures.empty()) {
+    if (kind_of(paths.output) != FileKind::kGlb)
+      throw Error(ErrorKind::kUsage, "--textures: images are put into .glb alone");
+    images = load_images(command.textures);
+    options.images = images;
+  }
   check_sequence_output(paths.output, range.size(), options);
   if (kind_of(paths.output) == FileKind::kAlembic) {
     const Written written = write_archive(paths, clip, range, options);
@@ -253,6 +261,8 @@ void add_decode(Commands& commands, CommonOptions& common) {
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");
   options.flag("--hold", c->hold, "GLB: hold each frame until the next, without in-betweens");
+  options.option("--textures", c->textures, "SCENE.glb",
+                 "GLB: put in the images of this scene that materials name");
   options.flag("--normals", c->normals, "Alembic: normals of every corner in every frame");
   options.flag("--ascii", c->ascii, "PLY and STL as text");
   options.option("--quality", c->quality, "Q", "Share of the components to use, above 0 to 1");

@@ -71,9 +71,9 @@ vertex cache with its mesh, and every run of numbered frames, of a list a clip p
 separated by tabs. Clips that are done already, by the content of what goes in and comes out, are
 left alone; one that fails does not stop the others.
 
-Texture coordinates, colours, other numbers, materials and objects are kept; those of vertices in
-every frame, all others as they are in the first. Of normals the hard edges are: normals come from
-the positions of a frame.
+Texture coordinates, colours, other numbers, materials (values and names of images) and objects are
+kept; those of vertices in every frame, all others as they are in the first. Of normals the hard
+edges are: normals come from the positions of a frame. What else a scene has is named as not kept.
 
 A LEN is in scene units (0.02), in per cent of the diagonal of the box around all frames (0.05%), or
 where the unit of the scene is known in m, cm, mm, km, in or ft (5mm). Give one target; --max-error
@@ -216,6 +216,7 @@ StillSurface split_surface(MeshSequence& sequence) {
   std::erase_if(sequence.attributes, [](const Attribute& attribute) {
     return attribute.kind == AttributeKind::kUv || attribute.kind == AttributeKind::kColour;
   });
+  sequence.materials.looks.clear();
   return still;
 }
 

@@ -95,6 +95,29 @@ const char* coder_of(const Limits::Segment& s) {
   return name_of(s.draco_bytes > 0 ? CoderId::kDraco : CoderId::kNative);
 }
 
+/// One object for each material, null where its look is unknown.
+nlohmann::ordered_json looks_json(const Vector<MaterialLook>& looks) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MaterialLook& look : looks) {
+    nlohmann::ordered_json& json = list.emplace_back();
+    if (!look.known)
+      continue;
+    json = {{"base_colour", look.base_colour},
+            {"metallic", look.metallic},
+            {"roughness", look.roughness},
+            {"emissive", look.emissive},
+            {"alpha", word_of(kAlphaModes, look.alpha)},
+            {"double_sided", look.double_sided}};
+    if (look.alpha == AlphaMode::kMask)
+      json["alpha_cutoff"] = look.alpha_cutoff;
+    for (const Word<TextureSlot>& slot : kTextures) {
+      if (const String& texture = look.texture(slot.value); !texture.empty())
+        json["textures"][slot.text] = texture;
+    }
+  }
+  return list;
+}
+
 nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
   const ClipRecord& record = c.clip.clips()[0];
   const Limits& limits = c.clip.limits();
@@ -171,6 +194,8 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
                                       {"components", a.header.components()},
                                       {"labels", a.header.labels},
                                       {"moves", moves(c.clip, m, i)}};
+      if (!a.header.looks.empty())
+        entry["looks"] = looks_json(a.header.looks);
       if (const AttributeError* error = error_of(record, m, i)) {
         entry["bytes"] = moving_bytes(c, m, i);
         entry["max_error"] = error->max_error;
@@ -250,7 +275,8 @@ std::string attribute_text(const AttributeHeader& a) {
   if (!a.name.empty())
     text += fmt::format(" \"{}\"", a.name);
   if (a.domain == AttributeDomain::kPolygon)
-    return text + fmt::format(", {} names", a.labels.size());
+    return text + fmt::format(", {}{}", counted(a.labels.size(), "name"),
+                              a.looks.empty() ? "" : " with their values");
   if (a.components() == 0)
     return text + ": hard edges";
   return text +

@@ -262,6 +262,7 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   options.clips = split_at_commas(command.clips);
   options.progress = progress;
   options.allow_outside = command.allow_outside;
+  options.scene_stays = kind_of(command.output) == FileKind::kGlb;
   if (!command.memory.empty() && command.batch.empty())
     options.memory = parse_size(command.memory, "--memory");
   options.note = command.note;

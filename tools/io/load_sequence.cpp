@@ -14,6 +14,7 @@
 #include "tools/io/files/natural_order.h"
 #include "tools/io/files/staging.h"
 #include "tools/io/formats/cache_record.h"
+#include "tools/io/formats/mtl.h"
 #include "tools/io/formats/obj.h"
 #include "tools/io/formats/off.h"
 #include "tools/io/formats/ply.h"
@@ -91,7 +92,8 @@ class MeshReader {
     read_file(path, bytes_);
     switch (kind_of(path)) {
       case FileKind::kObj:
-        parse_obj(bytes_, path, mesh_, details);
+        libraries_.clear();
+        parse_obj(bytes_, path, mesh_, details, &libraries_);
         break;
       case FileKind::kPly:
         parse_ply(bytes_, path, mesh_, details);
@@ -108,9 +110,31 @@ class MeshReader {
   /// The bytes of the file that was read last.
   std::string_view text() const { return bytes_; }
 
+  /// Takes the looks of materials from the libraries that the mesh at `path`, read last, names. What
+  /// cannot be had is noted: it is no reason to refuse the clip.
+  void read_looks(const std::string& path, const LoadOptions& options,
+                  PolygonLabels& materials) const {
+    for (const std::string& library : libraries_) {
+      const fs::path relative = fs::path(library).lexically_normal();
+      const std::string file = (fs::path(path).parent_path() / relative).string();
+      try {
+        if (!options.allow_outside &&
+            (relative.is_absolute() || (!relative.empty() && *relative.begin() == "..")))
+          fail_input(file, "is outside the folder of " + path + "; --allow-outside reads it");
+        std::string text;
+        read_file(file, text);
+        parse_mtl(text, file, materials);
+      } catch (const Error& e) {
+        if (options.note)
+          options.note("materials keep their names alone: " + std::string(e.what()));
+      }
+    }
+  }
+
  private:
   std::string bytes_;
   Mesh mesh_;
+  std::vector<std::string> libraries_;
 };
 
 std::string listed(std::span<const uint32_t> polygon) {
@@ -164,6 +188,7 @@ void load_frames(const std::vector<std::string>& paths, const LoadOptions& optio
     if (f == 0) {
       sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
       sequence.polygons = mesh.polygons;
+      reader.read_looks(paths[0], options, sequence.materials);
       reserve(sequence, paths.size(), paths[0]);
     } else {
       check_same_mesh(mesh, paths[f], sequence, paths[0]);
@@ -221,6 +246,7 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
       fail_input(cache_path, std::to_string(cache.vertex_count) + " vertices, but the mesh " +
                                  mesh_path + " has " + std::to_string(mesh.vertex_count()));
     check_cache_record(reader.text(), mesh_path, source);
+    reader.read_looks(mesh_path, options, sequence.materials);
     sequence.polygons = mesh.polygons;
   }
   sequence.vertex_count = cache.vertex_count;
@@ -239,6 +265,7 @@ GltfOptions scene_options(const LoadOptions& options) {
   GltfOptions scene{.rate = options.rate, .mesh = options.mesh, .clip = options.clip};
   scene.memory_limit = options.memory;
   scene.allow_outside = options.allow_outside;
+  scene.scene_stays = options.scene_stays;
   scene.progress = options.progress;
   scene.note = options.note;
   return scene;
@@ -453,6 +480,7 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
       static_cast<MeshDetails&>(run) = std::move(details);
       run.vertex_count = static_cast<uint32_t>(mesh->vertex_count());
       run.polygons = mesh->polygons;
+      reader.read_looks(paths[f], options, run.materials);
       runs.back().present_in = {{f, 0}};
     } else {
       add_frame(details.attributes, runs.back().sequence.frame_count,
@@ -472,6 +500,17 @@ std::string carry_clip(const std::string& scene, const LoadOptions& options,
   std::string bytes;
   read_file(scene, bytes);
   return write_moving_glb(bytes, scene, resolver_of(scene), scene_options(options), still, clip);
+}
+
+std::vector<GltfImage> load_images(const std::string& path) {
+  if (const FileKind kind = kind_of(path); kind != FileKind::kGltf && kind != FileKind::kGlb)
+    fail_usage(path + ": is no glTF scene");
+  std::string bytes;
+  read_file(path, bytes);
+  std::vector<GltfImage> images =
+      parse_gltf_document(bytes, path, resolver_of(path), half_of_machine()).images;
+  std::erase_if(images, [](const GltfImage& image) { return image.name.empty(); });
+  return images;
 }
 
 }  // namespace anicodec::tools

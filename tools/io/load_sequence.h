@@ -7,6 +7,7 @@
 #include "codec/sequence/progress.h"
 #include "codec/sequence/scene.h"
 #include "tools/io/base/machine_memory.h"
+#include "tools/io/gltf/gltf_material.h"
 #include "tools/io/gltf/moving_glb.h"
 
 #include <cstdint>
@@ -38,6 +39,8 @@ struct LoadOptions {
   uint64_t memory = half_of_machine();
   /// Scenes may name files outside their folder.
   bool allow_outside = false;
+  /// The clip goes back into its scene, so that what surrounds it is not lost.
+  bool scene_stays = false;
   /// Stage "reading".
   Progress progress = {};
   /// Told what of a file is left out, where that is not plain from its kind.
@@ -73,6 +76,9 @@ std::vector<std::string> sequence_files(std::span<const std::string> inputs);
 
 /// True for the extensions that load_sequence reads, in any case of letters.
 bool is_sequence_input(const std::string& path);
+
+/// The images inside a glTF scene. Throws as load_sequence().
+std::vector<GltfImage> load_images(const std::string& path);
 
 }  // namespace anicodec::tools
 

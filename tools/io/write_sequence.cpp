@@ -10,6 +10,7 @@
 #include "tools/io/files/name_pattern.h"
 #include "tools/io/files/output_folder.h"
 #include "tools/io/formats/cache_record.h"
+#include "tools/io/formats/mtl.h"
 #include "tools/io/formats/obj.h"
 #include "tools/io/formats/off.h"
 #include "tools/io/formats/ply.h"
@@ -90,6 +91,24 @@ std::string mesh_of_cache(const std::string& cache) {
   return std::filesystem::path(cache).replace_extension(".obj").string();
 }
 
+/// The library of materials beside an OBJ.
+std::string library_of_mesh(const std::string& mesh) {
+  return std::filesystem::path(mesh).replace_extension(".mtl").string();
+}
+
+/// Writes the library of materials whose looks are known beside an OBJ, which then names it.
+void add_library(const std::string& mesh, const MeshSequence& clip, const WriteOptions& options,
+                 ObjDetails& details, std::vector<AtomicFile>& files) {
+  if (!has_looks(clip.materials))
+    return;
+  const std::string library = library_of_mesh(mesh);
+  details.set_library(std::filesystem::path(library).filename().string());
+  std::string text;
+  append_mtl(clip.materials, text);
+  files.emplace_back(library, options.overwrite).write(text);
+  files.back().close();
+}
+
 void write_cache(const std::string& path, const MeshSequence& clip, const Frames& frames,
                  const WriteOptions& options) {
   std::vector<AtomicFile> files;
@@ -110,7 +129,8 @@ void write_cache(const std::string& path, const MeshSequence& clip, const Frames
     files[0].write(bytes);
     bytes.clear();
     if (f == 0) {
-      const ObjDetails details(clip, options.group_faces);
+      ObjDetails details(clip, options.group_faces);
+      add_library(mesh_of_cache(path), clip, options, details, files);
       append_obj(clip.polygons, positions, bytes, &details);
       files[1].write(bytes);
       bytes.clear();
@@ -146,7 +166,7 @@ AlembicTrack only_track(const MeshSequence& clip, const FrameSource& source,
 void write_glb(const std::string& path, const MeshSequence& clip, const Frames& frames,
                const WriteOptions& options) {
   AtomicFile file(path, options.overwrite);
-  GlbOutput glb(clip, options.step);
+  GlbOutput glb(clip, options.step, options.images);
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
     std::vector<Attribute> attributes;
     if (options.attributes)
@@ -170,8 +190,10 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
   std::vector<AtomicFile> files;
   std::string bytes;
   std::optional<ObjDetails> details;
-  if (kind == FileKind::kObj)
+  if (kind == FileKind::kObj) {
     details.emplace(clip, options.group_faces);
+    add_library(pattern.name(options.first_number), clip, options, *details, files);
+  }
   std::vector<Attribute> attributes = clip.attributes;
   const PlyProperties properties(attributes);
   for (uint32_t f = 0; f < clip.frame_count; ++f) {

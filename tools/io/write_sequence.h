@@ -7,6 +7,7 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
 #include "tools/io/alembic/alembic_output.h"
+#include "tools/io/gltf/gltf_material.h"
 
 #include <cstdint>
 #include <span>
@@ -21,7 +22,8 @@ struct WriteOptions {
   bool normals = false;       ///< Alembic: those of every corner in every frame
   bool group_faces = false;   ///< OBJ: faces object by object, and in each material by material
   uint32_t first_number = 0;  ///< of frame files
-  Progress progress = {};     ///< stage "writing"
+  std::span<const GltfImage> images = {};  ///< GLB: those that materials name by "#name"
+  Progress progress = {};                  ///< stage "writing"
   /// Attributes in the form of those of the clip; empty: those of the clip.
   AttributeSource attributes = {};
 };
@@ -33,6 +35,7 @@ struct WriteOptions {
 ///   - clip.abc: an Alembic archive, see write_alembic(),
 ///   - frame_%04d.obj, .ply, .off, .stl: a file per frame, its %d or %0Nd counting from
 ///   first_number.
+/// Beside an OBJ whose materials have a look stands a library of them, frame_0000.mtl or clip.mtl.
 /// A single frame may have a plain name. PC2 carries no rate; MDD has the time of each frame. STL
 /// loses polygons and unused vertices. Counts, polygons and timing come from `clip`, whose
 /// positions are not read; frames are asked for once and in order. Folders that are missing are

@@ -117,11 +117,29 @@ void list_segment(FieldReader& r) {
     r.block(name);
 }
 
+void list_look(const std::string& name, FieldReader& r) {
+  const uint8_t flags = r.u8(name + " flags");
+  if (!(flags & 1))
+    return r.explain("unknown");
+  constexpr uint8_t kMask = static_cast<uint8_t>(AlphaMode::kMask);
+  for (const char* field : {"red", "green", "blue", "alpha", "metallic", "roughness",
+                            "emissive red", "emissive green", "emissive blue"})
+    r.f32(name + " " + field);
+  if ((flags >> 2 & 3) == kMask)
+    r.f32(name + " alpha cutoff");
+  const uint8_t textures = r.u8(name + " textures");
+  for (size_t i = 0; i < kTextureSlots; ++i) {
+    if (textures >> i & 1)
+      r.text(fmt::format("{} {}", name, kTextures[i].text));
+  }
+}
+
 void list_attributes(FieldReader& r) {
   const uint64_t count = r.varint("attributes");
   for (uint64_t i = 0; i < count && r.ok(); ++i) {
     auto name = [i](std::string_view field) { return fmt::format("attribute {} {}", i, field); };
-    r.explain(name_of(static_cast<AttributeKind>(r.u8(name("kind")))));
+    const auto kind = static_cast<AttributeKind>(r.u8(name("kind")));
+    r.explain(name_of(kind));
     const auto domain = static_cast<AttributeDomain>(r.u8(name("domain")));
     r.explain(name_of(domain));
     r.text(name("name"));
@@ -134,6 +152,10 @@ void list_attributes(FieldReader& r) {
         r.f64(name(fmt::format("origin {}", k)));
         r.f64(name(fmt::format("scale {}", k)));
       }
+    }
+    if (kind == AttributeKind::kMaterial && r.u8(name("looks")) == 1) {
+      for (uint64_t k = 0; k < entries && r.ok(); ++k)
+        list_look(fmt::format("look {}", k), r);
     }
   }
   r.bytes("values", r.remaining());

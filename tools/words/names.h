@@ -46,6 +46,16 @@ inline constexpr Word<AttributeKind> kAttributeKinds[] = {
     {AttributeKind::kCustom, "custom"},   {AttributeKind::kMaterial, "material"},
     {AttributeKind::kPart, "part"}};
 
+inline constexpr Word<AlphaMode> kAlphaModes[] = {
+    {AlphaMode::kOpaque, "opaque"}, {AlphaMode::kMask, "mask"}, {AlphaMode::kBlend, "blend"}};
+
+inline constexpr Word<TextureSlot> kTextures[kTextureSlots] = {
+    {TextureSlot::kBaseColour, "base_colour"},
+    {TextureSlot::kMetallicRoughness, "metallic_roughness"},
+    {TextureSlot::kNormal, "normal"},
+    {TextureSlot::kOcclusion, "occlusion"},
+    {TextureSlot::kEmissive, "emissive"}};
+
 inline constexpr Word<AttributeDomain> kAttributeDomains[] = {
     {AttributeDomain::kVertex, "vertices"},
     {AttributeDomain::kCorner, "corners"},

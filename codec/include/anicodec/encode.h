@@ -150,6 +150,9 @@ typedef struct anic_source_attribute {
                                      ANIC_ATTRIBUTE_PART) */
   const char* const* label_names; /**< label_count; UTF-8 */
   uint32_t label_count;
+  /** Looks of ANIC_ATTRIBUTE_MATERIAL: label_count pointers, NULL where one is unknown; NULL: all are.
+   * Their names do not matter, NULL is no texture. */
+  const anic_material* const* materials;
 } anic_source_attribute;
 
 /**

@@ -77,7 +77,7 @@
 #define ANIC_INT32 : int32_t
 #else
 #define ANIC_INT32
-typedef int32_t anic_status, anic_up_axis, anic_order, anic_attribute_kind, anic_domain,
+typedef int32_t anic_status, anic_up_axis, anic_order, anic_attribute_kind, anic_alpha, anic_domain,
     anic_sampling, anic_wrap, anic_when, anic_format, anic_value_format, anic_basis_kind,
     anic_target, anic_reconstruction, anic_texture;
 #endif
@@ -533,6 +533,45 @@ ANIC_API anic_status anic_get_attribute(const anic_asset* asset, uint32_t mesh, 
 /** Name of a label, 0 .. label_count - 1; NULL if there is none. It belongs to the asset. */
 ANIC_API const char* anic_get_label_name(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
                                          uint32_t label);
+
+/** What of a surface lets light through. */
+enum anic_alpha ANIC_INT32 {
+  ANIC_ALPHA_OPAQUE = 0,
+  ANIC_ALPHA_MASK = 1, /**< all where the base colour's alpha is below alpha_cutoff, else nothing */
+  ANIC_ALPHA_BLEND = 2
+};
+
+/**
+ * The look of a material, in the terms of glTF 2.0 (metallic and roughness). Textures are paths or
+ * names as in the source, never NULL, empty if there is none: images are not in the file. Strings
+ * belong to the asset. Spec: 06, section 10.
+ */
+typedef struct anic_material {
+  size_t struct_size;
+  const char* name;
+  float base_colour[4]; /**< linear RGBA; a texture's colour is multiplied by it */
+  float metallic;       /**< 0 to 1 */
+  float roughness;      /**< 0 to 1 */
+  float emissive[3];    /**< linear RGB, 0 and more */
+  anic_alpha alpha;
+  float alpha_cutoff;
+  uint8_t double_sided;
+  const char* base_colour_texture;
+  const char* metallic_roughness_texture; /**< roughness in green, metallic in blue */
+  const char* normal_texture;
+  const char* occlusion_texture;
+  const char* emissive_texture;
+} anic_material;
+
+/**
+ * The look of the material that a label names.
+ *
+ * - Errors: ANIC_E_ARGUMENT: there is no such label of an attribute ANIC_ATTRIBUTE_MATERIAL;
+ *   ANIC_E_ABSENT: the file has its name and nothing else
+ * - Cost: O(1)
+ */
+ANIC_API anic_status anic_get_material(const anic_asset* asset, uint32_t mesh, uint32_t attribute,
+                                       uint32_t label, anic_material* out);
 
 /** Time of a frame in seconds, from the first frame of its clip on. Frames behind the last count as
  * the last. Spec: 04, section 2. */

@@ -230,6 +230,11 @@ class Asset {
     return anic_get_label_name(get(), mesh, attribute, label);
   }
 
+  /// Status kAbsent where the file has the material's name and nothing else.
+  Status material(uint32_t attribute, uint32_t label, anic_material* out, uint32_t mesh = 0) const {
+    return anic_get_material(get(), mesh, attribute, label, out);
+  }
+
   /// Which vertices move together.
   Span<const uint32_t> coded_vertices(uint32_t mesh = 0) const {
     const uint32_t* first = nullptr;

@@ -28,6 +28,26 @@ def chosen(table: Dict[str, int], name: str, what: str) -> int:
     return table[name]
 
 
+ALPHA_MODES = ("opaque", "mask", "blend")
+
+
+class Material(NamedTuple):
+    """The look of a material, in the terms of glTF 2.0. Textures are paths or names as in the source, "" for none."""
+
+    base_colour: Tuple[float, float, float, float]  #: linear RGBA
+    metallic: float
+    roughness: float
+    emissive: Tuple[float, float, float]  #: linear RGB
+    alpha: str  #: opaque, mask or blend
+    alpha_cutoff: float  #: of mask
+    double_sided: bool
+    base_colour_texture: str
+    metallic_roughness_texture: str
+    normal_texture: str
+    occlusion_texture: str
+    emissive_texture: str
+
+
 class Attribute(NamedTuple):
     """What stands beside the positions of a mesh, as in frame 0."""
 
@@ -37,6 +57,11 @@ class Attribute(NamedTuple):
     values: np.ndarray  #: elements x components, float32; of labels: one uint32 for each element, 0 for none
     labels: Tuple[str, ...]  #: names of the labels 1, 2 ...
     moves: bool  #: other frames have other values: Mesh.attribute_at()
+    looks: Tuple[Optional[Material], ...] = ()  #: of materials: one for each name, None where it is unknown
+
+
+def _material(look: Optional[Dict[str, Any]]) -> Optional[Material]:
+    return None if look is None else Material(**{**look, "alpha": ALPHA_MODES[look["alpha"]]})
 
 
 class ClipInfo(NamedTuple):
@@ -95,7 +120,8 @@ class Mesh:
             for i in range(self._mesh["attribute_count"]):
                 a = self._asset.attribute(self._number, i)
                 found.append(Attribute(a["name"], KINDS[a["kind"]], DOMAINS[a["domain"]], a["values"],
-                                       tuple(a.get("labels", ())), a["moves"]))
+                                       tuple(a.get("labels", ())), a["moves"],
+                                       tuple(_material(look) for look in a.get("looks", ()))))
             self._attributes = tuple(found)
         return self._attributes
 

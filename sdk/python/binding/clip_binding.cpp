@@ -156,7 +156,38 @@ class Asset {
       for (uint32_t i = 0; i < a.label_count; ++i)
         names.append(anic_get_label_name(asset_.get(), mesh, number, i));
       d["labels"] = names;
+      if (a.kind == ANIC_ATTRIBUTE_MATERIAL) {
+        nb::list looks;
+        for (uint32_t i = 0; i < a.label_count; ++i)
+          looks.append(look(mesh, number, i));
+        d["looks"] = looks;
+      }
     }
+    return d;
+  }
+
+  /// The values of a material; None where they are unknown.
+  nb::object look(uint32_t mesh, uint32_t attribute, uint32_t label) const {
+    anic_material m = ANIC_INIT(anic_material);
+    const anic_status status = anic_get_material(asset_.get(), mesh, attribute, label, &m);
+    if (status == ANIC_E_ABSENT)
+      return nb::none();
+    check_status(status);
+    const float(&c)[4] = m.base_colour;
+    const float(&e)[3] = m.emissive;
+    nb::dict d;
+    d["base_colour"] = nb::make_tuple(c[0], c[1], c[2], c[3]);
+    d["metallic"] = m.metallic;
+    d["roughness"] = m.roughness;
+    d["emissive"] = nb::make_tuple(e[0], e[1], e[2]);
+    d["alpha"] = static_cast<int>(m.alpha);
+    d["alpha_cutoff"] = m.alpha_cutoff;
+    d["double_sided"] = m.double_sided != 0;
+    d["base_colour_texture"] = m.base_colour_texture;
+    d["metallic_roughness_texture"] = m.metallic_roughness_texture;
+    d["normal_texture"] = m.normal_texture;
+    d["occlusion_texture"] = m.occlusion_texture;
+    d["emissive_texture"] = m.emissive_texture;
     return d;
   }
 

@@ -4,12 +4,14 @@
 
 #ifdef ANICODEC_ASSIMP
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/shininess.h"
 #include "tools/io/gltf/gltf_serial.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <utility>
 
@@ -33,6 +35,64 @@ std::array<double, 16> column_major(const aiMatrix4x4& m) {
   return out;
 }
 
+/// The first image of a kind: a path, or "#name" of one inside the file.
+String texture_of(const aiMaterial& from, aiTextureType type) {
+  aiString path;
+  if (from.GetTexture(type, 0, &path) != aiReturn_SUCCESS || path.length == 0)
+    return {};
+  String text = path.C_Str();
+  if (text[0] == '*')
+    text[0] = '#';
+  std::replace(text.begin(), text.end(), '\\', '/');
+  return text;
+}
+
+/// The first of several textures that is there.
+String texture_of(const aiMaterial& from, std::initializer_list<aiTextureType> types) {
+  for (const aiTextureType type : types) {
+    if (String text = texture_of(from, type); !text.empty())
+      return text;
+  }
+  return {};
+}
+
+GltfMaterial material(const aiMaterial& from) {
+  GltfMaterial out;
+  out.name = from.GetName().C_Str();
+  MaterialLook& look = out.look;
+  look.known = true;
+  aiColor4D colour(1, 1, 1, 1);
+  if (from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS)
+    from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+  float opacity = 1, shininess = 0;
+  from.Get(AI_MATKEY_OPACITY, opacity);
+  look.base_colour = {colour.r, colour.g, colour.b, std::min(colour.a, opacity)};
+  if (look.base_colour[3] < 1)
+    look.alpha = AlphaMode::kBlend;
+  from.Get(AI_MATKEY_METALLIC_FACTOR, look.metallic);
+  if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, look.roughness) != aiReturn_SUCCESS &&
+      from.Get(AI_MATKEY_SHININESS, shininess) == aiReturn_SUCCESS)
+    look.roughness = roughness_of_shininess(shininess);
+  aiColor3D emissive(0, 0, 0);
+  from.Get(AI_MATKEY_COLOR_EMISSIVE, emissive);
+  look.emissive = {emissive.r, emissive.g, emissive.b};
+  int two_sided = 0;
+  from.Get(AI_MATKEY_TWOSIDED, two_sided);
+  look.double_sided = two_sided != 0;
+  look.texture(TextureSlot::kBaseColour) =
+      texture_of(from, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+  look.texture(TextureSlot::kMetallicRoughness) =
+      texture_of(from, {aiTextureType_METALNESS, aiTextureType_DIFFUSE_ROUGHNESS});
+  look.texture(TextureSlot::kNormal) =
+      texture_of(from, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA});
+  look.texture(TextureSlot::kOcclusion) = texture_of(from, aiTextureType_AMBIENT_OCCLUSION);
+  look.texture(TextureSlot::kEmissive) =
+      texture_of(from, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
+  if (!look.in_range())  // what no renderer can use
+    look = {};
+  return out;
+}
+
 /// Makes a glTF document of a scene, so that both are baked by the same code.
 class Converter {
  public:
@@ -40,7 +100,7 @@ class Converter {
 
   GltfDocument convert() {
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
-      out_.materials.emplace_back(scene_.mMaterials[i]->GetName().C_Str());
+      out_.materials.push_back(material(*scene_.mMaterials[i]));
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i)
       out_.meshes.push_back(mesh(*scene_.mMeshes[i]));
     add_node(*scene_.mRootNode, kGltfNone);

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/formats/obj.h"
 
-#include "tools/io/base/printable.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/base/text_output.h"
+#include "tools/io/formats/mtl.h"
 
 #include <algorithm>
 #include <iterator>
@@ -18,11 +18,10 @@ namespace {
 
 // Statements that carry neither vertices nor polygons, in alphabetical order.
 constexpr std::string_view kSkipped[] = {
-    "bevel",  "bmat",      "bsp",  "bzp",    "c_interp",   "cdc", "cdp",    "con",
-    "cstype", "ctech",     "curv", "curv2",  "d_interp",   "deg", "end",    "g",
-    "hole",   "illum",     "l",    "lod",    "maplib",     "mg",  "mtllib", "p",
-    "parm",   "res",       "s",    "scrv",   "shadow_obj", "sp",  "stech",  "step",
-    "surf",   "trace_obj", "trim", "usemap", "vp",
+    "bevel",      "bmat", "bsp",    "bzp",      "c_interp", "cdc",       "cdp",  "con",    "cstype",
+    "ctech",      "curv", "curv2",  "d_interp", "deg",      "end",       "g",    "hole",   "illum",
+    "l",          "lod",  "maplib", "mg",       "p",        "parm",      "res",  "s",      "scrv",
+    "shadow_obj", "sp",   "stech",  "step",     "surf",     "trace_obj", "trim", "usemap", "vp",
 };
 
 bool is_skipped(std::string_view keyword) {
@@ -122,6 +121,7 @@ class DetailsParser {
  public:
   Pool uv{"uv", 2}, normals{"normal", 3};
   std::vector<float> colours;
+  std::vector<std::string> libraries;
   NamedPolygons materials, objects;
 };
 
@@ -146,6 +146,10 @@ class ObjParser {
         listed(keyword == "vt");
       } else if (keyword == "usemtl" || keyword == "o") {
         named(keyword == "o");
+      } else if (keyword == "mtllib") {
+        if (details_)
+          details_->libraries.emplace_back(in_.rest_of_line());
+        in_.skip_line();
       } else if (is_skipped(keyword)) {
         in_.skip_line();
       } else {
@@ -256,7 +260,8 @@ class ObjParser {
 
 }  // namespace
 
-void parse_obj(std::string_view text, std::string_view name, Mesh& mesh, MeshDetails* details) {
+void parse_obj(std::string_view text, std::string_view name, Mesh& mesh, MeshDetails* details,
+               std::vector<std::string>* libraries) {
   if (text.starts_with("\xEF\xBB\xBF"))
     text.remove_prefix(3);
   auto parse = [&](uint64_t vertex_limit) {
@@ -268,6 +273,8 @@ void parse_obj(std::string_view text, std::string_view name, Mesh& mesh, MeshDet
         ObjParser(text, name, vertex_limit, mesh, parser ? &*parser : nullptr).parse();
     if (parser)
       parser->finish(mesh, name);
+    if (parser && libraries)
+      *libraries = std::move(parser->libraries);
     return used;
   };
   const uint64_t used = parse(kMaxVertices);
@@ -297,6 +304,10 @@ void ObjDetails::group_polygons() {
       rank.try_emplace(label, static_cast<uint32_t>(rank.size()));
     std::ranges::stable_sort(order_, {}, [&](uint32_t p) { return rank[names->of_polygon[p]]; });
   }
+}
+
+void ObjDetails::set_library(const std::string& file) {
+  library_ = "mtllib " + file + "\n";
 }
 
 void ObjDetails::set_attributes(const std::vector<Attribute>& attributes) {
@@ -332,11 +343,7 @@ void ObjDetails::set_attributes(const std::vector<Attribute>& attributes) {
 ObjDetails::Names ObjDetails::names(const char* keyword, const PolygonLabels& labels) {
   Names result;
   for (const std::string& label : labels.names) {
-    std::string name = printable(label);
-    // One joins lines, the other begins a comment.
-    std::ranges::replace_if(
-        name, [](char c) { return c == '\\' || c == '#'; }, '_');
-    result.lines.push_back(std::string(keyword) + " " + name + "\n");
+    result.lines.push_back(std::string(keyword) + " " + statement_name(label) + "\n");
   }
   result.none = std::string(keyword) + " " + std::string(kNoName) + "\n";
   result.of_polygon = labels.of_polygon;
@@ -345,6 +352,8 @@ ObjDetails::Names ObjDetails::names(const char* keyword, const PolygonLabels& la
 
 void append_obj(const Polygons& polygons, std::span<const float> positions, std::string& out,
                 const ObjDetails* details) {
+  if (details)
+    out += details->library_;
   const bool has_uv = details && !details->uv_.empty();
   const bool has_normals = details && details->normals_.has_value();
   for (size_t i = 0; i + 2 < positions.size(); i += 3) {

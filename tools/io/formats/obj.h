@@ -20,9 +20,10 @@ namespace anicodec::tools {
 /// given, receives texture coordinates and normals of corners, colours of vertices, and the
 /// materials (usemtl) and objects (o) of polygons; a corner without texture coordinates in a mesh
 /// that has some gets 0 0. All other statements of the format are skipped by name. Throws
-/// Error(kInput) "name:line: reason" for anything else.
+/// Error(kInput) "name:line: reason" for anything else. `libraries`, where given, receives the names of
+/// the libraries of materials (mtllib), for parse_mtl().
 void parse_obj(std::string_view text, std::string_view name, Mesh& mesh,
-               MeshDetails* details = nullptr);
+               MeshDetails* details = nullptr, std::vector<std::string>* libraries = nullptr);
 
 /// The parts that the OBJ files of a clip's frames have in common, prepared once: texture coordinates,
 /// colours, materials, objects, and which corners share a normal.
@@ -31,6 +32,9 @@ class ObjDetails {
   /// `clip` must outlive it. `group_faces`: they are written object by object and in each material by
   /// material, so that no program makes two objects of one; else in their order.
   explicit ObjDetails(const MeshSequence& clip, bool group_faces = false);
+
+  /// Files written from now on name this library of materials.
+  void set_library(const std::string& file);
 
   /// Takes texture coordinates and colours of a frame of its own.
   void set_attributes(const std::vector<Attribute>& attributes);
@@ -50,6 +54,7 @@ class ObjDetails {
 
   const MeshSequence& clip_;
   std::vector<uint32_t> order_;          ///< in which polygons are written
+  std::string library_;                  ///< line of mtllib, or empty
   std::string texture_coordinates_;      ///< lines of vt
   std::vector<uint32_t> uv_;             ///< of each corner, or empty
   std::vector<float> colours_;           ///< vertices x 3, or empty

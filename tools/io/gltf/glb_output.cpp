@@ -6,6 +6,7 @@
 #include "codec/sequence/frame_normals.h"
 #include "tools/io/gltf/glb_buffer.h"
 #include "tools/io/gltf/glb_vertices.h"
+#include "tools/io/gltf/gltf_material.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +45,12 @@ struct Output {
 
 class GlbOutput::Writer {
  public:
-  Writer(const MeshSequence& clip, bool step)
-      : clip_(clip), vertices_(clip), step_(step), meshes_(vertices_.objects().size()) {
+  Writer(const MeshSequence& clip, bool step, std::span<const GltfImage> images)
+      : clip_(clip),
+        vertices_(clip),
+        step_(step),
+        images_(images),
+        meshes_(vertices_.objects().size()) {
     if (!clip.shared_normals.empty())
       normals_.emplace(clip);
     if (clip.frame_count > UINT16_MAX)
@@ -80,10 +85,8 @@ class GlbOutput::Writer {
     document["scenes"] = Json::array({{{"nodes", {0}}}});
     document["nodes"] = nodes();
     document["meshes"] = meshes();
-    if (!clip_.materials.of_polygon.empty()) {
-      for (const std::string& name : clip_.materials.names)
-        document["materials"].push_back({{"name", name}});
-    }
+    if (!clip_.materials.of_polygon.empty())
+      add_materials(document);
     if (clip_.frame_count > 1)
       document["animations"] = Json::array({animation(times)});
     buffer_.describe_in(document);
@@ -213,6 +216,17 @@ class GlbOutput::Writer {
     return result;
   }
 
+  void add_materials(Json& document) {
+    const bool textured = std::ranges::any_of(
+        clip_.attributes, [](const Attribute& a) { return a.kind == AttributeKind::kUv; });
+    GltfMaterials materials(textured ? GltfTextures::kFiles : GltfTextures::kNone, images_,
+                            [&](std::string_view bytes) { return buffer_.add_bytes(bytes); });
+    const std::vector<MaterialLook>& looks = clip_.materials.looks;
+    for (size_t i = 0; i < clip_.materials.names.size(); ++i)
+      materials.add(clip_.materials.names[i], looks.empty() ? MaterialLook() : looks[i]);
+    materials.describe_in(document);
+  }
+
   /// The weight of a frame is 1 at its time and 0 at those of all others.
   Json animation(std::span<const float> times) {
     const uint32_t frames = clip_.frame_count;
@@ -242,13 +256,14 @@ class GlbOutput::Writer {
   const GlbVertices vertices_;
   std::optional<FrameNormals> normals_;  ///< of clips that know their hard edges
   const bool step_;
+  const std::span<const GltfImage> images_;
   GlbBuffer buffer_;
   std::vector<Written> first_;
   std::vector<Output> meshes_;
 };
 
-GlbOutput::GlbOutput(const MeshSequence& clip, bool step)
-    : writer_(std::make_unique<Writer>(clip, step)) {}
+GlbOutput::GlbOutput(const MeshSequence& clip, bool step, std::span<const GltfImage> images)
+    : writer_(std::make_unique<Writer>(clip, step, images)) {}
 
 GlbOutput::~GlbOutput() = default;
 

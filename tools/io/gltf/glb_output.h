@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_IO_GLTF_GLB_OUTPUT_H_
 
 #include "codec/sequence/mesh_sequence.h"
+#include "tools/io/gltf/gltf_material.h"
 
 #include <memory>
 #include <span>
@@ -21,9 +22,10 @@ namespace anicodec::tools {
 /// they change. Positions read back within a rounding of float32.
 class GlbOutput {
  public:
-  /// `step`: each frame stands until the next, instead of moving to it. Takes counts, polygons,
+  /// `step`: each frame stands until the next, instead of moving to it. `images`: those that materials
+  /// name by "#name", to be put inside. Takes counts, polygons,
   /// attributes and timing from `clip`, which must outlive it; not its positions.
-  GlbOutput(const MeshSequence& clip, bool step);
+  GlbOutput(const MeshSequence& clip, bool step, std::span<const GltfImage> images = {});
   GlbOutput(const GlbOutput&) = delete;
   GlbOutput& operator=(const GlbOutput&) = delete;
   ~GlbOutput();

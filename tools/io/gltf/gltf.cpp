@@ -111,13 +111,24 @@ uint32_t count_frames(const GltfDocument& document, uint32_t animation, const Gl
   return static_cast<uint32_t>(frames);
 }
 
+/// Names what a file does not keep, in one line.
+void note_left_out(const GltfDocument& document, const GltfOptions& options) {
+  if (!options.note || options.scene_stays || document.left_out.empty())
+    return;
+  std::string text;
+  for (const std::string& what : document.left_out)
+    text += (text.empty() ? "" : ", ") + what;
+  options.note("not kept: " + text + "; encode to a .glb keeps all of the scene");
+}
+
 }  // namespace
 
 MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
                         const GltfOptions& options) {
-  return bake_gltf(
-      parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside),
-      options);
+  const GltfDocument document =
+      parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside);
+  note_left_out(document, options);
+  return bake_gltf(document, options);
 }
 
 std::vector<MeshSequence> parse_gltf_clips(std::string_view bytes, std::string_view name,
@@ -125,6 +136,7 @@ std::vector<MeshSequence> parse_gltf_clips(std::string_view bytes, std::string_v
                                            const std::vector<std::string>& names) {
   const GltfDocument document =
       parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside);
+  note_left_out(document, options);
   std::vector<uint32_t> animations;
   for (const std::string& wanted : names)
     animations.push_back(named_animation(document, wanted));

@@ -29,6 +29,8 @@ struct GltfOptions {
   uint64_t memory_limit = uint64_t{1} << 36;
   /// Buffers may stand outside the folder of the file, by URIs that climb with "..".
   bool allow_outside = false;
+  /// The clip goes back into the scene, so that what surrounds it is not noted as left out.
+  bool scene_stays = false;
   /// Draco decodes in a process with limits (run_guarded); false: here, for tests of it.
   bool isolate = true;
   /// Stage "reading".

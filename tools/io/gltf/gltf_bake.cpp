@@ -266,7 +266,10 @@ MeshSequence GltfBake::still() const {
   out.parts = parts_;
   if (out.parts.names.empty())
     out.parts.of_polygon.clear();
-  out.materials.names = document_.materials;
+  for (const GltfMaterial& material : document_.materials) {
+    out.materials.names.push_back(material.name);
+    out.materials.looks.push_back(material.look);
+  }
 
   std::map<std::string, Attribute> attributes;
   for (const Piece& piece : pieces_) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -121,9 +122,7 @@ std::vector<char> decode_data_uri(std::string_view uri, const JsonNode& node) {
   return out;
 }
 
-std::string path_of_uri(std::string_view uri, const JsonNode& node, bool allow_outside) {
-  if (uri.find("://") != std::string_view::npos || uri.starts_with("/") || uri.starts_with("file:"))
-    node.fail("'" + shown(uri) + "' is not relative to the file; only such buffers are read");
+std::string decoded_uri(std::string_view uri) {
   std::string path;
   for (size_t i = 0; i < uri.size(); ++i) {
     int high = i + 2 < uri.size() ? hex_of(uri[i + 1]) : -1;
@@ -135,6 +134,29 @@ std::string path_of_uri(std::string_view uri, const JsonNode& node, bool allow_o
       path += uri[i];
     }
   }
+  return path;
+}
+
+std::string encoded_uri(std::string_view path) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF", kPlain = "-._~/+,=@()!$&';";
+  std::string uri;
+  for (const char c : path) {
+    const auto byte = static_cast<uint8_t>(c);
+    if (std::isalnum(byte) || kPlain.find(c) != std::string_view::npos) {
+      uri += c;
+    } else {
+      uri += '%';
+      uri += kDigits[byte >> 4];
+      uri += kDigits[byte & 15];
+    }
+  }
+  return uri;
+}
+
+std::string path_of_uri(std::string_view uri, const JsonNode& node, bool allow_outside) {
+  if (uri.find("://") != std::string_view::npos || uri.starts_with("/") || uri.starts_with("file:"))
+    node.fail("'" + shown(uri) + "' is not relative to the file; only such buffers are read");
+  const std::string path = decoded_uri(uri);
   if (path.find('\0') != std::string::npos)
     node.fail("the URI has a zero byte");
   // Normalised as text, so that a link to a folder is no way out either.

@@ -29,6 +29,10 @@ bool is_data_uri(std::string_view uri);
 /// Bytes of a base64 data URI. Throws at the node.
 std::vector<char> decode_data_uri(std::string_view uri, const JsonNode& node);
 
+/// A URI with its percent signs decoded, and a path as a URI.
+std::string decoded_uri(std::string_view uri);
+std::string encoded_uri(std::string_view path);
+
 /// A relative URI as a path without detours: percent signs decoded. Throws at the node for URIs
 /// with a scheme and absolute paths, and for those that climb out of the folder unless
 /// `allow_outside`.

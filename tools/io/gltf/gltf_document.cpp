@@ -65,8 +65,10 @@ class Reader {
       read_view(node);
     for (const JsonNode& node : root_.elements("accessors"))
       out_.accessors.push_back(read_accessor(node));
-    for (const JsonNode& node : root_.elements("materials"))
-      out_.materials.push_back(text_or_empty(node, "name"));
+    out_.materials = read_materials(root_, &out_.left_out);
+    list_left_out();
+    for (const JsonNode& node : root_.elements("images"))
+      read_image(node);
     for (const JsonNode& node : root_.elements("meshes"))
       out_.meshes.push_back(read_mesh(node));
     const std::vector<JsonNode> nodes = root_.elements("nodes");
@@ -83,6 +85,24 @@ class Reader {
   }
 
  private:
+  /// What the scene has beside meshes and their motion.
+  void list_left_out() {
+    if (const size_t cameras = root_.elements("cameras").size(); cameras > 0)
+      out_.left_out.push_back(std::to_string(cameras) + (cameras == 1 ? " camera" : " cameras"));
+    if (const std::optional<JsonNode> extensions = root_.find("extensions");
+        extensions && extensions->find("KHR_lights_punctual"))
+      out_.left_out.emplace_back("lights");
+    const auto has_extras = [](const JsonNode& node) { return node.find("extras").has_value(); };
+    const std::vector<JsonNode> nodes = root_.elements("nodes"), meshes = root_.elements("meshes");
+    if (std::ranges::any_of(nodes, has_extras) || std::ranges::any_of(meshes, has_extras))
+      out_.left_out.emplace_back("custom properties");
+    const size_t images = static_cast<size_t>(std::ranges::count_if(
+        root_.elements("images"), [](const JsonNode& node) { return is_inside(node); }));
+    if (images > 0)
+      out_.left_out.push_back(std::to_string(images) + (images == 1 ? " image" : " images") +
+                              " inside the scene");
+  }
+
   void check_version() {
     const JsonNode version = root_.member("asset").member("version");
     if (!version.text().starts_with("2."))
@@ -129,6 +149,23 @@ class Reader {
                 std::to_string(length) + " of its byteLength");
     bytes.resize(length);
     out_.bytes += length;
+  }
+
+  /// Those inside the document alone.
+  void read_image(const JsonNode& node) {
+    GltfImage& image = out_.images.emplace_back();
+    if (!is_inside(node))
+      return;
+    image.name = name_inside(node, out_.images.size() - 1);
+    image.type = text_or_empty(node, "mimeType");
+    if (const std::optional<JsonNode> uri = node.find("uri")) {
+      const std::string text = uri->text();
+      const std::vector<char> bytes = decode_data_uri(text, *uri);
+      image.bytes.assign(bytes.begin(), bytes.end());
+      image.type = text.substr(5, text.find(';') - 5);
+    } else if (const std::optional<JsonNode> view = node.find("bufferView")) {
+      image.bytes = out_.views[view->index(out_.views.size(), "bufferViews")].bytes;
+    }
   }
 
   std::string_view range_of_buffer(const JsonNode& node) {

@@ -6,6 +6,8 @@
 #ifndef ANICODEC_TOOLS_IO_GLTF_GLTF_DOCUMENT_H_
 #define ANICODEC_TOOLS_IO_GLTF_GLTF_DOCUMENT_H_
 
+#include "tools/io/gltf/gltf_material.h"
+
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -134,7 +136,9 @@ struct GltfDocument {
   std::vector<uint32_t> roots;  ///< of the scene to be shown
   std::vector<GltfSkin> skins;
   std::vector<GltfAnimation> animations;
-  std::vector<std::string> materials;  ///< names
+  std::vector<GltfMaterial> materials;
+  std::vector<GltfImage> images;      ///< empty where they are files of their own
+  std::vector<std::string> left_out;  ///< what a scene has and a clip does not keep
 };
 
 /// Gives the bytes of a file that a document names by a relative URI. Throws Error(kInput).

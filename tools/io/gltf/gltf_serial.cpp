@@ -4,6 +4,7 @@
 
 #include "tools/io/base/byte_order.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/gltf/gltf_material.h"
 
 #include <array>
 #include <bit>
@@ -63,13 +64,6 @@ Json accessors(const GltfDocument& document) {
             {"normalized", accessor.normalized}};
     set_index(json, "bufferView", accessor.view);
   }
-  return out;
-}
-
-Json materials(const GltfDocument& document) {
-  Json out = Json::array();
-  for (const std::string& name : document.materials)
-    out.push_back({{"name", name}});
   return out;
 }
 
@@ -151,15 +145,14 @@ void append_chunk(std::string_view type, std::string_view bytes, char filling, s
 
 std::string glb_of(const GltfDocument& document) {
   std::string binary;
-  Json json = {{"asset", {{"version", "2.0"}}},
-               {"bufferViews", views(document, binary)},
-               {"accessors", accessors(document)},
-               {"materials", materials(document)},
-               {"meshes", meshes(document)},
-               {"nodes", nodes(document)},
-               {"skins", skins(document)},
-               {"animations", animations(document)},
-               {"scenes", {{{"nodes", document.roots}}}}};
+  Json json = {{"asset", {{"version", "2.0"}}},      {"bufferViews", views(document, binary)},
+               {"accessors", accessors(document)},   {"meshes", meshes(document)},
+               {"nodes", nodes(document)},           {"skins", skins(document)},
+               {"animations", animations(document)}, {"scenes", {{{"nodes", document.roots}}}}};
+  GltfMaterials materials(GltfTextures::kAll);
+  for (const GltfMaterial& material : document.materials)
+    materials.add(material.name, material.look);
+  materials.describe_in(json);
   json["buffers"] = {{{"byteLength", binary.size()}}};
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   constexpr size_t kHeads = 12 + 8 + 8 + 8;  // with the padding of both chunks

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/io/formats/mtl.h"
+
+#include "tests/tools/io_testing.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+PolygonLabels named(std::vector<std::string> names) {
+  PolygonLabels labels;
+  labels.names = std::move(names);
+  return labels;
+}
+
+MaterialLook look_of(const std::string& statements) {
+  PolygonLabels labels = named({"red wall"});
+  parse_mtl("newmtl red wall\n" + statements, "a.mtl", labels);
+  return labels.looks.at(0);
+}
+
+TEST(Mtl, GivesTheLooksOfMaterialsThatAreAskedFor) {
+  PolygonLabels labels = named({"b", "a"});
+  parse_mtl("# made by hand\nnewmtl a\nKa 1 1 1\nKd 0.5 0.25 0\nnewmtl c\nKd 1 0 0\n", "a.mtl",
+            labels);
+  ASSERT_EQ(labels.looks.size(), 2U);
+  EXPECT_FALSE(labels.looks[0].known);
+  EXPECT_TRUE(labels.looks[1].known);
+  EXPECT_THAT(labels.looks[1].base_colour, ElementsAre(0.5F, 0.25F, 0, 1));
+}
+
+TEST(Mtl, ReadsOpacityAndShineInTheirSeveralWays) {
+  EXPECT_EQ(look_of("d 0.25").base_colour[3], 0.25F);
+  EXPECT_EQ(look_of("d 0.25").alpha, AlphaMode::kBlend);
+  EXPECT_EQ(look_of("Tr 0.25").base_colour[3], 0.75F);
+  EXPECT_EQ(look_of("d 1").alpha, AlphaMode::kOpaque);
+  EXPECT_EQ(look_of("Ns 1000").roughness, 0);
+  EXPECT_EQ(look_of("Ns 250").roughness, 0.5F);
+  EXPECT_EQ(look_of("Pr 0.5\nNs 1000").roughness, 0.5F) << "said by itself";
+  EXPECT_EQ(look_of("Pm 1").metallic, 1);
+  EXPECT_THAT(look_of("Ke 2").emissive, ElementsAre(2, 2, 2));
+}
+
+TEST(Mtl, FindsImagesBehindTheirOptions) {
+  EXPECT_EQ(look_of("map_Kd wood grain.png").texture(TextureSlot::kBaseColour), "wood grain.png");
+  EXPECT_EQ(look_of("map_Bump -bm 0.5 n.png").texture(TextureSlot::kNormal), "n.png");
+  EXPECT_EQ(look_of("map_Kd -o 0 1 -clamp on -s 2 2 2 a.png").texture(TextureSlot::kBaseColour),
+            "a.png");
+}
+
+TEST(Mtl, RefusesWhatIsNoNumber) {
+  EXPECT_THAT(fault([] { look_of("Kd red"); }), HasSubstr("a.mtl:2:"));
+  EXPECT_THAT(fault([] { look_of("d nan"); }), HasSubstr("not finite"));
+}
+
+TEST(Mtl, ComesBack) {
+  PolygonLabels labels = named({"plain", "shiny #1"});
+  labels.looks.resize(2);
+  MaterialLook& look = labels.looks[1];
+  look.known = true;
+  look.base_colour = {0.1F, 0.2F, 0.3F, 0.5F};
+  look.alpha = AlphaMode::kBlend;
+  look.metallic = 1;
+  look.roughness = 0.1F;
+  look.emissive = {0, 0, 0.7F};
+  look.texture(TextureSlot::kNormal) = "n.png";
+  look.texture(TextureSlot::kMetallicRoughness) = "mr.png";
+  ASSERT_TRUE(has_looks(labels));
+  std::string text;
+  append_mtl(labels, text);
+  EXPECT_THAT(text, Not(HasSubstr("plain")));
+  PolygonLabels read = named({"plain", "shiny _1"});
+  parse_mtl(text, "a.mtl", read);
+  ASSERT_EQ(read.looks.size(), 2U);
+  EXPECT_EQ(read.looks[1], look);
+}
+
+}  // namespace
+}  // namespace anicodec::tools
