@@ -20,21 +20,8 @@
 
 namespace anicodec {
 
-/// A corpus clip as a file, encoded once per run of the tests.
-inline const Bytes& encoded_clip(const std::string& clip, BasisChoice basis, uint32_t frames = 0) {
-  static std::map<std::tuple<std::string, BasisChoice, uint32_t>, Bytes> files;
-  Bytes& file = files[{clip, basis, frames}];
-  if (file.empty()) {
-    EncodeOptions options;
-    options.target = {ErrorMetric::kMaxError, 1, true};
-    options.basis = basis;
-    options.effort = 1;
-    file = encode(frames > 0 ? corpus::make_scaled(clip, 300, frames) : corpus::make_clip(clip),
-                  options)
-               .file;
-  }
-  return file;
-}
+/// A corpus clip as a file, encoded once for all tests of a build: each runs in a process of its own.
+const Bytes& encoded_clip(const std::string& clip, BasisChoice basis, uint32_t frames = 0);
 
 /// Memory of a host that counts, and that can be made to fail.
 struct CountingMemory {
