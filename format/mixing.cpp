@@ -10,7 +10,7 @@ constexpr uint64_t kDecay = 4290775039;  // floor(2^32 exp(-1/1024))
 
 }  // namespace
 
-constexpr Logistic::Tables::Tables() : stretch{}, squash{} {
+ANICODEC_CONSTANT Logistic::Tables::Tables() : stretch{}, squash{} {
   // e runs through 2^32 exp(-x / 1024) for x = 0, 1, ...
   uint64_t e = kUnit;
   for (int32_t x = 0; x < 4 * kSquashEntries; ++x) {
@@ -36,6 +36,6 @@ constexpr Logistic::Tables::Tables() : stretch{}, squash{} {
   }
 }
 
-constexpr Logistic::Tables Logistic::kTables;
+ANICODEC_CONSTANT const Logistic::Tables Logistic::kTables;
 
 }  // namespace anicodec

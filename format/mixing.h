@@ -26,11 +26,18 @@ namespace anicodec {
 /// stretch(p) = ln(p / (1 - p)) and its inverse squash(), from tables made by integer arithmetic
 /// alone. Probabilities are in 1/65536.
 class Logistic {
+#if defined(ANICODEC_SMALL)
+#define ANICODEC_CONSTANT  // 13 kB are made when the program starts
+#else
+#define ANICODEC_CONSTANT constexpr
+#endif
  public:
   static constexpr int32_t kStretchLimit = 2307;  ///< |stretch()| is at most this
 
   /// In 1/256. @pre p < 4096, a probability in 1/4096
-  static int32_t stretch(uint32_t p) { return kTables.stretch[p]; }
+  static int32_t stretch(uint32_t p) {
+    return kTables.stretch[p];
+  }
 
   /// x in 1/2^21, limited to +-10. Within [3, 65533].
   static uint32_t squash(int32_t x) {
@@ -45,7 +52,7 @@ class Logistic {
   struct Tables {
     int16_t stretch[kStretchEntries];
     uint16_t squash[kSquashEntries];
-    constexpr Tables();
+    ANICODEC_CONSTANT Tables();
   };
 
   static const Tables kTables;

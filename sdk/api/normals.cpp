@@ -4,6 +4,8 @@
 // The C interface: normals.
 #include "sdk/api/normals.h"
 
+#include "sdk/base/quaternion.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +42,8 @@ NormalPlan plan_normals(const Clip& clip, uint32_t mesh, const anic_normal_plan_
   if (const Vector<uint32_t>* edges = options.source_edges ? source_edges(of) : nullptr)
     return plan_normals(of.topology, *edges, per_corner);
   const double degrees = options.crease_angle > 0 ? options.crease_angle : 180;
-  const double cosine = degrees < 180 ? std::cos(degrees * 3.14159265358979323846 / 180) : -2;
+  const UnitQuaternion turn = exp_rotation({{degrees * 3.14159265358979323846 / 180, 0, 0}});
+  const double cosine = degrees < 180 ? 2 * turn.w * turn.w - 1 : -2;
   Vector<float> pose(size_t{3} * clip.vertex_count(mesh));
   clip.positions(mesh, options.reference_frame, pose.data());
   return plan_normals(of.topology, pose.data(), cosine, per_corner);

@@ -70,6 +70,10 @@ size_t all_play_kernels(const PlayKernels* (&out)[kMaxPlayKernels]);
 void play_with(const PlayKernels& kernels, const FrameState* states, uint32_t frames,
                uint32_t first, uint32_t count, const VertexOutput* outputs);
 
+/// Stores the vertices begin .. end - 1 of a block in the frame's format, from `to` on.
+void write_scalar(const PlayJob::Frame& frame, const float (&sum)[3][kBlock], uint32_t begin,
+                  uint32_t end, unsigned char* to);
+
 /// Plain loops, the reference of the others.
 extern const PlayKernels kPlayKernelsScalar;
 /// For the instruction set that the library is built for; plain loops too where ANICODEC_LANES

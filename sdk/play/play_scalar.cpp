@@ -106,25 +106,29 @@ struct ScalarKernel {
 
   static void write(const PlayJob::Frame& frame, const Block& sum, uint32_t begin, uint32_t end,
                     unsigned char* to) {
-    const bool wide = frame.format <= VertexFormat::kFloat32x4;
-    const bool fourth = static_cast<uint32_t>(frame.format) % 2;
-    for (uint32_t i = begin; i < end; ++i, to += frame.stride) {
-      float point[4] = {sum[0][i], sum[1][i], sum[2][i], 1};
-      if (wide) {
-        __builtin_memcpy(to, point, fourth ? 16 : 12);
-        continue;
-      }
-      uint16_t small[4];
-      for (uint32_t c = 0; c < 3; ++c)
-        small[c] =
-            element(frame.format, (point[c] - frame.scale.offset[c]) * frame.scale.factor[c]);
-      small[3] = element(frame.format, frame.scale.one);
-      __builtin_memcpy(to, small, fourth ? 8 : 6);
-    }
+    write_scalar(frame, sum, begin, end, to);
   }
 };
 
 }  // namespace
+
+void write_scalar(const PlayJob::Frame& frame, const float (&sum)[3][kBlock], uint32_t begin,
+                  uint32_t end, unsigned char* to) {
+  const bool wide = frame.format <= VertexFormat::kFloat32x4;
+  const bool fourth = static_cast<uint32_t>(frame.format) % 2;
+  for (uint32_t i = begin; i < end; ++i, to += frame.stride) {
+    float point[4] = {sum[0][i], sum[1][i], sum[2][i], 1};
+    if (wide) {
+      __builtin_memcpy(to, point, fourth ? 16 : 12);
+      continue;
+    }
+    uint16_t small[4];
+    for (uint32_t c = 0; c < 3; ++c)
+      small[c] = element(frame.format, (point[c] - frame.scale.offset[c]) * frame.scale.factor[c]);
+    small[3] = element(frame.format, frame.scale.one);
+    __builtin_memcpy(to, small, fourth ? 8 : 6);
+  }
+}
 
 void play_scalar(const PlayJob& job) {
   play_job<ScalarKernel>(job);

@@ -84,18 +84,25 @@ template <size_t W, size_t M>
 struct RefitSolver {
   using Float = typename LaneTypes<W>::Float;
 
+#if defined(ANICODEC_SMALL)
+  size_t n = M;  ///< neighbours: one solver does for any number of up to M
+#else
+  static constexpr size_t n = M;
+#endif
   Float A[M][M];  // sum of omega x x', lower triangle
   Float g[M];     // sum of omega x (y - w0 x)
   Float prior[M];
   Float weights[M];
 
-  static Float splat(float x) { return Float{} + x; }
+  static Float splat(float x) {
+    return Float{} + x;
+  }
 
   void clear() {
-    for (size_t a = 0; a < M; ++a) {
+    for (size_t a = 0; a < n; ++a) {
       weights[a] = prior[a];
       g[a] = Float{};
-      for (size_t b = 0; b < M; ++b)
+      for (size_t b = 0; b < n; ++b)
         A[a][b] = Float{};
     }
   }
@@ -104,10 +111,10 @@ struct RefitSolver {
   /// lanes beyond repeat the last one. Overwrites A.
   void set_prior(const PredictionJob& job, size_t first, size_t count) {
     Float x[M][3], length[M], valid[M], sum{}, number{};
-    for (size_t a = 0; a < M; ++a) {
+    for (size_t a = 0; a < n; ++a) {
       for (size_t l = 0; l < W; ++l) {
         const size_t r = first + (l < count ? l : count - 1);
-        const int32_t b = job.neighbours[r * M + a];
+        const int32_t b = job.neighbours[r * n + a];
         const size_t other = b < 0 ? r : static_cast<size_t>(b);
         valid[a][l] = b < 0 ? 0.0f : 1.0f;
         for (size_t d = 0; d < 3; ++d)
@@ -118,7 +125,7 @@ struct RefitSolver {
       number += valid[a];
     }
     const Float scale = sum > 0.0f ? number / sum : splat(1.0f);
-    for (size_t a = 0; a < M; ++a) {
+    for (size_t a = 0; a < n; ++a) {
       for (size_t d = 0; d < 3; ++d)
         x[a][d] *= scale;
       length[a] *= scale;
@@ -132,7 +139,7 @@ struct RefitSolver {
       return u2 * u2 * (4.0f * t + 1.0f);
     };
     Float right[M];
-    for (size_t a = 0; a < M; ++a) {
+    for (size_t a = 0; a < n; ++a) {
       right[a] = valid[a] * (100.0f + 10.0f * kernel(length[a]));
       for (size_t b = 0; b <= a; ++b) {
         const Float e0 = x[a][0] - x[b][0], e1 = x[a][1] - x[b][1], e2 = x[a][2] - x[b][2];
@@ -143,19 +150,19 @@ struct RefitSolver {
     }
     factor(splat(0.02f));
     solve(right, prior);
-    for (size_t a = 0; a < M; ++a)
+    for (size_t a = 0; a < n; ++a)
       prior[a] = finite(prior[a]);
   }
 
   /// weights = prior + (A + ridge)^-1 g.
   void refit() {
     Float trace{};
-    for (size_t a = 0; a < M; ++a)
+    for (size_t a = 0; a < n; ++a)
       trace += A[a][a];
-    factor(0.3f + trace * static_cast<float>(1e-5 / M));
+    factor(0.3f + trace * static_cast<float>(1e-5 / static_cast<double>(n)));
     Float change[M];
     solve(g, change);
-    for (size_t a = 0; a < M; ++a)
+    for (size_t a = 0; a < n; ++a)
       weights[a] = finite(prior[a] + change[a]);
   }
 
@@ -163,11 +170,11 @@ struct RefitSolver {
   void accumulate(const Float (*x)[M], const Float* r, const float* omega, size_t samples) {
     Float scaled[kMaxSamples][M];
     for (size_t s = 0; s < samples; ++s)
-      for (size_t a = 0; a < M; ++a)
+      for (size_t a = 0; a < n; ++a)
         scaled[s][a] = x[s][a] * omega[s];
     // Blocks of 4 x 2 elements stay in registers; those on the diagonal fill a little of the upper
     // triangle too, which nobody reads.
-    for (size_t a = 0; a < M; a += 4)
+    for (size_t a = 0; a < n; a += 4)
       for (size_t b = 0; b <= a + 2; b += 2) {
         Float c[4][2];
         ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i)
@@ -182,7 +189,7 @@ struct RefitSolver {
         ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i)
             ANICODEC_UNROLL for (size_t j = 0; j < 2; ++j) A[a + i][b + j] = c[i][j];
       }
-    for (size_t a = 0; a < M; a += 4) {
+    for (size_t a = 0; a < n; a += 4) {
       Float c[4] = {g[a], g[a + 1], g[a + 2], g[a + 3]};
       for (size_t s = 0; s < samples; ++s)
         ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) c[i] += scaled[s][a + i] * r[s];
@@ -196,24 +203,26 @@ struct RefitSolver {
   Float L[M][M], D[M], inverse[M];
   Float row[M];  // row j of L D
 
-  static Float finite(Float x) { return x - x == Float{} ? x : Float{}; }
+  static Float finite(Float x) {
+    return x - x == Float{} ? x : Float{};
+  }
 
   // A + ridge I = L D L', left-looking, without pivoting. The diagonal is one of the eight chains
   // of a block, so that no sum waits for another.
   void factor(Float ridge) {
-    for (size_t j = 0; j < M; ++j) {
+    for (size_t j = 0; j < n; ++j) {
       for (size_t p = 0; p < j; ++p)
         row[p] = L[j][p] * D[p];
       size_t i = j;
-      for (; i + 8 <= M; i += 8)
+      for (; i + 8 <= n; i += 8)
         eliminate<8>(i, j, ridge);
-      for (; i + 4 <= M; i += 4)
+      for (; i + 4 <= n; i += 4)
         eliminate<4>(i, j, ridge);
-      for (; i < M; ++i)
+      for (; i < n; ++i)
         eliminate<1>(i, j, ridge);
       D[j] = L[j][j];
       inverse[j] = 1.0f / D[j];
-      for (i = j + 1; i < M; ++i)
+      for (i = j + 1; i < n; ++i)
         L[i][j] *= inverse[j];
     }
   }
@@ -231,15 +240,15 @@ struct RefitSolver {
   }
 
   void solve(const Float* right, Float* x) const {
-    for (size_t i = 0; i < M; ++i)
+    for (size_t i = 0; i < n; ++i)
       x[i] = right[i];
-    for (size_t p = 0; p < M; ++p)
-      for (size_t i = p + 1; i < M; ++i)
+    for (size_t p = 0; p < n; ++p)
+      for (size_t i = p + 1; i < n; ++i)
         x[i] -= L[i][p] * x[p];
-    for (size_t i = 0; i < M; ++i)
+    for (size_t i = 0; i < n; ++i)
       x[i] *= inverse[i];
-    for (size_t i = M; i-- > 0;)
-      for (size_t p = i + 1; p < M; ++p)
+    for (size_t i = n; i-- > 0;)
+      for (size_t p = i + 1; p < n; ++p)
         x[i] -= L[p][i] * x[p];
   }
 };
@@ -248,7 +257,11 @@ struct RefitSolver {
 template <size_t W, size_t M>
 class BatchDecoder {
  public:
-  explicit BatchDecoder(const PredictionJob& job) : job_(job) {}
+  explicit BatchDecoder(const PredictionJob& job) : job_(job) {
+#if defined(ANICODEC_SMALL)
+    solver_.n = job.neighbour_count;
+#endif
+  }
 
   /// count <= W ranks from `first`.
   void run(size_t first, size_t count) {
@@ -286,7 +299,7 @@ class BatchDecoder {
 
   const float* row(size_t lane, size_t a) const {
     const size_t r = first_ + (lane < count_ ? lane : count_ - 1);
-    const int32_t b = job_.neighbours[r * M + a];
+    const int32_t b = job_.neighbours[r * solver_.n + a];
     return job_.y + (b < 0 ? job_.vertices : static_cast<size_t>(b)) * job_.stride;
   }
 
@@ -300,7 +313,7 @@ class BatchDecoder {
   }
 
   void gather(size_t begin, size_t end) {
-    for (size_t a = 0; a < M; ++a) {
+    for (size_t a = 0; a < solver_.n; ++a) {
       for (size_t part = 0; part < W; part += kTile) {
         const float* rows[kTile];
         for (size_t l = 0; l < kTile; ++l)
@@ -354,7 +367,7 @@ class BatchDecoder {
   void reconstruct(size_t s, size_t in_window) {
     const Float* x = x_[in_window];
     Float p{}, p0{};
-    for (size_t a = 0; a < M; ++a) {
+    for (size_t a = 0; a < solver_.n; ++a) {
       p += solver_.weights[a] * x[a];
       p0 += solver_.prior[a] * x[a];
     }
@@ -381,6 +394,10 @@ void reconstruct_ranks(const PredictionJob& job, size_t first, size_t last) {
 
 template <size_t W>
 void reconstruct_any(const PredictionJob& job, size_t first, size_t last) {
+#if defined(ANICODEC_SMALL)
+  if (job.neighbour_count % 4 == 0 && job.neighbour_count <= 24)
+    reconstruct_ranks<W, 24>(job, first, last);
+#else
   switch (job.neighbour_count) {
     case 8:
       return reconstruct_ranks<W, 8>(job, first, last);
@@ -395,6 +412,7 @@ void reconstruct_any(const PredictionJob& job, size_t first, size_t last) {
     default:
       return;
   }
+#endif
 }
 
 /// The state of W vertices between two components of the encoder.
