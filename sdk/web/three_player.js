@@ -3,6 +3,7 @@
 //
 // What plays in three.js: which clips of a file, at which times, with which weights.
 import { AnimationClip, AnimationMixer, Group, LoopOnce, LoopRepeat, NumberKeyframeTrack } from 'three';
+import { momentsOf, sampleOf } from './moments.js';
 
 /** Plays the clips of a file by actions of a mixer, or shows one at `time`. What it looks like is up to show(). */
 export class AnicPlayer extends Group {
@@ -29,10 +30,8 @@ export class AnicPlayer extends Group {
     this.#current = clip.find().index;
   }
 
-  /** What is shown: of each clip that a mixer plays its number, time and weight; or else the clip and time that were set. */
   #moments() {
-    const moments = this.clipWeights.map((weight, clip) => ({ clip, weight, time: this.clipTimes[clip] / weight })).filter(({ weight }) => weight > 0);
-    return moments.length > 0 ? moments.sort((a, b) => b.weight - a.weight) : [{ clip: this.#current, weight: 1, time: this.#time }];
+    return momentsOf(this.clipWeights, this.clipTimes, { clip: this.#current, time: this.#time });
   }
 
   /** Seconds from the first frame of the clip: of the one with the largest weight. */
@@ -52,14 +51,11 @@ export class AnicPlayer extends Group {
 
   /** Shows the time, unless it is shown already. */
   refresh(force = false) {
-    const [{ clip, time, weight }, ...others] = this.#moments(), { sampling, wrap } = this.#options;
-    let all = weight;
-    const blend = others.map((moment) => ({ ...moment, weight: moment.weight / (all += moment.weight) }));
-    const shown = JSON.stringify([clip, time, blend, sampling, wrap]);
-    if (this.#shown === shown && !force)
+    const { time, options, key } = sampleOf(this.#moments(), this.#options);
+    if (this.#shown === key && !force)
       return;
-    this.show(time, { sampling, wrap, clip, blend });
-    this.#shown = shown;
+    this.show(time, options);
+    this.#shown = key;
   }
 
   updateMatrixWorld(force) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+import type { AnimationGroup } from '@babylonjs/core/Animations/animationGroup.js';
+import type { Material } from '@babylonjs/core/Materials/material.js';
+import type { Mesh } from '@babylonjs/core/Meshes/mesh.js';
+import type { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
+import type { Scene } from '@babylonjs/core/scene.js';
+import type { Clip, OpenOptions, SampleOptions, Source } from './index.js';
+
+/** Plays clips by animation groups; what moves is up to those that extend it. */
+export declare class AnicPlayer extends TransformNode {
+  readonly clip: Clip;
+  /** Seconds from the first frame of the clip that is shown. */
+  time: number;
+  /** Name of the clip that is shown; set by name or number. */
+  get current(): string;
+  set current(clip: string | number);
+  /** One for each clip of the file, in its order. Weights of groups that play together fade them into each other. */
+  readonly animationGroups: AnimationGroup[];
+  set sampling(sampling: SampleOptions['sampling']);
+  set wrap(wrap: SampleOptions['wrap']);
+  /** Plays a clip in place of what this played before. */
+  play(clip?: string | number, options?: { speed?: number; loop?: boolean }): AnimationGroup;
+  /** Shows the time at once; the scene calls it before it renders. */
+  refresh(force?: boolean): void;
+}
+
+/** Shows a clip: a node with a Mesh for each mesh of the clip that has faces, made on the CPU. dispose() closes the clip. */
+export declare class AnicMesh extends AnicPlayer {
+  constructor(clip: Clip, scene: Scene, material?: Material);
+  readonly parts: Mesh[];
+}
+
+/** Opens a clip and shows it in a scene. */
+export declare function loadAnic(source: Source, scene: Scene, options?: OpenOptions): Promise<AnicMesh>;
+
+/**
+ * A plug-in of the glTF loader for the extension ANIC_mesh_animation:
+ * registerGLTFExtension('ANIC_mesh_animation', true, (loader) => new AnicGLTFExtension(loader)).
+ */
+export declare class AnicGLTFExtension {
+  constructor(loader: unknown, options?: OpenOptions);
+  readonly name: string;
+  enabled: boolean;
+  dispose(): void;
+}

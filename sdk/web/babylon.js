@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Clips in Babylon.js: a node that shows a clip at a time, and a plug-in of its glTF loader.
+import { Animation } from '@babylonjs/core/Animations/animation.js';
+import { AnimationGroup } from '@babylonjs/core/Animations/animationGroup.js';
+import { BoundingInfo } from '@babylonjs/core/Culling/boundingInfo.js';
+import { MultiMaterial } from '@babylonjs/core/Materials/multiMaterial.js';
+import { StandardMaterial } from '@babylonjs/core/Materials/standardMaterial.js';
+import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
+import { VertexBuffer } from '@babylonjs/core/Buffers/buffer.js';
+import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
+import { SubMesh } from '@babylonjs/core/Meshes/subMesh.js';
+import { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
+import { EXTENSION } from './glb.js';
+import { GltfSurface } from './gltf_surface.js';
+import { open } from './index.js';
+import { momentsOf, sampleOf } from './moments.js';
+
+const FRAMES_PER_SECOND = 60;  // of the keys of animation groups
+
+const boundingInfo = ({ min, max }) => new BoundingInfo(Vector3.FromArray(min), Vector3.FromArray(max));
+
+/** Plays the clips of a file by animation groups, or shows one at `time`. What moves is up to show(). */
+export class AnicPlayer extends TransformNode {
+  #shown = '';
+  #time = 0;
+  #current;
+  #options = {};
+
+  constructor(name, clip, scene) {
+    super(name, scene);
+    this.clip = clip;
+    this.#current = clip.find().index;
+    // Groups mix numbers: of each clip its weight, and its time by the weight. Both are 0 while no group plays it.
+    this.clipWeights = clip.clips.map(() => 0);
+    this.clipTimes = clip.clips.map(() => 0);
+    this.animationGroups = clip.clips.map((one, i) => this.#group(one, i));
+    const observer = scene.onBeforeRenderObservable.add(() => this.refresh());
+    this.onDisposeObservable.addOnce(() => {
+      scene.onBeforeRenderObservable.remove(observer);
+      for (const group of this.animationGroups)
+        group.dispose();
+      clip.close();
+    });
+  }
+
+  #group({ name, loop, duration, loopDuration }, i) {
+    const length = Math.max(loop ? loopDuration : duration, 1e-6), group = new AnimationGroup(name || 'anic', this.getScene());
+    for (const [path, from, to] of [['clipWeights', 1, 1], ['clipTimes', 0, length]]) {
+      const animation = new Animation(`${path}.${i}`, `${path}.${i}`, FRAMES_PER_SECOND, Animation.ANIMATIONTYPE_FLOAT, Animation.ANIMATIONLOOPMODE_CYCLE);
+      animation.setKeys([{ frame: 0, value: from }, { frame: length * FRAMES_PER_SECOND, value: to }]);
+      group.addTargetedAnimation(animation, this);
+    }
+    group.onAnimationGroupEndObservable.add(() => { this.clipWeights[i] = this.clipTimes[i] = 0; });
+    return group;
+  }
+
+  #moments() {
+    return momentsOf(this.clipWeights, this.clipTimes, { clip: this.#current, time: this.#time });
+  }
+
+  /** Seconds from the first frame of the clip: of the one with the largest weight. */
+  get time() { return this.#moments()[0].time; }
+
+  set time(seconds) { this.#time = seconds; }
+
+  /** Name of the clip that is shown: of the one with the largest weight. Set by name or number. */
+  get current() { return this.clip.clips[this.#moments()[0].clip].name; }
+
+  set current(clip) { this.#current = this.clip.find(clip).index; }
+
+  /** 'step', 'linear' or 'cubic', and 'clamp', 'loop' or 'pingpong'. */
+  set sampling(sampling) { this.#options = { ...this.#options, sampling }; }
+
+  set wrap(wrap) { this.#options = { ...this.#options, wrap }; }
+
+  /** Plays a clip, by its name or number, in place of what this played before. Returns its animation group. */
+  play(clip, { speed = 1, loop = true } = {}) {
+    const group = this.animationGroups[this.clip.find(clip).index];
+    for (const other of this.animationGroups)
+      other.stop();
+    return group.start(loop, speed);
+  }
+
+  /** Shows the time, unless it is shown already. The scene calls it before it renders. */
+  refresh(force = false) {
+    const { time, options, key } = sampleOf(this.#moments(), this.#options);
+    if (this.#shown === key && !force)
+      return;
+    this.show(time, options);
+    this.#shown = key;
+  }
+}
+
+/** Shows a clip: a node with a mesh for each mesh of the clip. A clip with z up is turned. */
+export class AnicMesh extends AnicPlayer {
+  constructor(clip, scene, material) {
+    super(clip.info.name || 'anic', clip, scene);
+    this.parts = clip.meshes.filter((mesh) => mesh.triangleCount > 0).map((mesh) => this.#part(mesh, material, scene));
+    // Clips are right-handed.
+    if (!scene.useRightHandedSystem)
+      this.scaling.z = -1;
+    if (clip.info.up === 'z')
+      this.rotation.x = scene.useRightHandedSystem ? -Math.PI / 2 : Math.PI / 2;
+    this.refresh();
+  }
+
+  #part(mesh, material, scene) {
+    const object = new Mesh(mesh.name || this.name, scene), n = mesh.vertexCount;
+    const positions = new Float32Array(3 * n), normals = new Float32Array(3 * n);
+    object.parent = this;
+    object.setVerticesData(VertexBuffer.PositionKind, positions, true);
+    object.setVerticesData(VertexBuffer.NormalKind, normals, true);
+    const uv = mesh.attribute('uv'), colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygon');
+    if (uv && uv.length === 2 * n)
+      object.setVerticesData(VertexBuffer.UVKind, uv);
+    if (colour)
+      object.setVerticesData(VertexBuffer.ColorKind, mesh.attribute(colour.index), colour.moves, colour.components);
+    object.setIndices(mesh.indices, n);
+    const made = mesh.groups.map(({ material: name }) => Object.assign(new StandardMaterial(name ?? 'anic', scene), { backFaceCulling: false }));
+    if (material || made.length < 2) {
+      object.material = material ?? made[0];
+    } else {
+      object.material = Object.assign(new MultiMaterial(this.name, scene), { subMaterials: made });
+      object.subMeshes = [];
+      mesh.groups.forEach(({ start, count }, i) => new SubMesh(i, 0, n, start, count, object));
+    }
+    if (mesh.bounds)
+      object.setBoundingInfo(boundingInfo(mesh.bounds));
+    else
+      object.alwaysSelectAsActiveMesh = true;
+    return Object.assign(object, { anic: { mesh, positions, normals, colour: colour?.moves ? colour : undefined } });
+  }
+
+  show(time, options) {
+    for (const object of this.parts) {
+      const { mesh, positions, normals, colour } = object.anic;
+      object.isVisible = mesh.isPresent(time, options);
+      if (!object.isVisible)
+        continue;
+      mesh.surfaceAt(time, positions, normals, options);
+      object.updateVerticesData(VertexBuffer.PositionKind, positions);
+      object.updateVerticesData(VertexBuffer.NormalKind, normals);
+      if (colour)
+        object.updateVerticesData(VertexBuffer.ColorKind, mesh.attribute(colour.index, time, undefined, options));
+    }
+  }
+}
+
+/** Opens a clip, as Anicodec.open(), and shows it in a scene. */
+export async function loadAnic(source, scene, options) {
+  return new AnicMesh(await open(source, options), scene);
+}
+
+/** Moves the meshes of a glTF scene that a clip is for. */
+class ScenePlayer extends AnicPlayer {
+  #surfaces = new Map();
+  #parts = [];
+
+  move(object, { mesh = 0, firstVertex = 0 }) {
+    const moving = this.clip.meshes[mesh];
+    if (!moving)
+      throw new Error(`${EXTENSION}: the clip has no mesh ${mesh}`);
+    if (!this.#surfaces.has(mesh))
+      this.#surfaces.set(mesh, new GltfSurface(moving));
+    const count = object.getTotalVertices(), positions = new Float32Array(3 * count);
+    const normals = object.isVerticesDataPresent(VertexBuffer.NormalKind) ? new Float32Array(3 * count) : undefined;
+    object.setVerticesData(VertexBuffer.PositionKind, positions, true);
+    if (normals)
+      object.setVerticesData(VertexBuffer.NormalKind, normals, true);
+    this.#parts.push({ object, mesh, firstVertex, count, positions, normals });
+    this.refresh(true);
+    if (moving.bounds)
+      object.setBoundingInfo(boundingInfo(moving.bounds));
+  }
+
+  show(time, options) {
+    const present = new Map([...this.#surfaces].map(([mesh, surface]) => [mesh, surface.seek(time, options)]));
+    for (const { object, mesh, firstVertex, count, positions, normals } of this.#parts) {
+      object.isVisible = present.get(mesh);
+      if (!object.isVisible)
+        continue;
+      this.#surfaces.get(mesh).take(firstVertex, count, positions, normals);
+      object.updateVerticesData(VertexBuffer.PositionKind, positions);
+      if (normals)
+        object.updateVerticesData(VertexBuffer.NormalKind, normals);
+    }
+  }
+}
+
+/**
+ * A plug-in of Babylon's glTF loader: registerGLTFExtension('ANIC_mesh_animation', true, (loader) => new AnicGLTFExtension(loader)).
+ * Each clip becomes an animation group of the scene; a node ANIC_mesh_animation plays them.
+ */
+export class AnicGLTFExtension {
+  #players = [];
+
+  /** Options of open(). */
+  constructor(loader, options = {}) {
+    Object.assign(this, { name: EXTENSION, enabled: true, loader, options });
+  }
+
+  dispose() {
+    this.loader = undefined;
+  }
+
+  async #open(index) {
+    const { loader } = this, path = `/extensions/${EXTENSION}/files/${index}`, file = loader.gltf.extensions[EXTENSION].files[index];
+    const bytes = file.bufferView === undefined ? await loader.loadUriAsync(path, file, file.uri)
+      : await loader.loadBufferViewAsync(path, loader.gltf.bufferViews[file.bufferView]);
+    const player = new ScenePlayer(EXTENSION, await open(bytes, this.options), loader.babylonScene);
+    player.parent = loader.rootBabylonMesh;
+    return player;
+  }
+
+  _loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign) {
+    const moved = primitive.extensions?.[EXTENSION];
+    if (!moved)
+      return null;
+    delete primitive.extensions[EXTENSION];  // or the loader would come here again
+    const loaded = this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign);
+    primitive.extensions[EXTENSION] = moved;
+    const file = moved.file ?? 0;
+    this.#players[file] ??= this.#open(file);
+    return Promise.all([loaded, this.#players[file]]).then(([object, player]) => {
+      player.move(object, moved);
+      return object;
+    });
+  }
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// What the animation systems of engines leave behind, who mix numbers: of each clip of a file its weight, and its time by the weight.
+
+/** Moments of the clips that play, the largest weight first; where none does, that of `set`. */
+export function momentsOf(weights, times, set) {
+  const moments = weights.map((weight, clip) => ({ clip, weight, time: times[clip] / weight })).filter(({ weight }) => weight > 0);
+  return moments.length > 0 ? moments.sort((a, b) => b.weight - a.weight) : [{ ...set, weight: 1 }];
+}
+
+/** The same as a time and options of ClipMesh.positions(), and a text that differs if they do. */
+export function sampleOf([{ clip, time, weight }, ...others], { sampling, wrap }) {
+  let all = weight;
+  const blend = others.map((moment) => ({ ...moment, weight: moment.weight / (all += moment.weight) }));
+  return { time, options: { sampling, wrap, clip, blend }, key: JSON.stringify([clip, time, blend, sampling, wrap]) };
+}
