@@ -105,6 +105,12 @@ internal static class PackageTest
             for (int i = 0; i < asset.GetMesh().AttributeCount; ++i)
             {
                 Anicodec.Attribute attribute = asset.GetAttribute(i);
+                if (attribute.Kind == AttributeKind.Material)
+                {
+                    MaterialLook look = asset.GetMaterial(i, 0);
+                    Check.That(look.Name == asset.GetLabelName(i, 0) && look.BaseColour.Length == 4 && look.Roughness <= 1, "a material");
+                    Check.Throws(Status.Argument, () => asset.GetMaterial(i, 99), "no such material");
+                }
                 if (attribute.Kind != AttributeKind.Uv)
                     continue;
                 uv = true;

@@ -20,7 +20,7 @@ SKIPPED = 77
 CPU = {"x86_64": "x64", "aarch64": "arm64"}
 # The constants of the header by their prefix, and the enumeration that has them.
 ENUMERATIONS = {"ANIC_E_": "Status", "ANIC_UP_": "UpAxis", "ANIC_ORDER_": "VertexOrder", "ANIC_ATTRIBUTE_": "AttributeKind",
-                "ANIC_DOMAIN_": "Domain", "ANIC_SAMPLE_": "Sampling", "ANIC_WRAP_": "Wrap", "ANIC_WHEN_": "When",
+                "ANIC_DOMAIN_": "Domain", "ANIC_ALPHA_": "AlphaMode", "ANIC_SAMPLE_": "Sampling", "ANIC_WRAP_": "Wrap", "ANIC_WHEN_": "When",
                 "ANIC_FORMAT_": "VertexFormat", "ANIC_VALUE_": "ValueFormat", "ANIC_BASIS_": "BasisKind",
                 "ANIC_TARGET_": "Target", "ANIC_RECONSTRUCTION_": "Reconstruction", "ANIC_OPEN_": "OpenFlags", "ANIC_TEXTURE_": "BasisTexture"}
 # Names that are a constant of no enumeration of the header.

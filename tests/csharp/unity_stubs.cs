@@ -119,7 +119,21 @@ namespace UnityEngine
     public class Renderer : Component { public bool enabled { get; set; } public Material[] sharedMaterials { get; set; } }
     public class MeshRenderer : Renderer { }
     public class Shader : Object { public static Shader Find(string name) { return new Shader(); } }
-    public class Material : Object { public Material(Shader shader) { } }
+    public class Material : Object
+    {
+        public readonly Dictionary<string, float> Floats = new Dictionary<string, float>();
+        public Material(Shader shader) { }
+        public Color color { get; set; }
+        public void SetFloat(string name, float value) { Floats[name] = value; }
+    }
+
+    public struct Color
+    {
+        public float r, g, b, a;
+        public Color(float r, float g, float b, float a) { this.r = r; this.g = g; this.b = b; this.a = a; }
+        public Color gamma { get { return new Color((float)Math.Sqrt(r), (float)Math.Sqrt(g), (float)Math.Sqrt(b), a); } }
+    }
+
     public class Transform : Component { public void SetParent(Transform parent, bool worldPositionStays) { } }
     public static class Time { public static float deltaTime { get; set; } }
     public static class SystemInfo { public static bool supportsComputeShaders { get { return true; } } }

@@ -49,6 +49,13 @@ internal static class UnityTest
                 agree += Along(vertices, indices, 3 * t) > 0 ? 1 : 0;
             Check.That(agree > plan.TriangleCount * 9 / 10, "normals point to the front: " + agree);
             Check.That(mesh.subMeshCount == plan.GroupCount, "a submesh for each material");
+            Material wood = null;
+            foreach (UnityEngine.Object added in made.Added.Values)
+            {
+                if (added is Material && added.name == "wood")
+                    wood = (Material)added;
+            }
+            Check.That(wood != null && wood.Floats.Count == 2 && wood.color.a > 0, "materials look as in the file");
         }
     }
 

@@ -45,16 +45,39 @@ namespace Anicodec.Unity
             GameObject child = new GameObject(name);
             child.transform.SetParent(root.transform, false);
             child.AddComponent<MeshFilter>().sharedMesh = mesh;
-            Material material = new Material(Shader.Find("Standard")) { name = name };
-            context.AddObjectToAsset("material " + index, material);
             Material[] materials = new Material[mesh.subMeshCount];
             for (int i = 0; i < materials.Length; ++i)
-                materials[i] = material;
+            {
+                materials[i] = MakeMaterial(clip, index, i);
+                context.AddObjectToAsset("material " + index + " " + i, materials[i]);
+            }
             child.AddComponent<MeshRenderer>().sharedMaterials = materials;
             AnicPlayer player = child.AddComponent<AnicPlayer>();
             player.clip = clip;
             player.mesh = index;
             player.shader = shader;
+        }
+
+        /// <summary>The material of a submesh, with the look that the file tells; images are for the project to assign.</summary>
+        private static Material MakeMaterial(AnicClip clip, int mesh, int submesh)
+        {
+            Material material = new Material(Shader.Find("Standard")) { name = "material" };
+            int label = (int)clip.Plan(mesh).GroupMaterials[submesh] - 1;
+            for (int a = 0; label >= 0 && a < clip.Asset.GetMesh(mesh).AttributeCount; ++a)
+            {
+                if (clip.Asset.GetAttribute(a, mesh).Kind != AttributeKind.Material)
+                    continue;
+                material.name = clip.Asset.GetLabelName(a, label, mesh);
+                MaterialLook look = clip.Asset.GetMaterial(a, label, mesh);
+                if (look == null)
+                    break;
+                float[] c = look.BaseColour;
+                material.color = new Color(c[0], c[1], c[2], c[3]).gamma;
+                material.SetFloat("_Metallic", look.Metallic);
+                material.SetFloat("_Glossiness", 1 - look.Roughness);
+                break;
+            }
+            return material;
         }
     }
 }

@@ -208,6 +208,27 @@ namespace Anicodec
             return Native.Text(Native.anic_get_label_name(handle, (uint)mesh, (uint)attribute, (uint)label));
         }
 
+        /// <summary>The look of the material that a label of an attribute names; null: the file has its name alone.</summary>
+        public MaterialLook GetMaterial(int attribute, int label, int mesh = 0)
+        {
+            Native.anic_material m = default(Native.anic_material);
+            m.struct_size = (UIntPtr)sizeof(Native.anic_material);
+            if (!Native.Present(Native.anic_get_material(handle, (uint)mesh, (uint)attribute, (uint)label, &m)))
+                return null;
+            return new MaterialLook
+            {
+                Name = Native.Text(m.name),
+                BaseColour = new[] { m.base_colour[0], m.base_colour[1], m.base_colour[2], m.base_colour[3] },
+                Metallic = m.metallic, Roughness = m.roughness,
+                Emissive = new[] { m.emissive[0], m.emissive[1], m.emissive[2] },
+                Alpha = m.alpha, AlphaCutoff = m.alpha_cutoff, DoubleSided = m.double_sided != 0,
+                BaseColourTexture = Native.Text(m.base_colour_texture),
+                MetallicRoughnessTexture = Native.Text(m.metallic_roughness_texture),
+                NormalTexture = Native.Text(m.normal_texture), OcclusionTexture = Native.Text(m.occlusion_texture),
+                EmissiveTexture = Native.Text(m.emissive_texture)
+            };
+        }
+
         /// <summary>Seconds from the first frame of its clip on.</summary>
         public double GetFrameTime(int frame)
         {

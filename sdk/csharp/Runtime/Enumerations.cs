@@ -32,6 +32,9 @@ namespace Anicodec
     /// <summary>The elements that have a value each.</summary>
     public enum Domain { Vertices = 0, Corners = 1, Polygons = 2 }
 
+    /// <summary>How much of a surface lets light through.</summary>
+    public enum AlphaMode { Opaque = 0, Mask = 1, Blend = 2 }
+
     /// <summary>The picture between two frames.</summary>
     public enum Sampling { Step = 0, Linear = 1, Cubic = 2 }
 

@@ -219,6 +219,24 @@ namespace Anicodec
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        public struct anic_material
+        {
+            public UIntPtr struct_size;
+            public byte* name;
+            public fixed float base_colour[4];
+            public float metallic, roughness;
+            public fixed float emissive[3];
+            public AlphaMode alpha;
+            public float alpha_cutoff;
+            public byte double_sided;
+            public byte* base_colour_texture;
+            public byte* metallic_roughness_texture;
+            public byte* normal_texture;
+            public byte* occlusion_texture;
+            public byte* emissive_texture;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         public struct anic_output
         {
             public UIntPtr struct_size;
@@ -365,6 +383,7 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_get_coded_vertices(AssetHandle asset, uint mesh, uint** result);
         [DllImport(Library)] public static extern Status anic_get_attribute(AssetHandle asset, uint mesh, uint attribute, anic_attribute* result);
         [DllImport(Library)] public static extern byte* anic_get_label_name(AssetHandle asset, uint mesh, uint attribute, uint label);
+        [DllImport(Library)] public static extern Status anic_get_material(AssetHandle asset, uint mesh, uint attribute, uint label, anic_material* result);
         [DllImport(Library)] public static extern double anic_get_frame_time(AssetHandle asset, uint frame);
         [DllImport(Library)] public static extern Status anic_create_context(AssetHandle asset, anic_allocator* allocator, out ContextHandle result);
         [DllImport(Library)] public static extern void anic_destroy_context(IntPtr context);

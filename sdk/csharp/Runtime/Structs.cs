@@ -91,6 +91,25 @@ namespace Anicodec
         public bool Moves;
     }
 
+    /// <summary>The look of a material, in the terms of glTF 2.0; anic_material. Textures are paths or names, or empty.</summary>
+    public sealed class MaterialLook
+    {
+        public string Name;
+
+        /// <summary>Linear red, green, blue and alpha.</summary>
+        public float[] BaseColour;
+
+        public float Metallic, Roughness;
+
+        /// <summary>Linear red, green and blue.</summary>
+        public float[] Emissive;
+
+        public AlphaMode Alpha;
+        public float AlphaCutoff;
+        public bool DoubleSided;
+        public string BaseColourTexture, MetallicRoughnessTexture, NormalTexture, OcclusionTexture, EmissiveTexture;
+    }
+
     /// <summary>The basis of a segment, for a graphics card; anic_basis. Good as long as the asset is open.</summary>
     public unsafe ref struct Basis
     {
