@@ -90,7 +90,7 @@ TEST_F(EncodeCommand, MakesOneFileOfSeveralClips) {
 
 TEST_F(EncodeCommand, KeepsEveryKindOfTarget) {
   auto encoded = [&](std::vector<std::string> options, const std::string& file) {
-    options.insert(options.end(), {"--effort", "2", "--json"});
+    options.insert(options.end(), {"--effort", "1", "--json"});
     return encode(options, file).json();
   };
   EXPECT_LE(encoded({"--kg", "0.5"}, "1.anic")["kg"], 0.5);
