@@ -8,6 +8,7 @@
 #include "tools/inputs/compared_clip.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
+#include "tools/io/base/signed_axes.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
 #include "tools/words/names.h"
@@ -83,14 +84,6 @@ FrameSource watched(FrameSource frames, uint32_t count, ProgressLine& line) {
     return frames(f);
   };
 }
-
-/// A coordinate of a turned position: which one it was, and its sign.
-struct SignedAxis {
-  size_t axis = 0;
-  float sign = 1;
-};
-
-using SignedAxes = std::array<SignedAxis, 3>;
 
 /// "x,z,-y": each axis once.
 SignedAxes parse_axes(const std::string& text) {

@@ -10,6 +10,7 @@
 #include "tools/io/base/frame_attributes.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/signed_axes.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
 #include "tools/io/files/staging.h"
@@ -23,6 +24,7 @@
 #include "tools/io/gltf/gltf.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <new>
 #include <set>
@@ -232,6 +234,31 @@ std::string mesh_beside(const std::string& cache) {
       cache + ": a vertex cache has no faces; name the mesh that it moves (.obj, .ply, .off)");
 }
 
+/// Compares a cache's first frame with its mesh, whose positions are not kept. Where one is the other
+/// turned from Y up to Z up or back, the axis that is up is known; other axes and units are noted.
+void compare_axes(const std::string& cache, std::span<const float> mesh, const LoadOptions& options,
+                  MeshSequence& sequence) {
+  const std::optional<ScaledTurn> turn = find_turn(mesh, sequence.frame(0));
+  if (!turn)
+    return;  // another pose
+  constexpr SignedAxis kY{1, 1}, kZ{2, 1};
+  if (turn->axes[2] == kY)
+    sequence.up = UpAxis::kZ;
+  else if (turn->axes[1] == kZ)
+    sequence.up = UpAxis::kY;
+  const bool is_scaled = std::abs(turn->scale - 1) > 1e-3;
+  if (!options.note || (turn->axes == kSameAxes && !is_scaled))
+    return;
+  std::string text = cache + ": its axes are " + text_of(turn->axes) + " of the mesh";
+  if (turn->axes == kSameAxes)
+    text = cache + ": its unit is not that of the mesh";
+  if (is_scaled)
+    text += ", lengths " + std::to_string(turn->scale) + " times as large";
+  if (sequence.up != UpAxis::kUnknown)
+    text += std::string("; ") + (sequence.up == UpAxis::kZ ? "z" : "y") + " is up (--up)";
+  options.note(text);
+}
+
 void load_cache(const std::string& cache_path, const std::string& mesh_path,
                 const LoadOptions& options, MeshSequence& sequence) {
   if (kind_of(mesh_path) == FileKind::kStl)
@@ -239,6 +266,7 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
                "an STL has no order of vertices and cannot be the mesh of a vertex cache");
   ByteSource source = file_source(cache_path);
   VertexCache cache = kind_of(cache_path) == FileKind::kPc2 ? open_pc2(source) : open_mdd(source);
+  std::vector<float> surface;
   {
     MeshReader reader;
     const Mesh& mesh = reader.read(mesh_path, &sequence);
@@ -248,11 +276,14 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
     check_cache_record(reader.text(), mesh_path, source);
     reader.read_looks(mesh_path, options, sequence.materials);
     sequence.polygons = mesh.polygons;
+    surface = mesh.positions;
   }
   sequence.vertex_count = cache.vertex_count;
   reserve(sequence, cache.frame_count, cache_path);
   sequence.positions.resize(size_t{cache.vertex_count} * 3 * cache.frame_count);
   read_positions(cache, source, sequence.positions, options.progress);
+  if (cache.frame_count > 0)
+    compare_axes(cache_path, surface, options, sequence);
   if (!options.rate && !cache.times.empty()) {
     Timing timing = timing_of(cache.times, cache_path);
     sequence.rate = timing.rate;

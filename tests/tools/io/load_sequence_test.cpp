@@ -91,6 +91,35 @@ TEST(LoadSequence, PairsCachesWithMeshesInEitherOrder) {
   EXPECT_THAT(load({cache}).polygons[0], ElementsAre(0, 1, 2));
 }
 
+TEST(LoadSequence, FindsTheAxisThatIsUpInACacheOfAMesh) {
+  TemporaryFolder folder;
+  const std::string mesh = folder.write("mesh.obj", "v 0 1 2\nv 1 0 0\nv 0 3 0\nf 1 2 3\n");
+  const auto cache = [&](std::vector<float> frame) {
+    std::string bytes;
+    append_pc2_header(3, 1, bytes);
+    for (const float x : frame)
+      append(x, std::endian::little, bytes);
+    return folder.write("cache.pc2", bytes);
+  };
+  std::string note;
+  const auto up_of = [&](const std::string& path) {
+    note.clear();
+    LoadOptions options;
+    options.note = [&](const std::string& text) { note += text; };
+    return load({mesh, path}, options).up;
+  };
+  EXPECT_EQ(up_of(cache({0, -2, 1, 1, 0, 0, 0, 0, 3})), UpAxis::kZ);
+  EXPECT_THAT(note, HasSubstr("cache.pc2: its axes are x,-z,y of the mesh; z is up (--up)"));
+  EXPECT_EQ(up_of(cache({0, 4, -2, 2, 0, 0, 0, 0, -6})), UpAxis::kY);
+  EXPECT_THAT(note, HasSubstr("x,z,-y of the mesh, lengths 2.0"));
+  EXPECT_EQ(up_of(cache({0, 1, 2, 1, 0, 0, 0, 3, 0})), UpAxis::kUnknown);
+  EXPECT_EQ(note, "");
+  EXPECT_EQ(up_of(cache({0, 10, 20, 10, 0, 0, 0, 30, 0})), UpAxis::kUnknown);
+  EXPECT_THAT(note, HasSubstr("its unit is not that of the mesh, lengths 10"));
+  EXPECT_EQ(up_of(cache({5, 1, 2, 1, 0, 0, 0, 3, 0})), UpAxis::kUnknown) << "another pose";
+  EXPECT_EQ(note, "");
+}
+
 TEST(LoadSequence, RejectsCachesThatDoNotFitTheMesh) {
   TemporaryFolder folder;
   std::string mesh = folder.write("a.obj", triangle("0"));
