@@ -99,6 +99,15 @@ def test_hides_meshes_that_are_not_there():
                       if not actor.clip.meshes[m].shown_in(f)}
 
 
+def test_has_a_node_for_each_material():
+    actor = ClipActor(str(FILES / "painted_box.anic"))
+    looks = next(a for a in actor.clip.attributes if a.kind == "material")
+    for name, look in zip(looks.labels, looks.looks):
+        material = actor.find(f"**/{name}").get_material()
+        assert look is None or tuple(material.get_base_color()) == pytest.approx(look.base_colour)
+        assert look is None or material.get_roughness() == pytest.approx(look.roughness)
+
+
 def test_plays_coarser(clip):
     actor, other = ClipActor(clip), ClipActor(anicodec.open(clip.data, quality=0.3))
     actor.set_quality(0.3)

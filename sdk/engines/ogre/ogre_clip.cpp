@@ -5,6 +5,7 @@
 #include "sdk/engines/ogre/ogre_shader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -44,6 +45,12 @@ const Ogre::String& program(Ogre::GpuProgramType type, const Ogre::String& name,
     made->load();
   }
   return name;
+}
+
+/// A linear colour as the shaders of the plug-in show it, which know no gamma.
+Ogre::ColourValue shown_colour(const float (&linear)[4]) {
+  const auto shown = [](float x) { return std::pow(x, 1 / 2.2F); };
+  return Ogre::ColourValue(shown(linear[0]), shown(linear[1]), shown(linear[2]), linear[3]);
 }
 
 /// Programs and parameters that both ways to play have in common.
@@ -151,6 +158,9 @@ void Clip::make_mesh(uint32_t index) {
                            ? asset_.label_name(material, label - 1, index)
                            : nullptr;
     mesh.materials.emplace_back(text ? text : "");
+    anic_material look = ANIC_INIT(anic_material);
+    const bool known = text && asset_.material(material, label - 1, &look, index);
+    mesh.colours.push_back(known ? shown_colour(look.base_colour) : Ogre::ColourValue::White);
   }
   const uint32_t n = mesh.info.vertex_count;
   std::vector<float> values(size_t{3} * n);

@@ -18,6 +18,7 @@ class EntitySection : public Ogre::Renderable {
   EntitySection(Entity* owner, size_t mesh, uint32_t group) : owner_(owner), mesh_(mesh) {
     const ClipMesh& shared = owner->clip_->mesh(mesh);
     name_ = shared.materials[group];
+    colour_ = shared.colours[group];
     indices_ = std::make_unique<Ogre::IndexData>();
     indices_->indexBuffer = shared.indices;
     indices_->indexStart = size_t{3} * shared.info.group_begin[group];
@@ -28,14 +29,15 @@ class EntitySection : public Ogre::Renderable {
 
   size_t mesh() const { return mesh_; }
 
-  /// Null: that of the file, or the white one.
+  /// Null: the scene's material of the name that the file gives, else a plain one in the colour that it gives.
   void setMaterial(Ogre::MaterialPtr material) {
     auto& manager = Ogre::MaterialManager::getSingleton();
     if (!material && !name_.empty())
       material = manager.getByName(name_);
     material_ = material ? material : plain_material();
     material_->load();
-    const Ogre::ColourValue colour = material_->getTechnique(0)->getPass(0)->getDiffuse();
+    const Ogre::ColourValue colour =
+        material ? material_->getTechnique(0)->getPass(0)->getDiffuse() : colour_;
     setCustomParameter(1, Ogre::Vector4(colour.r, colour.g, colour.b, colour.a));
   }
 
@@ -82,6 +84,7 @@ class EntitySection : public Ogre::Renderable {
   Entity* owner_;
   size_t mesh_;
   Ogre::String name_;
+  Ogre::ColourValue colour_;
   Ogre::MaterialPtr material_;
   std::unique_ptr<Ogre::IndexData> indices_;
   Ogre::VertexData* data_ = nullptr;

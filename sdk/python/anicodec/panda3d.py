@@ -12,7 +12,8 @@ from .errors import InputError
 
 try:
     from panda3d.core import (ClockObject, Geom, GeomEnums, GeomNode, GeomTriangles, GeomVertexArrayFormat,
-                              GeomVertexData, GeomVertexFormat, InternalName, NodePath, PandaNode)
+                              GeomVertexData, GeomVertexFormat, InternalName, Material, NodePath, PandaNode,
+                              TransparencyAttrib)
 except ImportError as error:
     raise ImportError("this needs the extra of the package: pip install 'anicodec[panda3d]'") from error
 
@@ -53,10 +54,13 @@ class _Surface:
             if attribute.kind == "uv" and attribute.domain != "polygons":
                 instance.write_attribute(self.plan, number, 2, self.uvs)
                 break
-        names: tuple = next((a.labels for a in mesh.attributes if a.kind == "material"), ())
+        materials = next((a for a in mesh.attributes if a.kind == "material"), None)
+        names: tuple = materials.labels if materials else ()
+        looks: tuple = materials.looks if materials else ()
         begin, indices = info["group_begin"], info["indices"]
-        #: a name and the triangles of each material
-        self.groups = [(names[label - 1] if label > 0 and label <= len(names) else "",
+        #: a name, a look and the triangles of each material
+        self.groups = [(names[label - 1] if 0 < label <= len(names) else "",
+                        looks[label - 1] if 0 < label <= len(looks) else None,
                         self._triangles(indices[3 * begin[g]:3 * begin[g + 1]]))
                        for g, label in enumerate(info["group_materials"].tolist())]
 
@@ -70,12 +74,25 @@ class _Surface:
         return triangles
 
 
+def _set_look(node: NodePath, look: Any, name: str) -> None:
+    """Base colour, metal, roughness and transparency of a material; textures are for the scene to set."""
+    material = Material(name)
+    material.set_base_color(look.base_colour)
+    material.set_metallic(look.metallic)
+    material.set_roughness(look.roughness)
+    material.set_emission((*look.emissive, 1))
+    node.set_material(material)
+    node.set_two_sided(look.double_sided)
+    if look.alpha != "opaque":
+        node.set_transparency(TransparencyAttrib.M_alpha if look.alpha == "blend" else TransparencyAttrib.M_binary)
+
+
 class ClipActor(NodePath):
     """A clip in the scene graph, used as an Actor is: `loop()`, `play()`, `stop()`, `pose()`, `set_play_rate()`.
 
     source: a path, bytes, a Clip, or another ClipActor, whose opened file it shares. crease: degrees above which an edge is
-    hard, where the file does not tell. A node for each mesh, below it one for each material, by their names. Axes are
-    turned to z up. Normals are smooth, recomputed for each frame.
+    hard, where the file does not tell. A node for each mesh, below it one for each material, by their names and with
+    their colours; textures are for the scene to set. Axes are turned to z up. Normals are smooth, recomputed for each frame.
 
     `update(dt)` goes on in time; `start(task_mgr)` has it called once for each frame drawn.
     """
@@ -108,12 +125,14 @@ class ClipActor(NodePath):
         data.unclean_set_num_rows(surface.vertex_count)
         _numbers(data, _STILL)[:] = surface.uvs.ravel()
         node = parent.attach_new_node(surface.name or "mesh")
-        for name, triangles in surface.groups:
+        for name, look, triangles in surface.groups:
             geom = Geom(data)
             geom.add_primitive(triangles)
             part = GeomNode(name or "material")
             part.add_geom(geom)
-            node.attach_new_node(part)
+            path = node.attach_new_node(part)
+            if look is not None:
+                _set_look(path, look, name)
         self._data.append(data)
         self._nodes.append(node)
 
