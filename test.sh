@@ -34,7 +34,7 @@ fi
 if command -v npm >/dev/null; then
   if $packages_wanted; then
     install_optional emscripten chromium || say "No emscripten or Chromium: tests of the npm package are skipped"
-    for folder in sdk/web tests/web tests/web/babylon; do
+    for folder in sdk/web tests/web tests/web/babylon tests/web/vite; do
       [[ -d $folder/node_modules ]] || timeout 120 npm ci --prefix "$folder" --no-audit --no-fund ||
         say "$folder lacks packages of npm: its tests are skipped"
     done
