@@ -599,7 +599,7 @@ static void save_picture(const char* path, int width, int height) {
   free(pixels);
 }
 
-/* Of this program on the processor, whatever else runs. */
+/* Time that this program has had on the processor, whatever else runs. */
 static double processor_milliseconds(clock_t* since) {
   const clock_t now = clock();
   const double passed = 1000.0 * (double)(now - *since) / CLOCKS_PER_SEC;

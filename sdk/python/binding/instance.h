@@ -31,7 +31,7 @@ class RenderPlan {
   std::unique_ptr<anic_render_plan, Destroy> plan_;
 };
 
-/// What an engine shows of a clip. One thread at a time.
+/// Shows moments of a clip. One thread at a time.
 class Instance {
  public:
   explicit Instance(const anic_asset* asset);
