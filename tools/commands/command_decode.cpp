@@ -160,7 +160,9 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   open_clip(paths.input, bytes, open_options, clip, Topologies::kAny);
   if (Failure failure = clip.check_hashes(); open_options.quality == 1 && !failure.ok())
     fail_clip(paths.input, failure);
-  choose_clip(paths.input, command.clip, clip);
+  // A GLB has an animation for each.
+  const bool together = kind_of(paths.output) == FileKind::kGlb && command.clip.empty();
+  choose_clip(paths.input, together ? "all" : command.clip, clip);
   bytes = {};
 
   FrameRange range{0, clip.frame_count(), 1};
@@ -199,6 +201,8 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
     MeshSequence description = describe_clip(clip, meshes);
     if (own.size() < clip.frame_count())
       take_frames(own, description);
+    else if (kind_of(paths.output) == FileKind::kGlb)
+      description.clips = clip_timings(clip);
     options.first_number = command.start + (own.first - range.first) / range.step;
     FrameSource all = play(paths.input, clip, meshes);
     options.attributes = {};
@@ -256,7 +260,7 @@ void add_decode(Commands& commands, CommonOptions& common) {
   options.option(
       "--clip", c->clip, "NAME",
       "The clip to write, of a file that has several; all: one after the other, at the rate "
-      "of the first");
+      "of the first; GLB has an animation for each (default: all of them)");
   options.option("--frames", c->frames, "A:B[:STEP]",
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");

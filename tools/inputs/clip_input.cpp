@@ -188,6 +188,22 @@ MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes
   return sequence;
 }
 
+std::vector<ClipTiming> clip_timings(const Clip& clip) {
+  std::vector<ClipTiming> timings;
+  for (const ClipRecord& record : clip.clips()) {
+    ClipTiming& timing = timings.emplace_back();
+    timing.name.assign(record.name.begin(), record.name.end());
+    timing.frame_count = record.frames;
+    timing.rate = {record.rate_numerator, record.rate_denominator, record.rate_assumed};
+    timing.start_time = record.start_time;
+    timing.times.assign(record.times.begin(), record.times.end());
+    timing.loop = record.loop;
+  }
+  if (timings.size() == 1)
+    timings.clear();
+  return timings;
+}
+
 FrameSource play(const std::string& path, const Clip& clip, const std::vector<uint32_t>& meshes) {
   struct Part {
     uint32_t mesh;

@@ -63,6 +63,9 @@ std::vector<FrameRun> frames_of_mesh(const Clip& clip, uint32_t mesh);
 /// of all frames: of several clips, at the rate of the first.
 MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes);
 
+/// The clips of a file as those of a sequence; none where there is one alone.
+std::vector<ClipTiming> clip_timings(const Clip& clip);
+
 /// Plays some meshes of the clip, which must outlive the source, as one. Frames are given in any
 /// order. In those that do not show a mesh, all its vertices are where its first one was last, or
 /// will be first. Throws Error(kCorrupt) naming the path.

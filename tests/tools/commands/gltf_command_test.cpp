@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -76,6 +77,32 @@ TEST(GltfCommand, PutsTheClipIntoTheScene) {
     EXPECT_EQ(anicodec({"encode", folder / "a.glb", "-o", folder / "d.glb", option}).status, 1);
   write_sequence(folder / "a.pc2", gltf_limb());
   EXPECT_EQ(anicodec({"encode", folder / "a.pc2", "-o", folder / "d.glb"}).status, 1);
+}
+
+TEST(GltfCommand, WritesAnAnimationForEachClip) {
+  TemporaryFolder folder;
+  GltfScene scene = triangle_scene();
+  scene.animate(0, "translation", {1, 2}, scene.vectors({0, 0, 0, 5, 0, 0}), "LINEAR", "short");
+  scene.animate(0, "translation", {0, 2}, scene.vectors({0, 0, 0, 0, 5, 0}), "LINEAR", "long");
+  folder.write("a.glb", scene.glb());
+  ASSERT_EQ(anicodec({"encode", folder / "a.glb", "--clips", "all", "--fps", "10", "-o",
+                      folder / "a.anic"})
+                .status,
+            0);
+  const Outcome decoded = anicodec({"decode", folder / "a.anic", "-o", folder / "b.glb"});
+  ASSERT_EQ(decoded.status, 0) << decoded;
+  for (const auto& [name, frames, start] :
+       {std::tuple("short", 11U, 1.0), std::tuple("long", 21U, 0.0)}) {
+    const std::vector<std::string> one{folder / "b.glb"};
+    const MeshSequence clip = load_sequence(one, {.clip = name});
+    EXPECT_EQ(clip.frame_count, frames);
+    EXPECT_NEAR(clip.start_time, start, 1e-6);
+    EXPECT_NEAR(clip.frame(frames - 1)[name == std::string("short") ? 0 : 1], 5, 0.05);
+  }
+  ASSERT_EQ(
+      anicodec({"decode", folder / "a.anic", "-o", folder / "c.glb", "--clip", "long"}).status, 0);
+  EXPECT_EQ(load_file(folder / "c.glb").frame_count, 21U);
+  EXPECT_EQ(anicodec({"decode", folder / "a.anic", "-o", folder / "c.pc2"}).status, 1);  // which?
 }
 
 TEST(GltfCommand, AnalyzesAnAnimationAtARate) {

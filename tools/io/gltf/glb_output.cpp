@@ -88,7 +88,7 @@ class GlbOutput::Writer {
     if (!clip_.materials.of_polygon.empty())
       add_materials(document);
     if (clip_.frame_count > 1)
-      document["animations"] = Json::array({animation(times)});
+      document["animations"] = animations(times);
     buffer_.describe_in(document);
     return pack_glb(document.dump(-1, ' ', false, Json::error_handler_t::replace), buffer_.bytes());
   }
@@ -227,28 +227,49 @@ class GlbOutput::Writer {
     materials.describe_in(document);
   }
 
-  /// The weight of a frame is 1 at its time and 0 at those of all others.
-  Json animation(std::span<const float> times) {
-    const uint32_t frames = clip_.frame_count;
-    std::vector<float> input(times.begin(), times.end());
+  /// One, or of several clips one for each.
+  Json animations(std::span<const float> times) {
+    if (clip_.clips.empty())
+      return Json::array({animation(clip_.name, 0, {times.begin(), times.end()},
+                                    clip_.times.empty() ? &clip_.rate : nullptr)});
+    Json result = Json::array();
+    uint32_t first = 0;
+    for (const ClipTiming& clip : clip_.clips) {
+      std::vector<float> own;
+      for (uint32_t f = 0; f < clip.frame_count; ++f)
+        own.push_back(static_cast<float>(
+            clip.start_time + (clip.times.empty() ? f / clip.rate.value() : clip.times[f])));
+      result.push_back(
+          animation(clip.name, first, std::move(own), clip.times.empty() ? &clip.rate : nullptr));
+      first += clip.frame_count;
+    }
+    return result;
+  }
+
+  /// The weight of a frame is 1 at its time and 0 at those of all others. `input`: times of the frames
+  /// from the first on. `rate`: null for uneven ones.
+  Json animation(const std::string& name, uint32_t first, std::vector<float> input,
+                 const FrameRate* rate) {
+    const uint64_t frames = clip_.frame_count, own = input.size();
+    const float begin = std::min(input[0], 0.0F);
     for (float& t : input)
-      t -= std::min(times[0], 0.0F);
+      t -= begin;
     std::vector<uint32_t> elements;
-    for (uint32_t f = 0; f < frames; ++f)
-      elements.push_back(f * frames + f);
-    const std::vector<float> ones(frames, 1.0F);
+    for (uint32_t f = 0; f < own; ++f)
+      elements.push_back(static_cast<uint32_t>(f * frames + first + f));
+    const std::vector<float> ones(own, 1.0F);
     Json sampler{{"input", buffer_.add_floats(input, 1, GlbTarget::kNone, true)},
                  {"interpolation", step_ ? "STEP" : "LINEAR"},
-                 {"output", buffer_.add_sparse(uint64_t{frames} * frames, elements, ones)}};
-    Json animation{{"name", clip_.name}};
+                 {"output", buffer_.add_sparse(own * frames, elements, ones)}};
+    Json animation{{"name", name}};
     animation["samplers"] = Json::array({std::move(sampler)});
     const size_t first_node = meshes_.size() > 1 ? 1 : 0;
     for (size_t m = 0; m < meshes_.size(); ++m)
       animation["channels"].push_back(
           {{"sampler", 0}, {"target", {{"node", first_node + m}, {"path", "weights"}}}});
-    if (clip_.times.empty())
+    if (rate)
       animation["extras"]["anicodec"]["rate"] =
-          std::to_string(clip_.rate.numerator) + "/" + std::to_string(clip_.rate.denominator);
+          std::to_string(rate->numerator) + "/" + std::to_string(rate->denominator);
     return animation;
   }
 
