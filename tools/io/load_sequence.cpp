@@ -316,6 +316,8 @@ void load_scene(const std::string& path, const LoadOptions& options, MeshSequenc
   const std::string stem = sequence.name;
   std::string bytes;
   read_file(path, bytes);
+  if (options.note && clip_of_glb(bytes, path))
+    options.note(path + " moves by a clip inside, which decode writes; as a scene it stands still");
   const GltfResolver resolve = resolver_of(path);
   if (!options.clips.empty()) {
     if (kind_of(path) == FileKind::kAssimp)

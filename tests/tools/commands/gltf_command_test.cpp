@@ -73,6 +73,8 @@ TEST(GltfCommand, PutsTheClipIntoTheScene) {
   ASSERT_EQ(compared.status, 0) << compared;
   EXPECT_LE(compared.json()["max_error_percent"], 0.0501);
   EXPECT_EQ(load_file(folder / "b.glb").frame_count, 1U);  // what others see
+  EXPECT_THAT(anicodec({"encode", folder / "b.glb", "-o", folder / "b.anic"}).err,
+              HasSubstr("b.glb moves by a clip inside"));
   for (const char* option : {"--split-objects", "--part=0:2", "--order=free"})
     EXPECT_EQ(anicodec({"encode", folder / "a.glb", "-o", folder / "d.glb", option}).status, 1);
   write_sequence(folder / "a.pc2", gltf_limb());
