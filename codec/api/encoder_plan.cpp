@@ -75,6 +75,8 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
       InterpolationChoice::kLinear, InterpolationChoice::kMsgi, InterpolationChoice::kAuto};
   constexpr std::optional<KeyframePoses> kPoses[] = {std::nullopt, KeyframePoses::kDraco,
                                                      KeyframePoses::kNative, KeyframePoses::kAuto};
+  constexpr OpeningChoice kOpenings[] = {OpeningChoice::kSmall, OpeningChoice::kAuto,
+                                         OpeningChoice::kFast};
   constexpr OrderMode kOrders[] = {OrderMode::kVertices, OrderMode::kFree, OrderMode::kAll};
   options.basis = chosen(host.basis, kBases, "basis");
   if (host.keyframes > 0) {
@@ -87,6 +89,7 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
   options.interpolation = chosen(host.interpolation, kInterpolations, "interpolation");
   options.keyframe_poses = chosen(host.keyframe_coder, kPoses, "coder of key-frames");
   options.order = chosen(host.order, kOrders, "order");
+  options.opening = chosen(host.opening, kOpenings, "opening");
   options.effort = static_cast<int>(within(host.effort, 5, 9, "the effort"));
 }
 

@@ -23,6 +23,10 @@ enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajec
 /// or by whichever does better.
 enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
 
+/// What a search minimises: the bytes of the file, to which a millisecond of opening, as estimated,
+/// adds nothing, 100 (kAuto) or 500 (kFast).
+enum class OpeningChoice : uint8_t { kSmall, kAuto, kFast };
+
 /// How far a surface was moved before coding: its Hausdorff distance from the source's, in scene
 /// units.
 struct SurfaceChange {
@@ -49,6 +53,7 @@ struct EncodeOptions {
   std::optional<SurfaceChange> surface_change;
   AttributeOptions attributes;
   int effort = 5;  ///< 1..9: how long to search
+  OpeningChoice opening = OpeningChoice::kSmall;
 };
 
 /// One encoding that the search tried: for `-v`.

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/linear_coder.h"
 
-#include "codec/search/linear_steps.h"
+#include "codec/search/opening_time.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +33,10 @@ constexpr Nearness kThorough{0.994, 0.997};  // errors vary by some thousandths
 }  // namespace
 
 LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
-                         int effort, uint32_t layers, uint32_t first_frame)
+                         int effort, uint32_t layers, OpeningChoice opening, uint32_t first_frame)
     : input_(input),
       analysis_(analysis),
+      opening_(opening),
       first_frame_(first_frame),
       runs_(input.runs(first_frame, static_cast<uint32_t>(analysis.clip().frame_count))),
       kind_(kind),
@@ -44,6 +45,8 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
+  if (opening != OpeningChoice::kSmall)
+    choice_.settings.coder = CoefficientCoder::kBatches;
   thorough_ = effort >= kThoroughEffort;
   if (!shapes) {
     // Trajectories are many: half the time that prediction takes, for two bytes in a hundred.
@@ -119,8 +122,10 @@ LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double r
     m.excesses = input_.excesses(m.part.error, first_frame_, rmse);
     m.rmse = rmse * std::ranges::max(m.excesses);
   }
-  m.bytes = static_cast<double>(bytes(m.part)) *
-            std::pow(std::max(m.rmse, rmse * 1e-3) / rmse, kRateSlope);
+  m.part.opening =
+      bytes_per_nanosecond(opening_) *
+      opening_nanoseconds(choice.settings, m.part.encoded, input_.layout.topology.coded_vertices);
+  m.bytes = bytes(m.part) * std::pow(std::max(m.rmse, rmse * 1e-3) / rmse, kRateSlope);
   return m;
 }
 
@@ -172,22 +177,31 @@ void LinearCoder::choose_settings(double rmse) {
     for (const LinearStep& step : linear_steps()) {
       if (effort != (shapes ? step.shapes_from : step.trajectories_from))
         continue;
-      LinearChoice changed = choice_;
-      step.change(changed, kind_);
-      changed = started(changed, rmse);
-      const Measured trial = measured(changed, rmse);
-      if (trial.bytes < least) {
-        changes = true;
-        least = trial.bytes;
-        choice_ = changed;
-        choice_.steps.push_back(step.name);
-        learn(trial, rmse, choice_);
-      }
+      changes |= try_step(step, rmse, &least);
     }
     if (changes)
       earlier_.push_back(before);
   }
+  if (opening_ != OpeningChoice::kSmall && effort_ > 1) {
+    for (const LinearStep& step : opening_steps())
+      try_step(step, rmse, &least);
+  }
   least_ = least;
+}
+
+/// Keeps a change of the settings if it helps.
+bool LinearCoder::try_step(const LinearStep& step, double rmse, double* least) {
+  LinearChoice changed = choice_;
+  step.change(changed, kind_);
+  changed = started(changed, rmse);
+  const Measured trial = measured(changed, rmse);
+  if (!(trial.bytes < *least))
+    return false;
+  *least = trial.bytes;
+  choice_ = changed;
+  choice_.steps.push_back(step.name);
+  learn(trial, rmse, choice_);
+  return true;
 }
 
 std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
@@ -196,13 +210,12 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   if (!chosen_)
     choose_settings(rmse);
   std::optional<CodedPart> best = reached(choice_, rmse);
-  if (thorough_ && best && least_ > 0 && static_cast<double>(bytes(*best)) > least_)
+  if (thorough_ && best && least_ > 0 && bytes(*best) > least_)
     turn_down(rmse, *best);
-  const double all_means =
-      best && least_ > 0 ? std::min(static_cast<double>(bytes(*best)) / least_, 1.0) : 1;
+  const double all_means = best && least_ > 0 ? std::min(bytes(*best) / least_, 1.0) : 1;
   // One trial tells a size but roughly: what a search of less effort ends with may be smaller yet.
   for (const Candidate& earlier : std::views::reverse(earlier_)) {
-    if (best && earlier.bytes * all_means * (1 - kDoubt) > static_cast<double>(bytes(*best)))
+    if (best && earlier.bytes * all_means * (1 - kDoubt) > bytes(*best))
       continue;
     std::optional<CodedPart> part = reached(earlier.choice, rmse);
     if (part && (!best || bytes(*part) < bytes(*best))) {
@@ -266,9 +279,10 @@ std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) 
   return std::move(best->part);
 }
 
-/// What the part takes in the file.
-size_t LinearCoder::bytes(const CodedPart& part) const {
-  return part.encoded.bytes() + (pose_ ? 0 : part.encoded.reference->stream.size());
+/// What the part takes in the file, and its opening.
+double LinearCoder::bytes(const CodedPart& part) const {
+  const size_t pose = pose_ ? 0 : part.encoded.reference->stream.size();
+  return static_cast<double>(part.encoded.bytes() + pose) + part.opening;
 }
 
 }  // namespace anicodec

@@ -3,8 +3,10 @@
 #ifndef ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 #define ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 
+#include "codec/file/encode_options.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/linear_choice.h"
+#include "codec/search/linear_steps.h"
 #include "codec/search/segment_coder.h"
 #include "codec/segment/linear_basis.h"
 #include "codec/segment/linear_segment_encode.h"
@@ -22,13 +24,16 @@ namespace anicodec {
 class LinearCoder : public SegmentCoder {
  public:
   /// `effort` 1..9: how many settings are tried; more never ends with a larger file. The analysis,
-  /// of the frames from `first_frame` on, must outlive the coder.
+  /// of the frames from `first_frame` on, must outlive the coder. Where opening is worth bytes, what
+  /// is called bytes below has them added.
   LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind, int effort,
-              uint32_t layers, uint32_t first_frame = 0);
+              uint32_t layers, OpeningChoice opening, uint32_t first_frame = 0);
 
   std::optional<CodedPart> at_rmse(double rmse) override;
 
   BasisKind kind() const { return kind_; }
+
+  OpeningChoice opening() const { return opening_; }
 
   /// Makes the coder use a pose that the file has already, with a base that is an affine image of
   /// it, and the settings as they are.
@@ -71,13 +76,15 @@ class LinearCoder : public SegmentCoder {
   Measured measured(const LinearChoice& choice, double rmse);
   static void even_out(const Measured& trial, LinearChoice& choice);
   static void learn(const Measured& trial, double rmse, LinearChoice& choice);
+  bool try_step(const LinearStep& step, double rmse, double* least);
   void choose_settings(double rmse);
   void turn_down(double rmse, CodedPart& best);
   std::optional<CodedPart> reached(LinearChoice choice, double rmse);
-  size_t bytes(const CodedPart& part) const;
+  double bytes(const CodedPart& part) const;
 
   const EncoderInput& input_;
   const LinearAnalysis& analysis_;
+  OpeningChoice opening_;
   uint32_t first_frame_;
   Vector<uint32_t> runs_;  ///< of clips
   BasisKind kind_;

@@ -2,10 +2,18 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/linear_steps.h"
 
+#include <algorithm>
+
 namespace anicodec {
 namespace {
 
 constexpr double kPoseFactor = 1.4;  ///< between steps of the pose that are tried
+
+void fewer_neighbours(LinearChoice& choice, BasisKind) {
+  constexpr int kFewest = 8, kStep = 4;
+  choice.settings.neighbours =
+      static_cast<uint8_t>(std::max(choice.settings.neighbours - kStep, kFewest));
+}
 
 }  // namespace
 
@@ -48,6 +56,20 @@ const std::vector<LinearStep>& linear_steps() {
       {"finer weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor /= 1.15; }, 8, 8},
       {"more components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor /= 1.5; }, 9, 9},
       {"radius 9", [](LinearChoice& c, BasisKind) { c.settings.radius = 9; }, 9, 9},
+  };
+  return steps;
+}
+
+const std::vector<LinearStep>& opening_steps() {
+  static const std::vector<LinearStep> steps = {
+      {"mixing coder",
+       [](LinearChoice& c, BasisKind) { c.settings.coder = CoefficientCoder::kMixing; }, 2, 2},
+      {"sparse refits",
+       [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kSparse; }, 2, 2},
+      {"4 neighbours fewer", fewer_neighbours, 2, 2},
+      {"8 neighbours fewer", fewer_neighbours, 2, 2},
+      {"no refits", [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kNone; },
+       2, 2},
   };
   return steps;
 }

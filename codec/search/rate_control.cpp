@@ -81,8 +81,8 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
     BasisChoice choice = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
                                                          : BasisChoice::kEigentrajectories;
     if (options_.basis == BasisChoice::kAuto || options_.basis == choice)
-      coders.push_back(
-          std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort, kLayers));
+      coders.push_back(std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort,
+                                                     kLayers, options_.opening));
   }
   for (std::unique_ptr<LinearCoder>& coder : coders) {
     if (input_.pose)

@@ -13,6 +13,13 @@ std::vector<const EncodedSegment*> Solution::segments() const {
   return list;
 }
 
+double Solution::price() const {
+  double sum = static_cast<double>(bytes);
+  for (const CodedPart& part : parts)
+    sum += part.opening;
+  return sum;
+}
+
 double Solution::squared_error() const {
   double sum = 0;
   for (const CodedPart& part : parts)

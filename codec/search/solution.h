@@ -16,6 +16,8 @@ struct Solution {
   size_t bytes = 0;  ///< of the file
 
   std::vector<const EncodedSegment*> segments() const;
+  /// The bytes, and what opening is worth.
+  double price() const;
   double squared_error() const;
   double max_error() const;
 };

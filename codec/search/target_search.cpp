@@ -61,7 +61,7 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   std::optional<Solution> best;
   auto trial_is_better = [&](double ratio) {
     std::optional<Solution> trial = at_rmse(coder, bound / ratio);
-    if (!trial || (best && trial->bytes >= best->bytes))
+    if (!trial || (best && trial->price() >= best->price()))
       return false;
     best = std::move(trial);
     return true;
@@ -113,7 +113,7 @@ std::optional<Solution> TargetSearch::reach(SegmentCoder& coder) {
 bool TargetSearch::better(const Solution& a, const Solution& b) const {
   if (is_size(target_))
     return a.squared_error() < b.squared_error();
-  return a.bytes < b.bytes;
+  return a.price() < b.price();
 }
 
 double TargetSearch::typical_rmse() const {

@@ -74,11 +74,13 @@ CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, const Mes
       decoded_(target_.rows(), target_.cols()),
       channels_(channels),
       order_(order_of(settings, layout, pose)),
-      model_(ranks(), channels, order_.neighbours.data(),
-             static_cast<uint32_t>(order_.neighbour_count)),
+      model_(fresh_model()),
       joint_(order_),
+      layers_anew_(settings.layers_anew),
       component_(size_t{ranks()} * channels),
       residuals_(size_t{ranks()} * channels) {
+  if (settings.coder == CoefficientCoder::kBatches)
+    begin_batches();
   PredictionParameters prediction;
   prediction.channels = static_cast<int>(channels);
   prediction.radius = settings.radius;
@@ -86,6 +88,29 @@ CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, const Mes
   if (predictor_.init(order_, pose.data(), prediction,
                       static_cast<size_t>(target_.cols()) / channels) != Status::kOk)
     throw Error(ErrorKind::kInternal, "the predictor refuses its parameters");
+}
+
+CoefficientModel CoefficientEncoder::fresh_model() const {
+  return {ranks(), channels_, order_.neighbours.data(),
+          static_cast<uint32_t>(order_.neighbour_count)};
+}
+
+void CoefficientEncoder::begin_batches() {
+  batches_.emplace(channels_, order_.neighbours.data(),
+                   static_cast<uint32_t>(order_.neighbour_count), order_.level_start);
+}
+
+/// Ends the stream of the coder in use, and begins the next one.
+Bytes CoefficientEncoder::finish_layer() {
+  Bytes bytes = batches_ ? batch_encoder_.finish() : encoder_.finish();
+  encoder_ = BinaryEncoder();
+  batch_encoder_ = RansEncoder();
+  if (layers_anew_) {
+    model_ = fresh_model();
+    if (batches_)
+      begin_batches();
+  }
+  return bytes;
 }
 
 template <class Coder, class Choose>
@@ -156,16 +181,22 @@ bool CoefficientEncoder::round_together() {
   return true;
 }
 
-std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j,
-                                                                      BinaryEncoder& encoder) {
+std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) {
   const uint32_t n = ranks();
   const auto column = [&](uint32_t c) { return static_cast<Index>(j * channels_ + c); };
   for (uint32_t c = 0; c < channels_; ++c)
     for (uint32_t i = 0; i < n; ++i)
       component_[size_t{c} * n + i] = target_(order_.order[i], column(c));
-  if (joint_lambda_ > 0 ? !round_together() || !pass(model_, encoder, chosen())
-                        : !pass(model_, encoder, nearest(model_, component_)))
+  if (joint_lambda_ > 0 && !round_together())
     return std::nullopt;
+  Rehearsal rehearsal;
+  const auto write = [&](const auto& choose) {
+    return batches_ ? pass(model_, rehearsal, choose) : pass(model_, encoder_, choose);
+  };
+  if (joint_lambda_ > 0 ? !write(chosen()) : !write(nearest(model_, component_)))
+    return std::nullopt;
+  if (batches_)
+    batches_->code_component(batch_encoder_, residuals_.data());
   double energy = 0, largest = 0;
   for (uint32_t c = 0; c < channels_; ++c) {
     const float* y = predictor_.coefficients(static_cast<int>(c));

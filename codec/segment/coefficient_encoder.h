@@ -6,8 +6,11 @@
 #include "codec/connectivity/mesh_layout.h"
 #include "codec/segment/joint_rounding.h"
 #include "codec/segment/linear_settings.h"
+#include "format/batch_coefficient_coder.h"
 #include "format/binary_coder.h"
+#include "format/bytes.h"
 #include "format/coefficient_coder.h"
+#include "format/rans_coder.h"
 #include "sdk/prediction/encoder_predictor.h"
 #include "sdk/prediction/vertex_order.h"
 
@@ -23,7 +26,8 @@ namespace anicodec {
 /// Coefficients in steps, a row per vertex: channels of component 0, of component 1, ...
 using Coefficients = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Predicts, rounds and codes the coefficients of a basis, component by component.
+/// Predicts, rounds and codes the coefficients of a basis, component by component. What residuals
+/// cost is what the mixing coder takes for them, whichever writes them.
 class CoefficientEncoder {
  public:
   /// `pose`: vertices x 3 on its grid; `target`: what the coefficients would best be. The layout
@@ -38,12 +42,18 @@ class CoefficientEncoder {
 
   /// Codes component j, after all those before it. Nothing if a coefficient is too large.
   /// Cost: O(vertices m^2); rounding together takes about three times as long.
-  std::optional<Component> code(size_t j, BinaryEncoder& encoder);
+  std::optional<Component> code(size_t j);
+
+  /// The stream of the components since the layer before.
+  Bytes finish_layer();
 
   /// What a decoder gets, of the components coded so far.
   const Coefficients& decoded() const { return decoded_; }
 
  private:
+  CoefficientModel fresh_model() const;
+  void begin_batches();
+
   uint32_t ranks() const { return static_cast<uint32_t>(target_.rows()); }
 
   template <class Coder, class Choose>
@@ -57,9 +67,12 @@ class CoefficientEncoder {
   uint32_t channels_;
   VertexOrder order_;
   CoefficientModel model_;
+  BinaryEncoder encoder_;
+  std::optional<BatchCoefficientModel> batches_;  ///< if that is the coder
+  RansEncoder batch_encoder_;
   EncoderPredictor predictor_;
   JointRounding joint_;
-  bool new_weights_ = true;
+  bool new_weights_ = true, layers_anew_;
   // Of the component at hand, channels x ranks.
   std::vector<float> component_;
   std::vector<int32_t> residuals_;

@@ -141,6 +141,8 @@ class LinearEncoder {
     parameters_.colours = settings.passes_per_level;
     parameters_.radius = settings.radius;
     parameters_.schedule = settings.schedule;
+    parameters_.coder = settings.coder;
+    parameters_.layers_anew = settings.layers_anew;
     parameters_.run_steps.assign(settings.run_steps.begin(), settings.run_steps.end());
     parameters_.omega.assign(count_, 128);
     encoded_.runs = runs;
@@ -294,9 +296,8 @@ class LinearEncoder {
   }
 
   bool code_layer(size_t begin, size_t end, CoefficientEncoder& coefficients) {
-    BinaryEncoder encoder;
     for (size_t j = begin; j < end; ++j) {
-      const std::optional<CoefficientEncoder::Component> coded = coefficients.code(j, encoder);
+      const std::optional<CoefficientEncoder::Component> coded = coefficients.code(j);
       if (!coded)
         return false;
       parameters_.omega[j] = coded->omega;
@@ -305,7 +306,7 @@ class LinearEncoder {
     }
     ByteWriter writer;
     writer.varint(end - begin);
-    writer.raw(encoder.finish());
+    writer.raw(coefficients.finish_layer());
     encoded_.layers.push_back(std::move(writer.bytes()));
     return true;
   }

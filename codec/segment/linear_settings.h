@@ -4,6 +4,7 @@
 #define ANICODEC_CODEC_SEGMENT_LINEAR_SETTINGS_H_
 
 #include "sdk/prediction/predictor.h"
+#include "sdk/segment/linear_segment.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,9 @@ struct LinearSettings {
   uint8_t passes_per_level = 1;
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
-  uint32_t layers = 1;  ///< parts that the components are stored in
+  CoefficientCoder coder = CoefficientCoder::kMixing;
+  bool layers_anew = false;  ///< LinearParameters::layers_anew
+  uint32_t layers = 1;       ///< parts that the components are stored in
 };
 
 }  // namespace anicodec

@@ -41,6 +41,14 @@ class DecodedIntegers {
     show(name, values, count);
   }
 
+  /// Adds the hash of integers in place of them, its lower half first.
+  void add_block(const IntegerHash& block) {
+    const uint64_t digest = block.digest();
+    const int32_t halves[2] = {static_cast<int32_t>(digest & 0xFFFFFFFF),
+                               static_cast<int32_t>(digest >> 32)};
+    hash_.add(halves, 2);
+  }
+
   /// Integers that the hash does not contain.
   void show(const char* name, const int32_t* values, size_t count) const {
     if (trace_)

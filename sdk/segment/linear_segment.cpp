@@ -2,11 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/segment/linear_segment.h"
 
-#include "format/coefficient_coder.h"
+#include "format/symbol_model.h"
 #include "format/time_weights.h"
 #include "sdk/base/bounded_float.h"
 #include "sdk/segment/affine_functions.h"
 #include "sdk/segment/resident_writer.h"
+#include "sdk/segment/residual_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,11 @@
 namespace anicodec {
 namespace {
 
-constexpr uint8_t kAffineFlag = 1, kRunStepsFlag = 2;
+constexpr uint8_t kAffineFlag = 1, kRunStepsFlag = 2, kLayersAnewFlag = 4;
+constexpr uint8_t kFlags = kAffineFlag | kRunStepsFlag | kLayersAnewFlag;
+constexpr uint8_t kSlices = 1;  // other numbers are for later
 constexpr uint8_t kMaxRunStep = 64;
+constexpr size_t kHashedRanks = 1024;  // of a block of the hash
 
 /// What the weight step of each frame is multiplied by.
 Vector<double> step_factors(const LinearParameters& parameters, const Vector<uint32_t>& runs) {
@@ -102,55 +106,24 @@ uint32_t components_in(const Vector<ByteView>& layers, uint32_t components) {
   return count;
 }
 
-/// Residuals of the components in the layers, components x channels x vertices in decoding order;
-/// stops after `wanted` components.
-Status read_residuals(const SegmentContext& context, const VertexOrder& order, uint32_t channels,
-                      uint32_t components, uint32_t wanted, Vector<int32_t>* residuals) {
-  auto n = static_cast<uint32_t>(order.vertex_count());
-  CoefficientModel model(n, channels, order.neighbours.data(),
-                         static_cast<uint32_t>(order.neighbour_count));
-  residuals->resize(size_t{wanted} * channels * n);
-  Vector<int32_t> interleaved(channels == 1 ? 0 : size_t{channels} * n);
-  uint32_t j = 0;
-  for (ByteView layer : context.layers) {
-    ByteReader reader(layer);
-    uint32_t count = reader.varint32(components - j);
-    if (!reader.ok())
-      return Status::kRecord;
-    ByteView stream = reader.raw(reader.remaining());
-    BinaryDecoder decoder(stream.data, stream.size);
-    for (uint32_t end = j + count; j < end; ++j) {
-      if (j == wanted)
-        return Status::kOk;
-      int32_t* to = residuals->data() + size_t{j} * channels * n;
-      model.code_component(decoder, channels == 1 ? to : interleaved.data());
-      if (!decoder.ok())
-        return Status::kEntropy;
-      for (uint32_t i = 0; channels > 1 && i < n; ++i) {
-        for (uint32_t c = 0; c < channels; ++c)
-          to[size_t{c} * n + i] = interleaved[size_t{i} * channels + c];
-      }
-      if (!context.advance(size_t{channels} * n))
-        return Status::kCancelled;
-    }
-    if (!decoder.finish())
-      return Status::kEntropy;
-  }
-  return j == wanted ? Status::kOk : Status::kChunkMissing;
-}
-
-/// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample.
+/// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample. The hash
+/// takes hashes of blocks, which do not wait for one another.
 Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ranks, size_t samples,
                                 DecodedIntegers& integers) {
   Vector<int32_t> exact(samples);
   Vector<float> largest(samples, 0.F);
-  for (size_t i = 0; i < ranks; ++i) {
-    const float* row = y.data() + i * stride;
-    for (size_t s = 0; s < samples; ++s) {
-      exact[s] = static_cast<int32_t>(row[s] * (1 << kFractionBits));
-      largest[s] = std::max(largest[s], std::fabs(row[s]));
+  for (size_t first = 0; first < ranks; first += kHashedRanks) {
+    IntegerHash block;
+    for (size_t i = first; i < std::min(ranks, first + kHashedRanks); ++i) {
+      const float* row = y.data() + i * stride;
+      for (size_t s = 0; s < samples; ++s) {
+        exact[s] = static_cast<int32_t>(row[s] * (1 << kFractionBits));
+        largest[s] = std::max(largest[s], std::fabs(row[s]));
+      }
+      block.add(exact.data(), samples);
+      integers.show("coefficients", exact.data(), samples);
     }
-    integers.add("coefficients", exact.data(), samples);
+    integers.add_block(block);
   }
   return largest;
 }
@@ -215,10 +188,12 @@ int32_t LinearParameters::sigma_eighths(double sigma) {
 
 Bytes LinearParameters::write() const {
   ByteWriter w;
-  w.u8(static_cast<uint8_t>((affine ? kAffineFlag : 0) | (run_steps.empty() ? 0 : kRunStepsFlag)));
+  w.u8(static_cast<uint8_t>((affine ? kAffineFlag : 0) | (run_steps.empty() ? 0 : kRunStepsFlag) |
+                            (layers_anew ? kLayersAnewFlag : 0)));
   w.f64(basis_step);
   w.f64(weight_step);
-  for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule)})
+  for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule),
+                    static_cast<uint8_t>(coder), kSlices})
     w.u8(x);
   for (uint8_t step : run_steps)
     w.u8(step);
@@ -240,6 +215,7 @@ Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs) 
   ByteReader r(bytes);
   uint8_t flags = r.u8();
   affine = flags & kAffineFlag;
+  layers_anew = flags & kLayersAnewFlag;
   basis_step = r.f64();
   weight_step = r.f64();
   neighbours = r.u8();
@@ -247,8 +223,12 @@ Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs) 
   radius = r.u8();
   uint8_t id = r.u8();
   schedule = static_cast<RefitSchedule>(id);
-  if (!r.ok() || (flags & ~(kAffineFlag | kRunStepsFlag)))
+  const uint8_t coder_id = r.u8(), slices = r.u8();
+  coder = static_cast<CoefficientCoder>(coder_id);
+  if (!r.ok() || (flags & ~kFlags))
     return Status::kRecord;
+  if (coder_id >= kCoefficientCoderCount || slices != kSlices)
+    return Status::kCoder;
   if (!(std::isfinite(basis_step) && basis_step > 0) ||
       !(std::isfinite(weight_step) && weight_step > 0) || neighbours < 8 ||
       neighbours > kMaxNeighbours || neighbours % 4 != 0 || colours == 0 || colours > kMaxColours ||
@@ -292,6 +272,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
       context.runs.empty() ? Vector<uint32_t>(1, out->frames) : context.runs;
   if (Status s = parameters.read(record.parameters, components, runs.size()); s != Status::kOk)
     return s;
+  out->coefficient_coder = parameters.coder;
   if (record.motion.size != 0 || record.pose.size != 0)
     return Status::kRecord;
   if (!context.pose)
@@ -319,15 +300,15 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   VertexOrder order;
   if (Status s = order_of(context, parameters, &order); s != Status::kOk)
     return s;
-  uint32_t channels = out->channels();
-  Vector<int32_t> residuals;
-  if (Status s = read_residuals(context, order, channels, components, wanted, &residuals);
-      s != Status::kOk)
-    return s;
-
   show(context.trace, "vertex of each rank", order.order);
   show(context.trace, "first rank of each level", order.level_start);
   integers.show("neighbours", order.neighbours.data(), order.neighbours.size());
+  uint32_t channels = out->channels();
+  Vector<int32_t> residuals;
+  if (Status s =
+          read_residuals(context, parameters, order, channels, components, wanted, &residuals);
+      s != Status::kOk)
+    return s;
   integers.show("residuals", residuals.data(), residuals.size());
 
   PredictionParameters prediction;

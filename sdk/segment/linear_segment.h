@@ -26,6 +26,8 @@ struct LinearParameters {
   uint8_t colours = 1;
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
+  CoefficientCoder coder = CoefficientCoder::kMixing;
+  bool layers_anew = false;  ///< the models of the coefficients begin anew with each layer
   /// Of each run of frames that a clip has: its weights have weight_step * 2^(run_steps / 8). Empty:
   /// all have weight_step.
   Vector<uint8_t> run_steps;

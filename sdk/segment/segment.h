@@ -25,6 +25,13 @@ inline uint32_t block_count(uint32_t vertices) {
   return (vertices + kBlock - 1) / kBlock;
 }
 
+/// How the coefficients of eigenshapes and eigentrajectories are coded.
+enum class CoefficientCoder : uint8_t {
+  kMixing = 0,   ///< CoefficientModel: smallest files
+  kBatches = 1,  ///< BatchCoefficientModel: opens faster
+};
+constexpr uint8_t kCoefficientCoderCount = 2;
+
 /// A row-major 3 x 4 matrix: rotation or linear part and translation of an affine map.
 struct Affine {
   float m[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -63,6 +70,8 @@ struct Segment {
   Vector<Affine> pose_maps;  ///< A_f; empty when there is no pose
   Vector<Affine> motions;    ///< M_f; empty when there are none
 
+  CoefficientCoder coefficient_coder =
+      CoefficientCoder::kMixing;     ///< of eigenshapes and -trajectories
   Vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
   double origin[3] = {0, 0, 0};      ///< key-frame kind: offset of every coefficient vector
 

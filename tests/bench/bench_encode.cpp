@@ -51,12 +51,13 @@ ByteShares byte_shares(ByteView file) {
 }
 
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
-                         bool verbose, OrderMode order) {
+                         bool verbose, OrderMode order, OpeningChoice opening) {
   EncodeOptions options;
   options.target = target;
   options.basis = basis;
   options.order = order;
   options.effort = effort;
+  options.opening = opening;
   options.encoder = fmt::format("anicodec {}", tools::version());
 
   TimedEncode timed;

@@ -36,7 +36,8 @@ struct TimedEncode {
 /// Encodes with the program's defaults but for these; with `verbose` the trials and stages go to
 /// stderr.
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
-                         bool verbose, OrderMode order = OrderMode::kFree);
+                         bool verbose, OrderMode order = OrderMode::kFree,
+                         OpeningChoice opening = OpeningChoice::kSmall);
 
 /// Bits per frame and vertex.
 double bpfv(uint64_t bytes, const MeshSequence& sequence);

@@ -41,6 +41,9 @@ Table run_near(const BenchOptions& options, double max_error_percent);
 /// Opening and playing all frames, against Draco decoding them one by one; one thread.
 Table run_decode(const BenchOptions& options, double kg, int runs);
 
+/// Bytes, opening time and its steps with each choice of `encode --open`; one thread.
+Table run_open(const BenchOptions& options, double kg, int runs);
+
 /// Bytes and opening time per vertex of frame 0 as a reference pose, each way of coding it, against
 /// Draco on the same grid.
 Table run_static_pose(const BenchOptions& options, double kg, int runs);

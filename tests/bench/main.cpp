@@ -167,6 +167,18 @@ void add_decode(Bench& bench) {
   add_basis(options, a);
 }
 
+void add_open(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options = add(
+      bench, "open", "Bytes and time to open, step by step, of each --open", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{run_open(args.bench, args.one_kg, args.runs)};
+      });
+  options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
+  options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
+  add_basis(options, a);
+}
+
 void add_play(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options = add(
@@ -295,8 +307,9 @@ void add_massage(Bench& bench) {
 
 void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
   Bench bench{commands, common, arguments};
-  for (auto add_bench : {add_rate, add_gltf, add_near, add_decode, add_play, add_auto, add_poses,
-                         add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
+  for (auto add_bench :
+       {add_rate, add_gltf, add_near, add_decode, add_open, add_play, add_auto, add_poses,
+        add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
     add_bench(bench);
 }
 

@@ -13,9 +13,11 @@
 #include "codec/segment/linear_segment_encode.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
+#include "format/batch_coefficient_coder.h"
 #include "format/binary_coder.h"
 #include "format/bytes.h"
 #include "format/coefficient_coder.h"
+#include "format/rans_coder.h"
 #include "format/time_weights.h"
 #include "sdk/clip/clip.h"
 #include "sdk/pose/pose_coding.h"
@@ -136,6 +138,15 @@ Bytes schedules() {
              recipe(10, BasisKind::kEigentrajectories, step, 12, 8, 255, RefitSchedule::kSparse),
              recipe(10, BasisKind::kEigenshapes, step, 24, 4, 12, RefitSchedule::kMedium),
              recipe(10, BasisKind::kEigentrajectories, step, 20, 2, 5, RefitSchedule::kDense)});
+}
+
+/// A recipe of three layers by a coder.
+Recipe layered(BasisKind kind, double step, CoefficientCoder coder, bool anew) {
+  Recipe r = recipe(9, kind, step, 12, 1, 12, RefitSchedule::kMedium);
+  r.settings.coder = coder;
+  r.settings.layers = 3;
+  r.settings.layers_anew = anew;
+  return r;
 }
 
 /// A vertex of more than 32 neighbours, vertices without any, and a pose finer than the grid that
@@ -314,18 +325,24 @@ void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
                     segment.reference->grid.points.data(), topology.coded_vertices,
                     parameters.neighbours, parameters.colours, &order);
   const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
-  CoefficientModel model(topology.coded_vertices, channels, order.neighbours.data(),
-                         static_cast<uint32_t>(order.neighbour_count));
+  const auto stride = static_cast<uint32_t>(order.neighbour_count);
+  CoefficientModel model(topology.coded_vertices, channels, order.neighbours.data(), stride);
+  BatchCoefficientModel batches(channels, order.neighbours.data(), stride, order.level_start);
   BinaryEncoder encoder;
+  RansEncoder batch_encoder;
+  const bool in_batches = parameters.coder == CoefficientCoder::kBatches;
   std::vector<int32_t> q(size_t{channels} * topology.coded_vertices);
   for (uint32_t j = 0; j < segment.sizes.components; ++j) {
     for (int32_t& x : q)
       x = j % 3 == 0 ? numbers.within(3) : numbers.within(1 << (j * 2 % 24));
-    model.code_component(encoder, q.data());
+    if (in_batches)
+      batches.code_component(batch_encoder, q.data());
+    else
+      model.code_component(encoder, q.data());
   }
   ByteWriter writer;
   writer.varint(segment.sizes.components);
-  writer.raw(encoder.finish());
+  writer.raw(in_batches ? batch_encoder.finish() : encoder.finish());
   segment.layers = {writer.bytes()};
   segment.sizes.wide_components = segment.sizes.components;
 }
@@ -340,6 +357,20 @@ Bytes saturated() {
     r->change = scramble_coefficients;
   }
   return file_of(clip, {shapes, curves});
+}
+
+/// The second coder of coefficients, layers that begin anew, and residuals at the coder's limits.
+Bytes batches() {
+  const MeshSequence clip = corpus::make_scaled("limb", 400, 45);
+  const double step = 0.001 * diagonal(clip);
+  Recipe wild = layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kBatches, false);
+  wild.settings.components = 7;
+  wild.change = scramble_coefficients;
+  return file_of(clip,
+                 {layered(BasisKind::kEigenshapes, step, CoefficientCoder::kBatches, false),
+                  layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kBatches, true),
+                  layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kMixing, true),
+                  layered(BasisKind::kEigenshapes, step, CoefficientCoder::kBatches, true), wild});
 }
 
 /// Several meshes that come and go, several segments of one of them.
@@ -585,6 +616,7 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"weights_in_time", weights_in_time},
                                {"clips", clips},
                                {"saturated", saturated},
+                               {"batches", batches},
                                {"partners", partners},
                                {"other_parents", other_parents},
                                {"scene", scene},

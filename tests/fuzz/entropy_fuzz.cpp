@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 // Any bytes through the entropy decoders. The first byte picks the model, the second its size. What
 // a decoder accepts, the encoder writes again, byte for byte.
+#include "format/batch_coefficient_coder.h"
 #include "format/binary_coder.h"
 #include "format/coefficient_coder.h"
+#include "format/rans_coder.h"
 #include "format/symbol_model.h"
 #include "format/time_weights.h"
 
@@ -54,6 +56,35 @@ void fuzz_coefficients(uint32_t channels, uint32_t vertices, const uint8_t* data
     require(same(encoder.finish(), data, size));
 }
 
+void fuzz_batches(uint32_t channels, uint32_t vertices, const uint8_t* data, size_t size) {
+  constexpr uint32_t kStride = 8, kComponents = 4, kLevel = 24;
+  std::vector<int32_t> neighbours;
+  Vector<uint32_t> levels;
+  for (uint32_t v = 0; v < vertices; ++v) {
+    const uint32_t first = v / kLevel * kLevel;
+    if (v == first)
+      levels.push_back(v);
+    for (uint32_t a = 0; a < kStride; ++a)
+      neighbours.push_back(a < first ? static_cast<int32_t>((v * 7 + a * 5) % first) : -1);
+  }
+  levels.push_back(vertices);
+  RansDecoder decoder({data, size});
+  RansEncoder encoder;
+  BatchCoefficientModel read(channels, neighbours.data(), kStride, levels);
+  BatchCoefficientModel write(channels, neighbours.data(), kStride, levels);
+  std::vector<int32_t> q(size_t{vertices} * channels);
+  for (uint32_t j = 0; j < kComponents; ++j) {
+    read.code_component(decoder, q.data());
+    for (const int32_t value : q)
+      require(std::abs(value) < kCoefficientLimit);
+    if (!decoder.ok())
+      return;
+    write.code_component(encoder, q.data());
+  }
+  if (decoder.finish())
+    require(same(encoder.finish(), data, size));
+}
+
 void fuzz_weights(uint32_t frames, const uint8_t* data, size_t size) {
   constexpr int64_t kLimit = int64_t{kWeightLimit} << kWeightFractionBits;
   BinaryDecoder decoder(data, size);
@@ -73,7 +104,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2)
     return 0;
   const uint32_t count = data[1];
-  switch (data[0] % 4) {
+  switch (data[0] % 6) {
     case 0:
       fuzz_integers(count, data + 2, size - 2);
       break;
@@ -82,6 +113,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       break;
     case 2:
       fuzz_coefficients(3, count, data + 2, size - 2);
+      break;
+    case 3:
+      fuzz_batches(1, count, data + 2, size - 2);
+      break;
+    case 4:
+      fuzz_batches(3, count, data + 2, size - 2);
       break;
     default:
       fuzz_weights(count, data + 2, size - 2);

@@ -244,7 +244,7 @@ def segment_rules(files):
     yield 40, "segm_more", triangle.end("SEGM", b"\0"), "a byte after the last block"
     yield 40, "segm_short", triangle.end("SEGM", less=1), "a block longer than the record"
     parameters = "SEGM parameters"
-    yield 45, "parameters_run_step", files("clips").put(parameters, set_byte(23, 65)), "a run step of 65"
+    yield 45, "parameters_run_step", files("clips").put(parameters, set_byte(25, 65)), "a run step of 65"
     for name, file, status, change, what in (
             ("flags", triangle, 40, set_byte(0, 8), "a reserved flag"),
             ("coder", triangle, 13, set_byte(1, 250), "a coder that does not exist"),
@@ -255,18 +255,26 @@ def segment_rules(files):
             ("parent", triangle, 40, set_byte(38, 2), "a key-frame coded against itself"),
             ("rotation_bits", far, 45, set_byte(35, 28), "28 bits of rotations"),
             ("translation_step", far, 45, set_bytes(36, f64(-1)), "a step of translations below 0"),
-            ("linear_flags", corrected, 40, set_byte(0, 4), "a reserved flag of eigentrajectories"),
+            ("linear_flags", corrected, 40, set_byte(0, 8), "a reserved flag of eigentrajectories"),
             ("basis_step", corrected, 45, set_bytes(1, f64(0)), "a basis step of 0"),
             ("weight_step", corrected, 45, set_bytes(9, INFINITE), "a weight step that is infinite"),
             ("neighbours", corrected, 45, set_byte(17, 9), "9 neighbours"),
             ("passes", corrected, 45, set_byte(18, 9), "9 parts of a level"),
             ("radius", corrected, 45, set_byte(19, 0), "a radius of 0"),
-            ("schedule", corrected, 45, set_byte(20, 4), "a schedule that does not exist")):
+            ("schedule", corrected, 45, set_byte(20, 4), "a schedule that does not exist"),
+            ("coefficient_coder", corrected, 13, set_byte(21, 2), "a coder of coefficients that does not exist"),
+            ("no_slices", corrected, 13, set_byte(22, 0), "no slices"),
+            ("slices", corrected, 13, set_byte(22, 2), "two slices, which are for later")):
         yield status, f"parameters_{name}", file.put(parameters, change), f"parameters with {what}"
     yield 40, "layer_components", corrected.put("BASI data", lambda old: b"\x7f" + old[1:]), \
         "a layer of more components than are left"
     last = len(corrected.fields["BASI data"]) - 1
     yield 41, "layer_more", corrected.put("BASI data", lambda old: old + b"\1", last), "bytes after a layer"
+    batches = files("batches")
+    last = len(batches.fields["BASI data"]) - 1
+    yield 41, "batches_more", batches.put("BASI data", lambda old: old + b"\1\0", last), "bytes after a layer of batches"
+    yield 41, "batches_odd", batches.put("BASI data", lambda old: old + b"\0", last), "half a word after a layer of batches"
+    yield 41, "batches_state", batches.put("BASI data", set_bytes(1, b"\xff\xff\0\0")), "a state below its range"
     yield 45, "corrections_step", corrected.put("CORR data", set_bytes(0, f64(0))), "corrections with a step of 0"
     yield 45, "corrections_not_finite", corrected.put("CORR data", set_bytes(0, NAN)), "corrections with a step that is no number"
     yield 26, "corrections_empty", corrected.put("CORR data", b""), "corrections without a byte"

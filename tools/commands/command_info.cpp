@@ -31,7 +31,7 @@ massaged, surface_error, surface_error_mean (those of a clip, of the first one),
 first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error, rmse,
 kg), attributes (mesh, kind, of, name, components, labels,
 moves; of those that move, bytes, max_error, rmse in units of their values), segments (mesh, basis,
-of, reconstruction, first_frame, frames, components, corrections), chunks (type, offset, size,
+of, reconstruction, first_frame, frames, components, corrections, coder), chunks (type, offset, size,
 required, mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
 
 struct Contents {
@@ -88,10 +88,11 @@ const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t
   return nullptr;
 }
 
-/// What codes the poses of its key-frames; null for another basis.
-const char* coder_of(const Limits::Segment& s) {
+/// What codes the poses of its key-frames, or its coefficients.
+const char* coder_of(const Clip& clip, size_t segment) {
+  const Limits::Segment& s = clip.limits().segments[segment];
   if (s.kind != BasisKind::kKeyframes)
-    return nullptr;
+    return name_of(clip.segments()[segment].coefficient_coder);
   return name_of(s.draco_bytes > 0 ? CoderId::kDraco : CoderId::kNative);
 }
 
@@ -205,7 +206,8 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
     }
   }
   json["segments"] = nlohmann::ordered_json::array();
-  for (const Limits::Segment& s : limits.segments) {
+  for (size_t i = 0; i < limits.segments.size(); ++i) {
+    const Limits::Segment& s = limits.segments[i];
     json["segments"].push_back({{"mesh", s.mesh},
                                 {"basis", name_of(s.kind)},
                                 {"of", moved_by(s)},
@@ -213,9 +215,8 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
                                 {"first_frame", s.first_frame},
                                 {"frames", s.frames},
                                 {"components", s.components},
-                                {"corrections", s.corrections}});
-    if (const char* coder = coder_of(s))
-      json["segments"].back()["coder"] = coder;
+                                {"corrections", s.corrections},
+                                {"coder", coder_of(c.clip, i)}});
   }
   json["chunks"] = nlohmann::ordered_json::array();
   for (const Chunk& chunk : c.container.chunks()) {
@@ -311,15 +312,18 @@ void print_meshes(const Contents& c) {
   }
 }
 
-void print_segments(const Limits& limits) {
-  for (const Limits::Segment& s : limits.segments)
+void print_segments(const Clip& clip) {
+  const Limits& limits = clip.limits();
+  for (size_t i = 0; i < limits.segments.size(); ++i) {
+    const Limits::Segment& s = limits.segments[i];
     row("segment", fmt::format("{}{}frames {}:{}, {}{}{}, {}",
                                limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
                                s.attribute == kPositions ? "" : moved_by(s) + ", ", s.first_frame,
                                s.first_frame + s.frames, counted_components(s.components, s.kind),
                                s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "",
-                               coder_of(s) ? fmt::format(", coder {}", coder_of(s)) : "",
+                               fmt::format(", coder {}", coder_of(clip, i)),
                                counted(s.corrections, "correction")));
+  }
 }
 
 std::string traits_of(const ClipRecord& clip) {
@@ -382,7 +386,7 @@ void print_text(const std::string& path, const Contents& c) {
     print_clips(c);
   else
     print_promise(record);
-  print_segments(limits);
+  print_segments(c.clip);
   print_chunks(c);
 }
 

@@ -62,6 +62,9 @@ constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
 constexpr Word<InterpolationChoice> kInterpolations[] = {{InterpolationChoice::kLinear, "linear"},
                                                          {InterpolationChoice::kMsgi, "msgi"},
                                                          {InterpolationChoice::kAuto, "auto"}};
+constexpr Word<OpeningChoice> kOpenings[] = {{OpeningChoice::kSmall, "small"},
+                                             {OpeningChoice::kAuto, "auto"},
+                                             {OpeningChoice::kFast, "fast"}};
 constexpr Word<std::optional<KeyframePoses>> kKeyframePoses[] = {{KeyframePoses::kDraco, "draco"},
                                                                  {KeyframePoses::kNative, "native"},
                                                                  {KeyframePoses::kAuto, "auto"}};
@@ -126,6 +129,10 @@ void add_method(Options& options, EncodeArguments& a) {
                "(default: as parts of one mesh)");
   options.number("--effort", a.effort, "N", {1, 9},
                  "How long to search, 1 to 9 (default 5); files from 7 on open slower");
+  options.choice(
+      "--open", a.opening, {kOpenings},
+      "What a millisecond of opening is worth: no byte (small, the default), 100 bytes (auto), 500 "
+      "(fast)");
 }
 
 void add_massage_options(Options& options, EncodeArguments& a) {
@@ -246,6 +253,7 @@ EncodeOptions encode_options(const EncodeArguments& command) {
     options.attributes.error_percent = error.percent;
   }
   options.effort = command.effort;
+  options.opening = command.opening;
   options.encoder = fmt::format("anicodec {}", version());
   set_target(command, std::nullopt, options);
   return options;
@@ -298,7 +306,7 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
                                   c.bpfv, c.keyframes, c.effort, options.encoder};
   for (int choice :
        {static_cast<int>(c.basis), static_cast<int>(c.selection), static_cast<int>(c.order),
-        static_cast<int>(c.interpolation), static_cast<int>(c.massage),
+        static_cast<int>(c.interpolation), static_cast<int>(c.massage), static_cast<int>(c.opening),
         c.keyframe_coder ? static_cast<int>(*c.keyframe_coder) : -1,
         static_cast<int>(c.split_objects)})
     settings.push_back(choice);

@@ -38,6 +38,7 @@ struct EncodeArguments {
   std::optional<KeyframePoses> keyframe_coder;
   OrderChoice order = OrderChoice::kAuto;
   int effort = 5;
+  OpeningChoice opening = OpeningChoice::kSmall;
   TopologyChanges topology_changes = TopologyChanges::kRefuse;
   bool split_objects = false;
   MassageMode massage = MassageMode::kOff;

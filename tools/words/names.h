@@ -25,6 +25,9 @@ inline constexpr Word<BasisKind> kBasisKinds[] = {
 inline constexpr Word<CoderId> kCoders[] = {{CoderId::kDraco, "draco"},
                                             {CoderId::kNative, "native"}};
 
+inline constexpr Word<CoefficientCoder> kCoefficientCoders[] = {
+    {CoefficientCoder::kMixing, "mixing"}, {CoefficientCoder::kBatches, "batches"}};
+
 inline constexpr Word<PoseCoding> kPoseCodings[] = {{PoseCoding::kRounded, "rounded"},
                                                     {PoseCoding::kExact, "exact"},
                                                     {PoseCoding::kDependent, "dependent steps"}};
@@ -65,6 +68,10 @@ inline constexpr Word<UpAxis> kUpAxes[] = {{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}}
 
 inline const char* name_of(BasisKind kind) {
   return word_of(kBasisKinds, kind);
+}
+
+inline const char* name_of(CoefficientCoder coder) {
+  return word_of(kCoefficientCoders, coder);
 }
 
 inline const char* name_of(CoderId coder) {

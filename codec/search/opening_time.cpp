@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/opening_time.h"
+
+#include "sdk/prediction/predictor.h"
+
+#include <algorithm>
+
+namespace anicodec {
+namespace {
+
+/// Nanoseconds of a coder for a coefficient, and for each of its bits.
+struct CoderTime {
+  double coefficient, bit;
+};
+
+// Lines through dance, flag, face, chicken and horse at --kg 0.1: `anicodec_bench open`.
+constexpr CoderTime kMixing{28, 75}, kBatches{1, 18};
+
+}  // namespace
+
+double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment& encoded,
+                           size_t vertices) {
+  const double channels = encoded.sizes.kind == BasisKind::kEigenshapes ? 3 : 1;
+  const double components = encoded.sizes.components, n = static_cast<double>(vertices);
+  double bits = 0;
+  for (const Bytes& layer : encoded.layers)
+    bits += 8.0 * static_cast<double>(layer.size());
+  const CoderTime& coder = settings.coder == CoefficientCoder::kBatches ? kBatches : kMixing;
+  const double reading = coder.coefficient * n * components * channels + coder.bit * bits;
+
+  size_t count = 0;
+  const uint16_t* refits = refit_components(settings.schedule, &count);
+  count = static_cast<size_t>(std::count_if(
+      refits, refits + count, [&](uint16_t after) { return after + 1 < components; }));
+  const double learnt = count == 0 ? 0 : refits[count - 1] + 1;
+  const double m = settings.neighbours;
+  const double of_vertex = 0.025 * m * m * m + channels * components * 0.33 * m +
+                           channels * learnt * 0.028 * m * m +
+                           static_cast<double>(count) * (0.2 * m * m + 0.003 * m * m * m);
+  return reading + n * of_vertex;
+}
+
+double bytes_per_nanosecond(OpeningChoice opening) {
+  switch (opening) {
+    case OpeningChoice::kSmall:
+      return 0;
+    case OpeningChoice::kAuto:
+      return 1e-4;
+    case OpeningChoice::kFast:
+      return 5e-4;
+  }
+  return 0;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_SEARCH_OPENING_TIME_H_
+#define ANICODEC_CODEC_SEARCH_OPENING_TIME_H_
+
+#include "codec/file/encode_options.h"
+#include "codec/segment/encoded_segment.h"
+#include "codec/segment/linear_settings.h"
+
+#include <cstddef>
+
+namespace anicodec {
+
+/// About the nanoseconds of one thread that a decoder spends on the coefficients of a linear segment,
+/// the part of opening that settings change: reading them, by how many there are and what they take,
+/// and predicting them, by neighbours and refits. Made for ratios; machines differ.
+double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment& encoded,
+                           size_t vertices);
+
+/// Bytes that a nanosecond of opening is worth to a search, the multiplier of its Lagrangian: what a
+/// file's transport carries in the meantime.
+double bytes_per_nanosecond(OpeningChoice opening);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_SEARCH_OPENING_TIME_H_

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/opening_time.h"
+
+#include "codec/encode.h"
+#include "corpus/clips.h"
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+TEST(OpeningTime, FallsWithCheaperSettings) {
+  EncodedSegment encoded;
+  encoded.sizes.kind = BasisKind::kEigentrajectories;
+  encoded.sizes.components = 40;
+  encoded.layers.push_back(Bytes(10000));
+  const auto time = [&](const auto& change) {
+    LinearSettings settings;
+    change(settings);
+    return opening_nanoseconds(settings, encoded, 7000);
+  };
+  const double usual = time([](LinearSettings&) {});
+  EXPECT_LT(time([](LinearSettings& s) { s.coder = CoefficientCoder::kBatches; }), usual);
+  EXPECT_LT(time([](LinearSettings& s) { s.neighbours = 8; }), usual);
+  EXPECT_LT(time([](LinearSettings& s) { s.schedule = RefitSchedule::kSparse; }), usual);
+  EXPECT_LT(time([](LinearSettings& s) { s.schedule = RefitSchedule::kNone; }),
+            time([](LinearSettings& s) { s.schedule = RefitSchedule::kSparse; }));
+}
+
+TEST(OpeningTime, IsWorthBytesToSearchesThatAskForIt) {
+  EXPECT_EQ(bytes_per_nanosecond(OpeningChoice::kSmall), 0);
+  EXPECT_GT(bytes_per_nanosecond(OpeningChoice::kAuto), 0);
+  EXPECT_GT(bytes_per_nanosecond(OpeningChoice::kFast), bytes_per_nanosecond(OpeningChoice::kAuto));
+}
+
+TEST(OpeningTime, PaysInBytes) {
+  const MeshSequence clip = corpus::make_scaled("limb", 1500, 30);
+  const auto bytes = [&](OpeningChoice opening) {
+    EncodeOptions options;
+    options.target = {ErrorMetric::kKg, 0.2, false};
+    options.basis = BasisChoice::kEigentrajectories;
+    options.effort = 2;
+    options.opening = opening;
+    const EncodeResult result = encode(clip, options);
+    EXPECT_LE(result.kg, 0.2);
+    return static_cast<double>(result.file.size());
+  };
+  const double small = bytes(OpeningChoice::kSmall), fast = bytes(OpeningChoice::kFast);
+  EXPECT_LE(small, bytes(OpeningChoice::kAuto) * 1.01);
+  EXPECT_LT(small, fast);
+  EXPECT_LT(fast, small * 1.3);
+}
+
+}  // namespace
+}  // namespace anicodec
