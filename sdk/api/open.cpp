@@ -158,6 +158,7 @@ Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, ani
   const bool boxes = options.flags & ANIC_OPEN_BOUNDS;
   opening.prefix = prefix;
   opening.progress = &progress;
+  opening.threads = {options.threads.run, options.threads.user};
   opening.progress_end = boxes ? kShareBeforeBoxes : 1;
   anic_asset* asset = create<anic_asset>(memory_of(&options.allocator), 0);
   try {
@@ -174,8 +175,7 @@ Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, ani
       asset->triangle_counts.reserve(clip.meshes().size());
       for (const Mesh& mesh : clip.meshes())
         asset->triangle_counts.push_back(triangle_count(mesh.topology));
-      const HostThreads threads = {options.threads.run, options.threads.user};
-      if (boxes && !compute_boxes(asset, threads, &progress))
+      if (boxes && !compute_boxes(asset, opening.threads, &progress))
         failure = {Status::kCancelled, 0, 0, "the host stopped the opening"};
     }
     if (!failure.ok()) {

@@ -469,6 +469,7 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   context.runs = limits_.runs(sizes.first_frame, sizes.frames);
   context.trace = options.trace;
   context.progress = options.progress;
+  context.threads = options.threads;
   if (record.kind != BasisKind::kKeyframes)
     s = work.shared_graph(*context.topology, &context.graph);
   else if (is_predicted(sizes) && work.is_shared())

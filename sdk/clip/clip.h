@@ -8,6 +8,7 @@
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/base/host_progress.h"
+#include "sdk/base/parallel_for.h"
 #include "sdk/clip/attributes.h"
 #include "sdk/clip/mesh_work.h"
 #include "sdk/mesh/topology.h"
@@ -44,6 +45,8 @@ struct OpenOptions {
   ClipNames clips;
   /// Leaves the source's order of vertices and polygons alone, whatever the file keeps of it.
   bool any_order = false;
+  /// Share the work that can be shared; nothing depends on them.
+  HostThreads threads;
   /// Told after every mesh, level of the vertices and component; may end the opening with
   /// kCancelled. Null: nobody.
   HostProgress* progress = nullptr;

@@ -19,6 +19,7 @@ constexpr uint8_t kAffineFlag = 1, kRunStepsFlag = 2, kLayersAnewFlag = 4;
 constexpr uint8_t kFlags = kAffineFlag | kRunStepsFlag | kLayersAnewFlag;
 constexpr uint8_t kSlices = 1;  // other numbers are for later
 constexpr uint8_t kMaxRunStep = 64;
+constexpr size_t kSharedRanks = 64;    // of a level, for a thread; whole batches of every kernel
 constexpr size_t kHashedRanks = 1024;  // of a block of the hash
 
 /// What the weight step of each frame is multiplied by.
@@ -327,7 +328,8 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     return s;
   for (size_t l = 0; l < order.level_count(); ++l) {
     const size_t first = order.level_start[l], last = order.level_start[l + 1];
-    reconstruction.run(first, last);
+    for_ranges(context.threads, last - first, kSharedRanks,
+               [&](size_t begin, size_t end) { reconstruction.run(first + begin, first + end); });
     if (!context.advance(samples * (last - first)))
       return Status::kCancelled;
   }

@@ -7,6 +7,7 @@
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/base/host_progress.h"
+#include "sdk/base/parallel_for.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/msgi/msgi.h"
 #include "sdk/pose/pose_coding.h"
@@ -115,6 +116,7 @@ struct SegmentContext {
   double quality = 1;  ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;
+  HostThreads threads;               ///< predict the vertices of a level; nothing depends on them
   DecodingTrace* trace = nullptr;    ///< sees every integer decoded; may be null
   HostProgress* progress = nullptr;  ///< gets segment_work() in all; may be null
 

@@ -126,6 +126,18 @@ TEST(AnicProgress, StopsStreamsAndReadersToo) {
   EXPECT_EQ(memory.held, 0U);
 }
 
+TEST(AnicThreads, ChangeNoCoefficient) {
+  for (const BasisChoice basis : {BasisChoice::kEigenshapes, BasisChoice::kEigentrajectories}) {
+    const Bytes& file = encoded_clip("limb", basis);
+    anic_options options = ANIC_INIT(anic_options);
+    const Asset alone = open(file, &options);
+    options.threads = threads_of_a_host();
+    const Asset shared = open(file, &options);
+    EXPECT_EQ(anic_verify_asset(shared.get()), ANIC_OK);
+    EXPECT_EQ(frame(shared, 3), frame(alone, 3));
+  }
+}
+
 TEST(AnicThreads, ChangeNoBox) {
   for (const auto& [clip, basis] : cases()) {
     SCOPED_TRACE(clip);

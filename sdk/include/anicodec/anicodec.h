@@ -255,8 +255,8 @@ typedef struct anic_options {
   uint64_t max_bytes; /**< opening_bytes of anic_requirements [2^28, and 2^14 for each byte of the
                          file] */
   anic_allocator allocator; /**< copied; `user` must outlive what is made with it */
-  anic_threads threads;     /**< the boxes of ANIC_OPEN_BOUNDS are computed on them; everything else
-                               runs on the thread that opens */
+  anic_threads threads;     /**< coefficients are predicted, and the boxes of ANIC_OPEN_BOUNDS
+                               computed, on them; everything else runs on the thread that opens */
   anic_progress progress;
   double quality; /**< share of the components to open, in (0, 1]; 0 means 1. Fewer components are
                      coarser, smaller, and faster to open and to play. Spec: 09a, section 4 */
