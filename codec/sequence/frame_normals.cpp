@@ -30,12 +30,14 @@ FrameNormals::FrameNormals(const MeshSequence& clip) {
 }
 
 std::vector<float> FrameNormals::compute(std::span<const float> positions) const {
-  std::vector<float> normals(3 * first_corner_.size());
+  std::vector<float> of_corners(size_t{3} * plan_.size());
   VertexOutput output;
-  for (size_t i = 0; i < first_corner_.size(); ++i) {
-    output.data = normals.data() + 3 * i;
-    compute_normals(plan_, positions.data(), 3 * sizeof(float), first_corner_[i], 1, output);
-  }
+  output.data = of_corners.data();
+  compute_normals(plan_, positions.data(), 3 * sizeof(float), 0, plan_.size(), output);
+  std::vector<float> normals;
+  normals.reserve(3 * first_corner_.size());
+  for (const uint32_t c : first_corner_)
+    normals.insert(normals.end(), &of_corners[size_t{3} * c], &of_corners[size_t{3} * c] + 3);
   return normals;
 }
 

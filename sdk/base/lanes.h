@@ -10,7 +10,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#if defined(__wasm_simd128__)
+#if defined(__SSE2__)
+#include <immintrin.h>
+#elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
 #endif
 
@@ -29,6 +31,29 @@ struct LaneTypes {
   typedef int32_t Int __attribute__((vector_size(4 * W)));
   typedef uint32_t Bits __attribute__((vector_size(4 * W)));
 };
+
+/// Of every lane, rounded to nearest.
+template <typename V>
+ANICODEC_INLINE V square_root(V x) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(V) == 64)
+    return reinterpret_cast<V>(_mm512_maskz_sqrt_ps(0xFFFF, reinterpret_cast<__m512>(x)));
+#endif
+#if defined(__AVX__)
+  if constexpr (sizeof(V) == 32)
+    return reinterpret_cast<V>(_mm256_sqrt_ps(reinterpret_cast<__m256>(x)));
+#endif
+#if defined(__SSE2__)
+  if constexpr (sizeof(V) == 16)
+    return reinterpret_cast<V>(_mm_sqrt_ps(reinterpret_cast<__m128>(x)));
+#elif defined(__wasm_simd128__)
+  if constexpr (sizeof(V) == 16)
+    return reinterpret_cast<V>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(x)));
+#endif
+  for (size_t l = 0; l < sizeof(V) / sizeof(float); ++l)
+    x[l] = __builtin_sqrtf(x[l]);
+  return x;
+}
 
 #if defined(__wasm_simd128__)
 /// Four integers as floats. LLVM 14 would join both conversions, and make scalar code of that.

@@ -3,10 +3,12 @@
 #include "sdk/play/normal_plan.h"
 
 #include "sdk/base/disjoint_sets.h"
+#include "sdk/base/lanes.h"
 #include "sdk/mesh/half_edges.h"
 #include "sdk/play/play.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <tuple>
@@ -15,8 +17,8 @@
 namespace anicodec {
 namespace {
 
-/// Normals that are stored at a time.
-constexpr uint32_t kRange = 16 * kBlock;
+constexpr uint32_t kRange = NormalPlan::kRange;
+static_assert(kRange % kBlock == 0);
 
 struct Direction {
   float v[3] = {0, 0, 0};
@@ -171,13 +173,83 @@ NormalPlan plan_of(const Topology& topology, const Corners& corners, bool per_co
                                          corners.vertex(corners.previous(c))};
   }
   if (per_corner) {
-    plan.group = std::move(group_of);
+    plan.group = group_of;
   } else {
     plan.group.assign(vertices, groups);
     for (uint32_t c = 0; c < corners.count(); ++c)
       plan.group[corners.vertex(c)] = group_of[c];
   }
+  list_areas(&plan);
   return plan;
+}
+
+/// Three numbers in lanes 1 to 3; lane 0 is anything.
+using Float4 = LaneTypes<4>::Float;
+
+/// A vertex of a pose. Reads the four bytes before it, those of the vertex before, and none behind.
+ANICODEC_INLINE Float4 load_point(const unsigned char* pose, size_t stride, uint32_t v) {
+  if (v == 0) {
+    float p[3];
+    std::memcpy(p, pose, sizeof p);
+    return Float4{0.0F, p[0], p[1], p[2]};
+  }
+  LaneTypes<4>::Unaligned p;
+  std::memcpy(&p, pose + stride * v - sizeof(float), sizeof p);
+  return p;
+}
+
+/// Numbers 1, 2, 0.
+ANICODEC_INLINE Float4 rotated(Float4 x) {
+  return __builtin_shufflevector(x, x, 0, 2, 3, 1);
+}
+
+/// Sums of the areas of a range: of its groups, and one that is nobody's.
+void sum_areas(const NormalPlan& plan, uint32_t range, const unsigned char* pose, size_t stride,
+               Float4 (&sums)[kRange + 1]) {
+  for (uint32_t i = plan.range_begin[range]; i < plan.range_begin[range + 1]; ++i) {
+    const NormalPlan::Area& area = plan.areas[i];
+    const Float4 corner = load_point(pose, stride, area.vertex[0]);
+    const Float4 a = load_point(pose, stride, area.vertex[1]) - corner,
+                 b = load_point(pose, stride, area.vertex[2]) - corner;
+    const Float4 cross = rotated(a * rotated(b) - rotated(a) * b);
+    for (const uint16_t group : area.to)
+      sums[group] += cross;
+  }
+}
+
+/// Vectors of length one from blocks of vectors, (0, 0, 1) from what has no direction.
+void normalise(float* blocks, uint32_t count) {
+  using Lanes = LaneTypes<4>;
+  for (uint32_t b = 0; b < block_count(count); ++b) {
+    for (uint32_t i = 0; i < kBlock; i += 4) {
+      float* at = blocks + b * 3 * kBlock + i;
+      Lanes::Float v[3];
+      for (uint32_t c = 0; c < 3; ++c)
+        std::memcpy(&v[c], at + c * kBlock, sizeof v[c]);
+      // Scaled by a power of two: squares neither overflow nor vanish.
+      Lanes::Float most{};
+      for (const Lanes::Float& x : v) {
+        const Lanes::Float size = x < 0.0F ? -x : x;
+        most = size > most ? size : most;
+      }
+      constexpr uint32_t kExponent = 0x7F800000, kOne = 0x3F800000;
+      const Lanes::Bits exponent = reinterpret_cast<Lanes::Bits>(most) & kExponent;
+      const auto scale = reinterpret_cast<Lanes::Float>(2 * kOne - exponent);
+      Lanes::Float squares{};
+      for (Lanes::Float& x : v) {
+        x *= scale;
+        squares += x * x;
+      }
+      const Lanes::Float inverse = 1.0F / square_root(squares);
+      // Neither 0 nor too small for the scale, and finite.
+      const Lanes::Int sound = (squares >= 0.5F) & (squares < 16.0F);
+      for (uint32_t c = 0; c < 3; ++c) {
+        const Lanes::Float up = Lanes::Float{} + (c == 2 ? 1.0F : 0.0F);
+        const Lanes::Float unit = sound ? v[c] * inverse : up;
+        std::memcpy(at + c * kBlock, &unit, sizeof unit);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -202,29 +274,77 @@ NormalPlan plan_normals(const Topology& topology, const Vector<uint32_t>& shared
   return plan_of(topology, corners, per_corner, sets);
 }
 
+void list_areas(NormalPlan* plan) {
+  /// What a corner of a group of the range adds to it: from the smallest of its vertices on, so that
+  /// the corners of a triangle add the same.
+  struct Added {
+    std::array<uint32_t, 3> vertex;
+    uint16_t to;
+
+    bool operator<(const Added& other) const {
+      return std::tie(vertex, to) < std::tie(other.vertex, other.to);
+    }
+  };
+
+  constexpr uint32_t kNone = UINT32_MAX;
+  Vector<uint32_t> numbers(plan->centre.size(), kNone), groups;
+  Vector<Added> added;
+  plan->local.resize(plan->size());
+  plan->areas.clear();
+  plan->range_begin.assign(1, 0);
+  for (uint32_t first = 0; first < plan->size(); first += kRange) {
+    groups.clear();
+    added.clear();
+    for (uint32_t i = first; i < std::min(first + kRange, plan->size()); ++i) {
+      const uint32_t g = plan->group[i];
+      if (numbers[g] == kNone) {
+        numbers[g] = static_cast<uint32_t>(groups.size());
+        groups.push_back(g);
+        for (uint32_t c = plan->begin[g]; c < plan->begin[g + 1]; ++c) {
+          Added a{{plan->centre[g], plan->corners[c].next, plan->corners[c].previous},
+                  static_cast<uint16_t>(numbers[g])};
+          std::rotate(a.vertex.begin(), std::min_element(a.vertex.begin(), a.vertex.end()),
+                      a.vertex.end());
+          added.push_back(a);
+        }
+      }
+      plan->local[i] = static_cast<uint16_t>(numbers[g]);
+    }
+    for (const uint32_t g : groups)
+      numbers[g] = kNone;
+    // In the order of the vertices: what is added to a group comes in the same order in every range.
+    std::sort(added.begin(), added.end());
+    for (size_t i = 0; i < added.size();) {
+      NormalPlan::Area area{{added[i].vertex[0], added[i].vertex[1], added[i].vertex[2]},
+                            {kRange, kRange, kRange}};
+      const size_t begin = i;
+      for (; i < std::min(begin + 3, added.size()) && added[i].vertex == added[begin].vertex; ++i)
+        area.to[i - begin] = added[i].to;
+      plan->areas.push_back(area);
+    }
+    plan->range_begin.push_back(static_cast<uint32_t>(plan->areas.size()));
+  }
+}
+
 void compute_normals(const NormalPlan& plan, const float* pose, size_t stride, uint32_t first,
                      uint32_t count, const VertexOutput& output) {
-  auto point = [&](uint32_t v, float(&to)[3]) {
-    std::memcpy(to, reinterpret_cast<const unsigned char*>(pose) + stride * v, sizeof to);
-  };
+  const auto* bytes = reinterpret_cast<const unsigned char*>(pose);
   VertexOutput rest = output;
   for (uint32_t end = first + count; first < end;) {
-    const uint32_t n = std::min(end - first, kRange);
-    float blocks[3 * kRange] = {};
+    const uint32_t range = first / kRange, n = std::min((range + 1) * kRange, end) - first;
+    Float4 sums[kRange + 1] = {};
+    sum_areas(plan, range, bytes, stride, sums);
+    float blocks[3 * kRange];
     for (uint32_t i = 0; i < n; ++i) {
-      const uint32_t group = plan.group[first + i];
-      float centre[3], next[3], previous[3];
-      point(plan.centre[group], centre);
-      Direction normal;
-      for (uint32_t c = plan.begin[group]; c < plan.begin[group + 1]; ++c) {
-        point(plan.corners[c].next, next);
-        point(plan.corners[c].previous, previous);
-        normal.add_cross(centre, next, previous);
-      }
-      normal.normalise();
+      const Float4& sum = sums[plan.local[first + i]];
       for (uint32_t c = 0; c < 3; ++c)
-        blocks[(i / kBlock * 3 + c) * kBlock + i % kBlock] = normal.v[c];
+        blocks[(i / kBlock * 3 + c) * kBlock + i % kBlock] = sum[c + 1];
     }
+    for (uint32_t i = n; i % kBlock != 0; ++i) {
+      for (uint32_t c = 0; c < 3; ++c)
+        blocks[(i / kBlock * 3 + c) * kBlock + i % kBlock] = 0;
+    }
+    normalise(blocks, n);
     store_points(blocks, 0, n, rest);
     rest.data = static_cast<unsigned char*>(rest.data) + rest.stride * n;
     first += n;

@@ -107,6 +107,7 @@ void add_normals(const Topology& topology, const NormalPlan& of_corners, RenderP
   const auto none = static_cast<uint32_t>(to.centre.size() - 1);
   for (uint32_t r = 0; r < plan->size(); ++r)
     to.group[r] = of_corners.group.empty() ? none : of_corners.group[plan->corners[r]];
+  list_areas(&to);
 }
 
 }  // namespace

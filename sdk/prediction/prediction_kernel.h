@@ -25,28 +25,6 @@
 namespace anicodec {
 namespace {
 
-template <typename V>
-ANICODEC_INLINE V square_root(V x) {
-#if defined(__AVX512F__)
-  if constexpr (sizeof(V) == 64)
-    return reinterpret_cast<V>(_mm512_maskz_sqrt_ps(0xFFFF, reinterpret_cast<__m512>(x)));
-#endif
-#if defined(__AVX__)
-  if constexpr (sizeof(V) == 32)
-    return reinterpret_cast<V>(_mm256_sqrt_ps(reinterpret_cast<__m256>(x)));
-#endif
-#if defined(__SSE2__)
-  if constexpr (sizeof(V) == 16)
-    return reinterpret_cast<V>(_mm_sqrt_ps(reinterpret_cast<__m128>(x)));
-#elif defined(__wasm_simd128__)
-  if constexpr (sizeof(V) == 16)
-    return reinterpret_cast<V>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(x)));
-#endif
-  for (size_t l = 0; l < sizeof(V) / sizeof(float); ++l)
-    x[l] = __builtin_sqrtf(x[l]);
-  return x;
-}
-
 /// Rows of 4 or 8 lanes become columns; one lane stays what it is.
 template <typename V>
 ANICODEC_INLINE void transpose(V* r) {

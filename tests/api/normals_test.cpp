@@ -140,6 +140,50 @@ TEST(AnicNormals, RangesFormatsAndStridesAgree) {
   EXPECT_EQ(anic_write_normals(normals.get(), p.data(), 0, n, 1, &output), ANIC_E_ARGUMENT);
 }
 
+TEST(AnicNormals, AreSumsOfTheAreasAtEachCorner) {
+  for (const char* name : {"limb", "polygons"}) {
+    SCOPED_TRACE(name);
+    const Asset asset = open(encoded_clip(name, BasisChoice::kEigenshapes));
+    const std::vector<float> p = frame(asset, 1);
+    anic_polygons polygons = ANIC_INIT(anic_polygons);
+    ASSERT_EQ(anic_get_polygons(asset.get(), 0, &polygons), ANIC_OK);
+    // Vertices at one place share a normal: their coded vertex is not told here, their place is.
+    std::map<std::vector<float>, std::vector<double>> sums;
+    const auto place = [&](uint32_t v) {
+      return std::vector<float>(&p[size_t{3} * v], &p[size_t{3} * v] + 3);
+    };
+    for (uint32_t f = 0; f < polygons.polygon_count; ++f) {
+      const uint32_t first = polygons.offsets[f], count = polygons.offsets[f + 1] - first;
+      for (uint32_t i = 0; count > 2 && i < count; ++i) {
+        const float* c = &p[size_t{3} * polygons.corners[first + i]];
+        const float* a = &p[size_t{3} * polygons.corners[first + (i + 1) % count]];
+        const float* b = &p[size_t{3} * polygons.corners[first + (i + count - 1) % count]];
+        std::vector<double>& sum = sums[place(polygons.corners[first + i])];
+        sum.resize(3);
+        const auto edge = [c](const float* to, size_t x) { return double{to[x]} - double{c[x]}; };
+        for (size_t x = 0; x < 3; ++x) {
+          const size_t y = (x + 1) % 3, z = (x + 2) % 3;
+          sum[x] += edge(a, y) * edge(b, z) - edge(a, z) * edge(b, y);
+        }
+      }
+    }
+    const std::vector<float> n = compute(plan(asset, 0, false), p);
+    for (uint32_t v = 0; v < n.size() / 3; ++v) {
+      std::vector<double> sum = sums[place(v)];
+      if (sum.empty())
+        continue;
+      const double size = std::hypot(sum[0], sum[1], sum[2]);
+      for (size_t x = 0; x < 3; ++x)
+        ASSERT_NEAR(double{n[size_t{3} * v + x]}, sum[x] / size, 1e-4) << v;
+    }
+    // The same for every corner, bit by bit.
+    const std::vector<float> of_corners = compute(plan(asset, 0, true), p);
+    for (uint32_t c = 0; c < of_corners.size() / 3; ++c)
+      for (size_t x = 0; x < 3; ++x)
+        ASSERT_EQ(of_corners[size_t{3} * c + x], n[size_t{3} * polygons.corners[c] + x]);
+  }
+}
+
 TEST(AnicNormals, AreHardWhereTheSourceWas) {
   const Asset asset = open(encoded_clip("painted_box", BasisChoice::kKeyframes));
   anic_normal_plan_options options = ANIC_INIT(anic_normal_plan_options);
