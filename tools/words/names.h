@@ -8,6 +8,7 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "format/attribute_record.h"
 #include "format/records.h"
+#include "sdk/segment/segment.h"
 #include "tools/words/quantity.h"
 #include "tools/words/word_table.h"
 
