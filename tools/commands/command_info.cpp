@@ -29,10 +29,10 @@ it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats 
 metres_per_unit, order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg,
 massaged, surface_error, surface_error_mean (those of a clip, of the first one), clips (name,
 first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error, rmse,
-kg), attributes (mesh, kind, of, name, components, labels,
-moves; of those that move, bytes, max_error, rmse in units of their values), segments (mesh, basis,
-of, reconstruction, first_frame, frames, components, corrections, coder), chunks (type, offset, size,
-required, mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
+kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
+max_error, rmse in units of their values), segments (mesh, basis, of, reconstruction, first_frame,
+frames, components, corrections, coder), chunks (type, offset, size, required, mesh, segment).
+Lengths are in scene units, errors those the encoder measured.)";
 
 struct Contents {
   uint64_t bytes = 0;
