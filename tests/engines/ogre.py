@@ -7,6 +7,7 @@ usage: ogre.py TESTS EXAMPLE PLUGIN CHECKOUT WORK      exit status 77: skipped, 
 """
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -46,7 +47,9 @@ def main():
     faults = []
     for name, options in (("ogre_cpu", []), ("ogre_card", ["--card"]), ("ogre_motion", ["--motion"])):
         text = run(example, *options, "--picture", work / f"{name}.ppm", *files)
-        assert "9 entities, " + ("9" if "--card" in options else "0") + " on the card" in text, text
+        # A frame with corrections is made on the CPU.
+        on_card = int(re.search(r"9 entities, (\d) on the card", text)[1])
+        assert on_card >= 7 if "--card" in options else on_card == 0, text
         faults.append(picture.compare(work / f"{name}.ppm", name))
     assert "Anic" in run(example, "--plugin", plugin, files[0])
     run(tests, "--gtest_brief=1")

@@ -133,7 +133,7 @@ TEST_F(OgreEntity, ComputesNothingOutOfSight) {
 }
 
 TEST_F(OgreEntity, PlaysOnTheCardWhatTheCardCan) {
-  Entity* limb = make("limb_default", "card");
+  Entity* limb = make("limb_small", "card");
   Entity* corrected = make("quad_box_corrected", "card");
   Entity* interpolated = make("nonmanifold_interpolated", "card");
   for (Entity* entity : {limb, corrected, interpolated})
