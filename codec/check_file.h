@@ -13,7 +13,7 @@
 
 namespace anicodec {
 
-/// What a decoded clip is away from its source.
+/// Errors of a decoded clip against its source.
 struct MeasuredClip {
   Comparison positions;
   Vector<AttributeError> attributes;  ///< those that move

@@ -75,7 +75,7 @@ Spread spread_of(const Scene& scene) {
   return spread;
 }
 
-/// What each frame shows.
+/// Counts of what each frame shows.
 struct Counts {
   explicit Counts(uint32_t frames) : vertices(frames), faces(frames) {}
 
@@ -91,7 +91,7 @@ struct Counts {
   std::vector<uint32_t> vertices, faces;
 };
 
-/// What every mesh is asked for, so that the scene keeps what it is asked for.
+/// The target of every mesh, such that the scene keeps its own.
 Target shared(const Target& target, const Spread& spread, double length) {
   if (target.metric == ErrorMetric::kSize)
     throw Error(ErrorKind::kUsage, "a target size cannot be shared out among meshes");
@@ -181,8 +181,10 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   }
   all.vertices = *std::ranges::max_element(counts.vertices);
   all.faces = *std::ranges::max_element(counts.faces);
-  all.rmse = std::sqrt(squared / spread.positions);
-  all.kg = 100 * std::sqrt(squared / (spread.squared > 0 ? spread.squared : 1));
+  all.rmse = parts.size() == 1 ? parts[0].first.rmse : std::sqrt(squared / spread.positions);
+  // What is measured of a single part is not rounded twice: its file is that of a plain clip.
+  all.kg = parts.size() == 1 ? parts[0].first.kg
+                             : 100 * std::sqrt(squared / (spread.squared > 0 ? spread.squared : 1));
 
   ClipsRecord record =
       clips_record(scene.clip, options, in_scene_units(options.target, length), {length});

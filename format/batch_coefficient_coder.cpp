@@ -40,7 +40,7 @@ BatchCoefficientModel::BatchCoefficientModel(uint32_t channels, const int32_t* n
     stride_ = kNear;
   }
   list_dependents();
-  // What a context expects, before it has seen anything.
+  // The expectation of a context that has seen nothing yet.
   for (uint32_t near = 0; near < kClasses; ++near)
     for (uint32_t history = 0; history < kClasses; ++history)
       for (uint32_t state = 0; state < kStates; ++state)

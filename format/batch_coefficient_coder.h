@@ -109,7 +109,7 @@ class BatchCoefficientModel {
         set_magnitude(first + i, std::min(vertices[i].sum, 255U));
   }
 
-  /// What is expected of a batch: of each vertex the mean magnitude of its neighbours, and its own
+  /// Expectations of a batch: of each vertex the mean magnitude of its neighbours, and its own
   /// running means, in 1/16.
   uint32_t total_of(uint32_t first, uint32_t count) const {
     const uint16_t *near = &near_[first], *history = &history_[first], *past = &past_[first];

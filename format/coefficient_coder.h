@@ -17,7 +17,7 @@
 
 namespace anicodec {
 
-/// What the residuals about 0 would take, in bits.
+/// The bits that residuals about 0 would take.
 struct ResidualCosts {
   float magnitude[4] = {};  ///< of |q| = 0..3, the sign left out
   float positive = 0, negative = 0;
@@ -72,7 +72,7 @@ class CoefficientModel {
     return q;
   }
 
-  /// What code() would take for q, in 1/65536 bit, learning nothing. @pre code() is next for this v
+  /// The cost of code() for q, in 1/65536 bit, learning nothing. @pre code() is next for this v
   /// and c
   uint64_t cost(uint32_t v, uint32_t c, int32_t q) {
     prepare(v, c);
@@ -162,7 +162,7 @@ class CoefficientModel {
   Vector<uint16_t> history_, past_;      ///< its running means, decay 1/2 and 27/32, in 1/256
   std::array<Vector<int8_t>, 3> value_;  ///< q of this component and the two before, within +-100
   Vector<int8_t> agreement_;             ///< kNear per vertex: do the signs of both agree?
-  // Of the component, vertex and channel at hand.
+  // The component, vertex and channel at hand.
   uint32_t component_ = 0;
   bool ready_ = false;                            ///< the channel is prepared
   bool quiet_ = false;                            ///< the vertex is quiet

@@ -11,14 +11,11 @@
 namespace anicodec {
 namespace {
 
-constexpr size_t kCountAt = 12;
 constexpr size_t kChecksumAt = 32;
+constexpr size_t kTableBytesAt = 36;
 constexpr uint64_t kKnownFeatures = 0;
-constexpr uint16_t kRequiredFlag = 1;
-
-uint64_t aligned(uint64_t offset) {
-  return (offset + kAlignment - 1) / kAlignment * kAlignment;
-}
+// Flags of an entry.
+constexpr uint8_t kRequired = 1, kOfMesh = 2, kOfSegment = 4;
 
 uint32_t low32(uint64_t hash) {
   return static_cast<uint32_t>(hash);
@@ -51,18 +48,20 @@ void ContainerWriter::add(const char (&type)[5], bool required, uint16_t mesh, u
 }
 
 Bytes ContainerWriter::finish() const {
-  uint64_t at = kHeaderBytes + kEntryBytes * chunks_.size();
   ByteWriter table;
+  uint64_t payload_bytes = 0;
   for (const Chunk& chunk : chunks_) {
-    at = aligned(at);
+    const bool of_mesh = chunk.mesh != kNoMesh, of_segment = chunk.segment != kNoSegment;
     table.u32(chunk.type);
-    table.u16(chunk.required ? kRequiredFlag : 0);
-    table.u16(chunk.mesh);
-    table.u32(chunk.segment);
     table.u32(chunk.checksum);
-    table.u64(at);
-    table.u64(chunk.size);
-    at += chunk.size;
+    table.u8(static_cast<uint8_t>((chunk.required ? kRequired : 0) | (of_mesh ? kOfMesh : 0) |
+                                  (of_segment ? kOfSegment : 0)));
+    if (of_mesh)
+      table.varint(chunk.mesh);
+    if (of_segment)
+      table.varint(chunk.segment);
+    table.varint(chunk.size);
+    payload_bytes += chunk.size;
   }
   ByteWriter file;
   file.raw({kMagic, sizeof kMagic});
@@ -70,25 +69,23 @@ Bytes ContainerWriter::finish() const {
   file.u16(kVersionMinor);
   file.u32(static_cast<uint32_t>(chunks_.size()));
   file.u64(0);  // no features beyond those of the version
-  file.u64(at);
+  file.u64(kHeaderBytes + table.size() + payload_bytes);
   file.u32(0);
-  file.u32(0);
+  file.u32(static_cast<uint32_t>(table.size()));
   file.raw(table.bytes());
   uint32_t checksum = low32(xxh64(file.bytes()));
   for (size_t i = 0; i < 4; ++i)
     file.bytes()[kChecksumAt + i] = static_cast<uint8_t>(checksum >> (8 * i));
-  for (const Bytes& payload : payloads_) {
-    file.bytes().resize(static_cast<size_t>(aligned(file.size())));
+  for (const Bytes& payload : payloads_)
     file.raw(payload);
-  }
   return std::move(file.bytes());
 }
 
 uint64_t ContainerReader::head_bytes(ByteView bytes) {
   if (bytes.size < kHeaderBytes)
     return kHeaderBytes;
-  ByteReader header({bytes.data + kCountAt, 4});
-  return kHeaderBytes + uint64_t{kEntryBytes} * header.u32();
+  ByteReader header({bytes.data + kTableBytesAt, 4});
+  return uint64_t{kHeaderBytes} + header.u32();
 }
 
 Failure ContainerReader::open(ByteView file, bool prefix) {
@@ -112,7 +109,7 @@ Failure ContainerReader::open(ByteView file, bool prefix) {
   features_ = header.u64();
   uint64_t size = header.u64();
   uint32_t checksum = header.u32();
-  uint32_t reserved = header.u32();
+  header.u32();  // of the table, see head_bytes()
   if (!header.ok())
     return failure(Status::kTruncated, file.size, "the file ends inside the header");
   if (major != kVersionMajor || minor != kVersionMinor)
@@ -125,8 +122,6 @@ Failure ContainerReader::open(ByteView file, bool prefix) {
   std::fill_n(covered.begin() + kChecksumAt, 4, uint8_t{0});
   if (low32(xxh64(covered)) != checksum)
     return failure(Status::kHeaderChecksum, kChecksumAt, "header and table are damaged");
-  if (reserved != 0)
-    return failure(Status::kHeader, 36, "a reserved field is not zero");
   if (features_ & ~kKnownFeatures)
     return failure(Status::kFeature, 16, "the file needs a feature this reader does not have");
   if (size > file.size && !prefix)
@@ -135,31 +130,36 @@ Failure ContainerReader::open(ByteView file, bool prefix) {
     return failure(Status::kTrailingBytes, size, "bytes follow the end of the file");
 
   ByteReader table({file.data + kHeaderBytes, static_cast<size_t>(table_end - kHeaderBytes)});
+  if (count > table.remaining() / kLeastEntryBytes)
+    return failure(Status::kHeader, 12, "more chunks than the table has room for");
   uint64_t at = table_end;
   chunks_.reserve(count);
   for (uint32_t i = 0; i < count; ++i) {
-    uint64_t entry = kHeaderBytes + uint64_t{kEntryBytes} * i;
+    const uint64_t entry = kHeaderBytes + table.position();
     Chunk chunk;
     chunk.type = table.u32();
-    uint16_t flags = table.u16();
-    chunk.mesh = table.u16();
-    chunk.segment = table.u32();
     chunk.checksum = table.u32();
-    chunk.offset = table.u64();
-    chunk.size = table.u64();
-    if (flags & ~kRequiredFlag)
-      return failure(Status::kHeader, entry + 4, "a reserved chunk flag is set", chunk.type);
-    chunk.required = flags & kRequiredFlag;
-    if (chunk.offset != aligned(at) || chunk.offset > size || chunk.size > size - chunk.offset)
-      return failure(Status::kChunkBounds, entry, "a chunk is not where its neighbours leave room",
+    const uint8_t flags = table.u8();
+    chunk.required = flags & kRequired;
+    if (flags & kOfMesh)
+      chunk.mesh = static_cast<uint16_t>(table.varint32(kNoMesh - 1));
+    if (flags & kOfSegment)
+      chunk.segment = table.varint32(kNoSegment - 1);
+    chunk.size = table.varint();
+    if (!table.ok())
+      return failure(Status::kHeader, entry, "an entry of the table is damaged", chunk.type);
+    if (flags & ~(kRequired | kOfMesh | kOfSegment))
+      return failure(Status::kHeader, entry + 8, "a reserved chunk flag is set", chunk.type);
+    chunk.offset = at;
+    if (at > size || chunk.size > size - at)
+      return failure(Status::kChunkBounds, entry, "a chunk goes beyond the end of the file",
                      chunk.type);
-    for (uint64_t p = at; p < std::min<uint64_t>(chunk.offset, file.size); ++p) {
-      if (file.data[p] != 0)
-        return failure(Status::kPadding, p, "padding is not zero", chunk.type);
-    }
-    at = chunk.offset + chunk.size;
+    at += chunk.size;
     chunks_.push_back(chunk);
   }
+  if (table.remaining() > 0)
+    return failure(Status::kHeader, kHeaderBytes + table.position(),
+                   "bytes follow the last entry of the table");
   if (at != size)
     return failure(Status::kFileSize, at, "the chunks end before the file does");
   by_key_.resize(count);

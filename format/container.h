@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// The container: header, flat chunk table, aligned payloads (spec/05-file-layout.md). Knows bytes
-// and checksums, not what a chunk means.
+// The container: header, flat chunk table, payloads (spec/05-file-layout.md). Knows bytes and
+// checksums, not what a chunk means.
 #ifndef ANICODEC_FORMAT_CONTAINER_H_
 #define ANICODEC_FORMAT_CONTAINER_H_
 
@@ -18,10 +18,9 @@ namespace anicodec {
 
 inline constexpr uint8_t kMagic[8] = {0x89, 'A', 'N', 'I', '\r', '\n', 0x1A, '\n'};
 inline constexpr uint16_t kVersionMajor = 0;
-inline constexpr uint16_t kVersionMinor = 2;
+inline constexpr uint16_t kVersionMinor = 3;
 inline constexpr size_t kHeaderBytes = 40;
-inline constexpr size_t kEntryBytes = 32;
-inline constexpr size_t kAlignment = 8;
+inline constexpr size_t kLeastEntryBytes = 10;  // without mesh and segment, of a short payload
 
 /// Chunk types are four ASCII characters, the first one in the lowest byte.
 constexpr uint32_t chunk_type(const char (&name)[5]) {
@@ -68,9 +67,9 @@ class ContainerWriter {
 /// Reads header and table of a whole file in memory. The bytes must outlive the reader.
 class ContainerReader {
  public:
-  /// Checks magic, version, features, sizes, table, checksums of header and table, order of chunks,
-  /// padding, and that the file ends where the header says. Payload checksums are checked by
-  /// payload(). Cost: O(chunks log chunks), plus the padding.
+  /// Checks magic, version, features, sizes, table, the checksum of header and table, and that the
+  /// payloads end where the file does. Payload checksums are checked by payload(). Cost: O(chunks
+  /// log chunks).
   Failure open(ByteView file) { return open(file, false); }
 
   /// The same for the bytes that have arrived of a file, from the front: all checks but those

@@ -13,7 +13,7 @@ namespace anicodec {
 
 enum class AlphaMode : uint8_t { kOpaque = 0, kMask = 1, kBlend = 2 };
 
-/// What an image tells of a surface.
+/// The property of a surface that an image holds.
 enum class TextureSlot : uint8_t {
   kBaseColour = 0,
   kMetallicRoughness = 1,

@@ -22,7 +22,7 @@ namespace anicodec {
 
 /// States of a stream; decision i belongs to state i mod kRansStates.
 constexpr size_t kRansStates = 4;
-/// What a state is before the first decision of an encoder, and after the last one of a decoder.
+/// The state before the first decision of an encoder, and after the last one of a decoder.
 constexpr uint32_t kRansStart = uint32_t{1} << 16;
 
 /// Takes decisions in the order of a decoder and writes them, last first, in finish(). The object is

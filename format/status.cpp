@@ -42,8 +42,6 @@ const char* status_string(Status status) {
       return "required chunk missing";
     case Status::kChunkUnknown:
       return "unknown required chunk";
-    case Status::kPadding:
-      return "padding is not zero";
     case Status::kTrailingBytes:
       return "trailing bytes";
     case Status::kFileSize:

@@ -32,7 +32,6 @@ enum class Status : int32_t {
   kChunkDuplicate = 25,
   kChunkMissing = 26,
   kChunkUnknown = 27,
-  kPadding = 28,
   kTrailingBytes = 29,
   kFileSize = 30,
   // 40-59: payload

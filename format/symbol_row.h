@@ -49,7 +49,7 @@ struct alignas(16) SymbolRow {
 
 /// The arithmetic of rows, symbol after symbol.
 struct PlainRows {
-  /// Where each symbol starts in the average of two rows, 0 .. 32768; none is less likely than
+  /// The start of each symbol in the average of two rows, 0 .. 32768; none is less likely than
   /// 8 / 32768.
   static void mix(const SymbolRow& a, const SymbolRow& b, uint16_t* to) {
     for (uint32_t i = 0; i < kRowEscape; ++i) {
@@ -153,7 +153,7 @@ struct VectorRows {
 using VectorRows = PlainRows;
 #endif
 
-/// What the next symbol is coded with.
+/// The distribution that codes the next symbol.
 class SymbolDistribution {
  public:
   SymbolDistribution(const SymbolRow& a, const SymbolRow& b) {
@@ -161,7 +161,7 @@ class SymbolDistribution {
     VectorRows::mix(a, b, starts_ + 1);
   }
 
-  /// Where symbol s starts, in 1/32768; 32768 for s = 8.
+  /// The start of symbol s, in 1/32768; 32768 for s = 8.
   uint32_t start(uint32_t s) const { return starts_[s]; }
 
   /// The symbol that has x, below 32768.

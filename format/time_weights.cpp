@@ -78,7 +78,7 @@ bool exhausted(const Coder& coder) {
   return false;
 }
 
-/// What a component is encoded from. A decoder has none.
+/// The values that a component is encoded from. A decoder has none.
 struct Source {
   const double* x;
   double lambda;
@@ -293,7 +293,7 @@ void TimeWeightModel::State::code_in_order(Coder& coder, uint32_t channels, cons
   }
 }
 
-/// What the value at frame f of one channel is predicted from: those at distances s and 3 s; s = 0:
+/// The values that predict frame f of one channel: those at distances s and 3 s; s = 0:
 /// those at one and two times `spacing` before.
 TimeWeightModel::State::Regressors TimeWeightModel::State::regressors(const int32_t* row, int64_t f,
                                                                       int64_t s, int64_t spacing,

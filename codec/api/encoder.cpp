@@ -135,6 +135,7 @@ void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
   mesh->up = clip.up;
   mesh->metres_per_unit = clip.metres_per_unit;
   mesh->loop = clip.loop;
+  mesh->clips = clip.clips;
 }
 
 /// Encodes what was added by the entry points that the command uses.
@@ -195,8 +196,9 @@ void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_e
   out->surface_error = verdict.change ? verdict.change->max : 0;
 }
 
+constexpr uint32_t kMostFrames = (1U << 24) - 1;
+
 MeshSequence clip_of(const anic_source_clip& host) {
-  constexpr uint32_t kMostFrames = (1U << 24) - 1;
   check_argument(host.frame_count > 0, "the sequence has no frame");
   check_argument(host.frame_count <= kMostFrames, "at most 2^24 - 1 frames are possible");
   check_argument(host.up >= ANIC_UP_UNKNOWN && host.up <= ANIC_UP_Z, "there is no such axis");
@@ -223,6 +225,23 @@ MeshSequence clip_of(const anic_source_clip& host) {
                      "the times must begin with 0 and ascend");
   }
   return clip;
+}
+
+ClipTiming timing_of(const MeshSequence& clip) {
+  return {clip.name, clip.frame_count, clip.rate, clip.start_time, clip.times, clip.loop};
+}
+
+/// Appends a clip to those of a file.
+void append_clip(const MeshSequence& next, MeshSequence* clip) {
+  check_argument(next.up == clip->up && next.metres_per_unit == clip->metres_per_unit,
+                 "a clip has another up axis or unit than the first");
+  check_argument(clip->frame_count + next.frame_count <= kMostFrames,
+                 "at most 2^24 - 1 frames are possible");
+  if (clip->clips.empty())
+    clip->clips.push_back(timing_of(*clip));
+  clip->clips.push_back(timing_of(next));
+  clip->times.clear();
+  clip->frame_count += next.frame_count;
 }
 
 }  // namespace
@@ -256,6 +275,17 @@ anic_status anic_set_source_clip(anic_encoder* encoder, const anic_source_clip* 
     check_argument(clip, "there is no clip");
     encoder->clip = clip_of(taken(clip, "anic_source_clip"));
     encoder->meshes.clear();
+  });
+}
+
+anic_status anic_add_source_clip(anic_encoder* encoder, const anic_source_clip* clip) {
+  if (!encoder)
+    return ANIC_E_ARGUMENT;
+  return guarded(encoder, [&] {
+    check_argument(clip, "there is no clip");
+    if (encoder->clip.frame_count == 0 || !encoder->meshes.empty())
+      throw EncoderFailure(ANIC_E_STATE, "clips come behind the first and before the meshes");
+    append_clip(clip_of(taken(clip, "anic_source_clip")), &encoder->clip);
   });
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What is behind the handle of encode.h, and what its functions share. Internal to codec/api.
+// The object behind the handle of encode.h, and helpers of its functions. Internal to codec/api.
 #ifndef ANICODEC_CODEC_API_ENCODER_OBJECTS_H_
 #define ANICODEC_CODEC_API_ENCODER_OBJECTS_H_
 
@@ -24,7 +24,7 @@ struct SourceMesh {
   anic_source_mesh host{};  ///< with strides; pointers to positions and callback alone are used
 };
 
-/// What ends a call: thrown inside the library, never out of it.
+/// Ends a call: thrown inside the library, never out of it.
 class EncoderFailure : public std::exception {
  public:
   EncoderFailure(anic_status status, std::string text) : status_(status), text_(std::move(text)) {}

@@ -31,7 +31,7 @@ class FaceSource {
   /// called first. O(corners log corners).
   void begin(SeedOrder order);
 
-  // What the walk asks for.
+  // Asked by the walk.
   bool find(uint32_t a, uint32_t b);
   void find_seed();
 
@@ -42,14 +42,14 @@ class FaceSource {
   void set_vertex(uint32_t k, uint32_t number);
   uint32_t finish();
 
-  // What the coder of copies asks for.
+  // Asked by the coder of copies.
   bool repeats_copies(uint32_t polygon) const;
 
   uint32_t copy(uint32_t corner) const { return copy_of_[corner_vertices_[corner]]; }
 
   void set_copy(uint32_t corner, uint32_t copy);
 
-  // What comes beside.
+  // Facts beside the walk.
   bool has_repeats() const { return has_repeats_; }
 
   uint32_t polygons_apart() const { return static_cast<uint32_t>(apart_.size()); }

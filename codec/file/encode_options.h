@@ -23,7 +23,7 @@ enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajec
 /// or by whichever does better.
 enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
 
-/// What a search minimises: the bytes of the file, to which a millisecond of opening, as estimated,
+/// The aim of a search: the fewest bytes, to which a millisecond of opening, as estimated,
 /// adds nothing, 100 (kAuto) or 500 (kFast).
 enum class OpeningChoice : uint8_t { kSmall, kAuto, kFast };
 
@@ -40,8 +40,8 @@ struct EncodeOptions {
   BasisChoice basis = BasisChoice::kAuto;
   std::optional<uint32_t> keyframes;  ///< exact number of key-frames
   KeyframeMethod select = KeyframeMethod::kPivot;
-  /// What codes the poses of key-frames; as a rule Draco those that were asked for, and the coder of
-  /// reference poses those that the search ends with by itself.
+  /// The coder of key-frames' poses; as a rule Draco for those that were asked for, the coder of
+  /// reference poses for those that the search ends with by itself.
   std::optional<KeyframePoses> keyframe_poses;
   InterpolationChoice interpolation = InterpolationChoice::kLinear;  ///< only with key-frames alone
   OrderMode order = OrderMode::kVertices;

@@ -32,6 +32,9 @@ struct KeyframeFit {
   std::vector<RigidMotion> motions;  ///< per frame, for kRigid only
 
   double squared_error() const { return squared_errors.sum(); }
+
+  /// Mean over the frames: the squared error of a frame for one of 1 in every key-frame.
+  double noise_gain() const { return weights.squaredNorm() / static_cast<double>(weights.rows()); }
 };
 
 /// Expresses a clip by key-frames: the inner products are computed once, for any number of fits.
@@ -54,7 +57,9 @@ class KeyframeFitter {
   /// are new to it, O(vertices frames count).
   KeyframeFit fit(size_t count, KeyframeMethod method, KeyframeWeights kind);
 
-  /// Fits to given key-frames: ascending, in range, not repeated.
+  /// Fits to given key-frames: ascending, in range, not repeated. Weights that would enlarge the
+  /// rounding of the key-frames, because these are nearly dependent, are fitted with that rounding
+  /// in mind.
   KeyframeFit fit(std::vector<uint32_t> keyframes, KeyframeWeights kind);
 
   /// Errors of exact key-frames and weights: KG in per cent, RMSE in scene units.
@@ -64,8 +69,8 @@ class KeyframeFitter {
  private:
   void align();
   std::vector<Eigen::Matrix3d> unturned() const;
-  KeyframeFit fit_rigid(std::vector<uint32_t> keyframes,
-                        const std::vector<Eigen::Matrix3d>& rotations);
+  KeyframeFit fit_rigid(const std::vector<uint32_t>& keyframes,
+                        const std::vector<Eigen::Matrix3d>& rotations, double noise);
 
   FrameView clip_;
   FrameGram gram_;

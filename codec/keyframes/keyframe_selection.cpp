@@ -29,6 +29,10 @@ constexpr double kRankTolerance = 1e-12;
 // An exchange must pay more than rounding.
 constexpr double kWorthwhile = 1 + 1e-9;
 
+// Part of the mean squared distance from the mean frame within which two frames are nearly the same:
+// weights of both would be large and opposite.
+constexpr double kNearRepeat = 1e-3;
+
 constexpr size_t kGasStarts = 3;
 
 constexpr int kMaxPasses = 6;
@@ -103,26 +107,32 @@ std::vector<uint32_t> gas_frames(const MatrixXd& gram, size_t count, KeyframeSpa
                                     errors.begin())];
 }
 
+/// The middles of equal parts of the clip. Of a part whose middle nearly repeats a frame that is
+/// taken, the nearest frame that does not; if there is none, the nearest that is no repeat.
 std::vector<uint32_t> uniform_frames(const MatrixXd& gram, size_t count) {
   const auto total = static_cast<size_t>(gram.rows());
-  const double tolerance = repeat_tolerance(gram);
+  const double near = kNearRepeat * about_mean(gram).diagonal().mean();
   std::vector<uint32_t> frames;
-  const auto is_new = [&](size_t f) {
+  const auto is_new = [&](size_t f, double tolerance) {
     return std::all_of(frames.begin(), frames.end(), [&](uint32_t g) {
       return f != g && squared_distance(gram, static_cast<Index>(f), g) > tolerance;
     });
   };
+  const auto add_nearest = [&](size_t wanted, size_t reach, double tolerance) {
+    for (size_t away = 0; away < reach; away++) {
+      for (const size_t f : {wanted + away, wanted - away}) {  // wraps below 0
+        if (f < total && is_new(f, tolerance)) {
+          frames.push_back(static_cast<uint32_t>(f));
+          return true;
+        }
+      }
+    }
+    return false;
+  };
   for (size_t i = 0; i < count; i++) {
     const size_t wanted = (2 * i + 1) * total / (2 * count);
-    for (size_t away = 0; away < total; away++) {  // the nearest in time that is new
-      if (wanted + away < total && is_new(wanted + away)) {
-        frames.push_back(static_cast<uint32_t>(wanted + away));
-        break;
-      }
-      if (away <= wanted && is_new(wanted - away)) {
-        frames.push_back(static_cast<uint32_t>(wanted - away));
-        break;
-      }
+    if (!add_nearest(wanted, (total + 2 * count - 1) / (2 * count), near)) {
+      add_nearest(wanted, total, repeat_tolerance(gram));
     }
   }
   return frames;

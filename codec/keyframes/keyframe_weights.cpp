@@ -25,10 +25,15 @@ MatrixXd relative_to_first(const MatrixXd& gram) {
   return result;
 }
 
+MatrixXd with_noise(MatrixXd key_gram, double noise) {
+  key_gram.diagonal().array() += noise;
+  return key_gram;
+}
+
 }  // namespace
 
-WeightSolver::WeightSolver(MatrixXd key_gram, WeightConstraint constraint)
-    : key_gram_(std::move(key_gram)),
+WeightSolver::WeightSolver(MatrixXd key_gram, WeightConstraint constraint, double noise)
+    : key_gram_(with_noise(std::move(key_gram), noise)),
       constraint_(constraint),
       differences_(constraint == WeightConstraint::kSumToOne ? relative_to_first(key_gram_)
                                                              : MatrixXd()),
@@ -52,8 +57,8 @@ MatrixXd WeightSolver::solve(const MatrixXd& products) const {
 }
 
 FrameWeights fit_weights(const MatrixXd& gram, std::span<const uint32_t> keyframes,
-                         WeightConstraint constraint) {
-  const WeightSolver solver(gram(keyframes, keyframes), constraint);
+                         WeightConstraint constraint, double noise) {
+  const WeightSolver solver(gram(keyframes, keyframes), constraint, noise);
   FrameWeights fit;
   fit.weights = solver.solve(gram(keyframes, Eigen::all)).transpose();
   for (size_t j = 0; j < keyframes.size(); j++) {

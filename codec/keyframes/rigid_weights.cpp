@@ -28,11 +28,13 @@ constexpr double kRoundProgress = 1e-3;
 class RigidFitter {
  public:
   RigidFitter(const CrossProducts& products, std::span<const uint32_t> keyframes,
-              const MatrixXd& shape_gram, WeightConstraint constraint, RigidWeights& fit)
+              const MatrixXd& shape_gram, WeightConstraint constraint, double noise,
+              RigidWeights& fit)
       : products_(products),
         keyframes_(keyframes),
         shape_gram_(shape_gram),
         constraint_(constraint),
+        noise_(noise),
         keyframe_of_(fit.rotations.size(), -1),
         fit_(fit) {
     for (size_t j = 0; j < keyframes.size(); j++) {
@@ -49,7 +51,7 @@ class RigidFitter {
       key_gram.col(i) = blocks(static_cast<Index>(k)) * fit_.rotations[k].reshaped();
     }
     key_gram = (key_gram + key_gram.transpose().eval()) / 2;
-    const WeightSolver solver(key_gram, constraint_);
+    const WeightSolver solver(key_gram, constraint_, noise_);
     tbb::parallel_for(Index{0}, shape_gram_.rows(), [&](Index f) {
       const Index key = keyframe_of_[static_cast<size_t>(f)];
       if (key >= 0) {
@@ -131,6 +133,7 @@ class RigidFitter {
   std::span<const uint32_t> keyframes_;
   const MatrixXd& shape_gram_;
   WeightConstraint constraint_;
+  double noise_;
   std::vector<Index> keyframe_of_;  // per frame: which key-frame it is, or -1
   RigidWeights& fit_;
 };
@@ -139,13 +142,13 @@ class RigidFitter {
 
 RigidWeights fit_rigid_weights(const CrossProducts& products, std::span<const uint32_t> keyframes,
                                std::span<const Matrix3d> rotations, const MatrixXd& shape_gram,
-                               WeightConstraint constraint) {
+                               WeightConstraint constraint, double noise) {
   const Index frames = shape_gram.rows();
   RigidWeights fit;
   fit.weights.resize(frames, static_cast<Index>(keyframes.size()));
   fit.squared_errors.resize(frames);
   fit.rotations.assign(rotations.begin(), rotations.end());
-  RigidFitter fitter(products, keyframes, shape_gram, constraint, fit);
+  RigidFitter fitter(products, keyframes, shape_gram, constraint, noise, fit);
   fitter.fit_frames();
   for (int round = 0; round < kMaxRounds; round++) {
     const RigidWeights last_fit = fit;

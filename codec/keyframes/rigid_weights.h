@@ -25,11 +25,12 @@ struct RigidWeights {
 /// A_j = R_kj^T (x_kj - c_kj) the aligned key-frame. Starting from the given rotations, weights and
 /// rotation of every frame are improved in turns, then the rotations of the key-frames, and so on
 /// while it pays. Key-frames themselves get unit vectors. products must hold the columns of the
-/// key-frames, shape_gram is FrameGram::shape. The cost, O(rounds x frames x key-frames^2), does
+/// key-frames, shape_gram is FrameGram::shape; `noise` as for fit_weights(). The cost, O(rounds x frames x key-frames^2), does
 /// not depend on the number of vertices; deterministic for any number of threads.
 RigidWeights fit_rigid_weights(const CrossProducts& products, std::span<const uint32_t> keyframes,
                                std::span<const Eigen::Matrix3d> rotations,
-                               const Eigen::MatrixXd& shape_gram, WeightConstraint constraint);
+                               const Eigen::MatrixXd& shape_gram, WeightConstraint constraint,
+                               double noise = 0);
 
 }  // namespace anicodec
 

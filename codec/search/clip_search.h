@@ -45,7 +45,7 @@ class ClipSearch {
   /// About how many trials of coders run() makes.
   double expected_trials() const { return control_.expected_trials(); }
 
-  /// Those of the first search of the positions.
+  /// The trials of the first search of the positions.
   const std::vector<Trial>& trials() const { return control_.trials(); }
 
  private:

@@ -15,8 +15,8 @@ struct CodedPart {
   Segment opened;
   SegmentError error;
   double opening = 0;  ///< what its opening time is worth, in bytes
-  double asked = 0;  ///< the error that it was coded for
-  std::string what;  ///< how it was coded, in a few words
+  double asked = 0;    ///< the error that it was coded for
+  std::string what;    ///< how it was coded, in a few words
 };
 
 }  // namespace anicodec

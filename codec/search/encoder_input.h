@@ -27,7 +27,7 @@ struct InputClip {
   double tolerance = 0;
 };
 
-/// What all ways of coding share: the clip by coded vertices, and how it leads back to the source.
+/// The clip by coded vertices, and its way back to the source: shared by all ways of coding.
 struct EncoderInput {
   /// Takes the positions over: they are put into coded order in place. Of a part, only its frames
   /// remain, of a mesh that serves all parts.

@@ -160,7 +160,9 @@ CodedPart KeyframeCoder::at_count() {
        ++round)
     part = coded(exact, rounding *= 0.7);
   if (!part)
-    throw Error(ErrorKind::kUsage, "the error asked for is too fine for the size of the clip");
+    throw Error(ErrorKind::kUsage,
+                "the key-frames cannot be stored as finely as the other frames need them: ask for "
+                "fewer, or for other ones (--keyframe-selection)");
   return std::move(*part);
 }
 

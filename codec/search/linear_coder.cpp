@@ -18,7 +18,7 @@ constexpr int kStepRounds = 8;
 constexpr int kThoroughEffort = 2;  // from here on, files are coded with all means
 constexpr double kRateSlope = 0.5;  // the size goes about as error^-kRateSlope
 constexpr double kNear = 0.04;      // of the error asked for: sizes can be compared
-// Of a size that one trial tells, relative: with 0.01, quad_box at --kg 0.1 grew from effort 5 to 7.
+// Relative doubt of a size from one trial: with 0.01, quad_box at --kg 0.1 grew from effort 5 to 7.
 constexpr double kDoubt = 0.03;
 constexpr size_t kMostComponents = 2000;
 
@@ -279,7 +279,7 @@ std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) 
   return std::move(best->part);
 }
 
-/// What the part takes in the file, and its opening.
+/// The bytes that the part takes in the file, and the price of its opening.
 double LinearCoder::bytes(const CodedPart& part) const {
   const size_t pose = pose_ ? 0 : part.encoded.reference->stream.size();
   return static_cast<double>(part.encoded.bytes() + pose) + part.opening;

@@ -22,7 +22,7 @@ struct LinearStep {
 /// up to its own, one after the other: it goes on where a search of less effort ends.
 const std::vector<LinearStep>& linear_steps();
 
-/// Those that may open sooner, for searches to which that is worth bytes: tried at last, at every effort
+/// Steps that may open sooner, for searches to which that is worth bytes: tried last, at efforts
 /// from 2 on.
 const std::vector<LinearStep>& opening_steps();
 

@@ -47,7 +47,7 @@ class CoefficientEncoder {
   /// The stream of the components since the layer before.
   Bytes finish_layer();
 
-  /// What a decoder gets, of the components coded so far.
+  /// The coefficients of the components coded so far, as a decoder gets them.
   const Coefficients& decoded() const { return decoded_; }
 
  private:
@@ -73,7 +73,7 @@ class CoefficientEncoder {
   EncoderPredictor predictor_;
   JointRounding joint_;
   bool new_weights_ = true, layers_anew_;
-  // Of the component at hand, channels x ranks.
+  // The component at hand, channels x ranks.
   std::vector<float> component_;
   std::vector<int32_t> residuals_;
 };

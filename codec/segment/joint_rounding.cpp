@@ -12,7 +12,7 @@ namespace {
 constexpr float kNegligible = 0.02F;  // entries of a column that are left out
 constexpr int kSweeps = 4;            // over all vertices, in turns from either end
 
-/// What a residual of any magnitude would take.
+/// The bits that a residual of any magnitude would take.
 float bits(const ResidualCosts& costs, int32_t q) {
   constexpr int32_t kKnown = 3;
   constexpr float kFurther = 0.7F;  // of each more in magnitude

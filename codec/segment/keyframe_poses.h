@@ -7,7 +7,7 @@
 
 namespace anicodec {
 
-/// What codes the poses of key-frames: Draco as the thesis' codec does, the coder of reference poses
+/// The coder of key-frames' poses: Draco as in the thesis' codec, the coder of reference poses
 /// with each key-frame predicted from an earlier one, or whichever takes fewer bytes.
 enum class KeyframePoses : uint8_t { kDraco, kNative, kAuto };
 

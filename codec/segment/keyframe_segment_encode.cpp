@@ -246,8 +246,7 @@ CoderId code_poses(const MeshLayout& layout, KeyframePoses coder, const Vector<u
 double step_for_rounding_error(const KeyframeFit& fit, double rms) {
   // A key-frame's coordinate is off by step^2 / 12 on average, a frame's by the sum over its
   // weights.
-  double gain = fit.weights.squaredNorm() / static_cast<double>(fit.weights.rows());
-  return rms / std::sqrt((1 + kWeightShare) * gain * 3 / 12);
+  return rms / std::sqrt((1 + kWeightShare) * fit.noise_gain() * 3 / 12);
 }
 
 std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const KeyframeFit& fit,

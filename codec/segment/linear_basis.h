@@ -21,7 +21,7 @@ enum class ReferencePose : uint8_t {
   kGiven       ///< chosen elsewhere
 };
 
-/// What is taken out of the clip before the components.
+/// The part of the clip that is taken out before the components.
 enum class Base : uint8_t {
   kPose,   ///< the pose itself, the same in every frame; for shapes
   kAffine  ///< in every frame its best affine image

@@ -96,7 +96,7 @@ Coefficients refitted(const FrameView& clip, const LinearBasis& basis,
   bool shapes = basis.kind == BasisKind::kEigenshapes;
   Index channels = shapes ? 3 : 1;
   Coefficients y(static_cast<Index>(clip.vertex_count), k * channels);
-  // What the base contributes to each component: per axis and function, or the pose times a sum.
+  // The base's share of each component: per axis and function, or the pose times a sum.
   MatrixXd base(Index{kAffineFunctions}, k * channels);
   if (basis.base == Base::kAffine) {
     for (Index j = 0; j < k; ++j) {
@@ -184,7 +184,7 @@ class LinearEncoder {
 
   const Vector<int32_t>& pose() const { return encoded_.reference->grid.points; }
 
-  /// What the components are added to: an affine image of the pose in each frame, or the pose.
+  /// The base that components are added to: an affine image of the pose in each frame, or the pose.
   void set_base() {
     if (parameters_.affine) {
       functions_ = function_values(pose());

@@ -153,7 +153,7 @@ class PartnerSearch {
 
   bool is_copy(const AlikeTriangles& part, const Originals& originals, size_t size,
                uint32_t vertices, const std::vector<uint32_t>& part_of) {
-    // Those of the same size first.
+    // Pieces of the same size come first.
     std::vector<Originals::const_iterator> near;
     for (auto i = originals.lower_bound(size - size / 10);
          i != originals.end() && i->first <= size + size / 10; ++i)

@@ -46,7 +46,7 @@ std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Pos
 bool is_turned(const SurfaceTopology& topology, const Positions& positions, uint32_t triangle,
                const Surface& surface, uint32_t start);
 
-/// Of the triangles at some vertices those that is_turned() finds, ascending. `below`: of every
+/// The triangles at some vertices that is_turned() finds, ascending. `below`: of every
 /// triangle of the mesh, where its walk starts.
 std::vector<uint32_t> turned_around(const SurfaceTopology& topology, const Positions& positions,
                                     std::span<const uint32_t> vertices, const Surface& surface,

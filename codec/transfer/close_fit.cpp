@@ -41,7 +41,7 @@ constexpr double kProgress = 1e-3;  // of the value, in these rounds; with less 
 constexpr double kSolveTolerance = 1e-3;
 constexpr int kMostIterations = 100;
 
-/// What is to become least, in parts of the mean and the largest distance at the start.
+/// The merit that is minimised, in parts of the mean and the largest distance at the start.
 struct Merit {
   double mean = 0;    ///< the larger, smoothed
   double beyond = 0;  ///< sum of squares of what is beyond the bound

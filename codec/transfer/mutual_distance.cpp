@@ -71,7 +71,7 @@ void MutualDistance::update(const Positions& v, bool by_index) {
   });
 }
 
-/// Where there is no distance to speak of, the normal of the surface serves.
+/// The normal of the surface serves if there is no distance to speak of.
 void MutualDistance::set_direction(uint32_t triangle, SamplePair* pair) const {
   const Vector3d offset = pair->target - pair->on_mesh.position;
   pair->distance = offset.norm();

@@ -139,8 +139,7 @@ Failure push(anic_stream* stream, const void* bytes, size_t size) {
   if (Failure failure = take_chunks(stream); !failure.ok())
     return failure;
   info.complete = stream->file.is_complete();
-  // The padding, too.
-  return info.complete ? stream->file.open(stream->bytes) : Failure{};
+  return {};
 }
 
 /// Reads a whole file into `to`: its head first, so that limits are checked before the rest.
@@ -169,7 +168,7 @@ Failure read_file(const anic_reader& reader, uint64_t size, const anic_options& 
     if (!read_to(requirements.head_bytes))
       return failed;
   }
-  // What is wrong with the head, opening will say; what it says of the limits comes before the
+  // Opening will say what is wrong with the head; what the head says of the limits comes before the
   // rest.
   ContainerReader file;
   if (Failure failure = file.open_prefix(*to); failure.ok()) {

@@ -32,7 +32,7 @@ struct LaneTypes {
   typedef uint32_t Bits __attribute__((vector_size(4 * W)));
 };
 
-/// Of every lane, rounded to nearest.
+/// Every lane, rounded to nearest.
 template <typename V>
 ANICODEC_INLINE V square_root(V x) {
 #if defined(__AVX512F__)

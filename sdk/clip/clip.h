@@ -93,7 +93,7 @@ class Clip {
 
   const Limits& limits() const { return limits_; }
 
-  /// What the file says of itself and of its clips, opened or not.
+  /// The file's record of itself and of its clips, opened or not.
   const ClipsRecord& record() const { return record_; }
 
   const Vector<ClipRecord>& clips() const { return record_.clips; }
@@ -108,7 +108,7 @@ class Clip {
 
   const Vector<Segment>& segments() const { return segments_; }
 
-  /// Of all clips; frames are numbered through the file.
+  /// The frames of all clips; they are numbered through the file.
   uint32_t frame_count() const { return limits_.frames; }
 
   uint32_t vertex_count(uint32_t mesh = 0) const { return limits_.meshes[mesh].source_vertices; }

@@ -19,7 +19,7 @@ struct FrameMix {
     double weight = 1;
   };
 
-  /// Of a time; four such can be blended.
+  /// Moments of one time; four times can be blended.
   static constexpr uint32_t kOfTime = 4, kMost = 4 * kOfTime;
 
   uint32_t count = 0;

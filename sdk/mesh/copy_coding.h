@@ -20,7 +20,7 @@ struct CornerCopies {
   Vector<uint32_t> vertices;  ///< how many copies corners use of each vertex
 };
 
-/// What a decoder knows of the copies beforehand: nothing.
+/// A decoder's knowledge of the copies beforehand: nothing.
 struct NoCopies {
   /// Whether all corners of a face have the copies of the face before.
   bool repeats_copies(uint32_t) const { return false; }
@@ -76,7 +76,7 @@ class CopyCoding {
   /// The other end of a side of the corner: does it have the copy that the face across has?
   enum OtherEnd : uint32_t { kOther = 0, kSame = 1, kNoFace = 2, kNotCoded = 3 };
 
-  /// What the face across a side has at both ends of it.
+  /// The vertices of the face across a side, at both ends of it.
   struct Side {
     uint32_t here = kNone, there = kNone;
     OtherEnd end = kNoFace;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What Draco needs of a mesh to predict over it, for encoder and decoder (spec/07-topology.md,
+// The tables of a mesh that Draco predicts over, for encoder and decoder (spec/07-topology.md,
 // section 8): the connectivity is ours, so that a bitstream holds poses alone.
 #ifndef ANICODEC_SDK_MESH_DRACO_CORNERS_H_
 #define ANICODEC_SDK_MESH_DRACO_CORNERS_H_

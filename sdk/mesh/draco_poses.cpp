@@ -72,7 +72,7 @@ class PosesDecoder : public draco::MeshDecoder {
 
 Status decode(ByteView bytes, const Topology& topology, uint32_t points, uint32_t poses,
               Vector<Vector<int32_t>>* out) {
-  // What precedes the attributes in a file of Draco's own: its name, version 2.2, a triangle mesh by
+  // The head of a Draco file, before the attributes: its name, version 2.2, a triangle mesh by
   // edgebreaker, no flags.
   constexpr uint8_t kHead[] = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0};
   if (!check_draco_attributes(bytes, poses))

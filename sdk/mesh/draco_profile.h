@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What Draco's coding of poses announces, read before Draco does (spec/07-topology.md, section 7).
+// The counts that Draco's poses announce, read before Draco does (spec/07-topology.md, section 7).
 // Draco makes room for counts that it has not compared with anything, and runs whatever prediction a
 // stream names: what passes here, it decodes in memory and time that the limits tell.
 #ifndef ANICODEC_SDK_MESH_DRACO_PROFILE_H_

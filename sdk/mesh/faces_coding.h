@@ -19,7 +19,7 @@
 
 namespace anicodec {
 
-/// What a decoder knows of a mesh beforehand: nothing.
+/// A decoder's knowledge of a mesh beforehand: nothing.
 struct NoMesh : NoFaces, NoCopies {
   bool has_repeats() const { return false; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What the decisions of the gate walk depend on (spec/07-topology.md, section 3.3).
+// The contexts of the decisions of the gate walk (spec/07-topology.md, section 3.3).
 #ifndef ANICODEC_SDK_MESH_GATE_MODELS_H_
 #define ANICODEC_SDK_MESH_GATE_MODELS_H_
 
@@ -12,7 +12,7 @@
 
 namespace anicodec {
 
-/// What is known of a vertex of the walk; counts stay at 255.
+/// The facts about a vertex of the walk; counts stay at 255.
 struct WalkedVertex {
   uint8_t faces = 0;    ///< so far
   uint8_t borders = 0;  ///< gates at it that turned out to be borders

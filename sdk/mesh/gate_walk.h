@@ -30,7 +30,7 @@ struct WalkedFaces {
   Vector<bool> repeats;  ///< whether a face has the corners of the one before, in the same order
 };
 
-/// What a decoder knows of the faces beforehand: nothing. An encoder chooses a face with find() or
+/// A decoder's knowledge of the faces beforehand: nothing. An encoder chooses a face with find() or
 /// find_seed() and is asked about its corners from the one chosen on.
 struct NoFaces {
   /// Chooses a face that is not done and has the side a -> b; false if there is none.

@@ -30,7 +30,7 @@ bool eliminate(double* panel, size_t columns, double* rest, size_t size, double*
       for (size_t r = d; r < size; ++r)
         other[r] -= factor * column[r];
     }
-    // What remains takes its share of the column before it is divided by the pivot.
+    // The remaining columns take their share of the column before it is divided by the pivot.
     std::copy(column + columns, column + size, scaled + c * (size - columns));
     for (size_t r = c + 1; r < size; ++r)
       column[r] *= inverse;

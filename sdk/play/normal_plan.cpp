@@ -275,7 +275,7 @@ NormalPlan plan_normals(const Topology& topology, const Vector<uint32_t>& shared
 }
 
 void list_areas(NormalPlan* plan) {
-  /// What a corner of a group of the range adds to it: from the smallest of its vertices on, so that
+  /// The share of a corner of a group of the range: from the smallest of its vertices on, so that
   /// the corners of a triangle add the same.
   struct Added {
     std::array<uint32_t, 3> vertex;

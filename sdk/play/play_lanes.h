@@ -135,7 +135,7 @@ struct LaneKernel {
     return lanes > kBlock ? static_cast<uint32_t>(lanes / kBlock) : 1;
   }
 
-  /// Where vector n is, in an array that has a block every so many elements.
+  /// The place of vector n, in an array that has a block every `block_elements` elements.
   static constexpr size_t place(size_t n, size_t block_elements) {
     return n * W / kBlock * block_elements + n * W % kBlock;
   }

@@ -167,7 +167,7 @@ class PartnerNames {
   Vector<PoseTurn> turns_;
   uint32_t strands_ = 0;  ///< started so far
 
-  // Of the vertex at hand.
+  // The vertex at hand.
   uint32_t linked_ = 0, selves_ = 0, nearest_ = kNone;
   std::array<Candidate, kMostCandidates> candidates_;
   size_t count_ = 0;

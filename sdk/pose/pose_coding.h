@@ -17,7 +17,7 @@
 
 namespace anicodec {
 
-/// What the poses of a mesh take from its connectivity alone.
+/// The tables for the poses of a mesh that follow from its connectivity alone.
 struct PoseSurface {
   /// The topology must outlive it. O(triangles).
   explicit PoseSurface(const Topology& topology)

@@ -15,7 +15,7 @@
 
 namespace anicodec {
 
-/// What is expected of (coordinate - parity) / 2.
+/// The expectation of (coordinate - parity) / 2.
 inline PosePrediction::Expectation halved(const PosePrediction::Expectation& e, int32_t parity) {
   return {0.5 * (e.mean - parity), 0.5 * e.scale, 0.5 * e.near, 0.5 * e.spread, 0.5 * e.before};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What the vertices decoded so far say of the next one's position (spec/09b-reference-pose.md).
+// The next vertex's position, predicted from the decoded vertices (spec/09b-reference-pose.md).
 #ifndef ANICODEC_SDK_POSE_POSE_PREDICTION_H_
 #define ANICODEC_SDK_POSE_POSE_PREDICTION_H_
 
@@ -62,7 +62,7 @@ class PosePrediction {
   /// Axis of the coordinate that is coded as the step-th, 0..2.
   size_t axis(int step) const { return axis_[step]; }
 
-  /// What is known of a coordinate before it is coded, in steps of the grid.
+  /// The knowledge of a coordinate before it is coded, in steps of the grid.
   struct Expectation {
     double mean = 0;
     double scale = 0;   ///< expected magnitude of the error
@@ -114,7 +114,7 @@ class PosePrediction {
   template <size_t kInputs>
   using Filter = RecursiveLeastSquares<kInputs, 994>;
 
-  /// What came of a known vertex.
+  /// The outcome at a known vertex.
   struct Known {
     float offset[3] = {0, 0, 0};  ///< from the mean parallelogram
     float error[2] = {0, 0};      ///< magnitudes, tangential and along the normal
@@ -156,7 +156,7 @@ class PosePrediction {
   const int32_t* positions_ = nullptr;
   Vector<Known> known_;
 
-  // Of vertices that follow another place, and of the others.
+  // For vertices that follow another place, and for the others.
   Filter<kVectors> offset_[2][kKinds];
   Filter<kHeights> height_[2][kKinds];
   Filter<kSizes> size_of_[2][2][kKinds];
@@ -164,7 +164,7 @@ class PosePrediction {
                          {100, 10}};  ///< running means of the errors, tangential and normal
   double far_usual_[2][2] = {{1e4, 300}, {100, 30}};  ///< the same for kAlone and kBeside
 
-  // Of the vertex at hand.
+  // The vertex at hand.
   uint32_t vertex_ = 0, last_ = 0;
   bool any_ = false;
   Kind kind_ = kAlone;
@@ -182,7 +182,7 @@ class PosePrediction {
   double spread_ = 0;            ///< of the parallelograms
   double error_[2] = {0, 0};     ///< mean errors of the known neighbours
 
-  // Of the step at hand and those before.
+  // The step at hand and those before.
   std::array<double, kVectors> z_{};
   std::array<double, kHeights> h_{};
   std::array<double, kSizes> s_{};

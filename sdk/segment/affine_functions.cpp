@@ -9,7 +9,7 @@
 namespace anicodec {
 namespace {
 
-// What is left of an axis must be more than this part of its variance.
+// The rest of an axis must be more than this part of its variance.
 constexpr double kIndependent = 1e-9;
 
 }  // namespace

@@ -21,7 +21,7 @@ struct AffineFunctions {
   double mean[3] = {};        ///< of the pose, on its integer grid
   double inverse[3][3] = {};  ///< lower triangular: the others are inverse * (p - mean)
 
-  /// Of a pose of vertex_count x 3 integers. Cost: two passes. In double and in fixed order.
+  /// For a pose of vertex_count x 3 integers. Cost: two passes. In double and in fixed order.
   static AffineFunctions of(const int32_t* pose, size_t vertex_count);
 
   /// Values of the functions at grid position p.

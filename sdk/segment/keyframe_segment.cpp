@@ -37,7 +37,7 @@ bool rigid_motion(const double q[4], const double t[3], Affine* map) {
   return true;
 }
 
-/// What Draco coded: differences from parents, coded vertices x 3 each. Vertices that it does not hold
+/// Draco's differences from parents, coded vertices x 3 each. Vertices that it does not hold
 /// are plain integers.
 Status read_draco_poses(const SegmentRecord& record, const SegmentContext& context,
                         Vector<Vector<int32_t>>* poses) {

@@ -22,7 +22,7 @@ constexpr uint8_t kMaxRunStep = 64;
 constexpr size_t kSharedRanks = 64;    // of a level, for a thread; whole batches of every kernel
 constexpr size_t kHashedRanks = 1024;  // of a block of the hash
 
-/// What the weight step of each frame is multiplied by.
+/// The factor of the weight step of each frame.
 Vector<double> step_factors(const LinearParameters& parameters, const Vector<uint32_t>& runs) {
   Vector<double> factors;
   for (size_t r = 0; r < runs.size(); ++r)

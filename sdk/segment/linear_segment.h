@@ -28,7 +28,7 @@ struct LinearParameters {
   RefitSchedule schedule = RefitSchedule::kDense;
   CoefficientCoder coder = CoefficientCoder::kMixing;
   bool layers_anew = false;  ///< the models of the coefficients begin anew with each layer
-  /// Of each run of frames that a clip has: its weights have weight_step * 2^(run_steps / 8). Empty:
+  /// For each run of frames of a clip: its weights have weight_step * 2^(run_steps / 8). Empty:
   /// all have weight_step.
   Vector<uint8_t> run_steps;
 

@@ -99,7 +99,7 @@ struct Segment {
   size_t resident_bytes() const;
 };
 
-/// What opening a segment needs to know besides its own record.
+/// The surroundings that opening a segment needs besides its own record.
 struct SegmentContext {
   const Limits::Segment* sizes = nullptr;
   const Limits::Mesh* mesh_sizes = nullptr;
@@ -129,7 +129,7 @@ struct SegmentContext {
 /// How many of its components are opened at a quality in (0, 1].
 uint32_t wanted_components(double quality, uint32_t components);
 
-/// What opening a segment costs, about, in coefficients to decode.
+/// The cost of opening a segment, about, in coefficients to decode.
 double segment_work(const Limits::Segment& segment, const Limits::Mesh& mesh, double quality);
 
 /// Opens a segment of any kind. Errors: kCancelled by the host; others are the file's. The counts

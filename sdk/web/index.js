@@ -37,7 +37,7 @@ async function* pieces(source, signal, onBytes) {
     if (!response.ok)
       throw new Error(`${response.url || source}: ${response.status} ${response.statusText}`.trim());
     stream = response.body;
-    // Of compressed bodies the length is another one.
+    // A compressed body has another length.
     size = response.headers.get('content-encoding') ? 0 : Number(response.headers.get('content-length') ?? 0);
   }
   if (typeof stream?.getReader !== 'function')

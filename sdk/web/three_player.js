@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What plays in three.js: which clips of a file, at which times, with which weights.
+// The state of playing in three.js: which clips of a file, at which times, with which weights.
 import { AnimationClip, AnimationMixer, Group, LoopOnce, LoopRepeat, NumberKeyframeTrack } from 'three';
 import { momentsOf, sampleOf } from './moments.js';
 

@@ -31,7 +31,6 @@ TEST(Statuses, HaveTheNumbersOfTheFormat) {
                                                   {ANIC_E_CHUNK_DUPLICATE, Status::kChunkDuplicate},
                                                   {ANIC_E_CHUNK_MISSING, Status::kChunkMissing},
                                                   {ANIC_E_CHUNK_UNKNOWN, Status::kChunkUnknown},
-                                                  {ANIC_E_PADDING, Status::kPadding},
                                                   {ANIC_E_TRAILING_BYTES, Status::kTrailingBytes},
                                                   {ANIC_E_FILE_SIZE, Status::kFileSize},
                                                   {ANIC_E_RECORD, Status::kRecord},

@@ -4,6 +4,7 @@
 // The C interface of the encoder.
 #include "build_paths.h"
 #include "codec/encode.h"
+#include "codec/sequence/clip_library.h"
 #include "corpus/clips.h"
 
 #include <anicodec/encode.h>
@@ -242,6 +243,49 @@ TEST_F(AnicEncoder, EncodesSeveralMeshesSomeForSomeFrames) {
   options_.goal_value = 10000;
   EXPECT_EQ(encode(), ANIC_E_ARGUMENT);
   EXPECT_EQ(text(), "a target size cannot be shared out among meshes");
+}
+
+TEST_F(AnicEncoder, EncodesSeveralClipsOfAMesh) {
+  MeshSequence walk = sequence_;
+  walk.attributes.clear();
+  walk.materials = walk.parts = {};
+  walk.shared_normals.clear();
+  walk.rate.assumed = false;
+  MeshSequence run = walk;
+  walk.name = "Walk";
+  walk.loop = true;
+  run.name = "Run";
+  run.rate = {60, 1, false};
+  run.frame_count = 5;
+  run.positions.resize(size_t{5} * 3 * run.vertex_count);
+  MeshSequence both = clip_library({walk, run});
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, 1, true};
+  options.effort = 1;
+  options.encoder = "anicodec 0.1.0";
+  const Bytes bytes = anicodec::encode(both, options).file;
+
+  anic_source_clip next = ANIC_INIT(anic_source_clip);
+  next.name = "Run";
+  next.frame_count = 5;
+  next.rate_numerator = 60;
+  EXPECT_EQ(anic_add_source_clip(encoder_, &next), ANIC_E_STATE);
+  clip_.name = "Walk";
+  clip_.loop = 1;
+  clip_.up = static_cast<anic_up_axis>(walk.up);
+  clip_.metres_per_unit = walk.metres_per_unit;
+  ASSERT_EQ(anic_set_source_clip(encoder_, &clip_), ANIC_OK) << text();
+  next.up = clip_.up == ANIC_UP_Z ? ANIC_UP_Y : ANIC_UP_Z;
+  EXPECT_EQ(anic_add_source_clip(encoder_, &next), ANIC_E_ARGUMENT);
+  EXPECT_EQ(text(), "a clip has another up axis or unit than the first");
+  next.up = clip_.up;
+  next.metres_per_unit = clip_.metres_per_unit;
+  ASSERT_EQ(anic_add_source_clip(encoder_, &next), ANIC_OK) << text();
+  mesh_.positions = both.positions.data();
+  ASSERT_EQ(anic_add_source_mesh(encoder_, &mesh_, nullptr), ANIC_OK) << text();
+  EXPECT_EQ(anic_add_source_clip(encoder_, &next), ANIC_E_STATE) << "meshes were added";
+  ASSERT_EQ(encode(), ANIC_OK) << text();
+  EXPECT_EQ(file(), (std::string{bytes.begin(), bytes.end()}));
 }
 
 TEST_F(AnicEncoder, TellsWhatIsWrong) {

@@ -180,22 +180,6 @@ TEST(AnicStream, FailsAsSoonAsAChunkIsDamaged) {
   EXPECT_EQ(anic_push_bytes(limited.get(), file.data(), chunk.offset), ANIC_E_LIMIT);
 }
 
-TEST(AnicStream, ChecksThePaddingToo) {
-  Bytes file = encoded_clip("cloth", BasisChoice::kEigenshapes);
-  ContainerReader reader;
-  ASSERT_TRUE(reader.open(file).ok());
-  size_t at = 0;
-  for (const Chunk& chunk : reader.chunks()) {
-    if (at != 0 && chunk.offset > at)
-      break;
-    at = chunk.offset + chunk.size;
-  }
-  ASSERT_LT(at, file.size());
-  file[at] = 1;
-  const Stream stream = new_stream();
-  EXPECT_EQ(anic_push_bytes(stream.get(), file.data(), file.size()), ANIC_E_PADDING);
-}
-
 struct FileInMemory {
   const Bytes& file;
   uint64_t fail_from = UINT64_MAX;

@@ -17,7 +17,7 @@ import numpy as np  # noqa: E402
 
 import anicodec  # noqa: E402
 import anicodec_blender  # noqa: E402
-from anicodec_blender import meshes  # noqa: E402
+from anicodec_blender import looks as blender_looks, meshes  # noqa: E402
 
 WORK = pathlib.Path(arguments[2])
 FRAMES = 12
@@ -108,6 +108,71 @@ def test_import_follows_the_timeline():
     assert np.allclose(evaluated(item, 5), expected[4], atol=bound)
     assert np.allclose(evaluated(item, 3 + FRAMES // 2), expected[0], atol=bound), "goes round"
     assert len(item.data.uv_layers) == 1 and [m.name for m in item.data.materials] == ["skin", "cloth"]
+
+
+def test_clips_are_chosen_and_faded():
+    empty_scene()
+    sheet = add_grid()
+    frames = np.stack([evaluated(sheet, frame) for frame in range(1, FRAMES + 1)])
+    clips = [anicodec.SourceClip("walk", 7), anicodec.SourceClip("run", FRAMES - 7, fps=60)]
+    polygons = meshes.polygon_starts(sheet.data), meshes.corners_of(sheet.data).astype(np.uint32)
+    path = WORK / "moves.anic"
+    path.write_bytes(anicodec.encode(frames, polygons, clips=clips, fps=30, effort=1, up="z"))
+    bound = max(info.max_error for info in anicodec.open(path).clips) * 1.01 + 1e-6
+
+    scene = empty_scene()
+    item, = bring_in(path, clip="run")
+    assert (scene.frame_end, scene.render.fps) == (FRAMES - 7, 60)
+    assert np.allclose(evaluated(item, 3), frames[7 + 2], atol=bound)
+    settings = item.data.anicodec
+    assert settings.clip == "run"
+    settings.clip = "walk"
+    assert np.allclose(evaluated(item, 5), anicodec.open(path).at(4 / 60, clip="walk"), atol=1e-5)
+    settings.fade_clip, settings.fade_start = "run", 5
+    for frame, fade in ((5, 0.0), (7, 1.0)):
+        settings.fade = fade
+        settings.keyframe_insert("fade", frame=frame)
+    assert np.allclose(evaluated(item, 5), anicodec.open(path).at(4 / 60), atol=1e-5), "not yet"
+    middle = evaluated(item, 6)
+    walk, run = anicodec.open(path).at(5 / 60), anicodec.open(path).at(1 / 60, clip="run")
+    assert np.allclose(middle, (walk + run) / 2, atol=2 * bound), "half way"
+    assert np.allclose(evaluated(item, 7), anicodec.open(path).at(2 / 60, clip="run"), atol=1e-5), "done"
+    for method in ("SHAPE_KEYS", "CACHE"):
+        empty_scene()
+        item, = bring_in(path, method=method, clip="run")
+        assert np.allclose(evaluated(item, 2), frames[7 + 1], atol=bound), method
+    try:
+        bring_in(path, clip="swim")
+    except RuntimeError as error:
+        assert "no clip 'swim'" in str(error), error
+    else:
+        raise AssertionError("accepted")
+
+
+def test_looks_of_materials_come_back():
+    empty_scene()
+    sheet = add_grid()
+    skin, cloth = sheet.data.materials
+    if not skin.use_nodes:
+        skin.use_nodes = True
+    shader = skin.node_tree.nodes["Principled BSDF"]
+    shader.inputs["Base Color"].default_value = (0.25, 0.5, 0.75, 1)
+    shader.inputs["Metallic"].default_value, shader.inputs["Roughness"].default_value = 0.5, 0.125
+    skin.use_backface_culling = True
+    cloth_has_nodes = cloth.use_nodes
+    cloth.diffuse_color, cloth.roughness = (1, 0.5, 0.25, 1), 0.75
+    path = WORK / "looks.anic"
+    assert export(path) == {"FINISHED"}
+    looks = {label: look for attribute in anicodec.open(path).attributes if attribute.kind == "material"
+             for label, look in zip(attribute.labels, attribute.looks)}
+    assert looks["skin"].base_colour == (0.25, 0.5, 0.75, 1) and not looks["skin"].double_sided
+    assert (looks["skin"].metallic, looks["skin"].roughness, looks["skin"].emissive) == (0.5, 0.125, (0, 0, 0))
+    if not cloth_has_nodes:  # as all materials do from Blender 5 on
+        assert (looks["cloth"].base_colour, looks["cloth"].roughness) == ((1, 0.5, 0.25, 1), 0.75)
+    empty_scene()
+    item, = bring_in(path)
+    for material in item.data.materials:
+        assert blender_looks.look_of(material) == looks[material.name], material.name
 
 
 def test_settings_survive_save_and_reload():

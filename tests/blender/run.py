@@ -21,12 +21,14 @@ def skip(reason):
 
 
 def take_package(environment, folder):
-    """A copy of the package alone: Blender has modules of its own."""
+    """A copy of the package and its libraries alone: Blender has modules of its own."""
     found = list(environment.glob("lib/python*/site-packages/anicodec"))
     if not found:
         skip("the Python package was not made")
     shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(found[0], folder / "anicodec")
+    for name in ("anicodec", "anicodec.libs"):
+        if (found[0].parent / name).is_dir():
+            shutil.copytree(found[0].parent / name, folder / name)
 
 
 def main():

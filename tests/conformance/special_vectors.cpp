@@ -23,6 +23,7 @@
 #include "sdk/pose/pose_coding.h"
 #include "sdk/prediction/vertex_order.h"
 #include "sdk/segment/keyframe_segment.h"
+#include "tests/conformance/vector_recipes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,95 +40,6 @@
 
 namespace anicodec {
 namespace {
-
-/// Numbers that look random, the same everywhere.
-class Numbers {
- public:
-  uint32_t below(uint32_t count) {
-    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<uint32_t>((state_ >> 33) % count);
-  }
-
-  int32_t within(int32_t limit) {
-    return static_cast<int32_t>(below(2 * static_cast<uint32_t>(limit) + 1)) - limit;
-  }
-
- private:
-  uint64_t state_ = 1;
-};
-
-/// How a range of frames is coded.
-struct Recipe {
-  uint32_t frames = 0;
-  BasisKind kind = BasisKind::kEigentrajectories;
-  LinearSettings settings;
-  /// Changes the streams before the segment is opened and hashed.
-  std::function<void(EncodedSegment&, const EncoderInput&)> change = {};
-};
-
-/// A file of one mesh, one segment after the other, each over a reference pose that is in the file
-/// for it alone. Its errors are measured.
-Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
-              const std::function<void(ClipsRecord&)>& describe = {}) {
-  const double clip_diagonal = diagonal(clip);
-  const MeshSequence source = clip;
-  ClipsRecord record =
-      clips_record(clip, {}, {}, std::vector<double>(clips_of(clip).size(), clip_diagonal));
-  const EncoderInput input(std::move(clip));
-  std::vector<EncodedSegment> segments;
-  uint32_t first = 0;
-  for (const Recipe& recipe : recipes) {
-    const FrameView frames = input.frames(first, recipe.frames);
-    const LinearAnalysis analysis(frames);
-    const bool shapes = recipe.kind == BasisKind::kEigenshapes;
-    const LinearBasis basis =
-        analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
-                       shapes ? Base::kPose : Base::kAffine, 1000, 0);
-    std::optional<EncodedSegment> coded = encode_linear(
-        frames, basis, recipe.settings, input.layout, nullptr, input.runs(first, recipe.frames));
-    if (!coded)
-      throw Error(ErrorKind::kInternal, "the step is too fine");
-    EncodedSegment& segment = segments.emplace_back(std::move(*coded));
-    segment.sizes.first_frame = first;
-    if (recipe.change)
-      recipe.change(segment, input);
-    open_encoded(segment, input.layout);
-    first += recipe.frames;
-  }
-  std::vector<const EncodedSegment*> list;
-  for (const EncodedSegment& segment : segments)
-    list.push_back(&segment);
-  if (describe)
-    describe(record);
-  Clip opened;
-  if (Failure f = opened.open(clip_file(record, input.layout, list)); !f.ok())
-    throw Error(ErrorKind::kInternal, f.detail);
-  MeshSequence shown = source;
-  for (uint32_t f = 0; f < source.frame_count; ++f)
-    opened.positions(0, f, shown.frame(f).data());
-  CompareOptions options;
-  options.sted = false;
-  const Comparison measured = compare(source, shown, options);
-  for (ClipRecord& of_clip : record.clips) {  // of the whole, which every clip then keeps
-    of_clip.max_error = measured.max_error;
-    of_clip.rmse = measured.rmse;
-    of_clip.kg = measured.kg;
-  }
-  return clip_file(record, input.layout, list);
-}
-
-Recipe recipe(uint32_t frames, BasisKind kind, double step, uint8_t neighbours, uint8_t passes,
-              uint8_t radius, RefitSchedule schedule) {
-  Recipe r;
-  r.frames = frames;
-  r.kind = kind;
-  r.settings.step = step;
-  r.settings.neighbours = neighbours;
-  r.settings.passes_per_level = passes;
-  r.settings.radius = radius;
-  r.settings.schedule = schedule;
-  return r;
-}
 
 /// All schedules of refits, numbers of neighbours and passes; a reference pose for each segment.
 Bytes schedules() {
@@ -149,51 +61,6 @@ Recipe layered(BasisKind kind, double step, CoefficientCoder coder, bool anew) {
   return r;
 }
 
-/// A vertex of more than 32 neighbours, vertices without any, and a pose finer than the grid that
-/// orders them: every rule of the vertex order has to act.
-MeshSequence hub() {
-  constexpr uint32_t kSpokes = 70, kLoose = 90, kFrames = 9;
-  MeshSequence clip;
-  clip.name = "hub";
-  clip.vertex_count = 2 * kSpokes + 1 + kLoose;
-  clip.frame_count = kFrames;
-  for (uint32_t i = 0; i < kSpokes; ++i) {
-    const uint32_t a = 1 + i, b = 1 + (i + 1) % kSpokes;
-    clip.polygons.add(std::vector<uint32_t>{0, a, b});
-    clip.polygons.add(std::vector<uint32_t>{a, a + kSpokes, b + kSpokes, b});
-  }
-  Numbers numbers;
-  std::vector<float> rest;
-  for (uint32_t v = 0; v < clip.vertex_count; ++v) {
-    const double angle = 2 * 3.14159265358979 * (v - 1) / kSpokes, r = v == 0        ? 0
-                                                                       : v > kSpokes ? 2
-                                                                                     : 1;
-    const bool loose = v > 2 * kSpokes;
-    const double places[3] = {loose ? numbers.within(2000) / 1000.0 : r * std::cos(angle),
-                              loose ? numbers.within(2000) / 1000.0 : r * std::sin(angle),
-                              loose ? numbers.within(2000) / 1000.0 : 0.25 * r};
-    for (const double x : places)
-      rest.push_back(static_cast<float>(std::round(x * 4096) / 4096));
-  }
-  for (uint32_t f = 0; f < kFrames; ++f) {
-    for (size_t i = 0; i < rest.size(); ++i) {
-      const double swing =
-          0.05 * numbers.within(100) / 100.0 + 0.01 * f * static_cast<double>(i % 5);
-      clip.positions.push_back(rest[i] + static_cast<float>(std::round(swing * 4096) / 4096));
-    }
-  }
-  return clip;
-}
-
-/// The reference pose in the way of coding that the encoder does not take.
-void round_pose(EncodedSegment& segment, const EncoderInput& input) {
-  auto pose = std::make_shared<EncodedPose>(*segment.reference);
-  pose->coding = PoseCoding::kRounded;
-  pose->stream =
-      encode_pose(PoseSurface(input.layout.topology), PoseCoding::kRounded, pose->grid.points);
-  segment.reference = std::move(pose);
-}
-
 Bytes vertex_order() {
   Recipe r = recipe(9, BasisKind::kEigentrajectories, 0.004, 16, 3, 12, RefitSchedule::kDense);
   r.settings.pose_factor = 0.02;  // the grid of the order shifts it
@@ -213,28 +80,10 @@ Bytes vertex_order() {
   });
 }
 
-/// The reference pose by partners without reason in runs along the vertices: more strands than are
-/// told apart, vertices that are like themselves.
-std::function<void(EncodedSegment&, const EncoderInput&)> with_partners(
-    std::optional<PoseCoding> coding) {
-  return [coding](EncodedSegment& segment, const EncoderInput& input) {
-    auto pose = std::make_shared<EncodedPose>(*segment.reference);
-    pose->coding = coding.value_or(pose->coding);
-    const uint32_t n = input.layout.topology.coded_vertices;
-    Numbers numbers;
-    PosePartners partners;
-    uint32_t ahead = 1;
-    for (uint32_t v = 0; v < n; ++v) {
-      if (numbers.below(3) == 0)
-        ahead = 1 + numbers.below(n);
-      const uint32_t kind = numbers.below(8);
-      partners.partner.push_back(kind == 0 ? PosePartners::kNone : kind == 1 ? v : (v + ahead) % n);
-      partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
-    }
-    pose->stream =
-        encode_pose(PoseSurface(input.layout.topology), pose->coding, pose->grid.points, &partners);
-    segment.reference = std::move(pose);
-  };
+Bytes rings_by_degree() {
+  return file_of(
+      rings(), {recipe(4, BasisKind::kEigentrajectories, 0.004, 16, 3, 12, RefitSchedule::kSparse),
+                recipe(3, BasisKind::kEigenshapes, 0.004, 20, 1, 12, RefitSchedule::kNone)});
 }
 
 Bytes partners() {
@@ -248,26 +97,6 @@ Bytes partners() {
     recipes.back().change = with_partners(coding);
   }
   return file_of(clip, recipes);
-}
-
-/// Weights in time by each predictor, of numbers that suit none.
-void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
-  const uint32_t frames = segment.sizes.frames;
-  const uint32_t rows = segment.sizes.kind == BasisKind::kEigentrajectories ? 3 : 1;
-  Numbers numbers;
-  BinaryEncoder encoder;
-  TimeWeightModel model(segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames)
-                                             : segment.runs);
-  std::vector<int32_t> decoded(size_t{3} * frames);
-  for (uint32_t j = 0; j < 4 + segment.sizes.components; ++j) {
-    const uint32_t channels = j < 4 ? 3 : rows;
-    std::vector<double> x(size_t{channels} * frames);
-    for (size_t i = 0; i < x.size(); ++i)
-      x[i] = 300 * std::sin(0.05 * static_cast<double>(i % frames) * (1 + j % 3) + j) +
-             numbers.within(10 << (j % 7)) + (i % 41 == 0 ? 20000 : 0);
-    model.encode(encoder, channels, x.data(), 0, decoded.data(), 1u << (j % kWeightPredictors));
-  }
-  segment.weights = encoder.finish();
 }
 
 Bytes weights_in_time() {
@@ -310,50 +139,13 @@ Bytes clips() {
   return file_of(library, {shared, next});
 }
 
-/// Residuals at their limits: predictions saturate, refits see numbers that are not finite.
-void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
-  LinearParameters parameters;
-  if (parameters.read(segment.parameters, segment.sizes.components, 1) != Status::kOk)
-    throw Error(ErrorKind::kInternal, "the parameters cannot be read");
-  Numbers numbers;
-  for (uint8_t& omega : parameters.omega)
-    omega = static_cast<uint8_t>(numbers.below(256));
-  segment.parameters = parameters.write();
-  const Topology& topology = input.layout.topology;
-  VertexOrder order;
-  make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3,
-                    segment.reference->grid.points.data(), topology.coded_vertices,
-                    parameters.neighbours, parameters.colours, &order);
-  const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
-  const auto stride = static_cast<uint32_t>(order.neighbour_count);
-  CoefficientModel model(topology.coded_vertices, channels, order.neighbours.data(), stride);
-  BatchCoefficientModel batches(channels, order.neighbours.data(), stride, order.level_start);
-  BinaryEncoder encoder;
-  RansEncoder batch_encoder;
-  const bool in_batches = parameters.coder == CoefficientCoder::kBatches;
-  std::vector<int32_t> q(size_t{channels} * topology.coded_vertices);
-  for (uint32_t j = 0; j < segment.sizes.components; ++j) {
-    for (int32_t& x : q)
-      x = j % 3 == 0 ? numbers.within(3) : numbers.within(1 << (j * 2 % 24));
-    if (in_batches)
-      batches.code_component(batch_encoder, q.data());
-    else
-      model.code_component(encoder, q.data());
-  }
-  ByteWriter writer;
-  writer.varint(segment.sizes.components);
-  writer.raw(in_batches ? batch_encoder.finish() : encoder.finish());
-  segment.layers = {writer.bytes()};
-  segment.sizes.wide_components = segment.sizes.components;
-}
-
 Bytes saturated() {
-  const MeshSequence clip = corpus::make_scaled("limb", 120, 16);
+  const MeshSequence clip = corpus::make_scaled("limb", 120, 32);
   const double step = 0.001 * diagonal(clip);
-  Recipe shapes = recipe(8, BasisKind::kEigenshapes, step, 16, 1, 12, RefitSchedule::kDense);
-  Recipe curves = recipe(8, BasisKind::kEigentrajectories, step, 16, 2, 12, RefitSchedule::kDense);
+  Recipe shapes = recipe(16, BasisKind::kEigenshapes, step, 16, 1, 12, RefitSchedule::kDense);
+  Recipe curves = recipe(16, BasisKind::kEigentrajectories, step, 16, 2, 12, RefitSchedule::kDense);
   for (Recipe* r : {&shapes, &curves}) {
-    r->settings.components = 7;
+    r->settings.components = 14;  // the largest residuals are those of the 11th and 12th
     r->change = scramble_coefficients;
   }
   return file_of(clip, {shapes, curves});
@@ -400,7 +192,7 @@ Bytes scene() {
 }
 
 /// Two shapes in turns: a key-frame is nearest to the one before the last.
-Bytes other_parents() {
+Bytes alternating(KeyframePoses poses, uint32_t keyframes) {
   MeshSequence clip = hub();
   Numbers numbers;
   std::vector<float> away(size_t{3} * clip.vertex_count);
@@ -410,9 +202,17 @@ Bytes other_parents() {
     std::ranges::transform(clip.frame(f), away, clip.frame(f).begin(), std::plus<>());
   EncodeOptions options;
   options.basis = BasisChoice::kKeyframes;
-  options.keyframes = 6;
-  options.keyframe_poses = KeyframePoses::kNative;
+  options.keyframes = keyframes;
+  options.keyframe_poses = poses;
   return encode(clip, options).file;
+}
+
+Bytes other_parents() {
+  return alternating(KeyframePoses::kNative, 6);
+}
+
+Bytes draco_parents() {
+  return alternating(KeyframePoses::kDraco, 4);
 }
 
 /// Faces, copies and an order of vertices for which every rule of spec/07 has to act.
@@ -422,6 +222,8 @@ class Tangle {
     sheet();
     fan();
     book();
+    flower(30);
+    flower(100);
     crossings();
     crowd();
     leftovers();
@@ -505,6 +307,24 @@ class Tangle {
     const uint32_t a = vertex(new_place()), b = vertex(new_place());
     for (uint32_t i = 0; i < 90; ++i)
       add(i % 3 == 0 ? Polygon{a, b, vertex(new_place())} : Polygon{b, a, vertex(new_place())}, 30);
+  }
+
+  /// Quads from one vertex to another that share no side there: as many open gates from the latter. A
+  /// last triangle closes the first of them.
+  void flower(uint32_t petals) {
+    const uint32_t base = vertex(new_place()), tip = vertex(new_place());
+    uint32_t first = 0, last = 0;
+    for (uint32_t i = 0; i < petals; ++i) {
+      const uint32_t x = vertex(new_place()), y = vertex(new_place());
+      if (i == 0)
+        first = x;
+      else
+        polygons_.push_back({base, last, x});
+      polygons_.push_back({base, x, tip, y});
+      last = y;
+    }
+    polygons_.push_back({base, last, tip});
+    polygons_.push_back({base, tip, first});
   }
 
   /// Polygons over the same few vertices, so that far ones meet.
@@ -613,12 +433,14 @@ struct Vector {
 
 constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"vertex_order", vertex_order},
+                               {"rings", rings_by_degree},
                                {"weights_in_time", weights_in_time},
                                {"clips", clips},
                                {"saturated", saturated},
                                {"batches", batches},
                                {"partners", partners},
                                {"other_parents", other_parents},
+                               {"draco_parents", draco_parents},
                                {"scene", scene},
                                {"tangle", tangle}};
 

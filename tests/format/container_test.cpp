@@ -32,11 +32,14 @@ Status status_of(const Bytes& bytes) {
   return reader.open({copy.get(), bytes.size()}).status;
 }
 
+// The table of example(): the second entry names a mesh, the fourth a mesh and a segment.
+constexpr size_t kSecondEntry = kHeaderBytes + 10, kTableBytes = 10 + 11 + 10 + 12;
+
 /// Changes a byte of header or table and makes the checksum fit again.
 Bytes with_byte(size_t at, uint8_t value) {
   Bytes bytes = example();
   bytes[at] = value;
-  Bytes covered(bytes.begin(), bytes.begin() + kHeaderBytes + 4 * kEntryBytes);
+  Bytes covered(bytes.begin(), bytes.begin() + kHeaderBytes + kTableBytes);
   std::fill_n(covered.begin() + 32, 4, uint8_t{0});
   auto checksum = static_cast<uint32_t>(xxh64(covered));
   for (int i = 0; i < 4; ++i)
@@ -51,7 +54,7 @@ TEST(Container, RoundTrips) {
   ASSERT_EQ(reader.chunks().size(), 4U);
   const Chunk* mesh = reader.find("MESH", 0);
   ASSERT_NE(mesh, nullptr);
-  EXPECT_EQ(mesh->offset % kAlignment, 0U);
+  EXPECT_EQ(mesh->offset, kHeaderBytes + kTableBytes + 6);
   ByteView payload;
   ASSERT_TRUE(reader.payload(*mesh, &payload).ok());
   EXPECT_EQ(Bytes(payload.data, payload.data + payload.size), text("a mesh of some length"));
@@ -89,20 +92,21 @@ TEST(Container, NamesWhatIsWrong) {
   EXPECT_EQ(status_of({0x89, 'A', 'N'}), Status::kTruncated);
   EXPECT_EQ(status_of(with_byte(8, 9)), Status::kVersion);
   EXPECT_EQ(status_of(with_byte(16, 1)), Status::kFeature);
-  EXPECT_EQ(status_of(with_byte(36, 1)), Status::kHeader);
+  EXPECT_EQ(status_of(with_byte(12, 3)), Status::kHeader);    // an entry more than chunks
+  EXPECT_EQ(status_of(with_byte(12, 5)), Status::kHeader);    // too few bytes for as many
+  EXPECT_EQ(status_of(with_byte(13, 255)), Status::kHeader);  // by far
   EXPECT_EQ(status_of(with_byte(30, 1)), Status::kTruncated);
-  EXPECT_EQ(status_of(with_byte(kHeaderBytes + 5, 1)), Status::kHeader);        // reserved flag
-  EXPECT_EQ(status_of(with_byte(kHeaderBytes + 16, 1)), Status::kChunkBounds);  // offset
-  EXPECT_EQ(status_of(with_byte(kHeaderBytes + 31, 1)), Status::kChunkBounds);  // size
+  EXPECT_EQ(status_of(with_byte(kSecondEntry + 8, 11)), Status::kHeader);         // reserved flag
+  EXPECT_EQ(status_of(with_byte(kSecondEntry + 9, 0x80)), Status::kChunkBounds);  // mesh 21 << 7
+  EXPECT_EQ(status_of(with_byte(kHeaderBytes + kTableBytes - 1, 0x85)), Status::kHeader);  // size
+  EXPECT_EQ(status_of(with_byte(kSecondEntry + 10, 99)), Status::kChunkBounds);            // size
+  EXPECT_EQ(status_of(with_byte(kSecondEntry + 10, 20)), Status::kFileSize);
   Bytes damaged = example();
   damaged[40] ^= 1;
   EXPECT_EQ(status_of(damaged), Status::kHeaderChecksum);
   Bytes longer = example();
   longer.push_back(0);
   EXPECT_EQ(status_of(longer), Status::kTrailingBytes);
-  Bytes padded = example();
-  padded[kHeaderBytes + 4 * kEntryBytes + 6] = 1;  // behind "limits"
-  EXPECT_EQ(status_of(padded), Status::kPadding);
 }
 
 }  // namespace

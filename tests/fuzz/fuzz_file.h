@@ -19,35 +19,39 @@ inline Bytes repaired(ByteView file) {
   r.raw(12);
   uint32_t count = r.u32();
   r.raw(kHeaderBytes - 16);
-  if (!r.ok() || count > r.remaining() / kEntryBytes)
+  if (!r.ok() || count > r.remaining() / kLeastEntryBytes)
     return {file.data, file.data + file.size};
 
   struct Entry {
     std::string type;
-    uint16_t flags, mesh;
-    uint32_t segment;
-    uint64_t size;
+    bool required = false;
+    uint16_t mesh = kNoMesh;
+    uint32_t segment = kNoSegment;
+    uint64_t size = 0;
   };
 
   std::vector<Entry> entries;
   for (uint32_t i = 0; i < count; ++i) {
     Entry e;
     e.type = chunk_name(r.u32());
-    e.flags = r.u16();
-    e.mesh = r.u16();
-    e.segment = r.u32();
     r.u32();
-    r.u64();
-    e.size = r.u64();
+    const uint8_t flags = r.u8();
+    e.required = flags & 1;
+    if (flags & 2)
+      e.mesh = static_cast<uint16_t>(r.varint());
+    if (flags & 4)
+      e.segment = static_cast<uint32_t>(r.varint());
+    e.size = r.varint();
     entries.push_back(e);
   }
+  if (!r.ok())
+    return {file.data, file.data + file.size};
   ContainerWriter writer;
   size_t at = r.position();
   for (const Entry& e : entries) {
-    at = std::min((at + 7) / 8 * 8, file.size);
     auto size = static_cast<size_t>(std::min<uint64_t>(e.size, file.size - at));
     const char type[5] = {e.type[0], e.type[1], e.type[2], e.type[3], 0};
-    writer.add(type, e.flags & 1, e.mesh, e.segment, {file.data + at, file.data + at + size});
+    writer.add(type, e.required, e.mesh, e.segment, {file.data + at, file.data + at + size});
     at += size;
   }
   return writer.finish();

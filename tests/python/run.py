@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Makes a wheel of a finished build, installs it into a fresh environment, and runs the tests there.
+"""Makes a wheel of a finished build, with the libraries that it needs inside, installs it into a fresh environment, and runs
+the tests there.
 
 usage: run.py CHECKOUT BUILD WORK [pytest options]      exit status 77: skipped, for the reason printed
 """
@@ -61,6 +62,11 @@ def make_wheel(python, checkout, build, work):
         if "Could NOT find Python" in result.stdout:
             skip("the headers of Python are not installed (python3-dev)")
         sys.exit(result.stdout[-8000:])
+    return the_only(folder)
+
+
+def the_only(folder):
+    """The wheel in a folder, which must not be too large."""
     wheels = list(folder.glob("*.whl"))
     assert len(wheels) == 1, wheels
     size = wheels[0].stat().st_size
@@ -68,6 +74,18 @@ def make_wheel(python, checkout, build, work):
     if size > MOST_BYTES:
         sys.exit(f"the wheel has {size} bytes, more than {MOST_BYTES}")
     return wheels[0]
+
+
+def make_portable(python, wheel, work):
+    """The wheel with the libraries that it needs, for machines without them; assimp alone stays outside."""
+    folder = work / "portable"
+    shutil.rmtree(folder, ignore_errors=True)
+    environment = {**os.environ, "PATH": f"{python.parent}:{os.environ['PATH']}"}
+    result = subprocess.run([python, "-m", "auditwheel", "repair", "--strip", "--exclude", "libassimp.so.5", "-w", folder, wheel],
+                            env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if result.returncode != 0:
+        sys.exit(result.stdout[-4000:])
+    return the_only(folder)
 
 
 def main():
@@ -79,7 +97,7 @@ def main():
         skip("libraries with sanitizers cannot be loaded into a Python without them")
     tests = checkout / "tests" / "python"
     python = make_environment(work, tests / "requirements.lock")
-    wheel = make_wheel(python, checkout, build, work)
+    wheel = make_portable(python, make_wheel(python, checkout, build, work), work)
     subprocess.run([python, "-m", "pip", "--disable-pip-version-check", "-q", "install", "--no-deps", wheel], check=True)
     command = [python, "-m", "pytest", "-q", "-p", "no:cacheprovider", tests, *sys.argv[4:]]
     sys.exit(subprocess.run(command, cwd=work, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}).returncode)

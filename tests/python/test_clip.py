@@ -137,6 +137,43 @@ def test_damaged_files(clip):
         anicodec.open(data, quality=2)
 
 
+@pytest.fixture(scope="module")
+def moves(wave):
+    """Two clips of one mesh: 14 frames at 24 a second, and 10 at 60."""
+    return anicodec.encode(*wave, clips=[anicodec.SourceClip("walk", 14), anicodec.SourceClip("run", 10, fps=60)],
+                           fps=24, effort=1)
+
+
+def test_clips_of_a_file(moves):
+    clip = anicodec.open(moves)
+    walk, run = clip.clips
+    assert clip[run.frames].shape == (10, 144, 3)
+    for chosen in ("run", 1):
+        assert np.array_equal(clip.at(3 / 60, clip=chosen), clip[17])
+    assert np.array_equal(clip.at(3 / 24), clip[3]), "the first clip again"
+    with pytest.raises(anicodec.InputError, match="no clip 'swim': the file has walk, run"):
+        clip.at(0, clip="swim")
+    alone = anicodec.open(moves, clips=["run"])
+    assert [info.opened for info in alone.clips] == [False, True]
+    assert np.array_equal(alone.at(3 / 60), clip[17]) and np.array_equal(alone[17], clip[17])
+    assert [info.opened for info in pickle.loads(pickle.dumps(alone)).clips] == [False, True]
+    for absent in (lambda: alone[0], lambda: alone.at(0, clip="walk"), lambda: anicodec.open(moves, clips=["swim"])):
+        with pytest.raises(anicodec.AbsentError):
+            absent()
+
+
+def test_clips_are_blended(moves):
+    clip = anicodec.open(moves)
+    a, b = clip[2], clip[17]
+    for weight in (0, 0.25, 1):
+        mixed = clip.at(2 / 24, blend=("run", 3 / 60, weight))
+        assert np.allclose(mixed, (1 - weight) * a + weight * b, atol=2 * clip.info["max_error"]), weight
+    around = clip.at(2 / 24, blend=("run", (10 + 3) / 60, 1), blend_wrap="loop")
+    assert np.array_equal(around, clip.at((10 + 3) / 60, clip="run", loop=True))
+    with pytest.raises(anicodec.InputError):
+        clip.at(0, blend=("run", 0, 1.5))
+
+
 def test_threads_share_a_clip(clip):
     expected = [clip.at(f / 50) for f in range(40)]
     with ThreadPoolExecutor(4) as pool:

@@ -104,6 +104,52 @@ def test_several_meshes(wave):
         anicodec.encode_meshes([guest, guest], frame_count=24, size=4000)
 
 
+def test_several_clips(tmp_path, command, wave):
+    command("corpus", "limb", "-q", "--vertices", 300, "--frame-count", 30, "-o", tmp_path / "limb.pc2")
+    positions, faces = read_pc2(tmp_path / "limb.pc2"), read_faces(tmp_path / "limb.obj")
+    head = (tmp_path / "limb.pc2").read_bytes()[:28]
+    for name, frames in (("walk", positions[:18]), ("run", positions[18:])):
+        (tmp_path / f"{name}.pc2").write_bytes(head + struct.pack("<i", len(frames)) + frames.tobytes())
+    command("encode", "-q", "limb.obj", "walk.pc2", "run.pc2", "-o", "limb.anic", "--fps", 25, "--no-attributes",
+            "--effort", 2, cwd=tmp_path)
+    clips = [anicodec.SourceClip("walk", 18), anicodec.SourceClip("run", 12)]
+    same = anicodec.encode(positions, faces, clips=clips, fps=25, effort=2, no_attributes=True,
+                           up=anicodec.open(tmp_path / "limb.anic").info["up"])
+    assert same == (tmp_path / "limb.anic").read_bytes()
+
+    positions, faces = wave
+    clips = [anicodec.SourceClip("walk", 14, loop=True), anicodec.SourceClip("run", 10, fps=60, start_time=2)]
+    walk, run = anicodec.open(anicodec.encode(positions, faces, clips=clips, fps=25, effort=1)).clips
+    assert (walk.name, walk.frame_count, walk.fps, walk.loop, walk.start_time) == ("walk", 14, 25, True, 0)
+    assert (run.name, run.first_frame, run.fps, run.loop, run.start_time) == ("run", 14, 60, False, 2)
+    assert run.duration == pytest.approx(9 / 60) and run.max_error > 0 and run.opened
+
+    def refused(text, *clips, **options):
+        with pytest.raises(anicodec.InputError, match=text):
+            anicodec.encode(positions, faces, clips=clips, **options)
+
+    refused("clips have 14 frames, the positions 24", clips[0])
+    refused("'still' has no frame", anicodec.SourceClip("still", 0), anicodec.SourceClip("all", 24))
+    refused("two clips have the name 'a'", anicodec.SourceClip("a", 14), anicodec.SourceClip("a", 10))
+    refused("those of each clip", *clips, name="all")
+    refused("times must be 14 seconds, not 2", anicodec.SourceClip("a", 14, times=[0, 1]), anicodec.SourceClip("b", 10))
+
+
+def test_looks_of_materials(wave):
+    positions, faces = wave
+    glass = anicodec.Material(base_colour=(0.25, 0.5, 1, 0.5), metallic=0.5, roughness=0.25, emissive=(0, 1, 2),
+                              alpha="mask", alpha_cutoff=0.75, double_sided=True, normal_texture="bumps.png")
+    names, numbers = ["glass", "unknown"], np.arange(len(faces)) % 2
+    data = anicodec.encode(positions, faces, materials=(names, numbers, [glass, None]), effort=1)
+    material, = (attribute for attribute in anicodec.open(data).attributes if attribute.kind == "material")
+    assert material.labels == ("glass", "unknown") and material.looks == (glass, None)
+    for looks, text in (([glass], "1 looks of 2 materials"), ([glass._replace(alpha="some"), None], "not 'some'"),
+                        ([glass._replace(metallic=float("nan")), None], "not finite"),
+                        ([glass._replace(base_colour=(1, 1)), None], "4 numbers")):
+        with pytest.raises(anicodec.InputError, match=text):
+            anicodec.encode(positions, faces, materials=(names, numbers, looks))
+
+
 def test_progress_and_cancelling(wave):
     seen = []
     anicodec.encode(*wave, effort=1, progress=lambda stage, done: seen.append((stage, done)))
@@ -180,7 +226,7 @@ def test_limits_and_types():
 
 def test_the_page_runs(tmp_path):
     page = pathlib.Path(__file__).parents[2] / "sdk" / "python" / "README.md"
-    script = page.read_text(encoding="utf-8").partition("```python\n")[2].partition("```")[0]
+    script = "".join(part.partition("```")[0] for part in page.read_text(encoding="utf-8").split("```python\n")[1:])
     result = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True)
     assert result.returncode == 0 and result.stderr == "", result.stderr
     assert result.stdout.startswith("<anicodec.Clip: 100 vertices, 60 frames at 30 per second, ")

@@ -7,7 +7,9 @@ import struct
 MASK = (1 << 64) - 1
 PRIMES = (11400714785074694791, 14029467366897019727, 1609587929392839161, 9650029242287828579,
           2870177450012600261)
-HEADER_BYTES, ENTRY_BYTES = 40, 32
+HEADER_BYTES = 40
+NO_MESH, NO_SEGMENT = 0xFFFF, 0xFFFFFFFF
+REQUIRED, OF_MESH, OF_SEGMENT = 1, 2, 4
 
 
 def _rotated(x, n):
@@ -52,7 +54,7 @@ def xxh64(data):
 
 @dataclasses.dataclass
 class Chunk:
-    """One chunk, as the table lists it."""
+    """One chunk, as the table lists it; the flags are those of no mesh and segment."""
     type: str
     flags: int
     mesh: int
@@ -60,37 +62,77 @@ class Chunk:
     payload: bytes
 
 
+def read_varint(data, at):
+    """A varint and the offset behind it."""
+    value, shift = 0, 0
+    while True:
+        byte = data[at]
+        value |= (byte & 127) << shift
+        at, shift = at + 1, shift + 7
+        if byte < 128:
+            return value, at
+
+
+def table_bytes(data):
+    """Bytes of header and table."""
+    return HEADER_BYTES + struct.unpack_from("<I", data, 36)[0]
+
+
+def entries(data):
+    """(offset of the entry, type, flags, mesh, segment, offset, size) of the chunks of a good file."""
+    at, payload = HEADER_BYTES, table_bytes(data)
+    for _ in range(struct.unpack_from("<I", data, 12)[0]):
+        entry = at
+        kind, _, flags = struct.unpack_from("<4sIB", data, at)
+        at += 9
+        mesh, segment = NO_MESH, NO_SEGMENT
+        if flags & OF_MESH:
+            mesh, at = read_varint(data, at)
+        if flags & OF_SEGMENT:
+            segment, at = read_varint(data, at)
+        size, at = read_varint(data, at)
+        yield entry, kind.decode("latin-1"), flags & ~(OF_MESH | OF_SEGMENT), mesh, segment, payload, size
+        payload += size
+
+
 def read_chunks(data):
     """The chunks of a good file."""
-    chunks = []
-    for i in range(struct.unpack_from("<I", data, 12)[0]):
-        kind, flags, mesh, segment, _, offset, size = struct.unpack_from("<4sHHIIQQ", data, 40 + 32 * i)
-        chunks.append(Chunk(kind.decode("latin-1"), flags, mesh, segment, data[offset:offset + size]))
-    return chunks
+    return [Chunk(kind, flags, mesh, segment, data[offset:offset + size])
+            for _, kind, flags, mesh, segment, offset, size in entries(data)]
 
 
 def checked_header(data):
     """The same with the checksum of header and table made right."""
     data = bytearray(data)
     data[32:36] = bytes(4)
-    count = struct.unpack_from("<I", data, 12)[0]
-    struct.pack_into("<I", data, 32, xxh64(bytes(data[:HEADER_BYTES + ENTRY_BYTES * count])) & 0xFFFFFFFF)
+    struct.pack_into("<I", data, 32, xxh64(bytes(data[:table_bytes(data)])) & 0xFFFFFFFF)
     return bytes(data)
 
 
-def write_chunks(chunks, version=(0, 2)):
-    """A file of these chunks, all checksums right."""
-    at = HEADER_BYTES + ENTRY_BYTES * len(chunks)
-    table, body = b"", b""
-    for chunk in chunks:
-        padding = -at % 8
-        at += padding
-        body += bytes(padding) + chunk.payload
-        table += struct.pack("<4sHHIIQQ", chunk.type.encode("latin-1"), chunk.flags, chunk.mesh, chunk.segment,
-                             xxh64(chunk.payload) & 0xFFFFFFFF, at, len(chunk.payload))
-        at += len(chunk.payload)
-    header = struct.pack("<8sHHIQQII", b"\x89ANI\r\n\x1a\n", *version, len(chunks), 0, at, 0, 0)
+def entry(chunk, size=None):
+    """What the table says of a chunk."""
+    flags, numbers = chunk.flags, []
+    if chunk.mesh != NO_MESH:
+        flags |= OF_MESH
+        numbers.append(chunk.mesh)
+    if chunk.segment != NO_SEGMENT:
+        flags |= OF_SEGMENT
+        numbers.append(chunk.segment)
+    numbers.append(len(chunk.payload) if size is None else size)
+    return struct.pack("<4sIB", chunk.type.encode("latin-1"), xxh64(chunk.payload) & 0xFFFFFFFF, flags) + varints(numbers)
+
+
+def write_table(chunks, table, version=(0, 3)):
+    """A file of chunks with any table."""
+    body = b"".join(chunk.payload for chunk in chunks)
+    header = struct.pack("<8sHHIQQII", b"\x89ANI\r\n\x1a\n", *version, len(chunks), 0, HEADER_BYTES + len(table) + len(body), 0,
+                         len(table))
     return checked_header(header + table + body)
+
+
+def write_chunks(chunks, version=(0, 3)):
+    """A file of these chunks, all checksums right."""
+    return write_table(chunks, b"".join(map(entry, chunks)), version)
 
 
 def varints(values):

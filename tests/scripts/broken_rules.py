@@ -34,14 +34,13 @@ class File:
         self.data = path.read_bytes()
         self.name = path.name
         self.fields = {}
-        starts = [(struct.unpack_from("<Q", self.data, 40 + 32 * i + 16)[0], i)
-                  for i in range(struct.unpack_from("<I", self.data, 12)[0])]
+        starts = [(entry[5], i) for i, entry in enumerate(anic_file.entries(self.data))]
         for row in subprocess.run([command, "dump", path], check=True, capture_output=True, text=True).stdout.splitlines():
             match = LINE.match(row)
             at, size, text = int(match[1], 16), int(match[2]), match[3]
             label = (text[:COLUMN] if text[COLUMN - 1:COLUMN] in ("", " ") else text.rpartition(" ")[0]).strip()
             chunk = max(((start, i) for start, i in starts if start <= at), default=None)
-            if chunk and label != "padding":
+            if chunk:
                 self.fields.setdefault(label, []).append((chunk[1], at - chunk[0], size))
 
     def chunks(self):
@@ -126,14 +125,25 @@ def chunk_rules(files):
     next(c for c in chunks if c.type == "SEGM").mesh = 1
     yield 44, "segm_of_other_mesh", anic_file.write_chunks(chunks), "SEGM of a segment with another mesh"
     chunks = triangle.chunks()
-    chunks[1].flags |= 2
+    chunks[1].flags |= 8
     yield 21, "reserved_flag", anic_file.write_chunks(chunks), "a reserved flag of a chunk is set"
+    chunks = triangle.chunks()
+    table = b"".join(map(anic_file.entry, chunks))
+    yield 21, "table_rest", anic_file.write_table(chunks, table + b"\0"), "a byte behind the last entry of the table"
+    yield 21, "table_short", anic_file.write_table(chunks, table[:-1]), "a table that ends inside an entry"
+    long_size = anic_file.entry(chunks[-1], 0)[:-1] + bytes([len(chunks[-1].payload) | 0x80, 0])
+    yield 21, "table_varint", anic_file.write_table(chunks, b"".join(map(anic_file.entry, chunks[:-1])) + long_size), \
+        "a size that is not in its shortest form"
+    chunks[-1].mesh = 0x10000
+    yield 21, "table_mesh", anic_file.write_chunks(chunks), "a mesh beyond 2^16"
     count = struct.unpack_from("<I", triangle.data, 12)[0]
-    yield 21, "table_beyond", triangle.data[:12] + struct.pack("<I", count + 1000) + triangle.data[16:], \
-        "more chunks than the file has room for"
-    size_at = 40 + 32 * (count - 1) + 24
-    yield 23, "chunk_beyond", anic_file.checked_header(triangle.data[:size_at] + struct.pack("<Q", 1 << 63) +
-                                                       triangle.data[size_at + 8:]), "a chunk of 2^63 bytes"
+    yield 21, "table_count", anic_file.checked_header(triangle.data[:12] + struct.pack("<I", count + 1000) + triangle.data[16:]), \
+        "more chunks than the table has room for"
+    yield 21, "table_beyond", triangle.data[:36] + struct.pack("<I", 1 << 20) + triangle.data[40:], \
+        "a table of more bytes than the file has"
+    chunks = triangle.chunks()
+    table = b"".join(map(anic_file.entry, chunks[:-1])) + anic_file.entry(chunks[-1], (1 << 64) - 1)
+    yield 23, "chunk_beyond", anic_file.write_table(chunks, table), "a chunk of 2^64 - 1 bytes"
 
 
 def limit_rules(files):

@@ -101,22 +101,19 @@ def broken_containers(data):
         return anic_file.checked_header(changed) if checked else changed
 
     chunks = anic_file.read_chunks(data)
-    entry = anic_file.HEADER_BYTES + anic_file.ENTRY_BYTES  # of the second chunk
-    offset, size = struct.unpack_from("<QQ", data, entry + 16)
-    payloads = [struct.unpack_from("<QQ", data, 40 + 32 * i + 16) for i in range(len(chunks))]
-    gap = next(o + s for (o, s), (p, _) in zip(payloads, payloads[1:]) if o + s < p)
+    *_, offset, size = list(anic_file.entries(data))[1]
+    table = b"".join(map(anic_file.entry, chunks[:-1]))
     yield 10, with_bytes(1, b"ANJ", False)
     yield 11, with_bytes(8, struct.pack("<HH", 1, 0))
     yield 12, with_bytes(16, struct.pack("<Q", 1 << 63))
     yield 20, data[:-1]
-    yield 21, with_bytes(36, b"\1")
+    yield 21, with_bytes(8 + anic_file.HEADER_BYTES, b"\x80")
     yield 22, with_bytes(40, b"X", False)
-    yield 23, with_bytes(entry + 16, struct.pack("<Q", offset + 8))
+    yield 23, anic_file.write_table(chunks, table + anic_file.entry(chunks[-1], len(chunks[-1].payload) + 1))
     yield 24, with_bytes(offset + size - 1, bytes([data[offset + size - 1] ^ 1]), False)
     yield 25, anic_file.write_chunks(chunks + [chunks[-1]])
     yield 26, anic_file.write_chunks(chunks[:-1])
     yield 27, anic_file.write_chunks(chunks + [anic_file.Chunk("WHAT", 1, 0xFFFF, 0xFFFFFFFF, b"?")])
-    yield 28, with_bytes(gap, b"\1")
     yield 29, data + b"\0"
     yield 30, with_bytes(24, struct.pack("<Q", len(data) + 1)) + b"\0"
 

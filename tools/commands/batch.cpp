@@ -63,7 +63,7 @@ class ContentHash {
   std::vector<uint64_t> parts_;
 };
 
-/// What is done as soon as a file of that hash is there: a line "content output name" of two
+/// Finished clips, each done once a file of its hash is there: a line "content output name" of two
 /// hashes for each clip, the last one counts. Lines are only ever appended, so that runs may share
 /// the file.
 class Journal {
@@ -150,7 +150,7 @@ struct Taken {
   uint64_t bytes;
 };
 
-/// What is said of a clip that is there.
+/// The line about a clip that is there.
 struct BatchLine {
   std::string text;
   nlohmann::ordered_json json;

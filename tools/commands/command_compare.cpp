@@ -66,7 +66,7 @@ struct CompareCommand {
   bool surface = false, no_sted = false;
 };
 
-/// What was measured, and why not more.
+/// The measured errors, and the reason if not all were measured.
 struct Measured {
   double diagonal = 0;
   std::optional<Comparison> vertices;
@@ -108,7 +108,7 @@ SignedAxes parse_axes(const std::string& text) {
   return axes;
 }
 
-/// What turns B to the axes of A.
+/// The turn of B to the axes of A.
 std::optional<SignedAxes> axes_of(const CompareCommand& command, UpAxis a, UpAxis b) {
   if (!command.axes.empty())
     return parse_axes(command.axes);

@@ -110,7 +110,7 @@ std::vector<FrameRun> present_in(const Clip& clip, uint32_t mesh, const FrameRan
   return runs;
 }
 
-/// Where a clip comes from and goes to.
+/// The source and the goal of a clip.
 struct DecodePaths {
   std::string input, output;
 };

@@ -41,9 +41,11 @@ INPUT - is a scene in one file or a mesh from the standard input; -o - writes th
 standard output, and nothing else; decode, info and verify read one from -.
 
 A scene is baked: skins, morph targets and moving nodes become vertices that move, all its meshes
-(or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. --clip names
-or numbers the clip; without it the first one that moves anything is taken, --clip none takes none.
---clips takes several animations of a glTF scene as clips of one file, and so do several vertex
+(or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. Animations
+that move different things are played together; of several takes of the same, the first that moves
+anything is taken, and a note names the others. --clip names or numbers another, --clip A+B plays
+two together, --clip none takes none.
+--clips takes several animations of a scene as clips of one file, and so do several vertex
 caches of one mesh: the mesh, its attributes and the reference pose are stored once, and clips of a
 kind share a basis where that is smaller (-v says which). Every clip keeps the target for itself; a
 --size is that of the file.
@@ -204,7 +206,7 @@ void check_glb_output(const EncodeArguments& command) {
                 command.output + ": the surface in a .glb counts on the order of its vertices");
 }
 
-/// What the scene that carries the clip shows where nobody plays it. Takes from the clip what the
+/// The first frame, which the scene shows if nobody plays the clip. Takes from the clip what the
 /// scene keeps.
 StillSurface split_surface(MeshSequence& sequence) {
   StillSurface still;

@@ -54,7 +54,7 @@ double positions(const Clip& clip) {
   return count;
 }
 
-/// What a segment moves.
+/// The name of what a segment moves.
 std::string moved_by(const Limits::Segment& s) {
   return s.attribute == kPositions
              ? std::string("positions")
@@ -79,7 +79,7 @@ uint64_t moving_bytes(const Contents& c, uint32_t mesh, uint32_t attribute) {
   return bytes;
 }
 
-/// What the encoder measured of an attribute that moves, if it did.
+/// The error that the encoder measured of an attribute that moves, if it did.
 const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t attribute) {
   for (const AttributeError& e : record.attribute_errors) {
     if (e.mesh == mesh && e.attribute == attribute)
@@ -88,7 +88,7 @@ const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t
   return nullptr;
 }
 
-/// What codes the poses of its key-frames, or its coefficients.
+/// The coder of the poses of its key-frames, or of its coefficients.
 const char* coder_of(const Clip& clip, size_t segment) {
   const Limits::Segment& s = clip.limits().segments[segment];
   if (s.kind != BasisKind::kKeyframes)

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
 namespace {
@@ -46,7 +47,9 @@ a line of three numbers for each: once for all frames, or for each frame in turn
 method comes near, in about a second for each step, frame and 7000 vertices.
 
 --compare prints how far the frames of every method are from the lengths, angles and volume that the
-weights ask for, means over the frames; then -o may be left out.
+weights ask for, means over the frames; then -o may be left out. With --json one object before the
+other: methods, for each method, length_percent, largest_length_percent, angle_degrees,
+volume_percent, folded and collapsed (angles and lengths of all frames).
 
 Examples:
   anicodec interpolate a.obj b.obj -o between.pc2 --frame-count 25
@@ -89,17 +92,24 @@ WeightRows weights_of(const InterpolateCommand& command, size_t meshes) {
   return path_weights(meshes, command.frames, first, last);
 }
 
-/// Prints a line for every method.
-void print_errors(const std::vector<uint32_t>& triangles, const MeshSequence& poses,
-                  std::span<const std::span<const float>> inputs, const WeightRows& rows,
-                  InterpolationOptions options, ProgressLine& line) {
+/// How far the frames of a method are from what the weights ask for: means, but for the largest
+/// length, and counts of all frames.
+struct MethodError {
+  InterpolationMethod method;
+  EdgeError error;
+};
+
+std::vector<MethodError> measure_methods(const std::vector<uint32_t>& triangles,
+                                         const MeshSequence& poses,
+                                         std::span<const std::span<const float>> inputs,
+                                         const WeightRows& rows, InterpolationOptions options,
+                                         ProgressLine& line) {
   const EdgeNetwork network(triangles, poses.vertex_count);
   std::vector<Points> points;
   for (std::span<const float> x : inputs)
     points.push_back(to_points(x));
   const std::vector<EdgeShape> shapes = measure_edges(network, points);
-  fmt::print("{:<10} {:>10} {:>10} {:>10} {:>10} {:>7} {:>9}\n", "method", "length %", "largest %",
-             "angle deg", "volume %", "folded", "collapsed");
+  std::vector<MethodError> errors;
   for (InterpolationMethod method : interpolation_methods()) {
     line.show(fmt::format("method {}", name_of(method)), 0);
     options.method = method;
@@ -119,12 +129,39 @@ void print_errors(const std::vector<uint32_t>& triangles, const MeshSequence& po
       sum.collapsed += error.collapsed;
     }
     const auto count = static_cast<double>(rows.size());
-    line.clear();
-    fmt::print("{:<10} {:>10.4f} {:>10.2f} {:>10.4f} {:>10.4f} {:>7} {:>9}\n", name_of(method),
-               100 * sum.length / count, 100 * sum.largest_length,
-               180 / std::numbers::pi * sum.angle / count, 100 * sum.volume / count, sum.folded,
-               sum.collapsed);
+    sum.length /= count;
+    sum.angle /= count;
+    sum.volume /= count;
+    errors.push_back({method, sum});
   }
+  line.clear();
+  return errors;
+}
+
+double degrees(double radians) {
+  return 180 / std::numbers::pi * radians;
+}
+
+void print_text(const std::vector<MethodError>& errors) {
+  fmt::print("{:<10} {:>10} {:>10} {:>10} {:>10} {:>7} {:>9}\n", "method", "length %", "largest %",
+             "angle deg", "volume %", "folded", "collapsed");
+  for (const auto& [method, error] : errors)
+    fmt::print("{:<10} {:>10.4f} {:>10.2f} {:>10.4f} {:>10.4f} {:>7} {:>9}\n", name_of(method),
+               100 * error.length, 100 * error.largest_length, degrees(error.angle),
+               100 * error.volume, error.folded, error.collapsed);
+}
+
+nlohmann::ordered_json json_of(const std::vector<MethodError>& errors) {
+  nlohmann::ordered_json methods = nlohmann::ordered_json::array();
+  for (const auto& [method, error] : errors)
+    methods.push_back({{"method", name_of(method)},
+                       {"length_percent", 100 * error.length},
+                       {"largest_length_percent", 100 * error.largest_length},
+                       {"angle_degrees", degrees(error.angle)},
+                       {"volume_percent", 100 * error.volume},
+                       {"folded", error.folded},
+                       {"collapsed", error.collapsed}});
+  return {{"methods", methods}};
 }
 
 void run(const InterpolateCommand& command, const CommonOptions& common) {
@@ -154,7 +191,11 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
   if (command.compare) {
     if (!pins.vertices.empty())
       throw Error(ErrorKind::kUsage, "interpolate: --compare knows no pins");
-    print_errors(triangles, poses, inputs, rows, options, line);
+    const auto errors = measure_methods(triangles, poses, inputs, rows, options, line);
+    if (common.json)
+      print_json(json_of(errors));
+    else
+      print_text(errors);
   }
   if (command.output.empty())
     return;

@@ -55,7 +55,7 @@ struct RemeshCommand {
   bool no_fit = false;
 };
 
-/// What the mesh has and the result has not.
+/// Names of what the mesh has and the result has not.
 std::vector<std::string> left_out(const MeshSequence& mesh) {
   std::vector<std::string> words;
   for (const Attribute& attribute : mesh.attributes)

@@ -12,7 +12,7 @@
 namespace anicodec::tools {
 namespace {
 
-/// What a file of this size means for a clip.
+/// The rates that a file of this size means for a clip.
 struct Rate {
   explicit Rate(const EncodeResult& result) {
     const auto positions = static_cast<double>(result.positions);
@@ -79,7 +79,7 @@ nlohmann::ordered_json EncodeReport::json() const {
   return json;
 }
 
-/// What the clips reached, and which of them share a basis.
+/// Prints the errors that the clips reached, and which of them share a basis.
 void EncodeReport::print_clips(int verbosity) const {
   uint32_t first = 0;
   for (const ClipResult& clip : result.clips) {

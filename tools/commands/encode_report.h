@@ -14,7 +14,7 @@
 
 namespace anicodec::tools {
 
-/// What encode says of a file that it has written.
+/// The words of `encode` about a file that it has written.
 struct EncodeReport {
   const std::string& path;
   const EncodeResult& result;

@@ -183,9 +183,9 @@ void add_arguments(Options& options, EncodeArguments& a) {
       "--mesh", a.mesh, "FILE|NAME",
       "Mesh of a lone vertex cache (default: same stem beside it), or the name of one in "
       "a scene (default: all)");
-  options.option("--clip", a.clip, "NAME|INDEX", "Animation of a scene, or none");
+  options.option("--clip", a.clip, "NAME|INDEX", "Animation of a scene, several as A+B, or none");
   options.option("--clips", a.clips, "all|NAME,...",
-                 "Several animations of a glTF scene, as clips of one file");
+                 "Several animations of a scene, as clips of one file");
   options.option("--name", a.names, "NAME,...",
                  "Name of the clip, or of each (default: of the cache or animation)");
   options.exclude({"--clip", "--clips"});

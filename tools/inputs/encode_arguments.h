@@ -17,7 +17,7 @@
 
 namespace anicodec::tools {
 
-/// What becomes of frames whose faces differ: an error, meshes of one file, or one mesh that has
+/// The treatment of frames whose faces differ: an error, meshes of one file, or one mesh that has
 /// the faces of the first frame.
 enum class TopologyChanges { kRefuse, kKeep, kTransfer };
 
@@ -61,7 +61,7 @@ void add_arguments(Options& options, EncodeArguments& arguments);
 /// The order that is kept of a clip of these files.
 OrderMode order_of(OrderChoice choice, const std::vector<std::string>& inputs);
 
-/// What they mean to the encoder, but for lengths with a unit of their own. Throws Error(kUsage)
+/// The encoder's options for them, but for lengths with a unit of their own. Throws Error(kUsage)
 /// naming the option.
 EncodeOptions encode_options(const EncodeArguments& arguments);
 

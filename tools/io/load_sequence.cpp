@@ -311,24 +311,31 @@ GltfResolver resolver_of(const std::string& scene) {
   };
 }
 
+/// Several animations of a scene as clips of one file.
+MeshSequence load_clips(const std::string& path, std::string_view bytes,
+                        const LoadOptions& options) {
+  const GltfOptions scene = scene_options(options);
+  const bool all = options.clips == std::vector<std::string>{"all"};
+  const std::vector<std::string> names = all ? std::vector<std::string>{} : options.clips;
+  return clip_library(kind_of(path) == FileKind::kAssimp
+                          ? load_assimp_clips(path, scene, names)
+                          : parse_gltf_clips(bytes, path, resolver_of(path), scene, names));
+}
+
 void load_scene(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
   const GltfOptions scene = scene_options(options);
   const std::string stem = sequence.name;
   std::string bytes;
-  read_file(path, bytes);
+  if (kind_of(path) != FileKind::kAssimp)
+    read_file(path, bytes);
   if (options.note && clip_of_glb(bytes, path))
     options.note(path + " moves by a clip inside, which decode writes; as a scene it stands still");
-  const GltfResolver resolve = resolver_of(path);
   if (!options.clips.empty()) {
-    if (kind_of(path) == FileKind::kAssimp)
-      fail_usage("--clips: " + path + " is no glTF scene");
-    const bool all = options.clips == std::vector<std::string>{"all"};
-    sequence = clip_library(parse_gltf_clips(bytes, path, resolve, scene,
-                                             all ? std::vector<std::string>{} : options.clips));
+    sequence = load_clips(path, bytes, options);
     return;
   }
   sequence = kind_of(path) == FileKind::kAssimp ? load_assimp(path, scene)
-                                                : parse_gltf(bytes, path, resolve, scene);
+                                                : parse_gltf(bytes, path, resolver_of(path), scene);
   sequence.name = sequence.name.empty() ? stem : stem + " " + sequence.name;
 }
 

@@ -29,7 +29,7 @@ struct LoadOptions {
   std::string mesh = {};
   /// Animation of a scene, see GltfOptions.
   std::string clip = {};
-  /// Several animations of a glTF scene as one sequence of several clips, by their names; "all":
+  /// Several animations of a scene as one sequence of several clips, by their names; "all":
   /// all that move anything.
   std::vector<std::string> clips = {};
   /// See StlWeld.

@@ -191,25 +191,27 @@ std::vector<Chunk> list_table(ByteView file, std::vector<ListedField>& out) {
   r.hex64("required features");
   r.u64("file size");
   r.hex32("header checksum");
-  r.u32("reserved");
+  r.u32("table bytes");
   std::vector<Chunk> chunks;
   for (uint32_t i = 0; i < count && r.ok(); ++i) {
     Chunk chunk;
     chunk.type = r.hex32(fmt::format("chunk {} type", i));
     r.explain(chunk_name(chunk.type));
-    if (r.u16(fmt::format("chunk {} flags", i)) & 1)
-      r.explain("required");
-    chunk.mesh = r.u16(fmt::format("chunk {} mesh", i));
-    if (chunk.mesh == kNoMesh)
-      r.explain("none");
-    chunk.segment = r.u32(fmt::format("chunk {} segment", i));
-    if (chunk.segment == kNoSegment)
-      r.explain("none");
     chunk.checksum = r.hex32(fmt::format("chunk {} checksum", i));
-    chunk.offset = r.u64(fmt::format("chunk {} offset", i));
-    chunk.size = r.u64(fmt::format("chunk {} size", i));
+    const uint8_t flags = r.u8(fmt::format("chunk {} flags", i));
+    r.explain(flags & 1 ? "required" : "optional");
+    if (flags & 2)
+      chunk.mesh = static_cast<uint16_t>(r.varint(fmt::format("chunk {} mesh", i)));
+    if (flags & 4)
+      chunk.segment = static_cast<uint32_t>(r.varint(fmt::format("chunk {} segment", i)));
+    chunk.size = r.varint(fmt::format("chunk {} size", i));
     if (r.ok())
       chunks.push_back(chunk);
+  }
+  uint64_t at = out.back().offset + out.back().size;
+  for (Chunk& chunk : chunks) {
+    chunk.offset = at;
+    at += std::min(chunk.size, UINT64_MAX - at);
   }
   return chunks;
 }
@@ -247,7 +249,6 @@ std::vector<ListedField> list_fields(ByteView file) {
   for (const Chunk& chunk : chunks) {
     if (chunk.offset < at || chunk.offset > file.size || chunk.size > file.size - chunk.offset)
       break;
-    gap_to(chunk.offset, "padding");
     size_t begin = out.size();
     list_payload(chunk, {file.data + chunk.offset, static_cast<size_t>(chunk.size)}, frames, out);
     for (size_t i = begin; i < out.size(); ++i)

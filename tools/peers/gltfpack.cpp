@@ -25,7 +25,7 @@ namespace anicodec::peers {
 namespace {
 
 constexpr int kFewestBits = 6, kMostBits = 16;
-// Of the animation; gltfpack resamples at whole rates, this one without being asked.
+// The rate of the animation; gltfpack resamples at whole rates, this one without being asked.
 constexpr FrameRate kRate{30, 1, false};
 
 /// Runs gltfpack with its output in a file; true when it ends well.

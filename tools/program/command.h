@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What all commands share. Each has a file of its own, command_NAME.cpp.
+// Shared by all commands, each of which has its file, command_NAME.cpp.
 #ifndef ANICODEC_TOOLS_PROGRAM_COMMAND_H_
 #define ANICODEC_TOOLS_PROGRAM_COMMAND_H_
 

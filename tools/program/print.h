@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What a command says, on the standard output. Whatever names stand in it, it moves no cursor.
+// A command's words on the standard output. Names in them move no cursor.
 #ifndef ANICODEC_TOOLS_PROGRAM_PRINT_H_
 #define ANICODEC_TOOLS_PROGRAM_PRINT_H_
 

@@ -133,7 +133,7 @@ void Box::add(std::span<const float> positions) {
 
 namespace {
 
-/// What normals are made from, without positions.
+/// The surface that normals are made from, without positions.
 MeshSequence surface_of(const MeshSequence& sequence) {
   MeshSequence surface;
   surface.polygons = sequence.polygons;

@@ -21,7 +21,7 @@ struct Box {
   void add(std::span<const float> positions);
 };
 
-/// Where the clip is seen from. Angles in degrees: azimuth about the up axis, from the front.
+/// The view of the clip. Angles in degrees: azimuth about the up axis, from the front.
 struct Camera {
   double azimuth = 30;
   double elevation = 15;

@@ -3,28 +3,27 @@
 #include "tools/render/viewer_page.h"
 
 #include "codec/sequence/error.h"
+#include "tools/io/files/own_file.h"
 #include "tools/render/html_text.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 namespace anicodec::tools {
 namespace {
 
-/// Where the viewer's page has room for clips.
+/// The place of the clips in the viewer's page.
 constexpr std::string_view kMark = "<!-- the clip -->";
 
 }  // namespace
 
 std::string find_viewer() {
-  std::error_code none;
-  const std::filesystem::path command = std::filesystem::read_symlink("/proc/self/exe", none);
-  for (const std::filesystem::path& path :
-       {command.parent_path().parent_path() / "share/anicodec/viewer.html",
-        std::filesystem::path(ANICODEC_VIEWER)}) {
+  const std::filesystem::path folder = own_file().parent_path(),
+                              page_there = "share/anicodec/viewer.html";
+  for (const std::filesystem::path& path : {folder / page_there, folder.parent_path() / page_there,
+                                            std::filesystem::path(ANICODEC_VIEWER)}) {
     std::ifstream file(path, std::ios::binary);
     std::string page{std::istreambuf_iterator<char>(file), {}};
     if (page.find(kMark) != std::string::npos)

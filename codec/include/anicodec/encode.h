@@ -65,7 +65,7 @@ ANIC_API const char* anic_get_encoder_text(const anic_encoder* encoder);
 
 /* ---- what is encoded ------------------------------------------------------------------------- */
 
-/** The clip: what all meshes share. Spec: 04. */
+/** A clip: what all meshes share. Spec: 04. */
 typedef struct anic_source_clip {
   size_t struct_size;
   const char* name; /**< UTF-8; NULL: none */
@@ -86,6 +86,16 @@ typedef struct anic_source_clip {
  * - Errors: ANIC_E_ARGUMENT, ANIC_E_MEMORY
  */
 ANIC_API anic_status anic_set_source_clip(anic_encoder* encoder, const anic_source_clip* clip);
+
+/**
+ * Adds a clip to a file of several: its frames come behind those that are there, and every mesh has the
+ * frames of all clips, one after the other. Names differ; axis and unit are those of the first clip. To
+ * be called before meshes are added, of which such a file has one, shown in all frames.
+ *
+ * - Errors: ANIC_E_STATE: anic_set_source_clip() comes first, meshes later; ANIC_E_ARGUMENT;
+ *   ANIC_E_MEMORY
+ */
+ANIC_API anic_status anic_add_source_clip(anic_encoder* encoder, const anic_source_clip* clip);
 
 /** How a coordinate of the host is stored. */
 enum anic_scalar ANIC_INT32 {
@@ -269,7 +279,7 @@ typedef struct anic_encode_options {
   double normal_error;      /**< degrees: normals and tangents of frame 0 as numbers that are not
                                further off; 0: hard edges alone */
   anic_encode_progress progress;
-  anic_writer writer; /**< gets the file instead of anic_encoding */
+  anic_writer writer;   /**< gets the file instead of anic_encoding */
   anic_opening opening; /**< what to make short: the file, or the time until it is open */
 } anic_encode_options;
 

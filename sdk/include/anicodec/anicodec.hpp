@@ -394,7 +394,7 @@ class RenderPlan {
 
   anic_render_plan* get() const { return handle_.get(); }
 
-  /// What it holds; all 0 without a plan.
+  /// The plan's counts; all 0 without a plan.
   anic_render_info info() const {
     anic_render_info info = ANIC_INIT(anic_render_info);
     anic_get_render_info(get(), &info);

@@ -8,11 +8,12 @@
 """
 from ._anicodec import version as __version__
 from ._batch import Result, batch
-from .clip import Attribute, Clip, ClipInfo, Material, Mesh, open
-from .encoder import Encoded, SourceMesh, encode, encode_meshes
+from .clip import Attribute, Clip, ClipInfo, Mesh, open
+from .encoder import Encoded, SourceClip, SourceMesh, encode, encode_meshes
 from .errors import (AbsentError, AnicodecError, Cancelled, CorruptError, FrameError, InputError, InternalError,
                      LimitError, UnsupportedError)
+from .material import Material
 
 __all__ = ["AbsentError", "AnicodecError", "Attribute", "Cancelled", "Clip", "ClipInfo", "CorruptError", "Encoded",
-           "FrameError", "InputError", "InternalError", "LimitError", "Material", "Mesh", "Result", "SourceMesh",
-           "UnsupportedError", "__version__", "batch", "encode", "encode_meshes", "open"]
+           "FrameError", "InputError", "InternalError", "LimitError", "Material", "Mesh", "Result", "SourceClip",
+           "SourceMesh", "UnsupportedError", "__version__", "batch", "encode", "encode_meshes", "open"]

@@ -6,19 +6,21 @@ from __future__ import annotations
 import builtins
 import os
 from fractions import Fraction
-from typing import Any, Dict, Iterator, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, Iterator, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _anicodec, _arrays, _page
 from ._convert import to_package
 from .errors import FrameError, InputError
+from .material import Material, from_file
 
 _SAMPLING = {"step": 0, "linear": 1, "cubic": 2}
 _WRAP = {"clamp": 0, "loop": 1, "ping-pong": 2}
 KINDS = ("uv", "normal", "tangent", "colour", "custom", "material", "part")
 DOMAINS = ("vertices", "corners", "polygons")
 UP = (None, "y", "z")
+Blend = Tuple[Union[int, str], float, float]  #: a clip, seconds of it, and its weight
 
 
 def chosen(table: Dict[str, int], name: str, what: str) -> int:
@@ -26,26 +28,6 @@ def chosen(table: Dict[str, int], name: str, what: str) -> int:
     if name not in table:
         raise InputError(f"{what} is one of {', '.join(table)}, not {name!r}")
     return table[name]
-
-
-ALPHA_MODES = ("opaque", "mask", "blend")
-
-
-class Material(NamedTuple):
-    """The look of a material, in the terms of glTF 2.0. Textures are paths or names as in the source, "" for none."""
-
-    base_colour: Tuple[float, float, float, float]  #: linear RGBA
-    metallic: float
-    roughness: float
-    emissive: Tuple[float, float, float]  #: linear RGB
-    alpha: str  #: opaque, mask or blend
-    alpha_cutoff: float  #: of mask
-    double_sided: bool
-    base_colour_texture: str
-    metallic_roughness_texture: str
-    normal_texture: str
-    occlusion_texture: str
-    emissive_texture: str
 
 
 class Attribute(NamedTuple):
@@ -60,10 +42,6 @@ class Attribute(NamedTuple):
     looks: Tuple[Optional[Material], ...] = ()  #: of materials: one for each name, None where it is unknown
 
 
-def _material(look: Optional[Dict[str, Any]]) -> Optional[Material]:
-    return None if look is None else Material(**{**look, "alpha": ALPHA_MODES[look["alpha"]]})
-
-
 class ClipInfo(NamedTuple):
     """A clip of a file that holds one or more: frames first_frame .. first_frame + frame_count - 1."""
 
@@ -73,6 +51,17 @@ class ClipInfo(NamedTuple):
     duration: float  #: seconds from its first frame to its last
     loop_duration: float  #: seconds of one turn, when it goes round
     loop: bool  #: it is meant to go round
+    fps: Fraction
+    start_time: float  #: of its first frame on the clock of the source, seconds
+    max_error: float  #: its promise, in units of the file, and so are those that follow
+    rmse: float
+    kg: float  #: per cent
+    opened: bool  #: see open(); frames of others are absent
+
+    @property
+    def frames(self) -> slice:
+        """Its frames: `clip[info.frames]`."""
+        return slice(self.first_frame, self.first_frame + self.frame_count)
 
 
 class Mesh:
@@ -121,7 +110,7 @@ class Mesh:
                 a = self._asset.attribute(self._number, i)
                 found.append(Attribute(a["name"], KINDS[a["kind"]], DOMAINS[a["domain"]], a["values"],
                                        tuple(a.get("labels", ())), a["moves"],
-                                       tuple(_material(look) for look in a.get("looks", ()))))
+                                       tuple(from_file(look) for look in a.get("looks", ()))))
             self._attributes = tuple(found)
         return self._attributes
 
@@ -160,25 +149,42 @@ class Mesh:
         return result
 
     def at(self, seconds: float, loop: bool = False, sampling: str = "linear", wrap: Optional[str] = None,
-           out: Optional[np.ndarray] = None) -> np.ndarray:
-        """Positions at a time, 0 is frame 0: vertices x 3, float32.
+           out: Optional[np.ndarray] = None, clip: Union[None, int, str] = None, blend: Optional[Blend] = None,
+           blend_wrap: Optional[str] = None) -> np.ndarray:
+        """Positions at a time, 0 is the first frame of the clip: vertices x 3, float32.
 
         sampling: step, linear or cubic. loop=True or wrap="loop": the clip goes round; wrap: clamp, loop, ping-pong.
+        clip: name or number of one of the file, else the first that is open. blend: a clip, a time of it and a
+        weight: 0 shows nothing of it, 1 it alone; blend_wrap: of that clip, else as the other. Raises AbsentError
+        where a clip was not opened.
         """
         result = _arrays.output(out, (self.vertex_count, 3))
-        ends = _WRAP["loop"] if loop and wrap is None else chosen(_WRAP, wrap or "clamp", "wrap")
-        self._asset.at(self._number, float(seconds), chosen(_SAMPLING, sampling, "sampling"), ends, result)
+        moment = self._moment(seconds, loop, sampling, wrap, clip, blend, blend_wrap)
+        self._asset.at(self._number, *moment, result)
         return result
 
+    def _moment(self, seconds: float, loop: bool, sampling: str, wrap: Optional[str], clip: Union[None, int, str],
+                blend: Optional[Blend], blend_wrap: Optional[str]) -> tuple:
+        """Clip, time, sampling, wrap, and what is blended into them, as the extension module takes them."""
+        ends = chosen(_WRAP, wrap or ("loop" if loop else "clamp"), "wrap")
+        if blend is None:
+            blended = (0, 0.0, ends, 0.0)
+        else:
+            other, moment, weight = blend
+            ends_of_other = ends if blend_wrap is None else chosen(_WRAP, blend_wrap, "wrap")
+            blended = (self._clip.clip_number(other), float(moment), ends_of_other, float(weight))
+        return (self._clip.clip_number(clip), float(seconds), chosen(_SAMPLING, sampling, "sampling"), ends, *blended)
+
     def attribute_at(self, number: int, seconds: float, loop: bool = False, sampling: str = "linear",
-                     out: Optional[np.ndarray] = None) -> np.ndarray:
-        """Values of attribute `number` of the vertices at a time: vertices x components, float32."""
+                     out: Optional[np.ndarray] = None, clip: Union[None, int, str] = None,
+                     blend: Optional[Blend] = None) -> np.ndarray:
+        """Values of attribute `number` of the vertices at a time: vertices x components, float32. See at()."""
         if not 0 <= number < len(self.attributes) or self.attributes[number].domain != "vertices":
             raise InputError(f"there is no attribute {number} of vertices")
         shape = (self.vertex_count, self.attributes[number].values.shape[1])
         result = _arrays.output(out, shape)
-        self._asset.attribute_at(self._number, number, float(seconds), chosen(_SAMPLING, sampling, "sampling"),
-                                 int(loop), result, self.vertex_count)
+        moment = self._moment(seconds, loop, sampling, None, clip, blend, None)
+        self._asset.attribute_at(self._number, number, *moment, result, self.vertex_count)
         return result
 
     def normals(self, frame: Union[int, np.ndarray], crease: float = 0, per_corner: bool = False,
@@ -216,14 +222,15 @@ class Clip:
     """An opened .anic file. With one mesh it is used as that: `clip[10]`, `clip.at(0.5)`, `clip.faces`; with several,
     `clip.meshes` has them. Can be pickled; threads may share it."""
 
-    def __init__(self, data: bytes, quality: float = 1.0, max_bytes: int = 0):
+    def __init__(self, data: bytes, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = ()):
         self.data = bytes(data)  #: the file
-        self._asset = _anicodec.Asset(self.data, quality, max_bytes)
-        self._quality, self._max_bytes = quality, max_bytes
+        self._asset = _anicodec.Asset(self.data, quality, max_bytes, list(clips))
+        self._arguments = (quality, max_bytes, tuple(clips))
         self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
         self.info["up"] = UP[self.info["up"]]
         self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
-        self.clips = tuple(ClipInfo(**c) for c in self._asset.clips())  #: what the file holds; frames count through it
+        #: What the file holds; frames count through it.
+        self.clips = tuple(ClipInfo(**{**c, "fps": Fraction(*c["fps"])}) for c in self._asset.clips())
 
     @property
     def name(self) -> str:
@@ -250,8 +257,18 @@ class Clip:
             raise InputError(f"the clip has {len(self.meshes)} meshes: choose one of clip.meshes")
         return self.meshes[0]
 
+    def clip_number(self, clip: Union[None, int, str]) -> int:
+        """The number of a clip of the file by its name or number; None: of the first that is open. Raises
+        InputError."""
+        if clip is None:
+            return next(number for number, info in enumerate(self.clips) if info.opened)
+        for number, info in enumerate(self.clips):
+            if clip in (number, info.name):
+                return number
+        raise InputError(f"there is no clip {clip!r}: the file has {', '.join(info.name for info in self.clips)}")
+
     def time(self, frame: int) -> float:
-        """Seconds at which a frame is shown."""
+        """Seconds at which a frame is shown, from the first of its clip on."""
         return self._asset.frame_time(range(self.frame_count)[frame])
 
     def verify(self) -> None:
@@ -285,7 +302,7 @@ class Clip:
         raise AttributeError(f"a clip has no {name}")
 
     def __reduce__(self) -> tuple:
-        return Clip, (self.data, self._quality, self._max_bytes)
+        return Clip, (self.data, *self._arguments)
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
@@ -299,11 +316,12 @@ _OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "p
             "vertex_count"}
 
 
-def open(source: Any, quality: float = 1.0, max_bytes: int = 0) -> Clip:  # noqa: A001
+def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = ()) -> Clip:  # noqa: A001
     """Opens a clip: a path, bytes (anything with the buffer protocol), or a file open for reading.
 
     quality: share of the components to open, in (0, 1]. max_bytes: of memory, else LimitError; 0: by the size of the
-    file. Raises OSError, CorruptError, UnsupportedError, LimitError.
+    file. clips: names of those to open of a file with several, none for all. Raises OSError, CorruptError,
+    UnsupportedError, LimitError, AbsentError: no clip has this name.
     """
     if isinstance(source, (str, os.PathLike)):
         with builtins.open(source, "rb") as file:
@@ -312,4 +330,4 @@ def open(source: Any, quality: float = 1.0, max_bytes: int = 0) -> Clip:  # noqa
         source = source.read()
     if isinstance(source, str):
         raise TypeError("the file must be open in binary mode")
-    return Clip(bytes(memoryview(source)), quality, max_bytes)
+    return Clip(bytes(memoryview(source)), quality, max_bytes, clips)

@@ -12,6 +12,7 @@ import numpy as np
 from . import _anicodec, _arrays
 from .clip import DOMAINS, KINDS, UP, chosen
 from .errors import InputError
+from .material import Material, to_file
 
 _PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES = 1, 2, 4, 8
 _GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5}
@@ -47,9 +48,22 @@ class SourceMesh:
     colours: Any = None  #: vertices x 3 or 4, corners x 3 or 4, frames x vertices x 3 or 4; 0 to 1
     normals: Any = None  #: vertices x 3 or corners x 3
     custom: Mapping[str, Any] = field(default_factory=dict)  #: other numbers, as colours
-    materials: Optional[Tuple[Sequence[str], Any]] = None  #: names, and for each polygon a number of one or -1
+    #: names, and for each polygon a number of one or -1; then maybe looks: for each name a Material, or None
+    materials: Optional[Tuple[Any, ...]] = None
     parts: Optional[Tuple[Sequence[str], Any]] = None  #: the same of objects
     runs: Sequence[Tuple[int, int]] = ()  #: first and count of the frames that show it; none: all
+
+
+@dataclass
+class SourceClip:
+    """A clip of a file with several; what is None is as encode() says."""
+
+    name: str
+    frame_count: int
+    fps: Any = None
+    loop: Optional[bool] = None
+    start_time: float = 0
+    times: Any = None  #: seconds of its frames, from 0 on; None: evenly by the rate
 
 
 def _length(value: Any, name: str) -> Tuple[float, bool]:
@@ -181,20 +195,45 @@ class _Adder:
                              f"not {_arrays.shape_text(values)}")
         domain = DOMAINS.index("vertices" if elements == vertices else "corners")
         self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, values.shape[-1], frames, values,
-                                    None, [])
+                                    None, [], [])
 
-    def _labels(self, kind: str, names: Sequence[str], of_polygon: Any) -> None:
+    def _labels(self, kind: str, names: Sequence[str], of_polygon: Any,
+                looks: Sequence[Optional[Material]] = ()) -> None:
         labels = np.asarray(of_polygon)
         if labels.shape != (self._counts[2],):
             raise InputError(f"{kind}s must be a number for each of {self._counts[2]} polygons, "
                              f"not {_arrays.shape_text(labels)}")
         self._encoder.add_attribute(self._number, "", KINDS.index(kind), DOMAINS.index("polygons"), 0, 1, None,
-                                    _arrays.indices(labels.astype(np.int64) + 1, kind), list(names))
+                                    _arrays.indices(labels.astype(np.int64) + 1, kind), list(names),
+                                    to_file(looks, names))
+
+
+def _clock(clip: SourceClip, fps: Any, loop: bool) -> Tuple[int, int, bool, float, Optional[np.ndarray]]:
+    """Rate, loop, start and times of a clip as the extension module takes them."""
+    table = None if clip.times is None else np.ascontiguousarray(clip.times, dtype=np.float64)
+    if table is not None and table.shape != (clip.frame_count,):
+        raise InputError(f"times must be {clip.frame_count} seconds, not {_arrays.shape_text(table)}")
+    return (*_rate(fps if clip.fps is None else clip.fps), loop if clip.loop is None else clip.loop, clip.start_time,
+            table)
+
+
+def _add_clips(encoder: Any, clips: Sequence[SourceClip], frame_count: int, fps: Any, loop: bool, up: int,
+               metres: float) -> None:
+    for clip in clips:
+        if clip.frame_count < 1:
+            raise InputError(f"clip {clip.name!r} has no frame")
+    frames = sum(clip.frame_count for clip in clips)
+    if frames != frame_count:
+        raise InputError(f"the clips have {frames} frames, the positions {frame_count}")
+    for clip in clips:
+        numerator, denominator, loops, start, table = _clock(clip, fps, loop)
+        encoder.add_clip(clip.name, clip.frame_count, numerator, denominator, up, loops, start, metres, table)
 
 
 def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = None, fps: Any = None, name: str = "",
                   times: Any = None, start_time: float = 0, up: Optional[str] = None,
-                  unit: Union[None, float, str] = None, loop: bool = False, progress: Optional[Progress] = None,
+                  unit: Union[None, float, str] = None, loop: bool = False,
+                  clips: Optional[Sequence[SourceClip]] = None, progress: Optional[Progress] = None,
                   **options: Any) -> Encoded:
     """Encodes several meshes to one file; arguments and options are those of encode().
 
@@ -214,14 +253,14 @@ def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = 
         raise InputError(f"unit is a number of metres or one of {', '.join(_UNITS)}, not {unit!r}")
     if up not in UP:
         raise InputError(f"up is 'y', 'z' or None, not {up!r}")
-    numerator, denominator = _rate(fps)
-    table = None if times is None else np.ascontiguousarray(times, dtype=np.float64)
-    if table is not None and table.shape != (frame_count,):
-        raise InputError(f"times must be {frame_count} seconds, not {_arrays.shape_text(table)}")
     if frame_count < 1 or frame_count >= 2**24:
         raise InputError("the sequence has no frame" if frame_count < 1 else "at most 2^24 - 1 frames are possible")
+    if clips is not None and (name or times is not None or start_time != 0):
+        raise InputError("name, times and start_time are those of each clip")
+    if clips is None:
+        clips = [SourceClip(name, frame_count, start_time=start_time, times=times)]
     encoder = _anicodec.Encoder()
-    encoder.set_clip(name, frame_count, numerator, denominator, UP.index(up), loop, start_time, metres, table)
+    _add_clips(encoder, clips, frame_count, fps, loop, UP.index(up), metres)
     keep: List[_Adder] = [_Adder(encoder, i, mesh, frame_count) for i, mesh in enumerate(meshes)]
     data, measured = encoder.encode(choices, progress)
     del keep
@@ -242,10 +281,12 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
         size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other.
     uv, colours, normals, custom, materials, parts: see SourceMesh.
     fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop: stored.
+    clips: several SourceClip in one file that share what they can; positions have their frames, one after the other.
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
-        interpolation ("linear", "msgi", "auto"), keyframe_coder ("draco", "native", "auto"), massage ("off", "on", "auto"), massage_strength, massage_tolerance,
-        order ("vertices", "none", "faces"), effort (1 to 9), opening ("small", "auto", "fast"), uv_bits, colour_bits,
-        attribute_error, normal_error (degrees), no_attributes: as of the command.
+        interpolation ("linear", "msgi", "auto"), keyframe_coder ("draco", "native", "auto"), massage ("off", "on",
+        "auto"), massage_strength, massage_tolerance, order ("vertices", "none", "faces"), effort (1 to 9), opening
+        ("small", "auto", "fast"), uv_bits, colour_bits, attribute_error, normal_error (degrees), no_attributes: as of
+        the command.
     threads: 0 for all. max_bytes: of memory, else LimitError.
     progress: a function of the stage and the share of it that is done; False from it raises Cancelled, and what it
         raises ends the encoding too.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What the files of the extension module share.
+// Helpers shared by the files of the extension module.
 #ifndef ANICODEC_SDK_PYTHON_BINDING_BINDING_H_
 #define ANICODEC_SDK_PYTHON_BINDING_BINDING_H_
 
@@ -64,6 +64,7 @@ void check_status(anic_status status);
 Polygons polygons_of(const Array<uint32_t>& offsets, const Array<uint32_t>& corners);
 
 void bind_clip(nb::module_& module);
+void bind_command(nb::module_& module);
 void bind_encoder(nb::module_& module);
 void bind_library(nb::module_& module);
 

@@ -57,8 +57,14 @@ class NormalPlan {
 /// An opened file, with a context for times between frames.
 class Asset {
  public:
-  Asset(const nb::bytes& file, double quality, uint64_t max_bytes) {
+  Asset(const nb::bytes& file, double quality, uint64_t max_bytes,
+        const std::vector<std::string>& clips) {
     anic_options options = ANIC_INIT(anic_options);
+    std::vector<const char*> names;
+    for (const std::string& name : clips)
+      names.push_back(name.c_str());
+    options.clips = names.data();
+    options.clip_count = static_cast<uint32_t>(names.size());
     options.quality = quality;
     options.max_bytes = max_bytes;
     anic_failure failure = ANIC_INIT(anic_failure);
@@ -219,28 +225,32 @@ class Asset {
     }
   }
 
-  /// Fills vertices x 3 with a time.
-  void at(uint32_t mesh, double seconds, int sampling, int wrap, Writable<float> out) {
+  /// Fills vertices x 3 with a moment.
+  void at(uint32_t mesh, uint32_t clip, double seconds, int sampling, int wrap, uint32_t other,
+          double other_seconds, int other_wrap, double weight, Writable<float> out) {
     anic_output output = ANIC_INIT(anic_output);
     output.data = out.data();
     output.size = out.nbytes();
     const auto vertices = static_cast<uint32_t>(out.nbytes() / (3 * sizeof(float)));
     const nb::gil_scoped_release release;
     const std::lock_guard<std::mutex> lock(mutex_);
-    seek(seconds, sampling, wrap);
+    seek(clip, seconds, sampling, wrap);
+    blend(other, other_seconds, sampling, other_wrap, weight);
     check_status(
         anic_write_positions(context_.get(), mesh, ANIC_WHEN_CURRENT, 0, vertices, &output));
   }
 
-  /// Fills vertices x components with an attribute at a time.
-  void attribute_at(uint32_t mesh, uint32_t attribute, double seconds, int sampling, int wrap,
+  /// Fills vertices x components with an attribute at a moment.
+  void attribute_at(uint32_t mesh, uint32_t attribute, uint32_t clip, double seconds, int sampling,
+                    int wrap, uint32_t other, double other_seconds, int other_wrap, double weight,
                     Writable<float> out, uint32_t vertices) {
     anic_value_output output = ANIC_INIT(anic_value_output);
     output.data = out.data();
     output.size = out.nbytes();
     const nb::gil_scoped_release release;
     const std::lock_guard<std::mutex> lock(mutex_);
-    seek(seconds, sampling, wrap);
+    seek(clip, seconds, sampling, wrap);
+    blend(other, other_seconds, sampling, other_wrap, weight);
     check_status(anic_write_attribute(context_.get(), mesh, attribute, ANIC_WHEN_CURRENT, 0,
                                       vertices, &output));
   }
@@ -269,6 +279,12 @@ class Asset {
       d["duration"] = clip.duration;
       d["loop_duration"] = clip.loop_duration;
       d["loop"] = clip.loop != 0;
+      d["fps"] = nb::make_tuple(clip.rate_numerator, clip.rate_denominator);
+      d["start_time"] = clip.start_time;
+      d["max_error"] = clip.max_error;
+      d["rmse"] = clip.rmse;
+      d["kg"] = clip.kg;
+      d["opened"] = clip.open != 0;
       all.append(d);
     }
     return all;
@@ -301,9 +317,16 @@ class Asset {
            (failure.chunk[0] ? ", chunk " + std::string(failure.chunk) : "") + ": " + text;
   }
 
-  void seek(double seconds, int sampling, int wrap) {
+  void seek(uint32_t clip, double seconds, int sampling, int wrap) {
+    check_status(anic_set_clip(context_.get(), clip));
     check_status(anic_seek_time(context_.get(), seconds, static_cast<anic_sampling>(sampling),
                                 static_cast<anic_wrap>(wrap)));
+  }
+
+  void blend(uint32_t clip, double seconds, int sampling, int wrap, double weight) {
+    if (weight != 0)
+      check_status(anic_blend(context_.get(), clip, seconds, static_cast<anic_sampling>(sampling),
+                              static_cast<anic_wrap>(wrap), weight));
   }
 
   /// Frames of a segment that needs the memory of a context.
@@ -330,7 +353,7 @@ void bind_clip(nb::module_& module) {
       .def_prop_ro("count", &NormalPlan::count)
       .def("write", &NormalPlan::write);
   nb::class_<Asset>(module, "Asset")
-      .def(nb::init<const nb::bytes&, double, uint64_t>())
+      .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&>())
       .def("info", &Asset::info)
       .def("mesh", &Asset::mesh)
       .def("polygons", &Asset::polygons)

@@ -6,6 +6,7 @@
 
 #include <anicodec/encode.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -63,6 +64,30 @@ int read_frame(void* user, uint32_t frame, float* positions) {
   });
 }
 
+/// Numbers and textures of a material in the order of anic_material, the kind of alpha and double_sided
+/// behind the other numbers.
+using Look = std::pair<std::vector<float>, std::vector<std::string>>;
+
+anic_material material_of(const Look& look) {
+  const auto& [numbers, textures] = look;
+  if (numbers.size() != 12 || textures.size() != 5)
+    throw nb::value_error("a material has 12 numbers and 5 textures");
+  anic_material m = ANIC_INIT(anic_material);
+  std::copy_n(numbers.begin(), 4, m.base_colour);
+  m.metallic = numbers[4];
+  m.roughness = numbers[5];
+  std::copy_n(numbers.begin() + 6, 3, m.emissive);
+  m.alpha_cutoff = numbers[9];
+  m.alpha = static_cast<anic_alpha>(numbers[10]);
+  m.double_sided = numbers[11] != 0;
+  m.base_colour_texture = textures[0].c_str();
+  m.metallic_roughness_texture = textures[1].c_str();
+  m.normal_texture = textures[2].c_str();
+  m.occlusion_texture = textures[3].c_str();
+  m.emissive_texture = textures[4].c_str();
+  return m;
+}
+
 class Encoder {
  public:
   Encoder() {
@@ -71,7 +96,8 @@ class Encoder {
     encoder_.reset(encoder);
   }
 
-  void set_clip(const std::string& name, uint32_t frames, uint32_t numerator, uint32_t denominator,
+  /// The first, or one more.
+  void add_clip(const std::string& name, uint32_t frames, uint32_t numerator, uint32_t denominator,
                 int up, bool loop, double start, double unit,
                 const std::optional<Array<double>>& times) {
     anic_source_clip clip = ANIC_INIT(anic_source_clip);
@@ -84,7 +110,9 @@ class Encoder {
     clip.start_time = start;
     clip.metres_per_unit = unit;
     clip.times = times ? times->data() : nullptr;
-    check(anic_set_source_clip(encoder_.get(), &clip));
+    check(has_clip_ ? anic_add_source_clip(encoder_.get(), &clip)
+                    : anic_set_source_clip(encoder_.get(), &clip));
+    has_clip_ = true;
   }
 
   /// Positions: an array frames x vertices x 3 whose last axis is packed, or a function of a frame.
@@ -96,7 +124,8 @@ class Encoder {
                      uint32_t components, uint32_t frames,
                      const std::optional<Array<float>>& values,
                      const std::optional<Array<uint32_t>>& labels,
-                     const std::vector<std::string>& names) {
+                     const std::vector<std::string>& names,
+                     const std::vector<std::optional<Look>>& looks) {
     anic_source_attribute attribute = ANIC_INIT(anic_source_attribute);
     attribute.name = name.c_str();
     attribute.kind = static_cast<anic_attribute_kind>(kind);
@@ -110,6 +139,13 @@ class Encoder {
       texts.push_back(text.c_str());
     attribute.label_names = texts.data();
     attribute.label_count = static_cast<uint32_t>(texts.size());
+    std::vector<anic_material> materials;
+    for (const std::optional<Look>& look : looks)
+      materials.push_back(look ? material_of(*look) : anic_material{});
+    std::vector<const anic_material*> known;
+    for (size_t i = 0; i < looks.size(); ++i)
+      known.push_back(looks[i] ? &materials[i] : nullptr);
+    attribute.materials = known.empty() ? nullptr : known.data();
     check(anic_add_source_attribute(encoder_.get(), mesh, &attribute));
   }
 
@@ -122,6 +158,7 @@ class Encoder {
   }
 
   std::unique_ptr<anic_encoder, DestroyEncoder> encoder_;
+  bool has_clip_ = false;
   std::vector<nb::ndarray<nb::ro, nb::device::cpu>> arrays_;  ///< kept until they are read
   std::vector<std::unique_ptr<Callback>> readers_;
   std::optional<nb::python_error> thrown_;
@@ -223,13 +260,13 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
 void bind_encoder(nb::module_& module) {
   nb::class_<Encoder>(module, "Encoder")
       .def(nb::init<>())
-      .def("set_clip", &Encoder::set_clip, nb::arg("name"), nb::arg("frames"), nb::arg("numerator"),
+      .def("add_clip", &Encoder::add_clip, nb::arg("name"), nb::arg("frames"), nb::arg("numerator"),
            nb::arg("denominator"), nb::arg("up"), nb::arg("loop"), nb::arg("start"),
            nb::arg("unit"), nb::arg("times").none())
       .def("add_mesh", &Encoder::add_mesh)
       .def("add_attribute", &Encoder::add_attribute, nb::arg("mesh"), nb::arg("name"),
            nb::arg("kind"), nb::arg("domain"), nb::arg("components"), nb::arg("frames"),
-           nb::arg("values").none(), nb::arg("labels").none(), nb::arg("names"))
+           nb::arg("values").none(), nb::arg("labels").none(), nb::arg("names"), nb::arg("looks"))
       .def("encode", &Encoder::encode, nb::arg("choices"), nb::arg("progress").none());
 }
 

@@ -90,5 +90,6 @@ NB_MODULE(_anicodec, module) {
   bind_instance(module);
   bind_clip(module);
   bind_encoder(module);
+  bind_command(module);
   bind_library(module);
 }

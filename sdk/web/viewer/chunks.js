@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Where the bytes of a file are: its chunk table, as spec/05-file-layout.md has it.
-const HEADER_BYTES = 40, ENTRY_BYTES = 32;
+// The chunk table of a file, which tells where its bytes are (spec/05-file-layout.md).
+const HEADER_BYTES = 40;
 
 export const MEANINGS = {
   LIMI: 'counts', CLIP: 'clock, names', MESH: 'faces', VMAP: 'order of vertices', FMAP: 'order of faces', POSE: 'shape',
@@ -13,10 +13,22 @@ export const MEANINGS = {
 /** Chunks of a file that opens: type, bytes, share. Bytes by type, largest first. */
 export function chunkSizes(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), count = view.getUint32(12, true);
-  const sizes = new Map([['header', HEADER_BYTES + ENTRY_BYTES * count]]);
+  const sizes = new Map([['header', HEADER_BYTES + view.getUint32(36, true)]]);
+  let at = HEADER_BYTES;
+  const varint = () => {
+    let value = 0, unit = 1;
+    for (;; unit *= 128) {
+      const byte = bytes[at++];
+      value += (byte & 127) * unit;
+      if (byte < 128) return value;
+    }
+  };
   for (let i = 0; i < count; ++i) {
-    const at = HEADER_BYTES + ENTRY_BYTES * i, type = String.fromCharCode(...bytes.subarray(at, at + 4));
-    sizes.set(type, (sizes.get(type) ?? 0) + Number(view.getBigUint64(at + 24, true)));
+    const type = String.fromCharCode(...bytes.subarray(at, at + 4)), flags = bytes[at + 8];
+    at += 9;  // type, checksum, flags
+    if (flags & 2) varint();  // mesh
+    if (flags & 4) varint();  // segment
+    sizes.set(type, (sizes.get(type) ?? 0) + varint());
   }
   return [...sizes].map(([type, size]) => ({ type, size, share: size / bytes.length })).sort((a, b) => b.size - a.size);
 }

@@ -111,6 +111,21 @@ TEST(KeyframeSelection, UniformTakesTheMiddlesOfEqualParts) {
   EXPECT_THAT(select_keyframes(gram, 1, KeyframeMethod::kUniform), testing::ElementsAre(10));
 }
 
+/// Frames that repeat every five but for a little noise.
+TEST(KeyframeSelection, UniformPassesNearRepeatsOverWhileItsPartHasOthers) {
+  MovingPoints clip = random_points(20, 30, 4);
+  for (size_t f = 5; f < 20; f++) {
+    for (size_t i = 0; i < 90; i++)
+      clip.frame(f)[i] = clip.frame(f % 5)[i] + 1e-3F * static_cast<float>(i % 3);
+  }
+  const auto frames = select_keyframes(gram_of(clip), 4, KeyframeMethod::kUniform);
+  EXPECT_EQ(frames.size(), 4u);
+  std::set<uint32_t> phases;
+  for (uint32_t f : frames)
+    phases.insert(f % 5);
+  EXPECT_EQ(phases.size(), 4u);
+}
+
 TEST(KeyframeSelection, IsTheSameForAnyNumberOfThreads) {
   const MatrixXd gram = gram_of(swinging_points(90, 30, 9, 5, 0.1));
   for (KeyframeMethod method : kMethods) {

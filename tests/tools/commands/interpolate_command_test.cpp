@@ -11,6 +11,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
 namespace {
@@ -92,6 +93,14 @@ TEST(InterpolateCommand, ComparesAllMethods) {
   for (const char* word :
        {"length", "linear", "gradients", "bfs", "pml", "pmln", "msgi-v", "msgi "})
     EXPECT_THAT(outcome.out, HasSubstr(word));
+
+  outcome = anicodec({"interpolate", folder / "limb.pc2@0", folder / "limb.pc2@9", "--frame-count",
+                      "3", "--compare", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const auto methods = nlohmann::json::parse(outcome.out)["methods"];
+  ASSERT_EQ(methods.size(), 7U);
+  EXPECT_EQ(methods[0]["method"], "linear");
+  EXPECT_GT(methods[0]["length_percent"], methods[6]["length_percent"]);
 }
 
 TEST(InterpolateCommand, RefinesLengthsAndAngles) {

@@ -19,11 +19,20 @@ def _changed(settings, _context):
     move(settings.id_data, bpy.context.scene)
 
 
+def _clip_names(settings, _context, _typed):
+    try:
+        return [info.name for info in clip_of(settings.id_data).clips]
+    except (OSError, anicodec.AnicodecError):
+        return []
+
+
 class AnicodecSettings(bpy.types.PropertyGroup):
     """How a mesh follows the timeline. It stays with the mesh: saved, appended and undone with it."""
 
-    path: StringProperty(name="Clip", subtype="FILE_PATH", update=_changed)
-    number: IntProperty(name="Mesh", description="Number of the mesh in the clip", min=0, update=_changed)
+    path: StringProperty(name="File", subtype="FILE_PATH", update=_changed)
+    number: IntProperty(name="Mesh", description="Number of the mesh in the file", min=0, update=_changed)
+    clip: StringProperty(name="Clip", description="Of a file with several; none: the first", update=_changed,
+                         search=_clip_names)
     start: FloatProperty(name="Start", description="Frame of the scene that shows the first frame", default=1,
                          update=_changed)
     offset: FloatProperty(name="Offset", description="Seconds of the clip that are skipped", update=_changed)
@@ -34,6 +43,11 @@ class AnicodecSettings(bpy.types.PropertyGroup):
                        update=_changed)
     sampling: EnumProperty(name="Between Frames", items=[("linear", "Linear", ""), ("step", "Step", ""),
                                                          ("cubic", "Smooth", "")], update=_changed)
+    fade_clip: StringProperty(name="Fade To", description="Clip that fades in", update=_changed, search=_clip_names)
+    fade_start: FloatProperty(name="Its Start", description="Frame of the scene that shows the first frame of the clip "
+                              "that fades in", default=1, update=_changed)
+    fade: FloatProperty(name="Fade", description="How far it has: 0 shows nothing of it, 1 it alone; to be animated",
+                        min=0, max=1, subtype="FACTOR", update=_changed)
     paused: BoolProperty(name="Paused", description="The mesh stays as it is", update=_changed)
 
 
@@ -64,10 +78,35 @@ def _opened(key, source):
     return _clips[key]
 
 
-def clip_time(settings, scene):
-    """Seconds of the clip at the scene's frame, parts of a frame included."""
+def clip_time(settings, scene, start):
+    """Seconds of a clip that starts at a frame of the scene, at the scene's, parts of a frame included."""
     rate = scene.render.fps / scene.render.fps_base
-    return (scene.frame_current_final - settings.start) / rate * settings.speed + settings.offset
+    return (scene.frame_current_final - start) / rate * settings.speed
+
+
+def curves_of(action):
+    """The curves of an action of any version of Blender."""
+    return action.fcurves if hasattr(action, "fcurves") else \
+        [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
+         for curve in bag.fcurves]
+
+
+def _fade(mesh, scene):
+    """How far another clip fades in. Blender evaluates animation after the handler, so its curve is asked."""
+    animation = mesh.animation_data
+    curves = curves_of(animation.action) if animation and animation.action else ()
+    curve = next((curve for curve in curves if curve.data_path == "anicodec.fade"), None)
+    return mesh.anicodec.fade if curve is None else min(max(curve.evaluate(scene.frame_current_final), 0), 1)
+
+
+def shown(mesh, scene):
+    """The moment that a mesh shows in the scene's frame: arguments of anicodec.Mesh.at()."""
+    settings = mesh.anicodec
+    moment = {"seconds": clip_time(settings, scene, settings.start) + settings.offset, "wrap": settings.wrap,
+              "sampling": settings.sampling, "clip": settings.clip or None}
+    if settings.fade_clip:
+        moment["blend"] = (settings.fade_clip, clip_time(settings, scene, settings.fade_start), _fade(mesh, scene))
+    return moment
 
 
 def move(mesh, scene):
@@ -79,7 +118,7 @@ def move(mesh, scene):
         source = clip_of(mesh).meshes[settings.number]
         if source.vertex_count != len(mesh.vertices):
             raise ValueError(f"the clip has {source.vertex_count} vertices, the mesh {len(mesh.vertices)}")
-        positions = source.at(clip_time(settings, scene), sampling=settings.sampling, wrap=settings.wrap)
+        positions = source.at(**shown(mesh, scene))
     except anicodec.AbsentError:
         return  # its object is hidden then
     except (OSError, ValueError, IndexError, anicodec.AnicodecError) as error:
@@ -140,8 +179,11 @@ class AnicodecPanel(bpy.types.Panel):
     def draw(self, context):
         layout, mesh = self.layout, context.object.data
         layout.use_property_split = True
-        for name in ("path", "number", "start", "offset", "speed", "wrap", "sampling", "paused"):
+        for name in ("path", "number", "clip", "start", "offset", "speed", "wrap", "sampling", "paused"):
             layout.prop(mesh.anicodec, name)
+        if len(_clip_names(mesh.anicodec, context, "")) > 1:
+            for name in ("fade_clip", "fade_start", "fade"):
+                layout.prop(mesh.anicodec, name)
         layout.operator(AnicodecPack.bl_idname)
 
 

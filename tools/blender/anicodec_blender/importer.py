@@ -4,6 +4,7 @@
 import math
 import pathlib
 import struct
+from typing import NamedTuple
 
 import anicodec
 import bpy
@@ -29,28 +30,30 @@ class ImportAnic(bpy.types.Operator, ImportHelper):
         items=[("FOLLOW", "Clip", "The mesh follows the timeline and holds no frames"),
                ("SHAPE_KEYS", "Shape Keys", "A shape key for each frame, for files that go without the add-on"),
                ("CACHE", "Mesh Cache", "A PC2 file beside the clip, and a modifier")])
+    clip: StringProperty(name="Clip", description="Name of the clip of a file with several; none: the first")
     set_scene: BoolProperty(name="Set Rate and Range", description="Of the scene, as in the clip", default=True)
     pack: BoolProperty(name="Pack", description="Store the clip in the .blend file")
 
     def execute(self, context):
         try:
             clip = anicodec.open(self.filepath)
-            add_clip(context, clip, self.filepath, self.method, self.set_scene, self.pack)
+            chosen = clip.clips[clip.clip_number(self.clip or None)]
+            add_clip(context, clip, chosen, self.filepath, self.method, self.set_scene, self.pack)
         except (OSError, anicodec.AnicodecError) as error:
             self.report({"ERROR"}, f"{self.filepath}: {error}")
             return {"CANCELLED"}
         return {"FINISHED"}
 
 
-def add_clip(context, clip, path, method, set_scene, pack):
-    """Adds an object for each mesh of a clip to the collection of the context."""
+def add_clip(context, clip, chosen, path, method, set_scene, pack):
+    """Adds an object for each mesh of a file to the collection of the context, with the motion of one of its clips."""
     scene = context.scene
     if set_scene:
-        rate = clip.fps
+        rate = float(chosen.fps)
         scene.render.fps = max(1, round(rate))
-        scene.render.fps_base = scene.render.fps / float(rate)
+        scene.render.fps_base = scene.render.fps / rate
         scene.frame_start = 1
-        scene.frame_end = max(1, round(clip.duration * float(rate)) + 1)
+        scene.frame_end = max(1, round(chosen.duration * rate) + 1)
     scene.render.use_lock_interface = True  # the handler must not run while the viewport draws
     stem = pathlib.Path(path).stem
     for number, source in enumerate(clip.meshes):
@@ -61,9 +64,16 @@ def add_clip(context, clip, path, method, set_scene, pack):
         if clip.info["metres_per_unit"] > 0:
             item.scale = [clip.info["metres_per_unit"] / scene.unit_settings.scale_length] * 3
         context.collection.objects.link(item)
-        shown = [source.shown_in(frame) for frame in range(clip.frame_count)]
-        _hide_where_absent(item, shown, clip, scene)
-        _animate(item, mesh, source, clip, (path, number, shown), method, scene)
+        motion = _Motion(source, chosen, [source.shown_in(f) for f in range(clip.frame_count)[chosen.frames]],
+                         [_scene_frame(clip, f, scene) for f in range(clip.frame_count)[chosen.frames]])
+        _hide_where_absent(item, motion)
+        if method == "FOLLOW":
+            settings = mesh.anicodec
+            settings.number, settings.path = number, path
+            settings.clip = chosen.name if len(clip.clips) > 1 else ""
+            _follow(item, motion, scene)
+        else:
+            _store_frames(item, motion, method, f"{path}.{number}.pc2")
         if pack and method == "FOLLOW":
             follow.pack(mesh)
         context.view_layer.objects.active = item
@@ -73,27 +83,36 @@ def _scene_frame(clip, frame, scene):
     return 1 + clip.time(frame) * scene.render.fps / scene.render.fps_base
 
 
-def _animate(item, mesh, source, clip, place, method, scene):
-    path, number, shown = place
-    first = shown.index(True)
-    if method == "FOLLOW":
-        settings = mesh.anicodec
-        settings.number = number
-        settings.path = path
-        if not shown[0]:
-            meshes.set_positions(mesh, source[first])
-        follow.move(mesh, scene)
-        _allow_blur(item)
-        return
-    frames, last = [], source[first]
-    for frame, there in enumerate(shown):
-        last = source[frame] if there else last
-        frames.append(last)
-    meshes.set_positions(mesh, frames[0])
+class _Motion(NamedTuple):
+    """The frames of a mesh in a clip."""
+
+    source: anicodec.Mesh
+    clip: anicodec.ClipInfo
+    there: list  #: whether it is, in each
+    scene_frames: list
+
+    def positions(self):
+        """Of each frame; where the mesh is absent, as last before, or else first after."""
+        last = self.source[self.clip.first_frame + self.there.index(True)]
+        for number, there in enumerate(self.there):
+            last = self.source[self.clip.first_frame + number] if there else last
+            yield last
+
+
+def _follow(item, motion, scene):
+    if not motion.there[0]:
+        meshes.set_positions(item.data, next(motion.positions()))
+    follow.move(item.data, scene)
+    _allow_blur(item)
+
+
+def _store_frames(item, motion, method, cache):
+    frames = list(motion.positions())
+    meshes.set_positions(item.data, frames[0])
     if method == "SHAPE_KEYS":
-        _add_shape_keys(item, frames, clip, scene)
+        _add_shape_keys(item, frames, (motion.scene_frames[0], motion.scene_frames[-1]))
     else:
-        _add_cache(item, frames, f"{path}.{number}.pc2")
+        _add_cache(item, frames, cache)
 
 
 def _allow_blur(item):
@@ -104,7 +123,7 @@ def _allow_blur(item):
     modifier.show_viewport = False
 
 
-def _add_shape_keys(item, frames, clip, scene):
+def _add_shape_keys(item, frames, ends):
     item.shape_key_add(name="0", from_mix=False)
     keys = item.data.shape_keys
     keys.use_relative = False
@@ -112,9 +131,9 @@ def _add_shape_keys(item, frames, clip, scene):
         item.shape_key_add(name=str(frame), from_mix=False).data.foreach_set("co", positions.ravel())
     for block in keys.key_blocks:
         block.interpolation = "KEY_LINEAR"
-    for frame in (0, len(frames) - 1):
-        keys.eval_time = keys.key_blocks[frame].frame
-        keys.keyframe_insert("eval_time", frame=_scene_frame(clip, frame, scene))
+    for block, scene_frame in zip((keys.key_blocks[0], keys.key_blocks[-1]), ends):
+        keys.eval_time = block.frame
+        keys.keyframe_insert("eval_time", frame=scene_frame)
     _set_interpolation(keys, "LINEAR")
 
 
@@ -130,22 +149,19 @@ def _add_cache(item, frames, path):
     modifier.frame_start = 1
 
 
-def _hide_where_absent(item, shown, clip, scene):
-    if all(shown):
+def _hide_where_absent(item, motion):
+    if all(motion.there):
         return
-    for frame, there in enumerate(shown):
-        if frame == 0 or shown[frame - 1] != there:
+    for number, there in enumerate(motion.there):
+        if number == 0 or motion.there[number - 1] != there:
             item.hide_render = item.hide_viewport = not there
             for path in ("hide_render", "hide_viewport"):
-                item.keyframe_insert(path, frame=_scene_frame(clip, frame, scene))
+                item.keyframe_insert(path, frame=motion.scene_frames[number])
 
 
 def _set_interpolation(owner, kind):
     action = owner.animation_data.action
-    curves = action.fcurves if hasattr(action, "fcurves") else \
-        [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
-         for curve in bag.fcurves]
-    for curve in curves:
+    for curve in follow.curves_of(action):
         for point in curve.keyframe_points:
             point.interpolation = kind
 

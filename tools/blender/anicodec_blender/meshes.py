@@ -5,6 +5,8 @@ import numpy as np
 
 import bpy
 
+from . import looks
+
 
 def add_mesh(name, source):
     """A new mesh with the polygons and attributes of a mesh of a clip; its vertices are all at the origin."""
@@ -47,10 +49,17 @@ def _add_attribute(mesh, attribute, kept, corner_kept):
     elif attribute.kind == "normal" and attribute.domain == "corners":
         _mark_hard_edges(mesh, of_corners)
     elif attribute.kind == "material":
-        for label in attribute.labels:
-            mesh.materials.append(bpy.data.materials.get(label) or bpy.data.materials.new(label))
+        for label, look in zip(attribute.labels, attribute.looks):
+            mesh.materials.append(bpy.data.materials.get(label) or _new_material(label, look))
         numbers = np.maximum(attribute.values[kept].astype(np.int32) - 1, 0)
         mesh.polygons.foreach_set("material_index", numbers)
+
+
+def _new_material(name, look):
+    material = bpy.data.materials.new(name)
+    if look is not None:
+        looks.apply(material, look)
+    return material
 
 
 def corners_of(mesh):
@@ -120,7 +129,8 @@ def attributes_of(mesh):
     if names and len(mesh.polygons) > 0:
         numbers = np.empty(len(mesh.polygons), np.int32)
         mesh.polygons.foreach_get("material_index", numbers)
-        result["materials"] = (names, np.minimum(numbers, len(names) - 1))
+        result["materials"] = (names, np.minimum(numbers, len(names) - 1),
+                               [looks.look_of(material) for material in mesh.materials])
     return result
 
 

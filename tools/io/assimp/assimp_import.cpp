@@ -2,21 +2,29 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/assimp/assimp_import.h"
 
-#ifdef ANICODEC_ASSIMP
+#include "codec/sequence/mesh_sequence.h"
+#include "tools/io/base/byte_order.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/shininess.h"
 #include "tools/io/gltf/gltf_serial.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
+#include <new>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/commonMetaData.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -56,7 +64,14 @@ String texture_of(const aiMaterial& from, std::initializer_list<aiTextureType> t
   return {};
 }
 
-GltfMaterial material(const aiMaterial& from) {
+/// Whether Blender wrote a file, as it says itself.
+bool is_blenders(const aiScene& scene) {
+  aiString generator;
+  return scene.mMetaData && scene.mMetaData->Get(AI_METADATA_SOURCE_GENERATOR, generator) &&
+         std::string_view(generator.C_Str()).starts_with("Blender");
+}
+
+GltfMaterial material(const aiMaterial& from, bool blenders) {
   GltfMaterial out;
   out.name = from.GetName().C_Str();
   MaterialLook& look = out.look;
@@ -69,7 +84,8 @@ GltfMaterial material(const aiMaterial& from) {
   look.base_colour = {colour.r, colour.g, colour.b, std::min(colour.a, opacity)};
   if (look.base_colour[3] < 1)
     look.alpha = AlphaMode::kBlend;
-  from.Get(AI_MATKEY_METALLIC_FACTOR, look.metallic);
+  if (from.Get(AI_MATKEY_METALLIC_FACTOR, look.metallic) != aiReturn_SUCCESS && blenders)
+    from.Get(AI_MATKEY_REFLECTIVITY, look.metallic);  // where Blender's FBX has it
   if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, look.roughness) != aiReturn_SUCCESS &&
       from.Get(AI_MATKEY_SHININESS, shininess) == aiReturn_SUCCESS)
     look.roughness = roughness_of_shininess(shininess);
@@ -100,13 +116,13 @@ class Converter {
 
   GltfDocument convert() {
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
-      out_.materials.push_back(material(*scene_.mMaterials[i]));
+      out_.materials.push_back(material(*scene_.mMaterials[i], is_blenders(scene_)));
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i)
       out_.meshes.push_back(mesh(*scene_.mMeshes[i]));
     add_node(*scene_.mRootNode, kGltfNone);
     out_.roots = {0};
-    for (const auto& [node, mesh] : shown_)
-      show(node, mesh);
+    for (const auto& [node, meshes] : shown_)
+      show(node, meshes);
     for (unsigned i = 0; i < scene_.mNumAnimations; ++i)
       add_animation(*scene_.mAnimations[i]);
     return std::move(out_);
@@ -171,7 +187,6 @@ class Converter {
     primitive.indices = accessor(corners, 1, GltfComponent::kUint32);
     for (unsigned t = 0; t < source.mNumAnimMeshes; ++t)
       add_target(source, *source.mAnimMeshes[t], primitive, out);
-    add_weights(source, primitive);
     return out;
   }
 
@@ -184,9 +199,9 @@ class Converter {
     out.weights.push_back(static_cast<double>(shape.mWeight));
   }
 
-  void add_weights(const aiMesh& source, GltfPrimitive& primitive) {
-    if (!source.HasBones())
-      return;
+  /// Gives vertices their influences; `joint_of` has the joint of each bone in the skin.
+  void add_weights(const aiMesh& source, const std::vector<uint16_t>& joint_of,
+                   GltfPrimitive& primitive) {
     std::vector<std::vector<std::pair<uint16_t, float>>> influences(source.mNumVertices);
     size_t most = 1;
     for (unsigned b = 0; b < source.mNumBones && b < UINT16_MAX; ++b) {
@@ -195,7 +210,7 @@ class Converter {
         const aiVertexWeight& w = bone.mWeights[i];
         if (w.mVertexId >= source.mNumVertices || !(w.mWeight > 0))
           continue;
-        influences[w.mVertexId].emplace_back(static_cast<uint16_t>(b), w.mWeight);
+        influences[w.mVertexId].emplace_back(joint_of[b], w.mWeight);
         most = std::max(most, influences[w.mVertexId].size());
       }
     }
@@ -221,8 +236,8 @@ class Converter {
     node.parent = parent;
     node.matrix = column_major(source.mTransformation);
     node_of_.emplace(node.name, index);
-    for (unsigned i = 0; i < source.mNumMeshes; ++i)
-      shown_.emplace_back(index, source.mMeshes[i]);
+    if (source.mNumMeshes > 0)
+      shown_.emplace_back(index, std::vector(source.mMeshes, source.mMeshes + source.mNumMeshes));
     for (unsigned i = 0; i < source.mNumChildren; ++i) {
       const uint32_t child = add_node(*source.mChildren[i], index);
       out_.nodes[index].children.push_back(child);
@@ -230,32 +245,77 @@ class Converter {
     return index;
   }
 
-  /// Shows a mesh by a node of its own: a node of glTF has one mesh, and the skin with it.
-  void show(uint32_t parent, uint32_t mesh) {
-    const auto index = static_cast<uint32_t>(out_.nodes.size());
+  /// The bones of some meshes as one skin.
+  struct Skin {
+    GltfSkin skin;
+    std::vector<float> binds;
+    std::map<std::pair<uint32_t, std::array<float, 16>>, uint16_t> joint_of;
+  };
+
+  /// The joint of each bone of a mesh, added where it is new.
+  std::vector<uint16_t> joints_of(const aiMesh& source, Skin& skin) {
+    std::vector<uint16_t> joints;
+    for (unsigned b = 0; b < source.mNumBones; ++b) {
+      const aiBone& bone = *source.mBones[b];
+      auto found = node_of_.find(bone.mName.C_Str());
+      if (found == node_of_.end())
+        fail_input(out_.name, std::string("bone '") + bone.mName.C_Str() + "' has no node");
+      std::array<float, 16> bind;
+      std::ranges::transform(column_major(bone.mOffsetMatrix), bind.begin(),
+                             [](double x) { return static_cast<float>(x); });
+      const auto [joint, added] = skin.joint_of.try_emplace(
+          {found->second, bind}, static_cast<uint16_t>(skin.skin.joints.size()));
+      if (added) {
+        if (skin.skin.joints.size() >= UINT16_MAX)
+          fail_input(out_.name, "a skin has more than 65535 bones");
+        skin.skin.joints.push_back(found->second);
+        skin.binds.insert(skin.binds.end(), bind.begin(), bind.end());
+      }
+      joints.push_back(joint->second);
+    }
+    return joints;
+  }
+
+  /// Shows the meshes of a node, which are those of one object with several materials, as one where they
+  /// move alike; each by a node of its own otherwise.
+  void show(uint32_t parent, const std::vector<unsigned>& meshes) {
+    const bool skinned = scene_.mMeshes[meshes[0]]->HasBones();
+    const bool alike = std::ranges::all_of(meshes, [&](unsigned m) {
+      return scene_.mMeshes[m]->HasBones() == skinned && scene_.mMeshes[m]->mNumAnimMeshes == 0;
+    });
+    if (alike || meshes.size() == 1) {
+      show_as_one(parent, meshes, skinned);
+    } else {
+      for (unsigned m : meshes)
+        show_as_one(parent, {m}, scene_.mMeshes[m]->HasBones());
+    }
+  }
+
+  /// A node of glTF has one mesh, and the skin with it.
+  void show_as_one(uint32_t parent, const std::vector<unsigned>& meshes, bool skinned) {
     GltfNode node;
     node.name = out_.nodes[parent].name;
     node.parent = parent;
-    node.mesh = mesh;
-    const aiMesh& source = *scene_.mMeshes[mesh];
-    if (source.HasBones()) {
-      GltfSkin skin;
-      std::vector<float> binds;
-      for (unsigned b = 0; b < source.mNumBones; ++b) {
-        const aiBone& bone = *source.mBones[b];
-        auto found = node_of_.find(bone.mName.C_Str());
-        if (found == node_of_.end())
-          fail_input(out_.name, std::string("bone '") + bone.mName.C_Str() + "' has no node");
-        skin.joints.push_back(found->second);
-        for (double x : column_major(bone.mOffsetMatrix))
-          binds.push_back(static_cast<float>(x));
+    node.mesh = meshes[0];
+    if (skinned || meshes.size() > 1) {
+      GltfMesh together = out_.meshes[meshes[0]];
+      for (size_t i = 1; i < meshes.size(); ++i)
+        together.primitives.push_back(out_.meshes[meshes[i]].primitives[0]);
+      Skin skin;
+      for (size_t i = 0; skinned && i < meshes.size(); ++i) {
+        const aiMesh& source = *scene_.mMeshes[meshes[i]];
+        add_weights(source, joints_of(source, skin), together.primitives[i]);
       }
-      skin.inverse_binds = accessor(binds, 16, GltfComponent::kFloat);
-      node.skin = static_cast<uint32_t>(out_.skins.size());
-      out_.skins.push_back(std::move(skin));
+      if (skinned) {
+        skin.skin.inverse_binds = accessor(skin.binds, 16, GltfComponent::kFloat);
+        node.skin = static_cast<uint32_t>(out_.skins.size());
+        out_.skins.push_back(std::move(skin.skin));
+      }
+      node.mesh = static_cast<uint32_t>(out_.meshes.size());
+      out_.meshes.push_back(std::move(together));
     }
+    out_.nodes[parent].children.push_back(static_cast<uint32_t>(out_.nodes.size()));
     out_.nodes.push_back(std::move(node));
-    out_.nodes[parent].children.push_back(index);
   }
 
   /// Adds a channel; the components of each value have been put one after the other.
@@ -357,16 +417,14 @@ class Converter {
   const aiScene& scene_;
   GltfDocument out_;
   std::map<std::string, uint32_t> node_of_;
-  std::vector<std::pair<uint32_t, uint32_t>> shown_;  ///< node, mesh
+  std::vector<std::pair<uint32_t, std::vector<unsigned>>> shown_;  ///< node, meshes
 };
 
 /// Files that a scene names, such as the shapes of a skeleton: those in its folder, or all.
 class SceneFiles : public Assimp::DefaultIOSystem {
  public:
   SceneFiles(const std::string& scene, bool allow_outside)
-      : folder_(normal(std::filesystem::path(scene).parent_path())),
-        scene_(normal(scene)),
-        allow_outside_(allow_outside) {}
+      : scene_(normal(scene)), folder_(scene_.parent_path()), allow_outside_(allow_outside) {}
 
   bool Exists(const char* file) const override {
     return may_open(file) && DefaultIOSystem::Exists(file);
@@ -382,12 +440,14 @@ class SceneFiles : public Assimp::DefaultIOSystem {
   }
 
   bool may_open(const char* file) const {
+    if (*file == 0)  // has no absolute path
+      return false;
     const std::filesystem::path path = normal(file);
     const std::filesystem::path inner = path.lexically_relative(folder_);
     return allow_outside_ || path == scene_ || (!inner.empty() && *inner.begin() != "..");
   }
 
-  std::filesystem::path folder_, scene_;
+  std::filesystem::path scene_, folder_;
   bool allow_outside_;
 };
 
@@ -401,18 +461,26 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path, unsig
   return *scene;
 }
 
+/// A file as assimp read it.
+struct AssimpImport {
+  UpAxis up = UpAxis::kUnknown;
+  double metres_per_unit = 0;  ///< 0: unknown
+  std::vector<std::string> scenes;
+};
+
 void add_metadata(const aiScene& scene, AssimpImport& out) {
   int32_t axis = 0;
   if (scene.mMetaData && scene.mMetaData->Get("UpAxis", axis))
     out.up = axis == 1 ? UpAxis::kY : axis == 2 ? UpAxis::kZ : UpAxis::kUnknown;
   double centimetres = 0;
-  if (scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", centimetres))
+  float single = 0;  // as which assimp 5.2 keeps it
+  if (scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", single))
+    centimetres = static_cast<double>(single);
+  if (centimetres > 0 || (scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", centimetres)))
     out.metres_per_unit = centimetres / 100;
 }
 
-}  // namespace
-
-AssimpImport import_with_assimp(const std::string& path, uint32_t frames, bool allow_outside) {
+AssimpImport import_scenes(const std::string& path, uint32_t frames, bool allow_outside) {
   AssimpImport out;
   for (uint32_t f = 0; f < std::max(frames, 1U); ++f) {
     Assimp::Importer importer;
@@ -428,6 +496,32 @@ AssimpImport import_with_assimp(const std::string& path, uint32_t frames, bool a
   return out;
 }
 
+std::string packed(const AssimpImport& imported) {
+  std::string out;
+  append(static_cast<uint32_t>(imported.up), std::endian::native, out);
+  append(imported.metres_per_unit, std::endian::native, out);
+  for (const std::string& scene : imported.scenes) {
+    append(uint64_t{scene.size()}, std::endian::native, out);
+    out += scene;
+  }
+  return out;
+}
+
+}  // namespace
 }  // namespace anicodec::tools
 
-#endif
+extern "C" __attribute__((visibility("default"))) int anicodec_import_with_assimp(
+    const char* path, uint32_t frames, int allow_outside, void* user,
+    anicodec::tools::TakeBytes take) {
+  using namespace anicodec::tools;
+  try {
+    const std::string bytes = packed(import_scenes(path, frames, allow_outside != 0));
+    take(user, bytes.data(), bytes.size());
+    return 0;
+  } catch (const std::bad_alloc&) {
+    throw;  // the process that may take no more memory says so
+  } catch (const std::exception& e) {
+    take(user, e.what(), std::strlen(e.what()));
+    return 1;
+  }
+}

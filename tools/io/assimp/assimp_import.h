@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// The code of the child process: all of assimp, and nothing else.
+// The function of the plug-in with all of assimp, which is loaded only for a file that needs it.
 #ifndef ANICODEC_TOOLS_IO_ASSIMP_ASSIMP_IMPORT_H_
 #define ANICODEC_TOOLS_IO_ASSIMP_ASSIMP_IMPORT_H_
 
-#include "codec/sequence/mesh_sequence.h"
-
+#include <cstddef>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace anicodec::tools {
 
-/// A file as assimp read it: which way is up, metres of a unit, and a GLB for each scene.
-struct AssimpImport {
-  UpAxis up = UpAxis::kUnknown;
-  double metres_per_unit = 0;  ///< 0: unknown
-  std::vector<std::string> scenes;
-};
+constexpr const char* kAssimpPlugin = "anicodec_assimp.so";
+constexpr const char* kAssimpFunction = "anicodec_import_with_assimp";
+
+/// Takes bytes that are gone afterwards.
+using TakeBytes = void (*)(void* user, const char* bytes, size_t size);
 
 /// Reads a file with assimp, which may crash: to be called by run_guarded(). Of a file with stored
 /// frames (MD2, MD3; 0: none) each is a scene. Other files are read only in the folder of this one,
-/// unless `allow_outside`. Throws Error(kInput).
-AssimpImport import_with_assimp(const std::string& path, uint32_t frames, bool allow_outside);
+/// unless `allow_outside`. Returns 0, and gives what it read, the bytes in native order: the up axis as uint32_t,
+/// metres of a unit as double (0: unknown), and for each scene a size as uint64_t and a GLB. After a
+/// fault it returns 1, and gives a text.
+using ImportWithAssimp = int (*)(const char* path, uint32_t frames, int allow_outside, void* user,
+                                 TakeBytes take);
 
 }  // namespace anicodec::tools
 

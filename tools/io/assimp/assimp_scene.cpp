@@ -3,9 +3,7 @@
 #include "tools/io/assimp/assimp_scene.h"
 
 #include "codec/sequence/error.h"
-
-#ifdef ANICODEC_ASSIMP
-#include "tools/io/assimp/assimp_import.h"
+#include "tools/io/assimp/assimp_plugin.h"
 #include "tools/io/base/byte_order.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/files/byte_source.h"
@@ -17,12 +15,8 @@
 #include <cstdint>
 #include <string_view>
 #include <utility>
-#endif
 
 namespace anicodec::tools {
-
-#ifdef ANICODEC_ASSIMP
-
 namespace {
 
 /// How many frames an MD2 or MD3 holds, as its header says; 0 for others.
@@ -41,18 +35,18 @@ uint32_t stored_frames(const std::string& path) {
   return 0;
 }
 
-std::string packed(const AssimpImport& imported) {
-  std::string out;
-  append(static_cast<uint32_t>(imported.up), std::endian::native, out);
-  append(imported.metres_per_unit, std::endian::native, out);
-  for (const std::string& scene : imported.scenes) {
-    append(uint64_t{scene.size()}, std::endian::native, out);
-    out += scene;
-  }
-  return out;
+std::string imported(ImportWithAssimp import, const std::string& path, uint32_t frames,
+                     bool allow_outside) {
+  std::string bytes;
+  const auto take = [](void* user, const char* from, size_t size) {
+    static_cast<std::string*>(user)->assign(from, size);
+  };
+  if (import(path.c_str(), frames, allow_outside ? 1 : 0, &bytes, take) != 0)
+    throw Error(ErrorKind::kInput, bytes);
+  return bytes;
 }
 
-/// Takes apart what packed() made, trusting nothing of it; scenes point into it.
+/// Takes apart what the plug-in gave, trusting nothing of it; scenes point into it.
 class Unpacker {
  public:
   Unpacker(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
@@ -95,45 +89,64 @@ void add_stored_frame(MeshSequence frame, const std::string& path, MeshSequence&
   ++out.frame_count;
 }
 
+/// What a file holds.
+struct AssimpFile {
+  std::string bytes;
+  std::vector<std::string_view> scenes;  ///< of `bytes`
+  UpAxis up = UpAxis::kUnknown;
+  double metres_per_unit = 0;  ///< 0: unknown
+
+  void set_axes(MeshSequence& out) const {
+    out.up = up;
+    out.metres_per_unit = metres_per_unit;
+  }
+};
+
+AssimpFile read_file_by_assimp(const std::string& path, uint32_t frames,
+                               const GltfOptions& options) {
+  const GuardLimits limits = GuardLimits::for_input(file_source(path).size, options.memory_limit);
+  const ImportWithAssimp import = assimp_plugin(path);
+  AssimpFile file;
+  file.bytes = run_guarded(path, limits,
+                           [&] { return imported(import, path, frames, options.allow_outside); });
+  Unpacker in(file.bytes, path);
+  file.up = axis_of(in.number<uint32_t>());
+  const auto metres = in.number<double>();
+  file.metres_per_unit = std::isfinite(metres) && metres >= 0 ? metres : 0;
+  while (!in.at_end())
+    file.scenes.push_back(in.scene());
+  if (file.scenes.empty())
+    fail_input(path, "holds no scene");
+  return file;
+}
+
 }  // namespace
 
 MeshSequence load_assimp(const std::string& path, const GltfOptions& options) {
   constexpr FrameRate kQuakeRate{10, 1, true};
   const uint32_t frames = stored_frames(path);
-  const GuardLimits limits = GuardLimits::for_input(file_source(path).size, options.memory_limit);
-  const std::string bytes = run_guarded(path, limits, [&] {
-    return packed(import_with_assimp(path, frames, options.allow_outside));
-  });
+  const AssimpFile file = read_file_by_assimp(path, frames, options);
   GltfOptions one = options;
   if (frames > 0)
     one.clip = "none";
-  Unpacker in(bytes, path);
-  const auto up = in.number<uint32_t>();
-  const auto metres = in.number<double>();
-  MeshSequence out;
-  while (!in.at_end()) {
-    MeshSequence next = parse_gltf(in.scene(), path, {}, one);
-    if (out.frame_count == 0)
-      out = std::move(next);
-    else
-      add_stored_frame(std::move(next), path, out);
-  }
+  MeshSequence out = parse_gltf(file.scenes[0], path, {}, one);
+  for (size_t i = 1; i < file.scenes.size(); ++i)
+    add_stored_frame(parse_gltf(file.scenes[i], path, {}, one), path, out);
   if (frames > 0)
     out.rate = options.rate.value_or(kQuakeRate);
-  out.up = axis_of(up);
-  out.metres_per_unit = std::isfinite(metres) && metres >= 0 ? metres : 0;
+  file.set_axes(out);
   return out;
 }
 
-#else
-
-MeshSequence load_assimp(const std::string& path, const GltfOptions&) {
-  throw Error(ErrorKind::kUnsupported,
-              path +
-                  ": this build is without assimp, which reads this format; export the clip as "
-                  "glTF, or as OBJ with PC2 or MDD");
+std::vector<MeshSequence> load_assimp_clips(const std::string& path, const GltfOptions& options,
+                                            const std::vector<std::string>& names) {
+  if (stored_frames(path) > 0)
+    throw Error(ErrorKind::kUsage, path + ": has frames, and no clips");
+  const AssimpFile file = read_file_by_assimp(path, 0, options);
+  std::vector<MeshSequence> clips = parse_gltf_clips(file.scenes[0], path, {}, options, names);
+  for (MeshSequence& clip : clips)
+    file.set_axes(clip);
+  return clips;
 }
-
-#endif
 
 }  // namespace anicodec::tools

@@ -7,6 +7,7 @@
 #include "tools/io/gltf/gltf.h"
 
 #include <string>
+#include <vector>
 
 namespace anicodec::tools {
 
@@ -15,6 +16,11 @@ namespace anicodec::tools {
 /// those that an FBX states, else unknown. Throws Error(kInput), Error(kUnsupported) in a build
 /// without assimp.
 MeshSequence load_assimp(const std::string& path, const GltfOptions& options);
+
+/// Several animations of such a scene, as parse_gltf_clips() has those of glTF. Throws Error(kUsage) too
+/// for files with stored frames.
+std::vector<MeshSequence> load_assimp_clips(const std::string& path, const GltfOptions& options,
+                                            const std::vector<std::string>& names);
 
 }  // namespace anicodec::tools
 

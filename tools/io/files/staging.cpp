@@ -41,7 +41,12 @@ std::shared_ptr<Staging> Staging::in(const std::string& folder) {
     recover_folder(name);
   std::shared_ptr<Staging> staging = place->second.lock();
   if (!staging) {
-    staging.reset(new Staging(name));
+    // A signal between making the folder and noting it, or the reverse, would leave it behind.
+    const HoldSignals hold;
+    staging.reset(new Staging(name), [](Staging* unused) {
+      const HoldSignals hold_too;
+      delete unused;
+    });
     place->second = staging;
   }
   return staging;

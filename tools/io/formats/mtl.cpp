@@ -56,7 +56,9 @@ std::string_view image_path(std::string_view rest) {
 class MtlParser {
  public:
   MtlParser(std::string_view text, std::string_view name, PolygonLabels& materials)
-      : in_(text, name, {.comment = '#', .continuation = true}), materials_(materials) {
+      : in_(text, name, {.comment = '#', .continuation = true}),
+        materials_(materials),
+        is_blenders_(text.starts_with("# Blender")) {
     for (size_t i = 0; i < materials.names.size(); ++i)
       numbers_.try_emplace(materials.names[i], i);
   }
@@ -66,6 +68,7 @@ class MtlParser {
       statement(in_.word("a statement"));
       in_.skip_line();
     }
+    end();
   }
 
  private:
@@ -85,7 +88,11 @@ class MtlParser {
     else if (keyword == "Pr")
       look_->roughness = number(), has_roughness_ = true;
     else if (keyword == "Pm")
-      look_->metallic = number();
+      look_->metallic = number(), has_metallic_ = true;
+    else if (keyword == "Ka")
+      colour(ambient_);
+    else if (keyword == "illum")
+      reflects_ = number() == 3;
     else if (keyword == "Ns" && !has_roughness_)
       look_->roughness = roughness_of_shininess(number());
     for (const ImageStatement& image : kImages) {
@@ -94,10 +101,18 @@ class MtlParser {
     }
   }
 
+  /// Blender writes how metallic a material is as the ambient colour of one that reflects.
+  void end() {
+    if (look_ && is_blenders_ && reflects_ && !has_metallic_)
+      look_->metallic = std::min((ambient_[0] + ambient_[1] + ambient_[2]) / 3, 1.0F);
+  }
+
   void begin() {
+    end();
     const auto found = numbers_.find(std::string(in_.rest_of_line()));
     look_ = nullptr;
-    has_roughness_ = false;
+    has_roughness_ = has_metallic_ = reflects_ = false;
+    ambient_[0] = ambient_[1] = ambient_[2] = 0;
     if (found == numbers_.end())
       return;
     materials_.looks.resize(materials_.names.size());
@@ -134,6 +149,9 @@ class MtlParser {
   MaterialLook* look_ =
       nullptr;  ///< of the material that is described; null: of none of those asked for
   bool has_roughness_ = false;  ///< told by itself, not only by the exponent
+  bool has_metallic_ = false, reflects_ = false;
+  float ambient_[3] = {};
+  bool is_blenders_;
 };
 
 void append_line(std::string_view keyword, std::span<const float> numbers, std::string& out) {
@@ -168,6 +186,11 @@ void append_mtl(const PolygonLabels& materials, std::string& out) {
     append_line("Ns", {&shininess, 1}, out);
     append_line("Pr", {&look.roughness, 1}, out);
     append_line("Pm", {&look.metallic, 1}, out);
+    if (look.metallic > 0) {  // as Blender has it, which reads no Pm before version 3.6
+      const float ambient[] = {look.metallic, look.metallic, look.metallic};
+      append_line("Ka", ambient, out);
+      out += "illum 3\n";
+    }
     TextureSlot before = TextureSlot::kOcclusion;  // has no statement
     for (const ImageStatement& image : kImages) {
       const String& texture = look.texture(image.slot);

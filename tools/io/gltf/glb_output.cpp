@@ -140,7 +140,7 @@ class GlbOutput::Writer {
     mesh.moves.resize(first_.size());
   }
 
-  /// Of differences to the first frame.
+  /// A target of differences to the first frame.
   void add_target(const std::vector<Written>& frame, const GlbObject& object, Output& mesh) {
     Json target;
     for (size_t i = 0; i < frame.size(); ++i) {
@@ -153,7 +153,7 @@ class GlbOutput::Writer {
     mesh.targets.push_back(std::move(target));
   }
 
-  /// Of an attribute that moves every target has the differences, those that are 0 too.
+  /// Every target has the differences of an attribute that moves, those that are 0 too.
   void complete_targets(const GlbObject& object, Output& mesh) {
     for (size_t i = 0; i < first_.size(); ++i) {
       if (!mesh.moves[i])

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace anicodec::tools {
@@ -31,19 +32,44 @@ std::string animation_path(uint32_t animation) {
 }
 
 /// The animation of a name, else of a number.
-uint32_t named_animation(const GltfDocument& document, const std::string& clip) {
-  std::vector<std::string> names;
+std::optional<uint32_t> find_animation(const GltfDocument& document, std::string_view clip) {
   for (uint32_t i = 0; i < document.animations.size(); ++i) {
     if (document.animations[i].name == clip)
       return i;
-    names.push_back(document.animations[i].name);
   }
   uint32_t number = 0;
-  auto [last, error] = std::from_chars(clip.data(), clip.data() + clip.size(), number);
-  if (error == std::errc() && last == clip.data() + clip.size() && number < names.size())
-    return number;
-  throw Error(ErrorKind::kUsage, document.name + ": there is no clip '" + shown(clip) +
+  const auto [last, error] = std::from_chars(clip.data(), clip.data() + clip.size(), number);
+  const bool known = error == std::errc() && last == clip.data() + clip.size() &&
+                     number < document.animations.size();
+  return known ? std::optional(number) : std::nullopt;
+}
+
+[[noreturn]] void fail_unknown(const GltfDocument& document, std::string_view clip) {
+  std::vector<std::string> names;
+  for (const GltfAnimation& animation : document.animations)
+    names.push_back(animation.name);
+  throw Error(ErrorKind::kUsage, document.name + ": there is no clip '" + shown(std::string(clip)) +
                                      "'; the clips are: " + listed(names));
+}
+
+uint32_t named_animation(const GltfDocument& document, std::string_view clip) {
+  const std::optional<uint32_t> one = find_animation(document, clip);
+  if (!one)
+    fail_unknown(document, clip);
+  return *one;
+}
+
+/// The animation of a name or number, or several with a plus between them.
+std::vector<uint32_t> named_animations(const GltfDocument& document, std::string_view clips) {
+  if (const std::optional<uint32_t> one = find_animation(document, clips))
+    return {*one};
+  std::vector<uint32_t> found;
+  for (std::string_view rest = clips; !rest.empty();) {
+    const size_t end = rest.find('+');
+    found.push_back(named_animation(document, rest.substr(0, end)));
+    rest = end == rest.npos ? std::string_view() : rest.substr(end + 1);
+  }
+  return found;
 }
 
 [[noreturn]] void fail_empty(const GltfDocument& document, uint32_t animation) {
@@ -72,6 +98,48 @@ uint32_t first_animation(const GltfDocument& document, const std::vector<bool>& 
   if (any == kGltfNone)
     fail_empty(document, 0);
   return longest != kGltfNone ? longest : any;
+}
+
+/// Tells of animations that move the same as one that is taken, and so are other takes of it.
+void note_other_takes(const GltfDocument& document, const std::vector<uint32_t>& others,
+                      const GltfOptions& options) {
+  constexpr size_t kMostNames = 8;
+  if (others.empty() || !options.note)
+    return;
+  std::vector<std::string> names;
+  for (const uint32_t i : others) {
+    if (names.size() < kMostNames)
+      names.push_back(document.animations[i].name.empty() ? std::to_string(i)
+                                                          : document.animations[i].name);
+  }
+  const size_t more = others.size() - names.size();
+  options.note("other takes are left out: " + listed(names) +
+               (more > 0 ? " and " + std::to_string(more) + " more" : "") +
+               "; --clip chooses one, --clips all takes each as a clip");
+}
+
+/// The first animation that moves what is baked, and with it those that move something else.
+std::vector<uint32_t> usual_animations(const GltfDocument& document, const std::vector<bool>& nodes,
+                                       const GltfOptions& options) {
+  std::vector<uint32_t> taken{first_animation(document, nodes, options.memory_limit)}, others;
+  GltfClip together(document, taken[0], options.memory_limit);
+  if (!together.moves(nodes))
+    return taken;
+  for (uint32_t i = 0; i < document.animations.size(); ++i) {
+    if (i == taken[0] || document.animations[i].channels.empty())
+      continue;
+    GltfClip clip(document, i, options.memory_limit);
+    if (clip.last_time() <= clip.first_time() || !clip.moves(nodes))
+      continue;
+    if (clip.contradicts(together, nodes)) {
+      others.push_back(i);
+    } else {
+      taken.push_back(i);
+      together.join(std::move(clip));
+    }
+  }
+  note_other_takes(document, others, options);
+  return taken;
 }
 
 FrameRate default_rate(const GltfAnimation& animation, const GltfClip& clip,
@@ -167,16 +235,19 @@ MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options)
     bake.add_frames(nullptr, 1, options, out);
     return out;
   }
-  const uint32_t animation =
-      options.clip.empty() ? first_animation(document, bake.moving_nodes(), options.memory_limit)
-                           : named_animation(document, options.clip);
+  const std::vector<uint32_t> animations =
+      options.clip.empty() ? usual_animations(document, bake.moving_nodes(), options)
+                           : named_animations(document, options.clip);
+  const uint32_t animation = animations[0];
   if (document.animations[animation].channels.empty())
     fail_empty(document, animation);
-  const GltfClip clip(document, animation, options.memory_limit);
+  GltfClip clip(document, animation, options.memory_limit);
+  for (size_t i = 1; i < animations.size(); ++i)
+    clip.join(GltfClip(document, animations[i], options.memory_limit));
   out.rate =
       options.rate ? *options.rate : default_rate(document.animations[animation], clip, options);
   out.start_time = clip.first_time();
-  if (document.animations.size() > 1)
+  if (animations.size() < document.animations.size())
     out.name = document.animations[animation].name;
   bake.add_frames(&clip, count_frames(document, animation, clip, out.rate, options), options, out);
   return out;

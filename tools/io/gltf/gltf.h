@@ -17,13 +17,13 @@
 namespace anicodec::tools {
 
 struct GltfOptions {
-  /// Of the frames; default: what anicodec wrote beside the keys, else the grid that they stand on
+  /// The frame rate; default: what anicodec wrote beside the keys, else the grid that they stand on
   /// (grid_rate), else one from 30 on that ends with the last key.
   std::optional<FrameRate> rate = {};
   /// Name of the mesh or node to take; empty: all of the scene.
   std::string mesh = {};
-  /// Name or number of the animation, "none" for the pose without; empty: the first that moves
-  /// something.
+  /// Name or number of the animation, or several with "+" between them that are played together; "none"
+  /// for the pose without; empty: the first that moves something, and those that move something else.
   std::string clip = {};
   /// Most bytes that decompressed buffers, keys, geometry, and frames may take, each.
   uint64_t memory_limit = uint64_t{1} << 36;
@@ -35,7 +35,7 @@ struct GltfOptions {
   bool isolate = true;
   /// Stage "reading".
   Progress progress = {};
-  /// Told what is left out, and what was chosen where the file does not say.
+  /// Told what is left out (other takes of what moves, too), and what was chosen where the file does not say.
   std::function<void(const std::string& text)> note = {};
 };
 
@@ -44,7 +44,7 @@ struct GltfOptions {
 /// 1/rate from the first key of the animation to the last. Vertices stay as they are, seams
 /// included, primitives with the same accessors share theirs; points and lines are passed over.
 /// UV sets and colours are kept, normals and tangents as in the first frame, names of materials,
-/// meshes and nodes. The clip has the name of the animation where there are several. Throws
+/// meshes and nodes. The clip has the name of the (first) animation where others are left out. Throws
 /// Error(kInput) "name: /json/pointer: reason", Error(kUnsupported), Error(kUsage) for a mesh or
 /// clip that is not there.
 MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,

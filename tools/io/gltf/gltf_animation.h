@@ -43,6 +43,12 @@ class GltfClip {
   /// True when a channel changes a value of one of the nodes.
   bool moves(const std::vector<bool>& nodes) const;
 
+  /// True when both have a channel for the same property of one of the nodes.
+  bool contradicts(const GltfClip& other, const std::vector<bool>& nodes) const;
+
+  /// Plays another animation at the same time. What both move, moves as there.
+  void join(GltfClip other);
+
   /// Sets what the animation moves, at a time. A key within `tolerance` seconds is taken as it is.
   void apply(double time, double tolerance, GltfPose& pose) const;
 

@@ -85,7 +85,7 @@ class Reader {
   }
 
  private:
-  /// What the scene has beside meshes and their motion.
+  /// Lists the contents of the scene beside meshes and their motion.
   void list_left_out() {
     if (const size_t cameras = root_.elements("cameras").size(); cameras > 0)
       out_.left_out.push_back(std::to_string(cameras) + (cameras == 1 ? " camera" : " cameras"));
@@ -151,7 +151,7 @@ class Reader {
     out_.bytes += length;
   }
 
-  /// Those inside the document alone.
+  /// Images inside the document alone.
   void read_image(const JsonNode& node) {
     GltfImage& image = out_.images.emplace_back();
     if (!is_inside(node))

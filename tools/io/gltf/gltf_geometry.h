@@ -17,7 +17,7 @@ namespace anicodec::tools {
 struct GltfVectors {
   std::vector<float> positions;  ///< vertices x 3
   std::vector<float> normals;    ///< vertices x 3, or empty
-  /// Of targets: TEXCOORD_n -> vertices x 2, COLOR_n -> vertices x 4; where they change.
+  /// The targets' TEXCOORD_n -> vertices x 2, COLOR_n -> vertices x 4; where they change.
   std::map<std::string, std::vector<float>> sets = {};
 };
 

@@ -54,7 +54,7 @@ void read_colour(const std::optional<JsonNode>& node, const char* key,
     colour[i] = static_cast<float>(std::max(0.0, numbers[i]));
 }
 
-/// What a look calls the image of each texture.
+/// The name that a look gives the image of each texture.
 std::vector<std::string> image_names(const JsonNode& root) {
   std::vector<std::string> images, textures;
   for (const JsonNode& node : root.elements("images")) {

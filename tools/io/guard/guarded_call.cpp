@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <new>
 
 #include <fcntl.h>
@@ -105,6 +106,10 @@ void do_work(int pipe, const std::function<std::string()>& work) {
     write_all(pipe, e.what());
   } catch (const std::bad_alloc&) {
     write_all(pipe, {&kNoMemory, 1});
+  } catch (const std::exception& e) {
+    const char head[] = {kError, static_cast<char>(ErrorKind::kInput)};
+    write_all(pipe, {head, sizeof head});
+    write_all(pipe, e.what());
   }
 }
 

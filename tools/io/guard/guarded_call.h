@@ -10,7 +10,7 @@
 
 namespace anicodec::tools {
 
-/// What a child process may take.
+/// The limits of a child process.
 struct GuardLimits {
   uint64_t memory = uint64_t{1} << 36;  ///< bytes beyond what this process has
   uint32_t seconds = 60;                ///< of processor time

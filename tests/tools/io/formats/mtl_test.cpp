@@ -50,6 +50,21 @@ TEST(Mtl, ReadsOpacityAndShineInTheirSeveralWays) {
   EXPECT_THAT(look_of("Ke 2").emissive, ElementsAre(2, 2, 2));
 }
 
+TEST(Mtl, ReadsHowMetallicMaterialsOfBlenderAre) {
+  PolygonLabels labels = named({"steel", "clay", "told"});
+  const std::string text =
+      "newmtl steel\nKa 0.5 0.5 0.5\nillum 3\nnewmtl clay\nKa 1 1 1\nillum 2\n"
+      "newmtl told\nPm 0.25\nKa 1 1 1\nillum 3\n";
+  const auto metallic = [&](const std::string& head) {
+    labels.looks.clear();
+    parse_mtl(head + text, "a.mtl", labels);
+    return std::vector<float>{labels.looks[0].metallic, labels.looks[1].metallic,
+                              labels.looks[2].metallic};
+  };
+  EXPECT_THAT(metallic("# Blender 3.4.1 MTL File: 'None'\n"), ElementsAre(0.5F, 0, 0.25F));
+  EXPECT_THAT(metallic("# by hand\n"), ElementsAre(0, 0, 0.25F));
+}
+
 TEST(Mtl, FindsImagesBehindTheirOptions) {
   EXPECT_EQ(look_of("map_Kd wood grain.png").texture(TextureSlot::kBaseColour), "wood grain.png");
   EXPECT_EQ(look_of("map_Bump -bm 0.5 n.png").texture(TextureSlot::kNormal), "n.png");

@@ -310,6 +310,36 @@ TEST(Gltf, TakesTheClipNamedOrNumberedOrTheFirstThatMovesAnything) {
             "a.glb: there is no clip 'run'; the clips are: 'still', 'walk', '0'");
 }
 
+TEST(Gltf, PlaysAnimationsTogetherThatMoveDifferentThings) {
+  GltfScene scene = two_meshes();
+  scene.animate(0, "translation", {0, 1}, scene.vectors({0, 0, 0, 1, 0, 0}), "LINEAR", "walk");
+  scene.animate(0, "translation", {0, 1}, scene.vectors({0, 0, 0, 5, 0, 0}), "LINEAR", "run");
+  scene.animate(1, "translation", {1, 2}, scene.vectors({9, 0, 0, 8, 0, 0}), "LINEAR", "roll");
+  std::vector<std::string> notes;
+  GltfOptions options = at_rate(1);
+  options.note = [&](const std::string& text) { notes.push_back(text); };
+  const MeshSequence usual = parse(scene, options);
+  EXPECT_EQ(usual.name, "walk");
+  EXPECT_THAT(track(usual, 0), ElementsAre(0, 1, 1));
+  EXPECT_THAT(track(usual, 3), ElementsAre(9, 9, 8));
+  EXPECT_THAT(notes, ElementsAre("other takes are left out: 'run'; --clip chooses one, --clips all "
+                                 "takes each as a clip"));
+  options.clip = "run+2";
+  const MeshSequence chosen = parse(scene, options);
+  EXPECT_THAT(track(chosen, 0), ElementsAre(0, 5, 5));
+  EXPECT_THAT(track(chosen, 3), ElementsAre(9, 9, 8));
+  options.clip = "run";
+  EXPECT_THAT(track(parse(scene, options), 3), ElementsAre(9, 9));
+  options.clip = "run+fly";
+  EXPECT_THAT(fault([&] { parse(scene, options); }, ErrorKind::kUsage),
+              HasSubstr("there is no clip 'fly'"));
+  EXPECT_THAT(notes, SizeIs(1)) << "who chooses is told nothing";
+  scene.document["animations"].erase(1);
+  options.clip.clear();
+  EXPECT_EQ(parse(scene, options).name, "") << "there is no other";
+  EXPECT_THAT(notes, SizeIs(1));
+}
+
 TEST(Gltf, SamplesAtTheGridOfTheKeys) {
   auto rate_of = [](const std::vector<float>& times) {
     GltfScene scene = triangle_scene();

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -34,6 +35,7 @@ TEST(GuardedCall, ThrowsTheErrorsOfTheWork) {
   EXPECT_EQ(fault([] { run([]() -> std::string { throw Error(ErrorKind::kUnsupported, "no"); }); },
                   ErrorKind::kUnsupported),
             "no");
+  EXPECT_EQ(fault([] { run([]() -> std::string { throw std::runtime_error("gone"); }); }), "gone");
 }
 
 TEST(GuardedCall, TellsACrash) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// The command line, which shares encoder and decoder with the rest of the module.
+#include "sdk/python/binding/binding.h"
+#include "tools/commands/command_line.h"
+
+namespace anicodec::python {
+namespace {
+
+int run_command(const std::vector<std::string>& arguments) {
+  std::vector<const char*> texts;
+  for (const std::string& argument : arguments)
+    texts.push_back(argument.c_str());
+  texts.push_back(nullptr);
+  const nb::gil_scoped_release release;
+  return tools::run_command_line(static_cast<int>(arguments.size()), texts.data());
+}
+
+}  // namespace
+
+void bind_command(nb::module_& module) {
+  module.def("run_command", &run_command);
+}
+
+}  // namespace anicodec::python

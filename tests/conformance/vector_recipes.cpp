@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tests/conformance/vector_recipes.h"
+
+#include "codec/encode_scene.h"
+#include "codec/file/clip_file.h"
+#include "codec/file/clip_record.h"
+#include "codec/metrics/metrics.h"
+#include "codec/search/encoder_input.h"
+#include "codec/segment/linear_segment_encode.h"
+#include "codec/sequence/error.h"
+#include "corpus/clips.h"
+#include "format/batch_coefficient_coder.h"
+#include "format/binary_coder.h"
+#include "format/bytes.h"
+#include "format/coefficient_coder.h"
+#include "format/rans_coder.h"
+#include "format/time_weights.h"
+#include "sdk/clip/clip.h"
+#include "sdk/pose/pose_coding.h"
+#include "sdk/prediction/vertex_order.h"
+#include "sdk/segment/keyframe_segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace anicodec {
+
+Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
+              const std::function<void(ClipsRecord&)>& describe) {
+  const double clip_diagonal = diagonal(clip);
+  const MeshSequence source = clip;
+  ClipsRecord record =
+      clips_record(clip, {}, {}, std::vector<double>(clips_of(clip).size(), clip_diagonal));
+  const EncoderInput input(std::move(clip));
+  std::vector<EncodedSegment> segments;
+  uint32_t first = 0;
+  for (const Recipe& recipe : recipes) {
+    const FrameView frames = input.frames(first, recipe.frames);
+    const LinearAnalysis analysis(frames);
+    const bool shapes = recipe.kind == BasisKind::kEigenshapes;
+    const LinearBasis basis =
+        analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
+                       shapes ? Base::kPose : Base::kAffine, 1000, 0);
+    std::optional<EncodedSegment> coded = encode_linear(
+        frames, basis, recipe.settings, input.layout, nullptr, input.runs(first, recipe.frames));
+    if (!coded)
+      throw Error(ErrorKind::kInternal, "the step is too fine");
+    EncodedSegment& segment = segments.emplace_back(std::move(*coded));
+    segment.sizes.first_frame = first;
+    if (recipe.change)
+      recipe.change(segment, input);
+    open_encoded(segment, input.layout);
+    first += recipe.frames;
+  }
+  std::vector<const EncodedSegment*> list;
+  for (const EncodedSegment& segment : segments)
+    list.push_back(&segment);
+  if (describe)
+    describe(record);
+  Clip opened;
+  if (Failure f = opened.open(clip_file(record, input.layout, list)); !f.ok())
+    throw Error(ErrorKind::kInternal, f.detail);
+  MeshSequence shown = source;
+  for (uint32_t f = 0; f < source.frame_count; ++f)
+    opened.positions(0, f, shown.frame(f).data());
+  CompareOptions options;
+  options.sted = false;
+  const Comparison measured = compare(source, shown, options);
+  for (ClipRecord& of_clip : record.clips) {  // of the whole, which every clip then keeps
+    of_clip.max_error = measured.max_error;
+    of_clip.rmse = measured.rmse;
+    of_clip.kg = measured.kg;
+  }
+  return clip_file(record, input.layout, list);
+}
+
+Recipe recipe(uint32_t frames, BasisKind kind, double step, uint8_t neighbours, uint8_t passes,
+              uint8_t radius, RefitSchedule schedule) {
+  Recipe r;
+  r.frames = frames;
+  r.kind = kind;
+  r.settings.step = step;
+  r.settings.neighbours = neighbours;
+  r.settings.passes_per_level = passes;
+  r.settings.radius = radius;
+  r.settings.schedule = schedule;
+  return r;
+}
+
+MeshSequence hub() {
+  constexpr uint32_t kSpokes = 70, kLoose = 90, kFrames = 9;
+  MeshSequence clip;
+  clip.name = "hub";
+  clip.vertex_count = 2 * kSpokes + 1 + kLoose;
+  clip.frame_count = kFrames;
+  for (uint32_t i = 0; i < kSpokes; ++i) {
+    const uint32_t a = 1 + i, b = 1 + (i + 1) % kSpokes;
+    clip.polygons.add(std::vector<uint32_t>{0, a, b});
+    clip.polygons.add(std::vector<uint32_t>{a, a + kSpokes, b + kSpokes, b});
+  }
+  Numbers numbers;
+  std::vector<float> rest;
+  for (uint32_t v = 0; v < clip.vertex_count; ++v) {
+    const double angle = 2 * 3.14159265358979 * (v - 1) / kSpokes, r = v == 0        ? 0
+                                                                       : v > kSpokes ? 2
+                                                                                     : 1;
+    const bool loose = v > 2 * kSpokes;
+    const double places[3] = {loose ? numbers.within(2000) / 1000.0 : r * std::cos(angle),
+                              loose ? numbers.within(2000) / 1000.0 : r * std::sin(angle),
+                              loose ? numbers.within(2000) / 1000.0 : 0.25 * r};
+    for (const double x : places)
+      rest.push_back(static_cast<float>(std::round(x * 4096) / 4096));
+  }
+  for (uint32_t f = 0; f < kFrames; ++f) {
+    for (size_t i = 0; i < rest.size(); ++i) {
+      const double swing =
+          0.05 * numbers.within(100) / 100.0 + 0.01 * f * static_cast<double>(i % 5);
+      clip.positions.push_back(rest[i] + static_cast<float>(std::round(swing * 4096) / 4096));
+    }
+  }
+  return clip;
+}
+
+MeshSequence rings() {
+  constexpr uint32_t kPairs = 10, kFrames = 7;
+  MeshSequence clip;
+  clip.name = "rings";
+  clip.frame_count = kFrames;
+  Numbers numbers;
+  std::vector<float> rest;
+  const auto vertex = [&](double x, double y, double z) {
+    for (const double p : {x, y, z})
+      rest.push_back(static_cast<float>(std::round(p * 4096) / 4096));
+    return clip.vertex_count++;
+  };
+  for (uint32_t pair = 0; pair < kPairs; ++pair) {
+    const double centre = 4.0 * pair;
+    uint32_t hubs[2];
+    for (uint32_t& hub : hubs)
+      hub = vertex(centre + 0.001 * numbers.within(9), 0.001 * numbers.within(9), 0);
+    for (uint32_t side = 0; side < 2; ++side) {
+      // Spokes of one hub: 18 to 45, about half of the hubs over each limit of degrees.
+      const uint32_t spokes = 18 + (7 * pair + 13 * side) % 28;
+      uint32_t first = 0, last = 0;
+      for (uint32_t i = 0; i < spokes; ++i) {
+        const double angle = 3.14159265358979 * (side + (i + 0.5) / spokes);
+        const double radius = 0.5 + 0.01 * numbers.below(100);
+        const uint32_t next = vertex(centre + radius * std::cos(angle), radius * std::sin(angle),
+                                     0.01 * numbers.within(30));
+        if (i == 0)
+          first = next;
+        else
+          clip.polygons.add(std::vector<uint32_t>{hubs[side], last, next});
+        last = next;
+      }
+      clip.polygons.add(std::vector<uint32_t>{hubs[side], last, hubs[1 - side]});
+      clip.polygons.add(std::vector<uint32_t>{hubs[side], hubs[1 - side], first});
+    }
+  }
+  for (uint32_t f = 0; f < kFrames; ++f) {
+    for (size_t i = 0; i < rest.size(); ++i) {
+      const double swing =
+          0.05 * numbers.within(100) / 100.0 + 0.01 * f * static_cast<double>(i % 5);
+      clip.positions.push_back(rest[i] + static_cast<float>(std::round(swing * 4096) / 4096));
+    }
+  }
+  return clip;
+}
+
+void round_pose(EncodedSegment& segment, const EncoderInput& input) {
+  auto pose = std::make_shared<EncodedPose>(*segment.reference);
+  pose->coding = PoseCoding::kRounded;
+  pose->stream =
+      encode_pose(PoseSurface(input.layout.topology), PoseCoding::kRounded, pose->grid.points);
+  segment.reference = std::move(pose);
+}
+
+StreamChange with_partners(std::optional<PoseCoding> coding) {
+  return [coding](EncodedSegment& segment, const EncoderInput& input) {
+    auto pose = std::make_shared<EncodedPose>(*segment.reference);
+    pose->coding = coding.value_or(pose->coding);
+    const uint32_t n = input.layout.topology.coded_vertices;
+    Numbers numbers;
+    PosePartners partners;
+    uint32_t ahead = 1;
+    for (uint32_t v = 0; v < n; ++v) {
+      if (numbers.below(3) == 0)
+        ahead = 1 + numbers.below(n);
+      const uint32_t kind = numbers.below(8);
+      partners.partner.push_back(kind == 0 ? PosePartners::kNone : kind == 1 ? v : (v + ahead) % n);
+      partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
+    }
+    pose->stream =
+        encode_pose(PoseSurface(input.layout.topology), pose->coding, pose->grid.points, &partners);
+    segment.reference = std::move(pose);
+  };
+}
+
+void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
+  const uint32_t frames = segment.sizes.frames;
+  const bool affine = segment.sizes.kind == BasisKind::kEigentrajectories;
+  const uint32_t base = affine ? 4 : 0, rows = affine ? 3 : 1;
+  Numbers numbers;
+  BinaryEncoder encoder;
+  TimeWeightModel model(segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames)
+                                             : segment.runs);
+  std::vector<int32_t> decoded(size_t{3} * frames);
+  for (uint32_t j = 0; j < base + segment.sizes.components; ++j) {
+    const uint32_t channels = j < base ? 3 : rows;
+    std::vector<double> x(size_t{channels} * frames);
+    for (size_t i = 0; i < x.size(); ++i)
+      x[i] = 300 * std::sin(0.05 * static_cast<double>(i % frames) * (1 + j % 3) + j) +
+             numbers.within(10 << (j % 7)) + (i % 41 == 0 ? 20000 : 0);
+    model.encode(encoder, channels, x.data(), 0, decoded.data(), 1u << (j % kWeightPredictors));
+  }
+  segment.weights = encoder.finish();
+}
+
+void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
+  LinearParameters parameters;
+  if (parameters.read(segment.parameters, segment.sizes.components, 1) != Status::kOk)
+    throw Error(ErrorKind::kInternal, "the parameters cannot be read");
+  Numbers numbers;
+  for (uint8_t& omega : parameters.omega)
+    omega = static_cast<uint8_t>(numbers.below(256));
+  segment.parameters = parameters.write();
+  const Topology& topology = input.layout.topology;
+  VertexOrder order;
+  make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3,
+                    segment.reference->grid.points.data(), topology.coded_vertices,
+                    parameters.neighbours, parameters.colours, &order);
+  const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
+  const auto stride = static_cast<uint32_t>(order.neighbour_count);
+  CoefficientModel model(topology.coded_vertices, channels, order.neighbours.data(), stride);
+  BatchCoefficientModel batches(channels, order.neighbours.data(), stride, order.level_start);
+  BinaryEncoder encoder;
+  RansEncoder batch_encoder;
+  const bool in_batches = parameters.coder == CoefficientCoder::kBatches;
+  std::vector<int32_t> q(size_t{channels} * topology.coded_vertices);
+  for (uint32_t j = 0; j < segment.sizes.components; ++j) {
+    for (int32_t& x : q)
+      x = j % 3 == 0 ? numbers.within(3) : numbers.within(1 << (j * 2 % 24));
+    if (in_batches)
+      batches.code_component(batch_encoder, q.data());
+    else
+      model.code_component(encoder, q.data());
+  }
+  ByteWriter writer;
+  writer.varint(segment.sizes.components);
+  writer.raw(in_batches ? batch_encoder.finish() : encoder.finish());
+  segment.layers = {writer.bytes()};
+  segment.sizes.wide_components = segment.sizes.components;
+}
+
+}  // namespace anicodec

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Files made by recipe rather than by the search of the encoder, for special_vectors.cpp and
+// random_vectors.cpp.
+#ifndef ANICODEC_TESTS_CONFORMANCE_VECTOR_RECIPES_H_
+#define ANICODEC_TESTS_CONFORMANCE_VECTOR_RECIPES_H_
+
+#include "codec/search/encoder_input.h"
+#include "codec/segment/linear_segment_encode.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "format/bytes.h"
+#include "sdk/clip/clip.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace anicodec {
+
+/// Numbers that look random, the same everywhere.
+class Numbers {
+ public:
+  explicit Numbers(uint64_t seed = 1) : state_(seed) {}
+
+  uint32_t below(uint32_t count) {
+    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<uint32_t>((state_ >> 33) % count);
+  }
+
+  int32_t within(int32_t limit) {
+    return static_cast<int32_t>(below(2 * static_cast<uint32_t>(limit) + 1)) - limit;
+  }
+
+ private:
+  uint64_t state_;
+};
+
+/// Changes the streams of a segment before it is opened and hashed.
+using StreamChange = std::function<void(EncodedSegment&, const EncoderInput&)>;
+
+/// How a range of frames is coded.
+struct Recipe {
+  uint32_t frames = 0;
+  BasisKind kind = BasisKind::kEigentrajectories;
+  LinearSettings settings;
+  StreamChange change = {};
+};
+
+/// A file of one mesh, one segment after the other, each over a reference pose that is in the file
+/// for it alone. Its errors are measured.
+Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
+              const std::function<void(ClipsRecord&)>& describe = {});
+
+Recipe recipe(uint32_t frames, BasisKind kind, double step, uint8_t neighbours, uint8_t passes,
+              uint8_t radius, RefitSchedule schedule);
+
+/// A vertex of more than 32 neighbours, vertices without any, and a pose finer than the grid that
+/// orders them: every rule of the vertex order has to act.
+MeshSequence hub();
+
+/// Pairs of hubs, side by side, of 18 to 45 spokes: degrees on both sides of each limit of the vertex
+/// order, where the limit decides.
+MeshSequence rings();
+
+/// The reference pose in the way of coding that the encoder does not take.
+void round_pose(EncodedSegment& segment, const EncoderInput& input);
+
+/// The reference pose by partners without reason in runs along the vertices: more strands than are
+/// told apart, vertices that are like themselves.
+StreamChange with_partners(std::optional<PoseCoding> coding);
+
+/// Weights in time by each predictor, of numbers that suit none.
+void scramble_weights(EncodedSegment& segment, const EncoderInput& input);
+
+/// Residuals at their limits: predictions saturate, refits see numbers that are not finite.
+void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input);
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_TESTS_CONFORMANCE_VECTOR_RECIPES_H_
