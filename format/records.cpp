@@ -11,7 +11,7 @@ namespace anicodec {
 namespace {
 
 constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 16,
-                  kAttributeErrors = 32;
+                  kAttributeErrors = 32, kEvents = 64;
 
 /// In the limits: key-frames, the frames between them by MSGI.
 constexpr uint8_t kMsgiKind = 16;
@@ -70,10 +70,12 @@ Bytes Limits::write() const {
       w.varint(s.first_component / 3);
     }
   }
-  if (has_attributes(meshes)) {
+  if (has_attributes(meshes) || root_frames > 0) {
     for (const Mesh& m : meshes)
       w.varint(m.attribute_bytes);
   }
+  if (root_frames > 0)
+    w.varint(root_frames);
   return std::move(w.bytes());
 }
 
@@ -147,7 +149,10 @@ Status Limits::read(ByteView view, Limits* out) {
   if (r.remaining() > 0) {
     for (Mesh& m : out->meshes)
       m.attribute_bytes = r.varint(kMaxAttributeBytes);
-    if (!has_attributes(out->meshes))
+    const bool has_root = r.remaining() > 0;
+    if (has_root)
+      out->root_frames = r.varint32(out->frames);
+    if (has_root ? out->root_frames == 0 : !has_attributes(out->meshes))
       return Status::kRecord;
   }
   const Vector<uint32_t> order = out->segments_by_frame();
@@ -197,7 +202,8 @@ void write_clip(const ClipRecord& clip, ByteWriter& w) {
   w.u8(static_cast<uint8_t>((clip.rate_assumed ? kAssumed : 0) | (clip.loop ? kLoop : 0) |
                             (clip.closed ? kClosed : 0) | (clip.massaged ? kMassaged : 0) |
                             (clip.times.empty() ? 0 : kTimes) |
-                            (clip.attribute_errors.empty() ? 0 : kAttributeErrors)));
+                            (clip.attribute_errors.empty() ? 0 : kAttributeErrors) |
+                            (clip.events.empty() ? 0 : kEvents)));
   w.f64(clip.start_time);
   for (double t : clip.times)
     w.f64(t);
@@ -215,6 +221,13 @@ void write_clip(const ClipRecord& clip, ByteWriter& w) {
       w.varint(e.attribute);
       w.f64(e.max_error);
       w.f64(e.rmse);
+    }
+  }
+  if (!clip.events.empty()) {
+    w.varint(clip.events.size());
+    for (const ClipEvent& event : clip.events) {
+      w.text(event.name);
+      w.f64(event.seconds);
     }
   }
 }
@@ -254,6 +267,24 @@ bool read_attribute_errors(ByteReader& r, ClipRecord* out) {
   return true;
 }
 
+bool read_events(ByteReader& r, ClipRecord* out) {
+  constexpr size_t kLeastBytes = 9;
+  const uint64_t count = r.varint(r.remaining() / kLeastBytes);
+  if (!r.ok() || count == 0)
+    return false;
+  double before = 0;
+  for (uint64_t i = 0; i < count; ++i) {
+    ClipEvent event;
+    event.name = r.text();
+    event.seconds = r.f64();
+    if (!r.ok() || !std::isfinite(event.seconds) || event.seconds < before)
+      return false;
+    before = event.seconds;
+    out->events.push_back(std::move(event));
+  }
+  return true;
+}
+
 /// Reads a clip that has its frames already. False: a field is out of its range.
 bool read_clip(ByteReader& r, ClipRecord* out) {
   out->name = r.text();
@@ -280,7 +311,9 @@ bool read_clip(ByteReader& r, ClipRecord* out) {
   }
   if ((flags & kAttributeErrors) && !read_attribute_errors(r, out))
     return false;
-  return r.ok() && out->rate_numerator != 0 && out->rate_denominator != 0 && !(flags & ~0x3F) &&
+  if ((flags & kEvents) && !read_events(r, out))
+    return false;
+  return r.ok() && out->rate_numerator != 0 && out->rate_denominator != 0 && !(flags & 0x80) &&
          std::isfinite(out->start_time) && asked <= static_cast<uint8_t>(ErrorMetric::kBpfv);
 }
 

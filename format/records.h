@@ -78,6 +78,7 @@ struct Limits {
   Vector<uint32_t> clip_frames;  ///< of each clip; empty before it is written: one clip
   Vector<Mesh> meshes;
   Vector<Segment> segments;
+  uint32_t root_frames = 0;  ///< of the clips whose motion as a whole is apart (RootRecord)
 
   /// The frames first .. first + count - 1, cut where a clip ends: how many frames each piece has.
   Vector<uint32_t> runs(uint32_t first, uint32_t count) const;
@@ -109,6 +110,12 @@ struct AttributeError {
   double rmse = 0;
 };
 
+/// A named time of a clip.
+struct ClipEvent {
+  String name;
+  double seconds = 0;  ///< from the clip's first frame on, 0 or more
+};
+
 /// A clip: some frames that follow one another, their clock, and what the encoder promises of them.
 struct ClipRecord {
   String name;
@@ -132,6 +139,7 @@ struct ClipRecord {
   double surface_error = 0;                 ///< when massaged: how far the surface moved at most
   double surface_error_mean = 0;            ///< and on average
   Vector<AttributeError> attribute_errors;  ///< ascending by mesh and attribute
+  Vector<ClipEvent> events;                 ///< ascending by time
 };
 
 /// Chunk CLIP: what holds for the whole file, and its clips.

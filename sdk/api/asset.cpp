@@ -113,6 +113,24 @@ anic_status anic_find_clip(const anic_asset* asset, const char* name, uint32_t* 
   return *out < anic_clip_count(asset) ? ANIC_OK : ANIC_E_ABSENT;
 }
 
+uint32_t anic_event_count(const anic_asset* asset, uint32_t clip) {
+  return clip < anic_clip_count(asset)
+             ? static_cast<uint32_t>(asset->clip.clips()[clip].events.size())
+             : 0;
+}
+
+anic_status anic_event_info(const anic_asset* asset, uint32_t clip, uint32_t event,
+                            anic_event* out) {
+  if (event >= anic_event_count(asset, clip) || !is_sized(out))
+    return ANIC_E_ARGUMENT;
+  const ClipEvent& of_file = asset->clip.clips()[clip].events[event];
+  anic_event filled = ANIC_INIT(anic_event);
+  filled.name = of_file.name.c_str();
+  filled.seconds = of_file.seconds;
+  give(filled, out);
+  return ANIC_OK;
+}
+
 anic_status anic_get_mesh(const anic_asset* asset, uint32_t mesh, anic_mesh* out) {
   const Mesh* m = find_mesh(asset, mesh);
   if (!m || !is_sized(out))

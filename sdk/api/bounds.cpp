@@ -92,15 +92,15 @@ void bounding_boxes(const FrameState* states, uint32_t frames, anic_box* out) {
 constexpr uint32_t kBatch = 64;
 
 /// The boxes of frames first .. last - 1 of a segment. Shapes of MSGI are made in `memory`.
-void segment_boxes(const Segment& s, uint32_t first, uint32_t last, Vector<float>* memory,
-                   anic_box* out) {
+void segment_boxes(const Clip& clip, const Segment& s, uint32_t first, uint32_t last,
+                   Vector<float>* memory, anic_box* out) {
   const FloatControl control;
   constexpr uint32_t kFrames = 4;
   for (uint32_t f = first; f < last; f += kFrames) {
     FrameState states[kFrames];
     const uint32_t count = std::min(last - f, kFrames);
     for (uint32_t i = 0; i < count; ++i) {
-      states[i] = frame_state(s, f + i);
+      states[i] = clip.state_of(s, f + i);
       if (!s.msgi.empty())
         make_shape(&states[i], memory->data() + i * shape_size(s),
                    memory->data() + kFrames * shape_size(s));
@@ -110,14 +110,14 @@ void segment_boxes(const Segment& s, uint32_t first, uint32_t last, Vector<float
 }
 
 /// Bounds of all frames of a segment. Segments of MSGI need memory, which only this thread takes.
-bool segment_boxes(const Segment& s, const HostThreads& threads, HostProgress* progress,
-                   anic_box* out) {
+bool segment_boxes(const Clip& clip, const Segment& s, const HostThreads& threads,
+                   HostProgress* progress, anic_box* out) {
   Vector<float> memory(4 * shape_size(s) + shape_scratch_size(s));
   for (uint32_t first = 0; first < s.frames; first += kBatch) {
     const uint32_t count = std::min(s.frames - first, kBatch);
     auto work = [&](size_t begin, size_t end) {
-      segment_boxes(s, first + static_cast<uint32_t>(begin), first + static_cast<uint32_t>(end),
-                    &memory, out);
+      segment_boxes(clip, s, first + static_cast<uint32_t>(begin),
+                    first + static_cast<uint32_t>(end), &memory, out);
     };
     for_ranges(s.msgi.empty() ? threads : HostThreads{}, count, 4, work);
     if (!progress->advance(count))
@@ -140,7 +140,7 @@ bool compute_boxes(anic_asset* asset, const HostThreads& threads, HostProgress* 
     if (s.attribute != kPositions)
       continue;
     anic_box* boxes = asset->boxes.data() + row * s.mesh;
-    if (!segment_boxes(s, threads, progress, boxes + s.first_frame))
+    if (!segment_boxes(clip, s, threads, progress, boxes + s.first_frame))
       return false;
     for (uint32_t f = 0; f < s.frames; ++f)
       include(boxes[s.first_frame + f], &boxes[clip.frame_count()]);

@@ -22,6 +22,11 @@ bool is_range(const Clip& clip, uint32_t mesh, uint32_t first, uint32_t count) {
 void show(anic_context* context, const FrameMix& mix) {
   const Clip& clip = context->asset->clip;
   context->mix = mix;
+  anic_context::State& state = context->states[ANIC_WHEN_CURRENT];
+  state.root = root_state(clip, mix);
+  state.holds = 0;
+  for (uint32_t t = 0; t < mix.count; ++t)
+    state.holds |= clip.root().holds(clip.clip_at(mix.terms[t].frame));
   float* weights = context->states[ANIC_WHEN_CURRENT].weights;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
     context->states[ANIC_WHEN_CURRENT].samples[t] =
@@ -42,6 +47,21 @@ FrameMix mix_at(const ClipRecord& clip, double seconds, anic_sampling sampling, 
   for (uint32_t t = 0; t < mix.count; ++t)
     mix.terms[t].frame += clip.first_frame;
   return mix;
+}
+
+void give_root(const Clip& clip, const RootState& root, uint8_t holds, anic_root_motion* host) {
+  const GroundAxes axes = GroundAxes::of(clip.record().up);
+  const Affine map = root.affine(axes);
+  anic_root_motion filled = ANIC_INIT(anic_root_motion);
+  filled.moves = (holds & RootRecord::kMoves) != 0;
+  filled.turns = (holds & RootRecord::kTurns) != 0;
+  filled.turn = root.turn;
+  filled.move[axes.a] = root.move[0];
+  filled.move[axes.b] = root.move[1];
+  filled.pivot[axes.a] = root.pivot[0];
+  filled.pivot[axes.b] = root.pivot[1];
+  std::copy_n(map.m, 12, filled.matrix);
+  give(filled, host);
 }
 
 bool is_time(double seconds, anic_sampling sampling, anic_wrap wrap) {
@@ -219,6 +239,8 @@ anic_status anic_forget_previous(anic_context* context) {
   const Clip& clip = context->asset->clip;
   const anic_context::State &from = context->states[ANIC_WHEN_CURRENT],
                             &to = context->states[ANIC_WHEN_PREVIOUS];
+  context->states[ANIC_WHEN_PREVIOUS].root = from.root;
+  context->states[ANIC_WHEN_PREVIOUS].holds = from.holds;
   size_t begin = 0;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
     const size_t count = context->asset->buffers[t];
@@ -234,6 +256,29 @@ anic_status anic_forget_previous(anic_context* context) {
     }
     begin += count;
   }
+  return ANIC_OK;
+}
+
+anic_status anic_get_root_motion(const anic_asset* asset, uint32_t clip, double seconds,
+                                 anic_sampling sampling, anic_wrap wrap, anic_root_motion* out) {
+  if (clip >= anic_clip_count(asset) || !is_sized(out) || !is_time(seconds, sampling, wrap))
+    return ANIC_E_ARGUMENT;
+  const Clip& file = asset->clip;
+  if (!file.has_clip(clip))
+    return ANIC_E_ABSENT;
+  const FrameMix mix = mix_at(file.clips()[clip], seconds, sampling, wrap);
+  give_root(file, root_state(file, mix), file.root().holds(clip), out);
+  return ANIC_OK;
+}
+
+anic_status anic_get_shown_root_motion(const anic_context* context, anic_when when,
+                                       anic_root_motion* out) {
+  if (!context || !is_sized(out) || (when != ANIC_WHEN_CURRENT && when != ANIC_WHEN_PREVIOUS))
+    return ANIC_E_ARGUMENT;
+  if (!context->chosen)
+    return ANIC_E_STATE;
+  const anic_context::State& state = context->states[when];
+  give_root(context->asset->clip, state.root, state.holds, out);
   return ANIC_OK;
 }
 
@@ -304,7 +349,7 @@ anic_status anic_write_frames(const anic_asset* asset, uint32_t mesh, const uint
       return ANIC_E_ABSENT;
     if (!segment->msgi.empty())
       return ANIC_E_STATE;
-    states[f] = frame_state(*segment, frames[f] - segment->first_frame);
+    states[f] = asset->clip.state_of(*segment, frames[f] - segment->first_frame);
     if (Status status = check_output(output, count, &to[f]); status != Status::kOk)
       return c_status(status);
   }

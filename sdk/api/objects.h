@@ -126,6 +126,8 @@ struct anic_context {
   struct State {
     anicodec::Sample* samples;  ///< by track
     float* weights;             ///< anic_asset::buffers of the tracks one after another
+    anicodec::RootState root;   ///< the motion of the whole
+    uint8_t holds = 0;          ///< what of it a clip shown holds: RootRecord::kMoves, kTurns
   };
 
   const anic_asset* asset;

@@ -99,7 +99,8 @@ bool take_options(const anic_options* host, anic_options* out) {
       return false;
   }
   return true && out->quality >= 0 && out->quality <= 1 && (out->clips || out->clip_count == 0) &&
-         (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER)) == 0 &&
+         (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER |
+                                                  ANIC_OPEN_IN_PLACE)) == 0 &&
          !out->allocator.allocate == !out->allocator.release;
 }
 
@@ -131,6 +132,7 @@ Memory memory_of(const anic_allocator* allocator) {
 OpenOptions open_options(const anic_options& options, uint64_t file_size) {
   OpenOptions result;
   result.any_order = options.flags & ANIC_OPEN_ANY_ORDER;
+  result.in_place = options.flags & ANIC_OPEN_IN_PLACE;
   HostLimits& limits = result.limits;
   limits.resident_bytes =
       kBytesAtLeast +

@@ -31,7 +31,8 @@ constexpr KnownChunk kKnownChunks[] = {
     {chunk_type("MESH"), Owner::kMesh},    {chunk_type("VMAP"), Owner::kMesh},
     {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
     {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
-    {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false}};
+    {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false},
+    {chunk_type("ROOT"), Owner::kClip}};
 
 const KnownChunk* known(const Chunk& chunk) {
   const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
@@ -58,7 +59,8 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
   auto fits = [&](const Chunk& chunk, Owner owner) {
     const bool of_segment = chunk.segment != kNoSegment;
     if (owner == Owner::kClip)
-      return chunk.mesh == kNoMesh && !of_segment;
+      return chunk.mesh == kNoMesh && !of_segment &&
+             (chunk.type != chunk_type("ROOT") || limits.root_frames > 0);
     if (chunk.mesh >= limits.meshes.size() || (owner == Owner::kMesh && of_segment) ||
         (owner == Owner::kSegment && !of_segment))
       return false;
@@ -221,6 +223,13 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
     return f;
   if (Failure f = check_places(file, limits_, record_.order); !f.ok())
     return f;
+  if (Failure f = open_root(file); !f.ok())
+    return f;
+  in_place_ = options.in_place;
+  if (options.trace)
+    root_.each_series([&](const int32_t* values, size_t count) {
+      options.trace->step("root motion", values, count);
+    });
   if (options.any_order)
     record_.order = OrderMode::kFree;
   if (options.progress) {
@@ -243,6 +252,8 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   }
   if (failure.ok())
     failure = open_segments(file, options);
+  if (failure.ok() && has_root())
+    turn_corrections();
   work_ = Vector<MeshWork>();
   for (Mesh& mesh : meshes_) {
     mesh.topology.triangles = Vector<uint32_t>();
@@ -261,6 +272,55 @@ Failure Clip::choose_clips(const ClipNames& names) {
     wanted_[found] = 1;
   }
   return {};
+}
+
+Failure Clip::open_root(const ContainerReader& file) {
+  if (limits_.root_frames == 0)
+    return {};
+  const Chunk* chunk;
+  ByteView payload;
+  if (Failure f = required(file, "ROOT", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
+    return f;
+  const Status s = root_.open(payload, limits_, record_.up, wanted_);
+  return s == Status::kOk ? Failure{} : at(*chunk, s, "the motion of the whole is damaged");
+}
+
+/// Corrections come last: the motion of the whole turns them along.
+void Clip::turn_corrections() {
+  for (Segment& segment : segments_) {
+    if (segment.attribute != kPositions || segment.correction_begin.empty())
+      continue;
+    for (uint32_t f = 0; f < segment.frames; ++f) {
+      const Affine root = root_at(segment.first_frame + f).affine(root_.axes());
+      for (uint32_t i = segment.correction_begin[f]; i < segment.correction_begin[f + 1]; ++i) {
+        float* d = segment.corrections[i].delta;
+        float turned[3];
+        for (size_t c = 0; c < 3; ++c)
+          turned[c] = root.m[4 * c] * d[0] + root.m[4 * c + 1] * d[1] + root.m[4 * c + 2] * d[2];
+        std::copy_n(turned, 3, d);
+      }
+    }
+  }
+}
+
+void move_whole(const Affine& root, FrameState* state) {
+  // The origin of key-frames is added before any motion.
+  state->motion = state->moves ? after(root, state->motion) : root;
+  state->moves = true;
+}
+
+RootState Clip::root_at(uint32_t frame) const {
+  if (root_.empty())
+    return {};
+  const uint32_t clip = clip_at(frame);
+  return root_.at(clip, frame - clips()[clip].first_frame);
+}
+
+FrameState Clip::state_of(const Segment& segment, uint32_t frame) const {
+  FrameState state = frame_state(segment, frame);
+  if (has_root())
+    move_whole(root_at(segment.first_frame + frame).affine(root_.axes()), &state);
+  return state;
 }
 
 void Clip::take_clip(uint32_t clip) {
@@ -282,6 +342,8 @@ void Clip::take_clip(uint32_t clip) {
                                                        : UINT32_MAX;
     sizes.frames = kept.count;
   }
+  root_.take_clip(clip);
+  limits_.root_frames = root_.holds(0) != 0 ? record_.clips[clip].frames : 0;
   record_.clips = Vector<ClipRecord>(1, ClipRecord(record_.clips[clip]));
   record_.place();
   wanted_.assign(1, 1);
@@ -521,7 +583,7 @@ size_t Clip::resident_bytes() const {
     total += m.attribute_bytes;
   for (const Segment& s : segments_)
     total += s.resident_bytes();
-  return total;
+  return total + root_.resident_bytes();
 }
 
 Failure Clip::check_hashes() const {
@@ -555,7 +617,7 @@ Status Clip::positions(uint32_t mesh, uint32_t frame, float* out) const {
   const Segment* segment = segment_at(mesh, frame);
   if (!segment)
     return Status::kAbsent;
-  FrameState state = frame_state(*segment, frame - segment->first_frame);
+  FrameState state = state_of(*segment, frame - segment->first_frame);
   Vector<float> shape(shape_size(*segment)), scratch(shape_scratch_size(*segment));
   make_shape(&state, shape.data(), scratch.data());
   play(state, 0, segment->vertices, out);

@@ -11,7 +11,9 @@
 #include "sdk/base/parallel_for.h"
 #include "sdk/clip/attributes.h"
 #include "sdk/clip/mesh_work.h"
+#include "sdk/clip/root_motion.h"
 #include "sdk/mesh/topology.h"
+#include "sdk/play/play.h"
 #include "sdk/segment/segment.h"
 
 #include <cstdint>
@@ -45,6 +47,8 @@ struct OpenOptions {
   ClipNames clips;
   /// Leaves the source's order of vertices and polygons alone, whatever the file keeps of it.
   bool any_order = false;
+  /// Leaves the motion of the whole out of the positions.
+  bool in_place = false;
   /// Share the work that can be shared; nothing depends on them.
   HostThreads threads;
   /// Told after every mesh, level of the vertices and component; may end the opening with
@@ -59,6 +63,9 @@ struct OpenOptions {
 /// what a file of its size can hold. The first step of opening it. Cost: O(chunks + meshes +
 /// segments).
 Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out);
+
+/// Moves what a state shows, its corrections excepted, which follow.
+void move_whole(const Affine& root, FrameState* state);
 
 /// One mesh of a clip. Its topology keeps what a player needs: polygons, and the coded vertex of
 /// each vertex.
@@ -127,6 +134,19 @@ class Clip {
   /// not there, or the attribute is as in frame 0. O(log segments).
   const Segment* segment_at(uint32_t track, uint32_t frame) const;
 
+  /// The motion of the whole, part of the positions or not.
+  const RootMotion& root() const { return root_; }
+
+  /// Whether the positions have the motion of the whole, and there is one.
+  bool has_root() const { return !root_.empty() && !in_place_; }
+
+  /// The motion of the whole in a frame of the file. O(log clips).
+  RootState root_at(uint32_t frame) const;
+
+  /// What play() needs for a frame, counted in a segment of positions, the motion of the whole
+  /// included where the positions have it.
+  FrameState state_of(const Segment& segment, uint32_t frame) const;
+
   /// Positions of all vertices of a mesh in one frame, in the order of the clip, three floats each.
   /// Errors: kFrameRange; kAbsent when no segment of the mesh holds the frame. Cost: O(vertices x
   /// components), the same for every frame. Allocates nothing, but in a segment of MSGI; where
@@ -151,6 +171,8 @@ class Clip {
  private:
   Failure choose_clips(const ClipNames& names);
   Failure open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
+  Failure open_root(const ContainerReader& file);
+  void turn_corrections();
   void list_tracks();
   Failure open_attributes(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
   Failure open_segments(const ContainerReader& file, const OpenOptions& options);
@@ -161,6 +183,8 @@ class Clip {
   Limits limits_;
   ClipsRecord record_;
   Vector<uint8_t> wanted_;  ///< by clip
+  RootMotion root_;
+  bool in_place_ = false;
   Vector<Mesh> meshes_;
   Vector<MeshWork> work_;  ///< while opening
   Vector<Segment> segments_;

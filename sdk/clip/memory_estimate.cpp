@@ -16,7 +16,7 @@ constexpr uint64_t kPoseModels = uint64_t{3} << 17;
 constexpr uint64_t kFaceModels = uint64_t{3} << 18;   // of the coder of faces
 constexpr uint64_t kOrderModels = uint64_t{1} << 18;  // and of the order of the vertices
 constexpr uint64_t kNeighbours = 24;                  // at most, of a vertex
-constexpr uint64_t kClip = 256;
+constexpr uint64_t kClip = 256, kRootOfClip = 128, kRootOfFrame = 12;
 constexpr uint64_t kStructure = 512;           // of a mesh or segment
 constexpr uint64_t kMatrix = 48;               // bytes of a pose map or motion
 constexpr uint64_t kSymbol = 12;               // bytes that Draco keeps of one that may occur
@@ -135,6 +135,8 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality) {
   uint64_t largest = 0;
   const Vector<uint32_t> predicted = predicted_segments(limits);
   open.add(kClip * limits.clip_frames.size());
+  if (limits.root_frames > 0)
+    open.add(kRootOfClip * limits.clip_frames.size() + kRootOfFrame * limits.root_frames);
   for (size_t i = 0; i < limits.meshes.size(); ++i) {
     const Limits::Mesh& m = limits.meshes[i];
     open.add(resident(m));

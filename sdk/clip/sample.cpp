@@ -65,12 +65,23 @@ FrameState mean_state(const Group& group, uint32_t components, float* weights) {
   }
   if (!s.pose_maps.empty())
     state.pose_map = mean_map(group, s.pose_maps);
-  if (!s.motions.empty())
+  state.moves = !s.motions.empty();
+  if (state.moves)
     state.motion = mean_motion(group, s.motions);
   return state;
 }
 
 }  // namespace
+
+RootState root_state(const Clip& clip, const FrameMix& mix) {
+  RootState states[FrameMix::kMost];
+  double weights[FrameMix::kMost];
+  for (uint32_t t = 0; t < mix.count; ++t) {
+    states[t] = clip.root_at(mix.terms[t].frame);
+    weights[t] = mix.terms[t].weight;
+  }
+  return mean_root(states, weights, mix.count);
+}
 
 uint32_t part_count(const Clip& clip, uint32_t track, const FrameMix& mix) {
   const Segment* found[FrameMix::kMost];
@@ -127,6 +138,11 @@ Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float*
       group.weights[t] /= group.share;
     sample.parts[g] = mean_state(group, played_components(*group.segment, quality), buffer);
     buffer += weight_count(*group.segment);
+  }
+  if (!is_attribute && clip.has_root()) {
+    const Affine root = root_state(clip, mix).affine(clip.root().axes());
+    for (uint32_t g = 0; g < count; ++g)
+      move_whole(root, &sample.parts[g]);
   }
   for (uint32_t g = 0; g < count; ++g) {
     make_shape(&sample.parts[g], buffer, scratch);

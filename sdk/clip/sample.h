@@ -34,6 +34,10 @@ struct Sample {
 /// How many parts the sample of a mix would have; make_sample() can make Sample::kMaxParts.
 uint32_t part_count(const Clip& clip, uint32_t track, const FrameMix& mix);
 
+/// The motion of the whole at a time, left out of the positions or not. No motion in clips that
+/// have none. Cost: O(frames of the mix x log clips).
+RootState root_state(const Clip& clip, const FrameMix& mix);
+
 /// Combines what depends on time. `buffer` holds sample_size().buffer() floats and must outlive the
 /// sample, as the clip must; `scratch` holds sample_size().scratch
 /// bytes. Rigid motions turn the shorter

@@ -58,7 +58,7 @@ void set_frame(const FrameState& state, const VertexOutput& output, uint32_t fir
                PlayJob::Frame* frame) {
   frame->weights = state.weights;
   frame->pose_map = state.pose_map.m;
-  frame->motion = state.segment->motions.empty() ? nullptr : state.motion.m;
+  frame->motion = state.moves ? state.motion.m : nullptr;
   frame->corrections_end = state.corrections + state.correction_count;
   frame->correction = std::partition_point(state.corrections, frame->corrections_end,
                                            [&](const auto& c) { return c.vertex < first; });
@@ -72,7 +72,7 @@ constexpr uint32_t kRange = 16 * kBlock;
 void combine_shape(const FrameState& state, uint32_t first, uint32_t count, VertexOutput output) {
   const Segment& segment = *state.segment;
   const Affine identity;
-  const float* m = segment.motions.empty() ? identity.m : state.motion.m;
+  const float* m = state.moves ? state.motion.m : identity.m;
   const Segment::Correction* end = state.corrections + state.correction_count;
   const Segment::Correction* correction =
       std::partition_point(state.corrections, end, [&](const auto& c) { return c.vertex < first; });
@@ -154,7 +154,8 @@ FrameState frame_state(const Segment& segment, uint32_t frame) {
       segment.weights.data() + size_t{frame} * segment.components * segment.weight_channels();
   if (!segment.pose_maps.empty())
     state.pose_map = segment.pose_maps[frame];
-  if (!segment.motions.empty())
+  state.moves = !segment.motions.empty();
+  if (state.moves)
     state.motion = segment.motions[frame];
   if (!segment.correction_begin.empty()) {
     uint32_t begin = segment.correction_begin[frame];

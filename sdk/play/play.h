@@ -16,7 +16,8 @@ struct FrameState {
   const Segment* segment = nullptr;
   const float* weights = nullptr;                    ///< components x weight_channels
   Affine pose_map;                                   ///< A_f, where the segment has a pose
-  Affine motion;                                     ///< M_f, where the segment has motions
+  Affine motion;                                     ///< M_f, where `moves`
+  bool moves = false;  ///< the segment has motions, or the whole has one
   const Segment::Correction* corrections = nullptr;  ///< ascending by vertex
   uint32_t correction_count = 0;
   uint32_t components = 0;       ///< the first ones of the segment, which are played

@@ -237,7 +237,11 @@ enum {
   /** Leaves the order of the source's vertices and polygons alone: they come as in a file of
    * ANIC_ORDER_FREE. Opening is faster by what decoding the order takes, a microsecond or more for
    * each vertex; for hosts that take faces and attributes from the asset too. */
-  ANIC_OPEN_ANY_ORDER = 2
+  ANIC_OPEN_ANY_ORDER = 2,
+  /** Leaves the motion of the whole out of positions, parts and boxes, in clips that have it apart,
+   * for hosts that move the character themselves: anic_get_root_motion(). Nothing changes in
+   * others. Spec: 06, section 11. */
+  ANIC_OPEN_IN_PLACE = 4
 };
 
 /**
@@ -436,6 +440,24 @@ ANIC_API anic_status anic_clip_info(const anic_asset* asset, uint32_t clip, anic
  * - Cost: O(clips)
  */
 ANIC_API anic_status anic_find_clip(const anic_asset* asset, const char* name, uint32_t* out);
+
+/** A named time of a clip. The string belongs to the asset. */
+typedef struct anic_event {
+  size_t struct_size;
+  const char* name;
+  double seconds; /**< from the clip's first frame on, 0 or more */
+} anic_event;
+
+/** How many events a clip has; 0 for NULL and for clips that are not there. */
+ANIC_API uint32_t anic_event_count(const anic_asset* asset, uint32_t clip);
+
+/**
+ * An event of a clip, open or not; they ascend by time.
+ *
+ * - Errors: ANIC_E_ARGUMENT: there is no such clip or event, too
+ */
+ANIC_API anic_status anic_event_info(const anic_asset* asset, uint32_t clip, uint32_t event,
+                                     anic_event* out);
 
 /** A mesh. The string belongs to the asset. */
 typedef struct anic_mesh {
@@ -684,6 +706,44 @@ enum anic_when ANIC_INT32 {
   ANIC_WHEN_PREVIOUS = 1 /**< chosen by the seek before, for motion vectors; the same as the
                             current time after the first seek */
 };
+
+/**
+ * The motion of the whole at a time: a turn about the up axis through the pivot, then a move along
+ * the ground, both from where the clip was before. No motion where the clip has none apart.
+ * Spec: 06, section 11.
+ */
+typedef struct anic_root_motion {
+  size_t struct_size;
+  uint8_t moves; /**< the clip holds moves, or one of those that are blended does */
+  uint8_t turns; /**< the same of turns */
+  double turn;   /**< radians, counter-clockwise seen from above; whole turns count */
+  double move[3];
+  double pivot[3];
+  float matrix[12]; /**< the same as one map, 3 x 4, row-major: what takes positions without it
+                       (ANIC_OPEN_IN_PLACE) to those with it */
+} anic_root_motion;
+
+/**
+ * Tells the motion of the whole at any time of a clip, part of the positions or not. A loop begins
+ * again where it began: a host that goes on adds the motion at the duration for each turn.
+ *
+ * - Errors: ANIC_E_ABSENT: the clip was not opened; ANIC_E_ARGUMENT: no such clip, and as
+ *   anic_seek_time()
+ * - Cost: as anic_seek_time(), without components
+ */
+ANIC_API anic_status anic_get_root_motion(const anic_asset* asset, uint32_t clip, double seconds,
+                                          anic_sampling sampling, anic_wrap wrap,
+                                          anic_root_motion* out);
+
+/**
+ * Tells the motion of the whole of what a context shows, blends included: moves and pivots are
+ * mixed, and turns go the shorter way.
+ *
+ * - Errors: ANIC_E_STATE: nothing is chosen yet; ANIC_E_ARGUMENT
+ * - Cost: O(1)
+ */
+ANIC_API anic_status anic_get_shown_root_motion(const anic_context* context, anic_when when,
+                                                anic_root_motion* out);
 
 /**
  * How a position or normal is stored, in the machine's byte order. Formats of four components have
