@@ -57,7 +57,7 @@ Comparison compare_positions(const Clip& clip, const EncoderInput& input, const 
   return compare(
       input.sequence.polygons, vertices, run.count,
       [&](uint32_t f) -> std::span<const float> {
-        copy_rows(input.frames().frame(run.first + f), input.layout.source_coded, &original);
+        copy_rows(input.shown().frame(run.first + f), input.layout.source_coded, &original);
         return original;
       },
       [&](uint32_t f) -> std::span<const float> {

@@ -4,6 +4,7 @@
 
 #include "codec/check_file.h"
 #include "codec/file/clip_record.h"
+#include "codec/file/root_motion_encode.h"
 #include "codec/search/clip_search.h"
 #include "codec/search/search_progress.h"
 #include "codec/segment/reference_pose_encode.h"
@@ -71,6 +72,19 @@ void cut_timing(const FrameRun& part, MeshSequence& sequence) {
   sequence.times = std::move(times);
 }
 
+/// The motion of the whole is taken out and put back in floats: a target that leaves room for it.
+Target below_rounding(Target target, double bound) {
+  if (target.metric == ErrorMetric::kMaxError) {
+    if (target.value <= 2 * bound)
+      throw Error(ErrorKind::kUsage, "the largest error asked for is too small for floats to keep beside the "
+                                     "motion of the whole");
+    target.value -= bound;
+  } else if (target.metric == ErrorMetric::kKg || target.metric == ErrorMetric::kRmse) {
+    target.value *= 1 - 1e-5;
+  }
+  return target;
+}
+
 /// Frame 0 of the whole clip, the same in all parts: on a grid as fine as the error asked for.
 std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, const Target& target,
                                                  double clip_diagonal) {
@@ -112,14 +126,33 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
       clips_record(sequence, options, target, std::vector<double>(closed.size(), clip_diagonal));
   for (size_t c = 0; c < closed.size(); ++c)
     record.clips[c].closed = closed[c];
+  EncodedRoot root;
+  std::vector<float> whole;
+  if (options.root_motion) {
+    if (options.part)
+      throw Error(ErrorKind::kUsage, "the motion of the whole is of a clip, not of a part");
+    whole = sequence.positions;
+    root = take_root_motion(clip_diagonal, &sequence);
+  }
   EncoderInput input(std::move(sequence), options.part);
+  EncodeOptions limited = options;
+  Target searched = target;
+  if (root.frames > 0) {
+    input.keep_whole(whole);
+    input.layout.root = root.chunk;
+    input.layout.root_frames = root.frames;
+    searched = below_rounding(target, input.smallest_bound());
+    if (options.cap)
+      limited.cap = below_rounding(in_scene_units(*options.cap, clip_diagonal), input.smallest_bound());
+  }
+  whole = {};
   if (target.metric == ErrorMetric::kKg || target.metric == ErrorMetric::kRmse)
     input.bound_clips(target.metric);
   const std::vector<StoredAttribute> stored =
       encode_attributes(input.sequence, options.attributes, &input.layout);
   if (options.part)
     input.pose = pose_of_parts(input, target, clip_diagonal);
-  ClipSearch search(input, stored, options, target, clip_diagonal);
+  ClipSearch search(input, stored, limited, searched, clip_diagonal);
   SearchProgress steps(progress, search.expected_trials());
   input.on_trial = [&steps] { steps.trial(); };
   CodedClip coded = search.run(record);

@@ -145,6 +145,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
     throw Error(ErrorKind::kUsage, "several clips of several meshes are not encoded together");
   const double length = diagonal_of(scene);
   const Spread spread = spread_of(scene);
+  if (options.root_motion)
+    throw Error(ErrorKind::kUsage, "the motion of the whole can be apart in clips of one mesh only");
   EncodeOptions of_mesh = options;
   of_mesh.target = shared(options.target, spread, length);
   if (options.cap)

@@ -135,6 +135,7 @@ void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
   mesh->up = clip.up;
   mesh->metres_per_unit = clip.metres_per_unit;
   mesh->loop = clip.loop;
+  mesh->events = clip.events;
   mesh->clips = clip.clips;
 }
 
@@ -224,11 +225,23 @@ MeshSequence clip_of(const anic_source_clip& host) {
                          (f == 0 ? clip.times[0] == 0 : clip.times[f] > clip.times[f - 1]),
                      "the times must begin with 0 and ascend");
   }
+  ClipTiming timing = clips_of(clip)[0];
+  for (uint32_t i = 0; i < host.event_count; ++i) {
+    check_argument(host.event_names && host.event_names[i] && host.event_seconds,
+                   "an event has no name or time");
+    try {
+      add_event({host.event_names[i], host.event_seconds[i]}, &timing);
+    } catch (const Error& e) {
+      check_argument(false, e.what());
+    }
+  }
+  clip.events = std::move(timing.events);
   return clip;
 }
 
 ClipTiming timing_of(const MeshSequence& clip) {
-  return {clip.name, clip.frame_count, clip.rate, clip.start_time, clip.times, clip.loop};
+  return {clip.name, clip.frame_count, clip.rate, clip.start_time, clip.times, clip.loop,
+          clip.events};
 }
 
 /// Appends a clip to those of a file.

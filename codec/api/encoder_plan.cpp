@@ -111,10 +111,12 @@ void set_attributes(const anic_encode_options& host, AttributeOptions& attribute
 EncodingPlan encoding_plan(const anic_encode_options& host) {
   constexpr MassageMode kModes[] = {MassageMode::kOff, MassageMode::kOn, MassageMode::kAuto};
   constexpr uint64_t kKnown = ANIC_ENCODE_PERCENT | ANIC_ENCODE_CAP_PERCENT |
-                              ANIC_ENCODE_ERROR_PERCENT | ANIC_ENCODE_NO_ATTRIBUTES;
+                              ANIC_ENCODE_ERROR_PERCENT | ANIC_ENCODE_NO_ATTRIBUTES |
+                              ANIC_ENCODE_ROOT_MOTION;
   if (host.flags & ~kKnown)
     refuse("there are unknown flags");
   EncodingPlan plan;
+  plan.options.root_motion = (host.flags & ANIC_ENCODE_ROOT_MOTION) != 0;
   set_goal(host, plan.options);
   set_method(host, plan.options);
   set_attributes(host, plan.options.attributes);

@@ -24,6 +24,8 @@ struct MeshLayout {
   Bytes faces;                         ///< the stream of chunk MESH
   Bytes vertex_map;                    ///< chunk VMAP
   Bytes face_map;                      ///< chunk FMAP
+  Bytes root;                          ///< chunk ROOT, empty for none
+  uint32_t root_frames = 0;            ///< Limits::root_frames
   Bytes attributes;  ///< chunk ATTR, empty for none: encode_attributes() puts it there
   Vector<uint32_t> vertex_source;   ///< source vertex of each canonical vertex
   Vector<uint32_t> polygon_source;  ///< source polygon of each canonical polygon,

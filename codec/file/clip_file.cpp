@@ -28,6 +28,7 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
   mesh.faces = layout.faces;
   Limits limits;
   limits.meshes.push_back(layout.sizes);
+  limits.root_frames = layout.root_frames;
   for (const ClipRecord& clip : record.clips) {
     if (record.clips.size() > 1)
       limits.clip_frames.push_back(clip.frames);
@@ -41,6 +42,8 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
   ContainerWriter file;
   file.add("LIMI", true, kNoMesh, kNoSegment, limits.write());
   file.add("CLIP", true, kNoMesh, kNoSegment, record.write());
+  if (!layout.root.empty())
+    file.add("ROOT", true, kNoMesh, kNoSegment, layout.root);
   file.add("MESH", true, kMesh, kNoSegment, mesh.write());
   if (record.order != OrderMode::kFree)
     file.add("VMAP", true, kMesh, kNoSegment, layout.vertex_map);

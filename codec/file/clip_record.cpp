@@ -23,6 +23,11 @@ ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& opti
     clip.loop = timing.loop;
     clip.start_time = timing.start_time;
     clip.times.assign(timing.times.begin(), timing.times.end());
+    for (const NamedTime& event : timing.events) {
+      ClipEvent& stored = clip.events.emplace_back();
+      stored.name = event.name;
+      stored.seconds = event.seconds;
+    }
     clip.massaged = options.surface_change.has_value();
     if (clip.massaged) {
       clip.surface_error = options.surface_change->max;

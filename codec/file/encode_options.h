@@ -51,6 +51,8 @@ struct EncodeOptions {
   std::string encoder;  ///< name and version to store in the file
   /// The sequence is not the source itself but one that massage() made of it: to store in the file.
   std::optional<SurfaceChange> surface_change;
+  /// Takes the motion of the whole out of the positions, where there is any, and stores it apart.
+  bool root_motion = false;
   AttributeOptions attributes;
   int effort = 5;  ///< 1..9: how long to search
   OpeningChoice opening = OpeningChoice::kSmall;

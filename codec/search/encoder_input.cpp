@@ -79,6 +79,18 @@ EncoderInput::EncoderInput(const EncoderInput& mesh, std::vector<float> trajecto
     kg_reference = 1;
 }
 
+void EncoderInput::keep_whole(const std::vector<float>& positions) {
+  whole.reserve(coded.size());
+  for (size_t f = 0; f < sequence.frame_count; ++f) {
+    for (uint32_t v : layout.coded_source) {
+      const auto at = positions.begin() + ptrdiff_t{3} * static_cast<ptrdiff_t>(f * sequence.vertex_count + v);
+      whole.insert(whole.end(), at, at + 3);
+    }
+  }
+  for (float x : whole)
+    largest_coordinate = std::max(largest_coordinate, std::abs(static_cast<double>(x)));
+}
+
 Eigen::MatrixXd EncoderInput::centred_first_pose(Eigen::Vector3d* origin) const {
   using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
   const auto rows = static_cast<Eigen::Index>(first_pose.size() / 3);

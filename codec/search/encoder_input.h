@@ -45,6 +45,16 @@ struct EncoderInput {
   /// Root mean square over the source's vertices and some frames.
   double rmse(double squared, size_t frames) const;
 
+  /// What a decoder is to show.
+  FrameView shown() const {
+    return {whole.empty() ? coded.data() : whole.data(), sequence.frame_count,
+            layout.sizes.coded_vertices};
+  }
+
+  /// Keeps the positions of the source, frames x vertices x 3, which `coded` has without the motion
+  /// of the whole.
+  void keep_whole(const std::vector<float>& positions);
+
   double rmse(double squared) const { return rmse(squared, sequence.frame_count); }
 
   /// The root mean square error, scene units, of a KG error in per cent.
@@ -72,6 +82,8 @@ struct EncoderInput {
   MeshSequence sequence;  ///< the source without its positions
   MeshLayout layout;
   std::vector<float> coded;       ///< frames x coded vertices x 3
+  /// Where the motion of the whole was taken out: the same with it. Else empty.
+  std::vector<float> whole;
   std::vector<InputClip> clips;   ///< one at least, in the order of their frames
   std::vector<uint32_t> copies;   ///< source vertices of each coded one
   double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0

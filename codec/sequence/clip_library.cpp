@@ -71,7 +71,7 @@ MeshSequence clip_library(std::vector<MeshSequence> clips) {
     positions.insert(positions.end(), clip.positions.begin(), clip.positions.end());
     clip.positions = {};
     library.clips.push_back({std::move(clip.name), clip.frame_count, clip.rate, clip.start_time,
-                             std::move(clip.times), clip.loop});
+                             std::move(clip.times), clip.loop, std::move(clip.events)});
   }
   library.positions = std::move(positions);
   return library;

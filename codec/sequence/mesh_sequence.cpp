@@ -37,7 +37,22 @@ std::vector<ClipTiming> clips_of(const MeshSequence& sequence) {
   if (!sequence.clips.empty())
     return sequence.clips;
   return {{sequence.name, sequence.frame_count, sequence.rate, sequence.start_time, sequence.times,
-           sequence.loop}};
+           sequence.loop, sequence.events}};
+}
+
+void add_event(const NamedTime& event, ClipTiming* clip) {
+  const double last = clip->times.empty() ? (clip->frame_count - 1) / clip->rate.value()
+                                          : clip->times.back() - clip->times.front();
+  const double end = last + 1 / clip->rate.value();
+  auto fail = [&](const std::string& text) {
+    throw Error(ErrorKind::kUsage, "event '" + event.name + "' of clip '" + clip->name + "' " + text);
+  };
+  if (event.name.empty())
+    fail("has no name");
+  if (!(event.seconds >= 0 && event.seconds <= end))
+    fail("is outside the clip");
+  const auto place = std::ranges::upper_bound(clip->events, event.seconds, {}, &NamedTime::seconds);
+  clip->events.insert(place, event);
 }
 
 void check(const MeshSequence& sequence) {

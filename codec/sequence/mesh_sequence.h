@@ -76,6 +76,12 @@ struct MeshDetails {
   PolygonLabels parts;  ///< meshes or objects of the source
 };
 
+/// A named time of a clip.
+struct NamedTime {
+  std::string name;
+  double seconds = 0;  ///< from the clip's first frame on
+};
+
 /// A clip of a sequence: some of its frames, with a name and a clock of their own.
 struct ClipTiming {
   std::string name;
@@ -84,6 +90,7 @@ struct ClipTiming {
   double start_time = 0;      ///< seconds
   std::vector<double> times;  ///< as in MeshSequence
   bool loop = false;
+  std::vector<NamedTime> events = {};  ///< ascending by time
 };
 
 /// An animated mesh: one connectivity, a position per vertex per frame. Positions are kept as
@@ -101,7 +108,8 @@ struct MeshSequence : MeshDetails {
   UpAxis up = UpAxis::kUnknown;
   double metres_per_unit = 0;  ///< 0: unknown
   bool loop = false;           ///< meant to be repeated
-  /// Several clips, one after the other: all frames together; name, rate, start, times and loop of
+  std::vector<NamedTime> events;  ///< ascending by time
+  /// Several clips, one after the other: all frames together; name, rate, start, times, loop and events of
   /// the sequence are then without meaning. Empty: it is one clip.
   std::vector<ClipTiming> clips;
 
@@ -125,6 +133,10 @@ struct FrameRun {
 
 /// The clips of a sequence, one at least.
 std::vector<ClipTiming> clips_of(const MeshSequence& sequence);
+
+/// Adds an event in the order of times. Throws Error(kUsage) for a time that is outside the clip, which lasts
+/// until its last frame has had its time, and for an empty name.
+void add_event(const NamedTime& event, ClipTiming* clip);
 
 /// Throws Error(kInput) naming the first fault: no frame, no vertex, a size that does not fit, a
 /// corner out of range, a position that is not finite (with frame and vertex), an attribute that

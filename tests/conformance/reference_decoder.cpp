@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -171,7 +172,8 @@ std::string mesh_facts(const Clip& clip, uint32_t mesh, const Positions& frames)
       .str();
 }
 
-std::string clip_facts(const ClipRecord& r) {
+std::string clip_facts(const Clip& clip, uint32_t of) {
+  const ClipRecord& r = clip.clips()[of];
   Object out;
   out.add("name", quoted(r.name)).add("frames", integer(r.frames));
   out.add("rate", list(std::vector<uint64_t>{r.rate_numerator, r.rate_denominator}, integer));
@@ -195,6 +197,19 @@ std::string clip_facts(const ClipRecord& r) {
             return "[" + integer(e.mesh) + "," + integer(e.attribute) + "," + number(e.max_error) +
                    "," + number(e.rmse) + "]";
           }));
+  if (!r.events.empty())
+    out.add("events", list(r.events, [](const ClipEvent& e) {
+              return "[" + quoted(e.name) + "," + number(e.seconds) + "]";
+            }));
+  if (clip.root().holds(of) != 0) {
+    std::vector<uint32_t> frames(r.frames);
+    std::iota(frames.begin(), frames.end(), 0U);
+    out.add("root", list(frames, [&](uint32_t f) {
+              const RootState s = clip.root().at(of, f);
+              return "[" + number(s.turn) + "," + number(s.move[0]) + "," + number(s.move[1]) + "," +
+                     number(s.pivot[0]) + "," + number(s.pivot[1]) + "]";
+            }));
+  }
   return out.str();
 }
 
@@ -205,8 +220,8 @@ std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
   out.add("order", integer(static_cast<uint64_t>(clip.record().order)));
   out.add("metres_per_unit", number(clip.record().metres_per_unit));
   std::vector<std::string> clips;
-  for (const ClipRecord& record : clip.clips())
-    clips.push_back(clip_facts(record));
+  for (uint32_t c = 0; c < clip.clips().size(); ++c)
+    clips.push_back(clip_facts(clip, c));
   out.add("clips", list(clips, [](const std::string& c) { return c; }));
   std::vector<std::string> meshes;
   for (uint32_t m = 0; m < clip.meshes().size(); ++m)

@@ -426,6 +426,43 @@ Bytes tangle() {
   return encode(Tangle().make(), options).file;
 }
 
+/// A character of a few vertices that walks in a curve, stands, and walks again: three clips, of which
+/// one has no motion of its own, with events and corrections.
+Bytes walk() {
+  constexpr uint32_t kVertices = 12, kFrames = 8;
+  MeshSequence all;
+  all.vertex_count = kVertices;
+  all.up = UpAxis::kZ;
+  for (uint32_t v = 0; v + 2 < kVertices; ++v)
+    all.polygons.add(std::vector<uint32_t>{v, v + 1, v + 2});
+  for (uint32_t c = 0; c < 3; ++c) {
+    for (uint32_t f = 0; f < kFrames; ++f) {
+      const double turn = c == 0 ? 0.3 * f : 0, way = c == 1 ? 0 : 0.5 * f;
+      for (uint32_t v = 0; v < kVertices; ++v) {
+        const double x = 0.4 * (v % 3) + 0.05 * ((v * 5 + f * (c + 1)) % 7), y = 0.3 * (v % 2 + v % 5),
+                     z = 0.2 * v + 0.02 * (f * v % 5);
+        all.positions.push_back(static_cast<float>(3 + x * std::cos(turn) - y * std::sin(turn) + way));
+        all.positions.push_back(static_cast<float>(x * std::sin(turn) + y * std::cos(turn) - way / 2));
+        all.positions.push_back(static_cast<float>(z));
+      }
+    }
+    ClipTiming clip;
+    clip.name = c == 0 ? "turn" : c == 1 ? "stand" : "walk";
+    clip.frame_count = kFrames;
+    clip.rate = {10, 1, false};
+    if (c != 1)
+      clip.events = {{"left", 0.1}, {"right", 0.1}, {"", 0.65}};
+    all.clips.push_back(clip);
+  }
+  all.frame_count = 3 * kFrames;
+  EncodeOptions options;
+  options.target = {ErrorMetric::kKg, 5, false};
+  options.cap = Target{ErrorMetric::kMaxError, 2, true};
+  options.basis = BasisChoice::kEigentrajectories;
+  options.root_motion = true;
+  return encode(all, options).file;
+}
+
 struct Vector {
   const char* name;
   Bytes (*make)();
@@ -436,6 +473,7 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"rings", rings_by_degree},
                                {"weights_in_time", weights_in_time},
                                {"clips", clips},
+                               {"walk", walk},
                                {"saturated", saturated},
                                {"batches", batches},
                                {"partners", partners},

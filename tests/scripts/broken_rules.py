@@ -185,7 +185,7 @@ def clip_rules(files):
     yield 40, "clip_of_many_rate", clips.put("CLIP clip 5 rate numerator", b"\0"), "the last of several clips has no rate"
     yield 40, "clip_of_many_time", clips.put("CLIP clip 2 time of frame 3", NAN), "a time of a clip that is not a number"
     for name, label, value in (
-            ("rate", "rate numerator", b"\0"), ("rate_denominator", "rate denominator", b"\0"), ("flags", "flags", b"\x40"),
+            ("rate", "rate numerator", b"\0"), ("rate_denominator", "rate denominator", b"\0"), ("flags", "flags", b"\x80"),
             ("up", "up axis", b"\3"), ("order", "order", b"\3"), ("start", "start time", INFINITE),
             ("metres", "metres per unit", struct.pack("<f", -1)), ("asked", "asked", b"\6"),
             ("asked_value", "asked value", NAN), ("max_error", "max error", f64(-1)), ("rmse", "RMSE", INFINITE),
@@ -200,6 +200,31 @@ def clip_rules(files):
     yield 40, "clip_attribute_error", moved.put("CLIP error 1 RMSE", NAN), "an error that is not a number"
     yield 40, "clip_no_errors", moved.put("CLIP attributes with an error", b"\0"), "a list of no errors"
     yield 40, "clip_surface_error", special.put("CLIP surface error", f64(-1)), "a surface error below 0"
+
+
+def root_rules(files):
+    """The same for ROOT and events, sections 2, 3 and 11."""
+    walk, triangle = files("walk"), files("triangle")
+    yield 40, "clip_event_time", walk.put("CLIP clip 0 event 1 time", NAN), "a time of an event that is not a number"
+    yield 40, "clip_event_falls", walk.put("CLIP clip 0 event 1 time", f64(0.05)), "an event before the one before it"
+    yield 40, "clip_event_below", walk.put("CLIP clip 0 event 0 time", f64(-1)), "an event before the clip"
+    yield 40, "clip_no_events", walk.put("CLIP clip 0 events", b"\0"), "a list of no events"
+    yield 40, "clip_many_events", walk.put("CLIP clip 0 events", b"\x7f"), "more events than bytes"
+    yield 40, "limi_root_frames", walk.put("LIMI frames with root motion", b"\x0f"), "root frames that are not those of the clips"
+    yield 40, "limi_no_root_frames", walk.put("LIMI frames with root motion", b"\0"), "root frames of 0"
+    yield 40, "limi_many_root_frames", walk.put("LIMI frames with root motion", b"\x7f"), "more root frames than frames"
+    yield 26, "root_missing", walk.without("ROOT"), "root frames without ROOT"
+    yield 25, "root_twice", walk.twice("ROOT"), "ROOT twice"
+    yield 44, "root_of_none", triangle.more("ROOT"), "ROOT without root frames"
+    yield 44, "root_of_mesh", walk.more("ROOT", mesh=0), "ROOT of a mesh"
+    yield 40, "root_holds", walk.put("ROOT clip 0 holds", b"\4"), "ROOT that holds what does not exist"
+    yield 40, "root_holds_nothing", walk.put("ROOT clip 0 holds", b"\0"), "a clip that holds nothing of its root frames"
+    yield 45, "root_pivot", walk.put("ROOT clip 0 pivot b", INFINITE), "a pivot that is infinite"
+    yield 45, "root_step", walk.put("ROOT clip 0 step", f64(0)), "a step of 0"
+    yield 45, "root_turn_step", walk.put("ROOT clip 0 turn step", NAN), "a step of turns that is not a number"
+    yield 46, "root_far", walk.put("ROOT clip 0 step", f64(1e300)), "moves that are infinite in binary32"
+    yield 46, "root_pivot_far", walk.put("ROOT clip 0 pivot a", f64(3e38)), "a pivot whose double is infinite in binary32"
+    yield 41, "root_more", walk.end("ROOT", b"\1"), "bytes after the series"
 
 
 def mesh_rules(files):
@@ -340,6 +365,6 @@ def broken_rules(command, folder, status_of):
             opened[name] = File(command, folder / f"{name}.anic")
         return opened[name]
 
-    for rules in (chunk_rules, limit_rules, clip_rules, mesh_rules, segment_rules):
+    for rules in (chunk_rules, limit_rules, clip_rules, root_rules, mesh_rules, segment_rules):
         yield from rules(files)
     yield from stream_rules(files, status_of)

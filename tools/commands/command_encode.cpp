@@ -134,6 +134,8 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
   if (!command.inputs.empty())
     throw Error(ErrorKind::kUsage, command.inputs[0] + ": --batch takes its inputs from " +
                                        command.batch + ", no others");
+  if (!command.events.empty())
+    throw Error(ErrorKind::kUsage, "--event goes with one file, --batch has many");
   if (command.split_objects && command.massage != MassageMode::kOff)
     throw Error(ErrorKind::kUsage, "--split-objects goes without --massage");
   EncodeOptions options = encode_options(command);

@@ -20,6 +20,23 @@
 namespace anicodec::tools {
 namespace {
 
+/// What of the motion of the whole is apart.
+nlohmann::ordered_json root_words(uint8_t holds) {
+  nlohmann::ordered_json words = nlohmann::ordered_json::array();
+  if (holds & RootRecord::kMoves)
+    words.push_back("moves");
+  if (holds & RootRecord::kTurns)
+    words.push_back("turns");
+  return words;
+}
+
+nlohmann::ordered_json events_json(const ClipRecord& clip) {
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  for (const ClipEvent& event : clip.events)
+    events.push_back({{"name", event.name}, {"seconds", event.seconds}});
+  return events;
+}
+
 constexpr const char* kInfoFooter =
     R"(--json prints an object a file: file, bytes, ratio (float32 positions against the file), bpfv,
 resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
@@ -182,7 +199,9 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
          {"asked", {{"metric", name_of(clip.asked)}, {"value", clip.asked_value}}},
          {"max_error", clip.max_error},
          {"rmse", clip.rmse},
-         {"kg", clip.kg}});
+         {"kg", clip.kg},
+         {"root_motion", root_words(c.clip.root().holds(static_cast<uint32_t>(&clip - c.clip.clips().data())))},
+         {"events", events_json(clip)}});
   json["attributes"] = nlohmann::ordered_json::array();
   for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
     const Vector<MeshAttribute>& attributes = c.clip.meshes()[m].attributes;

@@ -198,6 +198,8 @@ std::vector<ClipTiming> clip_timings(const Clip& clip) {
     timing.start_time = record.start_time;
     timing.times.assign(record.times.begin(), record.times.end());
     timing.loop = record.loop;
+    for (const ClipEvent& event : record.events)
+      timing.events.push_back({{event.name.begin(), event.name.end()}, event.seconds});
   }
   if (timings.size() == 1)
     timings.clear();

@@ -11,6 +11,8 @@
 #include "tools/words/word_list.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -93,6 +95,34 @@ void set_names(const std::string& list, MeshSequence& sequence) {
     sequence.clips[c].name = names[c];
 }
 
+/// Adds the events of --event to their clips.
+void set_events(const std::vector<std::string>& events, MeshSequence& sequence) {
+  for (const std::string& text : events) {
+    const size_t equals = text.rfind('=');
+    if (equals == std::string::npos)
+      throw Error(ErrorKind::kUsage, "--event: '" + text + "' is not NAME=SECONDS");
+    NamedTime event{text.substr(0, equals), -1};
+    const char* last = text.data() + text.size();
+    const auto read = std::from_chars(text.data() + equals + 1, last, event.seconds);
+    if (read.ec != std::errc() || read.ptr != last || !std::isfinite(event.seconds))
+      throw Error(ErrorKind::kUsage, "--event: '" + text + "' has no time in seconds");
+    if (sequence.clips.empty()) {
+      ClipTiming clip = clips_of(sequence)[0];
+      add_event(event, &clip);
+      sequence.events = std::move(clip.events);
+      continue;
+    }
+    const auto clip = std::ranges::find_if(sequence.clips, [&](const ClipTiming& c) {
+      return event.name.starts_with(c.name + ":");
+    });
+    if (clip == sequence.clips.end())
+      throw Error(ErrorKind::kUsage,
+                  "--event: '" + text + "' names no clip; of several it is CLIP:NAME=SECONDS");
+    event.name.erase(0, clip->name.size() + 1);
+    add_event(event, &*clip);
+  }
+}
+
 void add_target(Options& options, EncodeArguments& a) {
   options.group("Target");
   options.option("--max-error", a.max_error, "LEN", "Largest error of any vertex (default 0.05%)");
@@ -168,6 +198,11 @@ void add_metadata(Options& options, EncodeArguments& a) {
                  "its keys stand on, or without one a rate of 30 or more that ends with the last)");
   options.choice("--up", a.up, {kUpAxes}, "Axis that points up");
   options.option("--unit", a.unit, "METRES", "Length of a scene unit: metres, or m cm mm km in ft");
+  options.repeated("--event", a.events, "[CLIP:]NAME=SECONDS",
+                   "A named time of the clip, from its first frame on, or of one of several clips");
+  options.flag("--root-motion", a.root_motion,
+               "Keep the motion of the whole along the ground, and its turn about the up axis, "
+               "apart: a program can leave it out and move the character itself");
   options.flag("--loop", a.loop, "The clip is meant to be repeated");
 }
 
@@ -252,6 +287,7 @@ EncodeOptions encode_options(const EncodeArguments& command) {
     options.attributes.error = error.value;
     options.attributes.error_percent = error.percent;
   }
+  options.root_motion = command.root_motion;
   options.effort = command.effort;
   options.opening = command.opening;
   options.encoder = fmt::format("anicodec {}", version());
@@ -299,6 +335,7 @@ void set_metadata(const EncodeArguments& command, MeshSequence& sequence) {
   for (ClipTiming& clip : sequence.clips)
     clip.loop = command.loop;
   set_names(command.names, sequence);
+  set_events(command.events, sequence);
 }
 
 std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) {
@@ -314,6 +351,8 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
   settings.push_back(c.massage_tolerance);
   settings.push_back(c.attribute_error);
   settings.push_back(c.normal_error);
+  settings.push_back(c.root_motion);
+  settings.push_back(c.events);
   for (uint32_t number : {uint32_t{options.attributes.keep}, options.attributes.uv_bits,
                           options.attributes.colour_bits})
     settings.push_back(number);

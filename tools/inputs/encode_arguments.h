@@ -47,6 +47,8 @@ struct EncodeArguments {
   std::string rate, unit;
   UpAxis up = UpAxis::kUnknown;
   bool loop = false;
+  std::vector<std::string> events;  ///< [CLIP:]NAME=SECONDS
+  bool root_motion = false;
   bool allow_outside = false;
   bool no_attributes = false;
   AttributeOptions attributes;

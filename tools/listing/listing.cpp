@@ -50,17 +50,19 @@ void list_limits(FieldReader& r) {
   }
   for (uint64_t i = 0; i < meshes && r.ok() && r.remaining() > 0; ++i)
     r.varint(fmt::format("mesh {} attribute bytes", i));
+  if (r.ok() && r.remaining() > 0)
+    r.varint("frames with root motion");
 }
 
 void list_clip(FieldReader& r, const std::string& clip, uint32_t frames) {
-  constexpr uint8_t kMassaged = 8, kTimes = 16, kAttributeErrors = 32;
+  constexpr uint8_t kMassaged = 8, kTimes = 16, kAttributeErrors = 32, kEvents = 64;
   r.text(clip + "name");
   r.varint(clip + "rate numerator");
   r.varint(clip + "rate denominator");
   uint8_t flags = r.u8(clip + "flags");
   std::string meaning;
   constexpr const char* kFlags[] = {"rate assumed", "loop",  "closed",
-                                    "massaged",     "times", "attribute errors"};
+                                    "massaged",     "times", "attribute errors", "events"};
   for (size_t i = 0; i < std::size(kFlags); ++i) {
     if (flags >> i & 1)
       meaning += (meaning.empty() ? "" : ", ") + std::string(kFlags[i]);
@@ -85,6 +87,11 @@ void list_clip(FieldReader& r, const std::string& clip, uint32_t frames) {
     r.f64(fmt::format("{}error {} max error", clip, i));
     r.f64(fmt::format("{}error {} RMSE", clip, i));
   }
+  const uint64_t events = flags & kEvents ? r.varint(clip + "events") : 0;
+  for (uint64_t i = 0; i < events && r.ok(); ++i) {
+    r.text(fmt::format("{}event {} name", clip, i));
+    r.f64(fmt::format("{}event {} time", clip, i));
+  }
 }
 
 /// `frames` of each clip: they are in another chunk.
@@ -95,6 +102,23 @@ void list_clips(FieldReader& r, const std::vector<uint32_t>& frames) {
   r.f32("metres per unit");
   for (size_t c = 0; c < frames.size() && r.ok(); ++c)
     list_clip(r, frames.size() > 1 ? fmt::format("clip {} ", c) : "", frames[c]);
+}
+
+void list_root(FieldReader& r, size_t clips) {
+  for (size_t c = 0; c < clips && r.ok(); ++c) {
+    const std::string clip = clips > 1 ? fmt::format("clip {} ", c) : "";
+    const uint8_t holds = r.u8(clip + "holds");
+    r.explain(holds == 0 ? "nothing" : holds == 1 ? "moves" : holds == 2 ? "turns" : "moves, turns");
+    if (holds == 0)
+      continue;
+    r.f64(clip + "pivot a");
+    r.f64(clip + "pivot b");
+    if (holds & 1)
+      r.f64(clip + "step");
+    if (holds & 2)
+      r.f64(clip + "turn step");
+  }
+  r.bytes("motion", r.remaining());
 }
 
 void list_mesh(FieldReader& r) {
@@ -168,6 +192,8 @@ void list_payload(const Chunk& chunk, ByteView payload, const std::vector<uint32
     list_limits(r);
   else if (chunk.type == chunk_type("CLIP"))
     list_clips(r, frames);
+  else if (chunk.type == chunk_type("ROOT"))
+    list_root(r, frames.size());
   else if (chunk.type == chunk_type("MESH"))
     list_mesh(r);
   else if (chunk.type == chunk_type("POSE"))

@@ -78,6 +78,9 @@ typedef struct anic_source_clip {
   double start_time;      /**< of frame 0 on the clock of the source, seconds */
   double metres_per_unit; /**< 0: unknown */
   const double* times; /**< frame_count ascending seconds from frame 0; NULL: evenly by the rate */
+  const char* const* event_names; /**< UTF-8, of events: named times */
+  const double* event_seconds;    /**< of each event, from frame 0 on, within the clip */
+  uint32_t event_count;
 } anic_source_clip;
 
 /**
@@ -235,7 +238,9 @@ enum {
                                       around all frames, not in units of the clip */
   ANIC_ENCODE_CAP_PERCENT = 2,   /**< the same of max_error */
   ANIC_ENCODE_ERROR_PERCENT = 4, /**< attribute_error is in per cent of the range of its values */
-  ANIC_ENCODE_NO_ATTRIBUTES = 8  /**< positions and polygons alone */
+  ANIC_ENCODE_NO_ATTRIBUTES = 8, /**< positions and polygons alone */
+  ANIC_ENCODE_ROOT_MOTION = 16   /**< the motion of the whole apart, of one mesh alone:
+                                      anic_root_motion */
 };
 
 /** Follows and stops an encoding. All zero: nobody does. report() gets the name of the stage, and

@@ -131,6 +131,29 @@ namespace Anicodec
                 return Native.Present(Native.anic_find_clip(handle, first, &clip)) ? (int)clip : -1;
         }
 
+        /// <summary>The events of a clip, ascending by time.</summary>
+        public ClipEvent[] GetEvents(int clip)
+        {
+            ClipEvent[] events = new ClipEvent[Native.anic_event_count(handle, (uint)clip)];
+            for (int i = 0; i < events.Length; ++i)
+            {
+                Native.anic_event e = default(Native.anic_event);
+                e.struct_size = (UIntPtr)sizeof(Native.anic_event);
+                Native.Check(Native.anic_event_info(handle, (uint)clip, (uint)i, &e));
+                events[i] = new ClipEvent { Name = Native.Text(e.name), Seconds = e.seconds };
+            }
+            return events;
+        }
+
+        /// <summary>The motion of the whole at a time of a clip, part of the positions or not (OpenFlags.InPlace).</summary>
+        public RootMotion GetRootMotion(int clip, double seconds, Sampling sampling = Sampling.Linear, Wrap wrap = Wrap.Clamp)
+        {
+            Native.anic_root_motion m = default(Native.anic_root_motion);
+            m.struct_size = (UIntPtr)sizeof(Native.anic_root_motion);
+            Native.Check(Native.anic_get_root_motion(handle, (uint)clip, seconds, sampling, wrap, &m));
+            return Native.Motion(m);
+        }
+
         public MeshInfo GetMesh(int mesh = 0)
         {
             Native.anic_mesh m = Mesh(mesh);

@@ -188,6 +188,25 @@ namespace Anicodec
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        public struct anic_event
+        {
+            public UIntPtr struct_size;
+            public byte* name;
+            public double seconds;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct anic_root_motion
+        {
+            public UIntPtr struct_size;
+            public byte moves, turns;
+            public double turn;
+            public fixed double move[3];
+            public fixed double pivot[3];
+            public fixed float matrix[12];
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         public struct anic_mesh
         {
             public UIntPtr struct_size;
@@ -377,6 +396,8 @@ namespace Anicodec
         [DllImport(Library)] public static extern uint anic_clip_count(AssetHandle asset);
         [DllImport(Library)] public static extern Status anic_clip_info(AssetHandle asset, uint clip, anic_clip* result);
         [DllImport(Library)] public static extern Status anic_find_clip(AssetHandle asset, byte* name, uint* result);
+        [DllImport(Library)] public static extern uint anic_event_count(AssetHandle asset, uint clip);
+        [DllImport(Library)] public static extern Status anic_event_info(AssetHandle asset, uint clip, uint number, anic_event* result);
         [DllImport(Library)] public static extern Status anic_get_mesh(AssetHandle asset, uint mesh, anic_mesh* result);
         [DllImport(Library)] public static extern Status anic_get_polygons(AssetHandle asset, uint mesh, anic_polygons* result);
         [DllImport(Library)] public static extern Status anic_write_indices(AssetHandle asset, uint mesh, uint index_bytes, void* result, UIntPtr size);
@@ -393,6 +414,8 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_seek_time(ContextHandle context, double seconds, Sampling sampling, Wrap wrap);
         [DllImport(Library)] public static extern Status anic_blend(ContextHandle context, uint clip, double seconds, Sampling sampling, Wrap wrap, double weight);
         [DllImport(Library)] public static extern Status anic_forget_previous(ContextHandle context);
+        [DllImport(Library)] public static extern Status anic_get_root_motion(AssetHandle asset, uint clip, double seconds, Sampling sampling, Wrap wrap, anic_root_motion* result);
+        [DllImport(Library)] public static extern Status anic_get_shown_root_motion(ContextHandle context, When when, anic_root_motion* result);
         [DllImport(Library)] public static extern Status anic_write_positions(ContextHandle context, uint mesh, When when, uint first, uint count, anic_output* result);
         [DllImport(Library)] public static extern Status anic_write_attribute(ContextHandle context, uint mesh, uint attribute, When when, uint first, uint count, anic_value_output* result);
         [DllImport(Library)] public static extern Status anic_write_frames(AssetHandle asset, uint mesh, uint* frames, uint frame_count, uint first, uint count, anic_output* outputs);
@@ -427,6 +450,15 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_open_asset_from_stream(StreamHandle stream, out AssetHandle result, anic_failure* failure);
 
         /// <summary>A string of the library; UTF-8.</summary>
+        public static RootMotion Motion(anic_root_motion m)
+        {
+            return new RootMotion
+            {
+                Moves = m.moves != 0, Turns = m.turns != 0, Turn = m.turn, MoveX = m.move[0], MoveY = m.move[1], MoveZ = m.move[2],
+                PivotX = m.pivot[0], PivotY = m.pivot[1], PivotZ = m.pivot[2]
+            };
+        }
+
         public static string Text(byte* text)
         {
             if (text == null)

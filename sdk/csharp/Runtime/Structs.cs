@@ -64,6 +64,26 @@ namespace Anicodec
         public double StartTime, Diagonal, MaxError;
     }
 
+    /// <summary>A named time of a clip; anic_event.</summary>
+    public struct ClipEvent
+    {
+        public string Name;
+
+        /// <summary>From the clip's first frame on.</summary>
+        public double Seconds;
+    }
+
+    /// <summary>The motion of the whole at a time; anic_root_motion. Vectors are those of the clip's axes.</summary>
+    public struct RootMotion
+    {
+        public bool Moves, Turns;
+
+        /// <summary>Radians about the up axis, counter-clockwise seen from above.</summary>
+        public double Turn;
+
+        public double MoveX, MoveY, MoveZ, PivotX, PivotY, PivotZ;
+    }
+
     /// <summary>A mesh; anic_mesh.</summary>
     public sealed class MeshInfo
     {

@@ -42,6 +42,15 @@ class Attribute(NamedTuple):
     looks: Tuple[Optional[Material], ...] = ()  #: of materials: one for each name, None where it is unknown
 
 
+class RootMotion(NamedTuple):
+    """A turn about the up axis through the pivot, then a move along the ground."""
+
+    turn: float  #: radians, counter-clockwise seen from above
+    move: Tuple[float, float, float]
+    pivot: Tuple[float, float, float]
+    matrix: np.ndarray  #: the same as one map, 3 x 4
+
+
 class ClipInfo(NamedTuple):
     """A clip of a file that holds one or more: frames first_frame .. first_frame + frame_count - 1."""
 
@@ -57,6 +66,7 @@ class ClipInfo(NamedTuple):
     rmse: float
     kg: float  #: per cent
     opened: bool  #: see open(); frames of others are absent
+    events: Tuple[Tuple[str, float], ...] = ()  #: names and seconds from its first frame on
 
     @property
     def frames(self) -> slice:
@@ -222,10 +232,11 @@ class Clip:
     """An opened .anic file. With one mesh it is used as that: `clip[10]`, `clip.at(0.5)`, `clip.faces`; with several,
     `clip.meshes` has them. Can be pickled; threads may share it."""
 
-    def __init__(self, data: bytes, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = ()):
+    def __init__(self, data: bytes, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = (),
+                 in_place: bool = False):
         self.data = bytes(data)  #: the file
-        self._asset = _anicodec.Asset(self.data, quality, max_bytes, list(clips))
-        self._arguments = (quality, max_bytes, tuple(clips))
+        self._asset = _anicodec.Asset(self.data, quality, max_bytes, list(clips), in_place)
+        self._arguments = (quality, max_bytes, tuple(clips), in_place)
         self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
         self.info["up"] = UP[self.info["up"]]
         self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
@@ -266,6 +277,13 @@ class Clip:
             if clip in (number, info.name):
                 return number
         raise InputError(f"there is no clip {clip!r}: the file has {', '.join(info.name for info in self.clips)}")
+
+    def root_motion(self, seconds: float, clip: Union[None, int, str] = None, sampling: str = "linear",
+                    wrap: str = "clamp") -> RootMotion:
+        """The motion of the whole at a time of a clip, part of the positions or not; none where it is not apart."""
+        turn, move, pivot, matrix = self._asset.root_motion(
+            self.clip_number(clip), float(seconds), chosen(_SAMPLING, sampling, "sampling"), chosen(_WRAP, wrap, "wrap"))
+        return RootMotion(turn, move, pivot, np.array(matrix).reshape(3, 4))
 
     def time(self, frame: int) -> float:
         """Seconds at which a frame is shown, from the first of its clip on."""
@@ -316,11 +334,13 @@ _OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "p
             "vertex_count"}
 
 
-def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = ()) -> Clip:  # noqa: A001
+def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = (),  # noqa: A001
+         in_place: bool = False) -> Clip:
     """Opens a clip: a path, bytes (anything with the buffer protocol), or a file open for reading.
 
     quality: share of the components to open, in (0, 1]. max_bytes: of memory, else LimitError; 0: by the size of the
-    file. clips: names of those to open of a file with several, none for all. Raises OSError, CorruptError,
+    file. clips: names of those to open of a file with several, none for all. in_place: leaves out the motion of the
+    whole, where it is apart: Clip.root_motion(). Raises OSError, CorruptError,
     UnsupportedError, LimitError, AbsentError: no clip has this name.
     """
     if isinstance(source, (str, os.PathLike)):
@@ -330,4 +350,4 @@ def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[
         source = source.read()
     if isinstance(source, str):
         raise TypeError("the file must be open in binary mode")
-    return Clip(bytes(memoryview(source)), quality, max_bytes, clips)
+    return Clip(bytes(memoryview(source)), quality, max_bytes, clips, in_place)

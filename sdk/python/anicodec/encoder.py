@@ -14,7 +14,7 @@ from .clip import DOMAINS, KINDS, UP, chosen
 from .errors import InputError
 from .material import Material, to_file
 
-_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES = 1, 2, 4, 8
+_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _ROOT_MOTION = 1, 2, 4, 8, 16
 _GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5}
 _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
             "selection": {"pivot": 0, "gas": 1, "uniform": 2},
@@ -64,6 +64,7 @@ class SourceClip:
     loop: Optional[bool] = None
     start_time: float = 0
     times: Any = None  #: seconds of its frames, from 0 on; None: evenly by the rate
+    events: Sequence[Tuple[str, float]] = ()  #: names and seconds from its first frame on
 
 
 def _length(value: Any, name: str) -> Tuple[float, bool]:
@@ -123,6 +124,8 @@ def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
         choices["flags"] |= _ERROR_PERCENT if percent else 0
     if options.pop("no_attributes", False):
         choices["flags"] |= _NO_ATTRIBUTES
+    if options.pop("root_motion", False):
+        choices["flags"] |= _ROOT_MOTION
     if options:
         raise TypeError(f"encode() has no option {next(iter(options))!r}")
     return choices
@@ -227,13 +230,14 @@ def _add_clips(encoder: Any, clips: Sequence[SourceClip], frame_count: int, fps:
         raise InputError(f"the clips have {frames} frames, the positions {frame_count}")
     for clip in clips:
         numerator, denominator, loops, start, table = _clock(clip, fps, loop)
-        encoder.add_clip(clip.name, clip.frame_count, numerator, denominator, up, loops, start, metres, table)
+        events = [(str(event), float(seconds)) for event, seconds in clip.events]
+        encoder.add_clip(clip.name, clip.frame_count, numerator, denominator, up, loops, start, metres, table, events)
 
 
 def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = None, fps: Any = None, name: str = "",
                   times: Any = None, start_time: float = 0, up: Optional[str] = None,
                   unit: Union[None, float, str] = None, loop: bool = False,
-                  clips: Optional[Sequence[SourceClip]] = None, progress: Optional[Progress] = None,
+                  clips: Optional[Sequence[SourceClip]] = None, events: Sequence[Tuple[str, float]] = (), progress: Optional[Progress] = None,
                   **options: Any) -> Encoded:
     """Encodes several meshes to one file; arguments and options are those of encode().
 
@@ -255,10 +259,10 @@ def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = 
         raise InputError(f"up is 'y', 'z' or None, not {up!r}")
     if frame_count < 1 or frame_count >= 2**24:
         raise InputError("the sequence has no frame" if frame_count < 1 else "at most 2^24 - 1 frames are possible")
-    if clips is not None and (name or times is not None or start_time != 0):
-        raise InputError("name, times and start_time are those of each clip")
+    if clips is not None and (name or times is not None or start_time != 0 or events):
+        raise InputError("name, times, events and start_time are those of each clip")
     if clips is None:
-        clips = [SourceClip(name, frame_count, start_time=start_time, times=times)]
+        clips = [SourceClip(name, frame_count, start_time=start_time, times=times, events=events)]
     encoder = _anicodec.Encoder()
     _add_clips(encoder, clips, frame_count, fps, loop, UP.index(up), metres)
     keep: List[_Adder] = [_Adder(encoder, i, mesh, frame_count) for i, mesh in enumerate(meshes)]
@@ -280,7 +284,8 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     One target: max_error (default "0.05%"), rmse: scene units, or a text in per cent of the diagonal; kg: per cent;
         size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other.
     uv, colours, normals, custom, materials, parts: see SourceMesh.
-    fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop: stored.
+    fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop, events (pairs of a name and seconds): stored.
+    root_motion: keep the motion of the whole along the ground, and its turn about the up axis, apart.
     clips: several SourceClip in one file that share what they can; positions have their frames, one after the other.
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
         interpolation ("linear", "msgi", "auto"), keyframe_coder ("draco", "native", "auto"), massage ("off", "on",

@@ -58,7 +58,7 @@ class NormalPlan {
 class Asset {
  public:
   Asset(const nb::bytes& file, double quality, uint64_t max_bytes,
-        const std::vector<std::string>& clips) {
+        const std::vector<std::string>& clips, bool in_place) {
     anic_options options = ANIC_INIT(anic_options);
     std::vector<const char*> names;
     for (const std::string& name : clips)
@@ -67,6 +67,7 @@ class Asset {
     options.clip_count = static_cast<uint32_t>(names.size());
     options.quality = quality;
     options.max_bytes = max_bytes;
+    options.flags = in_place ? ANIC_OPEN_IN_PLACE : 0;
     anic_failure failure = ANIC_INIT(anic_failure);
     anic_asset* asset = nullptr;
     anic_context* context = nullptr;
@@ -285,9 +286,30 @@ class Asset {
       d["rmse"] = clip.rmse;
       d["kg"] = clip.kg;
       d["opened"] = clip.open != 0;
+      nb::list events;
+      for (uint32_t e = 0; e < anic_event_count(asset_.get(), i); ++e) {
+        anic_event event = ANIC_INIT(anic_event);
+        check_status(anic_event_info(asset_.get(), i, e, &event));
+        events.append(nb::make_tuple(event.name, event.seconds));
+      }
+      d["events"] = nb::tuple(events);
       all.append(d);
     }
     return all;
+  }
+
+  /// Turn, move, pivot and matrix, row-major.
+  nb::tuple root_motion(uint32_t clip, double seconds, int sampling, int wrap) const {
+    anic_root_motion motion = ANIC_INIT(anic_root_motion);
+    check_status(anic_get_root_motion(asset_.get(), clip, seconds,
+                                      static_cast<anic_sampling>(sampling),
+                                      static_cast<anic_wrap>(wrap), &motion));
+    const double *m = motion.move, *p = motion.pivot;
+    nb::list matrix;
+    for (float x : motion.matrix)
+      matrix.append(x);
+    return nb::make_tuple(motion.turn, nb::make_tuple(m[0], m[1], m[2]),
+                          nb::make_tuple(p[0], p[1], p[2]), matrix);
   }
 
   bool shows(uint32_t mesh, uint32_t frame) {
@@ -353,7 +375,8 @@ void bind_clip(nb::module_& module) {
       .def_prop_ro("count", &NormalPlan::count)
       .def("write", &NormalPlan::write);
   nb::class_<Asset>(module, "Asset")
-      .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&>())
+      .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&, bool>())
+      .def("root_motion", &Asset::root_motion)
       .def("info", &Asset::info)
       .def("mesh", &Asset::mesh)
       .def("polygons", &Asset::polygons)

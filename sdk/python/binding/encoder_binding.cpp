@@ -99,7 +99,8 @@ class Encoder {
   /// The first, or one more.
   void add_clip(const std::string& name, uint32_t frames, uint32_t numerator, uint32_t denominator,
                 int up, bool loop, double start, double unit,
-                const std::optional<Array<double>>& times) {
+                const std::optional<Array<double>>& times,
+                const std::vector<std::pair<std::string, double>>& events) {
     anic_source_clip clip = ANIC_INIT(anic_source_clip);
     clip.name = name.c_str();
     clip.frame_count = frames;
@@ -110,6 +111,15 @@ class Encoder {
     clip.start_time = start;
     clip.metres_per_unit = unit;
     clip.times = times ? times->data() : nullptr;
+    std::vector<const char*> names;
+    std::vector<double> seconds;
+    for (const auto& [event, time] : events) {
+      names.push_back(event.c_str());
+      seconds.push_back(time);
+    }
+    clip.event_names = names.data();
+    clip.event_seconds = seconds.data();
+    clip.event_count = static_cast<uint32_t>(events.size());
     check(has_clip_ ? anic_add_source_clip(encoder_.get(), &clip)
                     : anic_set_source_clip(encoder_.get(), &clip));
     has_clip_ = true;
@@ -262,7 +272,7 @@ void bind_encoder(nb::module_& module) {
       .def(nb::init<>())
       .def("add_clip", &Encoder::add_clip, nb::arg("name"), nb::arg("frames"), nb::arg("numerator"),
            nb::arg("denominator"), nb::arg("up"), nb::arg("loop"), nb::arg("start"),
-           nb::arg("unit"), nb::arg("times").none())
+           nb::arg("unit"), nb::arg("times").none(), nb::arg("events"))
       .def("add_mesh", &Encoder::add_mesh)
       .def("add_attribute", &Encoder::add_attribute, nb::arg("mesh"), nb::arg("name"),
            nb::arg("kind"), nb::arg("domain"), nb::arg("components"), nb::arg("frames"),

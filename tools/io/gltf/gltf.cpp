@@ -250,6 +250,17 @@ MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options)
   if (animations.size() < document.animations.size())
     out.name = document.animations[animation].name;
   bake.add_frames(&clip, count_frames(document, animation, clip, out.rate, options), options, out);
+  ClipTiming timing = clips_of(out)[0];
+  for (NamedTime event : document.animations[animation].events) {
+    event.seconds -= clip.first_time();
+    try {
+      add_event(event, &timing);
+    } catch (const Error& e) {
+      if (options.note)
+        options.note(document.name + ": " + e.what() + ", and is left out");
+    }
+  }
+  out.events = std::move(timing.events);
   return out;
 }
 

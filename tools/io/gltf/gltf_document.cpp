@@ -475,6 +475,18 @@ class Reader {
     return sampler;
   }
 
+  /// A list of names and times in seconds; entries of another form mean something else.
+  static void read_events(const JsonNode& extras, GltfAnimation& animation) {
+    try {
+      for (const JsonNode& event : extras.elements("events")) {
+        NamedTime read{event.member("name").text(), event.member("time").number()};
+        animation.events.push_back(std::move(read));
+      }
+    } catch (const Error&) {
+      animation.events.clear();
+    }
+  }
+
   GltfAnimation read_animation(const JsonNode& node) {
     GltfAnimation animation;
     animation.name = text_or_empty(node, "name");
@@ -488,6 +500,7 @@ class Reader {
       } catch (const Error&) {
         animation.rate.clear();  // extras of others mean nothing here
       }
+      read_events(*extras, animation);
     }
     return animation;
   }

@@ -6,6 +6,7 @@
 #ifndef ANICODEC_TOOLS_IO_GLTF_GLTF_DOCUMENT_H_
 #define ANICODEC_TOOLS_IO_GLTF_GLTF_DOCUMENT_H_
 
+#include "codec/sequence/mesh_sequence.h"
 #include "tools/io/gltf/gltf_material.h"
 
 #include <array>
@@ -117,6 +118,7 @@ struct GltfAnimation {
   std::string name;
   std::vector<GltfSampler> samplers;
   std::vector<GltfChannel> channels;
+  std::vector<NamedTime> events;  ///< of extras
   std::string rate;  ///< "24/1" of a clip that anicodec wrote, else empty
 };
 
