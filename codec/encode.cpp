@@ -152,6 +152,11 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
       encode_attributes(input.sequence, options.attributes, &input.layout);
   if (options.part)
     input.pose = pose_of_parts(input, target, clip_diagonal);
+  if (options.pose) {
+    if (options.pose->grid.points.size() != size_t{3} * input.layout.sizes.coded_vertices)
+      throw Error(ErrorKind::kInput, "the reference pose is of another mesh");
+    input.pose = options.pose;
+  }
   ClipSearch search(input, stored, limited, searched, clip_diagonal);
   SearchProgress steps(progress, search.expected_trials());
   input.on_trial = [&steps] { steps.trial(); };

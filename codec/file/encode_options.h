@@ -6,11 +6,13 @@
 #include "codec/connectivity/attribute_encode.h"
 #include "codec/file/target.h"
 #include "codec/keyframes/keyframe_selection.h"
+#include "codec/segment/encoded_segment.h"
 #include "codec/segment/keyframe_poses.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "format/records.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +55,9 @@ struct EncodeOptions {
   std::optional<SurfaceChange> surface_change;
   /// Takes the motion of the whole out of the positions, where there is any, and stores it apart.
   bool root_motion = false;
+  /// Bases of eigenshapes and eigentrajectories lean on this pose, of a file that the clip goes to. Null: on
+  /// any.
+  std::shared_ptr<const EncodedPose> pose;
   AttributeOptions attributes;
   int effort = 5;  ///< 1..9: how long to search
   OpeningChoice opening = OpeningChoice::kSmall;

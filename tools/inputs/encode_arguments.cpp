@@ -241,6 +241,19 @@ void add_arguments(Options& options, EncodeArguments& a) {
   add_metadata(options, a);
 }
 
+void add_clip_arguments(Options& options, EncodeArguments& a) {
+  options.arguments("FILE INPUT", a.inputs, "The file, then mesh and vertex cache, frames, or a scene");
+  options.option("-o,--output", a.output, "FILE", "The .anic file to write (default: FILE itself)");
+  options.option("--mesh", a.mesh, "FILE|NAME", "Mesh of a lone vertex cache, or one of a scene");
+  options.option("--clip", a.clip, "NAME|INDEX", "Animation of a scene");
+  options.option("--name", a.names, "NAME", "Name of the clip (default: of the cache or animation)");
+  add_target(options, a);
+  options.group("Method");
+  options.choice("--basis", a.basis, {kBases}, "Kind of basis (default auto: the smallest file)");
+  options.number("--effort", a.effort, "N", {1, 9}, "How long to search, 1 to 9 (default 5)");
+  add_metadata(options, a);
+}
+
 OrderMode order_of(OrderChoice choice, const std::vector<std::string>& inputs) {
   switch (choice) {
     case OrderChoice::kVertices:

@@ -57,6 +57,9 @@ struct EncodeArguments {
   std::function<void(const std::string& text)> note;
 };
 
+/// Declares the options of a command that adds a clip to a file: target, method, metadata.
+void add_clip_arguments(Options& options, EncodeArguments& arguments);
+
 /// Declares the options, which write to `arguments`.
 void add_arguments(Options& options, EncodeArguments& arguments);
 

@@ -95,6 +95,8 @@ int run_program(const Program& program, int argc, const char* const* argv);
 void add_encode(Commands& commands, CommonOptions& common);
 void add_decode(Commands& commands, CommonOptions& common);
 void add_join(Commands& commands, CommonOptions& common);
+void add_add(Commands& commands, CommonOptions& common);
+void add_remove(Commands& commands, CommonOptions& common);
 void add_info(Commands& commands, CommonOptions& common);
 void add_verify(Commands& commands, CommonOptions& common);
 void add_compare(Commands& commands, CommonOptions& common);
