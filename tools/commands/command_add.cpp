@@ -121,7 +121,7 @@ void add(EncodeArguments command, const CommonOptions& common) {
     print_json({{"file", target}, {"bytes", best.size()}, {"added", more}, {"shares_pose", shares_pose}});
   } else if (!common.quiet) {
     print_line("{}: {} bytes, {} more", target, grouped(best.size()), grouped(more));
-    if (common.verbose)
+    if (common.verbosity > 0)
       print_line("shared with the file: mesh{}", shares_pose ? ", reference pose" : "");
   }
 }

@@ -20,7 +20,7 @@ using testing::StartsWith;
 const std::vector<std::string> kCommands = {
     "encode",         "decode",      "join",    "info",        "verify",           "compare",
     "analyze",        "interpolate", "massage", "massage fit", "massage transfer", "massage map",
-    "massage remesh", "dump",        "render",  "corpus"};
+    "massage remesh", "dump",        "render",  "corpus",      "add",              "remove"};
 
 /// What a command prints as its help.
 std::string help_of(const std::string& command) {
@@ -63,7 +63,8 @@ TEST(CommandLine, EveryCommandHasHelpWithinAHundredColumns) {
 
 TEST(CommandLine, OptionsThatCommandsShareAreWhereTheyApply) {
   const std::vector<std::string> write = {"encode",      "decode",  "join",   "analyze",
-                                          "interpolate", "massage", "render", "corpus"};
+                                          "interpolate", "massage", "render", "corpus",
+                                          "add",         "remove"};
   for (const std::string& command : kCommands) {
     const std::string first = command.substr(0, command.find(' '));
     const bool writes = std::find(write.begin(), write.end(), first) != write.end();
