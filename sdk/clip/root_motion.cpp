@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/root_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,12 @@ namespace anicodec {
 namespace {
 
 constexpr double kTurn = 6.283185307179586477;
+
+/// The ends of float, where sums leave it.
+float bounded(double x) {
+  constexpr double kMost = 3.4e38;
+  return static_cast<float>(std::clamp(x, -kMost, kMost));
+}
 
 bool is_float(double x) {
   return std::isfinite(static_cast<float>(x));
@@ -23,8 +30,8 @@ Affine RootState::affine(const GroundAxes& axes) const {
   result.m[4 * a + a] = result.m[4 * b + b] = static_cast<float>(c);
   result.m[4 * a + b] = static_cast<float>(-s);
   result.m[4 * b + a] = static_cast<float>(s);
-  result.m[4 * a + 3] = static_cast<float>(pivot[0] + move[0] - (c * pivot[0] - s * pivot[1]));
-  result.m[4 * b + 3] = static_cast<float>(pivot[1] + move[1] - (s * pivot[0] + c * pivot[1]));
+  result.m[4 * a + 3] = bounded(pivot[0] + move[0] - (c * pivot[0] - s * pivot[1]));
+  result.m[4 * b + 3] = bounded(pivot[1] + move[1] - (s * pivot[0] + c * pivot[1]));
   return result;
 }
 
@@ -121,7 +128,7 @@ Affine after(const Affine& a, const Affine& b) {
       double sum = c == 3 ? static_cast<double>(a.m[4 * r + 3]) : 0;
       for (size_t k = 0; k < 3; ++k)
         sum += static_cast<double>(a.m[4 * r + k]) * static_cast<double>(b.m[4 * k + c]);
-      result.m[4 * r + c] = static_cast<float>(sum);
+      result.m[4 * r + c] = bounded(sum);
     }
   }
   return result;

@@ -58,7 +58,17 @@ export class Clip {
     return Object.freeze({
       index, name: decoder.string(name), firstFrame, frames, rate, rateAssumed: !!rateAssumed, uneven: !!uneven, loop: !!loop,
       closedLoop: !!closedLoop, isOpen: !!isOpen, startTime, duration, loopDuration, diagonal, maxError, rmse, kg,
+      events: this.#events(index),
     });
+  }
+
+  #events(clip) {
+    const decoder = this.#decoder;
+    return Object.freeze(Array.from({ length: decoder.run('event_count', clip) }, (_, event) => {
+      decoder.call('event', clip, event);
+      const [name, seconds] = decoder.numbers(2);
+      return Object.freeze({ name: decoder.string(name), seconds });
+    }));
   }
 
   /** One of the clips of the file, by its name or number; without either the first one that is open. */
@@ -106,6 +116,15 @@ export class Clip {
   /** Time of a frame of the file, in seconds from the first one of its clip. */
   frameTime(frame) {
     return this.decoder.run('frame_time', frame);
+  }
+
+  /** The motion of the whole at a time, part of the positions or not: OpenOptions.inPlace. */
+  rootMotion(time, { clip, sampling = 'linear', wrap } = {}) {
+    const found = this.find(clip);
+    this.decoder.call('root_motion', found.index, Number(time), number(SAMPLING, sampling, 'sampling'),
+      number(WRAP, wrap ?? (found.loop ? 'loop' : 'clamp'), 'wrap'));
+    const all = Array.from(this.decoder.numbers(19));
+    return { turn: all[0], move: all.slice(1, 4), pivot: all.slice(4, 7), matrix: all.slice(7) };
   }
 
   /** Chooses what the following calls show. */

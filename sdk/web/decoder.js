@@ -7,6 +7,11 @@ import { AnicError, STATUS } from './status.js';
 
 const FEATURE = 12;
 const OPEN_BOUNDS = 1;
+const OPEN_IN_PLACE = 4;
+
+function flagsOf(bounds, inPlace) {
+  return (bounds ? OPEN_BOUNDS : 0) | (inPlace ? OPEN_IN_PLACE : 0);
+}
 const text = new TextDecoder();
 
 export class Decoder {
@@ -130,16 +135,16 @@ export class Decoder {
   }
 
   /** Opens a whole file. */
-  open(bytes, { quality = 1, bounds = true, maxBytes = 0, clips = undefined } = {}) {
+  open(bytes, { quality = 1, bounds = true, maxBytes = 0, clips = undefined, inPlace = false } = {}) {
     this.#choose(clips);
-    const status = this.withBytes(bytes, (at) => this.run('open', at, bytes.byteLength, quality, bounds ? OPEN_BOUNDS : 0, maxBytes));
+    const status = this.withBytes(bytes, (at) => this.run('open', at, bytes.byteLength, quality, flagsOf(bounds, inPlace), maxBytes));
     if (status !== 0)
       throw this.failure(status);
   }
 
-  beginStream({ quality = 1, bounds = true, maxBytes = 0, clips = undefined } = {}) {
+  beginStream({ quality = 1, bounds = true, maxBytes = 0, clips = undefined, inPlace = false } = {}) {
     this.#choose(clips);
-    this.call('stream_begin', quality, bounds ? OPEN_BOUNDS : 0, maxBytes);
+    this.call('stream_begin', quality, flagsOf(bounds, inPlace), maxBytes);
   }
 
   /** Takes the next bytes, and tells how far the file is. */

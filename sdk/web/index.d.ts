@@ -27,6 +27,8 @@ export interface OpenOptions {
   maxBytes?: number;
   /** Gives a clip as soon as it plays coarsely; it becomes exact later: see Clip.finished. Default false. */
   progressive?: boolean;
+  /** Leaves the motion of the whole out of the positions, where it is apart: Clip.rootMotion(). Default false. */
+  inPlace?: boolean;
   /** Names of the clips to open, of a file with several; others take no memory. Default: all. */
   clips?: string[];
   /** Decodes in a worker. Default: where there are workers, but in Node in the calling thread. */
@@ -74,6 +76,18 @@ export interface NamedClip {
   readonly maxError: number;
   readonly rmse: number;
   readonly kg: number;
+  /** Named times, seconds from its first frame on. */
+  readonly events: readonly { readonly name: string; readonly seconds: number }[];
+}
+
+/** A turn about the up axis through the pivot, then a move along the ground. */
+export interface RootMotion {
+  /** Radians, counter-clockwise seen from above. */
+  turn: number;
+  move: [number, number, number];
+  pivot: [number, number, number];
+  /** The same as one map, 3 x 4, row-major. */
+  matrix: number[];
 }
 
 export interface Box {
@@ -233,6 +247,8 @@ export declare class Clip {
   readonly bounds: Box;
   /** Time of a frame of the file, in seconds from the first one of its clip. */
   frameTime(frame: number): number;
+  /** The motion of the whole at a time, part of the positions or not (OpenOptions.inPlace); none where it is not apart. */
+  rootMotion(time: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'pingpong' }): RootMotion;
   verify(): void;
   basis(segment: number): Basis;
   close(): void;

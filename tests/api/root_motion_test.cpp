@@ -108,7 +108,6 @@ TEST(AnicRootMotion, TakesPositionsWithoutItToThoseWithIt) {
                                          &motion), ANIC_OK);
           ASSERT_EQ(anic_get_shown_root_motion(b.get(), ANIC_WHEN_CURRENT, &shown), ANIC_OK);
           EXPECT_EQ(std::memcmp(motion.matrix, shown.matrix, sizeof shown.matrix), 0);
-          EXPECT_EQ(motion.turns, clip != 1);
           expect_near(positions(whole, a), moved(motion.matrix, positions(still, b)), 1e-4);
         }
         for (const Context* context : {&a, &b})
@@ -127,7 +126,9 @@ TEST(AnicRootMotion, IsThatOfTheSource) {
   ASSERT_EQ(anic_get_root_motion(asset.get(), 0, 1.0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion), ANIC_OK);
   EXPECT_TRUE(motion.moves);
   EXPECT_TRUE(motion.turns);
-  EXPECT_NEAR(motion.turn, 10 * kTurnOfFrame, 0.3);  // the limb bends on its way
+  anic_root_motion still = ANIC_INIT(anic_root_motion);  // the limb bends by itself
+  ASSERT_EQ(anic_get_root_motion(asset.get(), 1, 1.0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &still), ANIC_OK);
+  EXPECT_NEAR(motion.turn - still.turn, 10 * kTurnOfFrame, 1e-3);
   EXPECT_EQ(motion.move[2], 0);
   ASSERT_EQ(anic_get_root_motion(asset.get(), 0, 0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion), ANIC_OK);
   EXPECT_EQ(motion.turn, 0);

@@ -63,6 +63,9 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
 Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertices,
                const std::vector<uint32_t>& components, int runs);
 
+/// Playing a frame of a clip, and a cross-fade of two clips that share a basis, in turns; one thread.
+Table run_blend(const BenchOptions& options, const std::vector<uint32_t>& vertices, int runs);
+
 /// Bytes with each kind of basis and with the choice between them.
 Table run_auto(const BenchOptions& options, double kg);
 

@@ -37,6 +37,7 @@ struct Arguments {
   int runs = 5;
   uint32_t vertices = 210000, frame_count = 100, shapes = 30;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
+  std::vector<uint32_t> blend_vertices = {7000, 42000};
   uint32_t step = 8;
   std::vector<uint32_t> keyframes{4, 8};
   std::vector<uint32_t> sizes{7000, 42000, 210000};
@@ -194,6 +195,16 @@ void add_play(Bench& bench) {
   options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
 }
 
+void add_blend(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "blend", "Time of a frame of one clip, and of a cross-fade of two", [](Arguments& args) {
+        return std::vector{run_blend(args.bench, args.blend_vertices, args.runs)};
+      });
+  options.numbers("--vertices", a.blend_vertices, "N,...", {1}, "Vertices (default 7000,42000)");
+  options.number("--runs", a.runs, "N", {1, 1000}, "Pairs to take the median of (default 5)");
+}
+
 void add_auto(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options =
@@ -308,7 +319,7 @@ void add_massage(Bench& bench) {
 void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
   Bench bench{commands, common, arguments};
   for (auto add_bench :
-       {add_rate, add_gltf, add_near, add_decode, add_open, add_play, add_auto, add_poses,
+       {add_rate, add_gltf, add_near, add_decode, add_open, add_play, add_blend, add_auto, add_poses,
         add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
     add_bench(bench);
 }

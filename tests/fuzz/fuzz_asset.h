@@ -227,6 +227,21 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
 inline void look(const anic_asset* asset, Script script) {
   anic_asset_info info = ANIC_INIT(anic_asset_info);
   anic_get_asset_info(asset, &info);
+  for (uint32_t c = 0; c < anic_clip_count(asset); ++c) {
+    double before = 0;
+    for (uint32_t e = 0; e < anic_event_count(asset, c); ++e) {
+      anic_event event = ANIC_INIT(anic_event);
+      require(anic_event_info(asset, c, e, &event) == ANIC_OK && event.name != nullptr);
+      require(event.seconds >= before);
+      before = event.seconds;
+    }
+    anic_root_motion motion = ANIC_INIT(anic_root_motion);
+    const anic_status status = anic_get_root_motion(asset, c, script.byte() / 16.0,
+                                                    ANIC_SAMPLE_CUBIC, ANIC_WRAP_LOOP, &motion);
+    require(status == ANIC_OK || status == ANIC_E_ABSENT);
+    for (const float x : motion.matrix)
+      require(std::isfinite(x));
+  }
   for (uint32_t m = 0; m < info.mesh_count; ++m) {
     anic_mesh sizes = ANIC_INIT(anic_mesh);
     anic_polygons polygons = ANIC_INIT(anic_polygons);

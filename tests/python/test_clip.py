@@ -213,3 +213,21 @@ def test_show_plays_in_a_notebook(clip, page, monkeypatch):
     monkeypatch.setitem(sys.modules, "IPython.display", display)
     frame = ElementTree.fromstring(clip.show(height=300).replace(' allow="fullscreen"', ""))
     assert frame.get("srcdoc").split() == page.split() and "height: 300px" in frame.get("style")
+
+
+def test_root_motion_and_events(tmp_path):
+    frames, vertices = 20, 30
+    rng = np.random.default_rng(3)
+    shape = rng.normal(size=(vertices, 3)).astype(np.float32)
+    positions = np.stack([shape * [1, 1 + 0.02 * f, 1] + [0.3 * f, 0, -0.1 * f] for f in range(frames)])
+    faces = [(v, (v + 1) % vertices, (v + 2) % vertices) for v in range(vertices)]
+    data = anicodec.encode(positions, faces, fps=10, up="y", root_motion=True, events=[("step", 0.4), ("end", 1.9)])
+    clip, still = anicodec.open(data), anicodec.open(data, in_place=True)
+    assert clip.clips[0].events == (("step", 0.4), ("end", 1.9))
+    motion = clip.root_motion(1.0)
+    assert np.allclose(motion.move, (3, 0, -1), atol=1e-3)
+    moved = still.at(1.0) @ motion.matrix[:, :3].T + motion.matrix[:, 3]
+    assert np.allclose(clip.at(1.0), moved, atol=1e-4)
+    assert np.abs(still.at(1.0)[:, 0] - positions[10][:, 0]).max() > 1
+    with pytest.raises(anicodec.InputError):
+        anicodec.encode(positions, faces, events=[("late", 1000.0)])

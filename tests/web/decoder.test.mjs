@@ -176,6 +176,22 @@ test('limits, aborting and progress', async () => {
   await assert.rejects(Anicodec.open(new URL('absent.anic', import.meta.url)), /absent/);
 });
 
+test('events, and the motion of the whole in and out of positions', async () => {
+  const bytes = bytesOf('walk.anic'), clip = await Anicodec.open(bytes), still = await Anicodec.open(bytes, { inPlace: true });
+  assert.deepEqual(clip.find('turn').events.map(({ name }) => name), ['left', 'right', '']);
+  assert.deepEqual(clip.find('stand').events, []);
+  const { turn, matrix } = clip.rootMotion(0.4, { clip: 'turn' });
+  assert.ok(Math.abs(turn - 1.2) < 0.3, String(turn));
+  const p = clip.meshes[0].sourcePositions(0.4, undefined, { clip: 'turn' }), q = still.meshes[0].sourcePositions(0.4, undefined, { clip: 'turn' });
+  assert.notDeepEqual(p, q);
+  for (let i = 0; i < p.length; i += 3) {
+    for (let c = 0; c < 3; ++c) {
+      const x = matrix[4 * c] * q[i] + matrix[4 * c + 1] * q[i + 1] + matrix[4 * c + 2] * q[i + 2] + matrix[4 * c + 3];
+      assert.ok(Math.abs(x - p[i + c]) < 1e-4);
+    }
+  }
+});
+
 test('modules import what decoder.js gives, and are small', async () => {
   const allowed = ['env.emscripten_notify_memory_growth', 'env.web_progress', 'wasi_snapshot_preview1.proc_exit'];
   // Bytes of brotli; raised only for a reason that CHANGELOG.md gives.

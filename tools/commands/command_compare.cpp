@@ -61,7 +61,7 @@ Examples:
   anicodec compare man.mdd man.glb --axes-b x,-z,y --frames-b 1:)";
 
 struct CompareCommand {
-  std::string a, b, mesh, rate, axes;
+  std::string a, b, mesh, rate, axes, clip;
   ComparedPart part_a, part_b;
   bool surface = false, no_sted = false;
 };
@@ -310,6 +310,8 @@ void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
 void run(const CompareCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   ComparedPart parts[] = {command.part_a, command.part_b};
+  for (ComparedPart& part : parts)
+    part.clip = part.clip.empty() ? command.clip : part.clip;
   const std::string* paths[] = {&command.a, &command.b};
   std::optional<ComparedClip> clips[2];
   if (!command.rate.empty()) {
@@ -349,8 +351,10 @@ void add_compare(Commands& commands, CommonOptions& common) {
                  "Mesh of a vertex cache (default: same stem beside it)");
   options.option("--fps", c->rate, "N[/D]",
                  "Frames per second of a scene (default: of the other side)");
-  options.option("--clip-a", c->part_a.clip, "NAME", "Animation of scene A");
-  options.option("--clip-b", c->part_b.clip, "NAME", "Animation of scene B");
+  options.option("--clip", c->clip, "NAME",
+                 "Clip of both sides: of an .anic file, or animation of a scene");
+  options.option("--clip-a", c->part_a.clip, "NAME", "The same of A alone");
+  options.option("--clip-b", c->part_b.clip, "NAME", "The same of B alone");
   options.option("--frames-a", c->part_a.frames, "A:B[:STEP]", "Part of the frames of A");
   options.option("--frames-b", c->part_b.frames, "A:B[:STEP]", "Part of the frames of B");
   options.option("--axes-b", c->axes, "AXES", "How positions of B are turned, such as x,z,-y");

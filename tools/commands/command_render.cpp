@@ -55,7 +55,7 @@ Examples:
 enum class View : uint8_t { kClip, kOriginal, kError };
 
 struct RenderCommand {
-  std::string input, against, mesh, output, frames, views, resolution = "480x480", camera,
+  std::string input, against, clip, mesh, output, frames, views, resolution = "480x480", camera,
                                                            error_range;
   UpAxis up = UpAxis::kUnknown;
   bool turntable = false;
@@ -118,7 +118,9 @@ class Drawing {
           std::abs(camera_.elevation) <= 89))
       throw Error(ErrorKind::kUsage,
                   "--camera: AZIMUTH,ELEVATION in degrees, the second within 89");
-    clip_.emplace(command.input, command.mesh, progress);
+    ComparedPart part;
+    part.clip = command.clip;
+    clip_.emplace(command.input, command.mesh, progress, part);
     const MeshSequence& sequence = clip_->sequence();
     camera_.z_up = (command.up == UpAxis::kUnknown ? sequence.up : command.up) == UpAxis::kZ;
     range_ = {0, sequence.frame_count, 1};
@@ -197,7 +199,9 @@ class Drawing {
 
  private:
   void open_original(const Progress& progress) {
-    original_.emplace(command_.against, command_.mesh, progress);
+    ComparedPart part;
+    part.clip = command_.clip;
+    original_.emplace(command_.against, command_.mesh, progress, part);
     const MeshSequence &a = clip_->sequence(), &b = original_->sequence();
     if (a.frame_count != b.frame_count)
       throw Error(ErrorKind::kInput, fmt::format("{}: {} frames, but {} has {}", command_.against,
@@ -270,6 +274,7 @@ void write_animation(const std::string& path, bool overwrite, Drawing& drawing,
 /// A page that plays the clip, and the original beside it.
 void write_page(const RenderCommand& command, const CommonOptions& common) {
   const std::pair<bool, const char*> others[] = {{!command.mesh.empty(), "--mesh"},
+                                                 {!command.clip.empty(), "--clip"},
                                                  {!command.frames.empty(), "--frames"},
                                                  {!command.views.empty(), "--view"},
                                                  {!command.camera.empty(), "--camera"},
@@ -348,6 +353,8 @@ void add_render(Commands& commands, CommonOptions& common) {
               "frame_%04d.png, x.png, clip.gif, clip.mp4 or clip.html")
       .required();
   options.option("--against", c->against, "ORIGINAL", "The original");
+  options.option("--clip", c->clip, "NAME",
+                 "Clip of an .anic file with several, or animation of a scene; of the original too");
   options.option("--mesh", c->mesh, "FILE",
                  "Mesh of a vertex cache (default: same stem beside it)");
   options.option("--frames", c->frames, "A:B[:STEP]",

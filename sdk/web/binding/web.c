@@ -241,6 +241,32 @@ EXPORT(clip) int web_clip(uint32_t clip) {
   return status;
 }
 
+EXPORT(event_count) uint32_t web_event_count(uint32_t clip) {
+  return anic_event_count(asset, clip);
+}
+
+EXPORT(event) int web_event(uint32_t clip, uint32_t event) {
+  anic_event info = ANIC_INIT(anic_event);
+  const anic_status status = anic_event_info(asset, clip, event, &info);
+  const double all[] = {address(info.name), info.seconds};
+  memcpy(numbers, all, sizeof all);
+  return status;
+}
+
+EXPORT(root_motion)
+int web_root_motion(uint32_t clip, double seconds, int sampling, int wrap) {
+  anic_root_motion motion = ANIC_INIT(anic_root_motion);
+  const anic_status status = anic_get_root_motion(asset, clip, seconds, sampling, wrap, &motion);
+  numbers[0] = motion.turn;
+  for (int i = 0; i < 3; ++i) {
+    numbers[1 + i] = motion.move[i];
+    numbers[4 + i] = motion.pivot[i];
+  }
+  for (int i = 0; i < 12; ++i)
+    numbers[7 + i] = motion.matrix[i];
+  return status;
+}
+
 EXPORT(mesh) int web_mesh(uint32_t mesh) {
   anic_mesh info = ANIC_INIT(anic_mesh);
   const anic_status status = anic_get_mesh(asset, mesh, &info);
