@@ -51,7 +51,8 @@ LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
 # Files whose chunks tests/fuzz/chunk_fuzz.cpp changes, in its order: one for each kind of chunk, quickly decoded.
 FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "quad_box_corrected.anic",
-          "soup.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic"]
+          "soup.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic",
+          "walk.anic"]
 
 
 def listing(command, path):
