@@ -456,8 +456,8 @@ Bytes walk() {
   }
   all.frame_count = 3 * kFrames;
   EncodeOptions options;
-  options.target = {ErrorMetric::kKg, 5, false};
-  options.cap = Target{ErrorMetric::kMaxError, 2, true};
+  options.target = {ErrorMetric::kKg, 6, false};
+  options.cap = Target{ErrorMetric::kMaxError, 1, true};
   options.basis = BasisChoice::kEigentrajectories;
   options.root_motion = true;
   return encode(all, options).file;
