@@ -279,13 +279,15 @@ Bytes remove_clips(const ClipPart& part, const std::vector<std::string>& names) 
         leaves = &clip;
       } else {
         if (!stays)
-          at = first[c] + (sizes.first_frame > clip.first_frame ? sizes.first_frame - clip.first_frame : 0);
+          at = first[c] +
+               (sizes.first_frame > clip.first_frame ? sizes.first_frame - clip.first_frame : 0);
         stays = true;
       }
     }
     if (stays && leaves)
-      fail(part, ErrorKind::kUsage, "clip '" + text_of(leaves->name) +
-                                        "' shares its basis with one that stays: encode the others anew");
+      fail(part, ErrorKind::kUsage,
+           "clip '" + text_of(leaves->name) +
+               "' shares its basis with one that stays: encode the others anew");
     if (stays)
       edited.add_segment({&file, s, at});
   }

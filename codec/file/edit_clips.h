@@ -22,7 +22,7 @@ struct ClipHome {
   double metres_per_unit = 0;
   ErrorMetric asked = ErrorMetric::kNone;  ///< of the last clip
   double asked_value = 0;
-  std::vector<std::string> names;            ///< of the clips that are there
+  std::vector<std::string> names;           ///< of the clips that are there
   std::shared_ptr<const EncodedPose> pose;  ///< of the mesh; null: the file has none
 };
 

@@ -77,8 +77,8 @@ void expect_near(const std::vector<float>& a, const std::vector<float>& b, doubl
 
 TEST(AnicRootMotion, PositionsHaveItAndThePromiseIsOfThem) {
   for (UpAxis up : {UpAxis::kUnknown, UpAxis::kY, UpAxis::kZ}) {
-    for (BasisChoice basis : {BasisChoice::kEigenshapes, BasisChoice::kEigentrajectories,
-                              BasisChoice::kKeyframes}) {
+    for (BasisChoice basis :
+         {BasisChoice::kEigenshapes, BasisChoice::kEigentrajectories, BasisChoice::kKeyframes}) {
       const MeshSequence source = walks(up);
       const Bytes file = encoded(up, basis);
       const Asset whole = open(file);
@@ -101,17 +101,20 @@ TEST(AnicRootMotion, TakesPositionsWithoutItToThoseWithIt) {
         for (uint32_t clip : {0U, 1U, 2U}) {
           for (const Context* context : {&a, &b}) {
             ASSERT_EQ(anic_set_clip(context->get(), clip), ANIC_OK);
-            ASSERT_EQ(anic_seek_time(context->get(), time, ANIC_SAMPLE_CUBIC, ANIC_WRAP_LOOP), ANIC_OK);
+            ASSERT_EQ(anic_seek_time(context->get(), time, ANIC_SAMPLE_CUBIC, ANIC_WRAP_LOOP),
+                      ANIC_OK);
           }
           anic_root_motion motion = ANIC_INIT(anic_root_motion), shown = motion;
           ASSERT_EQ(anic_get_root_motion(still.get(), clip, time, ANIC_SAMPLE_CUBIC, ANIC_WRAP_LOOP,
-                                         &motion), ANIC_OK);
+                                         &motion),
+                    ANIC_OK);
           ASSERT_EQ(anic_get_shown_root_motion(b.get(), ANIC_WHEN_CURRENT, &shown), ANIC_OK);
           EXPECT_EQ(std::memcmp(motion.matrix, shown.matrix, sizeof shown.matrix), 0);
           expect_near(positions(whole, a), moved(motion.matrix, positions(still, b)), 1e-4);
         }
         for (const Context* context : {&a, &b})
-          ASSERT_EQ(anic_blend(context->get(), 0, 0.77, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, 0.4), ANIC_OK);
+          ASSERT_EQ(anic_blend(context->get(), 0, 0.77, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, 0.4),
+                    ANIC_OK);
         anic_root_motion blended = ANIC_INIT(anic_root_motion);
         ASSERT_EQ(anic_get_shown_root_motion(a.get(), ANIC_WHEN_CURRENT, &blended), ANIC_OK);
         expect_near(positions(whole, a), moved(blended.matrix, positions(still, b)), 1e-4);
@@ -123,19 +126,25 @@ TEST(AnicRootMotion, TakesPositionsWithoutItToThoseWithIt) {
 TEST(AnicRootMotion, IsThatOfTheSource) {
   const Asset asset = open(encoded(UpAxis::kZ, BasisChoice::kEigenshapes));
   anic_root_motion motion = ANIC_INIT(anic_root_motion);
-  ASSERT_EQ(anic_get_root_motion(asset.get(), 0, 1.0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion), ANIC_OK);
+  ASSERT_EQ(anic_get_root_motion(asset.get(), 0, 1.0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion),
+            ANIC_OK);
   EXPECT_TRUE(motion.moves);
   EXPECT_TRUE(motion.turns);
   anic_root_motion still = ANIC_INIT(anic_root_motion);  // the limb bends by itself
-  ASSERT_EQ(anic_get_root_motion(asset.get(), 1, 1.0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &still), ANIC_OK);
+  ASSERT_EQ(anic_get_root_motion(asset.get(), 1, 1.0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &still),
+            ANIC_OK);
   EXPECT_NEAR(motion.turn - still.turn, 10 * kTurnOfFrame, 1e-3);
   EXPECT_EQ(motion.move[2], 0);
-  ASSERT_EQ(anic_get_root_motion(asset.get(), 0, 0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion), ANIC_OK);
+  ASSERT_EQ(anic_get_root_motion(asset.get(), 0, 0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion),
+            ANIC_OK);
   EXPECT_EQ(motion.turn, 0);
   EXPECT_EQ(motion.move[0], 0);
-  EXPECT_EQ(anic_get_root_motion(asset.get(), 3, 0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion), ANIC_E_ARGUMENT);
-  EXPECT_EQ(anic_get_root_motion(nullptr, 0, 0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion), ANIC_E_ARGUMENT);
-  EXPECT_EQ(anic_get_root_motion(asset.get(), 0, std::nan(""), ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion),
+  EXPECT_EQ(anic_get_root_motion(asset.get(), 3, 0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion),
+            ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_get_root_motion(nullptr, 0, 0, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion),
+            ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_get_root_motion(asset.get(), 0, std::nan(""), ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP,
+                                 &motion),
             ANIC_E_ARGUMENT);
   const Context context = context_of(asset);
   EXPECT_EQ(anic_get_shown_root_motion(context.get(), ANIC_WHEN_CURRENT, &motion), ANIC_E_STATE);
@@ -144,7 +153,8 @@ TEST(AnicRootMotion, IsThatOfTheSource) {
 TEST(AnicRootMotion, IsNoneInFilesWithout) {
   const Asset asset = open(encoded_clip("limb", BasisChoice::kEigenshapes));
   anic_root_motion motion = ANIC_INIT(anic_root_motion);
-  ASSERT_EQ(anic_get_root_motion(asset.get(), 0, 0.5, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion), ANIC_OK);
+  ASSERT_EQ(anic_get_root_motion(asset.get(), 0, 0.5, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP, &motion),
+            ANIC_OK);
   EXPECT_FALSE(motion.moves || motion.turns);
   for (size_t i = 0; i < 12; ++i)
     EXPECT_EQ(motion.matrix[i], i % 5 == 0 ? 1.F : 0.F);

@@ -74,7 +74,7 @@ Table run_blend(const BenchOptions& options, const std::vector<uint32_t>& sizes,
       const std::unique_ptr<anic_asset, void (*)(anic_asset*)> asset(opened, anic_close_asset);
       check(anic_create_context(opened, nullptr, &made));
       const std::unique_ptr<anic_context, void (*)(anic_context*)> context(made,
-                                                                          anic_destroy_context);
+                                                                           anic_destroy_context);
       std::vector<float> points(size_t{3} * source.vertex_count);
       anic_output output = ANIC_INIT(anic_output);
       output.data = points.data();

@@ -69,7 +69,8 @@ TEST(RootRecord, RefusesWhatMakesNoSense) {
   const Bytes bytes = sample().write();
   for (size_t size = 0; size < bytes.size(); ++size) {
     RootRecord read;
-    EXPECT_EQ(RootRecord::read({bytes.data(), size}, limits_of(14), &read), Status::kRecord) << size;
+    EXPECT_EQ(RootRecord::read({bytes.data(), size}, limits_of(14), &read), Status::kRecord)
+        << size;
   }
 }
 

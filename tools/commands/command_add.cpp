@@ -118,7 +118,8 @@ void add(EncodeArguments command, const CommonOptions& common) {
   write_file(target, best, in_place || common.overwrite);
   const uint64_t more = best.size() - bytes.size();
   if (common.json) {
-    print_json({{"file", target}, {"bytes", best.size()}, {"added", more}, {"shares_pose", shares_pose}});
+    print_json(
+        {{"file", target}, {"bytes", best.size()}, {"added", more}, {"shares_pose", shares_pose}});
   } else if (!common.quiet) {
     print_line("{}: {} bytes, {} more", target, grouped(best.size()), grouped(more));
     if (common.verbosity > 0)
@@ -139,8 +140,8 @@ void remove(const RemoveCommand& command, const CommonOptions& common) {
   const std::string target = in_place ? path : command.output;
   check_anic_output(target);
   const std::string bytes = read_bytes(path);
-  const Bytes less = remove_clips({path, view_of(bytes)},
-                                  {command.words.begin() + 1, command.words.end()});
+  const Bytes less =
+      remove_clips({path, view_of(bytes)}, {command.words.begin() + 1, command.words.end()});
   write_file(target, less, in_place || common.overwrite);
   if (common.json)
     print_json({{"file", target}, {"bytes", less.size()}});
@@ -153,22 +154,24 @@ void remove(const RemoveCommand& command, const CommonOptions& common) {
 
 void add_add(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<EncodeArguments>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kVerbose | kJson | kThreads,
-                                 {"add", "FILE.anic INPUT... [options]",
-                                  "Add a clip to a file without coding the others again", kAddFooter},
-                                 [c, &common] { add(*c, common); });
+  Options& options =
+      add_command(commands, common, kForce | kQuiet | kVerbose | kJson | kThreads,
+                  {"add", "FILE.anic INPUT... [options]",
+                   "Add a clip to a file without coding the others again", kAddFooter},
+                  [c, &common] { add(*c, common); });
   add_clip_arguments(options, *c);
 }
 
 void add_remove(Commands& commands, CommonOptions& common) {
   auto c = std::make_shared<RemoveCommand>();
-  Options& options = add_command(commands, common, kForce | kQuiet | kJson,
-                                 {"remove", "FILE.anic NAME... [options]",
-                                  "Take clips out of a file without coding the others again",
-                                  kRemoveFooter},
-                                 [c, &common] { remove(*c, common); });
+  Options& options =
+      add_command(commands, common, kForce | kQuiet | kJson,
+                  {"remove", "FILE.anic NAME... [options]",
+                   "Take clips out of a file without coding the others again", kRemoveFooter},
+                  [c, &common] { remove(*c, common); });
   options.arguments("FILE NAME", c->words, "The file, and the clips to take out").required();
-  options.option("-o,--output", c->output, "FILE", "The .anic file to write (default: FILE itself)");
+  options.option("-o,--output", c->output, "FILE",
+                 "The .anic file to write (default: FILE itself)");
 }
 
 }  // namespace anicodec::tools

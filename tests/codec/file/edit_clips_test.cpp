@@ -21,7 +21,8 @@ namespace {
 
 using testing::HasSubstr;
 
-Bytes encoded(const char* name, const std::function<void(EncodeOptions&, MeshSequence&)>& change = {}) {
+Bytes encoded(const char* name,
+              const std::function<void(EncodeOptions&, MeshSequence&)>& change = {}) {
   MeshSequence clip = corpus::make_scaled("limb", 200, 12);
   clip.name = name;
   EncodeOptions options;
@@ -64,14 +65,15 @@ std::string fault_of(const std::function<void()>& run) {
 }
 
 TEST(EditClips, AddsAndRemovesWithoutTouchingTheOthers) {
-  const Bytes walk = encoded("walk"), run = encoded("run", [&](EncodeOptions& options, MeshSequence& clip) {
-                                        options.root_motion = true;
-                                        options.pose = clip_home({"walk", walk}).pose;
-                                        for (uint32_t f = 0; f < clip.frame_count; ++f) {
-                                          for (size_t i = 0; i < clip.frame(f).size(); i += 3)
-                                            clip.frame(f)[i] += static_cast<float>(f);
-                                        }
-                                      });
+  const Bytes walk = encoded("walk"),
+              run = encoded("run", [&](EncodeOptions&options, MeshSequence&clip) {
+                options.root_motion = true;
+                options.pose = clip_home({"walk", walk}).pose;
+                for (uint32_t f = 0; f < clip.frame_count; ++f) {
+                  for (size_t i = 0; i < clip.frame(f).size(); i += 3)
+                    clip.frame(f)[i] += static_cast<float>(f);
+                }
+              });
   const Bytes both = add_clips({"walk", walk}, {"run", run});
   EXPECT_LT(both.size(), walk.size() + run.size() - 300);  // one mesh and pose
   std::multiset<std::string> expected = segments_of(walk);
@@ -89,9 +91,9 @@ TEST(EditClips, AddsAndRemovesWithoutTouchingTheOthers) {
 }
 
 TEST(EditClips, AClipMayBringItsPose) {
-  const Bytes walk = encoded("walk"), run = encoded("run", [](EncodeOptions& options, MeshSequence&) {
-                                        options.target.value = 0.2;
-                                      });
+  const Bytes walk = encoded("walk"),
+              run = encoded(
+                  "run", [](EncodeOptions&options, MeshSequence&) { options.target.value = 0.2; });
   const Bytes both = add_clips({"walk", walk}, {"run", run});
   for (uint32_t f : {0U, 11U})
     EXPECT_EQ(frame_of(both, 12 + f), frame_of(run, f));
@@ -100,14 +102,26 @@ TEST(EditClips, AClipMayBringItsPose) {
 TEST(EditClips, RefusesInOneLine) {
   const Bytes walk = encoded("walk"), run = encoded("run");
   const Bytes both = add_clips({"walk", walk}, {"run", run});
-  EXPECT_THAT(fault_of([&] { add_clips({"a", both}, {"b", run}); }), HasSubstr("has a clip 'run' already"));
-  EXPECT_THAT(fault_of([&] { remove_clips({"a", both}, {"fly"}); }), HasSubstr("has no clip 'fly'"));
-  EXPECT_THAT(fault_of([&] { remove_clips({"a", both}, {"run", "walk"}); }), HasSubstr("the last clip"));
+  EXPECT_THAT(fault_of([&] {
+                add_clips({"a", both}, {"b", run});
+              }),
+              HasSubstr("has a clip 'run' already"));
+  EXPECT_THAT(fault_of([&] {
+                remove_clips({"a", both}, {"fly"});
+              }),
+              HasSubstr("has no clip 'fly'"));
+  EXPECT_THAT(fault_of([&] {
+                remove_clips({"a", both}, {"run", "walk"});
+              }),
+              HasSubstr("the last clip"));
   const Bytes other = encoded("other", [](EncodeOptions&, MeshSequence& clip) {
     clip.polygons = Polygons();
     clip.polygons.add(std::vector<uint32_t>{0, 1, 2});
   });
-  EXPECT_THAT(fault_of([&] { add_clips({"a", walk}, {"b", other}); }), HasSubstr("another connectivity"));
+  EXPECT_THAT(fault_of([&] {
+                add_clips({"a", walk}, {"b", other});
+              }),
+              HasSubstr("another connectivity"));
   Bytes damaged = walk;
   damaged[damaged.size() / 2] ^= 1;
   EXPECT_THAT(fault_of([&] { add_clips({"a", damaged}, {"b", run}); }), HasSubstr("a: "));

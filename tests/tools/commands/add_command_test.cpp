@@ -19,15 +19,21 @@ class AddCommand : public testing::Test {
   void SetUp() override {
     for (const char* name : {"walk", "run"})
       ASSERT_EQ(anicodec({"corpus", "limb", "-q", "-o", at(name) + ".pc2", "--vertices", "100",
-                          "--frame-count", "10"}).status, 0);
-    ASSERT_EQ(anicodec({"encode", at("walk.obj"), at("walk.pc2"), "-q", "-o", at("hero.anic"), "--fps", "10",
-                        "--kg", "0.5", "--effort", "1", "--event", "left=0.2", "--root-motion"}).status, 0);
+                          "--frame-count", "10"})
+                    .status,
+                0);
+    ASSERT_EQ(
+        anicodec({"encode", at("walk.obj"), at("walk.pc2"), "-q", "-o", at("hero.anic"), "--fps",
+                  "10", "--kg", "0.5", "--effort", "1", "--event", "left=0.2", "--root-motion"})
+            .status,
+        0);
   }
 
   std::string at(const std::string& name) { return folder_ / name; }
 
   Outcome add(std::vector<std::string> more = {}) {
-    more.insert(more.begin(), {"add", at("hero.anic"), at("run.obj"), at("run.pc2"), "--effort", "1"});
+    more.insert(more.begin(),
+                {"add", at("hero.anic"), at("run.obj"), at("run.pc2"), "--effort", "1"});
     return anicodec(more);
   }
 
@@ -44,7 +50,9 @@ TEST_F(AddCommand, AddsAClipAndTakesItOutAgain) {
   EXPECT_EQ(both["clips"][1]["events"][0]["seconds"], 0.3);
   EXPECT_EQ(both["clips"][1]["asked"]["value"], 0.5);
   EXPECT_EQ(anicodec({"verify", at("hero.anic")}).status, 0);
-  EXPECT_EQ(anicodec({"compare", at("run.pc2"), at("hero.anic"), "--clip-b", "run", "--no-sted"}).status, 0);
+  EXPECT_EQ(
+      anicodec({"compare", at("run.pc2"), at("hero.anic"), "--clip-b", "run", "--no-sted"}).status,
+      0);
   ASSERT_EQ(anicodec({"remove", at("hero.anic"), "run"}).status, 0);
   EXPECT_EQ(anicodec({"info", at("hero.anic"), "--json"}).out, before.out);
 }
@@ -62,7 +70,10 @@ TEST_F(AddCommand, RefusesInOneLineAndWritesNothing) {
   EXPECT_THAT(other.err, HasSubstr("another connectivity"));
   EXPECT_EQ(anicodec({"info", at("hero.anic"), "--json"}).out, before);
   for (const char* event : {"left", "left=x", "=1", "left=-1", "left=99"})
-    EXPECT_EQ(anicodec({"encode", at("walk.obj"), at("walk.pc2"), "-o", at("no.anic"), "--event", event}).status, 1)
+    EXPECT_EQ(
+        anicodec({"encode", at("walk.obj"), at("walk.pc2"), "-o", at("no.anic"), "--event", event})
+            .status,
+        1)
         << event;
 }
 
