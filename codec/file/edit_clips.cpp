@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/file/edit_clips.h"
 
+#include "codec/file/part_chunks.h"
 #include "codec/sequence/error.h"
 #include "format/binary_coder.h"
 #include "format/container.h"
@@ -18,23 +19,10 @@
 namespace anicodec {
 namespace {
 
-[[noreturn]] void fail(const ClipPart& file, ErrorKind kind, const std::string& text) {
-  throw Error(kind, file.name + ": " + text);
-}
-
 std::string text_of(const String& text) {
   return {text.begin(), text.end()};
 }
 
-Bytes copy(ByteView view) {
-  return Bytes(view.data, view.data + view.size);
-}
-
-bool equal(ByteView a, ByteView b) {
-  return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
-}
-
-constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
 constexpr const char (*kSegmentChunks[])[5] = {&"POSE", &"SEGM", &"BASI", &"CORR"};
 
 /// A file, its records read.

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/file/join_clips.h"
 
+#include "codec/file/part_chunks.h"
 #include "codec/sequence/error.h"
 #include "format/container.h"
 #include "format/records.h"
@@ -15,10 +16,6 @@
 
 namespace anicodec {
 namespace {
-
-[[noreturn]] void fail(const ClipPart& part, ErrorKind kind, const std::string& text) {
-  throw Error(kind, part.name + ": " + text);
-}
 
 /// A part, opened.
 struct OpenPart {
@@ -68,16 +65,6 @@ struct OpenPart {
   Limits limits;
   ClipsRecord record;
 };
-
-bool equal(ByteView a, ByteView b) {
-  return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
-}
-
-Bytes copy(ByteView view) {
-  return Bytes(view.data, view.data + view.size);
-}
-
-constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
 
 void check_same_mesh(const OpenPart& first, const OpenPart& next) {
   const Limits::Mesh &a = first.limits.meshes[0], &b = next.limits.meshes[0];

@@ -12,6 +12,9 @@
 
 namespace anicodec {
 
+// What the fits of this room solve to, and what they add to a diagonal, for vertices without equations.
+inline constexpr double kSolveTolerance = 1e-3, kDamping = 1e-6;
+
 /// A symmetric positive semi-definite system with three unknowns a vertex, whose equations couple a
 /// vertex with its neighbours only: a 3 x 3 block for every vertex and edge. The topology must
 /// outlive it. Memory: about 600 bytes a vertex.

@@ -38,7 +38,6 @@ constexpr int kUntangleEvery = 10;
 constexpr int kProgressRounds = 20;
 constexpr int kFirstEnd = 90;       // not before that
 constexpr double kProgress = 1e-3;  // of the value, in these rounds; with less it is over
-constexpr double kSolveTolerance = 1e-3;
 constexpr int kMostIterations = 100;
 
 /// The merit that is minimised, in parts of the mean and the largest distance at the start.

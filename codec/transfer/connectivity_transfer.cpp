@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kFirstStiffness = 10, kPosedStiffness = 0.5;
+constexpr double kUnposedStiffness = 10, kPosedStiffness = 0.5;
 constexpr double kStiffFit = 0.1, kSoftFit = 0.003;
 constexpr int kFitRounds = 14;  // these halve the largest distance at best
 constexpr int kMostAttempts = 4;
@@ -83,7 +83,7 @@ class CarriedMesh {
     }
     // Posed without the surface: it would hold back what lies on the wrong part of it.
     RegistrationOptions registration;
-    registration.first_stiffness = landmarks.empty() ? kFirstStiffness : kPosedStiffness;
+    registration.first_stiffness = landmarks.empty() ? kUnposedStiffness : kPosedStiffness;
     registration.rounds = options.rounds;
     registration.trust_near = false;
     if (!landmarks.empty())

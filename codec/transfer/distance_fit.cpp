@@ -18,17 +18,15 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kIndexEvery = 5;       // rounds
+constexpr int kRoundsPerIndex = 5;
 constexpr double kFar = 0.52;        // of the largest distance at the start
 constexpr double kMostGain = 4;      // of a sample's weight in a round
 constexpr double kLoss = 0.9;        // the same of one that is near
 constexpr double kMostWeight = 1e6;  // of a sample
 constexpr double kPower = 1.3;       // of the distances, of which the sum is to be least
 constexpr double kNearest = 0.1;     // distance in the mean one that counts as none
-constexpr double kSofter = 0.93, kStiffer = 1.1;  // of the stiffness, in a round
-constexpr double kDamping = 1e-6;
-constexpr double kSolveTolerance = 1e-3;
-constexpr int kMostIterations = 100;
+constexpr double kSofterNextRound = 0.93, kStifferNextRound = 1.1;  // of the stiffness, in a round
+constexpr int kMostSolverSteps = 100;
 
 /// One mesh being fitted.
 class DistanceSolver {
@@ -52,7 +50,7 @@ class DistanceSolver {
     const double edge = mean_edge(mesh_, v_);
     double last_stiffness = options.last_stiffness;
     for (int round = 0;; ++round) {
-      const bool by_index = round % kIndexEvery == 0 || round == options.rounds;
+      const bool by_index = round % kRoundsPerIndex == 0 || round == options.rounds;
       const bool counts = round > 0 && by_index && 2 * round >= options.rounds;
       if (counts)
         untangle(mesh_, surface_, &v_);
@@ -78,7 +76,7 @@ class DistanceSolver {
       along_ = between(options.first_along, options.last_along, 2 * part - 1);
       if (4 * round > options.rounds) {
         const bool mean_lags = distance_.mean() / mean > distance_.max() / max;
-        last_stiffness = std::clamp(last_stiffness * (mean_lags ? kSofter : kStiffer),
+        last_stiffness = std::clamp(last_stiffness * (mean_lags ? kSofterNextRound : kStifferNextRound),
                                     options.least_stiffness, options.last_stiffness);
       }
       const double step = move(between(options.first_stiffness, last_stiffness, 4 * part));
@@ -151,7 +149,7 @@ class DistanceSolver {
     const auto unit = static_cast<double>(mesh_.vertex_count);
     add_pairs(distance_.from_mesh, mesh_weights_, unit, &right);
     add_pairs(distance_.from_surface, surface_weights_, unit * balance_, &right);
-    const Positions step = system_.solve(right, kSolveTolerance, kMostIterations);
+    const Positions step = system_.solve(right, kSolveTolerance, kMostSolverSteps);
     v_ += step;
     return step.norm() / std::sqrt(static_cast<double>(std::max<Index>(1, v_.rows())));
   }

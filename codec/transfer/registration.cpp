@@ -14,11 +14,9 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kIndexEvery = 2;  // rounds; the mesh moves far between them
-constexpr double kSolveTolerance = 1e-3;
-constexpr int kMostIterations = 300;
+constexpr int kMovesPerIndex = 2;  // the mesh moves far between them
+constexpr int kMostPosingSteps = 300;
 constexpr double kTolerance = 1e-2;  // of the step, in mean edges
-constexpr double kDamping = 1e-6;
 constexpr int kPoseRounds = 20;
 constexpr double kFirstPoseStiffness = 1, kLastPoseStiffness = 0.1;  // against the landmarks
 
@@ -101,7 +99,7 @@ RegistrationReport Registration::run(const Surface& surface, const RegistrationO
   for (int round = 0; round < options.rounds; ++round) {
     const double stiffness =
         stiffness_at(options.first_stiffness, options.last_stiffness, round, options.rounds);
-    correspondences.update(*v, round % kIndexEvery == 0);
+    correspondences.update(*v, round % kMovesPerIndex == 0);
     if (options.trust_near)
       correspondences.trust_near(*v);
     shape_->update_rotations(*v, &rotations);
@@ -115,7 +113,7 @@ RegistrationReport Registration::run(const Surface& surface, const RegistrationO
     add_landmarks(options.landmarks, options.landmark_weight, *v, &right);
     const Positions old = *v;
     fold_guarded_step(
-        *mesh_, old, system_.solve(right, kSolveTolerance, kMostIterations),
+        *mesh_, old, system_.solve(right, kSolveTolerance, kMostPosingSteps),
         [v](uint32_t i, const Vector3d& q) { v->row(static_cast<Index>(i)) = q.transpose(); },
         [&](uint32_t t) { return correspondences.facing(t); }, *v);
     const double step = (*v - old).norm() / std::sqrt(count);
@@ -138,7 +136,7 @@ void Registration::pose(const std::vector<Landmark>& landmarks, Positions* v) {
     add_shape(stiffness);
     Positions right = -stiffness * shape_->half_gradient(*v, rotations);
     add_landmarks(landmarks, 1, *v, &right);
-    *v += system_.solve(right, kSolveTolerance, kMostIterations);
+    *v += system_.solve(right, kSolveTolerance, kMostPosingSteps);
   }
 }
 

@@ -53,7 +53,7 @@ void CornerTable::pair_corners(uint32_t vertex_count) {
       facing[end[low]++] = {high, c};
     }
   }
-  for (size_t v = 0; v < vertex_count; ++v) {
+  for (size_t v = 0; count > 0 && v < vertex_count; ++v) {
     Facing* const first = facing.data() + begin[v];
     Facing* const last = facing.data() + begin[v + 1];
     std::sort(first, last);

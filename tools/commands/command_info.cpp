@@ -409,7 +409,7 @@ void print_text(const std::string& path, const Contents& c) {
   print_chunks(c);
 }
 
-void run(const std::string& path, const CommonOptions& common) {
+void print_contents(const std::string& path, const CommonOptions& common) {
   std::string bytes = read_bytes(path);
   Contents contents;
   contents.bytes = bytes.size();
@@ -433,7 +433,7 @@ void add_info(Commands& commands, CommonOptions& common) {
   Options& options = add_command(
       commands, common, kJson, {"info", "FILE.anic...", "Say what is in .anic files", kInfoFooter},
       [inputs, &common] {
-        run_for_each(*inputs, common, [&](const std::string& path) { run(path, common); });
+        run_for_each(*inputs, common, [&](const std::string& path) { print_contents(path, common); });
       });
   options.arguments("FILE", *inputs, "The .anic files to read").required();
 }

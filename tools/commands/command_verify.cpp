@@ -58,7 +58,7 @@ void check_frames(const std::string& path, const Clip& clip, ProgressLine& line)
   }
 }
 
-void run(const std::string& path, const CommonOptions& common) {
+void verify(const std::string& path, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   std::string bytes = read_bytes(path);
   size_t chunks = check_chunks(path, bytes);
@@ -90,7 +90,7 @@ void add_verify(Commands& commands, CommonOptions& common) {
       commands, common, kQuiet | kJson,
       {"verify", "FILE.anic...", "Check .anic files: checksums and a full decode", kVerifyFooter},
       [inputs, &common] {
-        run_for_each(*inputs, common, [&](const std::string& path) { run(path, common); });
+        run_for_each(*inputs, common, [&](const std::string& path) { verify(path, common); });
       });
   options.arguments("FILE", *inputs, "The .anic files to check").required();
 }

@@ -15,7 +15,7 @@ namespace anicodec::tools {
 namespace {
 
 /// In single quotes; the characters of `escaped` after a backslash.
-std::string quoted(std::string_view text, std::string_view escaped = "") {
+std::string in_quotes(std::string_view text, std::string_view escaped = "") {
   std::string out = "'";
   for (char c : text) {
     if (c == '\'')
@@ -48,7 +48,7 @@ std::string mode_patterns(const Commands& commands) {
   std::vector<std::string> modes;
   for (const Command& command : commands) {
     if (is_mode(command))
-      modes.push_back(quoted(command.help.name));
+      modes.push_back(in_quotes(command.help.name));
   }
   return fmt::format("{}", fmt::join(modes, "|"));
 }
@@ -66,12 +66,12 @@ std::string bash(const Program& program, const Commands& commands) {
         continue;
       std::vector<std::string> cases;
       for (const std::string& name : names)
-        cases.push_back(quoted(command.help.name + ":" + name));
+        cases.push_back(in_quotes(command.help.name + ":" + name));
       values += fmt::format("    {}) words={} ;;\n", fmt::join(cases, "|"),
-                            quoted(fmt::format("{}", fmt::join(option.words, " "))));
+                            in_quotes(fmt::format("{}", fmt::join(option.words, " "))));
     }
-    options += fmt::format("        {}) words={} ;;\n", quoted(command.help.name),
-                           quoted(fmt::format("{}", fmt::join(words, " "))));
+    options += fmt::format("        {}) words={} ;;\n", in_quotes(command.help.name),
+                           in_quotes(fmt::format("{}", fmt::join(words, " "))));
   }
   std::string script = fmt::format(R"(# Completion of {0} for bash.
 _{0}() {{
@@ -113,14 +113,14 @@ std::string zsh_argument(const Option& option) {
   std::string value;
   if (option.kind == Option::Kind::kValue)
     value = option.words.empty()
-                ? quoted(":" + option.value, "\\") + quoted(":_files")
-                : quoted(":word:(" + fmt::format("{}", fmt::join(option.words, " ")) + ")");
+                ? in_quotes(":" + option.value, "\\") + in_quotes(":_files")
+                : in_quotes(":word:(" + fmt::format("{}", fmt::join(option.words, " ")) + ")");
   std::string rows;
   for (const std::string& name : names)
     rows += fmt::format(
         "      {}{}{}{} \\\n",
-        option.repeats ? "'*'" : quoted("(" + fmt::format("{}", fmt::join(names, " ")) + ")"), name,
-        quoted("[") + quoted(option.text, kSpecial) + quoted("]"), value);
+        option.repeats ? "'*'" : in_quotes("(" + fmt::format("{}", fmt::join(names, " ")) + ")"), name,
+        in_quotes("[") + in_quotes(option.text, kSpecial) + in_quotes("]"), value);
   return rows;
 }
 
@@ -136,15 +136,15 @@ std::string zsh(const Program& program, const Commands& commands) {
     const std::string rest =
         modes.empty()
             ? "'*:file:_files'"
-            : quoted(fmt::format("1:mode:({})", fmt::join(modes, " "))) + " '*:file:_files'";
-    cases += fmt::format("    {}) _arguments -s \\\n{}      {} ;;\n", quoted(command.help.name),
+            : in_quotes(fmt::format("1:mode:({})", fmt::join(modes, " "))) + " '*:file:_files'";
+    cases += fmt::format("    {}) _arguments -s \\\n{}      {} ;;\n", in_quotes(command.help.name),
                          rows, rest);
     if (!is_mode(command))
       described +=
-          fmt::format("    {}\n", quoted(command.help.name + ":" + command.help.description));
+          fmt::format("    {}\n", in_quotes(command.help.name + ":" + command.help.description));
   }
   for (const ProgramWord& word : kProgramWords)
-    described += fmt::format("    {}\n", quoted(fmt::format("{}:{}", word.name, word.text)));
+    described += fmt::format("    {}\n", in_quotes(fmt::format("{}:{}", word.name, word.text)));
   std::string modes = mode_patterns(commands);
   return fmt::format(R"(#compdef {0}
 # Completion of {0} for zsh.
@@ -175,7 +175,7 @@ std::string fish(const Program& program, const Commands& commands) {
   const std::string start = fmt::format("complete -c {}", program.name);
   const auto add_word = [&](const std::string& name, const std::string& text) {
     script +=
-        fmt::format("{} -n __fish_use_subcommand -a {} -d {}\n", start, quoted(name), quoted(text));
+        fmt::format("{} -n __fish_use_subcommand -a {} -d {}\n", start, in_quotes(name), in_quotes(text));
   };
   for (const ProgramWord& word : kProgramWords)
     add_word(word.name, word.text);
@@ -191,22 +191,22 @@ std::string fish(const Program& program, const Commands& commands) {
         when += "; and not __fish_seen_subcommand_from " + fmt::format("{}", fmt::join(modes, " "));
     } else {
       const std::string mode = name.substr(blank + 1);
-      script += fmt::format("{} -n {} -a {} -d {}\n", start, quoted(when), quoted(mode),
-                            quoted(command.help.description));
+      script += fmt::format("{} -n {} -a {} -d {}\n", start, in_quotes(when), in_quotes(mode),
+                            in_quotes(command.help.description));
       when += "; and __fish_seen_subcommand_from " + mode;
     }
     for (const Option& option : command.options.all()) {
       if (option.is_argument())
         continue;
-      script += start + " -n " + quoted(when);
+      script += start + " -n " + in_quotes(when);
       for (const std::string& spelling : split_at_commas(option.names))
         script +=
             spelling.starts_with("--") ? " -l " + spelling.substr(2) : " -s " + spelling.substr(1);
       if (option.kind == Option::Kind::kValue)
         script += option.words.empty()
                       ? " -r"
-                      : " -xa " + quoted(fmt::format("{}", fmt::join(option.words, " ")));
-      script += " -d " + quoted(option.text) + "\n";
+                      : " -xa " + in_quotes(fmt::format("{}", fmt::join(option.words, " ")));
+      script += " -d " + in_quotes(option.text) + "\n";
     }
   }
   return script;

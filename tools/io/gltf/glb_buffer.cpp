@@ -13,7 +13,7 @@
 namespace anicodec::tools {
 namespace {
 
-using Json = GlbBuffer::Json;
+using OrderedJson = GlbBuffer::Json;
 
 constexpr const char* kTooLarge = "the GLB would be larger than the 4 GiB that are possible";
 constexpr int kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
@@ -47,8 +47,8 @@ struct PackedIndices {
   std::string bytes;
 };
 
-Json describe(std::span<const float> values, size_t components, bool bounds) {
-  Json accessor{{"componentType", kFloat},
+OrderedJson describe(std::span<const float> values, size_t components, bool bounds) {
+  OrderedJson accessor{{"componentType", kFloat},
                 {"count", values.size() / components},
                 {"type", type_name(components)}};
   if (!bounds)
@@ -105,7 +105,7 @@ size_t GlbBuffer::add_indices(std::span<const uint32_t> indices, uint32_t vertic
 
 size_t GlbBuffer::add_floats(std::span<const float> values, size_t components, GlbTarget target,
                              bool bounds) {
-  Json accessor = describe(values, components, bounds);
+  OrderedJson accessor = describe(values, components, bounds);
   accessor["bufferView"] = add_view(bytes_of(values), target);
   return add_accessor(std::move(accessor));
 }
@@ -140,7 +140,7 @@ size_t GlbBuffer::add_sparse(uint64_t count, std::span<const uint32_t> elements,
                     values);
 }
 
-size_t GlbBuffer::add_sparse(Json accessor, std::span<const uint32_t> elements,
+size_t GlbBuffer::add_sparse(OrderedJson accessor, std::span<const uint32_t> elements,
                              std::span<const float> values) {
   const PackedIndices packed(elements, accessor["count"].get<uint32_t>());
   const size_t index_view = add_view(packed.bytes, GlbTarget::kNone);
@@ -151,10 +151,10 @@ size_t GlbBuffer::add_sparse(Json accessor, std::span<const uint32_t> elements,
   return add_accessor(std::move(accessor));
 }
 
-void GlbBuffer::describe_in(Json& document) const {
+void GlbBuffer::describe_in(OrderedJson& document) const {
   document["accessors"] = accessors_;
   document["bufferViews"] = views_;
-  document["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
+  document["buffers"] = OrderedJson::array({{{"byteLength", bytes_.size()}}});
 }
 
 void GlbBuffer::check_size(uint64_t more) const {
@@ -165,7 +165,7 @@ void GlbBuffer::check_size(uint64_t more) const {
 size_t GlbBuffer::add_view(std::string_view bytes, GlbTarget target) {
   bytes_.resize((bytes_.size() + 3) / 4 * 4);
   check_size(bytes.size());
-  Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
+  OrderedJson view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
   if (target != GlbTarget::kNone)
     view["target"] = static_cast<int>(target);
   bytes_ += bytes;
@@ -173,7 +173,7 @@ size_t GlbBuffer::add_view(std::string_view bytes, GlbTarget target) {
   return views_.size() - 1;
 }
 
-size_t GlbBuffer::add_accessor(Json accessor) {
+size_t GlbBuffer::add_accessor(OrderedJson accessor) {
   accessors_.push_back(std::move(accessor));
   return accessors_.size() - 1;
 }

@@ -18,32 +18,32 @@
 namespace anicodec::tools {
 namespace {
 
-using Json = GlbBuffer::Json;
+using OrderedJson = GlbBuffer::Json;
 
 constexpr int kPoints = 0, kTriangles = 4;
-
-/// An attribute at the vertices of the GLB, in one frame.
-struct Written {
-  std::string name;
-  size_t components = 0;
-  bool in_every_target = false;  ///< otherwise where it differs from the first frame
-  std::vector<float> values;
-
-  /// The values of one object.
-  std::span<const float> of(const GlbObject& object) const {
-    return std::span(values).subspan(components * object.first, components * object.count);
-  }
-};
-
-/// A mesh of the GLB.
-struct Output {
-  Json attributes, targets = Json::array();
-  std::vector<bool> moves;  ///< of each attribute written: whether a target has it
-};
 
 }  // namespace
 
 class GlbOutput::Writer {
+  /// An attribute at the vertices of the GLB, in one frame.
+  struct Written {
+    std::string name;
+    size_t components = 0;
+    bool in_every_target = false;  ///< otherwise where it differs from the first frame
+    std::vector<float> values;
+
+    /// The values of one object.
+    std::span<const float> of(const GlbObject& object) const {
+      return std::span(values).subspan(components * object.first, components * object.count);
+    }
+  };
+
+  /// A mesh of the GLB.
+  struct Output {
+    OrderedJson attributes, targets = OrderedJson::array();
+    std::vector<bool> moves;  ///< of each attribute written: whether a target has it
+  };
+
  public:
   Writer(const MeshSequence& clip, bool step, std::span<const GltfImage> images)
       : clip_(clip),
@@ -79,10 +79,10 @@ class GlbOutput::Writer {
   std::string finish(std::span<const float> times) {
     for (size_t m = 0; m < meshes_.size(); ++m)
       complete_targets(vertices_.objects()[m], meshes_[m]);
-    Json document;
+    OrderedJson document;
     document["asset"] = {{"version", "2.0"}, {"generator", "anicodec"}};
     document["scene"] = 0;
-    document["scenes"] = Json::array({{{"nodes", {0}}}});
+    document["scenes"] = OrderedJson::array({{{"nodes", {0}}}});
     document["nodes"] = nodes();
     document["meshes"] = meshes();
     if (!clip_.materials.of_polygon.empty())
@@ -90,7 +90,7 @@ class GlbOutput::Writer {
     if (clip_.frame_count > 1)
       document["animations"] = animations(times);
     buffer_.describe_in(document);
-    return pack_glb(document.dump(-1, ' ', false, Json::error_handler_t::replace), buffer_.bytes());
+    return pack_glb(document.dump(-1, ' ', false, OrderedJson::error_handler_t::replace), buffer_.bytes());
   }
 
  private:
@@ -142,7 +142,7 @@ class GlbOutput::Writer {
 
   /// A target of differences to the first frame.
   void add_target(const std::vector<Written>& frame, const GlbObject& object, Output& mesh) {
-    Json target;
+    OrderedJson target;
     for (size_t i = 0; i < frame.size(); ++i) {
       const std::span<const float> values = frame[i].of(object);
       if (!frame[i].in_every_target && std::ranges::all_of(values, [](float x) { return x == 0; }))
@@ -159,7 +159,7 @@ class GlbOutput::Writer {
       if (!mesh.moves[i])
         continue;
       const std::vector<float> zeros(first_[i].components * object.count);
-      for (Json& target : mesh.targets) {
+      for (OrderedJson& target : mesh.targets) {
         if (!target.contains(first_[i].name))
           target[first_[i].name] = buffer_.add_differences(zeros, first_[i].components);
       }
@@ -174,17 +174,17 @@ class GlbOutput::Writer {
   }
 
   /// The object, or a node with the objects below it.
-  Json nodes() const {
-    Json nodes = Json::array();
+  OrderedJson nodes() const {
+    OrderedJson nodes = OrderedJson::array();
     const bool several = meshes_.size() > 1;
     if (several)
-      nodes.push_back({{"name", clip_.name}, {"children", Json::array()}});
+      nodes.push_back({{"name", clip_.name}, {"children", OrderedJson::array()}});
     for (size_t m = 0; m < meshes_.size(); ++m) {
       if (several)
         nodes[0]["children"].push_back(nodes.size());
       nodes.push_back({{"name", name_of(vertices_.objects()[m])}, {"mesh", m}});
     }
-    Json& root = nodes[0];
+    OrderedJson& root = nodes[0];
     if (clip_.up == UpAxis::kZ)  // the axes of glTF: Y up
       root["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
     if (const double unit = clip_.metres_per_unit; unit > 0 && unit != 1)
@@ -192,22 +192,22 @@ class GlbOutput::Writer {
     return nodes;
   }
 
-  Json meshes() {
-    Json result = Json::array();
+  OrderedJson meshes() {
+    OrderedJson result = OrderedJson::array();
     for (const GlbObject& object : vertices_.objects())
-      result.push_back({{"name", name_of(object)}, {"primitives", Json::array()}});
+      result.push_back({{"name", name_of(object)}, {"primitives", OrderedJson::array()}});
     for (const auto& [object, material, corners] : vertices_.triangles(clip_)) {
-      Json& primitive = result[object]["primitives"].emplace_back(Json::object());
+      OrderedJson& primitive = result[object]["primitives"].emplace_back(OrderedJson::object());
       primitive["mode"] = kTriangles;
       primitive["indices"] = buffer_.add_indices(corners, vertices_.objects()[object].count);
       if (material != kNoLabel)
         primitive["material"] = material;
     }
     for (size_t m = 0; m < meshes_.size(); ++m) {
-      Json& primitives = result[m]["primitives"];
+      OrderedJson& primitives = result[m]["primitives"];
       if (primitives.empty())
         primitives.push_back({{"mode", kPoints}});
-      for (Json& primitive : primitives) {
+      for (OrderedJson& primitive : primitives) {
         primitive["attributes"] = meshes_[m].attributes;
         if (!meshes_[m].targets.empty())
           primitive["targets"] = meshes_[m].targets;
@@ -216,7 +216,7 @@ class GlbOutput::Writer {
     return result;
   }
 
-  void add_materials(Json& document) {
+  void add_materials(OrderedJson& document) {
     const bool textured = std::ranges::any_of(
         clip_.attributes, [](const Attribute& a) { return a.kind == AttributeKind::kUv; });
     GltfMaterials materials(textured ? GltfTextures::kFiles : GltfTextures::kNone, images_,
@@ -228,11 +228,11 @@ class GlbOutput::Writer {
   }
 
   /// One, or of several clips one for each.
-  Json animations(std::span<const float> times) {
+  OrderedJson animations(std::span<const float> times) {
     if (clip_.clips.empty())
-      return Json::array({animation(clip_.name, 0, {times.begin(), times.end()},
+      return OrderedJson::array({animation(clip_.name, 0, {times.begin(), times.end()},
                                     clip_.times.empty() ? &clip_.rate : nullptr)});
-    Json result = Json::array();
+    OrderedJson result = OrderedJson::array();
     uint32_t first = 0;
     for (const ClipTiming& clip : clip_.clips) {
       std::vector<float> own;
@@ -248,7 +248,7 @@ class GlbOutput::Writer {
 
   /// The weight of a frame is 1 at its time and 0 at those of all others. `input`: times of the frames
   /// from the first on. `rate`: null for uneven ones.
-  Json animation(const std::string& name, uint32_t first, std::vector<float> input,
+  OrderedJson animation(const std::string& name, uint32_t first, std::vector<float> input,
                  const FrameRate* rate) {
     const uint64_t frames = clip_.frame_count, own = input.size();
     const float begin = std::min(input[0], 0.0F);
@@ -258,11 +258,11 @@ class GlbOutput::Writer {
     for (uint32_t f = 0; f < own; ++f)
       elements.push_back(static_cast<uint32_t>(f * frames + first + f));
     const std::vector<float> ones(own, 1.0F);
-    Json sampler{{"input", buffer_.add_floats(input, 1, GlbTarget::kNone, true)},
+    OrderedJson sampler{{"input", buffer_.add_floats(input, 1, GlbTarget::kNone, true)},
                  {"interpolation", step_ ? "STEP" : "LINEAR"},
                  {"output", buffer_.add_sparse(own * frames, elements, ones)}};
-    Json animation{{"name", name}};
-    animation["samplers"] = Json::array({std::move(sampler)});
+    OrderedJson animation{{"name", name}};
+    animation["samplers"] = OrderedJson::array({std::move(sampler)});
     const size_t first_node = meshes_.size() > 1 ? 1 : 0;
     for (size_t m = 0; m < meshes_.size(); ++m)
       animation["channels"].push_back(

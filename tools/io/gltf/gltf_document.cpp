@@ -16,8 +16,6 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kVisibility = "KHR_node_visibility";
 constexpr const char* kPointer = "KHR_animation_pointer";
 constexpr uint64_t kMaxBytes = uint64_t{1} << 40;
@@ -31,11 +29,6 @@ std::optional<JsonNode> extension(const JsonNode& node, const char* name) {
 uint64_t whole_or(const JsonNode& node, const char* key, uint64_t otherwise, uint64_t limit) {
   std::optional<JsonNode> found = node.find(key);
   return found ? found->whole(limit) : otherwise;
-}
-
-std::string text_or_empty(const JsonNode& node, const char* key) {
-  std::optional<JsonNode> found = node.find(key);
-  return found ? found->text() : std::string();
 }
 
 uint32_t index_or_none(const JsonNode& node, const char* key, size_t count, const char* what) {
@@ -113,7 +106,7 @@ class Reader {
         "KHR_xmp",        "EXT_lights_",  "KHR_mesh_quantization"};
     for (const JsonNode& node : root_.elements("extensionsRequired")) {
       const std::string name = node.text();
-      bool known = name == kMeshopt || name == kDraco || name == kVisibility || name == kPointer;
+      bool known = name == kMeshoptExtension || name == kDracoExtension || name == kVisibility || name == kPointer;
       for (std::string_view prefix : kHarmless)
         known |= name.starts_with(prefix);
       if (!known)
@@ -126,7 +119,7 @@ class Reader {
     const uint64_t length = node.member("byteLength").whole(kMaxBytes);
     std::vector<char>& bytes = out_.buffers.emplace_back();
     // Takes the place of compressed views in readers that do not know them.
-    if (extension(node, kMeshopt))
+    if (extension(node, kMeshoptExtension))
       return;
     std::optional<JsonNode> uri = node.find("uri");
     if (!uri) {
@@ -183,7 +176,7 @@ class Reader {
   void read_view(const JsonNode& node) {
     GltfView view;
     view.stride = static_cast<uint32_t>(whole_or(node, "byteStride", 0, 252));
-    if (std::optional<JsonNode> packed = extension(node, kMeshopt)) {
+    if (std::optional<JsonNode> packed = extension(node, kMeshoptExtension)) {
       MeshoptView source;
       source.bytes = range_of_buffer(*packed);
       source.count = static_cast<uint32_t>(packed->member("count").whole(kMaxElements));
@@ -302,7 +295,7 @@ class Reader {
     primitive.mode = static_cast<uint32_t>(whole_or(node, "mode", 4, 6));
     for (const JsonNode& target : node.elements("targets"))
       primitive.targets.push_back(read_attributes(target));
-    if (std::optional<JsonNode> packed = extension(node, kDraco)) {
+    if (std::optional<JsonNode> packed = extension(node, kDracoExtension)) {
       GltfDraco draco;
       draco.view = packed->member("bufferView").index(out_.views.size(), "buffer views");
       for (const auto& [name, value] : packed->member("attributes").members())

@@ -23,6 +23,10 @@ namespace anicodec::tools {
 
 inline constexpr uint32_t kGltfNone = UINT32_MAX;  ///< an index that is not given
 
+// Extensions by which views and primitives are compressed.
+inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+
 enum class GltfComponent : uint32_t {
   kInt8 = 5120,
   kUint8 = 5121,

@@ -13,7 +13,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr uint32_t kTriangles = 4, kFan = 6;  // 5: strip
+constexpr uint32_t kTriangleList = 4, kFan = 6;  // 5: strip
 
 /// Reads the attributes of one primitive, from accessors or from a Draco bitstream.
 class AttributeReader {
@@ -209,7 +209,7 @@ GltfVertices read_vertices(const GltfDocument& document, const AttributeReader& 
 }
 
 std::vector<uint32_t> triangle_list(const std::vector<uint32_t>& corners, uint32_t mode) {
-  if (mode == kTriangles)
+  if (mode == kTriangleList)
     return corners;
   std::vector<uint32_t> out;
   for (size_t i = 2; i < corners.size(); ++i) {
@@ -255,7 +255,7 @@ GltfGeometry read_geometry(const GltfDocument& document, uint32_t mesh, size_t i
                     ", out of bounds; there are " + std::to_string(out.vertices.count) +
                     " vertices");
   }
-  if (primitive.mode == kTriangles && corners.size() % 3 != 0)
+  if (primitive.mode == kTriangleList && corners.size() % 3 != 0)
     fail_gltf(document, in.path(),
               std::to_string(corners.size()) + " corners do not make triangles");
   out.triangles = triangle_list(corners, primitive.mode);

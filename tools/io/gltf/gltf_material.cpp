@@ -33,11 +33,6 @@ constexpr SlotPlace kSlots[] = {
     {TextureSlot::kOcclusion, nullptr, "occlusionTexture"},
     {TextureSlot::kEmissive, nullptr, "emissiveTexture"}};
 
-std::string text_or_empty(const JsonNode& node, const char* key) {
-  const std::optional<JsonNode> found = node.find(key);
-  return found ? found->text() : std::string();
-}
-
 float number_or(const std::optional<JsonNode>& node, const char* key, double otherwise) {
   const std::optional<JsonNode> found = node ? node->find(key) : std::nullopt;
   return static_cast<float>(std::max(0.0, found ? found->number() : otherwise));

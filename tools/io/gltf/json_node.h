@@ -61,6 +61,12 @@ class JsonNode {
   std::string path_;
 };
 
+/// Text of a member; empty where there is none.
+inline std::string text_or_empty(const JsonNode& node, const char* key) {
+  const std::optional<JsonNode> found = node.find(key);
+  return found ? found->text() : std::string();
+}
+
 }  // namespace anicodec::tools
 
 #endif  // ANICODEC_TOOLS_IO_GLTF_JSON_NODE_H_

@@ -22,8 +22,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kExtension = "ANIC_mesh_animation";
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 constexpr const char* kLights = "KHR_lights_punctual";
 
@@ -31,8 +29,8 @@ constexpr const char* kLights = "KHR_lights_punctual";
 bool is_understood(const std::string& extension) {
   constexpr std::string_view kFamilies[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_"};
   constexpr std::string_view kOthers[] = {kExtension,
-                                          kDraco,
-                                          kMeshopt,
+                                          kDracoExtension,
+                                          kMeshoptExtension,
                                           kInstancing,
                                           kLights,
                                           "EXT_lights_image_based",
@@ -117,7 +115,7 @@ void visit_views(Json& document, Visit visit) {
   each(document, "images", [&](Json& image) { visit_member(image, "bufferView", visit); });
   each(document, "meshes", [&](Json& mesh) {
     each(mesh, "primitives", [&](Json& primitive) {
-      if (Json* draco = find_extension(primitive, kDraco))
+      if (Json* draco = find_extension(primitive, kDracoExtension))
         visit_member(*draco, "bufferView", visit);
     });
   });
@@ -269,7 +267,7 @@ class MovingGlb {
     Json primitive = document_["meshes"][baked.mesh]["primitives"][baked.primitive];
     primitive.erase("targets");
     Json attributes = Json::object();
-    const bool draco = find_extension(primitive, kDraco) != nullptr;
+    const bool draco = find_extension(primitive, kDracoExtension) != nullptr;
     for (const auto& [name, old] : primitive["attributes"].items()) {
       if (name == "POSITION" || name == "NORMAL" || name == "TANGENT" ||
           name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_"))
@@ -288,7 +286,7 @@ class MovingGlb {
         note("texture coordinates and colours that move stay as they are at rest");
     }
     if (draco) {
-      erase_extension(primitive, kDraco);
+      erase_extension(primitive, kDracoExtension);
       primitive["mode"] = 4;
       primitive["indices"] =
           accessor(buffer_.add_indices(baked.geometry->triangles, vertices.count));
@@ -424,7 +422,7 @@ class MovingGlb {
     Json& views = document_["bufferViews"];
     for (size_t v = 0; v < views.size(); ++v) {
       Json& view = views[v];
-      erase_extension(view, kMeshopt);
+      erase_extension(view, kMeshoptExtension);
       view["buffer"] = v;
       bytes_.push_back(source_.views[v].bytes);
     }
@@ -479,7 +477,7 @@ class MovingGlb {
         continue;
       Json kept = Json::array();
       for (const Json& one : *names) {
-        if (one != kMeshopt && (one != kDraco || text.find(kDraco) != std::string::npos))
+        if (one != kMeshoptExtension && (one != kDracoExtension || text.find(kDracoExtension) != std::string::npos))
           kept.push_back(one);
       }
       if (kept.empty())
