@@ -150,7 +150,7 @@ class BatchCoefficientModel {
     if (symbol == kRowEscape) {
       const uint32_t excess = code_excess(coder, vertex, magnitude_of(value) - kRowEscape);
       magnitude += excess;
-      vertex.sum += std::min(excess, 1023U);
+      vertex.sum += excess;
     }
     const bool negative = code_sign(coder, r, c, value < 0);
     if constexpr (Coder::kDecodes)

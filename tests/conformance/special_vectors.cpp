@@ -86,6 +86,11 @@ Bytes rings_by_degree() {
                 recipe(3, BasisKind::kEigenshapes, 0.004, 20, 1, 12, RefitSchedule::kNone)});
 }
 
+Bytes cliques_of_vertices() {
+  return file_of(cliques(),
+                 {recipe(4, BasisKind::kEigenshapes, 0.004, 16, 2, 12, RefitSchedule::kSparse)});
+}
+
 Bytes partners() {
   const MeshSequence clip = corpus::make_scaled("limb", 700, 9);
   const double step = 0.004 * diagonal(clip);
@@ -95,6 +100,17 @@ Bytes partners() {
     recipes.push_back(
         recipe(3, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse));
     recipes.back().change = with_partners(coding);
+  }
+  return file_of(clip, recipes);
+}
+
+Bytes turned() {
+  const MeshSequence clip = turned_pair(800, 4);
+  const double step = 0.004 * diagonal(clip);
+  std::vector<Recipe> recipes;
+  for (const bool many_strands : {false, true}) {
+    recipes.push_back(recipe(2, BasisKind::kEigenshapes, step, 8, 1, 12, RefitSchedule::kNone));
+    recipes.back().change = with_turned_partners(many_strands);
   }
   return file_of(clip, recipes);
 }
@@ -153,10 +169,11 @@ Bytes saturated() {
 
 /// The second coder of coefficients, layers that begin anew, and residuals at the coder's limits.
 Bytes batches() {
-  const MeshSequence clip = corpus::make_scaled("limb", 400, 45);
+  const MeshSequence clip = corpus::make_scaled("limb", 400, 48);
   const double step = 0.001 * diagonal(clip);
   Recipe wild = layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kBatches, false);
-  wild.settings.components = 7;
+  wild.frames = 12;
+  wild.settings.components = 11;  // more than are told apart
   wild.change = scramble_coefficients;
   return file_of(clip,
                  {layered(BasisKind::kEigenshapes, step, CoefficientCoder::kBatches, false),
@@ -231,8 +248,23 @@ class Tangle {
     return std::move(clip_);
   }
 
+  MeshSequence make_flowers() {
+    for (const uint32_t petals : {20U, 40U, 63U, 64U, 65U, 100U})
+      flower(petals);
+    number_as_they_are();
+    return std::move(clip_);
+  }
+
  private:
   using Polygon = std::vector<uint32_t>;
+
+  void number_as_they_are() {
+    std::vector<uint32_t> number(places_.size());
+    std::iota(number.begin(), number.end(), 0U);
+    place(number);
+    for (const Polygon& polygon : polygons_)
+      clip_.polygons.add(polygon);
+  }
 
   /// A vertex at a place; vertices of one place and kind are copies of one another.
   uint32_t vertex(uint32_t place) {
@@ -372,17 +404,8 @@ class Tangle {
     }
   }
 
-  /// Numbers the vertices row by row, with jumps, back and forth; polygons start at any corner.
-  void scramble() {
-    std::vector<uint32_t> number(places_.size());
-    std::iota(number.begin(), number.end(), 0U);
-    for (size_t i = 0; i + 1 < number.size(); ++i) {
-      const size_t reach = i / 60 % 3 == 0 ? 1 : i / 60 % 3 == 1 ? 5 : number.size();
-      std::swap(
-          number[i],
-          number[std::min(i + numbers_.below(static_cast<uint32_t>(reach)), number.size() - 1)]);
-    }
-    std::reverse(number.begin() + 100, number.begin() + 180);
+  /// Positions of the vertices, which have new numbers.
+  void place(const std::vector<uint32_t>& number) {
     clip_.name = "tangle";
     clip_.vertex_count = static_cast<uint32_t>(places_.size());
     clip_.frame_count = 2;
@@ -396,6 +419,20 @@ class Tangle {
         clip_.positions[3 * (places_.size() + number[v]) + c] = at[c] + (c == 2 ? 1 : 0);
       }
     }
+  }
+
+  /// Numbers the vertices row by row, with jumps, back and forth; polygons start at any corner.
+  void scramble() {
+    std::vector<uint32_t> number(places_.size());
+    std::iota(number.begin(), number.end(), 0U);
+    for (size_t i = 0; i + 1 < number.size(); ++i) {
+      const size_t reach = i / 60 % 3 == 0 ? 1 : i / 60 % 3 == 1 ? 5 : number.size();
+      std::swap(
+          number[i],
+          number[std::min(i + numbers_.below(static_cast<uint32_t>(reach)), number.size() - 1)]);
+    }
+    std::reverse(number.begin() + 100, number.begin() + 180);
+    place(number);
     for (size_t i = 0; i + 1 < polygons_.size(); ++i) {
       if (numbers_.below(6) == 0)
         std::swap(polygons_[i], polygons_[std::min(i + numbers_.below(40), polygons_.size() - 1)]);
@@ -417,13 +454,23 @@ class Tangle {
   std::vector<Polygon> polygons_;
 };
 
-Bytes tangle() {
+/// A file of key-frames alone, in the order of the source.
+Bytes flat(const MeshSequence& clip) {
   EncodeOptions options;
   options.basis = BasisChoice::kKeyframes;
   options.keyframes = 1;
   options.keyframe_poses = KeyframePoses::kNative;
   options.order = OrderMode::kAll;
-  return encode(Tangle().make(), options).file;
+  return encode(clip, options).file;
+}
+
+Bytes tangle() {
+  return flat(Tangle().make());
+}
+
+/// Many open gates from one vertex, and polygons that close old ones, as they stand in the file.
+Bytes flowers() {
+  return flat(Tangle().make_flowers());
 }
 
 /// A character of a few vertices that walks in a curve, stands, and walks again: three clips, of which
@@ -439,10 +486,12 @@ Bytes walk() {
     for (uint32_t f = 0; f < kFrames; ++f) {
       const double turn = c == 0 ? 0.3 * f : 0, way = c == 1 ? 0 : 0.5 * f;
       for (uint32_t v = 0; v < kVertices; ++v) {
-        const double x = 0.4 * (v % 3) + 0.05 * ((v * 5 + f * (c + 1)) % 7), y = 0.3 * (v % 2 + v % 5),
-                     z = 0.2 * v + 0.02 * (f * v % 5);
-        all.positions.push_back(static_cast<float>(3 + x * std::cos(turn) - y * std::sin(turn) + way));
-        all.positions.push_back(static_cast<float>(x * std::sin(turn) + y * std::cos(turn) - way / 2));
+        const double x = 0.4 * (v % 3) + 0.05 * ((v * 5 + f * (c + 1)) % 7),
+                     y = 0.3 * (v % 2 + v % 5), z = 0.2 * v + 0.02 * (f * v % 5);
+        all.positions.push_back(
+            static_cast<float>(3 + x * std::cos(turn) - y * std::sin(turn) + way));
+        all.positions.push_back(
+            static_cast<float>(x * std::sin(turn) + y * std::cos(turn) - way / 2));
         all.positions.push_back(static_cast<float>(z));
       }
     }
@@ -480,6 +529,9 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"other_parents", other_parents},
                                {"draco_parents", draco_parents},
                                {"scene", scene},
+                               {"cliques", cliques_of_vertices},
+                               {"turned", turned},
+                               {"flowers", flowers},
                                {"tangle", tangle}};
 
 int run(int argc, char** argv) {

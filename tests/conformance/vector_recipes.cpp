@@ -178,6 +178,61 @@ MeshSequence rings() {
   return clip;
 }
 
+MeshSequence cliques() {
+  constexpr uint32_t kCliques = 3, kSize = 17, kFrames = 4;
+  MeshSequence clip;
+  clip.name = "cliques";
+  clip.vertex_count = kCliques * kSize;
+  clip.frame_count = kFrames;
+  for (uint32_t clique = 0; clique < kCliques; ++clique) {
+    const uint32_t first = clique * kSize;
+    for (uint32_t a = 0; a < kSize; ++a) {
+      for (uint32_t b = a + 1; b < kSize; ++b) {
+        uint32_t c = (a + b) % kSize;
+        while (c == a || c == b)
+          c = (c + 1) % kSize;
+        clip.polygons.add(std::vector<uint32_t>{first + a, first + b, first + c});
+      }
+    }
+  }
+  Numbers numbers;
+  std::vector<float> rest;
+  for (uint32_t i = 0; i < 3 * clip.vertex_count; ++i)
+    rest.push_back(static_cast<float>(numbers.within(4096)) / 4096 +
+                   (i % 3 == 0 ? static_cast<float>(i / (3 * kSize)) * 2 : 0));
+  for (uint32_t f = 0; f < kFrames; ++f) {
+    for (const float x : rest)
+      clip.positions.push_back(x + static_cast<float>(numbers.within(200)) / 4096);
+  }
+  return clip;
+}
+
+MeshSequence turned_pair(uint32_t vertices, uint32_t frames) {
+  MeshSequence clip = corpus::make_scaled("limb", vertices, frames);
+  const uint32_t n = clip.vertex_count;
+  std::vector<float> both;
+  for (uint32_t f = 0; f < frames; ++f) {
+    const auto one = clip.frame(f);
+    both.insert(both.end(), one.begin(), one.end());
+    for (uint32_t v = 0; v < n; ++v) {
+      both.push_back(5 - one[3 * v]);
+      both.push_back(-one[3 * v + 1]);
+      both.push_back(one[3 * v + 2]);
+    }
+  }
+  const size_t polygons = clip.polygons.size();
+  for (size_t p = 0; p < polygons; ++p) {
+    std::vector<uint32_t> polygon(clip.polygons[p].begin(), clip.polygons[p].end());
+    for (uint32_t& v : polygon)
+      v += n;
+    clip.polygons.add(polygon);
+  }
+  clip.name = "turned";
+  clip.vertex_count = 2 * n;
+  clip.positions = both;
+  return clip;
+}
+
 void round_pose(EncodedSegment& segment, const EncoderInput& input) {
   auto pose = std::make_shared<EncodedPose>(*segment.reference);
   pose->coding = PoseCoding::kRounded;
@@ -200,6 +255,22 @@ StreamChange with_partners(std::optional<PoseCoding> coding) {
       const uint32_t kind = numbers.below(8);
       partners.partner.push_back(kind == 0 ? PosePartners::kNone : kind == 1 ? v : (v + ahead) % n);
       partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
+    }
+    pose->stream =
+        encode_pose(PoseSurface(input.layout.topology), pose->coding, pose->grid.points, &partners);
+    segment.reference = std::move(pose);
+  };
+}
+
+StreamChange with_turned_partners(bool many_strands) {
+  return [many_strands](EncodedSegment& segment, const EncoderInput& input) {
+    auto pose = std::make_shared<EncodedPose>(*segment.reference);
+    const uint32_t n = input.layout.topology.coded_vertices;
+    Numbers numbers;
+    PosePartners partners;
+    for (uint32_t v = 0; v < n; ++v) {
+      partners.partner.push_back((v + n / 2) % n);
+      partners.flips.push_back(static_cast<uint8_t>(many_strands ? numbers.below(8) : 3));
     }
     pose->stream =
         encode_pose(PoseSurface(input.layout.topology), pose->coding, pose->grid.points, &partners);

@@ -64,12 +64,22 @@ MeshSequence hub();
 /// order, where the limit decides.
 MeshSequence rings();
 
+/// Vertices that are all neighbours of one another: a level removes less than one in sixteen.
+MeshSequence cliques();
+
+/// A limb of the corpus and the same half a turn further, apart.
+MeshSequence turned_pair(uint32_t vertices, uint32_t frames);
+
 /// The reference pose in the way of coding that the encoder does not take.
 void round_pose(EncodedSegment& segment, const EncoderInput& input);
 
 /// The reference pose by partners without reason in runs along the vertices: more strands than are
 /// told apart, vertices that are like themselves.
 StreamChange with_partners(std::optional<PoseCoding> coding);
+
+/// Each vertex of turned_pair() like its image, in one strand of half a turn or in a strand for almost
+/// every vertex: more than are told apart.
+StreamChange with_turned_partners(bool many_strands);
 
 /// Weights in time by each predictor, of numbers that suit none.
 void scramble_weights(EncodedSegment& segment, const EncoderInput& input);
