@@ -360,11 +360,27 @@ void print_promise(const ClipRecord& clip) {
                                 clip.surface_error_mean, clip.surface_error));
 }
 
+/// What is kept of the motion of the whole, and named times.
+void print_extras(const Contents& c, const ClipRecord& clip) {
+  const auto number = static_cast<uint32_t>(&clip - c.clip.clips().data());
+  std::string root, events;
+  for (const auto& word : root_words(c.clip.root().holds(number)))
+    root += (root.empty() ? "" : ", ") + word.get<std::string>();
+  for (const ClipEvent& event : clip.events)
+    events += fmt::format("{}{} {:.6g} s", events.empty() ? "" : ", ",
+                          event.name.empty() ? "(no name)" : std::string(event.name.begin(), event.name.end()), event.seconds);
+  if (!root.empty())
+    row("root", root);
+  if (!events.empty())
+    row("events", events);
+}
+
 /// The clips of a file that has several.
 void print_clips(const Contents& c) {
   for (const ClipRecord& clip : c.clip.clips()) {
     row("clip", fmt::format("{}: frames {}:{}, {}{}", clip.name, clip.first_frame,
                             clip.first_frame + clip.frames, rate_text(clip), traits_of(clip)));
+    print_extras(c, clip);
     print_promise(clip);
   }
 }
@@ -401,10 +417,12 @@ void print_text(const std::string& path, const Contents& c) {
       fmt::format("{} open, {} at most while opening, {} for each instance",
                   readable_bytes(c.memory.resident_bytes), readable_bytes(c.memory.opening_bytes),
                   readable_bytes(c.memory.context_bytes)));
-  if (several)
+  if (several) {
     print_clips(c);
-  else
+  } else {
+    print_extras(c, record);
     print_promise(record);
+  }
   print_segments(c.clip);
   print_chunks(c);
 }

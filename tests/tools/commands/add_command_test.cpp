@@ -48,6 +48,7 @@ TEST_F(AddCommand, AddsAClipAndTakesItOutAgain) {
   ASSERT_EQ(both["clips"].size(), 2U);
   EXPECT_EQ(both["clips"][1]["name"], "run");
   EXPECT_EQ(both["clips"][1]["events"][0]["seconds"], 0.3);
+  EXPECT_THAT(anicodec({"info", at("hero.anic")}).out, testing::HasSubstr("events     jump 0.3 s"));
   EXPECT_EQ(both["clips"][1]["asked"]["value"], 0.5);
   EXPECT_EQ(anicodec({"verify", at("hero.anic")}).status, 0);
   EXPECT_EQ(
