@@ -38,6 +38,11 @@ Table run_gltf(const BenchOptions& options, double kg, const std::optional<Frame
 /// Bytes at a maximum error in per cent of the diagonal, and frame deltas at the same.
 Table run_near(const BenchOptions& options, double max_error_percent);
 
+/// Time and memory of encoding at a KG error, by one thread and by all of the machine: of the clips of
+/// the options, or without any of limbs of so many vertices and frames. Each in a process of its own.
+Table run_encode(const BenchOptions& options, double kg, const std::vector<uint32_t>& vertices,
+                 const std::vector<uint32_t>& frames);
+
 /// Opening and playing all frames, against Draco decoding them one by one; one thread.
 Table run_decode(const BenchOptions& options, double kg, int runs);
 

@@ -38,6 +38,7 @@ struct Arguments {
   uint32_t vertices = 210000, frame_count = 100, shapes = 30;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
   std::vector<uint32_t> blend_vertices = {7000, 42000};
+  std::vector<uint32_t> encode_vertices{1000, 10000}, encode_frames{50, 200};
   uint32_t step = 8;
   std::vector<uint32_t> keyframes{4, 8};
   std::vector<uint32_t> sizes{7000, 42000, 210000};
@@ -143,6 +144,23 @@ void add_near(Bench& bench) {
   add_basis(options, a);
 }
 
+void add_encode(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options = add(
+      bench, "encode", "Time and memory to encode, by one thread and by all", [](Arguments& args) {
+        if (!args.inputs.empty() || !args.clips.empty())
+          args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{
+            run_encode(args.bench, args.one_kg, args.encode_vertices, args.encode_frames)};
+      });
+  options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
+  options.numbers("--vertices", a.encode_vertices, "N,...", {1},
+                  "Vertices of generated limbs, without INPUT (default 1000,10000)");
+  options.numbers("--frame-counts", a.encode_frames, "N,...", {1},
+                  "Frames of generated limbs (default 50,200)");
+  add_basis(options, a);
+}
+
 void add_decode(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options =
@@ -198,9 +216,10 @@ void add_play(Bench& bench) {
 void add_blend(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options =
-      add(bench, "blend", "Time of a frame of one clip, and of a cross-fade of two", [](Arguments& args) {
-        return std::vector{run_blend(args.bench, args.blend_vertices, args.runs)};
-      });
+      add(bench, "blend", "Time of a frame of one clip, and of a cross-fade of two",
+          [](Arguments& args) {
+            return std::vector{run_blend(args.bench, args.blend_vertices, args.runs)};
+          });
   options.numbers("--vertices", a.blend_vertices, "N,...", {1}, "Vertices (default 7000,42000)");
   options.number("--runs", a.runs, "N", {1, 1000}, "Pairs to take the median of (default 5)");
 }
@@ -319,8 +338,8 @@ void add_massage(Bench& bench) {
 void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
   Bench bench{commands, common, arguments};
   for (auto add_bench :
-       {add_rate, add_gltf, add_near, add_decode, add_open, add_play, add_blend, add_auto, add_poses,
-        add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
+       {add_rate, add_gltf, add_near, add_encode, add_decode, add_open, add_play, add_blend,
+        add_auto, add_poses, add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
     add_bench(bench);
 }
 
