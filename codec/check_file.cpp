@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <span>
 #include <string>
@@ -68,6 +69,20 @@ Comparison compare_positions(const Clip& clip, const EncoderInput& input, const 
       options);
 }
 
+/// Whether a clip without error has the bits of the source, too: zeros with their signs.
+bool has_all_bits(const Clip& clip, const EncoderInput& input, const FrameRun& run) {
+  const std::vector<uint32_t> played_of = played_vertices(clip, input.layout);
+  std::vector<float> original, decoded, played(size_t{3} * input.sequence.vertex_count);
+  for (uint32_t f = run.first; f < run.first + run.count; ++f) {
+    copy_rows(input.shown().frame(f), input.layout.source_coded, &original);
+    clip.positions(0, f, played.data());
+    copy_rows(played.data(), played_of, &decoded);
+    if (std::memcmp(original.data(), decoded.data(), original.size() * sizeof(float)) != 0)
+      return false;
+  }
+  return true;
+}
+
 /// Measures one attribute that changes over time in some frames.
 AttributeError measure(const Clip& clip, const EncoderInput& input, const FrameRun& run,
                        const Attribute& attribute, uint32_t first_frame, uint32_t number) {
@@ -105,6 +120,8 @@ std::vector<MeasuredClip> check_file(const Bytes& file, const EncoderInput& inpu
   for (const InputClip& source : input.clips) {
     MeasuredClip& measured = clips.emplace_back();
     measured.positions = compare_positions(clip, input, source.frames);
+    if (clip.limits().segments[clip.by_frame()[0]].exact && !has_all_bits(clip, input, source.frames))
+      throw Error(ErrorKind::kInternal, "the encoded file does not have the source's positions");
     for (AttributeResult& result : *attributes) {
       if (!result.kept)
         continue;

@@ -7,6 +7,7 @@
 #include "codec/file/root_motion_encode.h"
 #include "codec/search/clip_search.h"
 #include "codec/search/search_progress.h"
+#include "codec/segment/exact_encode.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
 
@@ -58,6 +59,22 @@ void check_part(const FrameRun& part, const MeshSequence& sequence, const Encode
                 "parts are coded by eigenshapes or eigentrajectories, not by key-frames");
 }
 
+/// The target of what plays between frames, and of all frames where exact positions are left closed.
+Target basis_target(const EncodeOptions& options) {
+  constexpr double kKg = 0.2;
+  return options.keyframes ? Target{} : Target{ErrorMetric::kKg, kKg, false};
+}
+
+/// Adds the exact positions to the segments of a clip.
+void keep_exact(const EncoderInput& input, Solution& positions) {
+  for (CodedPart& part : positions.parts) {
+    Limits::Segment& sizes = part.encoded.sizes;
+    part.encoded.exact =
+        encode_exact(input.shown().frames(sizes.first_frame, sizes.frames), input.layout.topology);
+    sizes.exact = true;
+  }
+}
+
 /// The timing of a part; its positions stay.
 void cut_timing(const FrameRun& part, MeshSequence& sequence) {
   if (sequence.times.empty()) {
@@ -105,6 +122,9 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   check(sequence);
   double clip_diagonal = diagonal(sequence);
   Target target = in_scene_units(options.target, clip_diagonal);
+  const bool lossless = is_lossless(options.target);
+  if (lossless && options.surface_change)
+    throw Error(ErrorKind::kUsage, "lossless is what keeps the source's own positions: none that were moved before");
   if (target.metric == ErrorMetric::kNone && !options.keyframes)
     throw Error(ErrorKind::kUsage, "an error, a size, or a number of key-frames must be asked for");
   if (options.interpolation != InterpolationChoice::kLinear && !options.keyframes &&
@@ -136,22 +156,22 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   }
   EncoderInput input(std::move(sequence), options.part);
   EncodeOptions limited = options;
-  Target searched = target;
+  Target searched = lossless ? basis_target(options) : target;
   if (root.frames > 0) {
     input.keep_whole(whole);
     input.layout.root = root.chunk;
     input.layout.root_frames = root.frames;
-    searched = below_rounding(target, input.smallest_bound());
+    searched = below_rounding(searched, input.smallest_bound());
     if (options.cap)
       limited.cap = below_rounding(in_scene_units(*options.cap, clip_diagonal), input.smallest_bound());
   }
   whole = {};
-  if (target.metric == ErrorMetric::kKg || target.metric == ErrorMetric::kRmse)
-    input.bound_clips(target.metric);
+  if (searched.metric == ErrorMetric::kKg || searched.metric == ErrorMetric::kRmse)
+    input.bound_clips(searched.metric);
   const std::vector<StoredAttribute> stored =
       encode_attributes(input.sequence, options.attributes, &input.layout);
   if (options.part)
-    input.pose = pose_of_parts(input, target, clip_diagonal);
+    input.pose = pose_of_parts(input, searched, clip_diagonal);
   if (options.pose) {
     if (options.pose->grid.points.size() != size_t{3} * input.layout.sizes.coded_vertices)
       throw Error(ErrorKind::kInput, "the reference pose is of another mesh");
@@ -161,6 +181,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   SearchProgress steps(progress, search.expected_trials());
   input.on_trial = [&steps] { steps.trial(); };
   CodedClip coded = search.run(record);
+  if (lossless)
+    keep_exact(input, coded.positions);
 
   const Bytes file = coded.file(record, input.layout);
   std::vector<AttributeResult>& attributes = coded.attributes.results;

@@ -71,6 +71,8 @@ EncodeResult encode_massaged(MeshSequence sequence, MassageMode mode,
                              const MassageOptions& massage_options, const EncodeOptions& options,
                              MassageVerdict* verdict, const Progress& progress) {
   *verdict = {};
+  if (mode != MassageMode::kOff && is_lossless(options.target))
+    throw Error(ErrorKind::kUsage, "lossless goes without massage, which moves the vertices");
   if (mode != MassageMode::kOff && !sequence.clips.empty())
     throw Error(ErrorKind::kUsage, "several clips are not massaged together");
   if (mode == MassageMode::kAuto) {

@@ -95,6 +95,8 @@ struct Counts {
 Target shared(const Target& target, const Spread& spread, double length) {
   if (target.metric == ErrorMetric::kSize)
     throw Error(ErrorKind::kUsage, "a target size cannot be shared out among meshes");
+  if (is_lossless(target))
+    return target;
   if (target.metric == ErrorMetric::kKg && spread.squared > 0)
     return {ErrorMetric::kRmse, target.value / 100 * std::sqrt(spread.squared / spread.positions),
             false};

@@ -17,6 +17,8 @@ constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 
 constexpr uint8_t kMsgiKind = 16;
 /// In the limits, added to a kind: the segment is of an attribute.
 constexpr uint8_t kAttributeKind = 32;
+/// In the limits, added to a kind: exact positions follow.
+constexpr uint8_t kExactKind = 64;
 constexpr uint64_t kMaxMsgiBytes = uint64_t{1} << 48;
 constexpr uint64_t kMaxAttributeBytes = uint64_t{1} << 48;
 
@@ -53,7 +55,7 @@ Bytes Limits::write() const {
     const bool msgi = s.reconstruction == Reconstruction::kMsgi;
     const bool of_attribute = s.attribute != kPositions;
     w.u8(static_cast<uint8_t>(static_cast<uint8_t>(s.kind) | (msgi ? kMsgiKind : 0) |
-                              (of_attribute ? kAttributeKind : 0)));
+                              (of_attribute ? kAttributeKind : 0) | (s.exact ? kExactKind : 0)));
     for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
       w.varint(x);
     if (s.kind == BasisKind::kKeyframes) {
@@ -113,10 +115,11 @@ Status Limits::read(ByteView view, Limits* out) {
     s.mesh = static_cast<uint16_t>(r.varint32(mesh_count - 1));
     uint8_t kind = r.u8();
     const bool of_attribute = kind & kAttributeKind;
-    if (of_attribute)
-      kind = static_cast<uint8_t>(kind - kAttributeKind);
-    if (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) &&
-        (kind != kMsgiKind || of_attribute))
+    s.exact = kind & kExactKind;
+    kind = static_cast<uint8_t>(kind & ~(kAttributeKind | kExactKind));
+    if ((kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) &&
+         (kind != kMsgiKind || of_attribute)) ||
+        (s.exact && of_attribute))
       return r.ok() ? Status::kFeature : Status::kRecord;
     if (kind == kMsgiKind)
       s.reconstruction = Reconstruction::kMsgi;

@@ -62,6 +62,7 @@ struct Limits {
     Reconstruction reconstruction = Reconstruction::kLinear;
     uint64_t msgi_bytes = 0;        ///< kMsgi: what it keeps beside the coefficients, at most
     uint64_t msgi_frame_bytes = 0;  ///< kMsgi: memory that a frame is made in
+    bool exact = false;  ///< the positions of its frames are there bit for bit (ExactRecord)
     /// The quantity that it moves: positions, or three components of an attribute, in number from
     /// first_component on, a multiple of three.
     uint32_t attribute = kPositions;

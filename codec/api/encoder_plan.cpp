@@ -46,6 +46,12 @@ void set_goal(const anic_encode_options& host, EncodeOptions& options) {
                                       ErrorMetric::kSize, ErrorMetric::kBpfv};
   const ErrorMetric metric = chosen(host.goal, kMetrics, "goal");
   const bool percent = host.flags & ANIC_ENCODE_PERCENT;
+  if (host.flags & ANIC_ENCODE_LOSSLESS) {
+    if (metric != ErrorMetric::kNone || host.max_error != 0)
+      refuse("lossless goes without a goal and a largest error");
+    options.target = {ErrorMetric::kMaxError, 0, false};
+    return;
+  }
   if (metric != ErrorMetric::kNone) {
     if (!(std::isfinite(host.goal_value) && host.goal_value > 0))
       refuse("the goal must be finite and greater than 0");
@@ -112,7 +118,7 @@ EncodingPlan encoding_plan(const anic_encode_options& host) {
   constexpr MassageMode kModes[] = {MassageMode::kOff, MassageMode::kOn, MassageMode::kAuto};
   constexpr uint64_t kKnown = ANIC_ENCODE_PERCENT | ANIC_ENCODE_CAP_PERCENT |
                               ANIC_ENCODE_ERROR_PERCENT | ANIC_ENCODE_NO_ATTRIBUTES |
-                              ANIC_ENCODE_ROOT_MOTION;
+                              ANIC_ENCODE_ROOT_MOTION | ANIC_ENCODE_LOSSLESS;
   if (host.flags & ~kKnown)
     refuse("there are unknown flags");
   EncodingPlan plan;

@@ -76,6 +76,11 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
     if (!s.corrections.empty())
       file.add("CORR", true, kMesh, i, s.corrections);
   }
+  // What refines all comes last: streams play before it is there.
+  for (uint32_t i = 0; i < segments.size(); ++i) {
+    if (!segments[i]->exact.empty())
+      file.add("DIFF", true, kMesh, i, segments[i]->exact);
+  }
   return file.finish();
 }
 

@@ -23,7 +23,7 @@ std::string text_of(const String& text) {
   return {text.begin(), text.end()};
 }
 
-constexpr const char (*kSegmentChunks[])[5] = {&"POSE", &"SEGM", &"BASI", &"CORR"};
+constexpr const char (*kSegmentChunks[])[5] = {&"POSE", &"SEGM", &"BASI", &"CORR", &"DIFF"};
 
 /// A file, its records read.
 struct Opened {
@@ -138,13 +138,10 @@ class Edited {
       const ByteView own = s.from->of_mesh("POSE");
       if (linear && !s.from->reader.find("POSE", 0, s.number) && !equal(own, pose))
         out.add("POSE", true, 0, i, copy(own));
-      for (const Chunk& chunk : s.from->reader.chunks()) {
-        for (const char(*type)[5] : kSegmentChunks) {
-          if (chunk.segment == s.number && chunk.type == chunk_type(*type))
-            out.add(*type, chunk.required, 0, i, copy(s.from->payload(chunk)));
-        }
-      }
+      add_chunks(s, i, false, out);
     }
+    for (uint32_t i = 0; i < segments_.size(); ++i)
+      add_chunks(segments_[i], i, true, out);
     Bytes bytes = out.finish();
     Clip opened;
     Failure failure = opened.open(bytes);
@@ -157,6 +154,17 @@ class Edited {
   }
 
  private:
+  /// Adds the chunks of a segment under its new number: those that come last, or the others.
+  static void add_chunks(const Moved& segment, uint32_t number, bool last, ContainerWriter& out) {
+    for (const Chunk& chunk : segment.from->reader.chunks()) {
+      for (const char(*type)[5] : kSegmentChunks) {
+        if (chunk.segment == segment.number && chunk.type == chunk_type(*type) &&
+            is_last(chunk) == last)
+          out.add(*type, chunk.required, 0, number, copy(segment.from->payload(chunk)));
+      }
+    }
+  }
+
   Bytes root() {
     BinaryEncoder encoder;
     RootCoding coding;

@@ -142,7 +142,7 @@ ClipsRecord joined_record(const std::vector<OpenPart>& parts) {
 /// Adds a chunk of a segment under its new number, to a mesh.
 void add_chunk(const OpenPart& part, const Chunk& chunk, uint16_t mesh, uint32_t segment,
                ContainerWriter& file) {
-  for (const char(*type)[5] : {&"POSE", &"SEGM", &"BASI", &"CORR"}) {
+  for (const char(*type)[5] : {&"POSE", &"SEGM", &"BASI", &"CORR", &"DIFF"}) {
     if (chunk.type == chunk_type(*type))
       return file.add(*type, chunk.required, mesh, segment, copy(part.payload(chunk)));
   }
@@ -247,8 +247,17 @@ Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipsRecord re
   }
   for (uint32_t s = 0; s < segments.size(); ++s) {
     const PlacedMesh& placed = *segments[s].placed;
-    for (const Chunk* chunk : segments[s].chunks)
-      add_chunk(*placed.part, *chunk, placed.mesh, s, file);
+    for (const Chunk* chunk : segments[s].chunks) {
+      if (!is_last(*chunk))
+        add_chunk(*placed.part, *chunk, placed.mesh, s, file);
+    }
+  }
+  for (uint32_t s = 0; s < segments.size(); ++s) {
+    const PlacedMesh& placed = *segments[s].placed;
+    for (const Chunk* chunk : segments[s].chunks) {
+      if (is_last(*chunk))
+        add_chunk(*placed.part, *chunk, placed.mesh, s, file);
+    }
   }
   Bytes bytes = file.finish();
   verify(bytes);

@@ -8,6 +8,7 @@
 #include "codec/file/join_clips.h"
 #include "codec/sequence/error.h"
 #include "format/bytes.h"
+#include "format/container.h"
 
 #include <algorithm>
 #include <string>
@@ -16,6 +17,11 @@ namespace anicodec {
 
 /// The chunks that a mesh has once.
 inline constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
+
+/// Whether a chunk of a segment comes behind those of all segments: what refines all that plays.
+inline bool is_last(const Chunk& chunk) {
+  return chunk.type == chunk_type("DIFF");
+}
 
 [[noreturn]] inline void fail(const ClipPart& part, ErrorKind kind, const std::string& text) {
   throw Error(kind, part.name + ": " + text);

@@ -10,11 +10,8 @@
 namespace anicodec {
 
 Target in_scene_units(Target target, double diagonal) {
-  if (target.metric == ErrorMetric::kNone)
+  if (target.metric == ErrorMetric::kNone || is_lossless(target))
     return target;
-  if (target.metric == ErrorMetric::kMaxError && target.value == 0)
-    throw Error(ErrorKind::kUsage,
-                "a maximum error of 0 needs a lossless mode, which there is not");
   if (!(std::isfinite(target.value) && target.value > 0))
     throw Error(ErrorKind::kUsage, "the target must be greater than 0");
   if (target.percent) {

@@ -26,6 +26,11 @@ Target in_scene_units(Target target, double diagonal);
 /// for other targets.
 std::optional<double> allowed_bytes(const Target& target, uint32_t vertices, uint32_t frames);
 
+/// Whether the source's positions are to come back bit for bit: a largest error of 0.
+inline bool is_lossless(const Target& target) {
+  return target.metric == ErrorMetric::kMaxError && target.value == 0;
+}
+
 /// Whether the target is a size, so that the error is what remains to be made small.
 inline bool is_size(const Target& target) {
   return target.metric == ErrorMetric::kSize || target.metric == ErrorMetric::kBpfv;

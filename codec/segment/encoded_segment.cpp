@@ -47,7 +47,8 @@ double squared_distance(const float* a, const float* b) {
 
 size_t EncodedSegment::bytes() const {
   size_t total =
-      parameters.size() + pose.size() + motion.size() + weights.size() + corrections.size();
+      parameters.size() + pose.size() + motion.size() + weights.size() + corrections.size() +
+      exact.size();
   for (const Bytes& layer : layers)
     total += layer.size();
   return total;

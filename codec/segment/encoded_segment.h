@@ -29,6 +29,7 @@ struct EncodedSegment {
   Vector<uint32_t> runs;                         ///< frames of each clip; empty: of one
   std::vector<Bytes> layers;                     ///< chunks BASI
   Bytes corrections;                             ///< chunk CORR
+  Bytes exact;                                   ///< chunk DIFF
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
   uint64_t hash = 0;
 

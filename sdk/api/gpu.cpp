@@ -76,7 +76,7 @@ anic_status anic_get_basis(const anic_asset* asset, uint32_t segment, anic_basis
     filled.attribute = s.attribute;
     filled.first_component = s.first_component;
   }
-  filled.vertex_shape = s.vertex_coded.empty() ? nullptr : s.vertex_coded.data();
+  filled.vertex_shape = s.msgi.empty() || s.vertex_coded.empty() ? nullptr : s.vertex_coded.data();
   filled.reconstruction = s.msgi.empty() ? ANIC_RECONSTRUCTION_LINEAR : ANIC_RECONSTRUCTION_MSGI;
   for (size_t i = 0; i < 3; ++i)
     filled.origin[i] = static_cast<float>(s.origin[i]);

@@ -69,7 +69,8 @@ Failure find_requirements(ByteView head, const anic_options& options, anic_requi
   const OpenOptions opening = open_options(options, file.file_size());
   if (Failure failure = read_limits(file, opening, &limits); !failure.ok())
     return failure;
-  const MemoryEstimate estimate = estimate_memory(limits, opening.quality);
+  const MemoryEstimate estimate =
+      estimate_memory(limits, opening.quality, opening.opens_exact());
   const bool boxes = options.flags & ANIC_OPEN_BOUNDS;
   const ContextSize context = context_size(limits, opening.quality);
   const uint64_t more = object_bytes<anic_asset>() + sizeof(uint32_t) * limits.meshes.size() +
@@ -100,7 +101,7 @@ bool take_options(const anic_options* host, anic_options* out) {
   }
   return true && out->quality >= 0 && out->quality <= 1 && (out->clips || out->clip_count == 0) &&
          (out->flags & ~static_cast<uint64_t>(ANIC_OPEN_BOUNDS | ANIC_OPEN_ANY_ORDER |
-                                                  ANIC_OPEN_IN_PLACE)) == 0 &&
+                                                  ANIC_OPEN_IN_PLACE | ANIC_OPEN_INEXACT)) == 0 &&
          !out->allocator.allocate == !out->allocator.release;
 }
 
@@ -133,6 +134,7 @@ OpenOptions open_options(const anic_options& options, uint64_t file_size) {
   OpenOptions result;
   result.any_order = options.flags & ANIC_OPEN_ANY_ORDER;
   result.in_place = options.flags & ANIC_OPEN_IN_PLACE;
+  result.inexact = options.flags & ANIC_OPEN_INEXACT;
   HostLimits& limits = result.limits;
   limits.resident_bytes =
       kBytesAtLeast +

@@ -50,7 +50,8 @@ void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
     if (chunk.segment == kNoSegment) {
       if (chunk.required)
         visit(&stream->common_missing);
-    } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("CORR")) {
+    } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("CORR") &&
+               chunk.type != chunk_type("DIFF")) {
       const bool layer = chunk.type == chunk_type("BASI");
       if (!layer || !stream->layered[chunk.segment])
         visit(&stream->missing[chunk.segment]);

@@ -3,6 +3,7 @@
 #include "sdk/clip/clip.h"
 
 #include "sdk/clip/memory_estimate.h"
+#include "sdk/exact/exact_positions.h"
 #include "sdk/play/attribute_values.h"
 #include "sdk/play/play.h"
 #include "sdk/segment/keep_frames.h"
@@ -32,7 +33,7 @@ constexpr KnownChunk kKnownChunks[] = {
     {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
     {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
     {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false},
-    {chunk_type("ROOT"), Owner::kClip}};
+    {chunk_type("ROOT"), Owner::kClip},    {chunk_type("DIFF"), Owner::kSegment}};
 
 const KnownChunk* known(const Chunk& chunk) {
   const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
@@ -76,6 +77,8 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
       return false;
     if (chunk.type == chunk_type("CORR"))
       return segment.corrections > 0;
+    if (chunk.type == chunk_type("DIFF"))
+      return segment.exact;
     return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
   };
   for (const Chunk& chunk : file.chunks()) {
@@ -91,12 +94,15 @@ double mesh_work(const Limits::Mesh& mesh) {
 }
 
 /// The approximate cost of opening a clip, in coefficients to decode.
-double opening_work(const Limits& limits, double quality) {
+double opening_work(const Limits& limits, const OpenOptions& options) {
   double work = 0;
   for (const Limits::Mesh& mesh : limits.meshes)
     work += mesh_work(mesh);
   for (const Limits::Segment& s : limits.segments)
-    work += segment_work(s, limits.meshes[s.mesh], quality);
+    work += segment_work(s, limits.meshes[s.mesh], options.quality) +
+            (s.exact && options.opens_exact()
+                 ? 3.0 * kExactWork * s.frames * limits.meshes[s.mesh].coded_vertices
+                 : 0);
   return work;
 }
 
@@ -195,13 +201,15 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
       return at(*chunk, Status::kLimit, "more of Draco than the mesh or the file can hold");
     if (s.reconstruction == Reconstruction::kMsgi && s.msgi_bytes < out->meshes[s.mesh].triangles)
       return at(*chunk, Status::kLimit, "more triangles than what is kept of them can be of");
+    if (s.exact && uint64_t{s.frames} * out->meshes[s.mesh].coded_vertices > plausible)
+      return at(*chunk, Status::kLimit, "more exact positions than a file of this size can hold");
     decisions += uint64_t{std::min(s.frames, s.corrections)} *
                  block_count(out->meshes[s.mesh].coded_vertices);
     allowed += coefficients + weights / 4;
   }
   if (decisions / 16 > allowed + std::min(file.file_size(), UINT64_MAX >> 8) * 16)
     return at(*chunk, Status::kLimit, "more frames with corrections than so few numbers can need");
-  if (estimate_memory(*out, options.quality).opening > options.limits.resident_bytes)
+  if (estimate_memory(*out, options.quality, options.opens_exact()).opening > options.limits.resident_bytes)
     return at(*chunk, Status::kLimit, "more memory than allowed");
   return {};
 }
@@ -233,7 +241,7 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   if (options.any_order)
     record_.order = OrderMode::kFree;
   if (options.progress) {
-    options.progress->begin(opening_work(limits_, options.quality), options.progress_end);
+    options.progress->begin(opening_work(limits_, options), options.progress_end);
     if (!options.progress->advance(0))
       return stopped();
   }
@@ -318,6 +326,8 @@ RootState Clip::root_at(uint32_t frame) const {
 
 FrameState Clip::state_of(const Segment& segment, uint32_t frame) const {
   FrameState state = frame_state(segment, frame);
+  if (!shows_exact(segment.first_frame + frame))
+    state.exact = nullptr;
   if (has_root())
     move_whole(root_at(segment.first_frame + frame).affine(root_.axes()), &state);
   return state;
@@ -538,6 +548,10 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
     context.surface = &work.pose_surface(*context.topology);
   if (s == Status::kOk)
     s = anicodec::open_segment(record, context, &segments_[number]);
+  if (s == Status::kOk && sizes.exact && options.opens_exact()) {
+    if (Failure f = open_exact(file, number, context, options); !f.ok())
+      return f;
+  }
   const FrameRange kept = wanted_frames(record_, wanted_, sizes);
   if (s == Status::kOk && kept.count < sizes.frames)
     keep_frames(kept.first, kept.count, &segments_[number]);
@@ -546,6 +560,25 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   if (s == Status::kCoder && sizes.draco_bytes > 0)
     return at(*chunk, s, "Draco coded the key-frames, and this build is without Draco");
   return s == Status::kOk ? Failure{} : at(*chunk, s, "the segment cannot be opened");
+}
+
+Failure Clip::open_exact(const ContainerReader& file, uint32_t number,
+                         const SegmentContext& context, const OpenOptions& options) {
+  const uint16_t mesh = context.sizes->mesh;
+  const Chunk* chunk = file.find("DIFF", mesh, number);
+  if (chunk && options.prefix && !file.has(*chunk)) {
+    partial_ = true;
+    return {};
+  }
+  ByteView payload;
+  if (Failure f = required(file, "DIFF", mesh, number, &chunk, &payload); !f.ok())
+    return f;
+  const Status s = open_exact_positions(payload, context, &segments_[number]);
+  if (s == Status::kCancelled)
+    return stopped();
+  if (s == Status::kFeature)
+    return at(*chunk, s, "the positions are exact, and this build is without");
+  return s == Status::kOk ? Failure{} : at(*chunk, s, "the exact positions are damaged");
 }
 
 std::pair<uint32_t, uint32_t> Clip::attribute_tracks(uint32_t mesh, uint32_t attribute) const {
@@ -590,6 +623,8 @@ Failure Clip::check_hashes() const {
   for (const Segment& s : segments_) {
     if (s.stored_hash != s.decoded_hash)
       return {Status::kHash, 0, chunk_type("SEGM"), "a segment decodes to other integers"};
+    if (s.stored_exact_hash != s.decoded_exact_hash)
+      return {Status::kHash, 0, chunk_type("DIFF"), "a segment decodes to other positions"};
   }
   return {};
 }

@@ -49,6 +49,11 @@ struct OpenOptions {
   bool any_order = false;
   /// Leaves the motion of the whole out of the positions.
   bool in_place = false;
+  /// Leaves exact positions closed: plays what the basis makes of all frames.
+  bool inexact = false;
+
+  /// Whether exact positions are opened, of segments that have them.
+  bool opens_exact() const { return !inexact && quality >= 1; }
   /// Share the work that can be shared; nothing depends on them.
   HostThreads threads;
   /// Told after every mesh, level of the vertices and component; may end the opening with
@@ -137,6 +142,12 @@ class Clip {
   /// The motion of the whole, part of the positions or not.
   const RootMotion& root() const { return root_; }
 
+  /// Whether exact positions of a frame may be shown: those of a clip that is opened without its
+  /// motion of the whole are not. O(log clips).
+  bool shows_exact(uint32_t frame) const {
+    return !in_place_ || root_.empty() || root_.holds(clip_at(frame)) == 0;
+  }
+
   /// Whether the positions have the motion of the whole, and there is one.
   bool has_root() const { return !root_.empty() && !in_place_; }
 
@@ -176,6 +187,8 @@ class Clip {
   void list_tracks();
   Failure open_attributes(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
   Failure open_segments(const ContainerReader& file, const OpenOptions& options);
+  Failure open_exact(const ContainerReader& file, uint32_t number, const SegmentContext& context,
+                     const OpenOptions& options);
   Failure open_segment(const ContainerReader& file, uint32_t number,
                        const Vector<const Chunk*>& layers, const Vector<PoseGrid>& poses,
                        const OpenOptions& options);

@@ -19,6 +19,7 @@ constexpr uint64_t kNeighbours = 24;                  // at most, of a vertex
 constexpr uint64_t kClip = 256, kRootOfClip = 128, kRootOfFrame = 12;
 constexpr uint64_t kStructure = 512;           // of a mesh or segment
 constexpr uint64_t kMatrix = 48;               // bytes of a pose map or motion
+constexpr uint64_t kExactModels = uint64_t{1} << 18;
 constexpr uint64_t kSymbol = 12;               // bytes that Draco keeps of one that may occur
 constexpr uint64_t kZstd = uint64_t{1} << 17;  // what zstd decodes in
 
@@ -49,8 +50,22 @@ uint64_t shared(const Limits::Mesh& m) {
   return uint64_t{36} * m.triangles + uint64_t{80} * m.coded_vertices;
 }
 
-/// A segment whose components are those wanted.
-Limits::Segment coarser(Limits::Segment s, double quality) {
+/// Exact positions: 24 and 31 bits, and a factor of 12.
+uint64_t exact_bytes(const Limits::Segment& s, const Limits::Mesh& mesh) {
+  return uint64_t{12} * s.frames * mesh.coded_vertices;
+}
+
+/// What they are decoded in: four neighbours of each vertex and what is known of it, errors of lattice
+/// points, a reference of each frame.
+uint64_t exact_opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
+  return s.exact ? uint64_t{42} * mesh.coded_vertices + exact_bytes(s, mesh) +
+                       uint64_t{12} * s.frames + kExactModels
+                 : 0;
+}
+
+/// A segment whose components are those wanted, and its exact positions if they are.
+Limits::Segment coarser(Limits::Segment s, double quality, bool exact) {
+  s.exact = s.exact && exact;
   if (s.kind != BasisKind::kKeyframes)
     s.components = wanted_components(quality, s.components);
   s.wide_components = std::min(s.wide_components, s.components);
@@ -76,6 +91,10 @@ uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
   }
   if (s.reconstruction == Reconstruction::kMsgi)
     bytes += s.msgi_bytes + uint64_t{4} * mesh.source_vertices;
+  if (s.exact) {
+    const bool maps = s.reconstruction != Reconstruction::kMsgi;  // which has the map already
+    bytes += exact_bytes(s, mesh) + (maps ? uint64_t{4} * mesh.source_vertices : 0);
+  }
   if (s.corrections > 0)
     bytes += uint64_t{16} * s.corrections + 4 * (frames + 1);
   return bytes;
@@ -129,7 +148,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
 
 }  // namespace
 
-MemoryEstimate estimate_memory(const Limits& limits, double quality) {
+MemoryEstimate estimate_memory(const Limits& limits, double quality, bool exact) {
   MemoryEstimate estimate;
   CheckedSum open, until_open;
   uint64_t largest = 0;
@@ -146,9 +165,9 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality) {
   }
   for (const Limits::Segment& s : limits.segments) {
     const Limits::Mesh& mesh = limits.meshes[s.mesh];
-    const Limits::Segment wanted = coarser(s, quality);
+    const Limits::Segment wanted = coarser(s, quality, exact);
     open.add(resident(wanted, mesh));
-    largest = std::max(largest, opening(wanted, mesh));
+    largest = std::max({largest, opening(wanted, mesh), exact_opening(wanted, mesh)});
     estimate.draco = std::max(estimate.draco, draco(s, mesh));
     // The weights of all components are read in any case.
     until_open.add(uint64_t{12} * s.frames * (s.components - wanted.components));

@@ -17,8 +17,8 @@ struct MemoryEstimate {
   uint64_t draco = 0;     ///< of those, at most, what Draco takes by itself
 };
 
-/// `quality` as in OpenOptions. O(meshes + segments).
-MemoryEstimate estimate_memory(const Limits& limits, double quality = 1);
+/// `quality` as in OpenOptions; `exact`: whether exact positions are opened. O(meshes + segments).
+MemoryEstimate estimate_memory(const Limits& limits, double quality = 1, bool exact = true);
 
 }  // namespace anicodec
 

@@ -132,6 +132,9 @@ Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float*
       sample.parts[g].components = played_components(*group.segment, quality);
       if (mix.count > 1)
         sample.parts[g].correction_count = 0;
+      if (mix.count > 1 || sample.parts[g].components < group.segment->components ||
+          !clip.shows_exact(mix.terms[0].frame))
+        sample.parts[g].exact = nullptr;
       continue;
     }
     for (int t = 0; t < group.count; ++t)

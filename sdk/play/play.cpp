@@ -98,6 +98,25 @@ void combine_shape(const FrameState& state, uint32_t first, uint32_t count, Vert
   }
 }
 
+/// Stores exact positions: no arithmetic on numbers of 32 bits.
+void store_exact(const FrameState& state, uint32_t first, uint32_t count,
+                 const VertexOutput& output) {
+  const Vector<uint32_t>& coded = state.segment->vertex_coded;
+  PlayJob::Frame frame;
+  set_output(output, &frame);
+  for (const uint32_t stop = first + count; first < stop;) {
+    const uint32_t base = first / kBlock * kBlock, last = std::min(stop, base + kBlock);
+    float block[3][kBlock] = {};
+    for (uint32_t v = first; v < last; ++v) {
+      for (uint32_t c = 0; c < 3; ++c)
+        block[c][v - base] = state.exact[size_t{3} * (coded.empty() ? v : coded[v]) + c];
+    }
+    write_scalar(frame, block, first - base, last - base, frame.out);
+    frame.out += frame.stride * (last - first);
+    first = last;
+  }
+}
+
 /// The next multiple of 8.
 double* aligned(float* p) {
   const auto address = reinterpret_cast<uintptr_t>(p);
@@ -157,6 +176,8 @@ FrameState frame_state(const Segment& segment, uint32_t frame) {
   state.moves = !segment.motions.empty();
   if (state.moves)
     state.motion = segment.motions[frame];
+  if (!segment.exact.empty())
+    state.exact = segment.exact.data() + segment.exact.size() / segment.frames * frame;
   if (!segment.correction_begin.empty()) {
     uint32_t begin = segment.correction_begin[frame];
     state.corrections = segment.corrections.data() + begin;
@@ -204,6 +225,11 @@ const char* play_kernels_name() {
 void play_with(const PlayKernels& kernels, const FrameState* states, uint32_t frames,
                uint32_t first, uint32_t count, const VertexOutput* outputs) {
   for (uint32_t f = 0; f < frames;) {
+    if (states[f].exact) {
+      store_exact(states[f], first, count, outputs[f]);
+      ++f;
+      continue;
+    }
     if (states[f].shape) {
       combine_shape(states[f], first, count, outputs[f]);
       ++f;
@@ -217,7 +243,7 @@ void play_with(const PlayKernels& kernels, const FrameState* states, uint32_t fr
       set_frame(states[f], outputs[f], first, &job.frame[job.frames]);
       ++job.frames;
       ++f;
-    } while (f < frames && job.frames < kMaxPlayedFrames &&
+    } while (f < frames && job.frames < kMaxPlayedFrames && !states[f].exact &&
              states[f].segment == states[f - 1].segment &&
              states[f].components == states[f - 1].components);
     kernels.play(job);

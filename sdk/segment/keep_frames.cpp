@@ -92,6 +92,10 @@ void keep_frames(uint32_t first, uint32_t count, Segment* segment) {
   keep(first, count, &s.pose_maps);
   keep(first, count, &s.motions);
   keep_corrections(first, count, &s);
+  if (!s.exact.empty()) {
+    const size_t frame = s.exact.size() / s.frames;
+    keep(first * frame, count * frame, &s.exact);
+  }
   s.first_frame += first;
   s.frames = count;
   if (s.kind != BasisKind::kKeyframes)

@@ -86,15 +86,21 @@ struct Segment {
   Vector<uint32_t> correction_begin;
   Vector<Correction> corrections;
 
+  /// The source's positions bit for bit, frames x coded vertices x 3, in place of what the basis
+  /// makes of whole frames; empty when they are not there or not wanted.
+  Vector<float> exact;
+
   /// Key-frames rebuilt by multi-scale geometry interpolation: one element, else empty. It makes
   /// the coded vertices, by the weights over weight_scale; vertex v is coded vertex
-  /// vertex_coded[v], or v when that is empty.
+  /// vertex_coded[v], or v when that is empty. The same holds of `exact`.
   Vector<Msgi> msgi;
   double weight_scale = 1;
   Vector<uint32_t> vertex_coded;
 
   uint64_t stored_hash = 0;
   uint64_t decoded_hash = 0;
+  uint64_t stored_exact_hash = 0;  ///< of `exact`
+  uint64_t decoded_exact_hash = 0;
 
   size_t resident_bytes() const;
 };

@@ -8,9 +8,10 @@ import { AnicError, STATUS } from './status.js';
 const FEATURE = 12;
 const OPEN_BOUNDS = 1;
 const OPEN_IN_PLACE = 4;
+const OPEN_INEXACT = 8;
 
-function flagsOf(bounds, inPlace) {
-  return (bounds ? OPEN_BOUNDS : 0) | (inPlace ? OPEN_IN_PLACE : 0);
+function flagsOf({ bounds, inPlace, inexact }) {
+  return (bounds ? OPEN_BOUNDS : 0) | (inPlace ? OPEN_IN_PLACE : 0) | (inexact ? OPEN_INEXACT : 0);
 }
 const text = new TextDecoder();
 
@@ -135,16 +136,16 @@ export class Decoder {
   }
 
   /** Opens a whole file. */
-  open(bytes, { quality = 1, bounds = true, maxBytes = 0, clips = undefined, inPlace = false } = {}) {
+  open(bytes, { quality = 1, bounds = true, maxBytes = 0, clips = undefined, inPlace = false, inexact = false } = {}) {
     this.#choose(clips);
-    const status = this.withBytes(bytes, (at) => this.run('open', at, bytes.byteLength, quality, flagsOf(bounds, inPlace), maxBytes));
+    const status = this.withBytes(bytes, (at) => this.run('open', at, bytes.byteLength, quality, flagsOf({ bounds, inPlace, inexact }), maxBytes));
     if (status !== 0)
       throw this.failure(status);
   }
 
-  beginStream({ quality = 1, bounds = true, maxBytes = 0, clips = undefined, inPlace = false } = {}) {
+  beginStream({ quality = 1, bounds = true, maxBytes = 0, clips = undefined, inPlace = false, inexact = false } = {}) {
     this.#choose(clips);
-    this.call('stream_begin', quality, flagsOf(bounds, inPlace), maxBytes);
+    this.call('stream_begin', quality, flagsOf({ bounds, inPlace, inexact }), maxBytes);
   }
 
   /** Takes the next bytes, and tells how far the file is. */

@@ -29,6 +29,8 @@ export interface OpenOptions {
   progressive?: boolean;
   /** Leaves the motion of the whole out of the positions, where it is apart: Clip.rootMotion(). Default false. */
   inPlace?: boolean;
+  /** Leaves the exact positions of a lossless file closed, which take as much memory as all frames. Default false. */
+  inexact?: boolean;
   /** Names of the clips to open, of a file with several; others take no memory. Default: all. */
   clips?: string[];
   /** Decodes in a worker. Default: where there are workers, but in Node in the calling thread. */

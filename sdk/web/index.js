@@ -106,11 +106,11 @@ async function here(source, options, signal, onProgress, onBytes, onDecoder) {
 }
 
 /** See index.d.ts. */
-export function open(source, { quality, bounds, maxBytes, clips, inPlace, progressive = false, signal, onProgress, onRefine, worker } = {}) {
+export function open(source, { quality, bounds, maxBytes, clips, inPlace, inexact, progressive = false, signal, onProgress, onRefine, worker } = {}) {
   if (signal?.aborted)
     return Promise.reject(aborted(signal));
   const run = worker ?? (typeof Worker !== 'undefined' && !isNode) ? inWorker : here;
-  const options = { quality, bounds, maxBytes, clips, inPlace, progressive };
+  const options = { quality, bounds, maxBytes, clips, inPlace, inexact, progressive };
   const report = (stage) => onProgress && ((done, of = 1) => onProgress({ stage, done: of > 0 ? done / of : undefined }));
   return new Promise((resolve, reject) => {
     let clip;

@@ -8,7 +8,7 @@ const SIMD = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 
   253, 98, 11);
 const simd = WebAssembly.validate(SIMD);
 
-/** Kinds of modules: `small` plays files without geometry interpolation, `full` those too. */
+/** Kinds of modules: `small` plays files without geometry interpolation and exact positions, `full` all. */
 const urls = {
   small: () => (simd ? new URL('./dist/anicodec.wasm', import.meta.url) : urls.full()),
   full: () => (simd ? new URL('./dist/anicodec-full.wasm', import.meta.url)

@@ -8,8 +8,8 @@ import { loadModule } from './module.js';
 
 /** The file as it arrives: push() bytes, then end(). onDecoder(decoder, complete) gets what plays. */
 export class Opening {
-  constructor({ quality, bounds, maxBytes, clips, inPlace, progressive = false, kind = 'small', onProgress, isCancelled, onDecoder }) {
-    this.options = { quality, bounds, maxBytes, clips, inPlace };
+  constructor({ quality, bounds, maxBytes, clips, inPlace, inexact, progressive = false, kind = 'small', onProgress, isCancelled, onDecoder }) {
+    this.options = { quality, bounds, maxBytes, clips, inPlace, inexact };
     Object.assign(this, { progressive, kind, onProgress, isCancelled, onDecoder });
     this.pieces = [];
     this.played = false;

@@ -38,6 +38,10 @@ Table run_gltf(const BenchOptions& options, double kg, const std::optional<Frame
 /// Bytes at a maximum error in per cent of the diagonal, and frame deltas at the same.
 Table run_near(const BenchOptions& options, double max_error_percent);
 
+/// Bytes of lossless files, against float32 caches through zstd and xz, which keep no mesh; processor
+/// time of encoding, and of opening with all positions.
+Table run_lossless(const BenchOptions& options);
+
 /// Time and memory of encoding at a KG error, by one thread and by all of the machine: of the clips of
 /// the options, or without any of limbs of so many vertices and frames. Each in a process of its own.
 Table run_encode(const BenchOptions& options, double kg, const std::vector<uint32_t>& vertices,

@@ -144,6 +144,15 @@ void add_near(Bench& bench) {
   add_basis(options, a);
 }
 
+void add_lossless(Bench& bench) {
+  add_basis(add(bench, "lossless", "Bytes of lossless files, against zstd and xz",
+                [](Arguments& args) {
+                  args.bench.clips = clip_words(args.inputs, args.clips);
+                  return std::vector{run_lossless(args.bench)};
+                }),
+            bench.arguments);
+}
+
 void add_encode(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options = add(
@@ -338,7 +347,7 @@ void add_massage(Bench& bench) {
 void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
   Bench bench{commands, common, arguments};
   for (auto add_bench :
-       {add_rate, add_gltf, add_near, add_encode, add_decode, add_open, add_play, add_blend,
+       {add_rate, add_gltf, add_near, add_lossless, add_encode, add_decode, add_open, add_play, add_blend,
         add_auto, add_poses, add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
     add_bench(bench);
 }

@@ -512,6 +512,34 @@ Bytes walk() {
   return encode(all, options).file;
 }
 
+/// Exact positions: steps that binary32 rounds twice along x, fractions of 1024 along z, anything along y.
+Bytes exact() {
+  constexpr uint32_t kSide = 7, kVertices = kSide * kSide + 2, kFrames = 9;
+  MeshSequence clip;
+  clip.vertex_count = kVertices;
+  clip.frame_count = kFrames;
+  for (uint32_t v = 0; v + kSide + 1 < kSide * kSide; ++v) {
+    if (v % kSide + 1 < kSide)
+      clip.polygons.add(std::vector<uint32_t>{v, v + 1, v + kSide + 1, v + kSide});
+  }
+  for (uint32_t f = 0; f < kFrames; ++f) {
+    const uint32_t g = f == 6 ? 2 : f;  // a frame comes again
+    for (uint32_t v = 0; v < kVertices; ++v) {
+      const uint32_t x = v % kSide, y = v / kSide;
+      const uint32_t noise = (v * 2654435761U + g * 40503U) >> 20;
+      clip.positions.push_back(static_cast<float>(10 * x + 3 * g + noise % 8) * 1.1e-4F + 3.3F);
+      clip.positions.push_back(v % 9 == 0   ? -0.0F
+                               : v % 9 == 1 ? 1e-40F * static_cast<float>(g)
+                                            : static_cast<float>(y + 1e-3 * (noise % 11) * x));
+      clip.positions.push_back(static_cast<float>((90 * (x ^ y) + 11 * g + noise % 16) / 1024.0 - 0.25));
+    }
+  }
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, 0, false};
+  options.basis = BasisChoice::kEigentrajectories;
+  return encode(clip, options).file;
+}
+
 struct Vector {
   const char* name;
   Bytes (*make)();
@@ -523,6 +551,7 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"weights_in_time", weights_in_time},
                                {"clips", clips},
                                {"walk", walk},
+                               {"exact", exact},
                                {"saturated", saturated},
                                {"batches", batches},
                                {"partners", partners},

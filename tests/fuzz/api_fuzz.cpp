@@ -39,6 +39,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     options.max_frames = 50;  // bounds cost playing all of them
   if (mode % 8 >= 4)
     options.flags |= ANIC_OPEN_IN_PLACE;
+  if (mode % 16 >= 8)
+    options.flags |= ANIC_OPEN_INEXACT;
 
   anic_requirements needs = ANIC_INIT(anic_requirements);
   const anic_status query = anic_get_requirements(file.data(), file.size(), &options, &needs);

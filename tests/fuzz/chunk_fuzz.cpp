@@ -24,7 +24,8 @@ const std::vector<std::vector<Part>>& files() {
     std::vector<std::vector<Part>> result;
     for (const char* name :
          {"triangle", "nonmanifold_keyframes", "polygons_all", "quad_box_corrected", "soup",
-          "limb_small", "far_rigid", "uneven_times", "painted_box", "heated", "walk"}) {
+          "limb_small", "far_rigid", "uneven_times", "painted_box", "heated", "walk",
+          "exact"}) {
       std::ifstream in(std::string(ANICODEC_CONFORMANCE) + "/" + name + ".anic", std::ios::binary);
       const Bytes file(std::istreambuf_iterator<char>(in), {});
       ContainerReader reader;

@@ -227,6 +227,28 @@ def root_rules(files):
     yield 41, "root_more", walk.end("ROOT", b"\1"), "bytes after the series"
 
 
+def exact_rules(files):
+    """The same for DIFF, section 12."""
+    exact, triangle = files("exact"), files("triangle")
+    kind = exact.field("LIMI segment 0 basis")[0]
+    yield 12, "limi_exact_attribute", exact.put("LIMI segment 0 basis", bytes([kind | 32])), "exact positions of an attribute"
+    yield 44, "diff_not_announced", triangle.more("DIFF", 0, 0), "DIFF although LIMI says no exact positions"
+    yield 26, "diff_missing", exact.without("DIFF"), "exact positions without DIFF"
+    yield 25, "diff_twice", exact.twice("DIFF"), "DIFF twice"
+    yield 49, "diff_hash", exact.put("DIFF hash of the positions", bytes(8)), "positions of another hash"
+    for name, label, value, status in (
+            ("axes", "lattices of axes", b"\x40", 40), ("errs", "lattices of axes", b"\x10", 40), ("noise", "variance of errors", f64(0), 45),
+            ("noise_no_number", "variance of errors", NAN, 45), ("origin", "lattice x origin", INFINITE, 45),
+            ("step", "lattice x step", f64(0), 45), ("points", "lattice x points", b"\0", 40),
+            ("many_points", "lattice x points", varint((1 << 31) - 1), 40)):
+        yield status, f"diff_{name}", exact.put(f"DIFF {label}", value), f"DIFF {label} that is out of range"
+    yield 41, "diff_more", exact.end("DIFF", b"\1"), "bytes after the positions"
+    yield 41, "diff_short", exact.end("DIFF", less=20), "positions that end early"
+    data = exact.chunks()
+    next(c for c in data if c.type == "DIFF").payload = b"\0"
+    yield 40, "diff_short_record", anic_file.write_chunks(data), "DIFF that ends inside its record"
+
+
 def mesh_rules(files):
     """The same for MESH, VMAP, FMAP, POSE and ATTR, sections 4 to 6 and 10."""
     triangle, corrected, painted, moved, polygons = (
@@ -365,6 +387,6 @@ def broken_rules(command, folder, status_of):
             opened[name] = File(command, folder / f"{name}.anic")
         return opened[name]
 
-    for rules in (chunk_rules, limit_rules, clip_rules, root_rules, mesh_rules, segment_rules):
+    for rules in (chunk_rules, limit_rules, clip_rules, root_rules, exact_rules, mesh_rules, segment_rules):
         yield from rules(files)
     yield from stream_rules(files, status_of)

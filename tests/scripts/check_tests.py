@@ -19,6 +19,7 @@ THROUGH = {
     "format/zstd_block": ("tests/format/container_test.cpp", "one way to store a chunk"),
     "sdk/api": ("tests/api", "the C interface is tested from outside, as hosts call it"),
     "sdk/clip": ("tests/api", "what an opened file holds, seen through the C interface"),
+    "sdk/exact": ("tests/codec/segment/exact_encode_test.cpp", "what the encoder writes comes back"),
     "sdk/mesh": ("tests/sdk/mesh", "coders of parts of a mesh, run by those of the whole mesh"),
     "sdk/msgi": ("tests/sdk/msgi/msgi_test.cpp", "steps of one setup"),
     "sdk/play": ("tests/sdk/play/play_test.cpp", "kernels for different machines that must give the same bits"),

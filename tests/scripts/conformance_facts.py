@@ -29,10 +29,10 @@ def _largest(numbers):
     return max((abs(x) for x in numbers if math.isfinite(x)), default=0.0)
 
 
-def _mesh(stem, told):
+def _mesh(stem, told, exact):
     clip, faces = clip_output.Clip(f"{stem}.pc2"), clip_output.faces(f"{stem}.obj")
     places = Places()
-    tolerance = 2e-5 * max(_largest(frame) for frame in clip.frames)
+    tolerance = 0.0 if exact else 2e-5 * max(_largest(frame) for frame in clip.frames)
     points = []
     for _ in range(POINTS):
         frame, vertex = places.below(len(clip.frames)), places.below(clip.vertices)
@@ -57,7 +57,8 @@ def _mesh(stem, told):
 def facts_of(out):
     """From OUT.pc2, OUT.obj, OUT.1.pc2 ... and OUT.json."""
     told = json.loads(pathlib.Path(f"{out}.json").read_text(encoding="utf-8"))
-    meshes = [_mesh(out if number == 0 else f"{out}.{number}", mesh) for number, mesh in enumerate(told["meshes"])]
+    exact = all(clip["asked"] == 2 and clip["asked_value"] == 0 for clip in told["clips"])
+    meshes = [_mesh(out if number == 0 else f"{out}.{number}", mesh, exact) for number, mesh in enumerate(told["meshes"])]
     return {"clip": {key: value for key, value in told.items() if key != "meshes"}, "meshes": meshes}
 
 

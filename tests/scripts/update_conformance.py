@@ -39,6 +39,7 @@ VECTORS = [
     ("nonmanifold_interpolated.anic", "nonmanifold", "--keyframes 3 --interpolation msgi"),
     ("limb_default.anic", "limb --vertices 200 --frame-count 12", ""),
     ("limb_native.anic", "limb --vertices 200 --frame-count 12", "--keyframes 4 --keyframe-coder native"),
+    ("lossless.anic", "limb --vertices 100 --frame-count 8", "--lossless --basis eigenshapes"),
     ("painted_box.anic", "painted_box", "--kg 0.5 --order all --basis keyframes"),
     ("heated.anic", "heated", "--kg 0.5 --fps 24 --basis eigenshapes --effort 1"),
 ]
@@ -52,7 +53,7 @@ CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-error
 # Files whose chunks tests/fuzz/chunk_fuzz.cpp changes, in its order: one for each kind of chunk, quickly decoded.
 FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "quad_box_corrected.anic",
           "soup.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic",
-          "walk.anic"]
+          "walk.anic", "exact.anic"]
 
 
 def listing(command, path):

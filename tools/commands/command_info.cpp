@@ -259,6 +259,8 @@ std::string asked_text(const ClipRecord& record) {
     case ErrorMetric::kKg:
       return fmt::format("KG error of at most {:.4g} %", value);
     case ErrorMetric::kMaxError:
+      if (value == 0)
+        return "the source's positions, bit for bit";
       return fmt::format("max error of at most {:.4g}", value);
     case ErrorMetric::kRmse:
       return fmt::format("RMSE of at most {:.4g}", value);

@@ -28,6 +28,10 @@ void set_target(const EncodeArguments& command, std::optional<double> metres_per
     const Length length = parse_length(text, option);
     return metres_per_unit ? length.in_scene_units(*metres_per_unit, option) : length;
   };
+  if (command.lossless) {
+    options.target = {ErrorMetric::kMaxError, 0, false};
+    return;
+  }
   std::vector<Target> targets;
   if (!command.kg.empty())
     targets.push_back({ErrorMetric::kKg, parse_percent(command.kg, "--kg"), false});
@@ -131,7 +135,10 @@ void add_target(Options& options, EncodeArguments& a) {
   options.option("--size", a.size, "BYTES",
                  "Smallest error in a file of at most 40000, 40k or 1.5M bytes");
   options.option("--bpfv", a.bpfv, "BITS", "The same, as bits per frame and vertex");
-  options.exclude({"--kg", "--rmse", "--size", "--bpfv"});
+  options.flag("--lossless", a.lossless,
+               "The positions come back bit for bit; the file is several times as large");
+  options.exclude({"--kg", "--rmse", "--size", "--bpfv", "--lossless"});
+  options.exclude({"--max-error", "--lossless"});
 }
 
 void add_method(Options& options, EncodeArguments& a) {

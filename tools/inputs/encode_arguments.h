@@ -31,6 +31,7 @@ struct EncodeArguments {
   std::vector<std::string> inputs;
   std::string output, mesh, clip, clips, names, batch, memory, part;
   std::string kg, max_error, rmse, size, bpfv;
+  bool lossless = false;
   BasisChoice basis = BasisChoice::kAuto;
   uint32_t keyframes = 0;
   KeyframeMethod selection = KeyframeMethod::kPivot;

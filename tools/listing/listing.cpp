@@ -28,11 +28,11 @@ void list_limits(FieldReader& r) {
   }
   for (uint64_t i = 0; i < segments && r.ok(); ++i) {
     r.varint(fmt::format("segment {} mesh", i));
-    constexpr uint8_t kMsgi = 16, kAttribute = 32;
+    constexpr uint8_t kMsgi = 16, kAttribute = 32, kExact = 64;
     const uint8_t code = r.u8(fmt::format("segment {} basis", i));
-    const auto kind = static_cast<uint8_t>(code & ~kAttribute);
+    const auto kind = static_cast<uint8_t>(code & ~(kAttribute | kExact));
     r.explain((kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<BasisKind>(kind))) +
-              std::string(code & kAttribute ? ", of an attribute" : ""));
+              std::string(code & kAttribute ? ", of an attribute" : code & kExact ? ", exact" : ""));
     for (const char* name :
          {"first frame", "frames", "components", "wide components", "corrections"})
       r.varint(fmt::format("segment {} {}", i, name));
@@ -133,6 +133,22 @@ void list_pose(FieldReader& r) {
   r.bytes("coordinates", r.remaining());
 }
 
+void list_exact(FieldReader& r) {
+  const uint8_t lattices = r.u8("lattices of axes");
+  r.hex64("hash of the positions");
+  r.f64("variance of errors");
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(lattices >> axis & 1))
+      continue;
+    const std::string name = fmt::format("lattice {} ", "xyz"[axis]);
+    r.f64(name + "origin");
+    r.f64(name + "step");
+    r.u32(name + "first point");
+    r.varint(name + "points");
+  }
+  r.bytes("positions", r.remaining());
+}
+
 void list_segment(FieldReader& r) {
   r.explain(name_of(static_cast<BasisKind>(r.u8("basis"))));
   r.explain(name_of(static_cast<Reconstruction>(r.u8("reconstruction"))));
@@ -192,6 +208,8 @@ void list_payload(const Chunk& chunk, ByteView payload, const std::vector<uint32
     list_limits(r);
   else if (chunk.type == chunk_type("CLIP"))
     list_clips(r, frames);
+  else if (chunk.type == chunk_type("DIFF"))
+    list_exact(r);
   else if (chunk.type == chunk_type("ROOT"))
     list_root(r, frames.size());
   else if (chunk.type == chunk_type("MESH"))

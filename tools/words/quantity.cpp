@@ -80,7 +80,7 @@ Length parse_length(std::string_view text, std::string_view option) {
   const bool known = rest.empty() || length.percent || length.metres > 0;
   if (number && length.value == 0 && known)
     throw Error(ErrorKind::kUsage,
-                fmt::format("{}: an error of 0 needs a lossless mode, which there is not", option));
+                fmt::format("{}: an error of 0 is asked for by --lossless", option));
   if (!number || !known || !is_positive(length.value))
     fail(option, text,
          "a length greater than 0 such as 0.02 (scene units), 5mm or 0.05% (of the diagonal)");

@@ -239,8 +239,10 @@ enum {
   ANIC_ENCODE_CAP_PERCENT = 2,   /**< the same of max_error */
   ANIC_ENCODE_ERROR_PERCENT = 4, /**< attribute_error is in per cent of the range of its values */
   ANIC_ENCODE_NO_ATTRIBUTES = 8, /**< positions and polygons alone */
-  ANIC_ENCODE_ROOT_MOTION = 16   /**< the motion of the whole apart, of one mesh alone:
+  ANIC_ENCODE_ROOT_MOTION = 16,  /**< the motion of the whole apart, of one mesh alone:
                                       anic_root_motion */
+  ANIC_ENCODE_LOSSLESS = 32      /**< the positions come back bit for bit; instead of a goal, of
+                                      max_error and of massage */
 };
 
 /** Follows and stops an encoding. All zero: nobody does. report() gets the name of the stage, and

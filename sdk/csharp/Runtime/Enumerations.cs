@@ -66,5 +66,5 @@ namespace Anicodec
 
     /// <summary>How to open a file; ANIC_OPEN_...</summary>
     [Flags]
-    public enum OpenFlags { None = 0, Bounds = 1, AnyOrder = 2, InPlace = 4 }
+    public enum OpenFlags { None = 0, Bounds = 1, AnyOrder = 2, InPlace = 4, Inexact = 8 }
 }

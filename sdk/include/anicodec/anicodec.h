@@ -241,7 +241,11 @@ enum {
   /** Leaves the motion of the whole out of positions, parts and boxes, in clips that have it apart,
    * for hosts that move the character themselves: anic_get_root_motion(). Nothing changes in
    * others. Spec: 06, section 11. */
-  ANIC_OPEN_IN_PLACE = 4
+  ANIC_OPEN_IN_PLACE = 4,
+  /** Leaves the positions of a lossless file closed and plays all frames from its basis, at the
+   * memory and the time of opening of other files; anic_clip then states errors of 0 that do not
+   * hold. Nothing changes in other files. A quality below 1 does the same. Spec: 09d. */
+  ANIC_OPEN_INEXACT = 8
 };
 
 /**

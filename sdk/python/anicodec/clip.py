@@ -233,10 +233,10 @@ class Clip:
     `clip.meshes` has them. Can be pickled; threads may share it."""
 
     def __init__(self, data: bytes, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = (),
-                 in_place: bool = False):
+                 in_place: bool = False, inexact: bool = False):
         self.data = bytes(data)  #: the file
-        self._asset = _anicodec.Asset(self.data, quality, max_bytes, list(clips), in_place)
-        self._arguments = (quality, max_bytes, tuple(clips), in_place)
+        self._asset = _anicodec.Asset(self.data, quality, max_bytes, list(clips), in_place, inexact)
+        self._arguments = (quality, max_bytes, tuple(clips), in_place, inexact)
         self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
         self.info["up"] = UP[self.info["up"]]
         self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
@@ -335,12 +335,13 @@ _OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "p
 
 
 def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = (),  # noqa: A001
-         in_place: bool = False) -> Clip:
+         in_place: bool = False, inexact: bool = False) -> Clip:
     """Opens a clip: a path, bytes (anything with the buffer protocol), or a file open for reading.
 
     quality: share of the components to open, in (0, 1]. max_bytes: of memory, else LimitError; 0: by the size of the
     file. clips: names of those to open of a file with several, none for all. in_place: leaves out the motion of the
-    whole, where it is apart: Clip.root_motion(). Raises OSError, CorruptError,
+    whole, where it is apart: Clip.root_motion(). inexact: leaves the exact positions of a lossless file closed, which
+    take as much memory as all frames. Raises OSError, CorruptError,
     UnsupportedError, LimitError, AbsentError: no clip has this name.
     """
     if isinstance(source, (str, os.PathLike)):
@@ -350,4 +351,4 @@ def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[
         source = source.read()
     if isinstance(source, str):
         raise TypeError("the file must be open in binary mode")
-    return Clip(bytes(memoryview(source)), quality, max_bytes, clips, in_place)
+    return Clip(bytes(memoryview(source)), quality, max_bytes, clips, in_place, inexact)

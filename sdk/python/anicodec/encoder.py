@@ -14,7 +14,7 @@ from .clip import DOMAINS, KINDS, UP, chosen
 from .errors import InputError
 from .material import Material, to_file
 
-_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _ROOT_MOTION = 1, 2, 4, 8, 16
+_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _ROOT_MOTION, _LOSSLESS = 1, 2, 4, 8, 16, 32
 _GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5}
 _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
             "selection": {"pivot": 0, "gas": 1, "uniform": 2},
@@ -91,6 +91,10 @@ def _goal(options: Dict[str, Any]) -> Dict[str, Any]:
     """The target among the options, taken out of them."""
     given = {name: options.pop(name) for name in _GOALS if options.get(name) is not None}
     choices: Dict[str, Any] = {"flags": 0}
+    if options.pop("lossless", False):
+        if given:
+            raise InputError(f"lossless goes without {next(iter(given))}")
+        choices["flags"] |= _LOSSLESS
     cap = given.pop("max_error", None) if len(given) > 1 else None
     if len(given) > 1:
         raise InputError(f"{' and '.join(given)} are two targets; there is one, and max_error may stand beside it")
@@ -282,7 +286,8 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
         vertices x 3 for a frame, with vertex_count= and frame_count=.
     faces: polygons x corners, a list of polygons, a pair (offsets, corners), or None.
     One target: max_error (default "0.05%"), rmse: scene units, or a text in per cent of the diagonal; kg: per cent;
-        size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other.
+        size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other;
+        or lossless=True: positions, as float32, come back bit for bit.
     uv, colours, normals, custom, materials, parts: see SourceMesh.
     fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop, events (pairs of a name and seconds): stored.
     root_motion: keep the motion of the whole along the ground, and its turn about the up axis, apart.

@@ -58,7 +58,7 @@ class NormalPlan {
 class Asset {
  public:
   Asset(const nb::bytes& file, double quality, uint64_t max_bytes,
-        const std::vector<std::string>& clips, bool in_place) {
+        const std::vector<std::string>& clips, bool in_place, bool inexact) {
     anic_options options = ANIC_INIT(anic_options);
     std::vector<const char*> names;
     for (const std::string& name : clips)
@@ -67,7 +67,7 @@ class Asset {
     options.clip_count = static_cast<uint32_t>(names.size());
     options.quality = quality;
     options.max_bytes = max_bytes;
-    options.flags = in_place ? ANIC_OPEN_IN_PLACE : 0;
+    options.flags = (in_place ? ANIC_OPEN_IN_PLACE : 0) | (inexact ? ANIC_OPEN_INEXACT : 0);
     anic_failure failure = ANIC_INIT(anic_failure);
     anic_asset* asset = nullptr;
     anic_context* context = nullptr;
@@ -375,7 +375,7 @@ void bind_clip(nb::module_& module) {
       .def_prop_ro("count", &NormalPlan::count)
       .def("write", &NormalPlan::write);
   nb::class_<Asset>(module, "Asset")
-      .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&, bool>())
+      .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&, bool, bool>())
       .def("root_motion", &Asset::root_motion)
       .def("info", &Asset::info)
       .def("mesh", &Asset::mesh)

@@ -47,6 +47,21 @@ TEST_F(EncodeCommand, PromisesATwentiethPerCentByDefault) {
   EXPECT_NEAR(info["asked"]["value"], 0.0005 * double(info["diagonal"]), 1e-9);
 }
 
+TEST_F(EncodeCommand, GivesEveryBitBackWithoutLoss) {
+  ASSERT_EQ(encode({"--lossless", "--effort", "1"}).status, 0);
+  const std::string file = folder_ / "a.anic";
+  EXPECT_EQ(anicodec({"verify", file}).status, 0);
+  ASSERT_EQ(anicodec({"decode", file, "-o", folder_ / "b.pc2", "-q"}).status, 0);
+  EXPECT_EQ(folder_.read("b.pc2"), folder_.read("a.pc2"));
+  EXPECT_THAT(anicodec({"info", file}).out, HasSubstr("bit for bit"));
+  EXPECT_EQ(anicodec({"info", file, "--json"}).json()["max_error"], 0);
+  for (const std::vector<std::string>& with : {std::vector<std::string>{"--kg", "1"}, {"--max-error", "1"}, {"--massage", "on"}}) {
+    std::vector<std::string> options{"--lossless", "-f"};
+    options.insert(options.end(), with.begin(), with.end());
+    EXPECT_EQ(encode(options).status, 2) << with[0];
+  }
+}
+
 TEST_F(EncodeCommand, MakesOneFileOfSeveralClips) {
   write_sequence(folder_ / "b.pc2", corpus::make_clip("limb"));
   const std::string library = folder_ / "library.anic";
