@@ -3,6 +3,7 @@
 #include "format/container.h"
 
 #include "format/checksum.h"
+#include "format/sort.h"
 
 #include <algorithm>
 #include <numeric>
@@ -164,7 +165,7 @@ Failure ContainerReader::open(ByteView file, bool prefix) {
     return failure(Status::kFileSize, at, "the chunks end before the file does");
   by_key_.resize(count);
   std::iota(by_key_.begin(), by_key_.end(), 0U);
-  std::sort(by_key_.begin(), by_key_.end(), [&](uint32_t a, uint32_t b) {
+  sort_ascending(by_key_.begin(), by_key_.end(), [&](uint32_t a, uint32_t b) {
     return std::pair(chunk_key(chunks_[a]), a) < std::pair(chunk_key(chunks_[b]), b);
   });
   file_ = file;

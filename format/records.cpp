@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/records.h"
 
+#include "format/sort.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -179,7 +181,7 @@ Vector<uint32_t> Limits::segments_by_frame() const {
     return std::tuple(s.attribute != kPositions, s.mesh, s.attribute, s.first_component,
                       s.first_frame, i);
   };
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return at(a) < at(b); });
+  sort_ascending(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return at(a) < at(b); });
   return order;
 }
 

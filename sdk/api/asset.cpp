@@ -67,7 +67,7 @@ anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
   filled.name = first.name;
   filled.encoder = clip.record().encoder.c_str();
   filled.resident_bytes = asset->resident_bytes;
-  filled.context_bytes = asset->context_bytes;
+  filled.context_bytes = asset->file->context_bytes;
   give(filled, out);
   return ANIC_OK;
 }
@@ -92,7 +92,7 @@ anic_status anic_clip_info(const anic_asset* asset, uint32_t clip, anic_clip* ou
   filled.loop = record.loop;
   filled.closed = record.closed;
   filled.massaged = record.massaged;
-  filled.open = asset->clip.has_clip(clip);
+  filled.open = asset->has_clip(clip);
   filled.start_time = clock.start();
   filled.duration = clock.time(record.frames - 1);
   filled.loop_duration = clock.loop_duration();
@@ -142,7 +142,7 @@ anic_status anic_get_mesh(const anic_asset* asset, uint32_t mesh, anic_mesh* out
   filled.coded_vertex_count = t.coded_vertices;
   filled.polygon_count = static_cast<uint32_t>(t.polygon_offsets.size() - 1);
   filled.corner_count = static_cast<uint32_t>(t.polygon_corners.size());
-  filled.triangle_count = asset->triangle_counts[mesh];
+  filled.triangle_count = asset->file->triangle_counts[mesh];
   filled.attribute_count = static_cast<uint32_t>(m->attributes.size());
   give(filled, out);
   return ANIC_OK;
@@ -225,7 +225,7 @@ anic_status anic_write_indices(const anic_asset* asset, uint32_t mesh, uint32_t 
   if (!m || (index_bytes != 2 && index_bytes != 4) ||
       (index_bytes == 2 && m->topology.vertex_coded.size() > 65536))
     return ANIC_E_ARGUMENT;
-  const uint64_t needed = uint64_t{3} * index_bytes * asset->triangle_counts[mesh];
+  const uint64_t needed = uint64_t{3} * index_bytes * asset->file->triangle_counts[mesh];
   if (!out && needed > 0)
     return ANIC_E_ARGUMENT;
   if (size < needed)

@@ -128,10 +128,10 @@ bool segment_boxes(const Clip& clip, const Segment& s, const HostThreads& thread
 
 }  // namespace
 
-bool compute_boxes(anic_asset* asset, const HostThreads& threads, HostProgress* progress) {
-  const Clip& clip = asset->clip;
+bool compute_boxes(OpenedFile* file, const HostThreads& threads, HostProgress* progress) {
+  const Clip& clip = file->clip;
   const size_t row = size_t{clip.frame_count()} + 1;
-  asset->boxes.assign(row * clip.meshes().size(), kNothing);
+  file->boxes.assign(row * clip.meshes().size(), kNothing);
   double frames = 0;
   for (const Segment& s : clip.segments())
     frames += s.attribute == kPositions ? s.frames : 0;
@@ -139,7 +139,7 @@ bool compute_boxes(anic_asset* asset, const HostThreads& threads, HostProgress* 
   for (const Segment& s : clip.segments()) {
     if (s.attribute != kPositions)
       continue;
-    anic_box* boxes = asset->boxes.data() + row * s.mesh;
+    anic_box* boxes = file->boxes.data() + row * s.mesh;
     if (!segment_boxes(clip, s, threads, progress, boxes + s.first_frame))
       return false;
     for (uint32_t f = 0; f < s.frames; ++f)
@@ -180,20 +180,22 @@ anic_status anic_get_frame_bounds(const anic_asset* asset, uint32_t mesh, uint32
                                   anic_box* out) {
   if (!asset || !out || mesh >= asset->clip.meshes().size())
     return ANIC_E_ARGUMENT;
-  if (asset->boxes.empty())
+  if (asset->file->boxes.empty())
     return ANIC_E_STATE;
   if (frame >= asset->clip.frame_count())
     return ANIC_E_FRAME_RANGE;
-  *out = asset->boxes[(size_t{asset->clip.frame_count()} + 1) * mesh + frame];
+  if (!asset->has_clip(asset->clip.clip_at(frame)))
+    return ANIC_E_ABSENT;
+  *out = asset->file->boxes[(size_t{asset->clip.frame_count()} + 1) * mesh + frame];
   return is_empty(*out) ? ANIC_E_ABSENT : ANIC_OK;
 }
 
 anic_status anic_get_clip_bounds(const anic_asset* asset, uint32_t mesh, anic_box* out) {
   if (!asset || !out || mesh >= asset->clip.meshes().size())
     return ANIC_E_ARGUMENT;
-  if (asset->boxes.empty())
+  if (asset->file->boxes.empty())
     return ANIC_E_STATE;
   const size_t row = size_t{asset->clip.frame_count()} + 1;
-  *out = asset->boxes[row * mesh + row - 1];
+  *out = asset->file->boxes[row * mesh + row - 1];
   return is_empty(*out) ? ANIC_E_ABSENT : ANIC_OK;
 }

@@ -9,9 +9,9 @@
 
 namespace anicodec {
 
-/// Fills asset->boxes, on the threads of the host; false when the host stops it. Plays all frames
+/// Fills file->boxes, on the threads of the host; false when the host stops it. Plays all frames
 /// once. Throws std::bad_alloc.
-bool compute_boxes(anic_asset* asset, const HostThreads& threads, HostProgress* progress);
+bool compute_boxes(OpenedFile* file, const HostThreads& threads, HostProgress* progress);
 
 }  // namespace anicodec
 

@@ -3,6 +3,7 @@
 //
 // The C interface: contexts, seeking, positions, and values of attributes.
 #include "sdk/api/objects.h"
+#include "sdk/clip/root_step.h"
 #include "sdk/play/attribute_values.h"
 #include "sdk/play/value_output.h"
 
@@ -28,10 +29,13 @@ void show(anic_context* context, const FrameMix& mix) {
   for (uint32_t t = 0; t < mix.count; ++t)
     state.holds |= clip.root().holds(clip.clip_at(mix.terms[t].frame));
   float* weights = context->states[ANIC_WHEN_CURRENT].weights;
+  // Another asset of the file may want clips that this one does not.
+  const bool wanted = context->asset->has_clip(clip.clip_at(mix.terms[0].frame));
+  const double quality = context->quality * context->asset->quality;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
     context->states[ANIC_WHEN_CURRENT].samples[t] =
-        make_sample(clip, t, mix, weights, context->scratch, context->quality);
-    weights += context->asset->buffers[t];
+        wanted ? make_sample(clip, t, mix, weights, context->scratch, quality) : Sample();
+    weights += context->asset->file->buffers[t];
   }
 }
 
@@ -41,12 +45,8 @@ void choose(anic_context* context, const FrameMix& mix) {
   show(context, mix);
 }
 
-/// A time of a clip as a mix of the file's frames.
 FrameMix mix_at(const ClipRecord& clip, double seconds, anic_sampling sampling, anic_wrap wrap) {
-  FrameMix mix = Clock(clip).at(seconds, static_cast<Sampling>(sampling), static_cast<Wrap>(wrap));
-  for (uint32_t t = 0; t < mix.count; ++t)
-    mix.terms[t].frame += clip.first_frame;
-  return mix;
+  return mix_at(clip, seconds, static_cast<Sampling>(sampling), static_cast<Wrap>(wrap));
 }
 
 void give_root(const Clip& clip, const RootState& root, uint8_t holds, anic_root_motion* host) {
@@ -136,12 +136,12 @@ anic_status anic_create_context(const anic_asset* asset, const anic_allocator* a
     // The asset's memory may be in use by other threads: only where it comes from is taken.
     Memory memory = allocator ? memory_of(allocator) : memory_of_object(asset);
     memory.held = memory.peak = 0;
-    const size_t extra = asset->context_bytes - object_bytes<anic_context>();
+    const size_t extra = asset->file->context_bytes - object_bytes<anic_context>();
     const size_t tracks = asset->clip.tracks().size();
     auto* context = create<anic_context>(memory, extra);
     context->asset = asset;
     context->extra = extra;
-    while (!asset->clip.has_clip(context->clip))
+    while (!asset->has_clip(context->clip))
       ++context->clip;
     auto* behind = reinterpret_cast<unsigned char*>(context + 1);
     for (anic_context::State& state : context->states) {
@@ -153,7 +153,7 @@ anic_status anic_create_context(const anic_asset* asset, const anic_allocator* a
     for (anic_context::State& state : context->states) {
       state.weights = reinterpret_cast<float*>(behind);
       for (uint32_t t = 0; t < tracks; ++t)
-        behind += sizeof(float) * asset->buffers[t];
+        behind += sizeof(float) * asset->file->buffers[t];
     }
     context->scratch = reinterpret_cast<float*>(behind);
     *out = context;
@@ -170,7 +170,7 @@ void anic_destroy_context(anic_context* context) {
 anic_status anic_set_clip(anic_context* context, uint32_t clip) {
   if (!context || clip >= context->asset->clip.clips().size())
     return ANIC_E_ARGUMENT;
-  if (!context->asset->clip.has_clip(clip))
+  if (!context->asset->has_clip(clip))
     return ANIC_E_ABSENT;
   context->clip = clip;
   return ANIC_OK;
@@ -218,7 +218,7 @@ anic_status anic_blend(anic_context* context, uint32_t clip, double seconds, ani
   if (!context->chosen)
     return ANIC_E_STATE;
   const Clip& asset = context->asset->clip;
-  if (!asset.has_clip(clip))
+  if (!context->asset->has_clip(clip))
     return ANIC_E_ABSENT;
   FrameMix mix = context->mix;
   if (!mix.blend(mix_at(asset.clips()[clip], seconds, sampling, wrap), weight))
@@ -243,7 +243,7 @@ anic_status anic_forget_previous(anic_context* context) {
   context->states[ANIC_WHEN_PREVIOUS].holds = from.holds;
   size_t begin = 0;
   for (uint32_t t = 0; t < clip.tracks().size(); ++t) {
-    const size_t count = context->asset->buffers[t];
+    const size_t count = context->asset->file->buffers[t];
     std::copy_n(from.weights + begin, count, to.weights + begin);
     to.samples[t] = from.samples[t];
     // Weights that are the segment's stay where they are; interpolated ones and shapes move along.
@@ -264,10 +264,28 @@ anic_status anic_get_root_motion(const anic_asset* asset, uint32_t clip, double 
   if (clip >= anic_clip_count(asset) || !is_sized(out) || !is_time(seconds, sampling, wrap))
     return ANIC_E_ARGUMENT;
   const Clip& file = asset->clip;
-  if (!file.has_clip(clip))
+  if (!asset->has_clip(clip))
     return ANIC_E_ABSENT;
   const FrameMix mix = mix_at(file.clips()[clip], seconds, sampling, wrap);
   give_root(file, root_state(file, mix), file.root().holds(clip), out);
+  return ANIC_OK;
+}
+
+anic_status anic_get_root_step(const anic_asset* asset, uint32_t clip, double from, double to,
+                               anic_sampling sampling, anic_wrap wrap, anic_root_motion* out) {
+  constexpr double kMostTurns = 4503599627370496;  // 2^52
+  if (clip >= anic_clip_count(asset) || !is_sized(out) || !is_time(from, sampling, wrap) ||
+      !is_time(to, sampling, wrap))
+    return ANIC_E_ARGUMENT;
+  const Clip& file = asset->clip;
+  const double loop = Clock(file.clips()[clip]).loop_duration();
+  if (wrap == ANIC_WRAP_LOOP && std::max(std::abs(from), std::abs(to)) > kMostTurns / 2 * loop)
+    return ANIC_E_ARGUMENT;
+  if (!asset->has_clip(clip))
+    return ANIC_E_ABSENT;
+  const RootState step = root_step(file, clip, from, to, static_cast<Sampling>(sampling),
+                                   static_cast<Wrap>(wrap));
+  give_root(file, step, file.root().holds(clip), out);
   return ANIC_OK;
 }
 
@@ -345,11 +363,12 @@ anic_status anic_write_frames(const anic_asset* asset, uint32_t mesh, const uint
     if (frames[f] >= asset->clip.frame_count())
       return ANIC_E_FRAME_RANGE;
     const Segment* segment = asset->clip.segment_at(mesh, frames[f]);
-    if (!segment)
+    if (!segment || !asset->has_clip(asset->clip.clip_at(frames[f])))
       return ANIC_E_ABSENT;
     if (!segment->msgi.empty())
       return ANIC_E_STATE;
     states[f] = asset->clip.state_of(*segment, frames[f] - segment->first_frame);
+    states[f].components = played_components(*segment, asset->quality);
     if (Status status = check_output(output, count, &to[f]); status != Status::kOk)
       return c_status(status);
   }

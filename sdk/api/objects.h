@@ -12,6 +12,7 @@
 
 #include <anicodec/anicodec.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -111,15 +112,36 @@ void destroy(T* object, size_t extra = 0) {
 
 }  // namespace anicodec
 
-struct anic_asset {
-  anicodec::Clip clip;
+namespace anicodec {
+
+/// What the assets of an opened file have in common. It goes with the last of them.
+struct OpenedFile {
+  Clip clip;
   double quality = 1;
-  size_t resident_bytes = 0;
+  uint64_t flags = 0;
   size_t context_bytes = 0;
-  anicodec::Vector<uint32_t> triangle_counts;  ///< by mesh
-  anicodec::Vector<size_t> buffers;            ///< by track: SampleSize::buffer()
+  Vector<uint32_t> triangle_counts;  ///< by mesh
+  Vector<size_t> buffers;            ///< by track: SampleSize::buffer()
   /// By mesh and frame, then one more for each mesh: around all frames. Empty when not asked for.
-  anicodec::Vector<anic_box> boxes;
+  Vector<anic_box> boxes;
+  std::atomic<uint32_t> assets{0};
+};
+
+}  // namespace anicodec
+
+struct anic_asset {
+  anicodec::OpenedFile* file;
+  const anicodec::Clip& clip;        ///< of the file
+  anicodec::Vector<uint8_t> wanted;  ///< by clip: whether the host wants it
+  double quality = 1;                ///< share of the file's components that is played
+  size_t resident_bytes = 0;         ///< of this object, and of the file if it opened it
+
+  anic_asset(anicodec::OpenedFile* opened, const anicodec::Vector<uint8_t>& clips)
+      : file(opened), clip(opened->clip), wanted(clips.begin(), clips.end()) {
+    file->assets.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  bool has_clip(uint32_t number) const { return wanted[number] != 0; }
 };
 
 struct anic_context {

@@ -73,8 +73,9 @@ Failure find_requirements(ByteView head, const anic_options& options, anic_requi
       estimate_memory(limits, opening.quality, opening.opens_exact());
   const bool boxes = options.flags & ANIC_OPEN_BOUNDS;
   const ContextSize context = context_size(limits, opening.quality);
-  const uint64_t more = object_bytes<anic_asset>() + sizeof(uint32_t) * limits.meshes.size() +
-                        sizeof(size_t) * context.tracks + (boxes ? box_bytes(limits) : 0);
+  const uint64_t more = object_bytes<anic_asset>() + object_bytes<OpenedFile>() +
+                        sizeof(uint32_t) * limits.meshes.size() + sizeof(size_t) * context.tracks +
+                        (boxes ? box_bytes(limits) : 0);
   out->resident_bytes = estimate.resident + more;
   out->opening_bytes = estimate.opening + more;
   out->draco_bytes = estimate.draco;
@@ -155,7 +156,10 @@ OpenOptions open_options(const anic_options& options, uint64_t file_size) {
   return result;
 }
 
-Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, anic_asset** out) {
+namespace {
+
+/// Opens the file behind an asset.
+Failure open_file(ByteView bytes, const anic_options& options, bool prefix, OpenedFile* file) {
   // The bytes of a stream that have arrived count for the limit.
   OpenOptions opening = open_options(options, bytes.size);
   HostProgress progress(options.progress.report, options.progress.user);
@@ -164,34 +168,69 @@ Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, ani
   opening.progress = &progress;
   opening.threads = {options.threads.run, options.threads.user};
   opening.progress_end = boxes ? kShareBeforeBoxes : 1;
-  anic_asset* asset = create<anic_asset>(memory_of(&options.allocator), 0);
+  const MemoryScope scope(&memory_of_object(file));
+  if (Failure failure = file->clip.open(bytes, opening); !failure.ok())
+    return failure;
+  const Clip& clip = file->clip;
+  file->quality = opening.quality;
+  file->flags = options.flags;
+  const ContextSize context = context_size(clip);
+  file->context_bytes = object_bytes<anic_context>(static_cast<size_t>(context.bytes()));
+  file->buffers.reserve(clip.tracks().size());
+  for (uint32_t t = 0; t < clip.tracks().size(); ++t)
+    file->buffers.push_back(static_cast<size_t>(sample_size(clip, t).buffer()));
+  file->triangle_counts.reserve(clip.meshes().size());
+  for (const Mesh& mesh : clip.meshes())
+    file->triangle_counts.push_back(triangle_count(mesh.topology));
+  if (boxes && !compute_boxes(file, opening.threads, &progress))
+    return {Status::kCancelled, 0, 0, "the host stopped the opening"};
+  return {};
+}
+
+/// One more asset of a file, for the clips that are wanted. Throws std::bad_alloc.
+anic_asset* make_asset(OpenedFile* file, const Memory& memory, const Vector<uint8_t>& wanted) {
+  auto* asset = create<anic_asset>(memory, 0, file, wanted);
+  asset->resident_bytes = memory_of_object(asset).held;
+  return asset;
+}
+
+Failure share_asset(const anic_asset& asset, const anic_options& options, anic_asset** out) {
+  // The asset's memory may be in use by other threads: only where it comes from is taken.
+  Memory memory =
+      options.allocator.allocate ? memory_of(&options.allocator) : memory_of_object(&asset);
+  memory.held = memory.peak = 0;
+  Memory of_call = memory;
+  const MemoryScope scope(&of_call);
+  Vector<uint8_t> wanted;
+  const ClipNames names = {options.clips, options.clip_count};
+  if (Failure failure = wanted_clips(asset.clip.record(), names, &wanted); !failure.ok())
+    return failure;
+  for (size_t c = 0; c < wanted.size(); ++c) {
+    if (names.count > 0 && wanted[c] && !asset.has_clip(static_cast<uint32_t>(c)))
+      return {Status::kAbsent, 0, 0, "a clip asked for is not open in the asset that shares"};
+    wanted[c] = wanted[c] && asset.has_clip(static_cast<uint32_t>(c));
+  }
+  *out = make_asset(asset.file, memory, wanted);
+  const double quality = options.quality > 0 ? options.quality / asset.file->quality : 1;
+  (*out)->quality = std::min(quality, asset.quality);
+  return {};
+}
+
+}  // namespace
+
+Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, anic_asset** out) {
+  OpenedFile* file = create<OpenedFile>(memory_of(&options.allocator), 0);
   try {
-    const MemoryScope scope(&memory_of_object(asset));
-    Failure failure = asset->clip.open(bytes, opening);
-    if (failure.ok()) {
-      const Clip& clip = asset->clip;
-      asset->quality = opening.quality;
-      const ContextSize context = context_size(clip);
-      asset->context_bytes = object_bytes<anic_context>(static_cast<size_t>(context.bytes()));
-      asset->buffers.reserve(clip.tracks().size());
-      for (uint32_t t = 0; t < clip.tracks().size(); ++t)
-        asset->buffers.push_back(static_cast<size_t>(sample_size(clip, t).buffer()));
-      asset->triangle_counts.reserve(clip.meshes().size());
-      for (const Mesh& mesh : clip.meshes())
-        asset->triangle_counts.push_back(triangle_count(mesh.topology));
-      if (boxes && !compute_boxes(asset, opening.threads, &progress))
-        failure = {Status::kCancelled, 0, 0, "the host stopped the opening"};
-    }
-    if (!failure.ok()) {
-      destroy(asset);
+    if (Failure failure = open_file(bytes, options, prefix, file); !failure.ok()) {
+      destroy(file);
       return failure;
     }
-    asset->resident_bytes = memory_of_object(asset).held;
+    *out = make_asset(file, memory_of(&options.allocator), file->clip.wanted());
   } catch (...) {
-    destroy(asset);
+    destroy(file);
     throw;
   }
-  *out = asset;
+  (*out)->resident_bytes += memory_of_object(file).held;
   return {};
 }
 
@@ -235,14 +274,30 @@ anic_status anic_open_asset(const void* file, size_t size, const anic_options* o
                 failure);
 }
 
+anic_status anic_share_asset(const anic_asset* asset, const anic_options* options,
+                             anic_asset** out) {
+  if (out)
+    *out = nullptr;
+  anic_options wanted;
+  if (!asset || !out || !take_options(options, &wanted) ||
+      (options && wanted.flags != asset->file->flags))
+    return ANIC_E_ARGUMENT;
+  return c_status(guarded([&] { return share_asset(*asset, wanted, out); }).status);
+}
+
 void anic_close_asset(anic_asset* asset) {
+  if (!asset)
+    return;
+  OpenedFile* file = asset->file;
   destroy(asset);
+  if (file->assets.fetch_sub(1, std::memory_order_acq_rel) == 1)
+    destroy(file);
 }
 
 anic_status anic_verify_asset(const anic_asset* asset) {
   if (!asset)
     return ANIC_E_ARGUMENT;
-  if (asset->clip.is_partial() || asset->quality < 1)
+  if (asset->clip.is_partial() || asset->file->quality < 1)
     return ANIC_E_STATE;
   return c_status(asset->clip.check_hashes().status);
 }

@@ -227,7 +227,7 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
     return f;
   if (Status s = ClipsRecord::read(payload, limits_, &record_); s != Status::kOk)
     return at(*chunk, s, "the record of the clips is malformed");
-  if (Failure f = choose_clips(options.clips); !f.ok())
+  if (Failure f = wanted_clips(record_, options.clips, &wanted_); !f.ok())
     return f;
   if (Failure f = check_places(file, limits_, record_.order); !f.ok())
     return f;
@@ -271,13 +271,13 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   return failure;
 }
 
-Failure Clip::choose_clips(const ClipNames& names) {
-  wanted_.assign(record_.clips.size(), names.count == 0);
+Failure wanted_clips(const ClipsRecord& record, const ClipNames& names, Vector<uint8_t>* out) {
+  out->assign(record.clips.size(), names.count == 0);
   for (uint32_t i = 0; i < names.count; ++i) {
-    const size_t found = record_.find(names.names[i]);
-    if (found == wanted_.size())
+    const size_t found = record.find(names.names[i]);
+    if (found == out->size())
       return {Status::kAbsent, 0, chunk_type("CLIP"), "the file has no clip of a name asked for"};
-    wanted_[found] = 1;
+    (*out)[found] = 1;
   }
   return {};
 }

@@ -35,6 +35,9 @@ struct HostLimits {
   uint64_t resident_bytes = uint64_t{16} << 30;  ///< while opening, see estimate_memory()
 };
 
+/// Whether each clip of a file is among those named; all are where none is. Errors: kAbsent.
+Failure wanted_clips(const ClipsRecord& record, const ClipNames& names, Vector<uint8_t>* out);
+
 struct OpenOptions {
   HostLimits limits;
   /// Share of the components to open, by number, in (0, 1]: fewer give a coarser clip.
@@ -113,8 +116,8 @@ class Clip {
   /// The clip that holds a frame of the file. O(log clips).
   uint32_t clip_at(uint32_t frame) const;
 
-  /// Whether the host wanted a clip (OpenOptions::clips).
-  bool has_clip(uint32_t clip) const { return wanted_[clip] != 0; }
+  /// Whether the host wants each clip (OpenOptions::clips).
+  const Vector<uint8_t>& wanted() const { return wanted_; }
 
   const Vector<Mesh>& meshes() const { return meshes_; }
 
@@ -180,7 +183,6 @@ class Clip {
   Failure check_hashes() const;
 
  private:
-  Failure choose_clips(const ClipNames& names);
   Failure open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
   Failure open_root(const ContainerReader& file);
   void turn_corrections();

@@ -167,4 +167,11 @@ FrameMix Clock::smooth(uint32_t frame, double s, Wrap wrap) const {
   return mix;
 }
 
+FrameMix mix_at(const ClipRecord& clip, double seconds, Sampling sampling, Wrap wrap) {
+  FrameMix mix = Clock(clip).at(seconds, sampling, wrap);
+  for (uint32_t t = 0; t < mix.count; ++t)
+    mix.terms[t].frame += clip.first_frame;
+  return mix;
+}
+
 }  // namespace anicodec

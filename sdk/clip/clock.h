@@ -65,6 +65,9 @@ class Clock {
   uint32_t frames_;
 };
 
+/// A time of a clip as a mix of frames of the file.
+FrameMix mix_at(const ClipRecord& clip, double seconds, Sampling sampling, Wrap wrap);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_SDK_CLIP_CLOCK_H_

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/root_motion.h"
 
+#include "sdk/base/quaternion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,7 +26,8 @@ bool is_float(double x) {
 }  // namespace
 
 Affine RootState::affine(const GroundAxes& axes) const {
-  const double c = std::cos(turn), s = std::sin(turn);
+  const UnitQuaternion half = exp_rotation({{0, 0, turn}});
+  const double c = 1 - 2 * half.z * half.z, s = 2 * half.w * half.z;
   const uint32_t a = axes.a, b = axes.b;
   Affine result;
   result.m[4 * a + a] = result.m[4 * b + b] = static_cast<float>(c);

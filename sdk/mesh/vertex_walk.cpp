@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/mesh/vertex_walk.h"
 
+#include "format/sort.h"
+
 #include <tuple>
 
 namespace anicodec {
@@ -51,7 +53,7 @@ VertexWalk::VertexWalk(const Topology& topology)
   for (size_t v = 0; v + 1 < first_.size(); ++v) {
     const uint32_t end = first_[v];
     uint32_t* list = neighbours_.data();
-    std::sort(list + begin, list + end);
+    sort_ascending(list + begin, list + end);
     uint32_t* last = std::unique(list + begin, list + end);
     std::copy(list + begin, last, list + kept);
     first_[v] = kept;
@@ -213,7 +215,7 @@ void VertexWalk::sort_from(uint32_t first) {
   auto key = [](const Candidate& c) {
     return std::tuple(-c.parallel, c.distance, c.copy, -c.count, c.vertex);
   };
-  std::sort(candidates_ + first, candidates_ + candidate_count_,
+  sort_ascending(candidates_ + first, candidates_ + candidate_count_,
             [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
 }
 

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/msgi/patch_hierarchy.h"
 
+#include "format/sort.h"
+
 #include <algorithm>
 #include <tuple>
 
@@ -207,7 +209,7 @@ void lay_out_patches(const FaceGraph& graph, const Tree& tree, PatchHierarchy& h
           edges.push_back(graph.face_edges[k]);
       }
     }
-    std::sort(edges.begin(), edges.end());
+    sort_ascending(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     for (uint32_t e : edges)
       h.patch_edges.push_back({e, vertex_slot[graph.edges[e].a], vertex_slot[graph.edges[e].b]});
@@ -245,7 +247,7 @@ void link_patches(const FaceGraph& graph, const Vector<uint32_t>& face_leaf, Pat
         found.push_back({meeting_node(h, p, q), p, q});
     }
   }
-  std::sort(found.begin(), found.end());
+  sort_ascending(found.begin(), found.end());
   size_t i = 0;
   for (uint32_t n = 0; n < h.nodes.size(); ++n) {
     h.nodes[n].first_link = static_cast<uint32_t>(h.links.size());

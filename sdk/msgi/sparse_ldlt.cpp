@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/msgi/sparse_ldlt.h"
 
+#include "format/sort.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -75,7 +77,7 @@ void SparseLdlt::number(const Vector<uint32_t>& vertex_group) {
     if (vertex_group[v] != kFixed)
       vertices_.push_back(v);
   }
-  std::sort(vertices_.begin(), vertices_.end(), [&](uint32_t a, uint32_t b) {
+  sort_ascending(vertices_.begin(), vertices_.end(), [&](uint32_t a, uint32_t b) {
     return std::pair(vertex_group[a], a) < std::pair(vertex_group[b], b);
   });
   blocks_.clear();
@@ -152,7 +154,7 @@ Status SparseLdlt::analyse(const Graph& graph, size_t most_bytes) {
         add(rows_[k]);
     }
     block.rows = static_cast<uint32_t>(rows_.size()) - block.first_row;
-    std::sort(rows_.begin() + block.first_row, rows_.end());
+    sort_ascending(rows_.begin() + block.first_row, rows_.end());
     block.first_value = values;
     values += size_t{block.columns} * (block.columns - 1) / 2 + size_t{block.columns} * block.rows;
     size_t front = size_t{block.columns} + block.rows;

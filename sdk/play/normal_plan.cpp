@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/play/normal_plan.h"
 
+#include "format/sort.h"
 #include "sdk/base/disjoint_sets.h"
 #include "sdk/base/lanes.h"
 #include "sdk/mesh/half_edges.h"
@@ -313,7 +314,7 @@ void list_areas(NormalPlan* plan) {
     for (const uint32_t g : groups)
       numbers[g] = kNone;
     // In the order of the vertices: what is added to a group comes in the same order in every range.
-    std::sort(added.begin(), added.end());
+    sort_ascending(added.begin(), added.end());
     for (size_t i = 0; i < added.size();) {
       NormalPlan::Area area{{added[i].vertex[0], added[i].vertex[1], added[i].vertex[2]},
                             {kRange, kRange, kRange}};

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/play/render_plan.h"
 
-#include <algorithm>
+#include "format/sort.h"
+
 #include <cstring>
 #include <numeric>
 
@@ -45,7 +46,7 @@ Vector<uint32_t> share_corners(const Topology& topology, const CornerOrder& orde
                                RenderPlan* plan) {
   Vector<uint32_t> sorted(topology.polygon_corners.size());
   std::iota(sorted.begin(), sorted.end(), 0U);
-  std::sort(sorted.begin(), sorted.end(), [&](uint32_t a, uint32_t b) {
+  sort_ascending(sorted.begin(), sorted.end(), [&](uint32_t a, uint32_t b) {
     const int compared = order.compare(a, b);
     return compared != 0 ? compared < 0 : a < b;
   });
@@ -67,7 +68,7 @@ void add_triangles(const Topology& topology, const Vector<uint32_t>& of_corner,
   Vector<uint32_t> sorted(polygons);
   std::iota(sorted.begin(), sorted.end(), 0U);
   if (labels)
-    std::sort(sorted.begin(), sorted.end(), [&](uint32_t a, uint32_t b) {
+    sort_ascending(sorted.begin(), sorted.end(), [&](uint32_t a, uint32_t b) {
       return labels[a] != labels[b] ? labels[a] < labels[b] : a < b;
     });
   for (const uint32_t p : sorted) {

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/pose/surface_growth.h"
 
+#include "format/sort.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -56,7 +58,7 @@ void CornerTable::pair_corners(uint32_t vertex_count) {
   for (size_t v = 0; count > 0 && v < vertex_count; ++v) {
     Facing* const first = facing.data() + begin[v];
     Facing* const last = facing.data() + begin[v + 1];
-    std::sort(first, last);
+    sort_ascending(first, last);
     for (Facing* e = first; e + 1 < last; ++e) {
       if (e[0].high != e[1].high)
         continue;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/prediction/vertex_order.h"
 
+#include "format/sort.h"
 #include "sdk/prediction/nearest_candidates.h"
 #include "sdk/prediction/vertex_order_cost.h"
 
@@ -161,7 +162,7 @@ void Contraction::drop_isolated() {
 void Contraction::link_all() {
   for (const GridVertex& v : active_)
     isolated_.push_back(v.id);
-  std::sort(isolated_.begin(), isolated_.end());
+  sort_ascending(isolated_.begin(), isolated_.end());
   active_.clear();
   Vector<uint64_t> curve;
   curve.reserve(isolated_.size());
@@ -172,7 +173,7 @@ void Contraction::link_all() {
     curve.push_back(morton_key(local));
   }
   isolated_.clear();
-  std::sort(curve.begin(), curve.end());
+  sort_ascending(curve.begin(), curve.end());
   const auto n = static_cast<int64_t>(curve.size());
   Vector<uint32_t> place(curve.size());
   for (size_t i = 0; i < curve.size(); ++i)

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/segment/segment.h"
 
+#include "format/sort.h"
 #include "sdk/base/bounded_float.h"
 #include "sdk/base/float_control.h"
 #include "sdk/segment/correction_coding.h"
@@ -75,7 +76,7 @@ Status read_corrections(const SegmentContext& context, DecodedIntegers& integers
                                  c.delta[0], c.delta[1], c.delta[2]};
       integers.add("correction", hashed, 5);
     }
-    std::sort(out->corrections.begin() + out->correction_begin.back(), out->corrections.end(),
+    sort_ascending(out->corrections.begin() + out->correction_begin.back(), out->corrections.end(),
               [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
     out->correction_begin.push_back(static_cast<uint32_t>(out->corrections.size()));
   }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace anicodec {
@@ -212,6 +213,119 @@ TEST(AnicClips, SomeCanBeOpenedAlone) {
     names[1] = nullptr;
     EXPECT_EQ(anic_open_asset(file.data(), file.size(), &options, &asset, nullptr),
               ANIC_E_ARGUMENT);
+  }
+}
+
+Asset share(const Asset& of, const anic_options* options = nullptr) {
+  anic_asset* asset = nullptr;
+  EXPECT_EQ(anic_share_asset(of.get(), options, &asset), ANIC_OK);
+  return Asset(asset);
+}
+
+TEST(AnicShare, AssetsOfOneFileShareItsMemory) {
+  const Bytes& file = encoded_limbs(BasisChoice::kEigentrajectories).file;
+  CountingMemory memory;
+  anic_options options = ANIC_INIT(anic_options);
+  options.allocator = memory.allocator();
+  options.flags = ANIC_OPEN_BOUNDS;
+  Asset first = open(file, &options);
+  const size_t opened = memory.held;
+  const Context of_all = context_of(first);
+  ASSERT_EQ(anic_seek_frame(of_all.get(), 55), ANIC_OK);
+  const std::vector<float> expected = positions(first, of_all);
+
+  const Asset same = share(first);
+  const char* names[] = {"jump"};
+  options.clips = names;
+  options.clip_count = 1;
+  const Asset some = share(first, &options);
+  EXPECT_LT(memory.held, opened + 4096 + info_of(same).context_bytes);
+  EXPECT_LT(info_of(same).resident_bytes, 1024U);
+  anic_basis a = ANIC_INIT(anic_basis), b = ANIC_INIT(anic_basis);
+  ASSERT_EQ(anic_get_basis(first.get(), 0, &a), ANIC_OK);
+  ASSERT_EQ(anic_get_basis(some.get(), 0, &b), ANIC_OK);
+  EXPECT_EQ(a.narrow, b.narrow);
+
+  anic_clip clip = ANIC_INIT(anic_clip);
+  uint32_t jump = 0;
+  ASSERT_EQ(anic_find_clip(some.get(), "jump", &jump), ANIC_OK);
+  for (uint32_t c = 0; c < anic_clip_count(some.get()); ++c) {
+    ASSERT_EQ(anic_clip_info(some.get(), c, &clip), ANIC_OK);
+    EXPECT_EQ(clip.open, c == jump) << c;
+  }
+  const Context context = context_of(some);
+  const uint32_t other = jump == 0 ? 1 : 0;
+  EXPECT_EQ(anic_set_clip(context.get(), other), ANIC_E_ABSENT);
+  ASSERT_EQ(anic_clip_info(some.get(), other, &clip), ANIC_OK);
+  anic_box box;
+  ASSERT_EQ(anic_seek_frame(context.get(), clip.first_frame), ANIC_OK);
+  EXPECT_EQ(anic_compute_bounds(context.get(), 0, ANIC_WHEN_CURRENT, &box), ANIC_E_ABSENT);
+  EXPECT_EQ(anic_get_frame_bounds(some.get(), 0, clip.first_frame, &box), ANIC_E_ABSENT);
+  EXPECT_EQ(anic_get_frame_bounds(same.get(), 0, clip.first_frame, &box), ANIC_OK);
+
+  first.reset();  // and its context must not be used any more
+  const Context again = context_of(same);
+  ASSERT_EQ(anic_seek_frame(again.get(), 55), ANIC_OK);
+  EXPECT_EQ(positions(same, again), expected);
+  EXPECT_EQ(anic_verify_asset(same.get()), ANIC_OK);
+  anic_asset* refused = nullptr;
+  names[0] = clip.name;
+  EXPECT_EQ(anic_share_asset(some.get(), &options, &refused), ANIC_E_ABSENT);
+  names[0] = "fly";
+  EXPECT_EQ(anic_share_asset(same.get(), &options, &refused), ANIC_E_ABSENT);
+  options.clip_count = 0;
+  options.flags = 0;
+  EXPECT_EQ(anic_share_asset(same.get(), &options, &refused), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_share_asset(nullptr, nullptr, &refused), ANIC_E_ARGUMENT);
+  EXPECT_EQ(refused, nullptr);
+}
+
+TEST(AnicShare, MemoryGoesWithTheLastAssetOnAnyThread) {
+  const Bytes& file = encoded_limbs(BasisChoice::kEigentrajectories).file;
+  Asset first = open(file);
+  const Context context = context_of(first);
+  ASSERT_EQ(anic_seek_frame(context.get(), 7), ANIC_OK);
+  const std::vector<float> expected = positions(first, context);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([mine = share(first).release(), &expected, t] {
+      Asset asset(mine);
+      for (int i = 0; i < 50; ++i) {
+        asset = share(asset);
+        const Context own = context_of(asset);
+        ASSERT_EQ(anic_seek_frame(own.get(), i % 2 ? 7 : static_cast<uint32_t>(t)), ANIC_OK);
+        const std::vector<float> shown = positions(asset, own);
+        if (i % 2) {
+          ASSERT_EQ(shown, expected);
+        }
+      }
+    });
+  }
+  first.reset();
+  for (std::thread& thread : threads)
+    thread.join();
+}
+
+TEST(AnicShare, FewerComponentsAreThoseOfAnAssetOpenedSo) {
+  for (BasisChoice basis : kBases) {
+    const Bytes& file = encoded_limbs(basis).file;
+    const Asset whole = open(file);
+    anic_options options = ANIC_INIT(anic_options);
+    options.quality = 0.5;
+    const Asset coarse = open(file, &options), shared = share(share(whole, &options));
+    const Context context = context_of(shared), expected = context_of(coarse);
+    for (uint32_t f : {0U, 19U, 59U}) {
+      ASSERT_EQ(anic_seek_frame(context.get(), f), ANIC_OK);
+      ASSERT_EQ(anic_seek_frame(expected.get(), f), ANIC_OK);
+      const std::vector<float> p = positions(shared, context);
+      EXPECT_EQ(p, positions(coarse, expected));
+      std::vector<float> q(p.size());
+      const anic_output output = floats(q);
+      ASSERT_EQ(anic_write_frames(shared.get(), 0, &f, 1, 0, vertices_of(shared), &output),
+                ANIC_OK);
+      EXPECT_EQ(q, p);
+    }
+    EXPECT_EQ(anic_verify_asset(shared.get()), ANIC_OK) << "what the file holds";
   }
 }
 

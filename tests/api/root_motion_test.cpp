@@ -173,6 +173,72 @@ TEST(AnicRootMotion, LeavesNoMemoryBehind) {
   expect_no_leak_whichever_allocation_fails(encoded(UpAxis::kY, BasisChoice::kEigenshapes));
 }
 
+using Matrix = std::vector<double>;  ///< 3 x 4
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix result(12);
+  for (size_t r = 0; r < 3; ++r) {
+    for (size_t c = 0; c < 4; ++c) {
+      result[4 * r + c] = c == 3 ? a[4 * r + 3] : 0;
+      for (size_t k = 0; k < 3; ++k)
+        result[4 * r + c] += a[4 * r + k] * b[4 * k + c];
+    }
+  }
+  return result;
+}
+
+double distance(const Matrix& a, const Matrix& b) {
+  double most = 0;
+  for (size_t i = 0; i < 12; ++i)
+    most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
+Matrix step(const Asset& asset, double from, double to, anic_wrap wrap = ANIC_WRAP_LOOP) {
+  anic_root_motion motion = ANIC_INIT(anic_root_motion);
+  EXPECT_EQ(anic_get_root_step(asset.get(), 0, from, to, ANIC_SAMPLE_LINEAR, wrap, &motion),
+            ANIC_OK);
+  EXPECT_EQ(motion.pivot[0], 0);
+  EXPECT_NEAR(motion.move[0], motion.matrix[3], 1e-5);
+  return {std::begin(motion.matrix), std::end(motion.matrix)};
+}
+
+Matrix motion_at(const Asset& asset, double seconds) {
+  anic_root_motion motion = ANIC_INIT(anic_root_motion);
+  EXPECT_EQ(anic_get_root_motion(asset.get(), 0, seconds, ANIC_SAMPLE_LINEAR, ANIC_WRAP_CLAMP,
+                                 &motion),
+            ANIC_OK);
+  return {std::begin(motion.matrix), std::end(motion.matrix)};
+}
+
+TEST(AnicRootStep, GoesFromOneTimeToAnotherAndOnThroughLoops) {
+  for (UpAxis up : {UpAxis::kY, UpAxis::kZ}) {
+    const Asset asset = in_place(encoded(up, BasisChoice::kEigentrajectories));
+    const double duration = (kFrames - 1) / 10.0, loop = kFrames / 10.0;
+    const Matrix still = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    for (anic_wrap wrap : {ANIC_WRAP_CLAMP, ANIC_WRAP_LOOP}) {
+      const Matrix s = step(asset, 0.31, 1.87, wrap);
+      EXPECT_LT(distance(product(motion_at(asset, 0.31), s), motion_at(asset, 1.87)), 1e-4);
+      EXPECT_LT(distance(product(s, step(asset, 1.87, 0.31, wrap)), still), 1e-4);
+    }
+    EXPECT_LT(distance(step(asset, 7, 9, ANIC_WRAP_CLAMP), still), 1e-9);
+    Matrix whole = still;
+    for (double t = 0; t < 3.6 * loop - 1e-9; t += loop / 7)
+      whole = product(whole, step(asset, t, std::min(t + loop / 7, 3.6 * loop)));
+    EXPECT_LT(distance(whole, step(asset, 0, 3.6 * loop)), 1e-3);
+    EXPECT_LT(distance(step(asset, -1.1 * loop, 0.4 * loop), step(asset, 3.9 * loop, 5.4 * loop)),
+              1e-4);
+    // Its pace goes on where the last frame leads to the first.
+    EXPECT_LT(distance(step(asset, duration, loop), step(asset, duration - 0.1, duration)), 1e-5);
+    anic_root_motion motion = ANIC_INIT(anic_root_motion);
+    EXPECT_EQ(anic_get_root_step(asset.get(), 0, 0, 1e200, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP,
+                                 &motion),
+              ANIC_E_ARGUMENT);
+    EXPECT_EQ(anic_get_root_step(asset.get(), 9, 0, 1, ANIC_SAMPLE_LINEAR, ANIC_WRAP_LOOP, &motion),
+              ANIC_E_ARGUMENT);
+  }
+}
+
 TEST(AnicEvents, AreListedByTime) {
   const Asset asset = open(encoded(UpAxis::kY, BasisChoice::kEigenshapes));
   ASSERT_EQ(anic_event_count(asset.get(), 0), 2U);

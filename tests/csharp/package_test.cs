@@ -51,6 +51,11 @@ internal static class PackageTest
         using (Context context = new Context(asset))
         {
             int clips = asset.ClipCount;
+            using (Asset alone = asset.Share(new OpenOptions { Clips = new[] { asset.GetClip(1).Name } }))
+            {
+                Check.That(alone.GetClip(1).Open && !alone.GetClip(0).Open && alone.ResidentBytes < 4096, "a shared asset");
+                Check.Throws(Status.Absent, () => alone.Share(new OpenOptions { Clips = new[] { asset.GetClip(0).Name } }), "a clip that is not open");
+            }
             Check.That(clips > 1 && asset.FindClip(asset.GetClip(1).Name) == 1, "several clips");
             float[] a = new float[3 * asset.GetMesh().VertexCount], b = new float[a.Length], c = new float[a.Length];
             context.SetClip(1);

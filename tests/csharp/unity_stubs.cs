@@ -134,7 +134,26 @@ namespace UnityEngine
         public Color gamma { get { return new Color((float)Math.Sqrt(r), (float)Math.Sqrt(g), (float)Math.Sqrt(b), a); } }
     }
 
-    public class Transform : Component { public void SetParent(Transform parent, bool worldPositionStays) { } }
+    public enum Space { World, Self }
+
+    public class Transform : Component
+    {
+        public Vector3 position;
+        public float degrees;
+
+        public void SetParent(Transform parent, bool worldPositionStays) { }
+        public void Translate(Vector3 by, Space relativeTo) { position = position + TransformDirection(by); }
+        public void Rotate(float x, float y, float z, Space relativeTo) { degrees += y; }
+        public Vector3 TransformPoint(Vector3 p) { return position + TransformDirection(p); }
+
+        /// <summary>A positive turn about the y axis of a left-handed space leads from z to x.</summary>
+        public Vector3 TransformDirection(Vector3 v)
+        {
+            float c = (float)Math.Cos(degrees * Math.PI / 180), s = (float)Math.Sin(degrees * Math.PI / 180);
+            return new Vector3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+        }
+    }
+
     public static class Time { public static float deltaTime { get; set; } }
     public static class SystemInfo { public static bool supportsComputeShaders { get { return true; } } }
 

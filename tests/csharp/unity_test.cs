@@ -119,6 +119,46 @@ internal static class UnityTest
         player.clip.Close();
     }
 
+    private static void MovesTheRootOn(string folder)
+    {
+        AnicPlayer still = Player(Path.Combine(folder, "walk.anic")), whole = Player(Path.Combine(folder, "walk.anic"));
+        still.clip.Close();
+        still.clip.inPlace = true;
+        still.root = new Transform();
+        Time.deltaTime = 0.05f;
+        foreach (AnicPlayer player in new[] { still, whole })
+        {
+            player.clipName = "turn";
+            player.wrap = Wrap.Clamp;
+            Call(player, "OnEnable");
+            for (int i = 0; i < 8; ++i)
+                Call(player, "Update");
+        }
+        float[] p = Shown(still), q = Shown(whole);
+        double far = 0, apart = 0;
+        for (int i = 0; i < p.Length; i += AnicMesh.Floats)
+        {
+            Vector3 moved = still.root.TransformPoint(new Vector3(p[i], p[i + 1], p[i + 2]));
+            far = Math.Max(far, Math.Abs(moved.x - q[i]) + Math.Abs(moved.y - q[i + 1]) + Math.Abs(moved.z - q[i + 2]));
+            apart = Math.Max(apart, Math.Abs(p[i] - q[i]) + Math.Abs(p[i + 2] - q[i + 2]));
+        }
+        Check.That(far < 1e-3 && apart > 0.1, "the root moves on: " + far + " " + apart);
+        whole.CrossFade("stand", 0.2);
+        still.CrossFade("stand", 0.2);
+        float before = still.root.degrees;
+        for (int i = 0; i < 8; ++i)
+            Call(still, "Update");
+        float faded = still.root.degrees;
+        for (int i = 0; i < 8; ++i)
+            Call(still, "Update");
+        Check.That(Math.Abs(faded - before) > 5 && Math.Abs(still.root.degrees - faded) < 4, "it all but stands after a cross-fade");
+        foreach (AnicPlayer player in new[] { still, whole })
+        {
+            Call(player, "OnDisable");
+            player.clip.Close();
+        }
+    }
+
     private static void PlaysOnTheGraphicsCard(string folder)
     {
         AnicPlayer player = Player(Path.Combine(folder, "limb_default.anic"));
@@ -185,6 +225,7 @@ internal static class UnityTest
     {
         ImportsMeshesInUnitysAxes(arguments[0]);
         PlaysAndCrossFades(arguments[0]);
+        MovesTheRootOn(arguments[0]);
         PlaysOnTheGraphicsCard(arguments[0]);
         MixesOnTheTimeline(arguments[0]);
         ImportsMeshesThatComeLater(arguments[0]);

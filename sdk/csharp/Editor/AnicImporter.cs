@@ -13,10 +13,14 @@ namespace Anicodec.Unity
         /// <summary>AnicPlay.compute, for players on the graphics card.</summary>
         public ComputeShader shader;
 
+        /// <summary>AnicClip.inPlace of the clip.</summary>
+        public bool inPlace;
+
         public override void OnImportAsset(AssetImportContext context)
         {
             AnicClip clip = ScriptableObject.CreateInstance<AnicClip>();
             clip.name = Path.GetFileNameWithoutExtension(context.assetPath);
+            clip.inPlace = inPlace;
             clip.SetBytes(File.ReadAllBytes(context.assetPath));
             try
             {

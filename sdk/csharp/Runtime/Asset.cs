@@ -48,6 +48,20 @@ namespace Anicodec
             return Open(File.ReadAllBytes(path), options);
         }
 
+        /// <summary>Another asset of the same file, which shares its memory; either may be disposed of first.</summary>
+        /// <param name="options">clips and quality of its own; Flags as the file was opened with</param>
+        /// <exception cref="AnicException">Status.Absent: a clip is not open in this asset</exception>
+        public Asset Share(OpenOptions options = default(OpenOptions))
+        {
+            using (NativeOptions native = new NativeOptions(options))
+            {
+                Native.anic_options given = native.Options;
+                AssetHandle shared;
+                Native.Check(Native.anic_share_asset(handle, &given, out shared));
+                return new Asset(shared);
+            }
+        }
+
         /// <summary>Tells from the first bytes of a file what it will take.</summary>
         /// <exception cref="AnicException">Status.Truncated: result.HeadBytes are needed</exception>
         public static Requirements GetRequirements(ReadOnlySpan<byte> head, OpenOptions options = default(OpenOptions))
@@ -151,6 +165,18 @@ namespace Anicodec
             Native.anic_root_motion m = default(Native.anic_root_motion);
             m.struct_size = (UIntPtr)sizeof(Native.anic_root_motion);
             Native.Check(Native.anic_get_root_motion(handle, (uint)clip, seconds, sampling, wrap, &m));
+            return Native.Motion(m);
+        }
+
+        /// <summary>
+        /// What moves a character on from one time of a clip to another, through any number of turns of a loop: Turn, and Move in the
+        /// axes that it has at `from`. For a cross-fade, add up those of both clips by their weights.
+        /// </summary>
+        public RootMotion GetRootStep(int clip, double from, double to, Sampling sampling = Sampling.Linear, Wrap wrap = Wrap.Loop)
+        {
+            Native.anic_root_motion m = default(Native.anic_root_motion);
+            m.struct_size = (UIntPtr)sizeof(Native.anic_root_motion);
+            Native.Check(Native.anic_get_root_step(handle, (uint)clip, from, to, sampling, wrap, &m));
             return Native.Motion(m);
         }
 

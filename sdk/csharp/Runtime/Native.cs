@@ -390,6 +390,7 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_get_requirements(void* head, UIntPtr size, anic_options* options, anic_requirements* result);
         [DllImport(Library)] public static extern Status anic_open_asset(void* file, UIntPtr size, anic_options* options, out AssetHandle result, anic_failure* failure);
         [DllImport(Library)] public static extern Status anic_open_asset_from_reader(anic_reader* reader, ulong file_size, anic_options* options, out AssetHandle result, anic_failure* failure);
+        [DllImport(Library)] public static extern Status anic_share_asset(AssetHandle asset, anic_options* options, out AssetHandle result);
         [DllImport(Library)] public static extern void anic_close_asset(IntPtr asset);
         [DllImport(Library)] public static extern Status anic_verify_asset(AssetHandle asset);
         [DllImport(Library)] public static extern Status anic_get_asset_info(AssetHandle asset, anic_asset_info* result);
@@ -415,6 +416,7 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_blend(ContextHandle context, uint clip, double seconds, Sampling sampling, Wrap wrap, double weight);
         [DllImport(Library)] public static extern Status anic_forget_previous(ContextHandle context);
         [DllImport(Library)] public static extern Status anic_get_root_motion(AssetHandle asset, uint clip, double seconds, Sampling sampling, Wrap wrap, anic_root_motion* result);
+        [DllImport(Library)] public static extern Status anic_get_root_step(AssetHandle asset, uint clip, double from, double to, Sampling sampling, Wrap wrap, anic_root_motion* result);
         [DllImport(Library)] public static extern Status anic_get_shown_root_motion(ContextHandle context, When when, anic_root_motion* result);
         [DllImport(Library)] public static extern Status anic_write_positions(ContextHandle context, uint mesh, When when, uint first, uint count, anic_output* result);
         [DllImport(Library)] public static extern Status anic_write_attribute(ContextHandle context, uint mesh, uint attribute, When when, uint first, uint count, anic_value_output* result);

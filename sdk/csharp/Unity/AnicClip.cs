@@ -10,6 +10,9 @@ namespace Anicodec.Unity
     {
         [SerializeField, HideInInspector] private byte[] bytes;
 
+        /// <summary>Leaves the motion of the whole out of positions, where the file has it apart: for AnicPlayer.root.</summary>
+        public bool inPlace;
+
         private Asset asset;
         private readonly Dictionary<int, RenderPlan> plans = new Dictionary<int, RenderPlan>();
         private readonly Dictionary<int, AnicBasisBuffers> buffers = new Dictionary<int, AnicBasisBuffers>();
@@ -27,7 +30,7 @@ namespace Anicodec.Unity
             get
             {
                 if (asset == null)
-                    asset = Asset.Open(bytes, new OpenOptions { Flags = OpenFlags.Bounds });
+                    asset = Asset.Open(bytes, new OpenOptions { Flags = OpenFlags.Bounds | (inPlace ? OpenFlags.InPlace : 0) });
                 return asset;
             }
         }

@@ -32,11 +32,14 @@ namespace Anicodec.Unity
         /// <summary>AnicPlay.compute, to play on the graphics card; none: the CPU does.</summary>
         public ComputeShader shader;
 
+        /// <summary>What the motion of the whole moves on, of a clip with inPlace; none: it stays where it is.</summary>
+        public Transform root;
+
         private Context context;
         private AnicCompute compute;
         private Mesh shown;
         private NativeArray<float> vertices;
-        private int fadeTo = -1;
+        private int current, fadeTo = -1;
         private double fadeTime, fadeLength, fadeDone;
 
         private void OnEnable()
@@ -44,7 +47,8 @@ namespace Anicodec.Unity
             if (clip == null)
                 return;
             context = new Context(clip.Asset);
-            context.SetClip(FindClip(clipName));
+            current = FindClip(clipName);
+            context.SetClip(current);
             shown = AnicMesh.Create(clip, mesh, name);
             shown.MarkDynamic();
             GetComponent<MeshFilter>().sharedMesh = shown;
@@ -75,8 +79,9 @@ namespace Anicodec.Unity
         /// <summary>Chooses the clip whose times Show() means.</summary>
         public void SetClip(string of)
         {
+            current = FindClip(of);
             if (context != null)
-                context.SetClip(FindClip(of));
+                context.SetClip(current);
         }
 
         /// <summary>Fades to a clip of the file within some seconds.</summary>
@@ -96,22 +101,37 @@ namespace Anicodec.Unity
             time += step;
             if (fadeTo < 0)
             {
+                MoveRoot(current, time - step, time, 1);
                 Show(time);
                 return;
             }
             fadeTime += step;
             fadeDone += Time.deltaTime;
+            double weight = System.Math.Min(fadeDone / fadeLength, 1);
+            MoveRoot(current, time - step, time, 1 - weight);
+            MoveRoot(fadeTo, fadeTime - step, fadeTime, weight);
             if (fadeDone >= fadeLength)
             {
-                context.SetClip(fadeTo);
+                current = fadeTo;
+                context.SetClip(current);
                 time = fadeTime;
                 fadeTo = -1;
                 Show(time);
             }
             else
             {
-                Show(time, fadeTo, fadeTime, fadeDone / fadeLength);
+                Show(time, fadeTo, fadeTime, weight);
             }
+        }
+
+        private void MoveRoot(int of, double from, double to, double weight)
+        {
+            if (root == null)
+                return;
+            float degrees;
+            Vector3 move = AnicSpace.Convert(clip.Asset.GetRootStep(of, from, to, sampling, wrap), clip.Asset.Up, out degrees);
+            root.Translate(move * (float)weight, Space.Self);
+            root.Rotate(0, degrees * (float)weight, 0, Space.Self);
         }
 
         /// <summary>Shows a time of the chosen clip.</summary>

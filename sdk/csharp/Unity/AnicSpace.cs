@@ -25,6 +25,14 @@ namespace Anicodec.Unity
             }
         }
 
+        /// <summary>A step of the motion of the whole: what to move by, and degrees to turn about the y axis.</summary>
+        public static Vector3 Convert(RootMotion step, UpAxis up, out float degrees)
+        {
+            degrees = (float)(-step.Turn * 180 / System.Math.PI);
+            float x = -(float)step.MoveX, y = (float)step.MoveY, z = (float)step.MoveZ;
+            return up == UpAxis.Z ? new Vector3(x, z, -y) : new Vector3(x, y, z);
+        }
+
         public static Bounds Convert(Box box, UpAxis up)
         {
             bool z = up == UpAxis.Z;

@@ -342,7 +342,28 @@ ANIC_API anic_status anic_open_asset_from_reader(const anic_reader* reader, uint
                                                  const anic_options* options, anic_asset** out,
                                                  anic_failure* failure);
 
-/** Gives everything back. NULL is allowed. */
+/**
+ * Makes another asset of an opened file, which shares its resident memory: for parts of a program
+ * that open and close the same file each for itself, with clips or a quality of their own. Either may
+ * be closed first; the file's memory goes, to the allocator that the file was opened with, when the
+ * last of them is closed.
+ *
+ * - Params: options: allocator is for what the asset takes itself (default: the file's); clips names
+ *   some of those that are open in `asset`; quality is, as in opening, a share of the file's
+ *   components, of which no more are played than `asset` plays, and 0 as many; flags must be those
+ *   that the file was opened with; the rest means nothing. NULL: all as in `asset`
+ * - Result: resident_bytes of its anic_asset_info are those that it takes itself, a few hundred;
+ *   boxes, anic_get_basis() and textures are the file's, the same addresses for all
+ * - Errors: ANIC_E_ABSENT: a clip is not in the file, or not open in `asset`; ANIC_E_MEMORY;
+ *   ANIC_E_ARGUMENT
+ * - Cost: O(clips); nothing is decoded
+ * - Threads: any, while `asset` is open. Assets of one file may be used and closed on different
+ *   threads at once; the file's allocator must be good on that which closes the last one
+ */
+ANIC_API anic_status anic_share_asset(const anic_asset* asset, const anic_options* options,
+                                      anic_asset** out);
+
+/** Gives everything back that no other asset of the file needs. NULL is allowed. */
 ANIC_API void anic_close_asset(anic_asset* asset);
 
 /**
@@ -729,7 +750,7 @@ typedef struct anic_root_motion {
 
 /**
  * Tells the motion of the whole at any time of a clip, part of the positions or not. A loop begins
- * again where it began: a host that goes on adds the motion at the duration for each turn.
+ * again where it began: anic_get_root_step() is for characters that go on.
  *
  * - Errors: ANIC_E_ABSENT: the clip was not opened; ANIC_E_ARGUMENT: no such clip, and as
  *   anic_seek_time()
@@ -738,6 +759,22 @@ typedef struct anic_root_motion {
 ANIC_API anic_status anic_get_root_motion(const anic_asset* asset, uint32_t clip, double seconds,
                                           anic_sampling sampling, anic_wrap wrap,
                                           anic_root_motion* out);
+
+/**
+ * Tells what moves a character on from one time of a clip to another, for hosts that count seconds on
+ * and on: out->turn, and out->move in the axes that the character has at `from`; the pivot is 0, and
+ * the matrix, multiplied to the right of the character's, makes the step. A loop goes on at its end
+ * from where it is, any number of times, and keeps its pace between its last frame and the next first
+ * one. For a cross-fade, add up turns and moves of the clips by their weights.
+ *
+ * - Params: from, to: seconds, either may be the earlier one
+ * - Errors: ANIC_E_ABSENT: the clip was not opened; ANIC_E_ARGUMENT: no such clip, times more than
+ *   2^51 turns away, and as anic_seek_time()
+ * - Cost: as anic_get_root_motion(), some times over, and the logarithm of the turns
+ */
+ANIC_API anic_status anic_get_root_step(const anic_asset* asset, uint32_t clip, double from,
+                                        double to, anic_sampling sampling, anic_wrap wrap,
+                                        anic_root_motion* out);
 
 /**
  * Tells the motion of the whole of what a context shows, blends included: moves and pivots are

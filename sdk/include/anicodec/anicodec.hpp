@@ -194,6 +194,13 @@ class Asset {
     });
   }
 
+  /// Another asset of the same file, which shares its memory: see anic_share_asset().
+  Status share(const Asset& of, const anic_options* options = nullptr) {
+    return detail::receive<anic_asset>(&handle_, [&](anic_asset** out) {
+      return anic_share_asset(of.get(), options, out);
+    });
+  }
+
   void close() { handle_.reset(); }
 
   explicit operator bool() const { return handle_ != nullptr; }
@@ -251,6 +258,13 @@ class Asset {
   }
 
   double frame_time(uint32_t frame) const { return anic_get_frame_time(get(), frame); }
+
+  /// What moves a character on from one time of a clip to another: see anic_get_root_step().
+  Status root_step(uint32_t clip, double from, double to, anic_root_motion* out,
+                   anic_sampling sampling = ANIC_SAMPLE_LINEAR,
+                   anic_wrap wrap = ANIC_WRAP_LOOP) const {
+    return anic_get_root_step(get(), clip, from, to, sampling, wrap, out);
+  }
 
   Status verify() const { return anic_verify_asset(get()); }
 
