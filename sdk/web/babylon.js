@@ -6,7 +6,9 @@ import { Animation } from '@babylonjs/core/Animations/animation.js';
 import { AnimationGroup } from '@babylonjs/core/Animations/animationGroup.js';
 import { BoundingInfo } from '@babylonjs/core/Culling/boundingInfo.js';
 import { MultiMaterial } from '@babylonjs/core/Materials/multiMaterial.js';
+import { PBRMetallicRoughnessMaterial } from '@babylonjs/core/Materials/PBR/pbrMetallicRoughnessMaterial.js';
 import { StandardMaterial } from '@babylonjs/core/Materials/standardMaterial.js';
+import { Color3 } from '@babylonjs/core/Maths/math.color.js';
 import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { VertexBuffer } from '@babylonjs/core/Buffers/buffer.js';
 import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
@@ -93,6 +95,17 @@ export class AnicPlayer extends TransformNode {
   }
 }
 
+/** The material of a group of triangles, with the values that the file has; `metadata.anic` names its images. */
+function materialOf({ material: name = 'anic', look }, scene) {
+  if (!look)
+    return Object.assign(new StandardMaterial(name, scene), { backFaceCulling: false });
+  const { baseColour, metallic, roughness, emissive, alpha, alphaCutoff, doubleSided } = look;
+  return Object.assign(new PBRMetallicRoughnessMaterial(name, scene), {
+    baseColor: Color3.FromArray(baseColour), metallic, roughness, emissiveColor: Color3.FromArray(emissive), alpha: alpha === 'opaque' ? 1 : baseColour[3],
+    transparencyMode: ['opaque', 'mask', 'blend'].indexOf(alpha), alphaCutOff: alphaCutoff, backFaceCulling: !doubleSided, doubleSided, metadata: { anic: look },
+  });
+}
+
 /** Shows a clip: a node with a mesh for each mesh of the clip. A clip with z up is turned. */
 export class AnicMesh extends AnicPlayer {
   constructor(clip, scene, material) {
@@ -118,9 +131,9 @@ export class AnicMesh extends AnicPlayer {
     if (colour)
       object.setVerticesData(VertexBuffer.ColorKind, mesh.attribute(colour.index), colour.moves, colour.components);
     object.setIndices(mesh.indices, n);
-    const made = mesh.groups.map(({ material: name }) => Object.assign(new StandardMaterial(name ?? 'anic', scene), { backFaceCulling: false }));
-    if (material || made.length < 2) {
-      object.material = material ?? made[0];
+    const made = material ? [material] : mesh.groups.map((group) => materialOf(group, scene));
+    if (made.length < 2) {
+      [object.material] = made;
     } else {
       object.material = Object.assign(new MultiMaterial(this.name, scene), { subMaterials: made });
       object.subMeshes = [];

@@ -119,9 +119,18 @@ export class Clip {
   }
 
   /** The motion of the whole at a time, part of the positions or not: OpenOptions.inPlace. */
-  rootMotion(time, { clip, sampling = 'linear', wrap } = {}) {
+  rootMotion(time, options) {
+    return this.#motion('root_motion', [time], options);
+  }
+
+  /** What moves a character on from one time to another, through any number of turns of a loop. */
+  rootStep(from, to, options) {
+    return this.#motion('root_step', [from, to], options);
+  }
+
+  #motion(name, times, { clip, sampling = 'linear', wrap } = {}) {
     const found = this.find(clip);
-    this.decoder.call('root_motion', found.index, Number(time), number(SAMPLING, sampling, 'sampling'),
+    this.decoder.call(name, found.index, ...times.map(Number), number(SAMPLING, sampling, 'sampling'),
       number(WRAP, wrap ?? (found.loop ? 'loop' : 'clamp'), 'wrap'));
     const all = Array.from(this.decoder.numbers(19));
     return { turn: all[0], move: all.slice(1, 4), pivot: all.slice(4, 7), matrix: all.slice(7) };
@@ -235,9 +244,23 @@ export class ClipMesh {
     const decoder = this.#clip.decoder;
     decoder.call('attribute', this.#index, index);
     const [kind, domain, count, components, labels, moves, name] = decoder.numbers(9);
+    const looks = KINDS[kind] === 'material' ? Array.from({ length: labels }, (_, l) => this.#look(index, l)) : [];
     return {
       index, name: decoder.string(name), kind: KINDS[kind], domain: DOMAINS[domain], count, components, moves: moves !== 0,
-      labels: Array.from({ length: labels }, (_, l) => decoder.string(decoder.run('label_name', this.#index, index, l))),
+      labels: Array.from({ length: labels }, (_, l) => decoder.string(decoder.run('label_name', this.#index, index, l))), looks,
+    };
+  }
+
+  /** The look of a material that a label names; undefined where the file has its name alone. */
+  #look(attribute, label) {
+    const decoder = this.#clip.decoder;
+    if (decoder.run('material', this.#index, attribute, label) !== 0)
+      return undefined;
+    const n = Array.from(decoder.numbers(17)), image = (at) => decoder.string(n[at]) || undefined;
+    return {
+      baseColour: n.slice(0, 4), metallic: n[4], roughness: n[5], emissive: n.slice(6, 9), alpha: ['opaque', 'mask', 'blend'][n[9]],
+      alphaCutoff: n[10], doubleSided: n[11] !== 0, baseColourImage: image(12), metallicRoughnessImage: image(13),
+      normalImage: image(14), occlusionImage: image(15), emissiveImage: image(16),
     };
   }
 
@@ -276,12 +299,12 @@ export class ClipMesh {
       const [vertices, triangles, groups, vertexAt, cornerAt, indexAt, polygonAt, materialAt, beginAt] = decoder.numbers(9);
       const copy = (at, count) => decoder.view(Uint32Array, at, at ? count : 0).slice();
       const begin = copy(beginAt, groups + 1), labels = copy(materialAt, groups);
-      const names = this.attributes.find((a) => a.kind === 'material')?.labels ?? [];
+      const { labels: names = [], looks = [] } = this.attributes.find((a) => a.kind === 'material') ?? {};
       this.#render = {
         vertexCount: vertices, triangleCount: triangles, indices: copy(indexAt, 3 * triangles),
         sourceVertices: copy(vertexAt, vertices), sourceCorners: copy(cornerAt, vertices), trianglePolygons: copy(polygonAt, triangles),
         groups: Array.from(labels, (label, g) => ({
-          start: 3 * begin[g], count: 3 * (begin[g + 1] - begin[g]), material: label > 0 ? names[label - 1] : undefined,
+          start: 3 * begin[g], count: 3 * (begin[g + 1] - begin[g]), material: label > 0 ? names[label - 1] : undefined, look: label > 0 ? looks[label - 1] : undefined,
         })),
       };
     }

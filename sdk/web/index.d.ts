@@ -143,6 +143,24 @@ export interface AttributeInfo {
   readonly moves: boolean;
   /** Names, of materials and parts. */
   readonly labels: string[];
+  /** Of materials: the look that each label names, where the file has it. */
+  readonly looks: (Look | undefined)[];
+}
+
+/** Values of a material, as glTF means them; colours are linear. Images are names, which the host loads. */
+export interface Look {
+  baseColour: [number, number, number, number];
+  metallic: number;
+  roughness: number;
+  emissive: [number, number, number];
+  alpha: 'opaque' | 'mask' | 'blend';
+  alphaCutoff: number;
+  doubleSided: boolean;
+  baseColourImage: string | undefined;
+  metallicRoughnessImage: string | undefined;
+  normalImage: string | undefined;
+  occlusionImage: string | undefined;
+  emissiveImage: string | undefined;
 }
 
 /** Triangles of one material: indices start .. start + count - 1. */
@@ -150,6 +168,7 @@ export interface Group {
   start: number;
   count: number;
   material: string | undefined;
+  look: Look | undefined;
 }
 
 /** Data that a shader needs at a time, beside a Basis: anic_part of anicodec.h. Addresses are in the decoder's memory. */
@@ -251,6 +270,9 @@ export declare class Clip {
   frameTime(frame: number): number;
   /** The motion of the whole at a time, part of the positions or not (OpenOptions.inPlace); none where it is not apart. */
   rootMotion(time: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'pingpong' }): RootMotion;
+  /** What moves a character on from one time to another, through any number of turns of a loop: a turn, and a move in the axes
+   * that it has at `from`; no pivot. */
+  rootStep(from: number, to: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'pingpong' }): RootMotion;
   verify(): void;
   basis(segment: number): Basis;
   close(): void;

@@ -15,3 +15,21 @@ export function sampleOf([{ clip, time, weight }, ...others], { sampling, wrap }
   const blend = others.map((moment) => ({ ...moment, weight: moment.weight / (all += moment.weight) }));
   return { time, options: { sampling, wrap, clip, blend }, key: JSON.stringify([clip, time, blend, sampling, wrap]) };
 }
+
+/**
+ * What the motion of the whole moves a character on by between moments that were shown and those that are: a turn, and a move.
+ * Clips that came in since then have not moved. A time before that of a loop is one of its next turn.
+ */
+export function rootStepOf(file, before, now, { sampling, wrap }) {
+  const total = now.reduce((sum, { weight }) => sum + weight, 0), step = { turn: 0, move: [0, 0, 0] };
+  for (const { clip, time, weight } of now) {
+    const last = before.find((moment) => moment.clip === clip), { loop, loopDuration } = file.clips[clip];
+    if (!last)
+      continue;
+    const turns = (wrap ?? (loop ? 'loop' : 'clamp')) === 'loop';
+    const { turn, move } = file.rootStep(last.time, turns && time < last.time ? time + loopDuration : time, { clip, sampling, wrap });
+    step.turn += turn * weight / total;
+    move.forEach((x, c) => { step.move[c] += x * weight / total; });
+  }
+  return step;
+}

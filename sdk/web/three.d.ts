@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 import type {
-  AnimationAction, AnimationClip, Group, InstancedMesh, Loader, LoadingManager, Material, Mesh, Points, WebGLRenderer,
+  AnimationAction, AnimationClip, Group, InstancedMesh, Loader, LoadingManager, Material, Mesh, Object3D, Points, WebGLRenderer,
 } from 'three';
 import type { Clip, ClipMesh, OpenOptions, Progress, SampleOptions } from './index.js';
 
@@ -35,6 +35,8 @@ export declare class AnicPlayer extends Group {
   animations: AnimationClip[];
   set sampling(sampling: SampleOptions['sampling']);
   set wrap(wrap: SampleOptions['wrap']);
+  /** An object that the motion of the whole moves on from frame to frame, for clips opened with `inPlace`: this one, or one above it. */
+  root: Object3D | undefined;
   /** Shows the time at once. */
   refresh(force?: boolean): void;
   /** Plays a clip by a mixer of its own, which update() moves on. What played before fades out within `fade` seconds. */

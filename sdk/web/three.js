@@ -3,7 +3,8 @@
 //
 // Clips in three.js: a loader, and an object that shows a clip at a time.
 import {
-  Box3, BufferAttribute, BufferGeometry, DynamicDrawUsage, Loader, Mesh, MeshStandardMaterial, Points, PointsMaterial, Sphere, Vector3,
+  Box3, BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, FrontSide, Loader, Mesh, MeshStandardMaterial, Points, PointsMaterial, Sphere,
+  Vector3,
 } from 'three';
 import { open } from './index.js';
 import { AnicPlayer } from './three_player.js';
@@ -77,6 +78,22 @@ function namedAttributes(mesh) {
   return [...uvs.map((a, i) => [i === 0 ? 'uv' : `uv${i}`, a]), ...(colour ? [['color', colour]] : [])];
 }
 
+/** The material of a group of triangles, with the values that the file has; `userData.anic` names its images. */
+function materialOf({ material: name = '', look }, vertexColors) {
+  const made = new MeshStandardMaterial({ name, vertexColors });
+  if (look) {
+    const { baseColour, metallic, roughness, emissive, alpha, alphaCutoff, doubleSided } = look;
+    made.color.fromArray(baseColour);
+    made.emissive.fromArray(emissive);
+    made.setValues({
+      metalness: metallic, roughness, opacity: alpha === 'opaque' ? 1 : baseColour[3], transparent: alpha === 'blend',
+      alphaTest: alpha === 'mask' ? alphaCutoff : 0, side: doubleSided ? DoubleSide : FrontSide,
+    });
+    made.userData.anic = look;
+  }
+  return made;
+}
+
 /** Shows a clip at `time`: a group of one object for each mesh of the clip. */
 export class AnicMesh extends AnicPlayer {
   #parts;
@@ -98,9 +115,8 @@ export class AnicMesh extends AnicPlayer {
     const coloured = attributes.some(([name]) => name === 'color');
     let object;
     if (mesh.triangleCount > 0) {
-      const one = material ?? new MeshStandardMaterial({ vertexColors: coloured });
-      const many = mesh.groups.map(({ material: name }) => (material ? one : Object.assign(one.clone(), { name: name ?? '' })));
-      object = new Mesh(geometry, mesh.groups.length > 1 ? many : many[0] ?? one);
+      const many = mesh.groups.map((group) => material ?? materialOf(group, coloured));
+      object = new Mesh(geometry, mesh.groups.length > 1 ? many : many[0] ?? material ?? materialOf({}, coloured));
       object.raycast = (...args) => {
         this.refresh();
         Mesh.prototype.raycast.apply(object, args);

@@ -8,11 +8,12 @@
 // with them: light, shadows, fog. What the first pass does not do, such as corrections of single vertices, frames between
 // two segments, and geometry interpolation, the CPU does for the instances concerned.
 import {
-  BufferAttribute, BufferGeometry, DataArrayTexture, DataTexture, DynamicDrawUsage, FloatType, GLSL3,
+  BufferAttribute, BufferGeometry, DataArrayTexture, DataTexture, FloatType, GLSL3,
   InstancedMesh, IntType, Matrix4, Mesh, MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial, NearestFilter,
   OrthographicCamera, RGBADepthPacking, RGBAFormat, RGBAIntegerFormat, RawShaderMaterial, ShortType, Sphere, UnsignedIntType,
   Vector2, Vector3, WebGLRenderTarget,
 } from 'three';
+import { raycastInstances } from './three_rays.js';
 
 const LINEAR_TEXELS = 7;  // of an instance, before its weights: two maps of three rows, and the number of the segment
 const WIDTH = 1024;  // texels of a row of vertices
@@ -151,7 +152,6 @@ export class AnicInstances extends InstancedMesh {
   #screen;
   #camera = new OrthographicCamera();
   #passes;
-  #ray;
 
   constructor(mesh, count, material = new MeshStandardMaterial(), options = {}) {
     const geometry = new BufferGeometry();
@@ -362,21 +362,7 @@ export class AnicInstances extends InstancedMesh {
 
   /** Rays hit the instances as they are at their times. */
   raycast(raycaster, intersects) {
-    this.#ray ??= new Mesh(new BufferGeometry().setIndex(this.geometry.index), this.material);
-    const { geometry } = this.#ray, matrix = new Matrix4(), sphere = new Sphere();
-    for (let i = 0; i < this.count; ++i) {
-      this.getMatrixAt(i, matrix);
-      this.#ray.matrixWorld.multiplyMatrices(this.matrixWorld, matrix);
-      sphere.copy(this.geometry.boundingSphere).applyMatrix4(this.#ray.matrixWorld);
-      if (!raycaster.ray.intersectsSphere(sphere) || !this.#mesh.isPresent(this.times[i], this.#optionsOf(i)))
-        continue;
-      geometry.setAttribute('position', new BufferAttribute(this.#mesh.positions(this.times[i], undefined, this.#optionsOf(i)), 3).setUsage(DynamicDrawUsage));
-      geometry.boundingSphere = this.geometry.boundingSphere;
-      const hits = [];
-      this.#ray.raycast(raycaster, hits);
-      for (const hit of hits)
-        intersects.push({ ...hit, instanceId: i, object: this });
-    }
+    raycastInstances(this, this.#mesh, (i) => this.#optionsOf(i), raycaster, intersects);
   }
 
   dispose() {

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The state of playing in three.js: which clips of a file, at which times, with which weights.
-import { AnimationClip, AnimationMixer, Group, LoopOnce, LoopRepeat, NumberKeyframeTrack } from 'three';
-import { momentsOf, sampleOf } from './moments.js';
+import { AnimationClip, AnimationMixer, Group, LoopOnce, LoopRepeat, Matrix4, NumberKeyframeTrack } from 'three';
+import { momentsOf, rootStepOf, sampleOf } from './moments.js';
 
 /** Plays the clips of a file by actions of a mixer, or shows one at `time`. What it looks like is up to show(). */
 export class AnicPlayer extends Group {
@@ -13,6 +13,9 @@ export class AnicPlayer extends Group {
   #options = {};
   #mixer;
   #action;
+  #root;
+  #before;
+  #step = new Matrix4();
 
   /** Below another root of a mixer, its tracks name this object, and start when the clip did in the source. */
   constructor(clip, { below = false } = {}) {
@@ -49,11 +52,39 @@ export class AnicPlayer extends Group {
 
   set wrap(wrap) { this.#options = { ...this.#options, wrap }; }
 
+  /**
+   * An object that the motion of the whole moves on from frame to frame, for clips that were opened with `inPlace`: this object
+   * itself, or one above it. Undefined: none.
+   */
+  get root() { return this.#root; }
+
+  set root(object) {
+    this.#root = object;
+    this.#before = undefined;
+  }
+
+  #moveRoot(moments) {
+    const step = rootStepOf(this.clip, this.#before ?? moments, moments, this.#options);
+    this.#before = moments;
+    const [x, y, z] = step.move, c = Math.cos(step.turn), s = Math.sin(step.turn), matrix = this.#step;
+    // The axes of the clip, which a clip with z up is turned from.
+    if (this.clip.info.up !== 'z')
+      matrix.set(c, 0, s, x, 0, 1, 0, y, -s, 0, c, z, 0, 0, 0, 1);
+    else if (this.#root === this)
+      matrix.set(c, -s, 0, x, s, c, 0, y, 0, 0, 1, z, 0, 0, 0, 1);
+    else
+      matrix.set(c, 0, s, x, 0, 1, 0, z, -s, 0, c, -y, 0, 0, 0, 1);
+    this.#root.updateMatrix();
+    this.#root.matrix.multiply(matrix).decompose(this.#root.position, this.#root.quaternion, this.#root.scale);
+  }
+
   /** Shows the time, unless it is shown already. */
   refresh(force = false) {
-    const { time, options, key } = sampleOf(this.#moments(), this.#options);
+    const moments = this.#moments(), { time, options, key } = sampleOf(moments, this.#options);
     if (this.#shown === key && !force)
       return;
+    if (this.#root)
+      this.#moveRoot(moments);
     this.show(time, options);
     this.#shown = key;
   }

@@ -12,7 +12,7 @@ import { CHROMIUM, serve, withPage } from './serve.mjs';
 const PACKAGES = '/tests/web/babylon/node_modules';
 const MODULES = {
   'Animations/animation': 'Animation', 'Animations/animationGroup': 'AnimationGroup', 'Buffers/buffer': 'VertexBuffer', 'Culling/boundingInfo': 'BoundingInfo',
-  'Materials/multiMaterial': 'MultiMaterial', 'Materials/standardMaterial': 'StandardMaterial', 'Maths/math.vector': 'Vector3', 'Meshes/mesh': 'Mesh',
+  'Materials/multiMaterial': 'MultiMaterial', 'Materials/standardMaterial': 'StandardMaterial', 'Materials/PBR/pbrMetallicRoughnessMaterial': 'PBRMetallicRoughnessMaterial', 'Maths/math.color': 'Color3', 'Maths/math.vector': 'Vector3', 'Meshes/mesh': 'Mesh',
   'Meshes/subMesh': 'SubMesh', 'Meshes/transformNode': 'TransformNode',
 };
 // The package for scripts, which is one file, stands in for the one of modules, which are thousands.

@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { Anicodec } from '../../sdk/web/index.js';
-import { bytesOf, files, movingGlb } from './files.mjs';
+import { bytesOf, clipWithLooks, files, movingGlb } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
 const IMPORTS = JSON.stringify({ imports: {
@@ -15,12 +15,13 @@ const IMPORTS = JSON.stringify({ imports: {
   'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js', 'three/addons/': '/tests/web/node_modules/three/examples/jsm/',
 } });
 const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
+const looks = clipWithLooks();
 const skip = CHROMIUM ? false : 'there is no Chromium';
 const VIEWER = new URL('../../sdk/web/dist/viewer.html', import.meta.url);
 let server;
 before(async () => {
   const bytes = bytesOf('clips.anic'), clip = await Anicodec.open(bytes);
-  server = await serve({ '/page': PAGE, '/moving.glb': movingGlb(bytes, clip), '/beside.glb': movingGlb(bytes, clip, { uri: 'tests/conformance/clips.anic' }) });
+  server = await serve({ ...(looks ? { '/looks.anic': looks } : {}), '/page': PAGE, '/moving.glb': movingGlb(bytes, clip), '/beside.glb': movingGlb(bytes, clip, { uri: 'tests/conformance/clips.anic' }) });
 });
 after(() => server.close());
 
@@ -172,6 +173,45 @@ test('a mixer of three.js plays the clips of a file, and fades them into each ot
   assert.ok(Object.values(result.steps).every((far) => far < 1e-6), JSON.stringify(result));
   assert.deepEqual(result.names, ['clip of 70', 'clip of 29']);
   assert.ok(result.still);
+});
+
+test('three.js has the materials of a clip', { skip: skip || (looks ? false : 'ANICODEC_COMMAND names no command') }, async () => {
+  const { result } = await inPage(async () => {
+    const { AnicLoader } = await import('anicodec/three'), mesh = await new AnicLoader().loadAsync('/looks.anic');
+    const wood = mesh.parts[0].material.find(({ name }) => name === 'wood'), { baseColour } = wood.userData.anic;
+    return { colour: wood.color.toArray().map((x, c) => Math.abs(x - baseColour[c])), material: [wood.roughness, wood.metalness, wood.transparent, wood.opacity, wood.userData.anic.normalImage] };
+  });
+  assert.deepEqual(result.material, [0.875, 0.25, true, 0.75, 'wood_normal.png']);
+  assert.ok(Math.max(...result.colour) < 1e-6, JSON.stringify(result));
+});
+
+test('the motion of the whole moves an object of three.js on', { skip }, async () => {
+  const { result } = await inPage(async () => {
+    const THREE = await import('three'), { AnicLoader } = await import('anicodec/three');
+    const load = () => new AnicLoader().setOptions({ inPlace: true }).loadAsync('/tests/conformance/walk.anic');
+    const far = [];
+    for (const self of [false, true]) {
+      const mesh = await load(), above = new THREE.Group().add(mesh), { clip } = mesh, { loopDuration, duration } = clip.find('turn');
+      mesh.root = self ? mesh : above;
+      mesh.wrap = 'loop';
+      mesh.current = 'turn';
+      mesh.refresh(true);
+      const begin = mesh.matrixWorld.clone(), steps = [0.2, 0.5, 0.8, 1.1, 1.4, 1.7, 2.2].map((share) => share * loopDuration);
+      above.updateMatrixWorld(true);
+      begin.copy(mesh.matrixWorld);
+      for (const time of steps) {
+        mesh.time = time % loopDuration;
+        mesh.refresh();
+      }
+      above.updateMatrixWorld(true);
+      const m = clip.rootStep(0, steps.at(-1), { clip: 'turn', wrap: 'loop' }).matrix;
+      const expected = begin.multiply(new THREE.Matrix4().set(...m, 0, 0, 0, 1));
+      far.push(Math.max(...expected.elements.map((x, i) => Math.abs(x - mesh.matrixWorld.elements[i]))), duration > 0 ? Math.hypot(m[3], m[7], m[11]) : 0);
+      mesh.dispose();
+    }
+    return far;
+  });
+  assert.ok(result[0] < 1e-4 && result[2] < 1e-4 && result[1] > 0.01, JSON.stringify(result));
 });
 
 test('GLTFLoader plays scenes whose meshes move by a clip', { skip }, async () => {

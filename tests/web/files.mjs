@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The conformance files, and what they hold.
-import { readFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 
 const folder = new URL('../conformance/', import.meta.url);
 
@@ -45,4 +48,22 @@ export function movingGlb(bytes, clip, { uri } = {}) {
   text = Buffer.concat([text, Buffer.alloc(-text.length & 3, ' ')]);
   const words = (...values) => Buffer.from(Uint32Array.from(values).buffer);
   return Buffer.concat([Buffer.from('glTF'), words(2, 28 + text.length + binary.length, text.length), Buffer.from('JSON'), text, words(binary.length), Buffer.from('BIN\0'), binary]);
+}
+
+/** A clip with two materials, of one of which the file has values; undefined without the command (ANICODEC_COMMAND). */
+export function clipWithLooks() {
+  const command = process.env.ANICODEC_COMMAND;
+  if (!command)
+    return undefined;
+  const folder = mkdtempSync(join(tmpdir(), 'anicodec-')), file = (name) => join(folder, name), run = (...options) => execFileSync(command, options, { stdio: 'ignore' });
+  try {
+    run('corpus', 'polygons', '-o', file('still.pc2'));
+    const lines = readFileSync(file('still.obj'), 'utf8').split('\n'), faces = lines.filter((line) => line.startsWith('f '));
+    writeFileSync(file('looks.mtl'), 'newmtl wood\nKd 0.5 0.25 0.125\nd 0.75\nKe 0 0.0625 0\nPr 0.875\nPm 0.25\nnorm wood_normal.png\n');
+    writeFileSync(file('looks.obj'), ['mtllib looks.mtl', ...lines.filter((line) => line.startsWith('v ')), 'usemtl wood', ...faces.slice(9), 'usemtl metal', ...faces.slice(0, 9), ''].join('\n'));
+    run('encode', file('looks.obj'), file('still.pc2'), '-o', file('looks.anic'), '--effort', '1');
+    return new Uint8Array(readFileSync(file('looks.anic')));
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
 }

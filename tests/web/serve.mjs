@@ -12,6 +12,8 @@ const root = fileURLToPath(new URL('../../', import.meta.url));
 const TYPES = { '.js': 'text/javascript', '.mjs': 'text/javascript', '.html': 'text/html', '.wasm': 'application/wasm' };
 export const CHROMIUM = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
 
+const WEBGPU = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--ignore-gpu-blocklist'];
+
 /** Serves files of the checkout, and pages: path to HTML. Gives its address. */
 export async function serve(pages = {}) {
   const server = createServer(async (request, response) => {
@@ -29,9 +31,9 @@ export async function serve(pages = {}) {
 }
 
 /** Runs body(page, messages) in a new page; messages are what the console and the page's errors say. */
-export async function withPage(body, options = {}) {
+export async function withPage(body, { webgpu = false, ...options } = {}) {
   const { chromium } = await import('playwright-core');
-  const browser = await chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+  const browser = await chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(webgpu ? WEBGPU : [])] });
   try {
     const page = await browser.newPage({ viewport: { width: 320, height: 240 }, ...options }), messages = [];
     page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));

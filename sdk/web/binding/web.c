@@ -253,18 +253,29 @@ EXPORT(event) int web_event(uint32_t clip, uint32_t event) {
   return status;
 }
 
+static int give_motion(anic_status status, const anic_root_motion* motion) {
+  numbers[0] = motion->turn;
+  for (int i = 0; i < 3; ++i) {
+    numbers[1 + i] = motion->move[i];
+    numbers[4 + i] = motion->pivot[i];
+  }
+  for (int i = 0; i < 12; ++i)
+    numbers[7 + i] = motion->matrix[i];
+  return status;
+}
+
 EXPORT(root_motion)
 int web_root_motion(uint32_t clip, double seconds, int sampling, int wrap) {
   anic_root_motion motion = ANIC_INIT(anic_root_motion);
   const anic_status status = anic_get_root_motion(asset, clip, seconds, sampling, wrap, &motion);
-  numbers[0] = motion.turn;
-  for (int i = 0; i < 3; ++i) {
-    numbers[1 + i] = motion.move[i];
-    numbers[4 + i] = motion.pivot[i];
-  }
-  for (int i = 0; i < 12; ++i)
-    numbers[7 + i] = motion.matrix[i];
-  return status;
+  return give_motion(status, &motion);
+}
+
+EXPORT(root_step)
+int web_root_step(uint32_t clip, double from, double to, int sampling, int wrap) {
+  anic_root_motion motion = ANIC_INIT(anic_root_motion);
+  const anic_status status = anic_get_root_step(asset, clip, from, to, sampling, wrap, &motion);
+  return give_motion(status, &motion);
 }
 
 EXPORT(mesh) int web_mesh(uint32_t mesh) {
@@ -298,6 +309,30 @@ EXPORT(attribute) int web_attribute(uint32_t mesh, uint32_t attribute) {
 
 EXPORT(label_name) const char* web_label_name(uint32_t mesh, uint32_t attribute, uint32_t label) {
   return anic_get_label_name(asset, mesh, attribute, label);
+}
+
+EXPORT(material) int web_material(uint32_t mesh, uint32_t attribute, uint32_t label) {
+  anic_material m = ANIC_INIT(anic_material);
+  const anic_status status = anic_get_material(asset, mesh, attribute, label, &m);
+  const double all[] = {m.base_colour[0],
+                        m.base_colour[1],
+                        m.base_colour[2],
+                        m.base_colour[3],
+                        m.metallic,
+                        m.roughness,
+                        m.emissive[0],
+                        m.emissive[1],
+                        m.emissive[2],
+                        m.alpha,
+                        m.alpha_cutoff,
+                        m.double_sided,
+                        address(m.base_colour_texture),
+                        address(m.metallic_roughness_texture),
+                        address(m.normal_texture),
+                        address(m.occlusion_texture),
+                        address(m.emissive_texture)};
+  memcpy(numbers, all, sizeof all);
+  return status;
 }
 
 EXPORT(frame_time) double web_frame_time(uint32_t frame) {

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Many instances of a clip's mesh at different times, played by the graphics card of a WebGPURenderer.
+//
+// A compute pass combines the resident basis into positions, in the order of the source. The vertex shader of any node
+// material reads them, and sums over the same corners as the CPU does into smooth normals. Frames that need more than a
+// combination (corrections, times between two segments, geometry interpolation) are filled by the CPU.
+import { Fn, If, Loop, Return, cross, dot, float, instanceIndex, int, normalLocal, normalize, storage, uint, vec3, vec4, vertexIndex } from 'three/tsl';
+import {
+  BufferAttribute, BufferGeometry, Mesh, MeshStandardNodeMaterial, Sphere, StorageBufferAttribute, Vector3,
+} from 'three/webgpu';
+import { raycastInstances } from './three_rays.js';
+
+const MATRIX = 0, POSE_MAP = 3, MOTION = 6, SEGMENT = 9, WEIGHTS = 10;  // of an instance, in vectors of four
+
+const reading = (array, size, type) => {
+  const attribute = new StorageBufferAttribute(array, size);
+  return Object.assign(storage(attribute, type, array.length / size).toReadOnly(), { attribute });
+};
+
+/** Numbers of 16 bits, two to a word. */
+function packed(narrow) {
+  const words = new Uint32Array(Math.max(Math.ceil((narrow?.length ?? 0) / 2), 1));
+  for (let i = 0; narrow && i < narrow.length; ++i)
+    words[i >> 1] |= (narrow[i] & 0xffff) << (16 * (i & 1));
+  return words;
+}
+
+/** Instances of a mesh of a clip. `times` are seconds, of the clips that `clips` numbers. */
+export class AnicInstances extends Mesh {
+  #mesh;
+  #segments = new Map();
+  #state;
+  #stride;
+  #positions;
+  #plan;
+
+  constructor(mesh, count, material = new MeshStandardNodeMaterial(), options = {}) {
+    const geometry = new BufferGeometry(), n = mesh.vertexCount;
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(3 * n), 3));
+    geometry.setAttribute('normal', new BufferAttribute(new Float32Array(3 * n), 3));
+    geometry.setIndex(new BufferAttribute(mesh.indices, 1));
+    const uv = mesh.attribute('uv');
+    if (uv)
+      geometry.setAttribute('uv', new BufferAttribute(uv, uv.length / n));
+    if (!mesh.bounds)
+      throw new Error('AnicInstances needs a clip that was opened with bounds');
+    const { min, max } = mesh.bounds, low = new Vector3(...min), high = new Vector3(...max);
+    geometry.boundingSphere = new Sphere(low.clone().add(high).multiplyScalar(0.5), low.distanceTo(high) / 2);
+    super(geometry, material.clone());
+    Object.assign(this, { count, options, times: new Float64Array(count), clips: new Uint16Array(count).fill(mesh.clip.find(options.clip).index), madeByCpu: 0 });
+    this.frustumCulled = false;  // instances are elsewhere than their box
+    this.#mesh = mesh;
+    const { normalElements, normalCorners } = mesh.normalPlan;
+    this.#plan = { elements: reading(normalElements, 4, 'uvec4'), corners: reading(normalCorners, 4, 'uvec4') };
+    const segments = Array.from({ length: mesh.clip.info.segments }, (_, s) => mesh.clip.basis(s)).filter((basis) => basis.mesh === mesh.index && !basis.movesAttribute);
+    const vectors = segments.map(({ components, weightChannels }) => (weightChannels === 3 ? components : Math.ceil(components / 4)));
+    this.#stride = WEIGHTS + Math.max(...vectors, 1);
+    this.#state = reading(new Float32Array(4 * this.#stride * count), 4, 'vec4');
+    this.#positions = new StorageBufferAttribute(new Float32Array(4 * mesh.sourceVertexCount * count), 4);
+    for (let i = 0; i < count; ++i)
+      this.#state.attribute.array.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], this.#at(i, MATRIX));
+    this.material.positionNode = this.#shown();
+  }
+
+  #at(instance, vector) {
+    return 4 * (instance * this.#stride + vector);
+  }
+
+  setMatrixAt(instance, { elements: e }) {
+    this.#state.attribute.array.set([e[0], e[4], e[8], e[12], e[1], e[5], e[9], e[13], e[2], e[6], e[10], e[14]], this.#at(instance, MATRIX));
+  }
+
+  getMatrixAt(instance, matrix) {
+    return matrix.set(...this.#state.attribute.array.subarray(this.#at(instance, MATRIX), this.#at(instance, MATRIX) + 12), 0, 0, 0, 1);
+  }
+
+  /** What a vertex of an instance is: position, and a normal by the way. */
+  #shown() {
+    const { elements, corners } = this.#plan, state = this.#state, stride = this.#stride, vertices = this.#mesh.sourceVertexCount;
+    const positions = storage(this.#positions, 'vec4', this.#positions.count).toReadOnly();
+    return Fn(() => {
+      const base = int(instanceIndex).mul(stride).toVar(), first = int(instanceIndex).mul(vertices).toVar();
+      const point = (v) => positions.element(first.add(int(v))).xyz;
+      const element = elements.element(vertexIndex).toVar(), p = vec4(point(element.x), 1).toVar(), centre = point(element.y).toVar(), sum = vec3(0).toVar();
+      Loop({ start: int(0), end: int(element.w), type: 'int', condition: '<' }, ({ i }) => {
+        const corner = corners.element(int(element.z).add(i)).toVar();
+        sum.addAssign(cross(point(corner.x).sub(centre), point(corner.y).sub(centre)));
+      });
+      const row = (r) => state.element(base.add(MATRIX + r));
+      // Up to a scale of the rows, which is that of normals too where instances are not sheared.
+      const most = sum.x.abs().max(sum.y.abs()).max(sum.z.abs()).toVar(), n = most.greaterThan(0).select(sum.div(most), vec3(0, 0, 1)).toVar();
+      normalLocal.assign(normalize(vec3(dot(row(0).xyz, n), dot(row(1).xyz, n), dot(row(2).xyz, n))));
+      return vec3(dot(row(0), p), dot(row(1), p), dot(row(2), p));
+    })();
+  }
+
+  /** The compute pass of a segment, made when an instance first shows it. */
+  #segment(index) {
+    if (!this.#segments.has(index)) {
+      const basis = this.#mesh.clip.basis(index);
+      this.#segments.set(index, { basis, pass: basis.msgi ? undefined : this.#pass(index, basis) });
+    }
+    return this.#segments.get(index);
+  }
+
+  #pass(index, { components, wideComponents, channels, weightChannels, origin, pose, wide, narrow }) {
+    const state = this.#state, stride = this.#stride, vertices = this.#mesh.sourceVertexCount, total = vertices * this.count;
+    const wides = reading(wide?.length ? wide : new Int32Array(1), 1, 'int'), narrows = reading(packed(narrow), 1, 'uint');
+    const poses = reading(pose?.length ? pose : new Float32Array(1), 1, 'float'), out = storage(this.#positions, 'vec4', this.#positions.count);
+    return Fn(() => {
+      const instance = int(instanceIndex).div(vertices).toVar(), v = int(instanceIndex).mod(vertices).toVar();
+      const base = instance.mul(stride).toVar(), of = (i) => state.element(base.add(i));
+      If(of(SEGMENT).x.notEqual(float(index)), () => { Return(); });
+      const block = v.div(16).toVar(), lane = v.mod(16).toVar(), x = vec3(0).toVar();
+      const moved = (first, p) => vec3(dot(of(first), p), dot(of(first + 1), p), dot(of(first + 2), p));
+      if (pose?.length > 0) {
+        const place = (c) => poses.element(block.mul(48).add(16 * c).add(lane));
+        x.assign(moved(POSE_MAP, vec4(place(0), place(1), place(2), 1)));
+      }
+      const number = (at, isWide) => {
+        if (isWide)
+          return float(wides.element(at));
+        const word = narrows.element(at.div(2)), shift = uint(16).sub(uint(at.mod(2)).mul(uint(16)));
+        return float(int(word.shiftLeft(shift)).shiftRight(int(16)));
+      };
+      const weight = (j) => {
+        const four = of(j.div(4).add(WEIGHTS)).toVar(), k = j.mod(4);
+        return k.equal(0).select(four.x, k.equal(1).select(four.y, k.equal(2).select(four.z, four.w)));
+      };
+      const add = (isWide, begin, count) => count > 0 && Loop({ start: int(0), end: int(count), type: 'int', condition: '<' }, ({ i }) => {
+        const at = block.mul(count).add(i).mul(channels).mul(16).add(lane).toVar(), j = i.add(begin).toVar();
+        if (channels === 1)
+          x.addAssign(of(j.add(WEIGHTS)).xyz.mul(number(at, isWide)));
+        else
+          x.addAssign(vec3(number(at, isWide), number(at.add(16), isWide), number(at.add(32), isWide)).mul(weight(j)));
+      });
+      add(true, 0, wideComponents);
+      add(false, wideComponents, components - wideComponents);
+      out.element(instanceIndex).assign(vec4(moved(MOTION, vec4(x.add(vec3(...origin)), 1)), 1));
+    })().compute(total);
+  }
+
+  #optionsOf(instance) {
+    return { ...this.options, clip: this.clips[instance] };
+  }
+
+  /** Writes what an instance shows; false when the CPU has to do it. */
+  #place(instance, { segment, share, correctionCount, poseMap, motion, weightsAt }) {
+    const { basis: { msgi, components, weightChannels } } = this.#segment(segment), { array } = this.#state.attribute;
+    if (msgi || share !== 1 || correctionCount > 0)
+      return false;
+    array.set(poseMap, this.#at(instance, POSE_MAP));
+    array.set(motion, this.#at(instance, MOTION));
+    array[this.#at(instance, SEGMENT)] = segment;
+    const weights = this.#mesh.clip.decoder.view(Float32Array, weightsAt, components * weightChannels), to = this.#at(instance, WEIGHTS);
+    if (weightChannels === 3) {
+      for (let j = 0; j < components; ++j)
+        array.set(weights.subarray(3 * j, 3 * j + 3), to + 4 * j);
+    } else {
+      array.set(weights, to);
+    }
+    return true;
+  }
+
+  /** Makes the positions of all instances for their times. Call it before rendering, after renderer.init(). */
+  update(renderer) {
+    if (!renderer.backend.isWebGPUBackend)
+      throw new Error('this renderer draws by WebGL: AnicInstances of anicodec/three are for WebGLRenderer');
+    const mesh = this.#mesh, n = mesh.sourceVertexCount, segments = new Set(), { array } = this.#positions;
+    this.madeByCpu = 0;
+    this.#positions.clearUpdateRanges();
+    for (let i = 0; i < this.count; ++i) {
+      const options = this.#optionsOf(i), present = mesh.isPresent(this.times[i], options), parts = present ? mesh.parts(this.times[i], options) : [];
+      if (parts.length === 1 && this.#place(i, parts[0])) {
+        segments.add(parts[0].segment);
+        continue;
+      }
+      ++this.madeByCpu;
+      this.#state.attribute.array[this.#at(i, SEGMENT)] = -1;
+      const p = present ? mesh.sourcePositions(this.times[i], undefined, options) : undefined;
+      for (let v = 0; v < n; ++v)  // one that is not there shrinks to a point
+        array.set(p ? p.subarray(3 * v, 3 * v + 3) : [0, 0, 0], 4 * (i * n + v));
+      this.#positions.addUpdateRange(4 * i * n, 4 * n);
+    }
+    this.#state.attribute.needsUpdate = true;
+    if (this.madeByCpu > 0)
+      this.#positions.needsUpdate = true;
+    for (const segment of segments)
+      renderer.compute(this.#segment(segment).pass);
+  }
+
+  /** Reads back what the card made: positions in the order of the source. For tests. */
+  async read(renderer, instance) {
+    const n = this.#mesh.sourceVertexCount, all = new Float32Array(await renderer.getArrayBufferAsync(this.#positions)), out = new Float32Array(3 * n);
+    for (let v = 0; v < n; ++v)
+      out.set(all.subarray(4 * (instance * n + v), 4 * (instance * n + v) + 3), 3 * v);
+    return out;
+  }
+
+  /** Rays hit the instances as they are at their times. */
+  raycast(raycaster, intersects) {
+    raycastInstances(this, this.#mesh, (i) => this.#optionsOf(i), raycaster, intersects);
+  }
+
+  dispose() {
+    for (const { pass } of this.#segments.values())
+      pass?.dispose();
+    this.geometry.dispose();
+    this.material.dispose();
+  }
+}
