@@ -36,10 +36,11 @@ class BatchCoefficientModel {
   BatchCoefficientModel(uint32_t channels, const int32_t* neighbours, uint32_t stride,
                         const Vector<uint32_t>& level_start);
 
-  /// Codes a component: channels x ranks residuals, |q| < kCoefficientLimit. A decoder overwrites
-  /// them, and leaves the rest as they were once its stream has run out (!coder.ok()).
-  template <class Coder>
-  void code_component(Coder& coder, int32_t* q) {
+  /// Codes a component: channels x ranks residuals of 16 or 32 bits, |q| < kCoefficientLimit. A decoder
+  /// overwrites them, and leaves the rest as they were once its stream has run out or one does not fit
+  /// (!coder.ok()).
+  template <class Coder, class Residual>
+  void code_component(Coder& coder, Residual* q) {
     begin_component();
     Coder local = std::move(coder);  // a copy that nothing else points to stays in registers
     for (size_t level = 0; level + 1 < level_start_.size(); ++level) {
@@ -63,8 +64,8 @@ class BatchCoefficientModel {
     uint32_t near, past, sum;
   };
 
-  template <class Coder>
-  void code_batch(Coder& coder, uint32_t first, uint32_t count, int32_t* q) {
+  template <class Coder, class Residual>
+  void code_batch(Coder& coder, uint32_t first, uint32_t count, Residual* q) {
     const uint32_t total = total_of(first, count);
     if (total < kBusy) {
       bool any = false;
@@ -85,7 +86,7 @@ class BatchCoefficientModel {
     for (uint32_t i = 0; i < count; ++i)
       vertices[i] = contexts_of(first + i);
     for (uint32_t c = 0; c < channels_; ++c) {
-      int32_t* values = q + size_t{c} * ranks_ + first;
+      Residual* values = q + size_t{c} * ranks_ + first;
       uint32_t symbols[kBatch], nonzero = 0;
       for (uint32_t i = 0; i < count; ++i) {
         Vertex& v = vertices[i];
@@ -119,7 +120,8 @@ class BatchCoefficientModel {
     return total;
   }
 
-  bool any_of(const int32_t* q, uint32_t first, uint32_t count) const {
+  template <class Residual>
+  bool any_of(const Residual* q, uint32_t first, uint32_t count) const {
     bool any = false;
     for (uint32_t c = 0; c < channels_; ++c)
       for (uint32_t i = 0; i < count; ++i)
@@ -127,9 +129,10 @@ class BatchCoefficientModel {
     return any;
   }
 
-  void clear(int32_t* q, uint32_t first, uint32_t count) const {
+  template <class Residual>
+  void clear(Residual* q, uint32_t first, uint32_t count) const {
     for (uint32_t c = 0; c < channels_; ++c)
-      std::fill_n(q + size_t{c} * ranks_ + first, count, 0);
+      std::fill_n(q + size_t{c} * ranks_ + first, count, Residual{0});
   }
 
   Vertex contexts_of(uint32_t r) const {
@@ -143,9 +146,9 @@ class BatchCoefficientModel {
   static uint32_t magnitude_of(int32_t q) { return static_cast<uint32_t>(q < 0 ? -q : q); }
 
   /// The rest of a residual that is not 0: `symbol` tells up to 7.
-  template <class Coder>
+  template <class Coder, class Residual>
   void code_nonzero(Coder& coder, uint32_t r, uint32_t c, uint32_t symbol, Vertex& vertex,
-                    int32_t& value) {
+                    Residual& value) {
     uint32_t magnitude = symbol;
     if (symbol == kRowEscape) {
       const uint32_t excess = code_excess(coder, vertex, magnitude_of(value) - kRowEscape);
@@ -153,8 +156,12 @@ class BatchCoefficientModel {
       vertex.sum += excess;
     }
     const bool negative = code_sign(coder, r, c, value < 0);
-    if constexpr (Coder::kDecodes)
-      value = negative ? -static_cast<int32_t>(magnitude) : static_cast<int32_t>(magnitude);
+    if constexpr (Coder::kDecodes) {
+      const auto size = static_cast<int32_t>(magnitude), decoded = negative ? -size : size;
+      value = static_cast<Residual>(decoded);
+      if (value != decoded)
+        coder.fail();
+    }
   }
 
   /// By how much a magnitude is above 7: two classes to an octave up to 44, then its exponent and

@@ -78,63 +78,70 @@ uint32_t centred(int x, int limit) {
 
 }  // namespace
 
-CoefficientModel::CoefficientModel(uint32_t vertex_count, uint32_t channels,
-                                   const int32_t* neighbours, uint32_t stride)
-    : vertex_count_(vertex_count),
+CoefficientVertices::CoefficientVertices(uint32_t count, uint32_t channels,
+                                         const int32_t* neighbours, uint32_t stride,
+                                         uint32_t slices)
+    : count_(count),
       channels_(channels),
       stride_(stride),
+      slices_(slices),
       neighbours_(neighbours),
-      valid_(vertex_count, uint8_t{0}),
-      magnitudes_(
+      valid_(count, uint8_t{0}),
+      history_(count, 0),
+      past_(count, 0),
+      agreement_(size_t{count} * kNear, 0),
+      magnitude_((size_t{slices} + 1) * (size_t{count} + 1), 0),
+      value_((size_t{slices} + 2) * (size_t{count} + 1) * channels, 0) {
+  if (stride < kNear) {
+    padded_.assign(size_t{count} * kNear, -1);
+    for (uint32_t v = 0; v < count; ++v)
+      std::copy_n(neighbours + size_t{v} * stride, stride, &padded_[size_t{v} * kNear]);
+    neighbours_ = padded_.data();
+    stride_ = kNear;
+  }
+  for (uint32_t v = 0; v < count; ++v)
+    while (valid_[v] < kNear && this->neighbours(v)[valid_[v]] >= 0)
+      ++valid_[v];
+}
+
+void CoefficientVertices::begin(uint32_t component) {
+  std::fill_n(magnitude_.data() + magnitude_at(component), size_t{count_} + 1, uint16_t{0});
+  std::fill_n(value_.data() + value_at(component), (size_t{count_} + 1) * channels_, int8_t{0});
+}
+
+void CoefficientVertices::finish(uint32_t component, uint32_t first, uint32_t last) {
+  const uint16_t* magnitude = magnitude_.data() + magnitude_at(component) + 1;
+  for (size_t v = first; v < last; ++v) {
+    const uint32_t m = std::min<uint32_t>(4u * magnitude[v], 65535);
+    history_[v] = static_cast<uint16_t>((history_[v] + m) >> 1);
+    past_[v] = static_cast<uint16_t>((27u * past_[v] + 5 * m) >> 5);
+  }
+}
+
+CoefficientSlice::CoefficientSlice(uint32_t channels)
+    : magnitudes_(
           {kFine * kFine * states(channels), kFine * kComponents * states(channels),
            kExpected * states(channels), kCoarse * kCoarse * 8, kFine * kFine * states(channels),
            kFine * kFine * states(channels), kFine * kLevels * states(channels)},
           {kSelect * states(channels), kLevels * states(channels)}),
       signs_({81, 49, 243, 243, 41 * 4}, {kSelect, kComponents}, 1),
-      magnitude_(size_t{vertex_count} + 1, 0),
-      last_(size_t{vertex_count} + 1, 0),
-      history_(size_t{vertex_count} + 1, 0),
-      past_(size_t{vertex_count} + 1, 0),
-      agreement_(size_t{vertex_count} * kNear, 0),
-      shares_{13107, 19660, 19660, 6553} {
-  if (stride < kNear) {
-    padded_.assign(size_t{vertex_count} * kNear, -1);
-    for (uint32_t v = 0; v < vertex_count; ++v)
-      std::copy_n(neighbours + size_t{v} * stride, stride, &padded_[size_t{v} * kNear]);
-    neighbours_ = padded_.data();
-    stride_ = kNear;
-  }
-  for (uint32_t v = 0; v < vertex_count; ++v)
-    while (valid_[v] < kNear && this->neighbours(v)[valid_[v]] >= 0)
-      ++valid_[v];
-  for (Vector<int8_t>& v : value_)
-    v.assign((size_t{vertex_count} + 1) * channels, 0);
-}
+      shares_{13107, 19660, 19660, 6553} {}
 
-void CoefficientModel::begin_component() {
+void CoefficientSlice::begin(const CoefficientVertices& vertices, uint32_t component) {
+  component_ = component;
+  magnitude_at_ = vertices.magnitude_at(component);
+  last_at_ = vertices.magnitude_at(component, 1);
+  for (uint32_t before = 0; before < 3; ++before)
+    value_at_[before] = vertices.value_at(component, before);
   ready_ = false;
   running_ = 0;
-  std::fill(magnitude_.begin(), magnitude_.end(), uint16_t{0});
-  std::fill(value_[0].begin(), value_[0].end(), int8_t{0});
 }
 
-void CoefficientModel::end_component() {
-  for (size_t i = 1; i <= vertex_count_; ++i) {
-    const uint32_t m = std::min<uint32_t>(4u * magnitude_[i], 65535);
-    history_[i] = static_cast<uint16_t>((history_[i] + m) >> 1);
-    past_[i] = static_cast<uint16_t>((27u * past_[i] + 5 * m) >> 5);
-  }
-  last_.swap(magnitude_);
-  value_[2].swap(value_[1]);
-  value_[1].swap(value_[0]);
-  ++component_;
-}
-
-ResidualCosts CoefficientModel::costs(uint32_t v, uint32_t c) {
-  prepare(v, c);
+ResidualCosts CoefficientSlice::costs(const CoefficientVertices& vertices, uint32_t v, uint32_t c) {
+  prepare(vertices, v, c);
   // |q| = 2 takes all decisions that tell magnitudes up to 3 apart, each once.
   DecisionCosts decisions;
-  code_prepared(decisions, v, c, 2);
+  code_prepared(vertices, decisions, v, c, 2);
   const auto& [nonzero, negative, above_1, above_3, odd] = decisions.decisions();
   ResidualCosts costs;
   costs.magnitude[0] = nonzero.no;
@@ -146,26 +153,26 @@ ResidualCosts CoefficientModel::costs(uint32_t v, uint32_t c) {
   return costs;
 }
 
-void CoefficientModel::prepare_vertex(uint32_t v) {
-  const int32_t* ranks = neighbours(v);
-  const uint16_t* m = magnitude_.data() + 1;  // rank -1: none
+void CoefficientSlice::prepare_vertex(const CoefficientVertices& vertices, uint32_t v) {
+  const int32_t* ranks = vertices.neighbours(v);
+  const uint16_t* m = vertices.magnitude_.data() + magnitude_at_ + 1;  // rank -1: none
   const uint32_t m0 = m[ranks[0]], m1 = m[ranks[1]], m2 = m[ranks[2]], m3 = m[ranks[3]],
                  m4 = m[ranks[4]], m5 = m[ranks[5]], m6 = m[ranks[6]], m7 = m[ranks[7]];
-  const uint32_t count = valid_[v];
+  const uint32_t count = vertices.valid_[v];
   const uint32_t near2 = ((m0 + m1) * kReciprocals.value[std::min(count, 2u)]) >> 16;
   near6_ = ((m0 + m1 + m2 + m3 + m4 + m5) * kReciprocals.value[std::min(count, 6u)]) >> 16;
   const uint32_t total = 6 * m0 + 5 * m1 + 4 * m2 + 3 * (m3 + m4) + 2 * (m5 + m6) + m7;
   const uint32_t near = (total * kReciprocals.value[kWeights[count]]) >> 16;
   const uint32_t far = (m4 + m5 + m6 + m7) >> 2;
-  const uint32_t history = history_[v + 1] >> 2, past = past_[v + 1] >> 2;
+  const uint32_t history = vertices.history_[v] >> 2, past = vertices.past_[v] >> 2;
 
-  features_ = {near * 4, history_[v + 1], past_[v + 1], running_ >> 4};
+  features_ = {near * 4, vertices.history_[v], vertices.past_[v], running_ >> 4};
   uint64_t expected = 0;
   for (size_t i = 0; i < features_.size(); ++i)
     expected += uint64_t{features_[i]} * static_cast<uint32_t>(shares_[i]);
   expected_ = static_cast<uint32_t>(std::min<uint64_t>(expected >> 16, 65535));
 
-  const uint32_t n = states(channels_);
+  const uint32_t n = states(vertices.channels());
   const uint32_t level = std::min(static_cast<uint32_t>(floor_log2(v + 1)), kLevels - 1);
   const auto pair = [&](uint32_t a, uint32_t b) {
     return (magnitude_class<1>(a, kFine) * kFine + magnitude_class<1>(b, kFine)) * n;
@@ -176,15 +183,16 @@ void CoefficientModel::prepare_vertex(uint32_t v) {
       magnitude_class<2>(expected_, kExpected) * n,
       magnitude_class<0>(past, kCoarse) * kCoarse * 8 + magnitude_class<0>(near6_ >> 3, 8),
       pair(near, far),
-      pair(near2, last_[v + 1]),
+      pair(near2, vertices.magnitude_[last_at_ + v + 1]),
       (magnitude_class<1>(running_ >> 6, kFine) * kLevels + level) * n};
   selectors_ = {magnitude_class<0>(expected_ >> 3, kSelect) * n, level * n};
   prepared_ = true;
 }
 
-void CoefficientModel::prepare_channel(uint32_t v, uint32_t c) {
+void CoefficientSlice::prepare_channel(const CoefficientVertices& vertices, uint32_t v,
+                                       uint32_t c) {
   if (!prepared_)
-    prepare_vertex(v);
+    prepare_vertex(vertices, v);
   const uint32_t state = c == 0 ? 0 : sum_ == 0 ? 1 : sum_ <= 2 ? 2 : 3;
   const uint32_t before = c == 0 ? near6_ : (sum_ * 64 * kReciprocals.value[c]) >> 16;
   const std::array<uint32_t, kMagnitudes>& x = contexts_;
@@ -194,19 +202,22 @@ void CoefficientModel::prepare_channel(uint32_t v, uint32_t c) {
       selectors_[0] + state, selectors_[1] + state);
 }
 
-void CoefficientModel::prepare_sign(uint32_t v, uint32_t c) {
-  const auto at = [&](const Vector<int8_t>& values, size_t i, uint32_t channel) {
-    return int{values[i * channels_ + channel]};
+void CoefficientSlice::prepare_sign(const CoefficientVertices& vertices, uint32_t v, uint32_t c) {
+  const uint32_t channels = vertices.channels();
+  const auto at = [&](const int8_t* values, size_t i, uint32_t channel) {
+    return int{values[i * channels + channel]};
   };
-  const int32_t* ranks = neighbours(v);
+  const int32_t* ranks = vertices.neighbours(v);
   const auto near = [&](size_t a) { return static_cast<size_t>(ranks[a] + 1); };
-  const Vector<int8_t>&now = value_[0], &before = value_[1], &earlier = value_[2];
+  const int8_t* now = vertices.value_.data() + value_at_[0];
+  const int8_t* before = vertices.value_.data() + value_at_[1];
+  const int8_t* earlier = vertices.value_.data() + value_at_[2];
   const int own1 = sign(at(before, v + 1, c)), own2 = sign(at(earlier, v + 1, c));
   // How the neighbours' signs went with this vertex's before, applied to their signs now.
   int agreed = 0, with1 = 0, with2 = 0, all = 0, axis1 = 0, axis2 = 0;
   for (size_t a = 0; a < kNear; ++a) {
     const int s = sign(at(now, near(a), c));
-    agreed += s * agreement_[size_t{v} * kNear + a];
+    agreed += s * vertices.agreement_[size_t{v} * kNear + a];
     if (a >= 6 || s == 0)
       continue;
     all += s;
@@ -242,20 +253,23 @@ void CoefficientModel::prepare_sign(uint32_t v, uint32_t c) {
       std::min(component_, kComponents - 1));
 }
 
-void CoefficientModel::learn_nonzero(uint32_t v, uint32_t c, int32_t q) {
-  value_[0][(size_t{v} + 1) * channels_ + c] = static_cast<int8_t>(std::clamp(q, -100, 100));
-  const int32_t* ranks = neighbours(v);
+void CoefficientSlice::learn_nonzero(CoefficientVertices& vertices, uint32_t v, uint32_t c,
+                                     int32_t q) {
+  const uint32_t channels = vertices.channels();
+  int8_t* now = vertices.value_.data() + value_at_[0];
+  now[(size_t{v} + 1) * channels + c] = static_cast<int8_t>(std::clamp(q, -100, 100));
+  const int32_t* ranks = vertices.neighbours(v);
   for (size_t a = 0; a < kNear; ++a) {
-    int8_t& agreement = agreement_[size_t{v} * kNear + a];
-    const int s = sign(value_[0][static_cast<size_t>(ranks[a] + 1) * channels_ + c]) * sign(q);
+    int8_t& agreement = vertices.agreement_[size_t{v} * kNear + a];
+    const int s = sign(now[static_cast<size_t>(ranks[a] + 1) * channels + c]) * sign(q);
     agreement = static_cast<int8_t>(agreement - agreement / 8 + 14 * s);
   }
   sum_ += std::min(static_cast<uint32_t>(q < 0 ? -q : q), 1023u);
 }
 
-void CoefficientModel::finish_vertex(uint32_t v) {
-  const uint32_t m = (sum_ * 64 * kReciprocals.value[channels_]) >> 16;
-  magnitude_[v + 1] = static_cast<uint16_t>(m);
+void CoefficientSlice::finish_vertex(CoefficientVertices& vertices, uint32_t v) {
+  const uint32_t m = (sum_ * 64 * kReciprocals.value[vertices.channels()]) >> 16;
+  vertices.magnitude_[magnitude_at_ + v + 1] = static_cast<uint16_t>(m);
   running_ = (31 * running_ + 64 * m) >> 5;
   // Normalised least mean squares; the shares stay within [0, 4].
   const auto expected = static_cast<int32_t>(expected_);

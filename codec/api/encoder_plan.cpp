@@ -3,6 +3,7 @@
 //
 // Options of the host.
 #include "codec/api/encoder_objects.h"
+#include "sdk/segment/basis_layer.h"
 
 #include <cmath>
 #include <optional>
@@ -96,6 +97,9 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
   options.keyframe_poses = chosen(host.keyframe_coder, kPoses, "coder of key-frames");
   options.order = chosen(host.order, kOrders, "order");
   options.opening = chosen(host.opening, kOpenings, "opening");
+  if (host.slices > 0 && !is_slice_count(host.slices))
+    refuse("there are 1, 2, 4 or 8 slices");
+  options.slices = host.slices;
   options.effort = static_cast<int>(within(host.effort, 5, 9, "the effort"));
 }
 

@@ -11,6 +11,7 @@
 #include "codec/search/solution.h"
 #include "format/records.h"
 
+#include <optional>
 #include <vector>
 
 namespace anicodec {
@@ -49,6 +50,8 @@ class ClipSearch {
   const std::vector<Trial>& trials() const { return control_.trials(); }
 
  private:
+  void slice(const ClipsRecord& record, std::optional<double> allowed, CodedClip* coded) const;
+
   const EncoderInput& input_;
   const std::vector<StoredAttribute>& stored_;
   const EncodeOptions& options_;

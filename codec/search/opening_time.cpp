@@ -23,9 +23,7 @@ double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment&
                            size_t vertices) {
   const double channels = encoded.sizes.kind == BasisKind::kEigenshapes ? 3 : 1;
   const double components = encoded.sizes.components, n = static_cast<double>(vertices);
-  double bits = 0;
-  for (const Bytes& layer : encoded.layers)
-    bits += 8.0 * static_cast<double>(layer.size());
+  const double bits = 8.0 * static_cast<double>(encoded.coefficient_bytes);
   const CoderTime& coder = settings.coder == CoefficientCoder::kBatches ? kBatches : kMixing;
   const double reading = coder.coefficient * n * components * channels + coder.bit * bits;
 

@@ -197,18 +197,20 @@ std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) 
     return std::nullopt;
   if (batches_)
     batches_->code_component(batch_encoder_, residuals_.data());
-  double energy = 0, largest = 0;
+  double energy = 0, largest = 0, largest_residual = 0;
   for (uint32_t c = 0; c < channels_; ++c) {
     const float* y = predictor_.coefficients(static_cast<int>(c));
     for (uint32_t i = 0; i < n; ++i) {
       const auto q = static_cast<double>(residuals_[size_t{c} * n + i]);
       energy += q * q;
+      largest_residual = std::max(largest_residual, std::abs(q));
       largest = std::max(largest, std::abs(static_cast<double>(y[i])));
       decoded_(order_.order[i], column(c)) = y[i];
     }
   }
   Component component;
-  component.wide = largest * (1 << kFewestFractionBits) > INT16_MAX;
+  component.wide =
+      largest * (1 << kFewestFractionBits) > INT16_MAX || largest_residual > INT16_MAX;
   component.omega = omega_byte(energy / (static_cast<double>(n) * channels_));
   tbb::parallel_for(size_t{0}, predictor_.block_count(),
                     [&](size_t b) { predictor_.update(b, b + 1, component.omega); });

@@ -28,6 +28,7 @@ struct EncodedSegment {
   Bytes parameters, pose, motion, weights;
   Vector<uint32_t> runs;                         ///< frames of each clip; empty: of one
   std::vector<Bytes> layers;                     ///< chunks BASI
+  size_t coefficient_bytes = 0;                  ///< of the layers, without weights
   Bytes corrections;                             ///< chunk CORR
   Bytes exact;                                   ///< chunk DIFF
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it

@@ -9,6 +9,7 @@
 #include "codec/sequence/error.h"
 #include "format/time_weights.h"
 #include "sdk/segment/affine_functions.h"
+#include "sdk/segment/basis_layer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,8 @@ class WeightCoder {
   WeightCoder(size_t frames, const Vector<uint32_t>& runs, const LinearSettings& settings)
       : frames_(frames),
         lambda_(settings.weight_lambda),
-        model_(runs.empty() ? Vector<uint32_t>(1, static_cast<uint32_t>(frames)) : runs) {
+        runs_(runs.empty() ? Vector<uint32_t>(1, static_cast<uint32_t>(frames)) : runs),
+        model_(runs_) {
     for (size_t r = 0; r < settings.run_steps.size(); ++r)
       factors_.insert(factors_.end(), runs[r],
                       LinearParameters::sigma_value(settings.run_steps[r]));
@@ -74,12 +76,20 @@ class WeightCoder {
     return true;
   }
 
-  Bytes finish() { return encoder_.finish(); }
+  /// The stream of what was coded since the one before.
+  Bytes finish() {
+    Bytes bytes = encoder_.finish();
+    encoder_ = BinaryEncoder();
+    return bytes;
+  }
+
+  void begin_anew() { model_ = TimeWeightModel(runs_); }
 
  private:
   size_t frames_;
   double lambda_;
   std::vector<double> factors_;  ///< of the unit, for each frame
+  Vector<uint32_t> runs_;
   TimeWeightModel model_;
   BinaryEncoder encoder_;
 };
@@ -155,6 +165,7 @@ class LinearEncoder {
     set_pose(std::move(shared));
     set_base();
     set_sigma();
+    set_layers();
     const MatrixXd base =
         parameters_.affine ? project_on_functions(clip_, origin_, functions_) : MatrixXd();
     if (!code_time(base, basis_.time.leftCols(static_cast<Index>(count_))))
@@ -170,6 +181,13 @@ class LinearEncoder {
         refit_time(coefficients.decoded(), base);
     }
     encoded_.parameters = parameters_.write();
+    for (size_t l = 0; l < layers_.size(); ++l) {
+      BasisLayer& layer = layers_[l];
+      layer.weights = time_streams_[l];
+      layer.slices[0] = coefficient_streams_[l];
+      encoded_.coefficient_bytes += coefficient_streams_[l].size();
+      encoded_.layers.push_back(layer.write(1));
+    }
     return std::move(encoded_);
   }
 
@@ -211,13 +229,21 @@ class LinearEncoder {
       if (!coder.code(3, parameters_.weight_step, base.col(b)))
         return false;
     }
-    for (Index j = 0; j < components.cols(); ++j) {
-      const double unit = parameters_.weight_step /
-                          LinearParameters::sigma_value(parameters_.sigma[static_cast<size_t>(j)]);
-      if (!coder.code(shapes_ ? 1 : 3, unit, components.col(j)))
-        return false;
+    Bytes of_base = coder.finish();
+    std::vector<Bytes> streams;
+    for (const BasisLayer& layer : layers_) {
+      if (parameters_.layers_anew && layer.first > 0)
+        coder.begin_anew();
+      for (size_t j = layer.first; j < layer.first + layer.count; ++j) {
+        const double unit =
+            parameters_.weight_step / LinearParameters::sigma_value(parameters_.sigma[j]);
+        if (!coder.code(shapes_ ? 1 : 3, unit, components.col(static_cast<Index>(j))))
+          return false;
+      }
+      streams.push_back(coder.finish());
     }
-    encoded_.weights = coder.finish();
+    encoded_.weights = std::move(of_base);
+    time_streams_ = std::move(streams);
     base_weights_ = std::move(base);
     weights_ = std::move(components);
     return true;
@@ -279,35 +305,33 @@ class LinearEncoder {
     return products;
   }
 
-  bool code_layers(CoefficientEncoder& coefficients) {
-    uint32_t layers = std::clamp<uint32_t>(settings_.layers, 1, static_cast<uint32_t>(count_));
-    size_t begin = 0;
-    for (uint32_t layer = 0; layer < layers; ++layer) {
-      // Early layers are short: half of the components in the last one, a quarter in the one
-      // before.
-      size_t end =
-          layer + 1 == layers ? count_ : std::max(begin + 1, count_ >> (layers - 1 - layer));
-      end = std::min(end, count_);
-      if (!code_layer(begin, end, coefficients))
-        return false;
+  /// Early layers are short, as their components take most bytes: three quarters of the components are
+  /// in the last one, three quarters of the others in the one before.
+  void set_layers() {
+    const auto count = static_cast<uint32_t>(count_);
+    const uint32_t most = std::min(std::max(settings_.layers, 1U), count);
+    uint32_t begin = 0;
+    for (uint32_t l = 0; l < most && begin < count; ++l) {
+      const uint32_t end = l + 1 == most ? count : std::max(begin + 1, count >> 2 * (most - 1 - l));
+      BasisLayer& layer = layers_.emplace_back();
+      layer.first = begin;
+      layer.count = end - begin;
       begin = end;
     }
-    return true;
   }
 
-  bool code_layer(size_t begin, size_t end, CoefficientEncoder& coefficients) {
-    for (size_t j = begin; j < end; ++j) {
-      const std::optional<CoefficientEncoder::Component> coded = coefficients.code(j);
-      if (!coded)
-        return false;
-      parameters_.omega[j] = coded->omega;
-      if (coded->wide)
-        encoded_.sizes.wide_components = static_cast<uint32_t>(j + 1);
+  bool code_layers(CoefficientEncoder& coefficients) {
+    for (const BasisLayer& layer : layers_) {
+      for (size_t j = layer.first; j < layer.first + layer.count; ++j) {
+        const std::optional<CoefficientEncoder::Component> coded = coefficients.code(j);
+        if (!coded)
+          return false;
+        parameters_.omega[j] = coded->omega;
+        if (coded->wide)
+          encoded_.sizes.wide_components = static_cast<uint32_t>(j + 1);
+      }
+      coefficient_streams_.push_back(coefficients.finish_layer());
     }
-    ByteWriter writer;
-    writer.varint(end - begin);
-    writer.raw(coefficients.finish_layer());
-    encoded_.layers.push_back(std::move(writer.bytes()));
     return true;
   }
 
@@ -323,6 +347,8 @@ class LinearEncoder {
   MatrixXd functions_, base_weights_;  ///< of an affine base: exact, and as decoded
   MatrixXd still_;                     ///< the pose as a base, vertices x 3
   MatrixXd weights_;                   ///< as decoded, a column per component
+  std::vector<BasisLayer> layers_;     ///< their streams are below
+  std::vector<Bytes> time_streams_, coefficient_streams_;
 };
 
 }  // namespace

@@ -14,8 +14,7 @@ namespace {
 
 // Bounds that keep the cost linear whatever the graph (normative). Surfaces have a mean degree of
 // about six and never meet them, save for poles of fans.
-constexpr uint64_t kMaxMeanDegree = 16;       // a denser graph is replaced
-constexpr uint64_t kMinRemovedFraction = 16;  // and one that loses less than 1/16 of its vertices
+constexpr uint64_t kMinRemovedFraction = 16;  // a graph that loses less of it is replaced
 constexpr int kGridBits = 15;                 // per axis: squared distances fit 32 bits
 
 /// Sorts by distance from `to`, then by index.
@@ -52,32 +51,46 @@ struct Graph {
   const uint32_t* end(uint32_t v) const { return adjacent.data() + start[v + 1]; }
 };
 
-bool is_dense(size_t adjacent, size_t vertices) {
-  return adjacent > kMaxMeanDegree * vertices;
-}
-
 class Contraction {
  public:
-  Contraction(const MeshGraph& mesh, int m, int colours)
-      : m_(m), colours_(colours), is_dense_(mesh.is_dense()) {
+  Contraction(MeshGraph mesh, int m, int colours, const HostThreads& threads)
+      : m_(m), colours_(colours), is_dense_(mesh.is_dense()), threads_(threads) {
     const size_t vertex_count = mesh.vertex_count();
     nodes_.resize(vertex_count);
     neighbours_.assign(vertex_count * static_cast<size_t>(m), -1);
     removal_.reserve(vertex_count);
     isolated_.reserve(vertex_count);
-    stamp_.assign(vertex_count, 0);
-    graph_.start = mesh.start();
-    graph_.adjacent = mesh.adjacent();
+    rank_.resize(vertex_count);
+    if (!threads.run || vertex_count < kShared)
+      teams_ = 1;
+    for (size_t t = 0; t < teams_; ++t)
+      stamps_[t].last.assign(vertex_count, 0);
+    std::move(mesh).take(&graph_.start, &graph_.adjacent);
   }
 
   void set_grid(const int32_t* positions);
   void run();
-  void write(VertexOrder* out) const;
+  void write(VertexOrder* out);
 
-  uint64_t visits() const { return visits_; }
+  uint64_t visits() const {
+    uint64_t sum = 0;
+    for (const Stamps& s : stamps_)
+      sum += s.visits;
+    return sum;
+  }
 
  private:
   enum State : uint8_t { kKept, kRemoved, kLocked };
+
+  /// The last tick that met a vertex, by local index.
+  struct Stamps {
+    Vector<uint32_t> last;
+    uint32_t tick = 0;
+    uint64_t visits = 0;  ///< see vertex_order_cost.h
+  };
+
+  static constexpr size_t kTeams = 4;         ///< parts of a level, for threads
+  static constexpr size_t kShared = 1 << 12;  ///< vertices of a level that is worth it
 
   void drop_isolated();
   void link_all();
@@ -85,16 +98,19 @@ class Contraction {
   void contract();
   void colour();
   void find_neighbours();
-  void add_same_level(uint32_t v);
+  void find_neighbours(size_t first, size_t last, Stamps& stamps);
+  void add_same_level(uint32_t v, NearestCandidates& nearest, Stamps& stamps);
   void append_level();
+  void end_level(size_t first);
   void advance();
 
   int m_, colours_;
   bool is_dense_;               // the mesh, whose edges are not here
   Vector<GridVertex> nodes_;    // all vertices
-  Vector<int32_t> neighbours_;  // of all vertices, by index
+  Vector<int32_t> neighbours_;  // indices, of all vertices by rank
   Vector<uint32_t> removal_;    // vertices, finest level first
   Vector<uint32_t> level_end_;  // in removal_
+  Vector<uint32_t> rank_;       // of the vertices that are removed
   Vector<uint32_t> isolated_;   // alive vertices without edges, not part of the graph
 
   // The graph G of the current level over the local indices of its active vertices, ascending in
@@ -103,11 +119,9 @@ class Contraction {
   Graph graph_, next_;
   Vector<uint8_t> state_, colour_;
   Vector<uint32_t> removed_, target_, renumbered_, visit_, merged_, merged_next_;
-  Vector<uint32_t> stamp_;  // by local index: the last tick_ that met the vertex
-  Vector<uint32_t> met_;    // by local index: the last removed vertex that met this one
-  uint32_t tick_ = 0;
-  uint64_t visits_ = 0;  // see vertex_order_cost.h
-  NearestCandidates nearest_;
+  size_t teams_ = kTeams;
+  Stamps stamps_[kTeams];
+  HostThreads threads_;
 };
 
 void Contraction::set_grid(const int32_t* positions) {
@@ -255,17 +269,19 @@ void Contraction::contract() {
   next_.start.clear();
   next_.start.push_back(0);
   next_.adjacent.resize(graph_.adjacent.size());
+  Vector<uint32_t>& stamp = stamps_[0].last;
   uint32_t size = 0;
   for (uint32_t v = 0; v < n; ++v) {
     if (state_[v] == kRemoved)
       continue;
-    stamp_[renumbered_[v]] = ++tick_;
+    const uint32_t tick = ++stamps_[0].tick;
+    stamp[renumbered_[v]] = tick;
     const auto add_ring = [&](uint32_t w) {
       for (const uint32_t* u = graph_.begin(w); u != graph_.end(w); ++u) {
         const uint32_t x = renumbered_[*u];
         next_.adjacent[size] = x;
-        size += stamp_[x] != tick_;
-        stamp_[x] = tick_;
+        size += stamp[x] != tick;
+        stamp[x] = tick;
       }
     };
     add_ring(v);
@@ -282,13 +298,12 @@ void Contraction::colour() {
     return;
   constexpr uint8_t none = 255;
   colour_.assign(active_.size(), none);
-  met_.assign(active_.size(), UINT32_MAX);
   for (const uint32_t v : removed_) {
     uint32_t used = 0;
     for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
       if (graph_.degree(*u) > kMaxRingDegree)
         continue;
-      visits_ += graph_.degree(*u);
+      stamps_[0].visits += graph_.degree(*u);
       for (const uint32_t* w = graph_.begin(*u); w != graph_.end(*u); ++w)
         if (colour_[*w] != none)
           used |= 1u << colour_[*w];
@@ -301,41 +316,52 @@ void Contraction::colour() {
 }
 
 // Removed vertices of lower colour around v: they are decoded earlier.
-void Contraction::add_same_level(uint32_t v) {
+void Contraction::add_same_level(uint32_t v, NearestCandidates& nearest, Stamps& stamps) {
+  const uint32_t tick = ++stamps.tick;
   for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
     if (graph_.degree(*u) > kMaxRingDegree)
       continue;
-    visits_ += graph_.degree(*u);
+    stamps.visits += graph_.degree(*u);
     for (const uint32_t* w = graph_.begin(*u); w != graph_.end(*u); ++w) {
-      if (colour_[*w] < colour_[v] && met_[*w] != v) {
-        met_[*w] = v;
-        nearest_.add(active_[*w], active_[v]);
+      if (colour_[*w] < colour_[v] && stamps.last[*w] != tick) {
+        stamps.last[*w] = tick;
+        nearest.add(active_[*w], active_[v]);
       }
     }
   }
 }
 
 void Contraction::find_neighbours() {
+  const size_t count = removed_.size();
+  const size_t grain = teams_ == 1 || count < kShared ? count : (count + teams_ - 1) / teams_;
+  for_ranges(threads_, count, std::max<size_t>(grain, 1), [&](size_t first, size_t last) {
+    find_neighbours(first, last, stamps_[first / std::max<size_t>(grain, 1)]);
+  });
+}
+
+void Contraction::find_neighbours(size_t first, size_t last, Stamps& stamps) {
   // Local copies: stores through candidates must not force reloads of the members.
   uint32_t candidates[kMaxCandidates + 1];  // local to G'
-  uint32_t* const stamp = stamp_.data();
+  uint32_t* const stamp = stamps.last.data();
   const GridVertex* const kept = next_active_.data();
   const auto m = static_cast<size_t>(m_);
-  for (const uint32_t v : removed_) {
+  NearestCandidates nearest;
+  for (size_t i = first; i < last; ++i) {
+    const uint32_t v = removed_[i];
     const GridVertex self = active_[v];
-    const uint32_t tick = ++tick_;
+    const uint32_t tick = ++stamps.tick;
     size_t count = 0;
     for (const uint32_t* u = graph_.begin(v); u != graph_.end(v); ++u) {
       const uint32_t w = renumbered_[*u];
       stamp[w] = tick;
       candidates[count++] = w;
     }
-    const auto add_rings = [&](size_t first, size_t last) {
-      for (size_t i = first; i < last; ++i) {
-        const uint32_t u = candidates[i];
+    const auto add_rings = [&](size_t begin, size_t end) {
+      for (size_t c = begin; c < end; ++c) {
+        const uint32_t u = candidates[c];
         if (next_.degree(u) > kMaxRingDegree)
           continue;
-        for (const uint32_t *w = next_.begin(u), *end = next_.end(u); w != end; ++w) {
+        for (const uint32_t *w = next_.begin(u), *stop = next_.end(u); w != stop; ++w) {
           candidates[count] = *w;
           count += stamp[*w] != tick;  // without a branch: nothing to predict here
           stamp[*w] = tick;
@@ -346,13 +372,13 @@ void Contraction::find_neighbours() {
     add_rings(0, ring1);
     if (count <= m)
       add_rings(ring1, count);
-    visits_ += count;
-    nearest_.clear();
-    for (size_t i = 0; i < count; ++i)
-      nearest_.add(kept[candidates[i]], self);
+    stamps.visits += count;
+    nearest.clear();
+    for (size_t c = 0; c < count; ++c)
+      nearest.add(kept[candidates[c]], self);
     if (colours_ > 1 && colour_[v] > 0)
-      add_same_level(v);
-    nearest_.select(m, neighbours_.data() + self.id * m);
+      add_same_level(v, nearest, stamps);
+    nearest.select(m, neighbours_.data() + rank_[self.id] * m);
   }
 }
 
@@ -364,8 +390,16 @@ void Contraction::append_level() {
       if (colours_ == 1 || colour_[v] == c)
         removal_.push_back(active_[v].id);
     if (removal_.size() > before)
-      level_end_.push_back(static_cast<uint32_t>(removal_.size()));
+      end_level(before);
   }
+}
+
+/// The vertices of removal_ from `first` on are a level: all that are left have lower ranks.
+void Contraction::end_level(size_t first) {
+  const size_t end = removal_.size();
+  level_end_.push_back(static_cast<uint32_t>(end));
+  for (size_t i = first; i < end; ++i)
+    rank_[removal_[i]] = static_cast<uint32_t>(nodes_.size() - end + (i - first));
 }
 
 void Contraction::advance() {
@@ -377,9 +411,11 @@ void Contraction::run() {
   active_ = nodes_;
   while (true) {
     drop_isolated();
-    if (tick_ > UINT32_MAX / 4) {  // a level takes at most two per vertex
-      std::fill(stamp_.begin(), stamp_.end(), 0);
-      tick_ = 0;
+    for (size_t t = 0; t < teams_; ++t) {
+      if (stamps_[t].tick > UINT32_MAX / 4) {  // a level takes at most three per vertex
+        std::fill(stamps_[t].last.begin(), stamps_[t].last.end(), 0);
+        stamps_[t].tick = 0;
+      }
     }
     if (active_.empty()) {
       if (isolated_.size() <= 1)
@@ -395,21 +431,20 @@ void Contraction::run() {
       select_removed();
     }
     contract();
-    visits_ += active_.size() + graph_.adjacent.size();
+    stamps_[0].visits += active_.size() + graph_.adjacent.size();
     colour();
-    find_neighbours();
     append_level();
+    find_neighbours();
     advance();
   }
   for (const uint32_t v : isolated_) {
     removal_.push_back(v);
-    level_end_.push_back(static_cast<uint32_t>(removal_.size()));
+    end_level(removal_.size() - 1);
   }
 }
 
-void Contraction::write(VertexOrder* out) const {
+void Contraction::write(VertexOrder* out) {
   const size_t n = nodes_.size();
-  const auto m = static_cast<size_t>(m_);
   out->neighbour_count = m_;
   out->order.clear();
   out->order.reserve(n);
@@ -419,25 +454,21 @@ void Contraction::write(VertexOrder* out) const {
     out->order.insert(out->order.end(), removal_.begin() + first, removal_.begin() + level_end_[l]);
     out->level_start.push_back(static_cast<uint32_t>(out->order.size()));
   }
-  Vector<int32_t> rank(n);
-  for (size_t r = 0; r < n; ++r)
-    rank[out->order[r]] = static_cast<int32_t>(r);
-  out->neighbours.resize(n * m);
-  for (size_t r = 0; r < n; ++r) {
-    const int32_t* from = neighbours_.data() + out->order[r] * m;
-    for (size_t a = 0; a < m; ++a)
-      out->neighbours[r * m + a] = from[a] < 0 ? -1 : rank[static_cast<size_t>(from[a])];
+  for (int32_t& neighbour : neighbours_) {
+    if (neighbour >= 0)
+      neighbour = static_cast<int32_t>(rank_[static_cast<size_t>(neighbour)]);
   }
+  out->neighbours = std::move(neighbours_);
 }
 
-Status make_order(const MeshGraph& graph, const int32_t* positions, int neighbours, int colours,
-                  VertexOrder* out, uint64_t* visits) {
+Status make_order(MeshGraph graph, const int32_t* positions, int neighbours, int colours,
+                  VertexOrder* out, uint64_t* visits, const HostThreads& threads = {}) {
   if (neighbours < 1 || neighbours > kMaxNeighbours || colours < 1 || colours > kMaxColours)
     return Status::kArgument;
   for (size_t i = 0; i < 3 * graph.vertex_count(); ++i)
     if (positions[i] > kMaxReferenceCoordinate || positions[i] < -kMaxReferenceCoordinate)
       return Status::kQuantizer;
-  Contraction contraction(graph, neighbours, colours);
+  Contraction contraction(std::move(graph), neighbours, colours, threads);
   contraction.set_grid(positions);
   contraction.run();
   contraction.write(out);
@@ -447,56 +478,10 @@ Status make_order(const MeshGraph& graph, const int32_t* positions, int neighbou
 
 }  // namespace
 
-Status MeshGraph::init(const uint32_t* triangles, size_t triangle_count, size_t vertex_count) {
-  if (vertex_count > size_t{1} << 30 || triangle_count > UINT32_MAX / 6)
-    return Status::kLimit;
-  for (size_t i = 0; i < 3 * triangle_count; ++i)
-    if (triangles[i] >= vertex_count)
-      return Status::kIndexRange;
-  const size_t n = vertex_count;
-  start_.assign(n + 1, 0);
-  for (size_t i = 0; i < 3 * triangle_count; ++i)
-    start_[triangles[i]] += 2;
-  uint32_t sum = 0;
-  for (uint32_t& s : start_) {
-    sum += s;
-    s = sum;  // the end of each vertex's edges; filling moves it to the beginning
-  }
-  adjacent_.resize(sum);
-  for (size_t t = 0; t < triangle_count; ++t) {
-    const uint32_t* c = triangles + 3 * t;
-    for (int k = 0; k < 3; ++k) {
-      uint32_t& at = start_[c[k]];
-      adjacent_[--at] = c[(k + 1) % 3];
-      adjacent_[--at] = c[(k + 2) % 3];
-    }
-  }
-  Vector<uint32_t> met(n, 0);  // one more than the vertex that met this one last
-  uint32_t size = 0, used = 0;
-  for (uint32_t v = 0; v < n; ++v) {
-    const uint32_t first = start_[v], last = start_[v + 1];
-    start_[v] = size;
-    met[v] = v + 1;
-    for (uint32_t e = first; e < last; ++e) {
-      const uint32_t u = adjacent_[e];
-      if (met[u] != v + 1) {
-        met[u] = v + 1;
-        adjacent_[size++] = u;
-      }
-    }
-    used += size > start_[v];
-  }
-  start_[n] = size;
-  is_dense_ = anicodec::is_dense(size, used);
-  adjacent_.resize(is_dense_ ? 0 : size);
-  adjacent_.shrink_to_fit();
-  return Status::kOk;
-}
-
-Status make_vertex_order(const MeshGraph& graph, const int32_t* positions, int neighbours,
-                         int colours, VertexOrder* out) {
+Status make_vertex_order(MeshGraph graph, const int32_t* positions, int neighbours, int colours,
+                         VertexOrder* out, const HostThreads& threads) {
   uint64_t visits = 0;
-  return make_order(graph, positions, neighbours, colours, out, &visits);
+  return make_order(std::move(graph), positions, neighbours, colours, out, &visits, threads);
 }
 
 Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const int32_t* positions,
@@ -512,7 +497,7 @@ Status make_counted_vertex_order(const uint32_t* triangles, size_t triangle_coun
   MeshGraph graph;
   if (Status s = graph.init(triangles, triangle_count, vertex_count); s != Status::kOk)
     return s;
-  return make_order(graph, positions, neighbours, colours, out, visits);
+  return make_order(std::move(graph), positions, neighbours, colours, out, visits);
 }
 
 }  // namespace anicodec

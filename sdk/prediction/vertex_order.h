@@ -8,6 +8,8 @@
 
 #include "format/memory.h"
 #include "format/status.h"
+#include "sdk/base/parallel_for.h"
+#include "sdk/prediction/mesh_graph.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,28 +24,6 @@ constexpr int kMaxColours = 8;
 
 /// Magnitude that no reference coordinate may exceed: differences of two are exact in binary32.
 constexpr int32_t kMaxReferenceCoordinate = 1 << 21;
-
-/// The edges of a mesh, each once: what the orders of all its segments take from the connectivity.
-class MeshGraph {
- public:
-  /// kIndexRange: a triangle uses a vertex that does not exist; kLimit: too many triangles or
-  /// vertices for 32-bit offsets. Cost: O(vertices + triangles).
-  Status init(const uint32_t* triangles, size_t triangle_count, size_t vertex_count);
-
-  size_t vertex_count() const { return start_.size() - 1; }
-
-  /// Vertex v has adjacent()[start()[v]] .. [start()[v + 1] - 1], unless the graph is dense.
-  const Vector<uint32_t>& start() const { return start_; }
-
-  const Vector<uint32_t>& adjacent() const { return adjacent_; }
-
-  /// So many edges that the order replaces the graph; they are not kept.
-  bool is_dense() const { return is_dense_; }
-
- private:
-  Vector<uint32_t> start_{0}, adjacent_;
-  bool is_dense_ = false;
-};
 
 /// A coarse-to-fine order of n vertices. The vertices of one level depend on earlier levels only,
 /// so a level can be decoded in any order, in batches or in parallel.
@@ -64,9 +44,11 @@ struct VertexOrder {
 /// positions: vertex_count x 3, at most kMaxReferenceCoordinate in magnitude.
 /// neighbours: m, 1..kMaxNeighbours. colours: 1..kMaxColours parts that a level is split into; more
 /// let a vertex see more of its surroundings. kArgument: m or colours out of range; kQuantizer: a
-/// position is too large. Cost: O(vertices) for every input, however irregular.
-Status make_vertex_order(const MeshGraph& graph, const int32_t* positions, int neighbours,
-                         int colours, VertexOrder* out);
+/// position is too large. Cost: O(vertices) for every input, however irregular. Neighbours are looked
+/// for on the host's threads; nothing depends on them. A graph that is not needed any more is best
+/// moved.
+Status make_vertex_order(MeshGraph graph, const int32_t* positions, int neighbours, int colours,
+                         VertexOrder* out, const HostThreads& threads = {});
 
 /// The same from triangles.
 Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const int32_t* positions,

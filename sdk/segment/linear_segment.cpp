@@ -6,18 +6,19 @@
 #include "format/time_weights.h"
 #include "sdk/base/bounded_float.h"
 #include "sdk/segment/affine_functions.h"
+#include "sdk/segment/basis_layer.h"
 #include "sdk/segment/resident_writer.h"
 #include "sdk/segment/residual_reader.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace anicodec {
 namespace {
 
 constexpr uint8_t kAffineFlag = 1, kRunStepsFlag = 2, kLayersAnewFlag = 4;
 constexpr uint8_t kFlags = kAffineFlag | kRunStepsFlag | kLayersAnewFlag;
-constexpr uint8_t kSlices = 1;  // other numbers are for later
 constexpr uint8_t kMaxRunStep = 64;
 constexpr size_t kSharedRanks = 64;    // of a level, for a thread; whole batches of every kernel
 constexpr size_t kHashedRanks = 1024;  // of a block of the hash
@@ -33,24 +34,29 @@ Vector<double> step_factors(const LinearParameters& parameters, const Vector<uin
   return factors;
 }
 
-/// Time weights: those of the affine base become maps of the pose, the others stay integers.
-Status read_weights(ByteView bytes, const Vector<uint32_t>& runs,
-                    const LinearParameters& parameters, const Vector<double>& factors,
-                    const PoseGrid& pose, DecodedIntegers* integers, Segment* out,
-                    Vector<int32_t>* weights) {
-  BinaryDecoder decoder(bytes.data, bytes.size);
-  TimeWeightModel model(runs);
-  size_t frames = out->frames;
-  AffineFunctions functions;
-  double unit = parameters.weight_step / (1 << kWeightFractionBits);
-  if (parameters.affine) {
-    functions = AffineFunctions::of(pose.points.data(), pose.points.size() / 3);
+/// Reads time weights: those of the affine base become maps of the pose, the others stay integers.
+class WeightReader {
+ public:
+  WeightReader(const LinearParameters& parameters, const Vector<uint32_t>& runs,
+               DecodedIntegers* integers)
+      : parameters_(parameters), runs_(runs), model_(runs), integers_(*integers) {}
+
+  /// Block `weights` of a segment. `factors`: of the weight step, for each frame.
+  Status read_base(ByteView bytes, const Vector<double>& factors, const PoseGrid& pose,
+                   Segment* out) {
+    const size_t frames = out->frames;
+    BinaryDecoder decoder(bytes.data, bytes.size);
+    if (!parameters_.affine)
+      return decoder.finish() ? keep_still(pose, out) : Status::kEntropy;
+    const double unit = parameters_.weight_step / (1 << kWeightFractionBits);
+    const AffineFunctions functions =
+        AffineFunctions::of(pose.points.data(), pose.points.size() / 3);
     Vector<int32_t> values[kAffineFunctions];
     for (Vector<int32_t>& v : values) {
       v.resize(3 * frames);
-      if (Status s = model.decode(decoder, 3, v.data()); s != Status::kOk)
+      if (Status s = model_.decode(decoder, 3, v.data()); s != Status::kOk)
         return s;
-      integers->add("affine weights", v.data(), v.size());
+      integers_.add("affine weights", v.data(), v.size());
     }
     out->pose_maps.resize(frames);
     for (size_t f = 0; f < frames; ++f) {
@@ -65,38 +71,77 @@ Status read_weights(ByteView bytes, const Vector<uint32_t>& runs,
           return Status::kNonFinite;
       }
     }
-  } else {
+    return decoder.finish() ? Status::kOk : Status::kEntropy;
+  }
+
+  /// The first `count` components of a layer: components x weight channels x frames.
+  Status read_layer(const BasisLayer& layer, uint32_t count, const Segment& segment, int32_t* to) {
+    if (layer.count == 0)
+      return Status::kOk;
+    if (parameters_.layers_anew && layer.first > 0)
+      model_ = TimeWeightModel(runs_);
+    BinaryDecoder decoder(layer.weights.data, layer.weights.size);
+    const size_t per_component = size_t{segment.frames} * segment.weight_channels();
+    for (uint32_t j = 0; j < count; ++j, to += per_component) {
+      if (Status s = model_.decode(decoder, segment.weight_channels(), to); s != Status::kOk)
+        return s;
+      integers_.add("weights", to, per_component);
+    }
+    return count < layer.count || decoder.finish() ? Status::kOk : Status::kEntropy;
+  }
+
+ private:
+  static Status keep_still(const PoseGrid& pose, Segment* out) {
     Affine still;
     for (size_t i = 0; i < 12; ++i) {
       if (!to_float(i % 4 == 3 ? pose.origin[i / 4] : i % 5 == 0 ? pose.step : 0.0, &still.m[i]))
         return Status::kNonFinite;
     }
-    out->pose_maps.assign(frames, still);
+    out->pose_maps.assign(out->frames, still);
+    return Status::kOk;
   }
-  size_t per_component = frames * out->weight_channels();
-  weights->resize(per_component * parameters.sigma.size());
-  for (size_t j = 0; j < parameters.sigma.size(); ++j) {
-    int32_t* values = weights->data() + j * per_component;
-    if (Status s = model.decode(decoder, out->weight_channels(), values); s != Status::kOk)
+
+  const LinearParameters& parameters_;
+  const Vector<uint32_t>& runs_;
+  TimeWeightModel model_;
+  DecodedIntegers& integers_;
+};
+
+/// The weights of the base, and those of the first `wanted` components.
+Status read_weights(ByteView of_base, const Vector<BasisLayer>& layers, uint32_t wanted,
+                    const LinearParameters& parameters, const Vector<uint32_t>& runs,
+                    const Vector<double>& factors, const PoseGrid& pose,
+                    DecodedIntegers* integers, Segment* out, Vector<int32_t>* weights) {
+  WeightReader reader(parameters, runs, integers);
+  if (Status s = reader.read_base(of_base, factors, pose, out); s != Status::kOk)
+    return s;
+  const size_t per_component = size_t{out->frames} * out->weight_channels();
+  weights->resize(per_component * wanted);
+  for (const BasisLayer& layer : layers) {
+    const uint32_t count = std::min(layer.count, wanted - layer.first);
+    if (Status s =
+            reader.read_layer(layer, count, *out, weights->data() + per_component * layer.first);
+        s != Status::kOk)
       return s;
-    integers->add("weights", values, per_component);
   }
-  return decoder.finish() ? Status::kOk : Status::kEntropy;
+  return Status::kOk;
 }
 
 /// The order in which the vertices are decoded.
 Status order_of(const SegmentContext& context, const LinearParameters& parameters,
                 VertexOrder* order) {
-  MeshGraph own;
-  if (!context.graph) {
+  MeshGraph graph;
+  if (context.graph) {
+    graph = *context.graph;
+  } else {
     const Vector<uint32_t>& triangles = context.topology->triangles;
     if (Status s =
-            own.init(triangles.data(), triangles.size() / 3, context.topology->coded_vertices);
+            graph.init(triangles.data(), triangles.size() / 3, context.topology->coded_vertices);
         s != Status::kOk)
       return s;
   }
-  return make_vertex_order(context.graph ? *context.graph : own, context.pose->points.data(),
-                           parameters.neighbours, parameters.colours, order);
+  return make_vertex_order(std::move(graph), context.pose->points.data(), parameters.neighbours,
+                           parameters.colours, order, context.threads);
 }
 
 /// Components in layers; no more than there can be.
@@ -105,6 +150,14 @@ uint32_t components_in(const Vector<ByteView>& layers, uint32_t components) {
   for (ByteView layer : layers)
     count += ByteReader(layer).varint32(components - count);
   return count;
+}
+
+void show_residuals(const ResidualRoom& room, size_t of_component, uint32_t components,
+                    DecodingTrace* trace) {
+  const size_t wide = room.wide_components * of_component;
+  Vector<int32_t> all(room.wide, room.wide + wide);
+  all.insert(all.end(), room.narrow, room.narrow + components * of_component - wide);
+  trace->step("residuals", all.data(), all.size());
 }
 
 /// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample. The hash
@@ -194,7 +247,7 @@ Bytes LinearParameters::write() const {
   w.f64(basis_step);
   w.f64(weight_step);
   for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule),
-                    static_cast<uint8_t>(coder), kSlices})
+                    static_cast<uint8_t>(coder), slices})
     w.u8(x);
   for (uint8_t step : run_steps)
     w.u8(step);
@@ -224,11 +277,13 @@ Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs) 
   radius = r.u8();
   uint8_t id = r.u8();
   schedule = static_cast<RefitSchedule>(id);
-  const uint8_t coder_id = r.u8(), slices = r.u8();
+  const uint8_t coder_id = r.u8();
+  slices = r.u8();
   coder = static_cast<CoefficientCoder>(coder_id);
   if (!r.ok() || (flags & ~kFlags))
     return Status::kRecord;
-  if (coder_id >= kCoefficientCoderCount || slices != kSlices)
+  if (coder_id >= kCoefficientCoderCount || !is_slice_count(slices) ||
+      (slices > 1 && coder != CoefficientCoder::kMixing))
     return Status::kCoder;
   if (!(std::isfinite(basis_step) && basis_step > 0) ||
       !(std::isfinite(weight_step) && weight_step > 0) || neighbours < 8 ||
@@ -274,6 +329,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   if (Status s = parameters.read(record.parameters, components, runs.size()); s != Status::kOk)
     return s;
   out->coefficient_coder = parameters.coder;
+  out->slices = parameters.slices;
   if (record.motion.size != 0 || record.pose.size != 0)
     return Status::kRecord;
   if (!context.pose)
@@ -283,42 +339,53 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   const PoseGrid& pose = *context.pose;
   integers.add("pose", pose.points.data(), pose.points.size());
 
-  Vector<int32_t> weights;
-  const Vector<double> factors = step_factors(parameters, runs);
-  if (Status s =
-          read_weights(record.weights, runs, parameters, factors, pose, &integers, out, &weights);
-      s != Status::kOk)
-    return s;
   uint32_t wanted = wanted_components(context.quality, components);
   if (context.partial)
     wanted = std::min(wanted, components_in(context.layers, components));
+  Vector<BasisLayer> layers;
+  if (Status s = read_layers(context.layers, parameters.slices, components, wanted, &layers);
+      s != Status::kOk)
+    return s;
+  Vector<int32_t> weights;
+  const Vector<double> factors = step_factors(parameters, runs);
+  if (Status s = read_weights(record.weights, layers, wanted, parameters, runs, factors, pose,
+                              &integers, out, &weights);
+      s != Status::kOk)
+    return s;
   out->components = wanted;
   out->wide_components = std::min(out->wide_components, wanted);
+  if (wanted == 0 && components > 0)
+    return Status::kSegment;
+  VertexOrder order;
+  if (wanted > 0) {
+    if (Status s = order_of(context, parameters, &order); s != Status::kOk)
+      return s;
+  }
   ResidentWriter writer(context.vertex_coded, out);
   writer.pose(pose.points.data());
   if (wanted == 0)
-    return components == 0 ? Status::kOk : Status::kSegment;
-  VertexOrder order;
-  if (Status s = order_of(context, parameters, &order); s != Status::kOk)
-    return s;
+    return Status::kOk;
   show(context.trace, "vertex of each rank", order.order);
   show(context.trace, "first rank of each level", order.level_start);
   integers.show("neighbours", order.neighbours.data(), order.neighbours.size());
+  // Residuals lie where the coefficients will: a segment has at least as many vertices as are coded.
   uint32_t channels = out->channels();
-  Vector<int32_t> residuals;
-  if (Status s =
-          read_residuals(context, parameters, order, channels, components, wanted, &residuals);
+  const ResidualRoom room = {out->wide_components, out->wide.data(), out->narrow.data()};
+  if (Status s = read_residuals(context, parameters, order, channels, layers, wanted, room);
       s != Status::kOk)
     return s;
-  integers.show("residuals", residuals.data(), residuals.size());
+  if (context.trace)
+    show_residuals(room, n * channels, wanted, context.trace);
 
   PredictionParameters prediction;
   prediction.channels = static_cast<int>(channels);
   prediction.radius = parameters.radius;
   prediction.schedule = parameters.schedule;
   PredictionResiduals input;
-  input.components = input.wide_components = wanted;
-  input.wide = residuals.data();
+  input.components = wanted;
+  input.wide_components = room.wide_components;
+  input.wide = room.wide;
+  input.narrow = room.narrow;
   input.omega = parameters.omega.data();
   size_t samples = size_t{wanted} * channels;
   Vector<float> y(coefficient_buffer_size(n, samples));

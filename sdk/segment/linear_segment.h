@@ -27,7 +27,8 @@ struct LinearParameters {
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
   CoefficientCoder coder = CoefficientCoder::kMixing;
-  bool layers_anew = false;  ///< the models of the coefficients begin anew with each layer
+  uint8_t slices = 1;        ///< streams of the coefficients of a layer: is_slice_count()
+  bool layers_anew = false;  ///< the entropy coders' models begin anew with each layer
   /// For each run of frames of a clip: its weights have weight_step * 2^(run_steps / 8). Empty:
   /// all have weight_step.
   Vector<uint8_t> run_steps;

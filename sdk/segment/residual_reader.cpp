@@ -5,98 +5,133 @@
 #include "format/batch_coefficient_coder.h"
 #include "format/coefficient_coder.h"
 #include "format/rans_coder.h"
+#include "sdk/base/wavefront.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace anicodec {
 namespace {
 
-/// Streams of CoefficientModel, which has the channels of a vertex side by side.
+/// Calls read(place of component j in a room).
+template <class Read>
+bool read_into(const ResidualRoom& room, uint32_t j, size_t of_component, const Read& read) {
+  return j < room.wide_components ? read(room.wide + j * of_component)
+                                  : read(room.narrow + (j - room.wide_components) * of_component);
+}
+
+/// Streams of CoefficientModel, one for each slice.
 class MixingReader {
  public:
-  using Decoder = BinaryDecoder;
-
-  MixingReader(const VertexOrder& order, uint32_t channels)
-      : n_(static_cast<uint32_t>(order.vertex_count())),
+  MixingReader(const SegmentContext& context, const VertexOrder& order, uint32_t channels,
+               uint32_t slices)
+      : context_(context),
+        ranks_(static_cast<uint32_t>(order.vertex_count())),
         channels_(channels),
-        model_(n_, channels, order.neighbours.data(), static_cast<uint32_t>(order.neighbour_count)),
-        interleaved_(channels == 1 ? 0 : size_t{channels} * n_) {}
+        slices_(slices),
+        model_(ranks_, channels, order.neighbours.data(),
+               static_cast<uint32_t>(order.neighbour_count), slices) {}
 
-  static Decoder begin(ByteView stream) { return {stream.data, stream.size}; }
-
-  void read(Decoder& decoder, int32_t* to) {
-    if (channels_ == 1) {
-      model_.code_component(decoder, to);
-      return;
+  /// Reads the first `count` components of a layer. Threads meet after a few components of each
+  /// slice, so that the host hears of it.
+  Status read(const BasisLayer& layer, uint32_t count, const ResidualRoom& room) {
+    Vector<BinaryDecoder> decoders;
+    for (uint32_t s = 0; s < slices_; ++s)
+      decoders.emplace_back(layer.slices[s].data, layer.slices[s].size);
+    const size_t of_component = size_t{channels_} * ranks_;
+    const bool shared = slices_ > 1 && context_.threads.run;
+    const uint32_t together = shared ? kTogether * slices_ : 1;
+    for (uint32_t done = 0; done < count; done += together) {
+      const uint32_t rows = std::min(together, count - done);
+      const auto work = [&](uint32_t row, uint32_t first, uint32_t last) {
+        const uint32_t j = model_.component() + row;
+        BinaryDecoder& stream = decoders[j % slices_];
+        BinaryDecoder local = stream;  // a copy that nothing else points to stays in registers
+        const bool good =
+            read_into(room, layer.first + done + row, of_component,
+                      [&](auto* to) { return model_.code_ranks(local, j, first, last, to); });
+        stream = local;
+        return good;
+      };
+      if (!Wavefront(slices_, rows, ranks_, shared ? kRanks : ranks_, work).run(context_.threads))
+        return Status::kEntropy;
+      model_.end_components(rows);
+      if (!context_.advance(rows * of_component))
+        return Status::kCancelled;
     }
-    model_.code_component(decoder, interleaved_.data());
-    for (uint32_t i = 0; i < n_; ++i)
-      for (uint32_t c = 0; c < channels_; ++c)
-        to[size_t{c} * n_ + i] = interleaved_[size_t{i} * channels_ + c];
+    if (count == layer.count) {
+      for (const BinaryDecoder& decoder : decoders) {
+        if (!decoder.finish())
+          return Status::kEntropy;
+      }
+    }
+    return Status::kOk;
   }
 
  private:
-  uint32_t n_, channels_;
+  static constexpr uint32_t kTogether = 4;  ///< components of a slice
+  static constexpr uint32_t kRanks = 256;   ///< by which slices follow one another
+
+  const SegmentContext& context_;
+  uint32_t ranks_, channels_, slices_;
   CoefficientModel model_;
-  Vector<int32_t> interleaved_;
 };
 
 /// Streams of BatchCoefficientModel.
 class BatchReader {
  public:
-  using Decoder = RansDecoder;
-
-  BatchReader(const VertexOrder& order, uint32_t channels)
-      : model_(channels, order.neighbours.data(), static_cast<uint32_t>(order.neighbour_count),
+  BatchReader(const SegmentContext& context, const VertexOrder& order, uint32_t channels, uint32_t)
+      : context_(context),
+        of_component_(size_t{channels} * order.vertex_count()),
+        model_(channels, order.neighbours.data(), static_cast<uint32_t>(order.neighbour_count),
                order.level_start) {}
 
-  static Decoder begin(ByteView stream) { return Decoder(stream); }
-
-  void read(Decoder& decoder, int32_t* to) { model_.code_component(decoder, to); }
+  Status read(const BasisLayer& layer, uint32_t count, const ResidualRoom& room) {
+    RansDecoder decoder(layer.slices[0]);
+    for (uint32_t j = layer.first; j < layer.first + count; ++j) {
+      const bool good = read_into(room, j, of_component_, [&](auto* to) {
+        model_.code_component(decoder, to);
+        return decoder.ok();
+      });
+      if (!good)
+        return Status::kEntropy;
+      if (!context_.advance(of_component_))
+        return Status::kCancelled;
+    }
+    return count < layer.count || decoder.finish() ? Status::kOk : Status::kEntropy;
+  }
 
  private:
+  const SegmentContext& context_;
+  size_t of_component_;
   BatchCoefficientModel model_;
 };
 
 template <class Reader>
-Status read_layers(const SegmentContext& context, bool anew, const VertexOrder& order,
-                   uint32_t channels, uint32_t components, uint32_t wanted, int32_t* residuals) {
-  const size_t of_component = size_t{channels} * order.vertex_count();
+Status read_by(const SegmentContext& context, const LinearParameters& parameters,
+               const VertexOrder& order, uint32_t channels, const Vector<BasisLayer>& layers,
+               uint32_t wanted, const ResidualRoom& room) {
   std::optional<Reader> reader;
-  uint32_t j = 0;
-  for (ByteView layer : context.layers) {
-    ByteReader bytes(layer);
-    const uint32_t count = bytes.varint32(components - j);
-    if (!bytes.ok())
-      return Status::kRecord;
-    if (!reader || anew)
-      reader.emplace(order, channels);
-    typename Reader::Decoder decoder = Reader::begin(bytes.raw(bytes.remaining()));
-    for (uint32_t end = j + count; j < end; ++j) {
-      if (j == wanted)
-        return Status::kOk;
-      reader->read(decoder, residuals + j * of_component);
-      if (!decoder.ok())
-        return Status::kEntropy;
-      if (!context.advance(of_component))
-        return Status::kCancelled;
-    }
-    if (!decoder.finish())
-      return Status::kEntropy;
+  for (const BasisLayer& layer : layers) {
+    if (layer.count == 0)
+      continue;
+    if (!reader || parameters.layers_anew)
+      reader.emplace(context, order, channels, parameters.slices);
+    if (Status s = reader->read(layer, std::min(layer.count, wanted - layer.first), room);
+        s != Status::kOk)
+      return s;
   }
-  return j == wanted ? Status::kOk : Status::kChunkMissing;
+  return Status::kOk;
 }
 
 }  // namespace
 
 Status read_residuals(const SegmentContext& context, const LinearParameters& parameters,
-                      const VertexOrder& order, uint32_t channels, uint32_t components,
-                      uint32_t wanted, Vector<int32_t>* residuals) {
-  residuals->resize(size_t{wanted} * channels * order.vertex_count());
-  const auto read = parameters.coder == CoefficientCoder::kBatches ? read_layers<BatchReader>
-                                                                   : read_layers<MixingReader>;
-  return read(context, parameters.layers_anew, order, channels, components, wanted,
-              residuals->data());
+                      const VertexOrder& order, uint32_t channels,
+                      const Vector<BasisLayer>& layers, uint32_t wanted, const ResidualRoom& room) {
+  const auto read = parameters.coder == CoefficientCoder::kBatches ? read_by<BatchReader>
+                                                                   : read_by<MixingReader>;
+  return read(context, parameters, order, channels, layers, wanted, room);
 }
 
 }  // namespace anicodec

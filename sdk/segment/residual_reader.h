@@ -6,6 +6,7 @@
 #include "format/memory.h"
 #include "format/status.h"
 #include "sdk/prediction/vertex_order.h"
+#include "sdk/segment/basis_layer.h"
 #include "sdk/segment/linear_segment.h"
 #include "sdk/segment/segment.h"
 
@@ -13,12 +14,20 @@
 
 namespace anicodec {
 
-/// Reads the residuals of a linear segment's coefficients from its layers, as components x channels x
-/// vertices in decoding order; stops after `wanted` of the segment's components. Errors: those of
-/// the layers; kCancelled by the host.
+/// Room for residuals, components x channels x vertices in decoding order: those of the first components
+/// have 32 bits, of the others 16.
+struct ResidualRoom {
+  uint32_t wide_components = 0;
+  int32_t* wide = nullptr;
+  int16_t* narrow = nullptr;
+};
+
+/// Reads the residuals of a linear segment's coefficients from its layers; stops after `wanted` of the
+/// segment's components. Slices are read on the host's threads. Errors: those of the layers;
+/// kEntropy: one does not fit its room; kCancelled by the host.
 Status read_residuals(const SegmentContext& context, const LinearParameters& parameters,
-                      const VertexOrder& order, uint32_t channels, uint32_t components,
-                      uint32_t wanted, Vector<int32_t>* residuals);
+                      const VertexOrder& order, uint32_t channels,
+                      const Vector<BasisLayer>& layers, uint32_t wanted, const ResidualRoom& room);
 
 }  // namespace anicodec
 

@@ -73,6 +73,7 @@ struct Segment {
 
   CoefficientCoder coefficient_coder =
       CoefficientCoder::kMixing;     ///< of eigenshapes and -trajectories
+  uint32_t slices = 1;               ///< streams of their coefficients
   Vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
   double origin[3] = {0, 0, 0};      ///< key-frame kind: offset of every coefficient vector
 

@@ -14,6 +14,7 @@
 #include "sdk/mesh/faces_coding.h"
 #include "sdk/mesh/plain_coding.h"
 #include "sdk/pose/pose_coding.h"
+#include "sdk/segment/basis_layer.h"
 #include "sdk/segment/correction_coding.h"
 #include "sdk/segment/linear_segment.h"
 
@@ -105,7 +106,7 @@ class CraftedFile {
       if (own_pose_[i])
         add("POSE", 0, i, predicted);
       if (limits_.segments[i].components > 0)
-        add("BASI", 0, i, layer(limits_.segments[i].components));
+        add("BASI", 0, i, layer(limits_.segments[i]));
       if (limits_.segments[i].corrections > 0)
         add("CORR", 0, i, corrections(limits_.segments[i].frames));
     }
@@ -136,21 +137,25 @@ class CraftedFile {
   }
 
   static Bytes segment(const Limits::Segment& s) {
-    BinaryEncoder weights;
+    const Bytes head = parameters(s.components).write();
+    SegmentRecord record;
+    record.kind = s.kind;
+    record.parameters = head;
+    return record.write();
+  }
+
+  static Bytes weights(const Limits::Segment& s) {
+    BinaryEncoder encoder;
     TimeWeightModel model(s.frames);
     const std::vector<double> still(s.frames, 0.0);
     std::vector<int32_t> decoded(s.frames);
     for (uint32_t j = 0; j < s.components; ++j)
-      model.encode(weights, 1, still.data(), 0, decoded.data(), 1);
-    const Bytes stream = weights.finish(), head = parameters(s.components).write();
-    SegmentRecord record;
-    record.kind = s.kind;
-    record.parameters = head;
-    record.weights = stream;
-    return record.write();
+      model.encode(encoder, 1, still.data(), 0, decoded.data(), 1);
+    return encoder.finish();
   }
 
-  Bytes layer(uint32_t components) const {
+  Bytes layer(const Limits::Segment& s) const {
+    const uint32_t components = s.components;
     const LinearParameters p = parameters(components);
     VertexOrder order;
     EXPECT_EQ(make_vertex_order(topology_.triangles.data(), topology_.triangles.size() / 3,
@@ -162,10 +167,12 @@ class CraftedFile {
     std::vector<int32_t> zeros(size_t{3} * vertices_, 0);
     for (uint32_t j = 0; j < components; ++j)
       model.code_component(encoder, zeros.data());
-    ByteWriter w;
-    w.varint(components);
-    w.raw(encoder.finish());
-    return std::move(w.bytes());
+    const Bytes of_time = weights(s), stream = encoder.finish();
+    BasisLayer layer;
+    layer.count = components;
+    layer.weights = of_time;
+    layer.slices[0] = stream;
+    return layer.write(1);
   }
 
   Bytes corrections(uint32_t frames) const {

@@ -40,7 +40,11 @@ ByteShares byte_shares(ByteView file) {
       shares.weights += record.weights.size;
       shares.basis += record.parameters.size;
     } else if (chunk.type == chunk_type("BASI")) {
-      shares.basis += chunk.size;
+      ByteReader layer(payload);
+      layer.varint();
+      const uint64_t weights = layer.varint();
+      shares.weights += weights;
+      shares.basis += chunk.size - weights;
     } else if (chunk.type == chunk_type("CORR")) {
       shares.corrections += chunk.size;
     }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/sequence/error.h"
+#include "format/container.h"
 #include "sdk/clip/clip.h"
+#include "sdk/clip/memory_estimate.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
@@ -9,14 +12,21 @@
 #include "tools/words/names.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string_view>
+
+#include <anicodec/anicodec.h>
+#include <malloc.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 
 namespace anicodec::bench {
 namespace {
 
-void open(const Bytes& file, Clip& clip, DecodingTrace* trace = nullptr) {
+void open(ByteView file, Clip& clip, DecodingTrace* trace = nullptr, bool prefix = false) {
   OpenOptions options;
   options.trace = trace;
+  options.prefix = prefix;
   if (Failure failure = clip.open(file, options); !failure.ok())
     tools::fail_clip("the encoded clip", failure);
 }
@@ -45,12 +55,89 @@ class Steps : public DecodingTrace {
   bool predicted_ = false;
 };
 
+/// What a host has of a file once its first layer is there.
+ByteView up_to_the_first_layer(const Bytes& file) {
+  ContainerReader container;
+  if (!container.open(file).ok())
+    return file;
+  for (const Chunk& chunk : container.chunks()) {
+    if (chunk.type == chunk_type("BASI"))
+      return {file.data(), static_cast<size_t>(chunk.offset + chunk.size)};
+  }
+  return file;
+}
+
+/// Memory that is mapped before anything is opened in it, as a host that keeps a block has it.
+class MappedMemory {
+ public:
+  explicit MappedMemory(size_t size) : size_(size) {
+    block_ = mmap(nullptr, size, PROT_READ | PROT_WRITE,
+                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
+    if (block_ == MAP_FAILED ||
+        anic_init_block_allocator(block_, size, &allocator_) != ANIC_OK)
+      throw Error(ErrorKind::kInternal, "no memory");
+    memory_ = {allocator_.user, allocator_.allocate, allocator_.release};
+  }
+
+  ~MappedMemory() { munmap(block_, size_); }
+
+  MappedMemory(const MappedMemory&) = delete;
+  MappedMemory& operator=(const MappedMemory&) = delete;
+
+  Memory* memory() { return &memory_; }
+
+ private:
+  size_t size_;
+  void* block_;
+  anic_allocator allocator_;
+  Memory memory_;
+};
+
+int64_t minor_faults() {
+  rusage usage;
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_minflt;
+}
+
+/// What opening takes of memory.
+struct MemoryUse {
+  double per_coefficient = 0;  ///< bytes at the peak
+  int64_t faults = 0, faults_mapped = 0;
+  double mapped_seconds = 0;
+};
+
 double coefficients(const Clip& clip) {
   double count = 0;
   for (const Limits::Segment& s : clip.limits().segments)
     count += static_cast<double>(clip.limits().meshes[s.mesh].coded_vertices) * s.components *
              (s.kind == BasisKind::kEigentrajectories ? 1 : 3);
   return count;
+}
+
+MemoryUse memory_use(ByteView file, int runs) {
+  MemoryUse use;
+  malloc_trim(0);
+  int64_t before = minor_faults();
+  {
+    Clip clip;
+    open(file, clip);
+    use.faults = minor_faults() - before;
+  }
+  Limits limits;
+  OpenOptions options;
+  ContainerReader container;
+  if (!container.open(file).ok() || !read_limits(container, options, &limits).ok())
+    throw Error(ErrorKind::kInternal, "the encoded file cannot be read");
+  MappedMemory mapped(estimate_memory(limits).opening * 3 / 2 + (size_t{1} << 20));
+  const MemoryScope scope(mapped.memory());
+  use.mapped_seconds = median_thread_seconds(runs, [&] {
+    before = minor_faults();
+    Clip clip;
+    open(file, clip);
+    use.faults_mapped = minor_faults() - before;
+    use.per_coefficient = static_cast<double>(mapped.memory()->peak) / coefficients(clip);
+  });
+  return use;
 }
 
 }  // namespace
@@ -63,6 +150,12 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
                {"growth", "more %", "{:.1f}"},
                {"open_ms", "open ms", "{:.1f}"},
                {"gain", "gain", "{:.2f}"},
+               {"mapped_ms", "in a block ms", "{:.1f}"},
+               {"first_ms", "first picture ms", "{:.1f}"},
+               {"first_share", "of open", "{:.2f}"},
+               {"faults", "faults", ""},
+               {"faults_mapped", "in a block", ""},
+               {"peak", "bytes/coefficient", "{:.1f}"},
                {"order_ms", "order ms", "{:.1f}"},
                {"read_ms", "read ms", "{:.1f}"},
                {"read_ns", "ns/coefficient", "{:.1f}"},
@@ -82,6 +175,12 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
         Clip clip;
         open(file, clip);
       });
+      const ByteView prefix = up_to_the_first_layer(file);
+      const double first = median_thread_seconds(runs, [&] {
+        Clip clip;
+        open(prefix, clip, nullptr, true);
+      });
+      const MemoryUse memory = memory_use(file, runs);
       std::vector<Steps> all(static_cast<size_t>(runs));
       Clip clip;
       for (Steps& steps : all) {
@@ -107,6 +206,12 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
                  {"growth", 100 * (static_cast<double>(file.size()) / bytes - 1)},
                  {"open_ms", 1e3 * opening},
                  {"gain", seconds / opening},
+                 {"mapped_ms", 1e3 * memory.mapped_seconds},
+                 {"first_ms", 1e3 * first},
+                 {"first_share", first / opening},
+                 {"faults", memory.faults},
+                 {"faults_mapped", memory.faults_mapped},
+                 {"peak", memory.per_coefficient},
                  {"order_ms", 1e3 * ordering},
                  {"read_ms", 1e3 * reading},
                  {"read_ns", 1e9 * reading / coefficients(clip)},

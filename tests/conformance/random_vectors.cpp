@@ -124,6 +124,15 @@ class RandomVector {
       default:
         break;
     }
+    if (settings.coder == CoefficientCoder::kMixing && one_in(2)) {
+      r.change = [sliced = in_slices(any({2U, 4U, 8U})), change = r.change](
+                     EncodedSegment& segment, const EncoderInput& input) {
+        if (segment.sizes.components > 0)
+          sliced(segment, input);
+        if (change)
+          change(segment, input);
+      };
+    }
     return r;
   }
 

@@ -182,6 +182,28 @@ Bytes batches() {
                   layered(BasisKind::kEigenshapes, step, CoefficientCoder::kBatches, true), wild});
 }
 
+/// Coefficients in 2 to 8 slices, over layers that go on or begin anew, and residuals at the coder's
+/// limits.
+Bytes slices() {
+  const MeshSequence clip = corpus::make_scaled("limb", 500, 48);
+  const double step = 0.001 * diagonal(clip);
+  std::vector<Recipe> recipes = {
+      layered(BasisKind::kEigenshapes, step, CoefficientCoder::kMixing, false),
+      layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kMixing, false),
+      layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kMixing, true),
+      layered(BasisKind::kEigenshapes, step, CoefficientCoder::kMixing, true),
+      recipe(12, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kMedium)};
+  const uint32_t counts[] = {2, 4, 8, 4, 2};
+  for (size_t i = 0; i < recipes.size(); ++i)
+    recipes[i].change = in_slices(counts[i]);
+  recipes.back().settings.components = 11;
+  recipes.back().change = [](EncodedSegment& segment, const EncoderInput& input) {
+    in_slices(2)(segment, input);
+    scramble_coefficients(segment, input);
+  };
+  return file_of(clip, recipes);
+}
+
 /// Several meshes that come and go, several segments of one of them.
 Bytes scene() {
   Scene whole;
@@ -554,6 +576,7 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"exact", exact},
                                {"saturated", saturated},
                                {"batches", batches},
+                               {"slices", slices},
                                {"partners", partners},
                                {"other_parents", other_parents},
                                {"draco_parents", draco_parents},

@@ -7,6 +7,7 @@
 #include "codec/file/clip_record.h"
 #include "codec/metrics/metrics.h"
 #include "codec/search/encoder_input.h"
+#include "codec/segment/coefficient_slices.h"
 #include "codec/segment/linear_segment_encode.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
@@ -19,6 +20,7 @@
 #include "sdk/clip/clip.h"
 #include "sdk/pose/pose_coding.h"
 #include "sdk/prediction/vertex_order.h"
+#include "sdk/segment/basis_layer.h"
 #include "sdk/segment/keyframe_segment.h"
 
 #include <algorithm>
@@ -278,30 +280,82 @@ StreamChange with_turned_partners(bool many_strands) {
   };
 }
 
+namespace {
+
+LinearParameters parameters_of(const EncodedSegment& segment) {
+  LinearParameters parameters;
+  const size_t runs = std::max<size_t>(segment.runs.size(), 1);
+  if (parameters.read(segment.parameters, segment.sizes.components, runs) != Status::kOk)
+    throw Error(ErrorKind::kInternal, "the parameters cannot be read");
+  return parameters;
+}
+
+/// Layers of a segment, views of `chunks`.
+Vector<BasisLayer> layers_of(const std::vector<Bytes>& chunks, const LinearParameters& parameters) {
+  Vector<BasisLayer> layers;
+  const auto components = static_cast<uint32_t>(parameters.sigma.size());
+  if (read_layers(Vector<ByteView>(chunks.begin(), chunks.end()), parameters.slices, components,
+                  components, &layers) != Status::kOk)
+    throw Error(ErrorKind::kInternal, "the layers cannot be read");
+  return layers;
+}
+
+/// Puts other streams into layers: those of the weights.
+void set_weights(EncodedSegment& segment, const std::vector<Bytes>& streams) {
+  const LinearParameters parameters = parameters_of(segment);
+  const std::vector<Bytes> chunks = std::move(segment.layers);
+  segment.layers.clear();
+  size_t l = 0;
+  for (BasisLayer layer : layers_of(chunks, parameters)) {
+    layer.weights = streams[l++];
+    segment.layers.push_back(layer.write(parameters.slices));
+  }
+}
+
+}  // namespace
+
+StreamChange in_slices(uint32_t slices) {
+  return [=](EncodedSegment& segment, const EncoderInput& input) {
+    segment = CoefficientSlices(segment, input.layout).in(slices);
+  };
+}
+
 void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
   const uint32_t frames = segment.sizes.frames;
   const bool affine = segment.sizes.kind == BasisKind::kEigentrajectories;
   const uint32_t base = affine ? 4 : 0, rows = affine ? 3 : 1;
+  const LinearParameters parameters = parameters_of(segment);
+  const anicodec::Vector<uint32_t> runs =
+      segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames) : segment.runs;
   Numbers numbers;
-  BinaryEncoder encoder;
-  TimeWeightModel model(segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames)
-                                             : segment.runs);
+  TimeWeightModel model(runs);
   std::vector<int32_t> decoded(size_t{3} * frames);
-  for (uint32_t j = 0; j < base + segment.sizes.components; ++j) {
+  const auto code = [&](BinaryEncoder& encoder, uint32_t j) {
     const uint32_t channels = j < base ? 3 : rows;
     std::vector<double> x(size_t{channels} * frames);
     for (size_t i = 0; i < x.size(); ++i)
       x[i] = 300 * std::sin(0.05 * static_cast<double>(i % frames) * (1 + j % 3) + j) +
              numbers.within(10 << (j % 7)) + (i % 41 == 0 ? 20000 : 0);
     model.encode(encoder, channels, x.data(), 0, decoded.data(), 1u << (j % kWeightPredictors));
+  };
+  BinaryEncoder of_base;
+  for (uint32_t j = 0; j < base; ++j)
+    code(of_base, j);
+  segment.weights = of_base.finish();
+  std::vector<Bytes> streams;
+  for (const BasisLayer& layer : layers_of(segment.layers, parameters)) {
+    if (parameters.layers_anew && layer.first > 0)
+      model = TimeWeightModel(runs);
+    BinaryEncoder encoder;
+    for (uint32_t j = layer.first; j < layer.first + layer.count; ++j)
+      code(encoder, base + j);
+    streams.push_back(encoder.finish());
   }
-  segment.weights = encoder.finish();
+  set_weights(segment, streams);
 }
 
 void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
-  LinearParameters parameters;
-  if (parameters.read(segment.parameters, segment.sizes.components, 1) != Status::kOk)
-    throw Error(ErrorKind::kInternal, "the parameters cannot be read");
+  LinearParameters parameters = parameters_of(segment);
   Numbers numbers;
   for (uint8_t& omega : parameters.omega)
     omega = static_cast<uint8_t>(numbers.below(256));
@@ -313,24 +367,35 @@ void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
                     parameters.neighbours, parameters.colours, &order);
   const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
   const auto stride = static_cast<uint32_t>(order.neighbour_count);
-  CoefficientModel model(topology.coded_vertices, channels, order.neighbours.data(), stride);
-  BatchCoefficientModel batches(channels, order.neighbours.data(), stride, order.level_start);
-  BinaryEncoder encoder;
-  RansEncoder batch_encoder;
-  const bool in_batches = parameters.coder == CoefficientCoder::kBatches;
+  std::optional<CoefficientModel> model;
+  std::optional<BatchCoefficientModel> batches;
   std::vector<int32_t> q(size_t{channels} * topology.coded_vertices);
-  for (uint32_t j = 0; j < segment.sizes.components; ++j) {
-    for (int32_t& x : q)
-      x = j % 3 == 0 ? numbers.within(3) : numbers.within(1 << (j * 2 % 24));
-    if (in_batches)
-      batches.code_component(batch_encoder, q.data());
-    else
-      model.code_component(encoder, q.data());
+  const std::vector<Bytes> chunks = std::move(segment.layers);
+  segment.layers.clear();
+  for (BasisLayer layer : layers_of(chunks, parameters)) {
+    if (!model || parameters.layers_anew) {
+      model.emplace(topology.coded_vertices, channels, order.neighbours.data(), stride,
+                    parameters.slices);
+      batches.emplace(channels, order.neighbours.data(), stride, order.level_start);
+    }
+    std::vector<BinaryEncoder> encoders(parameters.slices);
+    RansEncoder batch_encoder;
+    for (uint32_t j = layer.first; j < layer.first + layer.count; ++j) {
+      for (int32_t& x : q)
+        x = j % 3 == 0 ? numbers.within(3) : numbers.within(1 << (j * 2 % 24));
+      if (parameters.coder == CoefficientCoder::kBatches)
+        batches->code_component(batch_encoder, q.data());
+      else
+        model->code_component(encoders[model->slice()], q.data());
+    }
+    std::vector<Bytes> streams;
+    for (BinaryEncoder& encoder : encoders)
+      streams.push_back(encoder.finish());
+    if (parameters.coder == CoefficientCoder::kBatches)
+      streams[0] = batch_encoder.finish();
+    std::ranges::copy(streams, layer.slices);
+    segment.layers.push_back(layer.write(parameters.slices));
   }
-  ByteWriter writer;
-  writer.varint(segment.sizes.components);
-  writer.raw(in_batches ? batch_encoder.finish() : encoder.finish());
-  segment.layers = {writer.bytes()};
   segment.sizes.wide_components = segment.sizes.components;
 }
 

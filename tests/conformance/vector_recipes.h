@@ -87,6 +87,9 @@ void scramble_weights(EncodedSegment& segment, const EncoderInput& input);
 /// Residuals at their limits: predictions saturate, refits see numbers that are not finite.
 void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input);
 
+/// Coefficients in so many slices.
+StreamChange in_slices(uint32_t slices);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_TESTS_CONFORMANCE_VECTOR_RECIPES_H_

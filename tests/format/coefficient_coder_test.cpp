@@ -40,14 +40,34 @@ Basis make_basis(uint32_t vertices, uint32_t channels, uint32_t components, uint
   return b;
 }
 
-Bytes encode(const Basis& b) {
-  BinaryEncoder encoder;
-  CoefficientModel model(b.vertices, b.channels, b.neighbours.data(), b.stride);
-  std::vector<int32_t> q = b.q;
+// Each component by channel, then vertex, as models want it; or back.
+std::vector<int32_t> turned(const Basis& b, const std::vector<int32_t>& q, bool back = false) {
+  std::vector<int32_t> out(q.size());
+  for (size_t j = 0; j < b.components; ++j)
+    for (size_t v = 0; v < b.vertices; ++v)
+      for (size_t c = 0; c < b.channels; ++c) {
+        const size_t first = j * b.component_size();
+        const size_t there = first + c * b.vertices + v, here = first + v * b.channels + c;
+        out[back ? here : there] = q[back ? there : here];
+      }
+  return out;
+}
+
+std::vector<Bytes> encode_slices(const Basis& b, uint32_t slices) {
+  std::vector<BinaryEncoder> encoders(slices);
+  CoefficientModel model(b.vertices, b.channels, b.neighbours.data(), b.stride, slices);
+  std::vector<int32_t> q = turned(b, b.q);
   for (uint32_t j = 0; j < b.components; ++j)
-    model.code_component(encoder, q.data() + j * b.component_size());
-  EXPECT_EQ(q, b.q);
-  return encoder.finish();
+    model.code_component(encoders[model.slice()], q.data() + j * b.component_size());
+  EXPECT_EQ(turned(b, q, true), b.q);
+  std::vector<Bytes> streams;
+  for (BinaryEncoder& encoder : encoders)
+    streams.push_back(encoder.finish());
+  return streams;
+}
+
+Bytes encode(const Basis& b) {
+  return encode_slices(b, 1)[0];
 }
 
 std::vector<int32_t> decode(const Basis& b, const Bytes& bytes, bool* exact) {
@@ -57,7 +77,7 @@ std::vector<int32_t> decode(const Basis& b, const Bytes& bytes, bool* exact) {
   for (uint32_t j = 0; j < b.components; ++j)
     model.code_component(decoder, q.data() + j * b.component_size());
   *exact = decoder.finish();
-  return q;
+  return turned(b, q, true);
 }
 
 void expect_round_trip(const Basis& b) {
@@ -144,6 +164,37 @@ TEST(CoefficientModel, CostsAreThoseOfEachResidual) {
     model.end_component();
   }
   EXPECT_EQ(encoder.finish(), encode(b));
+}
+
+TEST(CoefficientModel, ReadsSlicesInAnyOrderThatKeepsThemBehindOneAnother) {
+  Random random(6);
+  for (const uint32_t channels : {1u, 3u}) {
+    const Basis b = make_basis(400, channels, 19, 8, [&](size_t) { return residual(random); });
+    for (const uint32_t slices : {2u, 4u, 8u}) {
+      const std::vector<Bytes> streams = encode_slices(b, slices);
+      std::vector<BinaryDecoder> decoders;
+      for (const Bytes& stream : streams)
+        decoders.emplace_back(stream.data(), stream.size());
+      CoefficientModel model(b.vertices, channels, b.neighbours.data(), b.stride, slices);
+      std::vector<int32_t> q(b.q.size());
+      std::vector<uint32_t> done(b.components + 1, 0);  // vertices of each component
+      done[b.components] = b.vertices;                  // stands before the first one
+      for (uint32_t left = b.components; left > 0;) {
+        const uint32_t j = random() % b.components;
+        const uint32_t before = done[j == 0 ? b.components : j - 1];
+        if (done[j] == before || (j >= slices && done[j - slices] < b.vertices))
+          continue;
+        const uint32_t next = std::min(before, done[j] + 1 + random() % 90);
+        model.code_ranks(decoders[j % slices], j, done[j], next,
+                         q.data() + j * b.component_size());
+        done[j] = next;
+        left -= next == b.vertices;
+      }
+      EXPECT_EQ(turned(b, q, true), b.q);
+      for (const BinaryDecoder& decoder : decoders)
+        EXPECT_TRUE(decoder.finish());
+    }
+  }
 }
 
 TEST(CoefficientModel, CodesQuietBasesInNextToNothing) {

@@ -34,26 +34,37 @@ void fuzz_integers(size_t count, const uint8_t* data, size_t size) {
   require(decoder.finish() == same(encoder.finish(), data, size));
 }
 
-void fuzz_coefficients(uint32_t channels, uint32_t vertices, const uint8_t* data, size_t size) {
+void fuzz_coefficients(uint32_t channels, uint32_t slices, uint32_t vertices, const uint8_t* data,
+                       size_t size) {
   constexpr uint32_t kStride = 8, kComponents = 4;
+  constexpr uint8_t kNothing = 0;
   std::vector<int32_t> neighbours;
   for (uint32_t v = 0; v < vertices; ++v) {
     for (uint32_t a = 0; a < kStride; ++a)
       neighbours.push_back(a < v ? static_cast<int32_t>((v * 7 + a * 5) % v) : -1);
   }
-  BinaryDecoder decoder(data, size);
-  BinaryEncoder encoder;
-  CoefficientModel read(vertices, channels, neighbours.data(), kStride);
-  CoefficientModel write(vertices, channels, neighbours.data(), kStride);
+  // The first slices have the same number of bytes.
+  const size_t part = size / slices;
+  std::vector<BinaryDecoder> decoders;
+  for (uint32_t s = 0; s < slices; ++s)
+    decoders.emplace_back(size == 0 ? &kNothing : data + s * part,
+                          s + 1 < slices ? part : size - s * part);
+  std::vector<BinaryEncoder> encoders(slices);
+  CoefficientModel read(vertices, channels, neighbours.data(), kStride, slices);
+  CoefficientModel write(vertices, channels, neighbours.data(), kStride, slices);
   std::vector<int32_t> q(size_t{vertices} * channels);
   for (uint32_t j = 0; j < kComponents; ++j) {
-    read.code_component(decoder, q.data());
+    const bool good = read.code_component(decoders[read.slice()], q.data());
     for (const int32_t value : q)
       require(std::abs(value) < kCoefficientLimit);
-    write.code_component(encoder, q.data());
+    if (!good)
+      return;
+    write.code_component(encoders[write.slice()], q.data());
   }
-  if (decoder.finish())
-    require(same(encoder.finish(), data, size));
+  for (uint32_t s = 0; s < slices; ++s) {
+    if (decoders[s].finish())
+      require(same(encoders[s].finish(), data + s * part, s + 1 < slices ? part : size - s * part));
+  }
 }
 
 void fuzz_batches(uint32_t channels, uint32_t vertices, const uint8_t* data, size_t size) {
@@ -104,21 +115,27 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2)
     return 0;
   const uint32_t count = data[1];
-  switch (data[0] % 6) {
+  switch (data[0] % 8) {
     case 0:
       fuzz_integers(count, data + 2, size - 2);
       break;
     case 1:
-      fuzz_coefficients(1, count, data + 2, size - 2);
+      fuzz_coefficients(1, 1, count, data + 2, size - 2);
       break;
     case 2:
-      fuzz_coefficients(3, count, data + 2, size - 2);
+      fuzz_coefficients(3, 1, count, data + 2, size - 2);
       break;
     case 3:
       fuzz_batches(1, count, data + 2, size - 2);
       break;
     case 4:
       fuzz_batches(3, count, data + 2, size - 2);
+      break;
+    case 6:
+      fuzz_coefficients(1, 2, count, data + 2, size - 2);
+      break;
+    case 7:
+      fuzz_coefficients(3, 4, count, data + 2, size - 2);
       break;
     default:
       fuzz_weights(count, data + 2, size - 2);

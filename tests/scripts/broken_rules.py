@@ -60,6 +60,17 @@ class File:
         chunks[chunk].payload = payload[:at] + value + payload[at + size:]
         return anic_file.write_chunks(chunks)
 
+    def put_two(self, earlier, later):
+        """The file with two fields of one chunk changed."""
+        first, second = ((label, *self.fields[label][0], new) for label, new in (earlier, later))
+        chunks = self.chunks()
+        payload = chunks[first[1]].payload
+        for _, _, at, size, new in (second, first):
+            value = new(payload[at:at + size]) if callable(new) else new
+            payload = payload[:at] + value + payload[at + size:]
+        chunks[first[1]].payload = payload
+        return anic_file.write_chunks(chunks)
+
     def grown(self, label, change=lambda old: old + b"\1"):
         """The file with another block of SEGM; its length stands before it."""
         chunk, at, size = self.fields[label + " length"][0]
@@ -321,17 +332,29 @@ def segment_rules(files):
             ("schedule", corrected, 45, set_byte(20, 4), "a schedule that does not exist"),
             ("coefficient_coder", corrected, 13, set_byte(21, 2), "a coder of coefficients that does not exist"),
             ("no_slices", corrected, 13, set_byte(22, 0), "no slices"),
-            ("slices", corrected, 13, set_byte(22, 2), "two slices, which are for later")):
+            ("slices", corrected, 13, set_byte(22, 3), "three slices"),
+            ("many_slices", corrected, 13, set_byte(22, 16), "sixteen slices"),
+            ("batches_slices", files("batches"), 13, set_byte(22, 2), "two slices of coefficients in batches")):
         yield status, f"parameters_{name}", file.put(parameters, change), f"parameters with {what}"
-    yield 40, "layer_components", corrected.put("BASI data", lambda old: b"\x7f" + old[1:]), \
-        "a layer of more components than are left"
-    last = len(corrected.fields["BASI data"]) - 1
-    yield 41, "layer_more", corrected.put("BASI data", lambda old: old + b"\1", last), "bytes after a layer"
-    batches = files("batches")
-    last = len(batches.fields["BASI data"]) - 1
-    yield 41, "batches_more", batches.put("BASI data", lambda old: old + b"\1\0", last), "bytes after a layer of batches"
-    yield 41, "batches_odd", batches.put("BASI data", lambda old: old + b"\0", last), "half a word after a layer of batches"
-    yield 41, "batches_state", batches.put("BASI data", set_bytes(1, b"\xff\xff\0\0")), "a state below its range"
+    yield 40, "layer_components", corrected.put("BASI components", b"\x7f"), "a layer of more components than are left"
+    yield 40, "layer_weights", corrected.put("BASI weight bytes", varint(1 << 40)), "weights of more bytes than the layer"
+    yield 41, "layer_more", corrected.put("BASI coefficients", lambda old: old + b"\1"), "bytes after the coefficients of a layer"
+    weights = len(corrected.field("BASI weights"))
+    yield 41, "layer_more_weights", corrected.put_two(
+        ("BASI weight bytes", varint(weights + 1)), ("BASI weights", lambda old: old + b"\1")), "bytes after the weights of a layer"
+    batches, slices = files("batches"), files("slices")
+    last = len(batches.fields["BASI coefficients"]) - 1
+    yield 41, "batches_more", batches.put("BASI coefficients", lambda old: old + b"\1\0", last), \
+        "bytes after a layer of batches"
+    yield 41, "batches_odd", batches.put("BASI coefficients", lambda old: old + b"\0", last), "half a word after a layer of batches"
+    yield 41, "batches_state", batches.put("BASI coefficients", set_bytes(0, b"\xff\xff\0\0")), "a state below its range"
+    yield 40, "slice_bytes", slices.put("BASI slice 0 bytes", varint(1 << 40)), "a slice of more bytes than the layer"
+    yield 41, "slice_more", slices.put("BASI slice 1", lambda old: old + b"\1"), "bytes after the last slice"
+    first = len(slices.field("BASI slice 0"))
+    yield 41, "slice_between", slices.put_two(
+        ("BASI slice 0 bytes", varint(first + 1)), ("BASI slice 0", lambda old: old + b"\1")), "bytes after a slice"
+    yield 41, "slice_short", slices.put_two(
+        ("BASI slice 0 bytes", varint(first // 2)), ("BASI slice 0", lambda old: old[:first // 2])), "a slice that ends early"
     yield 45, "corrections_step", corrected.put("CORR data", set_bytes(0, f64(0))), "corrections with a step of 0"
     yield 45, "corrections_not_finite", corrected.put("CORR data", set_bytes(0, NAN)), "corrections with a step that is no number"
     yield 26, "corrections_empty", corrected.put("CORR data", b""), "corrections without a byte"

@@ -48,7 +48,7 @@ massaged, surface_error, surface_error_mean (those of a clip, of the first one),
 first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error, rmse,
 kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
 max_error, rmse in units of their values), segments (mesh, basis, of, reconstruction, first_frame,
-frames, components, corrections, coder), chunks (type, offset, size, required, mesh, segment).
+frames, components, corrections, coder, slices), chunks (type, offset, size, required, mesh, segment).
 Lengths are in scene units, errors those the encoder measured.)";
 
 struct Contents {
@@ -111,6 +111,12 @@ const char* coder_of(const Clip& clip, size_t segment) {
   if (s.kind != BasisKind::kKeyframes)
     return name_of(clip.segments()[segment].coefficient_coder);
   return name_of(s.draco_bytes > 0 ? CoderId::kDraco : CoderId::kNative);
+}
+
+/// More slices of its coefficients than one.
+std::string slices_of(const Clip& clip, size_t segment) {
+  const uint32_t slices = clip.segments()[segment].slices;
+  return slices > 1 ? fmt::format(" in {} slices", slices) : "";
 }
 
 /// One object for each material, null where its look is unknown.
@@ -235,7 +241,8 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
                                 {"frames", s.frames},
                                 {"components", s.components},
                                 {"corrections", s.corrections},
-                                {"coder", coder_of(c.clip, i)}});
+                                {"coder", coder_of(c.clip, i)},
+                                {"slices", c.clip.segments()[i].slices}});
   }
   json["chunks"] = nlohmann::ordered_json::array();
   for (const Chunk& chunk : c.container.chunks()) {
@@ -342,7 +349,7 @@ void print_segments(const Clip& clip) {
                                s.attribute == kPositions ? "" : moved_by(s) + ", ", s.first_frame,
                                s.first_frame + s.frames, counted_components(s.components, s.kind),
                                s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "",
-                               fmt::format(", coder {}", coder_of(clip, i)),
+                               fmt::format(", coder {}{}", coder_of(clip, i), slices_of(clip, i)),
                                counted(s.corrections, "correction")));
   }
 }

@@ -3,6 +3,7 @@
 #include "tools/inputs/encode_arguments.h"
 
 #include "codec/sequence/error.h"
+#include "sdk/segment/basis_layer.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/words/names.h"
@@ -170,6 +171,9 @@ void add_method(Options& options, EncodeArguments& a) {
       "--open", a.opening, {kOpenings},
       "What a millisecond of opening is worth: no byte (small, the default), 100 bytes (auto), 500 "
       "(fast)");
+  options.number("--slices", a.slices, "N", {1, 8},
+                 "Streams of the coefficients, for as many threads that open: 1, 2, 4 or 8 "
+                 "(default: as many as take at most 0.3 % of the file)");
 }
 
 void add_massage_options(Options& options, EncodeArguments& a) {
@@ -310,6 +314,9 @@ EncodeOptions encode_options(const EncodeArguments& command) {
   options.root_motion = command.root_motion;
   options.effort = command.effort;
   options.opening = command.opening;
+  if (command.slices > 0 && !is_slice_count(command.slices))
+    throw Error(ErrorKind::kUsage, "--slices takes 1, 2, 4 or 8");
+  options.slices = command.slices;
   options.encoder = fmt::format("anicodec {}", version());
   set_target(command, std::nullopt, options);
   return options;
@@ -364,6 +371,7 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
   for (int choice :
        {static_cast<int>(c.basis), static_cast<int>(c.selection), static_cast<int>(c.order),
         static_cast<int>(c.interpolation), static_cast<int>(c.massage), static_cast<int>(c.opening),
+        static_cast<int>(c.slices),
         c.keyframe_coder ? static_cast<int>(*c.keyframe_coder) : -1,
         static_cast<int>(c.split_objects)})
     settings.push_back(choice);

@@ -40,6 +40,7 @@ struct EncodeArguments {
   OrderChoice order = OrderChoice::kAuto;
   int effort = 5;
   OpeningChoice opening = OpeningChoice::kSmall;
+  uint32_t slices = 0;  ///< 0: not asked for
   TopologyChanges topology_changes = TopologyChanges::kRefuse;
   bool split_objects = false;
   MassageMode massage = MassageMode::kOff;

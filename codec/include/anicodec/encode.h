@@ -288,6 +288,8 @@ typedef struct anic_encode_options {
   anic_encode_progress progress;
   anic_writer writer;   /**< gets the file instead of anic_encoding */
   anic_opening opening; /**< what to make short: the file, or the time until it is open */
+  uint32_t slices;      /**< streams of the coefficients, for as many threads that open: 1, 2, 4 or
+                           8; 0: as many as take at most 0.3 % of the file */
 } anic_encode_options;
 
 /** The file, and what was measured of it by decoding it. Lengths are in units of the clip. */

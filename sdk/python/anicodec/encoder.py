@@ -23,7 +23,7 @@ _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentraject
             "massage": {"off": 0, "on": 1, "auto": 2},
             "order": {"vertices": 0, "none": 1, "faces": 2},
             "opening": {"small": 0, "auto": 1, "fast": 2}}
-_NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
+_NUMBERS = ("keyframes", "effort", "slices", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
             "massage_tolerance", "normal_error")
 _UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
 
@@ -295,7 +295,7 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
         interpolation ("linear", "msgi", "auto"), keyframe_coder ("draco", "native", "auto"), massage ("off", "on",
         "auto"), massage_strength, massage_tolerance, order ("vertices", "none", "faces"), effort (1 to 9), opening
-        ("small", "auto", "fast"), uv_bits, colour_bits, attribute_error, normal_error (degrees), no_attributes: as of
+        ("small", "auto", "fast"), slices, uv_bits, colour_bits, attribute_error, normal_error (degrees), no_attributes: as of
         the command.
     threads: 0 for all. max_bytes: of memory, else LimitError.
     progress: a function of the stage and the share of it that is done; False from it raises Cancelled, and what it

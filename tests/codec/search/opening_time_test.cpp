@@ -14,7 +14,7 @@ TEST(OpeningTime, FallsWithCheaperSettings) {
   EncodedSegment encoded;
   encoded.sizes.kind = BasisKind::kEigentrajectories;
   encoded.sizes.components = 40;
-  encoded.layers.push_back(Bytes(10000));
+  encoded.coefficient_bytes = 10000;
   const auto time = [&](const auto& change) {
     LinearSettings settings;
     change(settings);
