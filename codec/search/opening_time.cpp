@@ -4,7 +4,6 @@
 
 #include "sdk/prediction/predictor.h"
 
-#include <algorithm>
 
 namespace anicodec {
 namespace {
@@ -27,15 +26,19 @@ double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment&
   const CoderTime& coder = settings.coder == CoefficientCoder::kBatches ? kBatches : kMixing;
   const double reading = coder.coefficient * n * components * channels + coder.bit * bits;
 
-  size_t count = 0;
-  const uint16_t* refits = refit_components(settings.schedule, &count);
-  count = static_cast<size_t>(std::count_if(
-      refits, refits + count, [&](uint16_t after) { return after + 1 < components; }));
-  const double learnt = count == 0 ? 0 : refits[count - 1] + 1;
+  PredictionParameters prediction;
+  prediction.schedule = settings.schedule;
+  prediction.alike = settings.alike;
+  const Vector<size_t> refits = refits_of(prediction, encoded.sizes.components);
+  const double learnt = refits.empty() ? 0 : static_cast<double>(refits.back() + 1);
+  double distances = 0;  // that renewed priors are made from, of a pair of neighbours
+  for (const size_t after : renewals_of(prediction, encoded.sizes.components))
+    distances += static_cast<double>(after + 1) * channels;
   const double m = settings.neighbours;
   const double of_vertex = 0.025 * m * m * m + channels * components * 0.33 * m +
                            channels * learnt * 0.028 * m * m +
-                           static_cast<double>(count) * (0.2 * m * m + 0.003 * m * m * m);
+                           static_cast<double>(refits.size()) * (0.2 * m * m + 0.003 * m * m * m) +
+                           0.014 * distances * m * m;
   return reading + n * of_vertex;
 }
 

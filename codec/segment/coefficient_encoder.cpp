@@ -85,6 +85,7 @@ CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, const Mes
   prediction.channels = static_cast<int>(channels);
   prediction.radius = settings.radius;
   prediction.schedule = settings.schedule;
+  prediction.alike = settings.alike;
   if (predictor_.init(order_, pose.data(), prediction,
                       static_cast<size_t>(target_.cols()) / channels) != Status::kOk)
     throw Error(ErrorKind::kInternal, "the predictor refuses its parameters");

@@ -152,6 +152,7 @@ class LinearEncoder {
     parameters_.radius = settings.radius;
     parameters_.schedule = settings.schedule;
     parameters_.coder = settings.coder;
+    parameters_.alike = settings.alike;
     parameters_.layers_anew = settings.layers_anew;
     parameters_.run_steps.assign(settings.run_steps.begin(), settings.run_steps.end());
     parameters_.omega.assign(count_, 128);

@@ -35,6 +35,9 @@ Status EncoderPredictor::init(const VertexOrder& order, const int32_t* positions
   neighbour_count_ = static_cast<size_t>(order.neighbour_count);
   lanes_ = encoder_kernels().lanes;
   block_count_ = (vertices_ + lanes_ - 1) / lanes_;
+  refits_ = refits_of(parameters, components);
+  renewals_ = renewals_of(parameters, components);
+  earlier_.clear();
   ranked_positions(order, positions, &positions_);
   state_.resize(block_count_ * encoder_block_rows(neighbour_count_) * lanes_);
   y_.assign(static_cast<size_t>(parameters.channels) * (vertices_ + 1), 0.0f);
@@ -54,6 +57,7 @@ EncoderJob EncoderPredictor::job(uint8_t omega) {
   j.state = state_.data();
   j.y = y_.data();
   j.omega = omega_value(omega);
+  j.alike = alike_value(parameters_.alike);
   return j;
 }
 
@@ -81,10 +85,7 @@ void EncoderPredictor::weights(float* out) const {
 }
 
 bool EncoderPredictor::refits() const {
-  size_t count = 0;
-  const uint16_t* refits = refit_components(parameters_.schedule, &count);
-  return component_ + 1 < components_ &&
-         std::find(refits, refits + count, component_) != refits + count;
+  return std::binary_search(refits_.begin(), refits_.end(), component_);
 }
 
 float EncoderPredictor::commit(size_t rank, int channel, float prediction, int32_t q) {
@@ -94,17 +95,22 @@ float EncoderPredictor::commit(size_t rank, int channel, float prediction, int32
 }
 
 void EncoderPredictor::update(size_t first_block, size_t last_block, uint8_t omega) {
-  size_t count = 0;
-  const uint16_t* components = refit_components(parameters_.schedule, &count);
   // Beyond the last refit nothing is learnt any more.
-  const bool learns =
-      component_ + 1 < components_ && count > 0 && component_ <= components[count - 1];
-  if (!learns)
+  if (refits_.empty() || component_ > refits_.back())
     return;
   EncoderJob j = job(omega);
   j.refit = refits();
+  j.renew = std::binary_search(renewals_.begin(), renewals_.end(), component_);
+  j.earlier = earlier_.data();
+  j.earlier_samples = component_ * j.channels;
   const FloatControl control;
   encoder_kernels().update_blocks(j, first_block, last_block);
+}
+
+void EncoderPredictor::next_component() {
+  if (!renewals_.empty() && component_ < renewals_.back())
+    earlier_.insert(earlier_.end(), y_.begin(), y_.end());
+  ++component_;
 }
 
 }  // namespace anicodec

@@ -23,7 +23,8 @@ namespace anicodec {
 ///   for each component: for each rank: for each channel: predict(), then commit() its integer;
 ///                       update(0, block_count(), omega); next_component().
 ///
-/// Memory: 4 (m(m+1)/2 + 3m + channels + 3) bytes per vertex: 800 for m = 16.
+/// Memory: 4 (m(m+1)/2 + 3m + channels + 3) bytes per vertex: 800 for m = 16; 36 channels more if
+/// the prior is renewed.
 class EncoderPredictor {
  public:
   /// order must outlive this object. Arguments and errors as for CoefficientReconstruction::init().
@@ -54,7 +55,7 @@ class EncoderPredictor {
 
   void update(size_t first_block, size_t last_block, uint8_t omega);
 
-  void next_component() { ++component_; }
+  void next_component();
 
  private:
   EncoderJob job(uint8_t omega);
@@ -63,7 +64,9 @@ class EncoderPredictor {
   size_t block_count_ = 0, lanes_ = 1, neighbour_count_ = 0;
   PredictionParameters parameters_;
   const VertexOrder* order_ = nullptr;
+  Vector<size_t> refits_, renewals_;
   Vector<float> positions_, state_, y_;
+  Vector<float> earlier_;  ///< the components before, as y_, as long as a prior needs them
 };
 
 }  // namespace anicodec

@@ -10,6 +10,9 @@
 
 namespace anicodec {
 
+/// Most samples that a prior is renewed from: they are at hand together in every kernel.
+constexpr size_t kMaxRenewalSamples = 30;
+
 /// Ranks count vertices in decoding order; a sample is one channel of one component.
 struct PredictionJob {
   int neighbour_count = 0;
@@ -21,6 +24,9 @@ struct PredictionJob {
   const float* omega = nullptr;    // samples
   const size_t* refits = nullptr;  // number of samples before each refit, ascending
   size_t refit_count = 0;
+  float alike = 0;                   // squared weight of motion in a renewed prior; 0: none is
+  const size_t* renewals = nullptr;  // those of the refits that renew the prior first
+  size_t renewal_count = 0;
   size_t wide_samples = 0;        // the first ones have 32-bit integers, the others 16-bit
   const int32_t* wide = nullptr;  // wide samples x vertices
   const int16_t* narrow = nullptr;
@@ -40,6 +46,10 @@ struct EncoderJob {
   const float* y = nullptr;  // channels x (vertices + 1), the last of each 0: the current component
   float omega = 0;
   bool refit = false;
+  bool renew = false;              // the prior, before that
+  float alike = 0;                 // as PredictionJob's
+  const float* earlier = nullptr;  // if renew: samples of the components before, as y
+  size_t earlier_samples = 0;
 };
 
 /// The decoder's kernel for one instruction set.

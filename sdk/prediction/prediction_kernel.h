@@ -21,9 +21,12 @@
 #include "sdk/base/lanes.h"
 #include "sdk/prediction/prediction_job.h"
 #include "sdk/prediction/prediction_rounding.h"
+#include "sdk/prediction/refit_solver.h"
 
 namespace anicodec {
 namespace {
+
+static_assert(kMaxRenewalSamples <= 32, "a decoder renews priors from its first window");
 
 /// Rows of 4 or 8 lanes become columns; one lane stays what it is.
 template <typename V>
@@ -57,180 +60,6 @@ ANICODEC_INLINE void transpose(V* r) {
 #undef ANICODEC_SHUFFLE
 }
 
-/// Prior weights, normal equations and refit of W vertices with M neighbours each.
-template <size_t W, size_t M>
-struct RefitSolver {
-  using Float = typename LaneTypes<W>::Float;
-
-#if defined(ANICODEC_SMALL)
-  size_t n = M;  ///< neighbours: one solver does for any number of up to M
-#else
-  static constexpr size_t n = M;
-#endif
-  Float A[M][M];  // sum of omega x x', lower triangle
-  Float g[M];     // sum of omega x (y - w0 x)
-  Float prior[M];
-  Float weights[M];
-
-  static Float splat(float x) {
-    return Float{} + x;
-  }
-
-  void clear() {
-    for (size_t a = 0; a < n; ++a) {
-      weights[a] = prior[a];
-      g[a] = Float{};
-      for (size_t b = 0; b < n; ++b)
-        A[a][b] = Float{};
-    }
-  }
-
-  /// Prior weights from the positions (rank x 3) of the vertices of `count` ranks from `first`; the
-  /// lanes beyond repeat the last one. Overwrites A.
-  void set_prior(const PredictionJob& job, size_t first, size_t count) {
-    Float x[M][3], length[M], valid[M], sum{}, number{};
-    for (size_t a = 0; a < n; ++a) {
-      for (size_t l = 0; l < W; ++l) {
-        const size_t r = first + (l < count ? l : count - 1);
-        const int32_t b = job.neighbours[r * n + a];
-        const size_t other = b < 0 ? r : static_cast<size_t>(b);
-        valid[a][l] = b < 0 ? 0.0f : 1.0f;
-        for (size_t d = 0; d < 3; ++d)
-          x[a][d][l] = job.positions[3 * other + d] - job.positions[3 * r + d];
-      }
-      length[a] = square_root(x[a][0] * x[a][0] + x[a][1] * x[a][1] + x[a][2] * x[a][2]);
-      sum += length[a];
-      number += valid[a];
-    }
-    const Float scale = sum > 0.0f ? number / sum : splat(1.0f);
-    for (size_t a = 0; a < n; ++a) {
-      for (size_t d = 0; d < 3; ++d)
-        x[a][d] *= scale;
-      length[a] *= scale;
-    }
-    const float inverse_radius = 1.0f / job.radius;
-    const auto kernel = [&](Float r) {  // Wendland's C2 function
-      const Float t = r * inverse_radius;
-      Float u = 1.0f - t;
-      u = u > 0.0f ? u : Float{};
-      const Float u2 = u * u;
-      return u2 * u2 * (4.0f * t + 1.0f);
-    };
-    Float right[M];
-    for (size_t a = 0; a < n; ++a) {
-      right[a] = valid[a] * (100.0f + 10.0f * kernel(length[a]));
-      for (size_t b = 0; b <= a; ++b) {
-        const Float e0 = x[a][0] - x[b][0], e1 = x[a][1] - x[b][1], e2 = x[a][2] - x[b][2];
-        const Float dot = x[a][0] * x[b][0] + x[a][1] * x[b][1] + x[a][2] * x[b][2];
-        const Float near = kernel(square_root(e0 * e0 + e1 * e1 + e2 * e2));
-        A[a][b] = valid[a] * valid[b] * (100.0f + 10.0f * dot + 10.0f * near);
-      }
-    }
-    factor(splat(0.02f));
-    solve(right, prior);
-    for (size_t a = 0; a < n; ++a)
-      prior[a] = finite(prior[a]);
-  }
-
-  /// weights = prior + (A + ridge)^-1 g.
-  void refit() {
-    Float trace{};
-    for (size_t a = 0; a < n; ++a)
-      trace += A[a][a];
-    factor(0.3f + trace * static_cast<float>(1e-5 / static_cast<double>(n)));
-    Float change[M];
-    solve(g, change);
-    for (size_t a = 0; a < n; ++a)
-      weights[a] = finite(prior[a] + change[a]);
-  }
-
-  /// Adds the samples x[s] with weights omega[s] and residuals r[s] to A and g.
-  void accumulate(const Float (*x)[M], const Float* r, const float* omega, size_t samples) {
-    Float scaled[kMaxSamples][M];
-    for (size_t s = 0; s < samples; ++s)
-      for (size_t a = 0; a < n; ++a)
-        scaled[s][a] = x[s][a] * omega[s];
-    // Blocks of 4 x 2 elements stay in registers; those on the diagonal fill a little of the upper
-    // triangle too, which nobody reads.
-    for (size_t a = 0; a < n; a += 4)
-      for (size_t b = 0; b <= a + 2; b += 2) {
-        Float c[4][2];
-        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i)
-            ANICODEC_UNROLL for (size_t j = 0; j < 2; ++j) c[i][j] = A[a + i][b + j];
-        for (size_t s = 0; s < samples; ++s) {
-          const Float x0 = x[s][b], x1 = x[s][b + 1];
-          ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) {
-            c[i][0] += scaled[s][a + i] * x0;
-            c[i][1] += scaled[s][a + i] * x1;
-          }
-        }
-        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i)
-            ANICODEC_UNROLL for (size_t j = 0; j < 2; ++j) A[a + i][b + j] = c[i][j];
-      }
-    for (size_t a = 0; a < n; a += 4) {
-      Float c[4] = {g[a], g[a + 1], g[a + 2], g[a + 3]};
-      for (size_t s = 0; s < samples; ++s)
-        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) c[i] += scaled[s][a + i] * r[s];
-      ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) g[a + i] = c[i];
-    }
-  }
-
-  static constexpr size_t kMaxSamples = 32;
-
- private:
-  Float L[M][M], D[M], inverse[M];
-  Float row[M];  // row j of L D
-
-  static Float finite(Float x) {
-    return x - x == Float{} ? x : Float{};
-  }
-
-  // A + ridge I = L D L', left-looking, without pivoting. The diagonal is one of the eight chains
-  // of a block, so that no sum waits for another.
-  void factor(Float ridge) {
-    for (size_t j = 0; j < n; ++j) {
-      for (size_t p = 0; p < j; ++p)
-        row[p] = L[j][p] * D[p];
-      size_t i = j;
-      for (; i + 8 <= n; i += 8)
-        eliminate<8>(i, j, ridge);
-      for (; i + 4 <= n; i += 4)
-        eliminate<4>(i, j, ridge);
-      for (; i < n; ++i)
-        eliminate<1>(i, j, ridge);
-      D[j] = L[j][j];
-      inverse[j] = 1.0f / D[j];
-      for (i = j + 1; i < n; ++i)
-        L[i][j] *= inverse[j];
-    }
-  }
-
-  // Rows i .. i + N - 1 of column j, before the division by D[j].
-  template <size_t N>
-  ANICODEC_INLINE void eliminate(size_t i, size_t j, Float ridge) {
-    Float u[N];
-    ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) u[e] = A[i + e][j];
-    if (i == j)
-      u[0] += ridge;
-    for (size_t p = 0; p < j; ++p)
-      ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) u[e] -= L[i + e][p] * row[p];
-    ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) L[i + e][j] = u[e];
-  }
-
-  void solve(const Float* right, Float* x) const {
-    for (size_t i = 0; i < n; ++i)
-      x[i] = right[i];
-    for (size_t p = 0; p < n; ++p)
-      for (size_t i = p + 1; i < n; ++i)
-        x[i] -= L[i][p] * x[p];
-    for (size_t i = 0; i < n; ++i)
-      x[i] *= inverse[i];
-    for (size_t i = n; i-- > 0;)
-      for (size_t p = i + 1; p < n; ++p)
-        x[i] -= L[p][i] * x[p];
-  }
-};
-
 /// Reconstructs all components of W vertices of one level.
 template <size_t W, size_t M>
 class BatchDecoder {
@@ -247,7 +76,7 @@ class BatchDecoder {
     count_ = count;
     solver_.set_prior(job_, first, count);
     solver_.clear();
-    size_t next_refit = 0;
+    size_t next_refit = 0, next_renewal = 0;
     for (size_t begin = 0; begin < job_.samples; begin += kWindow) {
       const size_t end = begin + kWindow < job_.samples ? begin + kWindow : job_.samples;
       gather(begin, end);
@@ -261,6 +90,10 @@ class BatchDecoder {
         if (learning) {
           solver_.accumulate(x_ + (s - begin), residual_ + (s - begin), job_.omega + s, stop - s);
           if (stop == job_.refits[next_refit]) {
+            if (next_renewal < job_.renewal_count && stop == job_.renewals[next_renewal]) {
+              solver_.renew_prior(job_, first_, count_, x_, y_, stop);
+              ++next_renewal;
+            }
             solver_.refit();
             ++next_refit;
           }
@@ -404,11 +237,7 @@ class EncoderBlock {
         state_(job.state + block * encoder_block_rows(M) * W) {}
 
   void start() {
-    PredictionJob job;
-    job.neighbours = job_.neighbours;
-    job.positions = job_.positions;
-    job.radius = job_.radius;
-    solver_.set_prior(job, first_, count_);
+    solver_.set_prior(prediction_job(), first_, count_);
     solver_.clear();
     float* to = state_;
     move<false>(solver_.weights, to);
@@ -428,16 +257,8 @@ class EncoderBlock {
     Float x[3][M], residual[3];
     float omega[3];
     for (size_t c = 0; c < job_.channels; ++c) {
-      const float* y = job_.y + c * (job_.vertices + 1);
       Float value, p0{};
-      for (size_t l = 0; l < W; ++l) {
-        const size_t r = first_ + (l < count_ ? l : count_ - 1);
-        value[l] = y[r];
-        for (size_t a = 0; a < M; ++a) {
-          const int32_t b = job_.neighbours[r * M + a];
-          x[c][a][l] = y[b < 0 ? job_.vertices : static_cast<size_t>(b)];
-        }
-      }
+      gather(job_.y + c * (job_.vertices + 1), x[c], &value);
       for (size_t a = 0; a < M; ++a)
         p0 += solver_.prior[a] * x[c][a];
       residual[c] = value - p0;
@@ -447,9 +268,15 @@ class EncoderBlock {
     float* to = sums;
     store_sums(to);
     if (job_.refit) {
-      solver_.refit();
       to = state_;
+      if (job_.renew)
+        renew_prior();
+      solver_.refit();
       move<false>(solver_.weights, to);
+      if (job_.renew) {
+        move<false>(solver_.prior, to);
+        move<false>(solver_.g, to);
+      }
     }
   }
 
@@ -464,6 +291,38 @@ class EncoderBlock {
   static void store(const Float& value, float*& at) {
     __builtin_memcpy(at, &value, sizeof value);
     at += W;
+  }
+
+  PredictionJob prediction_job() const {
+    PredictionJob job;
+    job.neighbours = job_.neighbours;
+    job.positions = job_.positions;
+    job.radius = job_.radius;
+    job.alike = job_.alike;
+    return job;
+  }
+
+  void renew_prior() {
+    Float x[kMaxRenewalSamples][M], y[kMaxRenewalSamples];
+    const size_t before = job_.earlier_samples, samples = before + job_.channels;
+    for (size_t s = 0; s < samples; ++s) {
+      const float* of_sample = s < before ? job_.earlier + s * (job_.vertices + 1)
+                                          : job_.y + (s - before) * (job_.vertices + 1);
+      gather(of_sample, x[s], &y[s]);
+    }
+    solver_.renew_prior(prediction_job(), first_, count_, x, y, samples);
+  }
+
+  /// A sample of the neighbours and of the vertices themselves.
+  void gather(const float* of_sample, Float* x, Float* y) const {
+    for (size_t l = 0; l < W; ++l) {
+      const size_t r = first_ + (l < count_ ? l : count_ - 1);
+      (*y)[l] = of_sample[r];
+      for (size_t a = 0; a < M; ++a) {
+        const int32_t b = job_.neighbours[r * M + a];
+        x[a][l] = of_sample[b < 0 ? job_.vertices : static_cast<size_t>(b)];
+      }
+    }
   }
 
   template <bool kLoad>

@@ -17,6 +17,9 @@ constexpr uint16_t kMedium[] = {0,  1,  2,  3,   5,   8,   12,  18,  26,
 constexpr uint16_t kDense[] = {0,  1,  2,  3,  4,  5,  6,   8,   10,  12,  14,  17,  20,  24,  28,
                                33, 40, 48, 56, 66, 80, 100, 120, 140, 170, 200, 250, 300, 400, 500};
 
+/// Components after which the prior is renewed: the first ones tell most of the motion, later ones nothing new.
+constexpr uint16_t kRenewals[] = {1, 3, 7, 9};
+
 // 2^(i / 4) in binary32.
 constexpr float kQuarterPowers[] = {1.0f, 0x1.306fep+0f, 0x1.6a09e6p+0f, 0x1.ae89fap+0f};
 
@@ -30,8 +33,7 @@ const PredictionKernels& prediction_kernels() {
 #endif
 }
 
-}  // namespace
-
+/// Components of a schedule, ascending; *count receives their number.
 const uint16_t* refit_components(RefitSchedule schedule, size_t* count) {
   switch (schedule) {
     case RefitSchedule::kSparse:
@@ -48,6 +50,29 @@ const uint16_t* refit_components(RefitSchedule schedule, size_t* count) {
   }
   *count = 0;
   return kSparse;
+}
+
+}  // namespace
+
+Vector<size_t> renewals_of(const PredictionParameters& parameters, size_t components) {
+  Vector<size_t> list;
+  if (parameters.alike == 0)
+    return list;
+  for (const uint16_t j : kRenewals)
+    if (size_t{j} + 1 < components)
+      list.push_back(j);
+  return list;
+}
+
+Vector<size_t> refits_of(const PredictionParameters& parameters, size_t components) {
+  Vector<size_t> list = renewals_of(parameters, components);
+  size_t count = 0;
+  const uint16_t* refits = refit_components(parameters.schedule, &count);
+  for (size_t i = 0; i < count && size_t{refits[i]} + 1 < components; ++i)
+    list.push_back(refits[i]);
+  std::sort(list.begin(), list.end());
+  list.resize(static_cast<size_t>(std::unique(list.begin(), list.end()) - list.begin()));
+  return list;
 }
 
 float omega_value(uint8_t byte) {
@@ -93,11 +118,13 @@ Status CoefficientReconstruction::init(const VertexOrder& order, const int32_t* 
   omega_.resize(components * channels);
   for (size_t s = 0; s < omega_.size(); ++s)
     omega_[s] = omega_value(residuals.omega[s / channels]);
-  size_t count = 0;
-  const uint16_t* refits = refit_components(parameters.schedule, &count);
-  refits_.clear();
-  for (size_t i = 0; i < count && size_t{refits[i]} + 1 < components; ++i)
-    refits_.push_back((size_t{refits[i]} + 1) * channels);
+  const auto in_samples = [&](Vector<size_t> list) {
+    for (size_t& after : list)
+      after = (after + 1) * channels;
+    return list;
+  };
+  refits_ = in_samples(refits_of(parameters, components));
+  renewals_ = in_samples(renewals_of(parameters, components));
   job_ = {};
   job_.neighbour_count = order.neighbour_count;
   job_.vertices = n;
@@ -108,6 +135,9 @@ Status CoefficientReconstruction::init(const VertexOrder& order, const int32_t* 
   job_.omega = omega_.data();
   job_.refits = refits_.data();
   job_.refit_count = refits_.size();
+  job_.alike = alike_value(parameters.alike);
+  job_.renewals = renewals_.data();
+  job_.renewal_count = renewals_.size();
   job_.wide_samples = std::min(residuals.wide_components, components) * channels;
   job_.wide = residuals.wide;
   job_.narrow = residuals.narrow;

@@ -25,18 +25,29 @@ enum class RefitSchedule : uint8_t {
 };
 constexpr uint8_t kRefitScheduleCount = 4;
 
-/// Refit components of a schedule, ascending; *count receives their number. Static.
-const uint16_t* refit_components(RefitSchedule schedule, size_t* count);
-
 /// Parameters that encoder and decoder of a segment agree on.
 struct PredictionParameters {
   int channels = 1;     ///< scalars per vertex and component: 1 (trajectories) or 3 (shapes)
   uint8_t radius = 12;  ///< of the prior's kernel, in mean neighbour distances, 1..255
   RefitSchedule schedule = RefitSchedule::kDense;
+  /// How much the prior heeds who moves alike, in eighths; 0: positions alone make it.
+  uint8_t alike = 0;
 };
+
+/// Components after which weights are refitted, those after which the prior is renewed among them,
+/// ascending; of those before the last of `components`.
+Vector<size_t> refits_of(const PredictionParameters& parameters, size_t components);
+
+/// Those after which the prior is renewed.
+Vector<size_t> renewals_of(const PredictionParameters& parameters, size_t components);
 
 /// Weight of a component's samples in the refit, from its byte: 2^((byte - 128) / 4), rounded.
 float omega_value(uint8_t byte);
+
+/// Squared weight of motion in a renewed prior, from its byte: (byte / 8)^2.
+constexpr float alike_value(uint8_t byte) {
+  return static_cast<float>(byte * byte) / 64.0f;
+}
 
 /// The byte for a component with mean squared residual `energy`, in squared steps. For the encoder.
 uint8_t omega_byte(double energy);
@@ -92,7 +103,7 @@ class CoefficientReconstruction {
   const VertexOrder* order_ = nullptr;
   Vector<float> positions_;
   Vector<float> omega_;
-  Vector<size_t> refits_;
+  Vector<size_t> refits_, renewals_;  ///< by samples
 };
 
 }  // namespace anicodec

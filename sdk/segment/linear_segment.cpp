@@ -17,8 +17,8 @@
 namespace anicodec {
 namespace {
 
-constexpr uint8_t kAffineFlag = 1, kRunStepsFlag = 2, kLayersAnewFlag = 4;
-constexpr uint8_t kFlags = kAffineFlag | kRunStepsFlag | kLayersAnewFlag;
+constexpr uint8_t kAffineFlag = 1, kRunStepsFlag = 2, kLayersAnewFlag = 4, kAlikeFlag = 8;
+constexpr uint8_t kFlags = kAffineFlag | kRunStepsFlag | kLayersAnewFlag | kAlikeFlag;
 constexpr uint8_t kMaxRunStep = 64;
 constexpr size_t kSharedRanks = 64;    // of a level, for a thread; whole batches of every kernel
 constexpr size_t kHashedRanks = 1024;  // of a block of the hash
@@ -243,12 +243,14 @@ int32_t LinearParameters::sigma_eighths(double sigma) {
 Bytes LinearParameters::write() const {
   ByteWriter w;
   w.u8(static_cast<uint8_t>((affine ? kAffineFlag : 0) | (run_steps.empty() ? 0 : kRunStepsFlag) |
-                            (layers_anew ? kLayersAnewFlag : 0)));
+                            (layers_anew ? kLayersAnewFlag : 0) | (alike ? kAlikeFlag : 0)));
   w.f64(basis_step);
   w.f64(weight_step);
   for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule),
                     static_cast<uint8_t>(coder), slices})
     w.u8(x);
+  if (alike)
+    w.u8(alike);
   for (uint8_t step : run_steps)
     w.u8(step);
   // The components' table: what changes little from one to the next.
@@ -280,6 +282,7 @@ Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs) 
   const uint8_t coder_id = r.u8();
   slices = r.u8();
   coder = static_cast<CoefficientCoder>(coder_id);
+  alike = flags & kAlikeFlag ? r.u8() : 0;
   if (!r.ok() || (flags & ~kFlags))
     return Status::kRecord;
   if (coder_id >= kCoefficientCoderCount || !is_slice_count(slices) ||
@@ -288,7 +291,7 @@ Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs) 
   if (!(std::isfinite(basis_step) && basis_step > 0) ||
       !(std::isfinite(weight_step) && weight_step > 0) || neighbours < 8 ||
       neighbours > kMaxNeighbours || neighbours % 4 != 0 || colours == 0 || colours > kMaxColours ||
-      radius == 0 || id >= kRefitScheduleCount)
+      radius == 0 || id >= kRefitScheduleCount || ((flags & kAlikeFlag) && alike == 0))
     return Status::kQuantizer;
   run_steps.clear();
   if (flags & kRunStepsFlag) {
@@ -381,6 +384,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   prediction.channels = static_cast<int>(channels);
   prediction.radius = parameters.radius;
   prediction.schedule = parameters.schedule;
+  prediction.alike = parameters.alike;
   PredictionResiduals input;
   input.components = wanted;
   input.wide_components = room.wide_components;

@@ -29,6 +29,7 @@ struct LinearParameters {
   CoefficientCoder coder = CoefficientCoder::kMixing;
   uint8_t slices = 1;        ///< streams of the coefficients of a layer: is_slice_count()
   bool layers_anew = false;  ///< the entropy coders' models begin anew with each layer
+  uint8_t alike = 0;         ///< PredictionParameters::alike
   /// For each run of frames of a clip: its weights have weight_step * 2^(run_steps / 8). Empty:
   /// all have weight_step.
   Vector<uint8_t> run_steps;

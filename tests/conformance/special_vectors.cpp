@@ -52,6 +52,22 @@ Bytes schedules() {
              recipe(10, BasisKind::kEigentrajectories, step, 20, 2, 5, RefitSchedule::kDense)});
 }
 
+/// Priors renewed by motion, by little and by much of it; the last meets numbers that are not finite.
+Bytes alike() {
+  const MeshSequence clip = corpus::make_scaled("limb", 220, 52);
+  const double step = 0.002 * diagonal(clip);
+  std::vector<Recipe> recipes = {
+      recipe(13, BasisKind::kEigenshapes, step, 8, 1, 12, RefitSchedule::kNone),
+      recipe(13, BasisKind::kEigentrajectories, step, 16, 2, 12, RefitSchedule::kSparse),
+      recipe(13, BasisKind::kEigentrajectories, step, 24, 1, 40, RefitSchedule::kDense),
+      recipe(13, BasisKind::kEigenshapes, step, 12, 1, 5, RefitSchedule::kMedium)};
+  constexpr uint8_t kWeights[] = {1, 32, 255, 8};
+  for (size_t i = 0; i < recipes.size(); ++i)
+    recipes[i].settings.alike = kWeights[i];
+  recipes.back().change = scramble_coefficients;
+  return file_of(clip, recipes);
+}
+
 /// A recipe of three layers by a coder.
 Recipe layered(BasisKind kind, double step, CoefficientCoder coder, bool anew) {
   Recipe r = recipe(9, kind, step, 12, 1, 12, RefitSchedule::kMedium);
@@ -568,6 +584,7 @@ struct Vector {
 };
 
 constexpr Vector kVectors[] = {{"schedules", schedules},
+                               {"alike", alike},
                                {"vertex_order", vertex_order},
                                {"rings", rings_by_degree},
                                {"weights_in_time", weights_in_time},

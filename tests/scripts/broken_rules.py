@@ -323,7 +323,7 @@ def segment_rules(files):
             ("parent", triangle, 40, set_byte(38, 2), "a key-frame coded against itself"),
             ("rotation_bits", far, 45, set_byte(35, 28), "28 bits of rotations"),
             ("translation_step", far, 45, set_bytes(36, f64(-1)), "a step of translations below 0"),
-            ("linear_flags", corrected, 40, set_byte(0, 8), "a reserved flag of eigentrajectories"),
+            ("linear_flags", corrected, 40, set_byte(0, 16), "a reserved flag of eigentrajectories"),
             ("basis_step", corrected, 45, set_bytes(1, f64(0)), "a basis step of 0"),
             ("weight_step", corrected, 45, set_bytes(9, INFINITE), "a weight step that is infinite"),
             ("neighbours", corrected, 45, set_byte(17, 9), "9 neighbours"),
@@ -334,6 +334,7 @@ def segment_rules(files):
             ("no_slices", corrected, 13, set_byte(22, 0), "no slices"),
             ("slices", corrected, 13, set_byte(22, 3), "three slices"),
             ("many_slices", corrected, 13, set_byte(22, 16), "sixteen slices"),
+            ("alike", files("alike"), 45, set_byte(23, 0), "motion that weighs nothing in a prior"),
             ("batches_slices", files("batches"), 13, set_byte(22, 2), "two slices of coefficients in batches")):
         yield status, f"parameters_{name}", file.put(parameters, change), f"parameters with {what}"
     yield 40, "layer_components", corrected.put("BASI components", b"\x7f"), "a layer of more components than are left"

@@ -22,16 +22,24 @@ struct PredictionCase {
   size_t components;
   uint8_t radius;
   RefitSchedule schedule;
+  uint8_t alike;
   uint64_t hash;  // FNV-1a of the coefficients, by rank
 };
 
 inline constexpr PredictionCase kPredictionCases[] = {
-    {16, 1, 1, 45, 12, RefitSchedule::kDense, 0x0d3eea0242ab2c1b},
-    {16, 2, 3, 20, 14, RefitSchedule::kMedium, 0x67b92155669ec63e},
-    {8, 1, 3, 7, 9, RefitSchedule::kSparse, 0x91848e4d6f5c1d37},
-    {12, 4, 1, 30, 20, RefitSchedule::kMedium, 0x6e261346da042123},
-    {20, 1, 1, 12, 12, RefitSchedule::kNone, 0xd0051b13eab2c6f9},
-    {24, 2, 3, 25, 255, RefitSchedule::kDense, 0xaf210ad467e82f67},
+    {16, 1, 1, 45, 12, RefitSchedule::kDense, 0, 0x0d3eea0242ab2c1b},
+    {16, 2, 3, 20, 14, RefitSchedule::kMedium, 0, 0x67b92155669ec63e},
+    {8, 1, 3, 7, 9, RefitSchedule::kSparse, 0, 0x91848e4d6f5c1d37},
+    {12, 4, 1, 30, 20, RefitSchedule::kMedium, 0, 0x6e261346da042123},
+    {20, 1, 1, 12, 12, RefitSchedule::kNone, 0, 0xd0051b13eab2c6f9},
+    {24, 2, 3, 25, 255, RefitSchedule::kDense, 0, 0xaf210ad467e82f67},
+    {16, 1, 1, 45, 12, RefitSchedule::kDense, 32, 0x65337de083a9ab69},
+    {12, 2, 3, 14, 14, RefitSchedule::kMedium, 8, 0x32dbd443ca69680d},
+    {24, 1, 3, 9, 200, RefitSchedule::kSparse, 255, 0x295275c548f4b6b2},
+    {8, 4, 1, 5, 9, RefitSchedule::kNone, 4, 0xa8f1ffa416c1ad93},
+    {16, 1, 1, 30, 12, RefitSchedule::kMedium, 32, 0x8c726a81f0914e85},
+    {12, 2, 3, 20, 20, RefitSchedule::kNone, 4, 0x302ee0d784d6c6e5},
+    {24, 1, 3, 6, 3, RefitSchedule::kDense, 255, 0x88fea913c63b2337},
 };
 
 struct PredictionClip {
@@ -90,6 +98,7 @@ inline uint64_t reconstruction_hash(const PredictionCase& c) {
   parameters.channels = c.channels;
   parameters.radius = c.radius;
   parameters.schedule = c.schedule;
+  parameters.alike = c.alike;
   std::vector<float> y(coefficient_buffer_size(n, samples));
   CoefficientReconstruction reconstruction;
   if (reconstruction.init(order, clip.positions.data(), parameters,

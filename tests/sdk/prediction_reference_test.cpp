@@ -286,6 +286,11 @@ Matrix reference_coefficients(const PredictionCase& t, const PredictionClip& cli
   for (const size_t j : schedules.at(t.schedule))
     if (j + 1 < K)
       refits.insert(j);
+  std::set<size_t> renewals;
+  for (const size_t j : {1, 3, 7, 9})
+    if (t.alike > 0 && j + 1 < K)
+      renewals.insert(j);
+  refits.insert(renewals.begin(), renewals.end());
   const std::map<size_t, uint32_t> trace_factor = {
       {8, 0x35A7C5AC}, {12, 0x355FB23B}, {16, 0x3527C5AC}, {20, 0x350637BD}, {24, 0x34DFB23B}};
   const uint32_t quarters[] = {0x3F800000, 0x3F9837F0, 0x3FB504F3, 0x3FD744FD};
@@ -321,18 +326,25 @@ Matrix reference_coefficients(const PredictionCase& t, const PredictionClip& cli
         e = e * scale;
       l[a] = l[a] * scale;
     }
-    for (size_t a = 0; a < m; ++a) {
-      b[a] = valid[a] * (100 + 10 * phi(l[a]));
-      for (size_t k = 0; k <= a; ++k) {
-        const float e[] = {x[a][0] - x[k][0], x[a][1] - x[k][1], x[a][2] - x[k][2]};
-        const float dot = x[a][0] * x[k][0] + x[a][1] * x[k][1] + x[a][2] * x[k][2];
-        const float near = phi(std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]));
-        M[a][k] = (valid[a] * valid[k]) * ((100 + 10 * dot) + 10 * near);
+    const auto square = [](const Row& e) { return e[0] * e[0] + e[1] * e[1] + e[2] * e[2]; };
+    const auto apart = [&](size_t a, size_t k) {
+      return Row{x[a][0] - x[k][0], x[a][1] - x[k][1], x[a][2] - x[k][2]};
+    };
+    const auto prior = [&](const auto& near, const auto& between) {
+      for (size_t a = 0; a < m; ++a) {
+        b[a] = valid[a] * (100 + 10 * near(a));
+        for (size_t k = 0; k <= a; ++k) {
+          const float dot = x[a][0] * x[k][0] + x[a][1] * x[k][1] + x[a][2] * x[k][2];
+          M[a][k] = (valid[a] * valid[k]) * ((100 + 10 * dot) + 10 * between(a, k));
+        }
       }
-    }
-    Row w0 = Solver(M, 0.02f).solve(b);
-    for (float& e : w0)
-      e = finite(e);
+      Row weights = Solver(M, 0.02f).solve(b);
+      for (float& e : weights)
+        e = finite(e);
+      return weights;
+    };
+    Row w0 = prior([&](size_t a) { return phi(l[a]); },
+                   [&](size_t a, size_t k) { return phi(std::sqrt(square(apart(a, k)))); });
     Row w = w0, g(m);
     Matrix A(m, Row(m));
     for (size_t j = 0; j < K; ++j) {
@@ -361,6 +373,45 @@ Matrix reference_coefficients(const PredictionCase& t, const PredictionClip& cli
               A[a][i] = A[a][i] + weighted * z[i];
             g[a] = g[a] + weighted * e;
           }
+      }
+      if (renewals.count(j)) {
+        const auto value = [&](size_t a, size_t s) {
+          return a < nb.size() ? y[static_cast<size_t>(nb[a])][s] : 0.0f;
+        };
+        const size_t S = (j + 1) * c;
+        Row D(m);
+        float mean = 0;
+        for (size_t a = 0; a < m; ++a) {
+          for (size_t s = 0; s < S; ++s) {
+            const float difference = value(a, s) - y[r][s];
+            D[a] = D[a] + difference * difference;
+          }
+          mean = mean + valid[a] * std::sqrt(D[a]);
+        }
+        mean = mean / number;
+        const float spread = mean * mean;
+        const float rest = spread - from_bits(0x3E2AAAAB) * static_cast<float>(S);
+        const float tau = static_cast<float>(t.alike * t.alike) / 64;
+        const float v = tau * (rest > 0 ? rest / (spread * spread) : 0);
+        const float reach = 0.28f / static_cast<float>(t.radius);
+        const auto psi = [&](float squared) {
+          const float z = std::sqrt(squared) * reach;
+          const float u = 1 + z, u2 = u * u, u4 = u2 * u2, u8 = u4 * u4;
+          return (1 + 16 * z) / (u8 * u8);
+        };
+        const Row before = w0;
+        w0 = prior([&](size_t a) { return psi(square(x[a]) + v * D[a]); },
+                   [&](size_t a, size_t k) {
+                     float sum = 0;
+                     for (size_t s = 0; s < S; ++s) {
+                       const float difference = value(a, s) - value(k, s);
+                       sum = sum + difference * difference;
+                     }
+                     return psi(square(apart(a, k)) + v * sum);
+                   });
+        for (size_t a = 0; a < m; ++a)
+          for (size_t i = 0; i < m; ++i)
+            g[a] = g[a] + (i < a ? A[a][i] : A[i][a]) * (before[i] - w0[i]);
       }
       if (refits.count(j)) {
         float trace = 0;

@@ -26,6 +26,7 @@ TEST(OpeningTime, FallsWithCheaperSettings) {
   EXPECT_LT(time([](LinearSettings& s) { s.schedule = RefitSchedule::kSparse; }), usual);
   EXPECT_LT(time([](LinearSettings& s) { s.schedule = RefitSchedule::kNone; }),
             time([](LinearSettings& s) { s.schedule = RefitSchedule::kSparse; }));
+  EXPECT_GT(time([](LinearSettings& s) { s.alike = 8; }), usual);
 }
 
 TEST(OpeningTime, IsWorthBytesToSearchesThatAskForIt) {

@@ -34,6 +34,7 @@ PredictionParameters parameters_of(const PredictionCase& c) {
   p.channels = c.channels;
   p.radius = c.radius;
   p.schedule = c.schedule;
+  p.alike = c.alike;
   return p;
 }
 
@@ -187,6 +188,38 @@ TEST(Predictor, LearnsWeightsThatThePriorDoesNotHave) {
   EXPECT_LT(bits(RefitSchedule::kDense), 0.5 * bits(RefitSchedule::kNone));
 }
 
+TEST(Predictor, HeedsWhoMovesAlike) {
+  // Two sheets through one another, each moving as one: positions do not tell them apart.
+  const PredictionClip clip = prediction_clip(1, 1);
+  const VertexOrder order = order_of(clip, 16, 1);
+  const size_t n = order.vertex_count(), components = 12;
+  const auto energy = [&](uint8_t alike) {
+    PredictionParameters parameters;
+    parameters.schedule = RefitSchedule::kNone;
+    parameters.alike = alike;
+    EncoderPredictor predictor;
+    EXPECT_EQ(predictor.init(order, clip.positions.data(), parameters, components), Status::kOk);
+    double sum = 0;
+    SmallRandom random(1);
+    for (size_t j = 0; j < components; ++j) {
+      double a[2];
+      for (double& x : a)
+        x = 60.0 * random.symmetric();
+      for (size_t r = 0; r < n; ++r) {
+        const bool part = clip.positions[3 * size_t{order.order[r]}] % 2 != 0;
+        const float p = predictor.predict(r, 0);
+        const auto q = static_cast<int32_t>(std::lround(a[part] - static_cast<double>(p)));
+        sum += j < 10 ? 0 : static_cast<double>(q) * q;
+        predictor.commit(r, 0, p, q);
+      }
+      predictor.update(0, predictor.block_count(), omega_byte(1));
+      predictor.next_component();
+    }
+    return sum;
+  };
+  EXPECT_LT(energy(32), 0.2 * energy(0));
+}
+
 TEST(Predictor, HandsOutTheWeightsThatItPredictsWith) {
   const PredictionClip clip = prediction_clip(1, 1);
   const VertexOrder order = order_of(clip, 16, 1);
@@ -219,7 +252,7 @@ TEST(Predictor, HandsOutTheWeightsThatItPredictsWith) {
 }
 
 TEST(Predictor, SurvivesHostileInput) {
-  const PredictionCase c{16, 2, 3, 20, 12, RefitSchedule::kDense, 0};
+  const PredictionCase c{16, 2, 3, 20, 12, RefitSchedule::kDense, 255, 0};
   PredictionClip clip = prediction_clip(c.components, 3);
   std::vector<int32_t> q(clip.q.begin(), clip.q.end());
   SmallRandom random(9);

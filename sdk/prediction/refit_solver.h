@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Weights of the spatial prediction for W vertices at once (spec/09-reconstruction.md, sections 3
+// to 5). Part of the prediction kernels, whose rules hold: see prediction_kernel.h.
+#ifndef ANICODEC_SDK_PREDICTION_REFIT_SOLVER_H_
+#define ANICODEC_SDK_PREDICTION_REFIT_SOLVER_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sdk/base/lanes.h"
+#include "sdk/prediction/prediction_job.h"
+
+namespace anicodec {
+namespace {
+
+/// Prior weights, normal equations and refit of W vertices with M neighbours each.
+template <size_t W, size_t M>
+struct RefitSolver {
+  using Float = typename LaneTypes<W>::Float;
+
+#if defined(ANICODEC_SMALL)
+  size_t n = M;  ///< neighbours: one solver does for any number of up to M
+#else
+  static constexpr size_t n = M;
+#endif
+  Float A[M][M];  // sum of omega x x', lower triangle
+  Float g[M];     // sum of omega x (y - w0 x)
+  Float prior[M];
+  Float weights[M];
+
+  static Float splat(float x) {
+    return Float{} + x;
+  }
+
+  void clear() {
+    for (size_t a = 0; a < n; ++a) {
+      weights[a] = prior[a];
+      g[a] = Float{};
+      for (size_t b = 0; b < n; ++b)
+        A[a][b] = Float{};
+    }
+  }
+
+  /// Prior weights from the positions (rank x 3) of the vertices of `count` ranks from `first`; the
+  /// lanes beyond repeat the last one.
+  void set_prior(const PredictionJob& job, size_t first, size_t count) {
+    Float x[M][3], length[M], valid[M];
+    const Float scale = place(job, first, count, x, length, valid);
+    for (size_t a = 0; a < n; ++a)
+      length[a] *= scale;
+    const float inverse_radius = 1.0f / job.radius;
+    const auto kernel = [&](Float r) {  // Wendland's C2 function
+      const Float t = r * inverse_radius;
+      Float u = 1.0f - t;
+      u = u > 0.0f ? u : Float{};
+      const Float u2 = u * u;
+      return u2 * u2 * (4.0f * t + 1.0f);
+    };
+    interpolate(
+        x, valid, [&](size_t a) { return kernel(length[a]); },
+        [&](size_t a, size_t b) { return kernel(square_root(squared_distance(x[a], x[b]))); },
+        prior);
+  }
+
+  /// Prior weights anew, by what is near in position and in the `samples` decoded so far: x of the
+  /// neighbours, y of the vertices (Rasmussen and Williams 2006, chapter 4: Matern's covariance).
+  /// What has been learnt stays valid.
+  void renew_prior(const PredictionJob& job, size_t first, size_t count, const Float (*x)[M],
+                   const Float* y, size_t samples) {
+    Float place_of[M][3], length[M], valid[M], number{}, mean{};
+    place(job, first, count, place_of, length, valid);
+    Float apart[M];
+    for (size_t a = 0; a < n; ++a) {
+      Float sum{};
+      for (size_t s = 0; s < samples; ++s) {
+        const Float d = x[s][a] - y[s];
+        sum += d * d;
+      }
+      apart[a] = sum;
+      mean += valid[a] * square_root(sum);
+      number += valid[a];
+    }
+    // Of the squared distances, what two roundings leave; where there is little more, motion tells
+    // nothing.
+    const float noise = 1.0f / 6.0f * static_cast<float>(samples);
+    mean = mean / number;
+    const Float square = mean * mean;
+    const Float rest = square - noise;
+    const Float share = rest > 0.0f ? rest / (square * square) : Float{};
+    const Float factor_of_motion = job.alike * share;
+    const float inverse_length = 0.28f / job.radius;
+    const auto kernel = [&](Float squared) {  // about Matern's of order 3/2
+      const Float t = square_root(squared) * inverse_length;
+      const Float u = 1.0f + t;
+      const Float u2 = u * u, u4 = u2 * u2, u8 = u4 * u4;
+      return (1.0f + 16.0f * t) / (u8 * u8);
+    };
+    Float before[M];
+    for (size_t a = 0; a < n; ++a)
+      before[a] = prior[a];
+    interpolate(
+        place_of, valid,
+        [&](size_t a) { return kernel(square_of(place_of[a]) + factor_of_motion * apart[a]); },
+        [&](size_t a, size_t b) {
+          Float sum{};
+          for (size_t s = 0; s < samples; ++s) {
+            const Float d = x[s][a] - x[s][b];
+            sum += d * d;
+          }
+          return kernel(squared_distance(place_of[a], place_of[b]) + factor_of_motion * sum);
+        },
+        prior);
+    for (size_t a = 0; a < n; ++a)
+      before[a] -= prior[a];
+    for (size_t a = 0; a < n; ++a)
+      for (size_t b = 0; b < n; ++b)
+        g[a] += (b < a ? A[a][b] : A[b][a]) * before[b];
+  }
+
+  /// weights = prior + (A + ridge)^-1 g.
+  void refit() {
+    Float trace{};
+    for (size_t a = 0; a < n; ++a)
+      trace += A[a][a];
+    factor(A, 0.3f + trace * static_cast<float>(1e-5 / static_cast<double>(n)));
+    Float change[M];
+    solve(g, change);
+    for (size_t a = 0; a < n; ++a)
+      weights[a] = finite(prior[a] + change[a]);
+  }
+
+  /// Adds the samples x[s] with weights omega[s] and residuals r[s] to A and g.
+  void accumulate(const Float (*x)[M], const Float* r, const float* omega, size_t samples) {
+    Float scaled[kMaxSamples][M];
+    for (size_t s = 0; s < samples; ++s)
+      for (size_t a = 0; a < n; ++a)
+        scaled[s][a] = x[s][a] * omega[s];
+    // Blocks of 4 x 2 elements stay in registers; those on the diagonal fill a little of the upper
+    // triangle too, which nobody reads.
+    for (size_t a = 0; a < n; a += 4)
+      for (size_t b = 0; b <= a + 2; b += 2) {
+        Float c[4][2];
+        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i)
+            ANICODEC_UNROLL for (size_t j = 0; j < 2; ++j) c[i][j] = A[a + i][b + j];
+        for (size_t s = 0; s < samples; ++s) {
+          const Float x0 = x[s][b], x1 = x[s][b + 1];
+          ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) {
+            c[i][0] += scaled[s][a + i] * x0;
+            c[i][1] += scaled[s][a + i] * x1;
+          }
+        }
+        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i)
+            ANICODEC_UNROLL for (size_t j = 0; j < 2; ++j) A[a + i][b + j] = c[i][j];
+      }
+    for (size_t a = 0; a < n; a += 4) {
+      Float c[4] = {g[a], g[a + 1], g[a + 2], g[a + 3]};
+      for (size_t s = 0; s < samples; ++s)
+        ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) c[i] += scaled[s][a + i] * r[s];
+      ANICODEC_UNROLL for (size_t i = 0; i < 4; ++i) g[a + i] = c[i];
+    }
+  }
+
+  static constexpr size_t kMaxSamples = 32;
+
+ private:
+  Float L[M][M], D[M], inverse[M];
+  Float row[M];  // row j of L D
+
+  static Float square_of(const Float* x) {
+    return x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+  }
+
+  static Float squared_distance(const Float* a, const Float* b) {
+    const Float e[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return square_of(e);
+  }
+
+  /// Positions of the neighbours about the vertices in units of their mean distance, and these
+  /// distances in units of the grid. Returns the scale between both.
+  Float place(const PredictionJob& job, size_t first, size_t count, Float (*x)[3], Float* length,
+              Float* valid) const {
+    Float sum{}, number{};
+    for (size_t a = 0; a < n; ++a) {
+      for (size_t l = 0; l < W; ++l) {
+        const size_t r = first + (l < count ? l : count - 1);
+        const int32_t b = job.neighbours[r * n + a];
+        const size_t other = b < 0 ? r : static_cast<size_t>(b);
+        valid[a][l] = b < 0 ? 0.0f : 1.0f;
+        for (size_t d = 0; d < 3; ++d)
+          x[a][d][l] = job.positions[3 * other + d] - job.positions[3 * r + d];
+      }
+      length[a] = square_root(square_of(x[a]));
+      sum += length[a];
+      number += valid[a];
+    }
+    const Float scale = sum > 0.0f ? number / sum : splat(1.0f);
+    for (size_t a = 0; a < n; ++a)
+      for (size_t d = 0; d < 3; ++d)
+        x[a][d] *= scale;
+    return scale;
+  }
+
+  /// Weights of interpolation from the places x: covariances near(a) with the vertices themselves
+  /// and between(a, b), beside constant and linear parts.
+  template <class Near, class Between>
+  void interpolate(const Float (*x)[3], const Float* valid, const Near& near,
+                   const Between& between, Float* out) {
+    Float right[M], covariance[M][M];
+    for (size_t a = 0; a < n; ++a) {
+      right[a] = valid[a] * (100.0f + 10.0f * near(a));
+      for (size_t b = 0; b <= a; ++b) {
+        const Float dot = x[a][0] * x[b][0] + x[a][1] * x[b][1] + x[a][2] * x[b][2];
+        covariance[a][b] = valid[a] * valid[b] * (100.0f + 10.0f * dot + 10.0f * between(a, b));
+      }
+    }
+    factor(covariance, splat(0.02f));
+    solve(right, out);
+    for (size_t a = 0; a < n; ++a)
+      out[a] = finite(out[a]);
+  }
+
+  static Float finite(Float x) {
+    return x - x == Float{} ? x : Float{};
+  }
+
+  // S + ridge I = L D L', left-looking, without pivoting. The diagonal is one of the eight chains
+  // of a block, so that no sum waits for another.
+  void factor(const Float (*S)[M], Float ridge) {
+    for (size_t j = 0; j < n; ++j) {
+      for (size_t p = 0; p < j; ++p)
+        row[p] = L[j][p] * D[p];
+      size_t i = j;
+      for (; i + 8 <= n; i += 8)
+        eliminate<8>(S, i, j, ridge);
+      for (; i + 4 <= n; i += 4)
+        eliminate<4>(S, i, j, ridge);
+      for (; i < n; ++i)
+        eliminate<1>(S, i, j, ridge);
+      D[j] = L[j][j];
+      inverse[j] = 1.0f / D[j];
+      for (i = j + 1; i < n; ++i)
+        L[i][j] *= inverse[j];
+    }
+  }
+
+  // Rows i .. i + N - 1 of column j, before the division by D[j].
+  template <size_t N>
+  ANICODEC_INLINE void eliminate(const Float (*S)[M], size_t i, size_t j, Float ridge) {
+    Float u[N];
+    ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) u[e] = S[i + e][j];
+    if (i == j)
+      u[0] += ridge;
+    for (size_t p = 0; p < j; ++p)
+      ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) u[e] -= L[i + e][p] * row[p];
+    ANICODEC_UNROLL for (size_t e = 0; e < N; ++e) L[i + e][j] = u[e];
+  }
+
+  void solve(const Float* right, Float* x) const {
+    for (size_t i = 0; i < n; ++i)
+      x[i] = right[i];
+    for (size_t p = 0; p < n; ++p)
+      for (size_t i = p + 1; i < n; ++i)
+        x[i] -= L[i][p] * x[p];
+    for (size_t i = 0; i < n; ++i)
+      x[i] *= inverse[i];
+    for (size_t i = n; i-- > 0;)
+      for (size_t p = i + 1; p < n; ++p)
+        x[i] -= L[p][i] * x[p];
+  }
+};
+
+}  // namespace
+}  // namespace anicodec
+
+#endif  // ANICODEC_SDK_PREDICTION_REFIT_SOLVER_H_
