@@ -132,8 +132,10 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     throw Error(ErrorKind::kUsage, "an interpolation can be chosen between key-frames only");
 
   std::vector<bool> closed;
+  std::vector<FrameRate> rates;
   uint32_t first = 0;
   for (const ClipTiming& clip : clips_of(sequence)) {
+    rates.push_back(clip.rate);
     closed.push_back(is_closed(sequence, {first, clip.frame_count}));
     first += clip.frame_count;
   }
@@ -202,7 +204,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     if (measured.size() > 1)
       clip.diagonal = positions.diagonal;
     result.clips.push_back({std::string(clip.name.begin(), clip.name.end()),
-                            input.clips[c].frames.count, clip.kg, clip.rmse, clip.max_error});
+                            input.clips[c].frames.count, rates[c], clip.kg, clip.rmse,
+                            clip.max_error});
     const FileMeasures measures{clip.kg,     clip.rmse,       clip.max_error,
                                 file.size(), result.vertices, result.frames};
     if (!is_kept(target, cap, measures))

@@ -92,6 +92,7 @@ struct AttributeResult {
 struct ClipResult {
   std::string name;
   uint32_t frames = 0;
+  FrameRate rate = {};
   double kg = 0;         ///< per cent
   double rmse = 0;       ///< scene units
   double max_error = 0;  ///< scene units

@@ -212,11 +212,14 @@ class Batch {
   void run_clip(size_t i) {
     const BatchClip& clip = clips_[i];
     try {
-      const BatchLine line = process(clip);
-      if (options_.json)
+      std::vector<std::string> notes;
+      BatchLine line = process(clip, notes);
+      if (options_.json) {
+        line.json["notes"] = notes;
         print(line.json);
-      else
-        print(i, line.text, options_.quiet);
+      } else {
+        print(i, line.text, options_.quiet, notes);
+      }
     } catch (const Error& e) {
       fail(i, e.kind(), e.what());
     } catch (const std::bad_alloc&) {
@@ -234,11 +237,14 @@ class Batch {
       print(i, "FAILED: " + reason, false);
   }
 
-  void print(size_t i, const std::string& text, bool quiet) {
+  void print(size_t i, const std::string& text, bool quiet,
+             const std::vector<std::string>& notes = {}) {
     const std::lock_guard lock(print_);
     ++finished_;
     if (!quiet) {
       print_line("[{}/{}] {}: {}", finished_, clips_.size(), clips_[i].name, text);
+      for (const std::string& note : notes)
+        print_line("  {}", note);
       std::fflush(stdout);
     }
   }
@@ -249,11 +255,11 @@ class Batch {
     std::fflush(stdout);
   }
 
-  BatchLine process(const BatchClip& clip) {
+  BatchLine process(const BatchClip& clip, std::vector<std::string>& notes) {
     const std::string path = output_of(clip);
     // One clip is read at a time: until it has been, nobody knows how much memory it takes.
     std::unique_lock reading(read_);
-    MeshSequence sequence = load_(clip);
+    MeshSequence sequence = load_(clip, [&](const std::string& text) { notes.push_back(text); });
     const uint64_t bytes = sequence.positions.size() * sizeof(float);
     constexpr uint64_t kCopies = 3;  // that encoding has at most
     const Taken memory(budget_, kCopies * bytes);
@@ -334,6 +340,24 @@ class Batch {
   std::mutex print_, read_;
 };
 
+void add_events(const std::vector<NamedTime>& events, ContentHash& hash) {
+  for (const NamedTime& event : events) {
+    hash.add(event.name);
+    hash.add_value(event.seconds);
+  }
+}
+
+void add_look(const MaterialLook& look, ContentHash& hash) {
+  std::vector<float> numbers{look.metallic, look.roughness, look.alpha_cutoff};
+  numbers.insert(numbers.end(), look.base_colour.begin(), look.base_colour.end());
+  numbers.insert(numbers.end(), look.emissive.begin(), look.emissive.end());
+  hash.add(numbers);
+  for (const int kind : {int{look.known}, static_cast<int>(look.alpha), int{look.double_sided}})
+    hash.add_value(kind);
+  for (const String& texture : look.textures)
+    hash.add(std::string(texture.begin(), texture.end()));
+}
+
 }  // namespace
 
 uint64_t content_hash(const MeshSequence& sequence) {
@@ -352,6 +376,16 @@ uint64_t content_hash(const MeshSequence& sequence) {
   hash.add_value(sequence.up);
   hash.add_value(sequence.metres_per_unit);
   hash.add_value(sequence.loop);
+  for (const ClipTiming& clip : sequence.clips) {
+    hash.add(clip.name);
+    hash.add_value(clip.frame_count);
+    hash.add_value(clip.rate.numerator);
+    hash.add_value(clip.rate.denominator);
+    hash.add_value(clip.start_time);
+    hash.add(clip.times);
+    add_events(clip.events, hash);
+  }
+  add_events(sequence.events, hash);
   for (const Attribute& attribute : sequence.attributes) {
     hash.add(attribute.name);
     hash.add_value(attribute.kind);
@@ -365,6 +399,8 @@ uint64_t content_hash(const MeshSequence& sequence) {
       hash.add(name);
     hash.add(labels->of_polygon);
   }
+  for (const MaterialLook& look : sequence.materials.looks)
+    add_look(look, hash);
   return hash.digest();
 }
 

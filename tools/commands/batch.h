@@ -24,8 +24,9 @@ struct BatchOptions {
   std::string settings;    ///< all that the bytes of an output depend on beside the clip
 };
 
-/// How each clip is read and encoded; called from several threads.
-using BatchLoad = std::function<MeshSequence(const BatchClip& clip)>;
+/// How each clip is read and encoded; called from several threads. `note` is told what is not kept.
+using BatchLoad = std::function<MeshSequence(const BatchClip& clip,
+                                             const std::function<void(const std::string&)>& note)>;
 using BatchEncode = std::function<EncodeResult(const BatchClip& clip, MeshSequence sequence)>;
 
 /// Encodes clips to FOLDER/NAME.anic, with a line for each and a summary at the end. Writes down

@@ -3,11 +3,13 @@
 #include "codec/sequence/error.h"
 #include "sdk/clip/clip.h"
 #include "tools/inputs/clip_input.h"
+#include "tools/inputs/turned_axes.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/load_sequence.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
+#include "tools/words/names.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 #include "tools/words/word_table.h"
@@ -30,10 +32,12 @@ constexpr const char* kDecodeFooter =
 frame (dir/frame_%04d.obj, .ply, .off, .stl), a scene (clip.glb) with a morph target for each frame
 and an animation of their weights, or an Alembic archive (clip.abc) with an object for each mesh,
 shown in its frames, and for each of its topologies. Polygons come back as polygons, but for STL and
-GLB, which have triangles; GLB is turned to Y up and scaled to metres where the clip says. Frames
-are counted from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate that
-STEP divides is divided; PC2 carries no rate. A clip whose topology changes needs a file per frame,
-or .abc.
+GLB, which have triangles. GLB, Alembic and frames of OBJ are turned to Y up, and GLB is scaled to
+metres, where the clip says which axis is up and what its unit is; a cache and the mesh beside it
+keep the axes of the clip, so that the cache fits the mesh that it came from (--up turns both).
+Frames are counted from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate
+that STEP divides is divided; PC2 carries no rate. A clip whose topology changes needs a file per
+frame, or .abc.
 
 Examples:
   anicodec decode clip.anic -o clip.pc2
@@ -52,6 +56,7 @@ struct DecodeCommand {
   std::string output, clip, frames, quality, textures;
   std::string_view format;
   uint32_t start = 0;
+  UpAxis up = UpAxis::kUnknown;
   bool ascii = false, hold = false, normals = false;
 };
 
@@ -176,6 +181,8 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   options.group_faces = clip.record().order != OrderMode::kAll;
   options.first_number = command.start;
   options.progress = line.callback();
+  const auto up = static_cast<UpAxis>(clip.record().up);
+  const AxisTurn turn(up, up_of_output(paths.output, up, command.up));
   std::vector<GltfImage> images;
   if (!command.textures.empty()) {
     if (kind_of(paths.output) != FileKind::kGlb)
@@ -204,10 +211,11 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
     else if (kind_of(paths.output) == FileKind::kGlb)
       description.clips = clip_timings(clip);
     options.first_number = command.start + (own.first - range.first) / range.step;
-    FrameSource all = play(paths.input, clip, meshes);
+    turn.turn(description.attributes);
+    FrameSource all = turn.turned(play(paths.input, clip, meshes));
     options.attributes = {};
     if (auto attributes = play_attributes(clip, meshes))
-      options.attributes = [attributes, frames = own](uint32_t f) {
+      options.attributes = [attributes = turn.turned(attributes), frames = own](uint32_t f) {
         return attributes(frames.first + f * frames.step);
       };
     write_sequence(
@@ -219,6 +227,9 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
   line.clear();
   for (const Written& run : written)
     print_written(run, common);
+  if (turn.turns() && !common.quiet && !common.json)
+    print_line("turned from {} up to {} up; --up {} keeps the axes of the clip", name_of(up),
+               up == UpAxis::kZ ? "y" : "z", name_of(up));
 }
 
 void run(const DecodeCommand& command, const CommonOptions& common) {
@@ -261,6 +272,10 @@ void add_decode(Commands& commands, CommonOptions& common) {
       "--clip", c->clip, "NAME",
       "The clip to write, of a file that has several; all: one after the other, at the rate "
       "of the first; GLB has an animation for each (default: all of them)");
+  options.choice(
+      "--up", c->up, {kUpAxes},
+      "Axis that points up in frames and caches, of a clip that knows its own (default: y "
+      "in OBJ frames, else that of the clip)");
   options.option("--frames", c->frames, "A:B[:STEP]",
                  "Frames A to B - 1, every STEP-th (default: all)");
   options.number("--start", c->start, "N", {}, "Number of the first file (default 0)");

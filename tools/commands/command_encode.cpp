@@ -42,13 +42,14 @@ standard output, and nothing else; decode, info and verify read one from -.
 
 A scene is baked: skins, morph targets and moving nodes become vertices that move, all its meshes
 (or the one of --mesh) one mesh, at --fps, from the first key of the clip to the last. Animations
-that move different things are played together; of several takes of the same, the first that moves
-anything is taken, and a note names the others. --clip names or numbers another, --clip A+B plays
-two together, --clip none takes none.
---clips takes several animations of a scene as clips of one file, and so do several vertex
-caches of one mesh: the mesh, its attributes and the reference pose are stored once, and clips of a
-kind share a basis where that is smaller (-v says which). Every clip keeps the target for itself; a
---size is that of the file.
+that move different things are played together; several takes of the same are clips of the file.
+--clip names or numbers one alone, --clip A+B plays two together, --clip none takes none, and
+--clips takes some, or each by itself (all). --part, --split-objects and --massage take the first
+take, and a note names the others.
+
+Several vertex caches of one mesh are clips of one file, too: the mesh, its attributes and the
+reference pose are stored once, and clips of a kind share a basis where that is smaller (-v says
+which). Every clip keeps the target for itself; a --size is that of the file.
 
 -o model.glb of a glTF scene writes the scene with its clip inside (extension ANIC_mesh_animation):
 materials, textures, cameras, lights, nodes and extras stay, what moved the vertices goes, and
@@ -95,8 +96,8 @@ Examples:
   anicodec encode dance.obj dance.pc2 -o dance.anic --fps 30
   anicodec encode 'frames/*.obj' -o clip.anic --kg 0.1
   anicodec encode fox.glb --clip Run --fps 60 -o run.anic
-  anicodec encode fox.glb --clips all -o fox.anic --kg 0.1
-  anicodec encode fox.glb --clips all -o small/fox.glb
+  anicodec encode fox.glb -o fox.anic --kg 0.1
+  anicodec encode fox.glb --clips Walk,Run -o small/fox.glb
   anicodec encode hero.obj walk.pc2 run.pc2 -o hero.anic --fps 30
   anicodec encode flag.mdd --mesh flag.obj -o flag.anic --size 200k --max-error 1%
   anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45
@@ -104,7 +105,10 @@ Examples:
 
 MeshSequence load(const EncodeArguments& command, const Progress& progress,
                   EncodeOptions* encode_options) {
-  const LoadOptions options = load_options(command, progress);
+  LoadOptions options = load_options(command, progress);
+  // These have one clip each.
+  options.takes =
+      command.part.empty() && !command.split_objects && command.massage == MassageMode::kOff;
   MeshSequence sequence;
   if (command.topology_changes == TopologyChanges::kTransfer) {
     sequence = transfer_to_one(command.inputs, progress, &encode_options->surface_change.emplace());
@@ -151,9 +155,10 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
   batch.settings = settings_of(command, options);
   run_batch(
       find_clips(command.batch), batch,
-      [&](const BatchClip& clip) {
+      [&](const BatchClip& clip, const std::function<void(const std::string&)>& note) {
         EncodeArguments one = command;
         one.inputs = clip.inputs;
+        one.note = note;
         return load(one, {}, &options);
       },
       [&](const BatchClip& clip, MeshSequence sequence) {
@@ -252,11 +257,13 @@ EncodeResult encode_clip(const EncodeArguments& command, EncodeOptions options,
   }
 }
 
-/// Prints what the input does not keep, some lines of it, above the line of progress.
-std::function<void(const std::string&)> notes_above(ProgressLine& line) {
+/// Collects what the input does not keep, and prints some lines of it above the line of progress.
+std::function<void(const std::string&)> notes_above(ProgressLine& line, bool quiet,
+                                                    std::vector<std::string>& notes) {
   constexpr int kMost = 20;
-  return [&line, told = 0](const std::string& text) mutable {
-    if (++told > kMost + 1)
+  return [&line, quiet, &notes, told = 0](const std::string& text) mutable {
+    notes.push_back(text);
+    if (quiet || ++told > kMost + 1)
       return;
     line.clear();
     print_line(stderr, "{}", told <= kMost ? text : "... and more of the like");
@@ -285,8 +292,8 @@ void run(EncodeArguments command, const CommonOptions& common) {
     output.emplace(command.output, common.overwrite);
   ProgressLine line(common.quiet);
   Progress progress = line.callback();
-  if (!common.quiet)
-    command.note = notes_above(line);
+  std::vector<std::string> notes;
+  command.note = notes_above(line, common.quiet, notes);
   MassageVerdict massage;
   const bool several = command.topology_changes == TopologyChanges::kKeep || command.split_objects;
   StillSurface still;
@@ -306,8 +313,8 @@ void run(EncodeArguments command, const CommonOptions& common) {
   output->write(written);
   output->commit();
   const EncodeReport report{
-      command.output,        result,      massage, command.massage == MassageMode::kAuto,
-      !command.rate.empty(), scene.size()};
+      command.output,        result,       massage, command.massage == MassageMode::kAuto,
+      !command.rate.empty(), scene.size(), notes};
   if (common.json)
     print_json(report.json());
   else if (!common.quiet)

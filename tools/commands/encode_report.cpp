@@ -25,15 +25,15 @@ struct Rate {
   double bpfv = 0;   ///< bits per frame and vertex
 };
 
-const char* origin_of(const FrameRate& rate, bool asked) {
-  return asked ? "asked" : rate.assumed ? "assumed" : "source";
-}
-
 double percent(double length, double diagonal) {
   return length == 0 ? 0 : 100 * length / diagonal;
 }
 
 }  // namespace
+
+const char* EncodeReport::origin_of(const FrameRate& rate) const {
+  return rate_asked ? "asked" : rate.assumed ? "assumed" : "source";
+}
 
 nlohmann::ordered_json EncodeReport::json() const {
   Rate rate(result);
@@ -48,7 +48,7 @@ nlohmann::ordered_json EncodeReport::json() const {
   json["faces"] = result.faces;
   json["frames"] = result.frames;
   json["fps"] = result.rate.value();
-  json["fps_from"] = origin_of(result.rate, rate_asked);
+  json["fps_from"] = origin_of(result.rate);
   json["basis"] = name_of(result.kind);
   json["components"] = result.components;
   json["kg"] = result.kg;
@@ -63,6 +63,8 @@ nlohmann::ordered_json EncodeReport::json() const {
   for (const ClipResult& clip : result.clips)
     json["clips"].push_back({{"name", clip.name},
                              {"frames", clip.frames},
+                             {"fps", clip.rate.value()},
+                             {"fps_from", origin_of(clip.rate)},
                              {"kg", clip.kg},
                              {"rmse", clip.rmse},
                              {"max_error", clip.max_error}});
@@ -76,6 +78,7 @@ nlohmann::ordered_json EncodeReport::json() const {
                                          {"asked", a.asked},
                                          {"max_error", a.max_error},
                                          {"rmse", a.rmse}});
+  json["notes"] = notes;
   return json;
 }
 
@@ -83,7 +86,8 @@ nlohmann::ordered_json EncodeReport::json() const {
 void EncodeReport::print_clips(int verbosity) const {
   uint32_t first = 0;
   for (const ClipResult& clip : result.clips) {
-    print_line("  clip \"{}\": {} frames, max error {:.4g}, KG {:.3g} %", clip.name, clip.frames,
+    print_line("  clip \"{}\": {} at {:.6g} fps ({}), max error {:.4g}, KG {:.3g} %", clip.name,
+               counted(clip.frames, "frame"), clip.rate.value(), origin_of(clip.rate),
                clip.max_error, clip.kg);
     for (const FrameRun& segment : result.segments) {
       if (verbosity == 0 || segment.first + segment.count <= first ||
@@ -117,9 +121,10 @@ void EncodeReport::print_text(int verbosity) const {
     fmt::print("not massaged: the clip would not become smaller\n");
   Rate rate(result);
   std::string frames = counted(result.frames, "frame");
-  if (result.frames > 1)
-    frames +=
-        fmt::format(" at {:.6g} fps ({})", result.rate.value(), origin_of(result.rate, rate_asked));
+  if (result.clips.size() > 1)
+    frames += fmt::format(" of {} clips", result.clips.size());
+  else if (result.frames > 1)
+    frames += fmt::format(" at {:.6g} fps ({})", result.rate.value(), origin_of(result.rate));
   print_line(
       "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {}; {}; max error {:.4g} ({:.3g} %), KG {:.3g} %",
       path, grouped(result.file.size()), rate.ratio, rate.bpfv, frames,

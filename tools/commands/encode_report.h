@@ -7,7 +7,7 @@
 #include "codec/encode_massaged.h"
 
 #include <cstddef>
-#include <optional>
+#include <span>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -22,6 +22,7 @@ struct EncodeReport {
   bool massage_was_choice = false;  ///< --massage auto
   bool rate_asked = false;          ///< --fps
   size_t glb_bytes = 0;             ///< of the scene that carries the clip; 0: it stands alone
+  std::span<const std::string> notes = {};  ///< what of the input is not kept
 
   nlohmann::ordered_json json() const;
 
@@ -29,6 +30,7 @@ struct EncodeReport {
   void print_text(int verbosity) const;
 
   void print_clips(int verbosity) const;
+  const char* origin_of(const FrameRate& rate) const;
 };
 
 }  // namespace anicodec::tools

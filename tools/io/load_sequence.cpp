@@ -234,6 +234,15 @@ std::string mesh_beside(const std::string& cache) {
       cache + ": a vertex cache has no faces; name the mesh that it moves (.obj, .ply, .off)");
 }
 
+/// Tells of a vertex cache beside a mesh that is taken by itself.
+void note_cache_beside(const std::string& mesh, const LoadOptions& options) {
+  for (const char* extension : {".pc2", ".mdd"}) {
+    const std::string cache = fs::path(mesh).replace_extension(extension).string();
+    if (options.note && exists(cache))
+      options.note("one frame, without " + cache + " beside it, which moves it if named, too");
+  }
+}
+
 /// Compares a cache's first frame with its mesh, whose positions are not kept. Where one is the other
 /// turned from Y up to Z up or back, the axis that is up is known; other axes and units are noted.
 void compare_axes(const std::string& cache, std::span<const float> mesh, const LoadOptions& options,
@@ -311,15 +320,15 @@ GltfResolver resolver_of(const std::string& scene) {
   };
 }
 
-/// Several animations of a scene as clips of one file.
-MeshSequence load_clips(const std::string& path, std::string_view bytes,
-                        const LoadOptions& options) {
-  const GltfOptions scene = scene_options(options);
-  const bool all = options.clips == std::vector<std::string>{"all"};
-  const std::vector<std::string> names = all ? std::vector<std::string>{} : options.clips;
-  return clip_library(kind_of(path) == FileKind::kAssimp
-                          ? load_assimp_clips(path, scene, names)
-                          : parse_gltf_clips(bytes, path, resolver_of(path), scene, names));
+/// Several animations of a scene as clips of one sequence; of one take, if nobody asked for clips, that.
+template <typename LoadOne, typename LoadClips>
+MeshSequence load_animations(const LoadOptions& options, const LoadOne& load_one,
+                             const LoadClips& load_clips) {
+  if (options.clips.empty() && !(options.takes && options.clip.empty()))
+    return load_one();
+  std::vector<MeshSequence> clips = load_clips();
+  return clips.size() == 1 && options.clips.empty() ? std::move(clips[0])
+                                                    : clip_library(std::move(clips));
 }
 
 void load_scene(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
@@ -330,13 +339,19 @@ void load_scene(const std::string& path, const LoadOptions& options, MeshSequenc
     read_file(path, bytes);
   if (options.note && clip_of_glb(bytes, path))
     options.note(path + " moves by a clip inside, which decode writes; as a scene it stands still");
-  if (!options.clips.empty()) {
-    sequence = load_clips(path, bytes, options);
-    return;
-  }
-  sequence = kind_of(path) == FileKind::kAssimp ? load_assimp(path, scene)
-                                                : parse_gltf(bytes, path, resolver_of(path), scene);
-  sequence.name = sequence.name.empty() ? stem : stem + " " + sequence.name;
+  const bool is_assimp = kind_of(path) == FileKind::kAssimp;
+  sequence = load_animations(
+      options,
+      [&] {
+        return is_assimp ? load_assimp(path, scene)
+                         : parse_gltf(bytes, path, resolver_of(path), scene);
+      },
+      [&] {
+        return is_assimp ? load_assimp_clips(path, scene, options.clips)
+                         : parse_gltf_clips(bytes, path, resolver_of(path), scene, options.clips);
+      });
+  if (sequence.clips.empty())
+    sequence.name = sequence.name.empty() ? stem : stem + " " + sequence.name;
 }
 
 AlembicOptions alembic_options(const LoadOptions& options) {
@@ -359,12 +374,13 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
   read_standard_input(bytes);
   const size_t begin = bytes.find_first_not_of(" \t\r\n");
   if (bytes.starts_with("glTF") || (begin != std::string::npos && bytes[begin] == '{')) {
-    sequence = parse_gltf(
-        bytes, "-",
-        [](const std::string& name) -> std::string {
-          fail_input(name, "a scene from the standard input has no other files");
-        },
-        scene_options(options));
+    const GltfOptions scene = scene_options(options);
+    const GltfResolver resolve = [](const std::string& name) -> std::string {
+      fail_input(name, "a scene from the standard input has no other files");
+    };
+    sequence = load_animations(
+        options, [&] { return parse_gltf(bytes, "-", resolve, scene); },
+        [&] { return parse_gltf_clips(bytes, "-", resolve, scene, options.clips); });
     return;
   }
   if (bytes.starts_with("Ogawa")) {
@@ -441,6 +457,8 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
   }
   if (!options.mesh.empty())
     fail_usage(options.mesh + ": a mesh is given for a vertex cache, but there is none");
+  if (meshes.size() == 1)
+    note_cache_beside(meshes[0], options);
   if (meshes.size() > kMaxFrames)
     fail_usage(std::to_string(meshes.size()) + " frames; at most 2^24 - 1 are possible");
   FileKind kind = kind_of(meshes[0]);

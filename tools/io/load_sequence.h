@@ -32,6 +32,9 @@ struct LoadOptions {
   /// Several animations of a scene as one sequence of several clips, by their names; "all":
   /// all that move anything.
   std::vector<std::string> clips = {};
+  /// Without `clip` and `clips`, several takes of what moves in a scene are clips of the sequence; else
+  /// the first is taken, and the others noted.
+  bool takes = false;
   /// See StlWeld.
   bool weld_stl = true;
   /// Most bytes that may be taken for what a file announces and does not hold: decompressed data,

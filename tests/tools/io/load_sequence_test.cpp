@@ -55,6 +55,19 @@ TEST(LoadSequence, ReadsOneMeshAsOneFrame) {
   EXPECT_EQ(clip.up, UpAxis::kUnknown);
 }
 
+TEST(LoadSequence, TellsOfACacheBesideAMeshAlone) {
+  TemporaryFolder folder;
+  const std::vector<std::string> inputs{folder.write("a.obj", triangle("7"))};
+  std::string note;
+  LoadOptions options;
+  options.note = [&](const std::string& text) { note += text; };
+  load_sequence(inputs, options);
+  EXPECT_EQ(note, "");
+  folder.write("a.mdd", "");
+  load_sequence(inputs, options);
+  EXPECT_THAT(note, HasSubstr("a.mdd beside it"));
+}
+
 TEST(LoadSequence, SortsGlobsNaturallyAndKeepsListsAsGiven) {
   TemporaryFolder folder;
   for (const char* x : {"1", "2", "10"})

@@ -140,8 +140,11 @@ MeshSequence load_assimp(const std::string& path, const GltfOptions& options) {
 
 std::vector<MeshSequence> load_assimp_clips(const std::string& path, const GltfOptions& options,
                                             const std::vector<std::string>& names) {
-  if (stored_frames(path) > 0)
-    throw Error(ErrorKind::kUsage, path + ": has frames, and no clips");
+  if (stored_frames(path) > 0) {
+    if (!names.empty())
+      throw Error(ErrorKind::kUsage, path + ": has frames, and no clips");
+    return {load_assimp(path, options)};
+  }
   const AssimpFile file = read_file_by_assimp(path, 0, options);
   std::vector<MeshSequence> clips = parse_gltf_clips(file.scenes[0], path, {}, options, names);
   for (MeshSequence& clip : clips)

@@ -17,8 +17,8 @@ namespace anicodec::tools {
 /// without assimp.
 MeshSequence load_assimp(const std::string& path, const GltfOptions& options);
 
-/// Several animations of such a scene, as parse_gltf_clips() has those of glTF. Throws Error(kUsage) too
-/// for files with stored frames.
+/// Animations of such a scene as clips, see parse_gltf_clips(). Stored frames are one clip without
+/// names; throws Error(kUsage) for names of them.
 std::vector<MeshSequence> load_assimp_clips(const std::string& path, const GltfOptions& options,
                                             const std::vector<std::string>& names);
 

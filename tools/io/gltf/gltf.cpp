@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -78,68 +80,125 @@ std::vector<uint32_t> named_animations(const GltfDocument& document, std::string
             "the pose without");
 }
 
-/// The first animation that moves what is baked, else the first with a length, else the first with
-/// keys, which has one frame.
-uint32_t first_animation(const GltfDocument& document, const std::vector<bool>& nodes,
-                         uint64_t memory_limit) {
-  uint32_t longest = kGltfNone, any = kGltfNone;
+/// The first animation with a length, else the first with keys, which has one frame.
+uint32_t first_animation(const GltfDocument& document, uint64_t memory_limit) {
+  uint32_t any = kGltfNone;
   for (uint32_t i = 0; i < document.animations.size(); ++i) {
     if (document.animations[i].channels.empty())
       continue;
     const GltfClip clip(document, i, memory_limit);
-    const bool has_length = clip.last_time() > clip.first_time();
-    if (has_length && clip.moves(nodes))
+    if (clip.last_time() > clip.first_time())
       return i;
-    if (has_length && longest == kGltfNone)
-      longest = i;
     if (any == kGltfNone)
       any = i;
   }
   if (any == kGltfNone)
     fail_empty(document, 0);
-  return longest != kGltfNone ? longest : any;
+  return any;
 }
 
-/// Tells of animations that move the same as one that is taken, and so are other takes of it.
-void note_other_takes(const GltfDocument& document, const std::vector<uint32_t>& others,
-                      const GltfOptions& options) {
-  constexpr size_t kMostNames = 8;
-  if (others.empty() || !options.note)
-    return;
-  std::vector<std::string> names;
-  for (const uint32_t i : others) {
-    if (names.size() < kMostNames)
-      names.push_back(document.animations[i].name.empty() ? std::to_string(i)
-                                                          : document.animations[i].name);
-  }
-  const size_t more = others.size() - names.size();
-  options.note("other takes are left out: " + listed(names) +
-               (more > 0 ? " and " + std::to_string(more) + " more" : "") +
-               "; --clip chooses one, --clips all takes each as a clip");
+std::string name_of_animation(const GltfDocument& document, uint32_t animation) {
+  const std::string& name = document.animations[animation].name;
+  return name.empty() ? "clip " + std::to_string(animation) : name;
 }
+
+std::string listed(const GltfDocument& document, const std::vector<uint32_t>& animations) {
+  constexpr size_t kMostNames = 8;
+  std::vector<std::string> names;
+  for (size_t i = 0; i < std::min(kMostNames, animations.size()); ++i)
+    names.push_back(name_of_animation(document, animations[i]));
+  const size_t more = animations.size() - names.size();
+  return listed(names) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+}
+
+/// Animations, each played together with those that move something else.
+class Takes {
+ public:
+  Takes(const GltfDocument& document, const std::vector<bool>& nodes, uint64_t memory_limit) {
+    for (uint32_t i = 0; i < document.animations.size(); ++i) {
+      const GltfAnimation& animation = document.animations[i];
+      if (animation.channels.empty())
+        continue;
+      const GltfClip clip(document, i, memory_limit);
+      if (clip.last_time() <= clip.first_time())
+        continue;
+      if (!clip.moves(nodes)) {
+        still_.push_back(i);
+        continue;
+      }
+      Moved moved{i, {}};
+      for (const GltfChannel& channel : animation.channels) {
+        if (nodes[channel.node])
+          moved.tracks.emplace(channel.node, channel.path);
+      }
+      moving_.push_back(std::move(moved));
+    }
+    std::vector<bool> taken(moving_.size());
+    for (size_t first = 0; first < moving_.size(); ++first) {
+      if (!taken[first])
+        add(first, taken);
+    }
+    if (takes_.empty())
+      takes_.push_back({first_animation(document, memory_limit)});
+  }
+
+  /// Sets of animations, the first in the order of the file; at least one set.
+  const std::vector<std::vector<uint32_t>>& sets() const { return takes_; }
+
+  /// Animations with a length that move no vertex.
+  const std::vector<uint32_t>& still() const { return still_; }
+
+  /// Those that move a vertex, in the order of the file.
+  std::vector<uint32_t> moving() const {
+    std::vector<uint32_t> animations;
+    for (const Moved& moved : moving_)
+      animations.push_back(moved.animation);
+    return animations;
+  }
+
+ private:
+  struct Moved {
+    uint32_t animation;
+    std::set<std::pair<uint32_t, GltfPath>> tracks;
+  };
+
+  /// Adds the set that begins with an animation: others that fit are those in no set yet, then the rest.
+  void add(size_t first, std::vector<bool>& taken) {
+    std::vector<size_t> set{first};
+    std::set<std::pair<uint32_t, GltfPath>> tracks = moving_[first].tracks;
+    for (const bool again : {false, true}) {
+      for (size_t i = 0; i < moving_.size(); ++i) {
+        const auto& own = moving_[i].tracks;
+        if (i == first || taken[i] != again ||
+            std::ranges::any_of(own, [&](const auto& track) { return tracks.contains(track); }))
+          continue;
+        set.push_back(i);
+        tracks.insert(own.begin(), own.end());
+      }
+    }
+    std::vector<uint32_t>& take = takes_.emplace_back();
+    for (const size_t i : set) {
+      taken[i] = true;
+      take.push_back(moving_[i].animation);
+    }
+  }
+
+  std::vector<Moved> moving_;
+  std::vector<uint32_t> still_;
+  std::vector<std::vector<uint32_t>> takes_;
+};
 
 /// The first animation that moves what is baked, and with it those that move something else.
 std::vector<uint32_t> usual_animations(const GltfDocument& document, const std::vector<bool>& nodes,
                                        const GltfOptions& options) {
-  std::vector<uint32_t> taken{first_animation(document, nodes, options.memory_limit)}, others;
-  GltfClip together(document, taken[0], options.memory_limit);
-  if (!together.moves(nodes))
-    return taken;
-  for (uint32_t i = 0; i < document.animations.size(); ++i) {
-    if (i == taken[0] || document.animations[i].channels.empty())
-      continue;
-    GltfClip clip(document, i, options.memory_limit);
-    if (clip.last_time() <= clip.first_time() || !clip.moves(nodes))
-      continue;
-    if (clip.contradicts(together, nodes)) {
-      others.push_back(i);
-    } else {
-      taken.push_back(i);
-      together.join(std::move(clip));
-    }
-  }
-  note_other_takes(document, others, options);
-  return taken;
+  const Takes takes(document, nodes, options.memory_limit);
+  const std::vector<uint32_t>& usual = takes.sets()[0];
+  std::vector<uint32_t> others = takes.moving();
+  std::erase_if(others, [&](uint32_t i) { return std::ranges::find(usual, i) != usual.end(); });
+  if (!others.empty() && options.note)
+    options.note("other takes are left out: " + listed(document, others) +
+                 "; --clip chooses one, encode takes all as clips");
+  return usual;
 }
 
 FrameRate default_rate(const GltfAnimation& animation, const GltfClip& clip,
@@ -189,55 +248,39 @@ void note_left_out(const GltfDocument& document, const GltfOptions& options) {
   options.note("not kept: " + text + "; encode to a .glb keeps all of the scene");
 }
 
-}  // namespace
-
-MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
-                        const GltfOptions& options) {
-  const GltfDocument document =
-      parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside);
-  note_left_out(document, options);
-  return bake_gltf(document, options);
+/// Tells what the parts of a scene tell of themselves once, whatever the number of clips.
+std::function<void(const std::string&)> told_once(std::function<void(const std::string&)> note) {
+  if (!note)
+    return note;
+  return [note = std::move(note), told = std::set<std::string>()](const std::string& text) mutable {
+    if (told.insert(text).second)
+      note(text);
+  };
 }
 
-std::vector<MeshSequence> parse_gltf_clips(std::string_view bytes, std::string_view name,
-                                           const GltfResolver& resolve, GltfOptions options,
-                                           const std::vector<std::string>& names) {
-  const GltfDocument document =
-      parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside);
-  note_left_out(document, options);
-  std::vector<uint32_t> animations;
-  for (const std::string& wanted : names)
-    animations.push_back(named_animation(document, wanted));
-  const std::vector<bool> nodes = GltfBake(document, options).moving_nodes();
-  for (uint32_t i = 0; names.empty() && i < document.animations.size(); ++i) {
-    if (document.animations[i].channels.empty())
-      continue;
-    const GltfClip clip(document, i, options.memory_limit);
-    if (clip.last_time() > clip.first_time() && clip.moves(nodes))
-      animations.push_back(i);
+/// Adds the events of an animation to a clip that begins at `first_time`.
+void add_events(const GltfDocument& document, const GltfAnimation& animation, double first_time,
+                const GltfOptions& options, ClipTiming* timing) {
+  for (NamedTime event : animation.events) {
+    event.seconds -= first_time;
+    try {
+      add_event(event, timing);
+    } catch (const Error& e) {
+      if (options.note)
+        options.note(document.name + ": " + e.what() + ", and is left out");
+    }
   }
-  if (animations.empty())
-    throw Error(ErrorKind::kUsage, document.name + ": no animation moves anything");
-  std::vector<MeshSequence> clips;
-  for (uint32_t i : animations) {
-    options.clip = std::to_string(i);
-    clips.push_back(bake_gltf(document, options));
-    clips.back().name = document.animations[i].name.empty() ? "clip " + std::to_string(i)
-                                                            : document.animations[i].name;
-  }
-  return clips;
 }
 
-MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options) {
+/// Some animations played together; of none the pose that the nodes have.
+MeshSequence bake_animations(const GltfDocument& document, const GltfOptions& options,
+                             const std::vector<uint32_t>& animations) {
   GltfBake bake(document, options);
   MeshSequence out = bake.still();
-  if (options.clip == "none" || (options.clip.empty() && document.animations.empty())) {
+  if (animations.empty()) {
     bake.add_frames(nullptr, 1, options, out);
     return out;
   }
-  const std::vector<uint32_t> animations =
-      options.clip.empty() ? usual_animations(document, bake.moving_nodes(), options)
-                           : named_animations(document, options.clip);
   const uint32_t animation = animations[0];
   if (document.animations[animation].channels.empty())
     fail_empty(document, animation);
@@ -251,17 +294,85 @@ MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options)
     out.name = document.animations[animation].name;
   bake.add_frames(&clip, count_frames(document, animation, clip, out.rate, options), options, out);
   ClipTiming timing = clips_of(out)[0];
-  for (NamedTime event : document.animations[animation].events) {
-    event.seconds -= clip.first_time();
-    try {
-      add_event(event, &timing);
-    } catch (const Error& e) {
-      if (options.note)
-        options.note(document.name + ": " + e.what() + ", and is left out");
-    }
-  }
+  for (const uint32_t a : animations)
+    add_events(document, document.animations[a], clip.first_time(), options, &timing);
   out.events = std::move(timing.events);
   return out;
+}
+
+/// A name that none of the clips has.
+std::string unlike(const std::vector<MeshSequence>& clips, const std::string& name) {
+  const auto is_taken = [&](const std::string& text) {
+    return std::ranges::any_of(clips, [&](const MeshSequence& clip) { return clip.name == text; });
+  };
+  std::string text = name;
+  for (int number = 2; is_taken(text); ++number)
+    text = name + " " + std::to_string(number);
+  return text;
+}
+
+/// The sets of animations that are clips: each of those named, all that move anything each by itself,
+/// or of no name the takes.
+std::vector<std::vector<uint32_t>> sets_of(const GltfDocument& document, const GltfOptions& options,
+                                           const std::vector<std::string>& names) {
+  std::vector<std::vector<uint32_t>> sets;
+  if (!names.empty() && names != std::vector<std::string>{"all"}) {
+    for (const std::string& wanted : names)
+      sets.push_back({named_animation(document, wanted)});
+    return sets;
+  }
+  if (document.animations.empty())
+    return names.empty() ? std::vector<std::vector<uint32_t>>{{}} : sets;
+  const Takes takes(document, GltfBake(document, options).moving_nodes(), options.memory_limit);
+  if (!takes.still().empty() && options.note)
+    options.note("left out, as they move no vertex: " + listed(document, takes.still()));
+  if (names.empty())
+    return takes.sets();
+  for (const uint32_t animation : takes.moving())
+    sets.push_back({animation});
+  return sets;
+}
+
+}  // namespace
+
+MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
+                        const GltfOptions& options) {
+  const GltfDocument document =
+      parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside);
+  note_left_out(document, options);
+  return bake_gltf(document, options);
+}
+
+std::vector<MeshSequence> parse_gltf_clips(std::string_view bytes, std::string_view name,
+                                           const GltfResolver& resolve, GltfOptions options,
+                                           const std::vector<std::string>& names) {
+  options.note = told_once(options.note);
+  const GltfDocument document =
+      parse_gltf_document(bytes, name, resolve, options.memory_limit, options.allow_outside);
+  note_left_out(document, options);
+  const std::vector<std::vector<uint32_t>> sets = sets_of(document, options, names);
+  if (sets.empty())
+    throw Error(ErrorKind::kUsage, document.name + ": no animation moves anything");
+  std::vector<MeshSequence> clips;
+  for (const std::vector<uint32_t>& set : sets) {
+    MeshSequence clip = bake_animations(document, options, set);
+    if (sets.size() > 1 || !names.empty())
+      clip.name = unlike(clips, name_of_animation(document, set[0]));
+    options.memory_limit -=
+        std::min(options.memory_limit, uint64_t{clip.positions.size()} * sizeof(float));
+    clips.push_back(std::move(clip));
+  }
+  return clips;
+}
+
+MeshSequence bake_gltf(const GltfDocument& document, const GltfOptions& options) {
+  if (options.clip == "none" || (options.clip.empty() && document.animations.empty()))
+    return bake_animations(document, options, {});
+  return bake_animations(
+      document, options,
+      options.clip.empty()
+          ? usual_animations(document, GltfBake(document, options).moving_nodes(), options)
+          : named_animations(document, options.clip));
 }
 
 }  // namespace anicodec::tools

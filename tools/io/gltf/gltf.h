@@ -50,9 +50,12 @@ struct GltfOptions {
 MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,
                         const GltfOptions& options = {});
 
-/// Several animations of a document, baked one by one with their names: those named, or all that
-/// have a length and move a vertex if none is. An animation without a name is "clip N". Throws as
-/// parse_gltf(), Error(kUsage) for a document without any.
+/// Animations of a document as clips with their names: each of those named; of {"all"} each that has a
+/// length and moves a vertex; of no name the takes, which are animations played together with those that
+/// move something else, so that every one that moves a vertex is in a clip. An animation without a name is "clip N",
+/// a name that is there already gets a number. The only take, and a document without animations, is as
+/// parse_gltf() has it. options.memory_limit holds for all together. Throws as parse_gltf(),
+/// Error(kUsage) where "all" are none.
 std::vector<MeshSequence> parse_gltf_clips(std::string_view bytes, std::string_view name,
                                            const GltfResolver& resolve, GltfOptions options,
                                            const std::vector<std::string>& names);

@@ -111,14 +111,6 @@ bool GltfClip::moves(const std::vector<bool>& nodes) const {
   return false;
 }
 
-bool GltfClip::contradicts(const GltfClip& other, const std::vector<bool>& nodes) const {
-  return std::ranges::any_of(tracks_, [&](const Track& a) {
-    return nodes[a.node] && std::ranges::any_of(other.tracks_, [&](const Track& b) {
-             return a.node == b.node && a.path == b.path;
-           });
-  });
-}
-
 void GltfClip::join(GltfClip other) {
   first_time_ = tracks_.empty() ? other.first_time_ : std::min(first_time_, other.first_time_);
   last_time_ = std::max(last_time_, other.last_time_);

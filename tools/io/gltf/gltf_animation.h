@@ -43,9 +43,6 @@ class GltfClip {
   /// True when a channel changes a value of one of the nodes.
   bool moves(const std::vector<bool>& nodes) const;
 
-  /// True when both have a channel for the same property of one of the nodes.
-  bool contradicts(const GltfClip& other, const std::vector<bool>& nodes) const;
-
   /// Plays another animation at the same time. What both move, moves as there.
   void join(GltfClip other);
 

@@ -322,8 +322,8 @@ TEST(Gltf, PlaysAnimationsTogetherThatMoveDifferentThings) {
   EXPECT_EQ(usual.name, "walk");
   EXPECT_THAT(track(usual, 0), ElementsAre(0, 1, 1));
   EXPECT_THAT(track(usual, 3), ElementsAre(9, 9, 8));
-  EXPECT_THAT(notes, ElementsAre("other takes are left out: 'run'; --clip chooses one, --clips all "
-                                 "takes each as a clip"));
+  EXPECT_THAT(notes, ElementsAre("other takes are left out: 'run'; --clip chooses one, encode "
+                                 "takes all as clips"));
   options.clip = "run+2";
   const MeshSequence chosen = parse(scene, options);
   EXPECT_THAT(track(chosen, 0), ElementsAre(0, 5, 5));
@@ -338,6 +338,32 @@ TEST(Gltf, PlaysAnimationsTogetherThatMoveDifferentThings) {
   options.clip.clear();
   EXPECT_EQ(parse(scene, options).name, "") << "there is no other";
   EXPECT_THAT(notes, SizeIs(1));
+}
+
+TEST(Gltf, TakesOfTheSameAreClipsEachWithWhatMovesBesides) {
+  GltfScene scene = two_meshes();
+  const auto key = [&](float to) { return scene.vectors({0, 0, 0, to, 0, 0}); };
+  scene.animate(0, "translation", {0, 1}, key(1), "LINEAR", "walk");
+  scene.animate(0, "translation", {0, 1}, key(5), "LINEAR", "run");
+  scene.animate(1, "translation", {0, 1}, key(2), "LINEAR", "roll");
+  scene.animate(0, "translation", {0, 1}, key(7), "LINEAR", "run");
+  scene.animate(1, "translation", {0, 1}, key(0), "LINEAR", "wait");
+  std::vector<std::string> notes;
+  GltfOptions options = at_rate(1);
+  options.note = [&](const std::string& text) { notes.push_back(text); };
+  const auto clips = [&](const std::vector<std::string>& names) {
+    std::string text;
+    for (const MeshSequence& clip : parse_gltf_clips(scene.glb(), "a.glb", {}, options, names))
+      text += clip.name + " " + std::to_string(static_cast<int>(track(clip, 0)[1])) + " " +
+              std::to_string(static_cast<int>(track(clip, 3)[1])) + "; ";
+    return text;
+  };
+  EXPECT_EQ(clips({}), "walk 1 2; run 5 2; run 2 7 2; ");
+  EXPECT_THAT(notes, ElementsAre("left out, as they move no vertex: 'wait'"));
+  EXPECT_EQ(clips({"all"}), "walk 1 9; run 5 9; roll 0 2; run 2 7 9; ");
+  EXPECT_EQ(clips({"roll"}), "roll 0 2; ");
+  options.memory_limit = uint64_t{3} * 2 * 6 * 3 * sizeof(float) - 1;
+  EXPECT_THAT(fault([&] { clips({}); }), HasSubstr("are allowed")) << "of all clips together";
 }
 
 TEST(Gltf, SamplesAtTheGridOfTheKeys) {
