@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace anicodec {
 namespace {
 
 constexpr double kFarthest = 0.25;  // of the diagonal of the component's box
+constexpr double kSmallOpening = 0.05;  // of the diagonal: what looks like a flaw, not like a shape
 constexpr double kNear = 0.01;      // of the whole's: always good enough, for tiny components
 
 void check_components(const SurfaceTopology& topology, const Positions& positions,
@@ -49,14 +51,60 @@ void check_components(const SurfaceTopology& topology, const Positions& position
   }
 }
 
+uint32_t root_of(std::vector<uint32_t>& parent, uint32_t v) {
+  while (parent[v] != v)
+    v = parent[v] = parent[parent[v]];
+  return v;
+}
+
 }  // namespace
+
+double largest_opening(const SurfaceTopology& topology, const Positions& positions) {
+  std::vector<uint32_t> parent(topology.vertex_count);
+  std::iota(parent.begin(), parent.end(), 0U);
+  std::vector<bool> at_boundary(topology.vertex_count, false);
+  Eigen::AlignedBox3d all;
+  for (size_t t = 0; t < topology.triangles.size(); ++t) {
+    for (size_t k = 0; k < 3; ++k) {
+      all.extend(row(positions, topology.triangles[t][k]));
+      if (topology.across[t][k] != SurfaceTopology::kNone)
+        continue;
+      const uint32_t a = topology.triangles[t][(k + 1) % 3], b = topology.triangles[t][(k + 2) % 3];
+      at_boundary[a] = at_boundary[b] = true;
+      parent[root_of(parent, a)] = root_of(parent, b);
+    }
+  }
+  std::vector<Eigen::AlignedBox3d> boxes(topology.vertex_count);
+  for (uint32_t v = 0; v < topology.vertex_count; ++v) {
+    if (at_boundary[v])
+      boxes[root_of(parent, v)].extend(row(positions, v));
+  }
+  double largest = 0;
+  for (const Eigen::AlignedBox3d& box : boxes) {
+    if (!box.isEmpty())
+      largest = std::max(largest, box.diagonal().norm());
+  }
+  return largest > 0 ? largest / all.diagonal().norm() : 0;
+}
+
+double check_openings(const SurfaceTopology& mesh, const Positions& positions,
+                      const Surface& surface) {
+  const bool is_open = mesh.has_boundary();
+  if (is_open == surface.topology().has_boundary())
+    return 0;
+  const double opening = is_open ? largest_opening(mesh, positions)
+                                 : largest_opening(surface.topology(), surface.positions());
+  if (opening > kSmallOpening)
+    throw Error(ErrorKind::kInput,
+                (is_open ? "the mesh is open, but the surface is closed: an opening has "
+                         : "the mesh is closed, but the surface is open: an opening has ") +
+                    std::to_string(std::lround(100 * opening)) + " % of the diagonal");
+  return opening;
+}
 
 void check_surfaces_match(const SurfaceTopology& mesh, const Positions& positions,
                           const Surface& surface) {
-  if (mesh.has_boundary() != surface.topology().has_boundary())
-    throw Error(ErrorKind::kInput, mesh.has_boundary()
-                                       ? "the mesh is open, but the surface is closed"
-                                       : "the mesh is closed, but the surface is open");
+  check_openings(mesh, positions, surface);
   check_components(mesh, positions, surface, "the mesh", "the surface");
   Surface moving(mesh, positions);
   moving.build_index();

@@ -7,8 +7,18 @@
 
 namespace anicodec {
 
-/// Throws Error(kInput) if a mesh and a surface cannot stand for each other: one is open and the
-/// other closed, or a connected component of one has no counterpart in the other, so that its
+/// The largest opening: of the connected pieces of the boundary the one with the longest diagonal of its
+/// box, in parts of the diagonal of all. 0 for a closed mesh. Cost: O(triangles).
+double largest_opening(const SurfaceTopology& topology, const Positions& positions);
+
+/// The opening of which one of two meshes has nothing because it is closed, as a hole that a decimater has
+/// filled; 0 where both are open or both closed. Throws Error(kInput) for one that is not small: of more
+/// than a twentieth of the diagonal.
+double check_openings(const SurfaceTopology& mesh, const Positions& positions,
+                      const Surface& surface);
+
+/// Throws Error(kInput) if a mesh and a surface cannot stand for each other: as check_openings(), or
+/// for a connected component of one that has no counterpart in the other, so that its
 /// vertices are further from the other, on average, than a quarter of its own size. The surface has
 /// an index. Cost: a query a vertex of both.
 void check_surfaces_match(const SurfaceTopology& mesh, const Positions& positions,

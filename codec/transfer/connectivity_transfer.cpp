@@ -5,6 +5,7 @@
 #include "codec/metrics/hausdorff.h"
 #include "codec/sequence/error.h"
 #include "codec/surface/mesh_quality.h"
+#include "codec/surface/surface_match.h"
 #include "codec/transfer/distance_fit.h"
 #include "codec/transfer/geodesic_landmarks.h"
 
@@ -248,11 +249,23 @@ std::string alarm_names(uint8_t alarms) {
   return text;
 }
 
+namespace {
+
+void check_can_carry(const CarriedMesh& mesh, const Surface& surface, uint32_t frame) {
+  try {
+    check_openings(mesh.topology(), mesh.last(), surface);
+  } catch (const Error& e) {
+    throw Error(e.kind(), "frame " + std::to_string(frame) + ": " + e.what() +
+                              "; one connectivity cannot serve both");
+  }
+}
+
+}  // namespace
+
 TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame_count,
                                      const TransferOptions& options, const Progress& progress) {
   TransferResult result;
   std::unique_ptr<CarriedMesh> carried;
-  bool open = false;
   for (uint32_t f = 0; f < frame_count; ++f) {
     if (progress)
       progress("transferring", static_cast<double>(f) / frame_count);
@@ -261,14 +274,9 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
                                    static_cast<uint32_t>(frame.positions.size() / 3));
     if (topology.triangles.empty())
       throw Error(ErrorKind::kInput, "frame " + std::to_string(f) + " has no triangle");
-    if (f == 0)
-      open = topology.has_boundary();
-    else if (open != topology.has_boundary())
-      throw Error(ErrorKind::kInput,
-                  "frame " + std::to_string(f) + " is " +
-                      (open ? "closed, but frame 0 is open" : "open, but frame 0 is closed") +
-                      ": one connectivity cannot serve both");
     Surface surface(topology, positions_of(frame.positions));
+    if (carried)
+      check_can_carry(*carried, surface, f);
     surface.build_index();
     result.diagonal = std::max(result.diagonal, diagonal_of(surface.positions()));
     Attempt attempt;

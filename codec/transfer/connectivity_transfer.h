@@ -73,8 +73,8 @@ struct TransferResult {
 /// there the mesh is brought without regard to the surface (Registration::pose()) before it is
 /// registered, so that a leg finds itself however far it went. If it still raises one, it starts a
 /// new segment with its own connectivity, or with what first_mesh makes of it. Memory: the result
-/// and two meshes. Throws Error(kInput) naming the frame for a mesh without triangles, and for
-/// meshes of which one is open and another closed. Stage "transferring".
+/// and two meshes. Throws Error(kInput) naming the frame for a mesh without triangles, and as
+/// check_openings() of what is carried and a mesh. Stage "transferring".
 TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame_count,
                                      const TransferOptions& options, const Progress& progress = {});
 

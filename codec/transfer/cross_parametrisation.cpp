@@ -6,6 +6,7 @@
 #include "codec/massage/shape_fit.h"
 #include "codec/massage/shape_weights.h"
 #include "codec/sequence/error.h"
+#include "codec/surface/surface_match.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,9 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-void check_fits(const SurfaceTopology& mesh, const Surface& surface,
+void check_fits(const SurfaceTopology& mesh, const Positions& shape, const Surface& surface,
                 const std::vector<Landmark>& landmarks) {
-  if (mesh.has_boundary() != surface.topology().has_boundary())
-    throw Error(ErrorKind::kInput, std::string("the mesh is ") +
-                                       (mesh.has_boundary() ? "open, but the surface is closed"
-                                                            : "closed, but the surface is open"));
+  check_openings(mesh, shape, surface);
   for (const Landmark& l : landmarks) {
     if (l.vertex >= mesh.vertex_count)
       throw Error(ErrorKind::kUsage, "landmark at vertex " + std::to_string(l.vertex) + " of " +
@@ -96,7 +94,7 @@ Positions laid_on(const std::vector<Landmark>& landmarks, const Positions& shape
 CrossParametrisation improve_map(const SurfaceTopology& mesh, const Positions& shape,
                                  const Surface& surface, const Positions& rough,
                                  const CrossParametrisationOptions& options) {
-  check_fits(mesh, surface, options.landmarks);
+  check_fits(mesh, shape, surface, options.landmarks);
   CrossParametrisation result;
   auto project = [&] {
     result.points.resize(mesh.vertex_count);
@@ -125,7 +123,7 @@ CrossParametrisation improve_map(const SurfaceTopology& mesh, const Positions& s
 
 Positions map_by_landmarks(const SurfaceTopology& mesh, const Positions& shape,
                            const Surface& surface, const std::vector<Landmark>& landmarks) {
-  check_fits(mesh, surface, landmarks);
+  check_fits(mesh, shape, surface, landmarks);
   const Positions laid = landmarks.empty() ? shape : laid_on(landmarks, shape);
   const RigidShape rigid(mesh, laid);
   RegistrationOptions options;

@@ -32,8 +32,7 @@ struct CrossParametrisation {
 /// Improves a rough map: `rough` holds where the mesh's vertices lie on or near the surface. Mean
 /// value weights of the mesh's own positions `shape` ask for its angles, so the map comes near a
 /// conformal one; landmarks stay where they are told to be. The surface has an index and any
-/// connectivity. Throws Error(kInput) if one is open and the other closed, and Error(kUsage) for a
-/// landmark that is no vertex.
+/// connectivity. Throws as check_openings(), and Error(kUsage) for a landmark that is no vertex.
 CrossParametrisation improve_map(const SurfaceTopology& mesh, const Positions& shape,
                                  const Surface& surface, const Positions& rough,
                                  const CrossParametrisationOptions& options);

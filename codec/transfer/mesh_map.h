@@ -19,8 +19,20 @@ struct VertexPair {
   uint32_t mesh = 0, surface = 0;
 };
 
+/// A point of a polygon mesh: on a triangle of the fan of one of its polygons.
+struct MeshPoint {
+  uint32_t polygon = 0;
+  uint32_t corners[3] = {};  ///< numbers in Polygons::corners
+  double weights[3] = {};    ///< of these corners; they sum to one
+};
+
 struct MeshMap {
   std::vector<float> positions;  ///< of the mesh's vertices on the surface, vertices x 3
+  std::vector<MeshPoint> points;  ///< the same as points of the surface, one for each vertex
+  /// Of each corner of the mesh's polygons: on the triangle of the surface that lies below the polygon at this
+  /// corner, so that what the surface has on either side of a seam stays apart. Weights below zero lie
+  /// beyond that triangle.
+  std::vector<MeshPoint> corners;
   Distortion before, after;      ///< of the rough map and of the result, from the mesh's own shape
   uint32_t turned = 0;           ///< triangles that face against the surface
   HausdorffDistance distance;    ///< between the result and the surface
@@ -32,8 +44,7 @@ struct MeshMap {
 /// at least three landmarks that are not on a line, improved towards a conformal one. Without
 /// landmarks the two must lie over each other, and the rough map is a registration. Seams of equal
 /// positions are welded. Cost: some 30 rounds of registration and 20 of fitting, each a query for
-/// every vertex. Throws Error(kInput) for meshes without triangles, or if one is open and the other
-/// closed, and Error(kUsage) for a landmark that is no vertex or for too few of them.
+/// every vertex. Throws Error(kInput) for meshes without triangles and as check_openings(), and Error(kUsage) for a landmark that is no vertex or for too few of them.
 MeshMap map_mesh(const SurfaceFrame& mesh, const SurfaceFrame& surface,
                  std::span<const VertexPair> landmarks);
 

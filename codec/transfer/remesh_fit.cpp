@@ -62,6 +62,7 @@ RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface) {
   const FittedPair pair(mesh, surface);
   check_surfaces_match(pair.moving.topology, pair.start, pair.target);
   RemeshFit fit = measured(pair);
+  fit.opening = check_openings(pair.moving.topology, pair.start, pair.target);
   Positions v = pair.start;
   fit.convergence = fit_closely(pair.moving.topology, pair.target, &v);
   std::vector<float> positions = mesh.positions;

@@ -22,14 +22,15 @@ struct RemeshFit {
   double diagonal = 0;  ///< of the box around the surface
   RadiusRatio ratio_before, ratio_after;
   uint32_t turned_before = 0, turned_after = 0;  ///< triangles that face against the surface
+  double opening = 0;                            ///< see check_openings(), in parts of a diagonal
   bool improved = false;  ///< if not, the positions are those that were given
   Convergence convergence;
 };
 
 /// Fits a mesh to a surface of any connectivity that it roughly covers already: fit_closely().
 /// Vertices at the same place move together. If the mean distance did not fall or the largest one
-/// grew, the mesh stays as it was. Throws Error(kInput) if a mesh has no triangles, if one is open
-/// and the other closed, and for a component of one that has no counterpart in the other.
+/// grew, the mesh stays as it was. Throws Error(kInput) if a mesh has no triangles, and as
+/// check_surfaces_match().
 RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface);
 
 /// The distances of a mesh from a surface as if it had been fitted in vain. Throws Error(kInput) if

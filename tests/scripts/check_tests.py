@@ -37,7 +37,6 @@ THROUGH = {
     "codec/massage": ("tests/codec/massage/massage_test.cpp", "steps of the massage"),
     "codec/search": ("tests/codec/encode_test.cpp", "steps of the search, run by every encode"),
     "codec/segment": ("tests/codec/encode_test.cpp", "segments are written by every encode"),
-    "codec/surface": ("tests/codec/transfer/registration_test.cpp", "matches surfaces for the transfer"),
     "codec/transfer": ("tests/codec/transfer/registration_test.cpp", "the linear system of the registration"),
     "corpus": ("tests/corpus/manifest_test.cpp", "every clip's hash stands in the manifest"),
     "tools/commands": ("tests/tools/commands", "a command is tested as a process"),

@@ -20,7 +20,9 @@ namespace {
 
 constexpr const char* kMassageFitFooter =
     R"(Moves the vertices of MESH so that it lies closer to SURFACE, a mesh of any faces. The faces stay
-the same. Where no closer position is found the mesh is written as it was.
+the same, with their texture coordinates and materials. Where no closer position is found the mesh
+is written as it was. One of the two may be closed where the other has a small opening, such as a
+slit that a decimater has filled: up to a twentieth of the diagonal, which is told.
 
 --json prints one object: file, vertices, faces, improved, before and after: hausdorff,
 hausdorff_percent, hausdorff_mean, hausdorff_mean_percent, radius_ratio, turned.
@@ -34,15 +36,15 @@ struct FitCommand {
 
 void run(const FitCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
-  const SurfaceFrame mesh = load_mesh(command.mesh, line.callback());
-  const SurfaceFrame surface = load_mesh(command.surface, line.callback());
+  const MeshSequence mesh = load_mesh(command.mesh, line.callback());
+  const SurfaceFrame surface = surface_of(load_mesh(command.surface, line.callback()));
   WriteOptions write_options;
   write_options.overwrite = common.overwrite;
   check_sequence_output(command.output, 1, write_options);
   line.show("fitting", 0);
   RemeshFit fit;
   try {
-    fit = fit_remesh(mesh, surface);
+    fit = fit_remesh(surface_of(mesh), surface);
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("{} and {}: {}", command.mesh, command.surface, e.what()));
   }

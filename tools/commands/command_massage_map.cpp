@@ -4,10 +4,12 @@
 #include "codec/transfer/mesh_map.h"
 #include "tools/inputs/mesh_input.h"
 #include "tools/inputs/number_rows.h"
+#include "tools/io/files/atomic_file.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
 #include "tools/words/progress_line.h"
+#include "tools/words/word_table.h"
 
 #include <cmath>
 #include <memory>
@@ -28,6 +30,12 @@ A (cross-parametrisation, thesis section 3.3.3). The faces of B may be any.
 it belongs to, counted from 0; # begins a comment. At least three that are not on a line. Without
 landmarks A and B must lie over each other.
 
+The result has the texture coordinates and materials of A, whose faces it has; --details b gives it
+those of B, and its colours and other numbers, by the map: a texture of B then lies on A as on B. A
+face of A that lies across a seam of B takes its corners from both sides of it. --map writes the
+map: for each vertex of A, in order, a line with three vertices of B, counted from 0, and their
+weights.
+
 Distortion compares each triangle of A with its image, before and after the map is improved:
 conformal (of its angles) and area, 1 if nothing changes, means weighted by area.
 
@@ -39,9 +47,29 @@ Examples:
   anicodec massage map sphere.obj egg.obj -o egg_of_sphere.obj
   anicodec massage map horse.obj camel.obj --landmarks pairs.txt -o camel_of_horse.obj)";
 
+/// Whose texture coordinates, colours and materials the result has.
+enum class MapDetails { kMesh, kSurface };
+constexpr Word<MapDetails> kMapDetails[] = {{MapDetails::kMesh, "a"}, {MapDetails::kSurface, "b"}};
+
 struct MapCommand {
-  std::string mesh, surface, landmarks, output;
+  std::string mesh, surface, landmarks, output, map;
+  MapDetails details = MapDetails::kMesh;
 };
+
+/// A line for each vertex of A: three vertices of B and their weights.
+void write_map(const std::string& path, const Polygons& surface, const MeshMap& map,
+               const CommonOptions& common) {
+  std::string text = "# vertex of A by vertex: three vertices of B, and the weight of each\n";
+  for (const MeshPoint& point : map.points) {
+    for (const uint32_t corner : point.corners)
+      text += fmt::format("{} ", surface.corners[corner]);
+    text +=
+        fmt::format("{:.9g} {:.9g} {:.9g}\n", point.weights[0], point.weights[1], point.weights[2]);
+  }
+  AtomicFile file(path, common.overwrite);
+  file.write(text);
+  file.commit();
+}
 
 /// "12 40" on every line.
 std::vector<VertexPair> read_landmarks(const std::string& path) {
@@ -99,8 +127,8 @@ void print_text(const std::string& file, const MeshMap& map) {
 
 void run(const MapCommand& command, const CommonOptions& common) {
   ProgressLine line(common.quiet);
-  const SurfaceFrame mesh = load_mesh(command.mesh, line.callback());
-  const SurfaceFrame surface = load_mesh(command.surface, line.callback());
+  const MeshSequence mesh = load_mesh(command.mesh, line.callback());
+  const MeshSequence surface = load_mesh(command.surface, line.callback());
   std::vector<VertexPair> landmarks;
   if (!command.landmarks.empty())
     landmarks = read_landmarks(command.landmarks);
@@ -110,11 +138,15 @@ void run(const MapCommand& command, const CommonOptions& common) {
   line.show("mapping", 0);
   MeshMap map;
   try {
-    map = map_mesh(mesh, surface, landmarks);
+    map = map_mesh(surface_of(mesh), surface_of(surface), landmarks);
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("{} and {}: {}", command.mesh, command.surface, e.what()));
   }
-  const MeshSequence result = with_positions(mesh, map.positions);
+  MeshSequence result = with_positions(mesh, map.positions);
+  if (command.details == MapDetails::kSurface)
+    carry_details(surface, map, &result);
+  if (!command.map.empty())
+    write_map(command.map, surface.polygons, map, common);
   write_sequence(command.output, result, write_options);
   line.clear();
   if (common.json)
@@ -134,6 +166,9 @@ void add_massage_map(Commands& commands, CommonOptions& common) {
   options.argument("A", c->mesh, "The mesh whose faces are kept").required();
   options.argument("B", c->surface, "The mesh whose shape is taken").required();
   options.option("-o,--output", c->output, "OUT", "x.obj, x.ply, x.off, x.stl").required();
+  options.option("--map", c->map, "FILE", "Write the map as text");
+  options.choice("--details", c->details, {kMapDetails},
+                 "Whose texture coordinates, colours and materials the result has (default a)");
   options.option("--landmarks", c->landmarks, "FILE", "Vertices of A and B that belong together");
 }
 

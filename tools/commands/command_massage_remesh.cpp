@@ -137,7 +137,7 @@ void run(const RemeshCommand& command, const CommonOptions& common) {
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("{}: {}", command.mesh, e.what()));
   }
-  write_sequence(command.output, with_positions(result.mesh, result.mesh.positions), write_options);
+  write_sequence(command.output, single_frame(result.mesh), write_options);
   line.clear();
   const std::vector<std::string> lost = left_out(mesh);
   if (common.json) {

@@ -6,18 +6,26 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
 #include "codec/surface/surface_frame.h"
+#include "codec/transfer/mesh_map.h"
 
 #include <string>
 #include <vector>
 
 namespace anicodec::tools {
 
-/// The mesh of a file that holds one frame. Throws Error(kInput), and Error(kUsage) for more
-/// frames.
-SurfaceFrame load_mesh(const std::string& path, const Progress& progress);
+/// The mesh of a file that holds one frame, with all that it has. Throws Error(kInput), and
+/// Error(kUsage) for more frames.
+MeshSequence load_mesh(const std::string& path, const Progress& progress);
 
-/// A mesh with other positions, as a sequence to write.
-MeshSequence with_positions(const SurfaceFrame& mesh, std::vector<float> positions);
+/// Its faces and positions alone.
+SurfaceFrame surface_of(const MeshSequence& mesh);
+
+/// The mesh with other positions: normals and tangents, which were those of the shape, go.
+MeshSequence with_positions(MeshSequence mesh, std::vector<float> positions);
+
+/// Gives a mesh what `surface` has at its corners: texture coordinates, colours and other numbers for each corner,
+/// and materials. A face takes the material below most of its corners.
+void carry_details(const MeshSequence& surface, const MeshMap& map, MeshSequence* mesh);
 
 }  // namespace anicodec::tools
 

@@ -29,11 +29,18 @@ void print_row(const char* name, const HausdorffDistance& distance, double diago
 
 void add_fit(const RemeshFit& fit, nlohmann::ordered_json* json) {
   (*json)["improved"] = fit.improved;
+  if (fit.opening > 0)
+    (*json)["opening_percent"] = 100 * fit.opening;
   (*json)["before"] = json_of(fit.before, fit.diagonal, fit.ratio_before, fit.turned_before);
   (*json)["after"] = json_of(fit.after, fit.diagonal, fit.ratio_after, fit.turned_after);
 }
 
 void print_fit(const RemeshFit& fit) {
+  if (fit.opening > 0)
+    fmt::print(
+        "one is closed, and the other has an opening of {:.2g} % of the diagonal: fitted across "
+        "it\n",
+        100 * fit.opening);
   fmt::print("{:<10} {:>12} {:>12} {:>13} {:>8}\n", "", "mean %", "max %", "radius ratio",
              "turned");
   print_row("before", fit.before, fit.diagonal, fit.ratio_before, fit.turned_before);

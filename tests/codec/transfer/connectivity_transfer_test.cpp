@@ -176,7 +176,9 @@ TEST(ConnectivityTransfer, RefusesOpenAndClosedMeshesInOneSequence) {
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kInput);
-    EXPECT_NE(std::string(e.what()).find("frame 1 is open"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("frame 1: the mesh is closed, but the surface is open"),
+              std::string::npos)
+        << e.what();
   }
 }
 

@@ -48,6 +48,29 @@ TEST(MeshMap, LaysAMeshOnADistantOneByLandmarks) {
   EXPECT_EQ(map.turned, 0U);
 }
 
+Vector3d position_of(const MeshPoint& point, const SurfaceFrame& surface) {
+  Vector3d p = Vector3d::Zero();
+  for (size_t k = 0; k < 3; ++k) {
+    const float* v = &surface.positions[3 * size_t{surface.polygons.corners[point.corners[k]]}];
+    p += point.weights[k] * Vector3d(double{v[0]}, double{v[1]}, double{v[2]});
+  }
+  return p;
+}
+
+TEST(MeshMap, TellsWhereVerticesAndCornersLieOnTheSurface) {
+  const SurfaceFrame ball = frame_of(sphere(6)), fine = frame_of(sphere(9));
+  const MeshMap map = map_mesh(ball, fine, {});
+  const Positions at = positions_of(map.positions);
+  ASSERT_EQ(map.points.size() * 3, ball.positions.size());
+  ASSERT_EQ(map.corners.size(), ball.polygons.corners.size());
+  for (uint32_t v = 0; v < map.points.size(); ++v)
+    EXPECT_LT((position_of(map.points[v], fine) - row(at, v)).norm(), 1e-5);
+  for (size_t c = 0; c < map.corners.size(); ++c) {
+    EXPECT_LT((position_of(map.corners[c], fine) - row(at, ball.polygons.corners[c])).norm(), 0.02);
+    EXPECT_LT(map.corners[c].polygon, fine.polygons.size());
+  }
+}
+
 TEST(MeshMap, NeedsNoLandmarksForMeshesOverEachOther) {
   const MeshMap map = map_mesh(frame_of(sphere(6)), frame_of(sphere(9)), {});
   EXPECT_LT(map.distance.max(), 0.05 * map.diagonal);

@@ -209,6 +209,39 @@ TEST(MassageCommand, MapsByLandmarks) {
   EXPECT_LT(outcome.json()["after"]["conformal_mean"], 1.01);
 }
 
+TEST(MassageCommand, MapsTexturesFromEitherSide) {
+  TemporaryFolder folder;
+  write_ball(folder / "a.obj", 300, 1);
+  write_ball(folder / "plain.obj", 900, 1);
+  // Texture coordinates of B are its places, x and y.
+  MeshSequence b = load_sequence(std::vector<std::string>{folder / "plain.obj"}, {});
+  Attribute uv{.kind = AttributeKind::kUv, .name = "uv", .values = {}};
+  for (size_t v = 0; v < b.vertex_count; ++v)
+    uv.values.insert(uv.values.end(), {b.positions[3 * v], b.positions[3 * v + 1]});
+  b.attributes = {uv};
+  write_sequence(folder / "b.obj", b);
+  const Outcome outcome =
+      anicodec({"massage", "map", folder / "a.obj", folder / "b.obj", "--details", "b", "--map",
+                folder / "map.txt", "-o", folder / "mapped.obj", "-q"});
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  const MeshSequence mapped = load_sequence(std::vector<std::string>{folder / "mapped.obj"}, {});
+  ASSERT_EQ(mapped.attributes.size(), 1U);
+  ASSERT_TRUE(mapped.attributes[0].per_corner);
+  for (size_t c = 0; c < mapped.polygons.corners.size(); ++c) {
+    const size_t v = mapped.polygons.corners[c];
+    for (size_t k = 0; k < 2; ++k)
+      EXPECT_NEAR(mapped.attributes[0].values[2 * c + k], mapped.positions[3 * v + k], 0.02);
+  }
+  const std::string map = folder.read("map.txt");
+  EXPECT_EQ(static_cast<size_t>(std::count(map.begin(), map.end(), '\n')), mapped.vertex_count + 1);
+  // Of A, whose faces they are.
+  ASSERT_EQ(anicodec({"massage", "map", folder / "b.obj", folder / "a.obj", "-o",
+                      folder / "back.obj", "-q"})
+                .status,
+            0);
+  EXPECT_THAT(folder.read("back.obj"), HasSubstr("\nvt "));
+}
+
 TEST(MassageCommand, RefusesBadLandmarks) {
   TemporaryFolder folder;
   write_ball(folder / "a.obj", 200, 1);
