@@ -5,6 +5,7 @@
 #include "codec/algebra/rigid_motion.h"
 #include "codec/interpolation/deformation_gradients.h"
 #include "codec/interpolation/edge_refinement.h"
+#include "codec/interpolation/resting_parts.h"
 #include "codec/interpolation/vertex_blending.h"
 #include "codec/sequence/error.h"
 #include "sdk/msgi/msgi.h"
@@ -175,6 +176,26 @@ class Refined : public PointInterpolation {
   int steps_;
 };
 
+/// Another interpolation, with what rests in all inputs at its place.
+class Anchored : public Interpolation {
+ public:
+  Anchored(std::unique_ptr<Interpolation> inner, RestingParts parts)
+      : inner_(std::move(inner)), parts_(std::move(parts)) {}
+
+  std::span<const float> evaluate(std::span<const double> weights,
+                                  std::span<const float> pins) override {
+    const std::span<const float> x = inner_->evaluate(weights, pins);
+    out_.assign(x.begin(), x.end());
+    parts_.anchor(out_);
+    return out_;
+  }
+
+ private:
+  std::unique_ptr<Interpolation> inner_;
+  RestingParts parts_;
+  std::vector<float> out_;
+};
+
 void check_pins(const InterpolationOptions& options, uint32_t vertex_count) {
   if (!options.pins.empty() && options.method != InterpolationMethod::kMsgi)
     throw Error(ErrorKind::kUsage, "only msgi takes pins");
@@ -248,11 +269,18 @@ std::unique_ptr<Interpolation> make_interpolation(std::span<const uint32_t> tria
   if (inputs.size() < 2)
     throw Error(ErrorKind::kUsage, "it takes two meshes to interpolate");
   check_pins(options, vertex_count);
-  auto plain = make_plain(triangles, vertex_count, inputs, options);
-  if (options.refinement_steps == 0)
-    return plain;
-  return std::make_unique<Refined>(std::move(plain), EdgeNetwork(triangles, vertex_count),
-                                   all_points(inputs), options.refinement_steps);
+  auto made = make_plain(triangles, vertex_count, inputs, options);
+  if (options.refinement_steps > 0)
+    made = std::make_unique<Refined>(std::move(made), EdgeNetwork(triangles, vertex_count),
+                                     all_points(inputs), options.refinement_steps);
+  const bool places_parts = options.method == InterpolationMethod::kMsgi ||
+                            options.method == InterpolationMethod::kVertexBlending ||
+                            options.refinement_steps > 0;
+  if (!places_parts || !options.pins.empty())
+    return made;
+  RestingParts parts(triangles, vertex_count, inputs);
+  return parts.empty() ? std::move(made)
+                       : std::make_unique<Anchored>(std::move(made), std::move(parts));
 }
 
 uint32_t choose_leaf_faces(std::span<const uint32_t> triangles, uint32_t vertex_count,

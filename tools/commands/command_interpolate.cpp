@@ -3,16 +3,16 @@
 #include "codec/interpolation/interpolation.h"
 #include "codec/sequence/error.h"
 #include "codec/surface/closest_point.h"
-#include "codec/surface/edge_network.h"
 #include "tools/inputs/interpolation_input.h"
+#include "tools/io/files/atomic_file.h"
 #include "tools/io/write_sequence.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
+#include "tools/report/interpolation_study.h"
 #include "tools/words/progress_line.h"
 
-#include <algorithm>
 #include <memory>
-#include <numbers>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -49,17 +49,22 @@ method comes near, in about a second for each step, frame and 7000 vertices.
 --compare prints how far the frames of every method are from the lengths, angles and volume that the
 weights ask for, means over the frames; then -o may be left out. With --json one object before the
 other: methods, for each method, length_percent, largest_length_percent, angle_degrees,
-volume_percent, folded and collapsed (angles and lengths of all frames).
+volume_percent, folded and collapsed (angles and lengths of all frames). --study PAGE.html writes
+the same with pictures of up to five frames by each method, and charts of the errors by frame.
+
+Where vertices are at one place in all meshes, msgi, msgi-v and --refine, which know lengths and
+angles alone, place the mesh by them: a base that rests stays, as far as the method keeps its shape.
 
 Examples:
   anicodec interpolate a.obj b.obj -o between.pc2 --frame-count 25
   anicodec interpolate dance.pc2@0 dance.pc2@40 -o f_%02d.obj --frame-count 9 --range -0.5:1.5
   anicodec interpolate a.obj b.obj c.obj -o mix.pc2 --weights weights.txt --method pml
-  anicodec interpolate a.obj b.obj --frame-count 9 --compare)";
+  anicodec interpolate a.obj b.obj --frame-count 9 --compare
+  anicodec interpolate a.obj b.obj --frame-count 41 --range -0.5:1.5 --study methods.html)";
 
 struct InterpolateCommand {
   std::vector<std::string> inputs;
-  std::string output, mesh, weights, range, pin;
+  std::string output, mesh, weights, range, pin, study;
   uint32_t frames = 0, patch_faces = 0;
   int sweeps = -1, refine = 0;
   InterpolationMethod method = InterpolationMethod::kMsgi;
@@ -92,83 +97,32 @@ WeightRows weights_of(const InterpolateCommand& command, size_t meshes) {
   return path_weights(meshes, command.frames, first, last);
 }
 
-/// How far the frames of a method are from what the weights ask for: means, but for the largest
-/// length, and counts of all frames.
-struct MethodError {
-  InterpolationMethod method;
-  EdgeError error;
-};
-
-std::vector<MethodError> measure_methods(const std::vector<uint32_t>& triangles,
-                                         const MeshSequence& poses,
-                                         std::span<const std::span<const float>> inputs,
-                                         const WeightRows& rows, InterpolationOptions options,
-                                         ProgressLine& line) {
-  const EdgeNetwork network(triangles, poses.vertex_count);
-  std::vector<Points> points;
-  for (std::span<const float> x : inputs)
-    points.push_back(to_points(x));
-  const std::vector<EdgeShape> shapes = measure_edges(network, points);
-  std::vector<MethodError> errors;
-  for (InterpolationMethod method : interpolation_methods()) {
-    line.show(fmt::format("method {}", name_of(method)), 0);
-    options.method = method;
-    auto interpolation = make_interpolation(triangles, poses.vertex_count, inputs, options);
-    EdgeError sum;
-    for (const std::vector<double>& weights : rows) {
-      double volume = 0;
-      for (size_t i = 0; i < points.size(); ++i)
-        volume += weights[i] * enclosed_volume(network, points[i]);
-      const EdgeError error = edge_error(network, to_points(interpolation->evaluate(weights)),
-                                         blend_edges(shapes, weights), volume);
-      sum.length += error.length;
-      sum.angle += error.angle;
-      sum.volume += error.volume;
-      sum.largest_length = std::max(sum.largest_length, error.largest_length);
-      sum.folded += error.folded;
-      sum.collapsed += error.collapsed;
-    }
-    const auto count = static_cast<double>(rows.size());
-    sum.length /= count;
-    sum.angle /= count;
-    sum.volume /= count;
-    errors.push_back({method, sum});
+void compare_methods(const InterpolateCommand& command, const CommonOptions& common,
+                     const MeshSequence& poses, const WeightRows& rows,
+                     const InterpolationOptions& options, ProgressLine& line) {
+  if (!command.pin.empty())
+    throw Error(ErrorKind::kUsage, "interpolate: --compare and --study know no pins");
+  std::optional<AtomicFile> page;
+  if (!command.study.empty())
+    page.emplace(command.study, common.overwrite);
+  const InterpolationStudy study =
+      study_interpolation(poses, rows, options, page.has_value(), line.callback());
+  if (page) {
+    page->write(interpolation_page(study, poses.name));
+    page->commit();
   }
   line.clear();
-  return errors;
-}
-
-double degrees(double radians) {
-  return 180 / std::numbers::pi * radians;
-}
-
-void print_text(const std::vector<MethodError>& errors) {
-  fmt::print("{:<10} {:>10} {:>10} {:>10} {:>10} {:>7} {:>9}\n", "method", "length %", "largest %",
-             "angle deg", "volume %", "folded", "collapsed");
-  for (const auto& [method, error] : errors)
-    fmt::print("{:<10} {:>10.4f} {:>10.2f} {:>10.4f} {:>10.4f} {:>7} {:>9}\n", name_of(method),
-               100 * error.length, 100 * error.largest_length, degrees(error.angle),
-               100 * error.volume, error.folded, error.collapsed);
-}
-
-nlohmann::ordered_json json_of(const std::vector<MethodError>& errors) {
-  nlohmann::ordered_json methods = nlohmann::ordered_json::array();
-  for (const auto& [method, error] : errors)
-    methods.push_back({{"method", name_of(method)},
-                       {"length_percent", 100 * error.length},
-                       {"largest_length_percent", 100 * error.largest_length},
-                       {"angle_degrees", degrees(error.angle)},
-                       {"volume_percent", 100 * error.volume},
-                       {"folded", error.folded},
-                       {"collapsed", error.collapsed}});
-  return {{"methods", methods}};
+  if (common.json)
+    print_json(interpolation_json(study));
+  else
+    fmt::print("{}", interpolation_text(study));
 }
 
 void run(const InterpolateCommand& command, const CommonOptions& common) {
   if (command.inputs.size() < 2)
     throw Error(ErrorKind::kUsage, "interpolate: two meshes or more are needed");
-  if (command.output.empty() && !command.compare)
-    throw Error(ErrorKind::kUsage, "interpolate: -o OUT is needed, or --compare");
+  if (command.output.empty() && !command.compare && command.study.empty())
+    throw Error(ErrorKind::kUsage, "interpolate: -o OUT is needed, --compare, or --study");
   ProgressLine line(common.quiet);
   MeshSequence poses = load_poses(command.inputs, command.mesh, line.callback());
   const WeightRows rows = weights_of(command, poses.frame_count);
@@ -188,15 +142,8 @@ void run(const InterpolateCommand& command, const CommonOptions& common) {
     options.sweeps = static_cast<uint32_t>(command.sweeps);
   else
     options.sweeps = pins.vertices.empty() ? 0 : 10;
-  if (command.compare) {
-    if (!pins.vertices.empty())
-      throw Error(ErrorKind::kUsage, "interpolate: --compare knows no pins");
-    const auto errors = measure_methods(triangles, poses, inputs, rows, options, line);
-    if (common.json)
-      print_json(json_of(errors));
-    else
-      print_text(errors);
-  }
+  if (command.compare || !command.study.empty())
+    compare_methods(command, common, poses, rows, options, line);
   if (command.output.empty())
     return;
 
@@ -252,6 +199,7 @@ void add_interpolate(Commands& commands, CommonOptions& common) {
   options.option("--mesh", c->mesh, "FILE",
                  "Mesh of a vertex cache (default: same stem beside it)");
   options.flag("--compare", c->compare, "Print the errors of all methods");
+  options.option("--study", c->study, "PAGE", "The same, as a page x.html with pictures");
 }
 
 }  // namespace anicodec::tools

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/render/html_text.h"
 #include "tools/report/chart.h"
+#include "tools/report/page_parts.h"
 #include "tools/report/report.h"
 #include "tools/words/quantity.h"
 #include "tools/words/version.h"
@@ -13,39 +14,6 @@
 
 namespace anicodec::tools {
 namespace {
-
-constexpr const char* kStyle = R"(
-:root{--text:#1c2430;--card:#f6f8fa}
-@media(prefers-color-scheme:dark){:root{--text:#e6eaf0;--card:#1a2028}}
-*{box-sizing:border-box}
-body{margin:0;background:var(--page);color:var(--text);font:16px/1.5 system-ui,sans-serif}
-main{max-width:1080px;margin:0 auto;padding:24px 16px 64px}
-h1{font-size:1.7rem;margin:0 0 4px}h2{font-size:1.2rem;margin:40px 0 8px;border-top:1px solid var(--rule);padding-top:20px}
-p{max-width:46em}.quiet{color:var(--quiet)}
-.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(140px,1fr));gap:12px;margin:20px 0}
-.tiles div{background:var(--card);border-radius:8px;padding:12px 14px}
-.tiles b{display:block;font-size:1.35rem;font-variant-numeric:tabular-nums}
-.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(420px,100%),1fr));gap:16px}
-figure{margin:0;min-width:0}figure p{margin:0 0 4px}iframe{width:100%;height:520px;border:0;border-radius:8px}svg{width:100%;height:auto;display:block}
-.legend{font-size:.85rem;line-height:1.9}.legend span{white-space:nowrap;margin-right:12px}
-.legend i{display:inline-block;width:18px;border-top:3px solid;margin-right:5px;vertical-align:middle}
-.legend .dashed i{border-top-style:dashed}
-.scroll{overflow-x:auto}table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
-th,td{padding:4px 12px 4px 0;text-align:right;white-space:nowrap;border-bottom:1px solid var(--rule)}
-th:first-child,td:first-child{text-align:left}
-.bar{height:26px;display:flex;border-radius:6px;overflow:hidden;margin:12px 0}
-.bar span{background:currentColor;min-width:1px}
-img{max-width:100%;height:auto;border-radius:8px;display:block}
-.pictures figure{margin:0 0 16px}.sheet{display:grid;grid-template-columns:repeat(auto-fill,minmax(140px,1fr));gap:10px}
-figcaption{color:var(--quiet);font-size:.85rem;margin-top:4px}
-)";
-
-std::string picture(const ReportPicture& p) {
-  return fmt::format(
-      "<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" src=\"data:image/png;base64,{3}\">"
-      "<figcaption>{0}</figcaption></figure>",
-      html_text(p.caption), p.image.width, p.image.height, base64(png_bytes(p.image)));
-}
 
 std::string tile(const std::string& value, const std::string& what) {
   return fmt::format("<div><b>{}</b><span class=\"quiet\">{}</span></div>", value, what);
@@ -171,16 +139,11 @@ std::string rate_figure(const Report& report) {
 }
 
 std::string report_page(const Report& report) {
-  const std::string name = html_text(report.name.empty() ? "clip" : report.name);
-  std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
-      "<title>{0} – anicodec</title><style>{7}{1}</style></head><body><main><h1>{0}</h1>"
-      "<p class=\"quiet\">{2} vertices, {3} faces, {4} frames at {5:.4g} per second{8}. Made "
-      "by anicodec {6}.</p>",
-      name, kStyle, grouped(report.vertices), grouped(report.faces), report.frames,
-      report.rate.value(), version(), kChartStyle,
-      report.rate.assumed ? ", which is assumed: the source names no rate" : "");
+  const std::string below = fmt::format(
+      "{} vertices, {} faces, {} frames at {:.4g} per second{}. Made by anicodec {}.",
+      grouped(report.vertices), grouped(report.faces), report.frames, report.rate.value(),
+      report.rate.assumed ? ", which is assumed: the source names no rate" : "", version());
+  std::string out;
   const double raw = 12.0 * report.vertices * report.frames;
   if (report.shown_bytes > 0) {
     const auto bytes = static_cast<double>(report.shown_bytes);
@@ -222,7 +185,7 @@ std::string report_page(const Report& report) {
           "<p>Original, decoded, and the decoded frame coloured by error: grey is none, black the "
           "largest of the clip.</p><div class=\"pictures\">";
       for (const ReportPicture& p : report.pictures)
-        out += picture(p);
+        out += figure_of(p.caption, p.image);
       out += "</div>";
     }
   }
@@ -247,7 +210,7 @@ std::string report_page(const Report& report) {
   if (!report.keyframes.empty()) {
     out += "<p>Key-frames that pivoting takes first.</p><div class=\"sheet\">";
     for (const ReportPicture& p : report.keyframes)
-      out += picture(p);
+      out += figure_of(p.caption, p.image);
     out += "</div>";
   }
   if (!report.shape_spaces.empty()) {
@@ -267,7 +230,7 @@ std::string report_page(const Report& report) {
   }
   if (report.massage)
     out += massage_section(*report.massage);
-  return out + "</main></body></html>\n";
+  return page_around(report.name.empty() ? "clip" : report.name, below, out);
 }
 
 }  // namespace anicodec::tools
