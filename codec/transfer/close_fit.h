@@ -12,7 +12,7 @@ namespace anicodec {
 /// two, both ways, are least (thesis sections 3.2.3, 3.3.2); both are those of hausdorff(). Descends
 /// by damped Gauss-Newton steps (Levenberg and Marquardt) on
 ///   the larger mean, in parts of that at the start
-///   + weight * sum over samples of max(0, distance - 0.585 of the largest at the start)^2,
+///   + weight * sum over samples of max(0, distance - 0.57 of the largest at the start)^2,
 /// whose distances are found anew after every step; a step that does not lower it is taken back and
 /// damped more. The weight grows while something is further off. Vertices may leave the surface. A
 /// weak RigidShape of the start, which fades, keeps triangles from degenerating. Triangles that are
