@@ -48,8 +48,8 @@ massaged, surface_error, surface_error_mean (those of a clip, of the first one),
 first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error, rmse,
 kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
 max_error, rmse in units of their values), segments (mesh, basis, of, reconstruction, first_frame,
-frames, components, corrections, coder, slices), chunks (type, offset, size, required, mesh, segment).
-Lengths are in scene units, errors those the encoder measured.)";
+frames, components, corrections, coder, slices), chunks (type, offset, size, required, mesh,
+segment). Lengths are in scene units, errors those the encoder measured.)";
 
 struct Contents {
   uint64_t bytes = 0;
