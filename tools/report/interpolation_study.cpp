@@ -20,7 +20,7 @@
 namespace anicodec::tools {
 namespace {
 
-constexpr uint32_t kPictureSize = 240;
+constexpr uint32_t kStudyPictureSize = 240;
 constexpr uint32_t kMostShown = 5;
 
 double degrees(double radians) {
@@ -41,7 +41,7 @@ std::vector<uint32_t> shown_frames(size_t frames) {
 class Studio {
  public:
   explicit Studio(const MeshSequence& poses)
-      : view_(poses, box_of(poses), kPictureSize, kPictureSize) {
+      : view_(poses, box_of(poses), kStudyPictureSize, kStudyPictureSize) {
     camera_.z_up = poses.up == UpAxis::kZ;
   }
 
