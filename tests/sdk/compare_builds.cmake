@@ -4,7 +4,7 @@
 # cmake -DSOURCE_DIR=... -DWORK_DIR=... -P compare_builds.cmake
 # Builds the spatial prediction with several compilers, optimisation levels, instruction sets and numbers of
 # lanes, and runs each build: all must reconstruct the pinned hashes. Missing compilers are skipped by name.
-set(sources format/memory.cpp sdk/prediction/vertex_order.cpp sdk/prediction/predictor.cpp sdk/prediction/prediction_portable.cpp tests/sdk/prediction_hash_main.cpp)
+set(sources format/memory.cpp sdk/prediction/mesh_graph.cpp sdk/prediction/vertex_order.cpp sdk/prediction/predictor.cpp sdk/prediction/prediction_portable.cpp tests/sdk/prediction_hash_main.cpp)
 list(TRANSFORM sources PREPEND "${SOURCE_DIR}/")
 file(MAKE_DIRECTORY "${WORK_DIR}")
 
