@@ -136,12 +136,14 @@ TEST(Hostile, EveryPrefixOfAStreamPlaysOrWaits) {
   }
 }
 
-/// Which bytes of a file are changed: all, but few where a small file stands for a slow one.
+/// Which bytes of a file are changed: of larger ones about as many as of others, for each change opens
+/// the whole.
 size_t step_of(const Entry& entry) {
-  return entry.file == "limb_effort9.anic" ? 13 : 1;
+  constexpr size_t kChanges = 256;
+  return entry.bytes.size() / kChanges + 1;
 }
 
-TEST(SlowHostile, EveryChangedByteIsNoticed) {
+TEST(SlowHostile, ChangedBytesAreNoticed) {
   for (Entry& entry : listed("valid")) {
     for (size_t i = 0; i < entry.bytes.size(); i += step_of(entry)) {
       uint8_t& byte = entry.bytes[i];
@@ -154,7 +156,7 @@ TEST(SlowHostile, EveryChangedByteIsNoticed) {
 }
 
 // With checksums that fit, so that what is inside is decoded.
-TEST(SlowHostile, EveryChangedByteOfAChunkIsSurvived) {
+TEST(SlowHostile, ChangedBytesOfAChunkAreSurvived) {
   size_t refused = 0, all = 0;
   for (const Entry& entry : listed("valid")) {
     EditedFile file(entry.bytes);
