@@ -21,6 +21,8 @@ constexpr uint8_t kMsgiKind = 16;
 constexpr uint8_t kAttributeKind = 32;
 /// In the limits, added to a kind: exact positions follow.
 constexpr uint8_t kExactKind = 64;
+/// In the limits, added to eigentrajectories of positions: the segment has regions.
+constexpr uint8_t kRegionsKind = 128;
 constexpr uint64_t kMaxMsgiBytes = uint64_t{1} << 48;
 constexpr uint64_t kMaxAttributeBytes = uint64_t{1} << 48;
 
@@ -57,7 +59,8 @@ Bytes Limits::write() const {
     const bool msgi = s.reconstruction == Reconstruction::kMsgi;
     const bool of_attribute = s.attribute != kPositions;
     w.u8(static_cast<uint8_t>(static_cast<uint8_t>(s.kind) | (msgi ? kMsgiKind : 0) |
-                              (of_attribute ? kAttributeKind : 0) | (s.exact ? kExactKind : 0)));
+                              (of_attribute ? kAttributeKind : 0) | (s.exact ? kExactKind : 0) |
+                              (s.regions > 1 ? kRegionsKind : 0)));
     for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
       w.varint(x);
     if (s.kind == BasisKind::kKeyframes) {
@@ -73,6 +76,8 @@ Bytes Limits::write() const {
       w.varint(s.attribute);
       w.varint(s.first_component / 3);
     }
+    if (s.regions > 1)
+      w.varint(s.regions);
   }
   if (has_attributes(meshes) || root_frames > 0) {
     for (const Mesh& m : meshes)
@@ -118,10 +123,11 @@ Status Limits::read(ByteView view, Limits* out) {
     uint8_t kind = r.u8();
     const bool of_attribute = kind & kAttributeKind;
     s.exact = kind & kExactKind;
-    kind = static_cast<uint8_t>(kind & ~(kAttributeKind | kExactKind));
-    if ((kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) &&
-         (kind != kMsgiKind || of_attribute)) ||
-        (s.exact && of_attribute))
+    const bool has_regions = kind & kRegionsKind;
+    kind = static_cast<uint8_t>(kind & ~(kAttributeKind | kExactKind | kRegionsKind));
+    constexpr auto kTrajectories = static_cast<uint8_t>(BasisKind::kEigentrajectories);
+    if ((kind > kTrajectories && (kind != kMsgiKind || of_attribute)) || (s.exact && of_attribute) ||
+        (has_regions && (of_attribute || kind != kTrajectories)))
       return r.ok() ? Status::kFeature : Status::kRecord;
     if (kind == kMsgiKind)
       s.reconstruction = Reconstruction::kMsgi;
@@ -147,6 +153,11 @@ Status Limits::read(ByteView view, Limits* out) {
     if (of_attribute) {
       s.attribute = r.varint32(kMaxAttributes - 1);
       s.first_component = 3 * r.varint32((kMaxAttributeComponents - 1) / 3);
+    }
+    if (has_regions) {
+      s.regions = r.varint32(kMaxRegions);
+      if (s.regions < 2)
+        return Status::kRecord;
     }
     if (s.frames == 0 || s.first_frame >= out->frames || s.frames > out->frames - s.first_frame)
       return Status::kRecord;

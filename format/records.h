@@ -19,6 +19,7 @@ inline constexpr uint32_t kMaxTriangles = UINT32_MAX / 3;  // corners are number
 inline constexpr uint32_t kMaxFrames = (1U << 24) - 1;
 inline constexpr uint32_t kMaxMeshes = 65535;
 inline constexpr uint32_t kMaxComponents = 1U << 20;
+inline constexpr uint32_t kMaxRegions = 8;
 inline constexpr uint32_t kMaxAttributes = 256;
 inline constexpr uint32_t kMaxAttributeComponents = 16;
 
@@ -56,6 +57,7 @@ struct Limits {
     uint32_t frames = 0;
     uint32_t components = 0;
     uint32_t wide_components = 0;  ///< of those, resident as 32-bit integers; the others as 16-bit
+    uint32_t regions = 1;          ///< of the surface, each with time weights of its own
     uint32_t corrections = 0;      ///< of vertices, copies included, over all frames
     uint32_t draco_points = 0;     ///< key-frames by Draco: vertices, non-manifold ones split
     uint32_t draco_bytes = 0;      ///< of the Draco bitstream; 0: there is none

@@ -14,6 +14,7 @@ namespace anicodec {
 struct LinearChoice {
   ReferencePose pose = ReferencePose::kMean;
   Base base = Base::kPose;
+  uint32_t regions = 1;  ///< of the surface; more than one with Base::kAffine
   LinearSettings settings;
   double aim = 1;    ///< what estimates of the error are to be told, over what they are to meet
   double price = 0;  ///< squared steps of the coefficients that a bit is worth; 0: not known yet

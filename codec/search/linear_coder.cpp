@@ -3,6 +3,7 @@
 #include "codec/search/linear_coder.h"
 
 #include "codec/search/opening_time.h"
+#include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,12 @@ constexpr double kNear = 0.04;      // of the error asked for: sizes can be comp
 // Relative doubt of a size from one trial: with 0.01, quad_box at --kg 0.1 grew from effort 5 to 7.
 constexpr double kDoubt = 0.03;
 constexpr size_t kMostComponents = 2000;
+constexpr int kRegionsEffort = 2;        // from here on, surfaces are cut
+constexpr size_t kRichComponents = 24;   // of clips whose surface is
+constexpr size_t kFewestVertices = 200;  // of a region, on average
+constexpr size_t kMostCuts = 2;          // that are tried
+// Of the bytes of the whole, by expectation; and of the best, by a trial that missed the error.
+constexpr double kWorthTrying = 1.05, kFarFromBest = 1.15;
 
 /// How near to the error asked for is near enough, and where to aim, as parts of it.
 struct Nearness {
@@ -29,6 +36,16 @@ struct Nearness {
 
 constexpr Nearness kPlain{0.997, 0.9985};
 constexpr Nearness kThorough{0.994, 0.997};  // errors vary by some thousandths
+
+size_t most_components(const LinearSettings& settings) {
+  return settings.components.empty() ? 0 : std::ranges::max(settings.components);
+}
+
+/// Vertices of a region of a basis, or of the whole.
+size_t vertices_of(const LinearBasis& basis, size_t region) {
+  return basis.regions.empty() ? static_cast<size_t>(basis.pose.rows())
+                               : basis.clips->vertices(region).size();
+}
 
 }  // namespace
 
@@ -67,34 +84,61 @@ void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
   chosen_ = true;
 }
 
-const LinearBasis& LinearCoder::basis(ReferencePose pose, Base base) {
-  auto [found, fresh] = bases_.try_emplace({pose, base});
-  if (fresh)
-    found->second = analysis_.basis(kind_, pose, base, kMostComponents, 0, &given_pose_);
+const LinearBasis& LinearCoder::basis(const LinearChoice& choice) {
+  auto [found, fresh] = bases_.try_emplace({choice.pose, choice.base, choice.regions});
+  if (!fresh)
+    return found->second;
+  if (choice.regions == 1) {
+    found->second = analysis_.basis(kind_, choice.pose, choice.base, kMostComponents, 0, given());
+  } else {
+    // A region needs no more than the whole, give or take.
+    const size_t most = most_components(choice.settings) * 3 / 2 + 8;
+    found->second = analysis_of(choice.regions).basis(analysis_, choice.pose, most, given());
+  }
   return found->second;
+}
+
+const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
+  Regions& cut = regions_[regions];
+  if (cut.of_vertex.empty()) {
+    const Vector<uint32_t>& triangles = input_.layout.topology.triangles;
+    MeshGraph graph;
+    if (graph.init(triangles.data(), triangles.size() / 3, analysis_.clip().vertex_count) !=
+        Status::kOk)
+      throw Error(ErrorKind::kInternal, "the edges of the mesh cannot be found");
+    cut.of_vertex = find_regions(analysis_.clip(), graph, regions);
+  }
+  if (!cut.analysis)
+    cut.analysis = std::make_unique<RegionAnalysis>(
+        std::make_shared<const RegionClips>(analysis_.clip(), cut.of_vertex, regions));
+  return *cut.analysis;
 }
 
 /// The choice with a step and a number of components that should meet the error.
 LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
   rmse *= choice.aim;
-  const LinearBasis& b = basis(choice.pose, choice.base);
+  const LinearBasis& b = basis(choice);
   FrameView clip = analysis_.clip();
   double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
   bool shapes = kind_ == BasisKind::kEigenshapes;
-  double scalars = static_cast<double>(clip.vertex_count * (shapes ? 3 : 1));
   // Bisection: the error of rounding and of what is left out grows with the step.
   // Without components the step is that of the pose, tied to the number of frames.
   double low = rmse * 1e-6;
   double high = 3 * rmse * std::sqrt(static_cast<double>(clip.frame_count));
   LinearSettings& settings = choice.settings;
   for (int round = 0; round < 60; ++round) {
-    settings.components = 0;
+    settings.components.clear();
     settings.step = std::sqrt(low * high);
-    settings.components = component_count(b, settings, clip.vertex_count, clip.frame_count);
-    auto k = static_cast<Eigen::Index>(settings.components);
-    double unexplained = b.base_energy - b.energies.head(k).sum();
-    double error = std::max(unexplained, 0.0) +
-                   0.12 * static_cast<double>(k) * scalars * settings.step * settings.step;
+    settings.components = component_counts(b, settings, clip.vertex_count, clip.frame_count);
+    double unexplained = b.base_energy, coefficients = 0;
+    for (size_t r = 0; r < settings.components.size(); ++r) {
+      const LinearBasis& of_region = b.regions.empty() ? b : b.regions[r];
+      const size_t k = settings.components[r];
+      unexplained -= of_region.energies.head(static_cast<Eigen::Index>(k)).sum();
+      coefficients += static_cast<double>(k * vertices_of(b, r) * (shapes ? 3 : 1));
+    }
+    const double error = std::max(unexplained, 0.0) +
+                         0.12 * coefficients * settings.step * settings.step;
     (error > budget ? high : low) = settings.step;
   }
   return choice;
@@ -103,9 +147,8 @@ LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
 LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double rmse) {
   input_.begin_trial();
   Measured m;
-  const LinearBasis& b = basis(choice.pose, choice.base);
   std::optional<EncodedSegment> encoded =
-      encode_linear(analysis_.clip(), b, choice.settings, input_.layout, pose_, runs_);
+      encode_linear(analysis_.clip(), basis(choice), choice.settings, input_.layout, pose_, runs_);
   if (!encoded) {
     m.rmse = m.bytes = std::numeric_limits<double>::infinity();
     return m;
@@ -115,6 +158,8 @@ LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double r
   m.part.error = measure(m.part.opened, analysis_.clip(), input_.copies);
   m.part.what = std::to_string(m.part.encoded.sizes.components) +
                 (kind_ == BasisKind::kEigenshapes ? " eigenshapes" : " eigentrajectories");
+  if (choice.regions > 1)
+    m.part.what += " in " + std::to_string(choice.regions) + " regions";
   for (const char* step : choice.steps)
     m.part.what += std::string(", ") + step;
   m.rmse = input_.rmse(m.part.error.squared, analysis_.clip().frame_count);
@@ -161,10 +206,73 @@ double LinearCoder::probe(double rmse) {
   for (int round = 0; round < kMostTrials && !(probed_.rmse == rmse && probed_.is_near); ++round) {
     choice_ = started(choice_, rmse);
     const Measured trial = measured(choice_, rmse);
-    probed_ = {rmse, trial.bytes, std::abs(trial.rmse / rmse - 1) < kNear};
+    probed_ = probed(trial, rmse);
     learn(trial, rmse, choice_);
   }
+  if (!pose_ && effort_ >= kRegionsEffort && kind_ == BasisKind::kEigentrajectories)
+    try_regions(rmse);
   return probed_.bytes;
+}
+
+LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
+  Probed result{rmse, trial.bytes, std::abs(trial.rmse / rmse - 1) < kNear};
+  result.weights = static_cast<double>(trial.part.encoded.weights.size());
+  for (const Bytes& layer : trial.part.encoded.layers)
+    result.coefficients += static_cast<double>(layer.size());
+  return result;
+}
+
+/// What weights and coefficients of a started choice with regions will take, about, by those of the
+/// whole: coefficients of a region are fewer and dearer, for they have more of the motion.
+double LinearCoder::expected_bytes(const LinearChoice& choice) {
+  constexpr double kOfWeight = 0.9, kOfCoefficient = 1.5;  // measured on pcow, crane, jumping
+  const LinearBasis& b = basis(choice);
+  const auto whole = static_cast<double>(most_components(choice_.settings));
+  double weights = 0, coefficients = 0;
+  for (size_t r = 0; r < choice.settings.components.size(); ++r) {
+    const auto k = static_cast<double>(choice.settings.components[r]);
+    weights += k / whole;
+    coefficients += k / whole * static_cast<double>(vertices_of(b, r)) /
+                    static_cast<double>(analysis_.clip().vertex_count);
+  }
+  return kOfWeight * weights * probed_.weights +
+         kOfCoefficient * coefficients * probed_.coefficients;
+}
+
+/// Cuts the surface where the clip takes many components and that is smaller.
+void LinearCoder::try_regions(double rmse) {
+  if (tried_regions_ || most_components(choice_.settings) < kRichComponents)
+    return;
+  tried_regions_ = true;
+  const double whole = probed_.weights + probed_.coefficients;
+  std::vector<std::pair<double, LinearChoice>> cuts;
+  for (uint32_t regions : {2U, 4U, 8U}) {
+    if (analysis_.clip().vertex_count < size_t{regions} * kFewestVertices)
+      continue;
+    LinearChoice cut = choice_;
+    cut.regions = regions;
+    cut = started(cut, rmse);
+    const double expected = expected_bytes(cut);
+    if (expected < kWorthTrying * whole)
+      cuts.emplace_back(expected, std::move(cut));
+  }
+  std::ranges::sort(cuts, {}, [](const auto& cut) { return cut.first; });
+  for (size_t i = 0; i < std::min(cuts.size(), kMostCuts); ++i) {
+    LinearChoice& cut = cuts[i].second;
+    Measured trial = measured(cut, rmse);
+    learn(trial, rmse, cut);
+    if (std::abs(trial.rmse / rmse - 1) > kNear && trial.bytes < kFarFromBest * probed_.bytes) {
+      cut = started(cut, rmse);
+      trial = measured(cut, rmse);
+      learn(trial, rmse, cut);
+    }
+    if (!(trial.bytes < probed_.bytes))
+      continue;
+    if (choice_.regions == 1)
+      earlier_.push_back({choice_, probed_.bytes});
+    probed_ = probed(trial, rmse);
+    choice_ = std::move(cut);
+  }
 }
 
 void LinearCoder::choose_settings(double rmse) {
@@ -264,7 +372,8 @@ std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) 
       break;
     if (outside < inside || round == 3) {
       // The components left out alone take most of the error: more of them.
-      choice.settings.components += choice.settings.components / 16 + (best ? 0 : 1);
+      for (size_t& k : choice.settings.components)
+        k += k / 16 + (best ? 0 : 1);
       outside = std::numeric_limits<double>::infinity();
     }
     // Aim just below the target: what counts is to end there from below.

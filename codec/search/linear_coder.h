@@ -14,7 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace anicodec {
@@ -43,6 +43,9 @@ class LinearCoder : public SegmentCoder {
   void settings_of(const LinearCoder& other) {
     choice_.settings = other.choice_.settings;
     choice_.settings.run_steps.clear();  // of other clips
+    choice_.regions = other.choice_.regions;
+    if (choice_.regions > 1)
+      regions_[choice_.regions].of_vertex = other.regions_.at(choice_.regions).of_vertex;
     choice_.steps = other.choice_.steps;
     choice_.price = other.choice_.price;
     thorough_ = other.thorough_;
@@ -63,6 +66,7 @@ class LinearCoder : public SegmentCoder {
   struct Probed {
     double rmse = 0, bytes = 0;
     bool is_near = false;  ///< close enough to the error for sizes to be compared
+    double weights = 0, coefficients = 0;  ///< bytes of them, as they were coded
   };
 
   /// Settings that a search of less effort ends with.
@@ -71,7 +75,19 @@ class LinearCoder : public SegmentCoder {
     double bytes = 0;  ///< as one trial told; 0 if none did
   };
 
-  const LinearBasis& basis(ReferencePose pose, Base base);
+  /// A cut of the surface, and the analysis of this clip by it.
+  struct Regions {
+    Vector<uint8_t> of_vertex;
+    std::unique_ptr<RegionAnalysis> analysis;  ///< made when needed
+  };
+
+  const LinearBasis& basis(const LinearChoice& choice);
+  const RegionAnalysis& analysis_of(uint32_t regions);
+  void try_regions(double rmse);
+  double expected_bytes(const LinearChoice& choice);
+  /// A pose chosen elsewhere; null: none.
+  const Eigen::MatrixXd* given() const { return pose_ ? &given_pose_ : nullptr; }
+  static Probed probed(const Measured& trial, double rmse);
   LinearChoice started(LinearChoice choice, double rmse);
   Measured measured(const LinearChoice& choice, double rmse);
   static void even_out(const Measured& trial, LinearChoice& choice);
@@ -93,11 +109,13 @@ class LinearCoder : public SegmentCoder {
   bool thorough_ = false;  ///< files are coded with joint rounding and refitted weights
   double least_ = 0;       ///< bytes in the trial of the settings chosen, until an error is met
   Probed probed_;
+  bool tried_regions_ = false;
   std::vector<Candidate> earlier_;  ///< until the first error is met
   bool chosen_ = false;
   std::shared_ptr<const EncodedPose> pose_;
   Eigen::MatrixXd given_pose_;
-  std::map<std::pair<ReferencePose, Base>, LinearBasis> bases_;
+  std::map<std::tuple<ReferencePose, Base, uint32_t>, LinearBasis> bases_;
+  std::map<uint32_t, Regions> regions_;  ///< by their number
 };
 
 }  // namespace anicodec

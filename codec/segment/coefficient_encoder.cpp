@@ -54,11 +54,13 @@ int32_t rounded(CoefficientModel& model, uint32_t v, uint32_t c, double residual
 }
 
 VertexOrder order_of(const LinearSettings& settings, const MeshLayout& layout,
-                     const Vector<int32_t>& pose) {
+                     const Vector<int32_t>& pose, const uint8_t* regions) {
   VertexOrder order;
+  MeshGraph graph;
   const Vector<uint32_t>& triangles = layout.topology.triangles;
-  if (make_vertex_order(triangles.data(), triangles.size() / 3, pose.data(), pose.size() / 3,
-                        settings.neighbours, settings.passes_per_level, &order) != Status::kOk)
+  if (graph.init(triangles.data(), triangles.size() / 3, pose.size() / 3) != Status::kOk ||
+      make_vertex_order(graph, pose.data(), settings.neighbours, settings.passes_per_level, &order,
+                        regions) != Status::kOk)
     throw Error(ErrorKind::kInternal, "the vertex order cannot be made");
   return order;
 }
@@ -67,13 +69,13 @@ VertexOrder order_of(const LinearSettings& settings, const MeshLayout& layout,
 
 CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, const MeshLayout& layout,
                                        const Vector<int32_t>& pose, Coefficients target,
-                                       uint32_t channels)
+                                       uint32_t channels, const uint8_t* regions)
     : lambda_(settings.lambda),
       joint_lambda_(settings.joint_lambda),
       target_(std::move(target)),
       decoded_(target_.rows(), target_.cols()),
       channels_(channels),
-      order_(order_of(settings, layout, pose)),
+      order_(order_of(settings, layout, pose, regions)),
       model_(fresh_model()),
       joint_(order_),
       layers_anew_(settings.layers_anew),

@@ -30,10 +30,11 @@ using Coefficients = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 /// cost is what the mixing coder takes for them, whichever writes them.
 class CoefficientEncoder {
  public:
-  /// `pose`: vertices x 3 on its grid; `target`: what the coefficients would best be. The layout
-  /// must outlive the object.
+  /// `pose`: vertices x 3 on its grid; `target`: what the coefficients would best be; `regions`: of
+  /// each vertex, or null. The layout must outlive the object.
   CoefficientEncoder(const LinearSettings& settings, const MeshLayout& layout,
-                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels);
+                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels,
+                     const uint8_t* regions = nullptr);
 
   struct Component {
     uint8_t omega = 0;  ///< for the next component

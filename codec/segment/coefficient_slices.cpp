@@ -5,6 +5,7 @@
 #include "codec/sequence/error.h"
 #include "format/binary_coder.h"
 #include "format/coefficient_coder.h"
+#include "sdk/segment/region_coding.h"
 #include "sdk/segment/residual_reader.h"
 
 #include <algorithm>
@@ -24,11 +25,26 @@ size_t run_count(const EncodedSegment& segment) {
 
 }  // namespace
 
+VertexOrder order_of(const EncodedSegment& segment, const LinearParameters& parameters,
+                     const Topology& topology) {
+  MeshGraph graph;
+  require(graph.init(topology.triangles.data(), topology.triangles.size() / 3,
+                     topology.coded_vertices));
+  Vector<uint8_t> regions;
+  require(read_regions(segment.pose, graph, segment.sizes.regions, &regions));
+  VertexOrder order;
+  require(make_vertex_order(std::move(graph), segment.reference->grid.points.data(),
+                            parameters.neighbours, parameters.colours, &order,
+                            regions.empty() ? nullptr : regions.data()));
+  return order;
+}
+
 bool CoefficientSlices::applies_to(const EncodedSegment& segment) {
   if (segment.sizes.kind == BasisKind::kKeyframes || segment.sizes.components == 0)
     return false;
   LinearParameters parameters;
-  require(parameters.read(segment.parameters, segment.sizes.components, run_count(segment)));
+  require(parameters.read(segment.parameters, segment.sizes.components, run_count(segment),
+                          segment.sizes.regions));
   return parameters.coder == CoefficientCoder::kMixing;
 }
 
@@ -36,11 +52,9 @@ CoefficientSlices::CoefficientSlices(const EncodedSegment& segment, const MeshLa
     : segment_(segment),
       channels_(segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3) {
   const uint32_t components = segment.sizes.components;
-  require(parameters_.read(segment.parameters, components, run_count(segment)));
-  const Vector<uint32_t>& triangles = layout.topology.triangles;
-  require(make_vertex_order(triangles.data(), triangles.size() / 3,
-                            segment.reference->grid.points.data(), layout.topology.coded_vertices,
-                            parameters_.neighbours, parameters_.colours, &order_));
+  require(parameters_.read(segment.parameters, components, run_count(segment),
+                           segment.sizes.regions));
+  order_ = order_of(segment, parameters_, layout.topology);
   const Vector<ByteView> chunks(segment.layers.begin(), segment.layers.end());
   require(read_layers(chunks, parameters_.slices, components, components, &layers_));
   const size_t of_component = size_t{channels_} * order_.vertex_count();

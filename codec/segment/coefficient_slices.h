@@ -14,6 +14,10 @@
 
 namespace anicodec {
 
+/// The order in which the vertices of an encoded segment are decoded.
+VertexOrder order_of(const EncodedSegment& segment, const LinearParameters& parameters,
+                     const Topology& topology);
+
 /// Codes the coefficients of an encoded segment once more in slices, which as many threads can read.
 /// What is decoded stays the same. Cost: that of reading, and of coding for each number of slices.
 class CoefficientSlices {

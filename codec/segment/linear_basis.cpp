@@ -87,8 +87,7 @@ MatrixXd LinearAnalysis::frame(size_t f) const {
   return pose;
 }
 
-MatrixXd LinearAnalysis::rank_three_pose() const {
-  const MatrixXd target = frame(best_frame());
+MatrixXd LinearAnalysis::rank_three_pose(const MatrixXd& target) const {
   const auto n = static_cast<double>(clip_.vertex_count);
   const Eigenpairs leading = leading_eigenpairs(gram_ - sums_ * sums_.transpose() / n, 3, 0);
   if (leading.values.size() < 3)
@@ -104,6 +103,28 @@ MatrixXd LinearAnalysis::rank_three_pose() const {
   return (pose - target).squaredNorm() < 0.3 * size ? pose : target;
 }
 
+MatrixXd LinearAnalysis::pose(ReferencePose kind, const MatrixXd* given_pose) const {
+  switch (kind) {
+    case ReferencePose::kMean: {
+      const Index frames = gram_.rows() / 3;
+      MatrixXd mean_pose(static_cast<Index>(clip_.vertex_count), 3);
+      const VectorXd mean = VectorXd::Constant(frames, 1 / static_cast<double>(frames));
+      combine_rows(clip_, origin_, mean, [&](size_t first, const MatrixXd& block) {
+        for (Index i = 0; i < block.rows(); ++i)
+          mean_pose(static_cast<Index>(first) + i / 3, i % 3) = block(i, 0);
+      });
+      return mean_pose;
+    }
+    case ReferencePose::kFrame:
+      return frame(best_frame());
+    case ReferencePose::kRankThree:
+      return rank_three_pose(given_pose ? *given_pose : frame(best_frame()));
+    case ReferencePose::kGiven:
+      break;
+  }
+  return *given_pose;
+}
+
 LinearBasis LinearAnalysis::basis(BasisKind kind, ReferencePose pose, Base base,
                                   size_t max_components, double smallest,
                                   const MatrixXd* given_pose) const {
@@ -115,26 +136,7 @@ LinearBasis LinearAnalysis::basis(BasisKind kind, ReferencePose pose, Base base,
   out.base = base;
   out.origin = origin_;
   const Index frames = gram_.rows() / 3;
-  switch (pose) {
-    case ReferencePose::kMean: {
-      out.pose.resize(static_cast<Index>(clip_.vertex_count), 3);
-      const VectorXd mean = VectorXd::Constant(frames, 1 / static_cast<double>(frames));
-      combine_rows(clip_, origin_, mean, [&](size_t first, const MatrixXd& block) {
-        for (Index i = 0; i < block.rows(); ++i)
-          out.pose(static_cast<Index>(first) + i / 3, i % 3) = block(i, 0);
-      });
-      break;
-    }
-    case ReferencePose::kFrame:
-      out.pose = frame(best_frame());
-      break;
-    case ReferencePose::kRankThree:
-      out.pose = rank_three_pose();
-      break;
-    case ReferencePose::kGiven:
-      out.pose = *given_pose;
-      break;
-  }
+  out.pose = this->pose(pose, given_pose);
   MatrixXd remainder = gram_;
   if (base == Base::kAffine) {
     const MatrixXd fitted = project_on_functions(clip_, origin_, affine_span(out.pose));
@@ -162,6 +164,32 @@ LinearBasis LinearAnalysis::basis(BasisKind kind, ReferencePose pose, Base base,
   Eigenpairs pairs = leading_eigenpairs(remainder, static_cast<Index>(max_components), smallest);
   out.energies = std::move(pairs.values);
   out.time = std::move(pairs.vectors);
+  return out;
+}
+
+RegionAnalysis::RegionAnalysis(std::shared_ptr<const RegionClips> clips)
+    : clips_(std::move(clips)) {
+  for (size_t r = 0; r < clips_->count(); ++r)
+    analyses_.emplace_back(clips_->clip(r));
+}
+
+LinearBasis RegionAnalysis::basis(const LinearAnalysis& whole, ReferencePose pose,
+                                  size_t max_components, const MatrixXd* given_pose) const {
+  LinearBasis out;
+  out.origin = whole.origin();
+  out.clips = clips_;
+  // The leading trajectories of a region, mapped onto a frame that all regions share.
+  const bool by_region = pose == ReferencePose::kRankThree;
+  out.pose = whole.pose(by_region ? ReferencePose::kFrame : pose, given_pose);
+  for (size_t r = 0; r < analyses_.size(); ++r) {
+    const std::vector<uint32_t>& vertices = clips_->vertices(r);
+    const MatrixXd rows = out.pose(vertices, Eigen::all);
+    out.regions.push_back(analyses_[r].basis(
+        BasisKind::kEigentrajectories, by_region ? pose : ReferencePose::kGiven, Base::kAffine,
+        max_components, 0, &rows));
+    out.pose(vertices, Eigen::all) = out.regions.back().pose;
+    out.base_energy += out.regions.back().base_energy;
+  }
   return out;
 }
 

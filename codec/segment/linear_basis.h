@@ -3,11 +3,14 @@
 #ifndef ANICODEC_CODEC_SEGMENT_LINEAR_BASIS_H_
 #define ANICODEC_CODEC_SEGMENT_LINEAR_BASIS_H_
 
+#include "codec/segment/surface_regions.h"
 #include "codec/sequence/frame_view.h"
 #include "format/records.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -38,6 +41,11 @@ struct LinearBasis {
   Eigen::VectorXd energies;  ///< squared singular values, descending
   Eigen::MatrixXd
       time;  ///< a column per component, orthonormal: 3 frames (trajectories) or frames (shapes)
+
+  /// Where the surface has regions, each has base and components of its own; energies and time of the
+  /// whole are then empty. Else null and empty.
+  std::shared_ptr<const RegionClips> clips;
+  std::vector<LinearBasis> regions;
 };
 
 /// Finds the bases of a segment. Eigenshapes: a component is a vector per vertex and a weight per
@@ -51,9 +59,15 @@ class LinearAnalysis {
 
   /// Components with energy above `smallest`, at most max_components. Trajectories need
   /// Base::kAffine. Cost: the eigenpairs, and at most two passes over the clip.
-  /// For ReferencePose::kGiven: `given_pose`, vertices x 3, with any origin.
+  /// For ReferencePose::kGiven: `given_pose`, vertices x 3, with any origin. For kRankThree it is what
+  /// to come near, in place of a frame.
   LinearBasis basis(BasisKind kind, ReferencePose pose, Base base, size_t max_components,
                     double smallest, const Eigen::MatrixXd* given_pose = nullptr) const;
+
+  /// A pose of that kind, vertices x 3, relative to origin().
+  Eigen::MatrixXd pose(ReferencePose kind, const Eigen::MatrixXd* given_pose = nullptr) const;
+
+  const Eigen::Vector3d& origin() const { return origin_; }
 
   const FrameView& clip() const { return clip_; }
 
@@ -63,13 +77,28 @@ class LinearAnalysis {
  private:
   size_t best_frame() const;
   Eigen::MatrixXd frame(size_t f) const;
-  Eigen::MatrixXd rank_three_pose() const;
+  Eigen::MatrixXd rank_three_pose(const Eigen::MatrixXd& target) const;
 
   FrameView clip_;
   Eigen::Vector3d origin_;
   Eigen::MatrixXd gram_;  // 3 frames x 3 frames
   Eigen::VectorXd sums_;  // 3 frames: over the vertices
   double kg_reference_;
+};
+
+/// The same for eigentrajectories of regions, over one pose of the whole.
+class RegionAnalysis {
+ public:
+  /// Cost: that of an analysis of the whole.
+  explicit RegionAnalysis(std::shared_ptr<const RegionClips> clips);
+
+  /// As LinearAnalysis::basis(), with Base::kAffine; at most max_components in each region.
+  LinearBasis basis(const LinearAnalysis& whole, ReferencePose pose, size_t max_components,
+                    const Eigen::MatrixXd* given_pose = nullptr) const;
+
+ private:
+  std::shared_ptr<const RegionClips> clips_;
+  std::vector<LinearAnalysis> analyses_;
 };
 
 }  // namespace anicodec

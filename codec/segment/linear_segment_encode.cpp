@@ -2,21 +2,17 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/linear_segment_encode.h"
 
-#include "codec/algebra/blocked_product.h"
-#include "codec/algebra/trajectory_gram.h"
+#include "codec/segment/basis_fit.h"
 #include "codec/segment/coefficient_encoder.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
 #include "format/time_weights.h"
-#include "sdk/segment/affine_functions.h"
 #include "sdk/segment/basis_layer.h"
+#include "sdk/segment/region_coding.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <Eigen/Cholesky>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -24,21 +20,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Values of the affine functions of a pose: vertices x 4.
-MatrixXd function_values(const Vector<int32_t>& pose) {
-  AffineFunctions functions = AffineFunctions::of(pose.data(), pose.size() / 3);
-  MatrixXd values(static_cast<Index>(pose.size() / 3), Index{kAffineFunctions});
-  for (Index v = 0; v < values.rows(); ++v) {
-    const int32_t* p = pose.data() + 3 * v;
-    const double point[3] = {double(p[0]), double(p[1]), double(p[2])};
-    double row[kAffineFunctions];
-    functions.evaluate(point, row);
-    for (size_t b = 0; b < kAffineFunctions; ++b)
-      values(v, static_cast<Index>(b)) = row[b];
-  }
-  return values;
-}
 
 /// Codes the columns of `weights` as time components of `channels` channels (row channels * f + c)
 /// in units of `unit`, each column by its own, and replaces them by what a decoder gets.
@@ -94,45 +75,6 @@ class WeightCoder {
   BinaryEncoder encoder_;
 };
 
-/// The basis that goes best with the decoded weights `u` (a column per component), base taken out.
-Coefficients refitted(const FrameView& clip, const LinearBasis& basis,
-                      const Eigen::Vector3d& origin, const MatrixXd& u,
-                      const MatrixXd& base_weights, const MatrixXd& base_functions,
-                      const MatrixXd& pose, double step) {
-  Index k = u.cols();
-  MatrixXd normal = u.transpose() * u;
-  normal.diagonal().array() += 1e-9 * std::max(normal.trace() / static_cast<double>(k), 1e-30);
-  MatrixXd solved = normal.ldlt().solve(u.transpose()).transpose();  // rows of the clip x k
-  bool shapes = basis.kind == BasisKind::kEigenshapes;
-  Index channels = shapes ? 3 : 1;
-  Coefficients y(static_cast<Index>(clip.vertex_count), k * channels);
-  // The base's share of each component: per axis and function, or the pose times a sum.
-  MatrixXd base(Index{kAffineFunctions}, k * channels);
-  if (basis.base == Base::kAffine) {
-    for (Index j = 0; j < k; ++j) {
-      for (Index c = 0; c < channels; ++c) {
-        VectorXd sum = VectorXd::Zero(Index{kAffineFunctions});
-        for (Index r = 0; r < solved.rows(); ++r)
-          sum += solved(r, j) * base_weights.row(shapes ? 3 * r + c : r).transpose();
-        base.col(j * channels + c) = sum;
-      }
-    }
-  }
-  VectorXd sums = solved.colwise().sum().transpose();
-  combine_rows(clip, origin, solved, [&](size_t first, const MatrixXd& block) {
-    for (Index i = 0; i < block.rows(); ++i) {
-      Index v = static_cast<Index>(first) + i / channels, c = i % channels;
-      for (Index j = 0; j < k; ++j) {
-        double value = block(i, j);
-        value -= basis.base == Base::kAffine ? base_functions.row(v).dot(base.col(j * channels + c))
-                                             : pose(v, c) * sums[j];
-        y(v, j * channels + c) = static_cast<float>(value / step);
-      }
-    }
-  });
-  return y;
-}
-
 /// A segment being coded.
 class LinearEncoder {
  public:
@@ -142,8 +84,16 @@ class LinearEncoder {
         basis_(basis),
         settings_(settings),
         layout_(layout),
-        shapes_(basis.kind == BasisKind::kEigenshapes),
-        count_(component_count(basis, settings, clip.vertex_count, clip.frame_count)) {
+        shapes_(basis.kind == BasisKind::kEigenshapes) {
+    const std::vector<size_t> counts =
+        component_counts(basis, settings, clip.vertex_count, clip.frame_count);
+    count_ = *std::ranges::max_element(counts);
+    if (basis.regions.empty())
+      fits_.emplace_back(clip, basis, count_);
+    for (size_t r = 0; r < basis.regions.size(); ++r)
+      fits_.emplace_back(basis.clips->clip(r), basis.regions[r], counts[r]);
+    if (!basis.regions.empty())
+      parameters_.region_components.assign(counts.begin(), counts.end());
     parameters_.affine = basis.base == Base::kAffine;
     parameters_.basis_step = settings.step;
     parameters_.weight_step = settings.weight_factor * settings.step;
@@ -160,26 +110,26 @@ class LinearEncoder {
     encoded_.sizes.kind = basis.kind;
     encoded_.sizes.frames = static_cast<uint32_t>(clip.frame_count);
     encoded_.sizes.components = static_cast<uint32_t>(count_);
+    encoded_.sizes.regions = parameters_.regions();
   }
 
   std::optional<EncodedSegment> run(std::shared_ptr<const EncodedPose> shared) {
     set_pose(std::move(shared));
-    set_base();
     set_sigma();
     set_layers();
-    const MatrixXd base =
-        parameters_.affine ? project_on_functions(clip_, origin_, functions_) : MatrixXd();
-    if (!code_time(base, basis_.time.leftCols(static_cast<Index>(count_))))
+    code_regions();
+    std::vector<TimeWeights> weights;
+    for (const BasisFit& fit : fits_)
+      weights.push_back(fit.exact_weights());
+    if (!code_time(std::move(weights)))
       return std::nullopt;
     if (count_ > 0) {
-      CoefficientEncoder coefficients(settings_, layout_, pose(),
-                                      refitted(clip_, basis_, origin_, weights_, base_weights_,
-                                               functions_, still_, settings_.step),
-                                      shapes_ ? 3 : 1);
+      CoefficientEncoder coefficients(settings_, layout_, pose(), targets(), shapes_ ? 3 : 1,
+                                      regions());
       if (!code_layers(coefficients))
         return std::nullopt;
       if (settings_.refit_weights)
-        refit_time(coefficients.decoded(), base);
+        refit_time(coefficients.decoded());
     }
     encoded_.parameters = parameters_.write();
     for (size_t l = 0; l < layers_.size(); ++l) {
@@ -193,42 +143,65 @@ class LinearEncoder {
   }
 
  private:
+  /// Null: all vertices are of one region.
+  const uint8_t* regions() const { return basis_.clips ? basis_.clips->regions().data() : nullptr; }
+
+  const LinearBasis& basis_of(size_t region) const {
+    return basis_.regions.empty() ? basis_ : basis_.regions[region];
+  }
+
   void set_pose(std::shared_ptr<const EncodedPose> shared) {
     const double step =
         settings_.pose_factor * settings_.step / std::sqrt(static_cast<double>(clip_.frame_count));
     encoded_.reference = shared ? std::move(shared)
                                 : encode_reference_pose(basis_.pose, basis_.origin, step, layout_);
-    origin_ = Eigen::Vector3d(encoded_.reference->grid.origin);
+    const PoseGrid& grid = encoded_.reference->grid;
+    for (size_t r = 0; r < fits_.size(); ++r) {
+      Vector<int32_t> points;
+      for (size_t v = 0; v < clip_.vertex_count; ++v) {
+        if (!regions() || regions()[v] == r)
+          points.insert(points.end(), pose().data() + 3 * v, pose().data() + 3 * v + 3);
+      }
+      fits_[r].set_pose(points, Eigen::Vector3d(grid.origin), grid.step);
+    }
   }
 
   const Vector<int32_t>& pose() const { return encoded_.reference->grid.points; }
 
-  /// The base that components are added to: an affine image of the pose in each frame, or the pose.
-  void set_base() {
-    if (parameters_.affine) {
-      functions_ = function_values(pose());
-      return;
-    }
-    still_.resize(static_cast<Index>(clip_.vertex_count), 3);
-    for (Index i = 0; i < still_.size(); ++i)
-      still_(i / 3, i % 3) = pose()[static_cast<size_t>(i)] * encoded_.reference->grid.step;
-  }
-
   void set_sigma() {
-    for (Index j = 0; j < static_cast<Index>(count_); ++j) {
-      // Weights of a component of next to no energy would have no step.
-      const double sigma = std::max(std::sqrt(basis_.energies[j]), 1e-6 * parameters_.weight_step);
-      parameters_.sigma.push_back(LinearParameters::sigma_eighths(sigma));
+    parameters_.sigma.assign(count_ * fits_.size(), 0);
+    for (size_t r = 0; r < fits_.size(); ++r) {
+      for (size_t j = 0; j < fits_[r].components(); ++j) {
+        // Weights of a component of next to no energy would have no step.
+        const double sigma = std::max(std::sqrt(basis_of(r).energies[static_cast<Index>(j)]),
+                                      1e-6 * parameters_.weight_step);
+        parameters_.sigma[j * fits_.size() + r] = LinearParameters::sigma_eighths(sigma);
+      }
     }
   }
 
-  /// Codes the time weights of base and components, and keeps what a decoder gets. False if one is
+  void code_regions() {
+    if (!regions())
+      return;
+    const Vector<uint32_t>& triangles = layout_.topology.triangles;
+    MeshGraph graph;
+    if (graph.init(triangles.data(), triangles.size() / 3, clip_.vertex_count) != Status::kOk)
+      throw Error(ErrorKind::kInternal, "the edges of the mesh cannot be found");
+    BinaryEncoder encoder;
+    Vector<uint8_t> copy(basis_.clips->regions());
+    RegionCoding(graph, encoded_.sizes.regions).code(encoder, &copy);
+    encoded_.pose = encoder.finish();
+  }
+
+  /// Codes the time weights of bases and components, and keeps what a decoder gets. False if one is
   /// too large in its unit: then nothing has changed.
-  bool code_time(MatrixXd base, MatrixXd components) {
+  bool code_time(std::vector<TimeWeights> weights) {
     WeightCoder coder(clip_.frame_count, encoded_.runs, settings_);
-    for (Index b = 0; b < base.cols(); ++b) {
-      if (!coder.code(3, parameters_.weight_step, base.col(b)))
-        return false;
+    for (Index b = 0; b < weights[0].base.cols(); ++b) {
+      for (TimeWeights& of_region : weights) {
+        if (!coder.code(3, parameters_.weight_step, of_region.base.col(b)))
+          return false;
+      }
     }
     Bytes of_base = coder.finish();
     std::vector<Bytes> streams;
@@ -236,74 +209,55 @@ class LinearEncoder {
       if (parameters_.layers_anew && layer.first > 0)
         coder.begin_anew();
       for (size_t j = layer.first; j < layer.first + layer.count; ++j) {
-        const double unit =
-            parameters_.weight_step / LinearParameters::sigma_value(parameters_.sigma[j]);
-        if (!coder.code(shapes_ ? 1 : 3, unit, components.col(static_cast<Index>(j))))
+        if (!code_component(coder, j, weights))
           return false;
       }
       streams.push_back(coder.finish());
     }
     encoded_.weights = std::move(of_base);
     time_streams_ = std::move(streams);
-    base_weights_ = std::move(base);
-    weights_ = std::move(components);
+    for (size_t r = 0; r < weights.size(); ++r)
+      fits_[r].set_decoded(std::move(weights[r]));
     return true;
   }
 
-  /// The coefficients are no longer those that the weights were made for: the weights that are best
-  /// for what was coded. Nothing of the coefficients depends on them. `base`: the exact weights of
-  /// the base.
-  void refit_time(const Coefficients& decoded, const MatrixXd& base) {
-    const auto k = static_cast<Index>(count_);
-    if (shapes_) {
-      const MatrixXd fields = fields_of(decoded);
-      MatrixXd products = project_on_fields(clip_, origin_, fields);
-      products -= products_of_base(fields);
-      code_time(base, solved(fields, products));
-      return;
-    }
-    // The base is fitted with the components: their functions are no longer at right angles.
-    MatrixXd functions(static_cast<Index>(clip_.vertex_count), base.cols() + k);
-    functions << functions_, decoded.cast<double>() * settings_.step;
-    const MatrixXd all = solved(functions, project_on_functions(clip_, origin_, functions));
-    code_time(all.leftCols(base.cols()), all.rightCols(k));
-  }
-
-  /// products (fields' gram)^-1, for products with as many columns as there are fields.
-  static MatrixXd solved(const MatrixXd& fields, const MatrixXd& products) {
-    MatrixXd gram = MatrixXd::Zero(fields.cols(), fields.cols());
-    add_self_products(fields, gram);
-    mirror_upper(gram);
-    gram.diagonal().array() += 1e-12 * gram.trace();
-    return gram.ldlt().solve(products.transpose()).transpose();
-  }
-
-  /// Decoded shapes in scene units, a column each: row 3v + c is coordinate c of vertex v.
-  MatrixXd fields_of(const Coefficients& decoded) const {
-    MatrixXd fields(3 * decoded.rows(), static_cast<Index>(count_));
-    for (Index v = 0; v < decoded.rows(); ++v)
-      for (Index j = 0; j < fields.cols(); ++j)
-        for (Index c = 0; c < 3; ++c)
-          fields(3 * v + c, j) = static_cast<double>(decoded(v, 3 * j + c)) * settings_.step;
-    return fields;
-  }
-
-  /// The decoded base of every frame times the shapes: frames x components.
-  MatrixXd products_of_base(const MatrixXd& fields) const {
-    const auto frames = static_cast<Index>(clip_.frame_count);
-    MatrixXd products = MatrixXd::Zero(frames, fields.cols());
-    for (Index c = 0; c < 3; ++c) {
-      const auto rows = Eigen::seqN(c, still_.rows() + functions_.rows(), 3);
-      const MatrixXd of_axis = fields(rows, Eigen::all);
-      if (!parameters_.affine) {
-        products.rowwise() += (still_.col(c).transpose() * of_axis).row(0);
+  /// The weights of a component, by region.
+  bool code_component(WeightCoder& coder, size_t j, std::vector<TimeWeights>& weights) const {
+    for (size_t r = 0; r < weights.size(); ++r) {
+      if (j >= fits_[r].components())
         continue;
-      }
-      const MatrixXd by_function = functions_.transpose() * of_axis;
-      const MatrixXd of_frames = base_weights_(Eigen::seqN(c, frames, 3), Eigen::all);
-      products += of_frames * by_function;
+      const int32_t sigma = parameters_.sigma[j * weights.size() + r];
+      const double unit = parameters_.weight_step / LinearParameters::sigma_value(sigma);
+      if (!coder.code(shapes_ ? 1 : 3, unit, weights[r].components.col(static_cast<Index>(j))))
+        return false;
     }
-    return products;
+    return true;
+  }
+
+  /// The best coefficients of all vertices; 0 where a region has no more components.
+  Coefficients targets() const {
+    if (!regions())
+      return fits_[0].targets(settings_.step);
+    Coefficients all = Coefficients::Zero(static_cast<Index>(clip_.vertex_count),
+                                          static_cast<Index>(count_));
+    for (size_t r = 0; r < fits_.size(); ++r) {
+      const Coefficients of_region = fits_[r].targets(settings_.step);
+      all(basis_.clips->vertices(r), Eigen::seqN(0, of_region.cols())) = of_region;
+    }
+    return all;
+  }
+
+  /// The coefficients are no longer those that the weights were made for: the weights that are best
+  /// for what was coded. Nothing of the coefficients depends on them.
+  void refit_time(const Coefficients& decoded) {
+    std::vector<TimeWeights> weights;
+    for (size_t r = 0; r < fits_.size(); ++r) {
+      const auto k = static_cast<Index>(fits_[r].components());
+      weights.push_back(fits_[r].refitted(
+          regions() ? Coefficients(decoded(basis_.clips->vertices(r), Eigen::seqN(0, k))) : decoded,
+          settings_.step));
+    }
+    code_time(std::move(weights));
   }
 
   /// Early layers are short, as their components take most bytes: three quarters of the components are
@@ -341,27 +295,35 @@ class LinearEncoder {
   const LinearSettings& settings_;
   const MeshLayout& layout_;
   bool shapes_;
-  size_t count_;  ///< of components
+  size_t count_ = 0;            ///< of components, most of any region
+  std::vector<BasisFit> fits_;  ///< of the regions, or of the whole
   LinearParameters parameters_;
   EncodedSegment encoded_;
-  Eigen::Vector3d origin_;
-  MatrixXd functions_, base_weights_;  ///< of an affine base: exact, and as decoded
-  MatrixXd still_;                     ///< the pose as a base, vertices x 3
-  MatrixXd weights_;                   ///< as decoded, a column per component
-  std::vector<BasisLayer> layers_;     ///< their streams are below
+  std::vector<BasisLayer> layers_;  ///< their streams are below
   std::vector<Bytes> time_streams_, coefficient_streams_;
 };
 
 }  // namespace
 
-size_t component_count(const LinearBasis& basis, const LinearSettings& settings, size_t vertices,
-                       size_t frames) {
-  if (settings.components > 0)
-    return std::min(settings.components, static_cast<size_t>(basis.energies.size()));
-  bool shapes = basis.kind == BasisKind::kEigenshapes;
-  double scalars = static_cast<double>(shapes ? 3 * vertices + frames : vertices + 3 * frames);
-  double smallest = settings.rank_factor * scalars * settings.step * settings.step;
-  return static_cast<size_t>((basis.energies.array() > smallest).count());
+std::vector<size_t> component_counts(const LinearBasis& basis, const LinearSettings& settings,
+                                     size_t vertices, size_t frames) {
+  const bool shapes = basis.kind == BasisKind::kEigenshapes;
+  std::vector<size_t> counts;
+  const auto count = [&](const LinearBasis& of_region, size_t vertex_count) {
+    const auto most = static_cast<size_t>(of_region.energies.size());
+    if (!settings.components.empty())
+      return std::min(settings.components[std::min(counts.size(), settings.components.size() - 1)],
+                      most);
+    const auto scalars = static_cast<double>(shapes ? 3 * vertex_count + frames
+                                                    : vertex_count + 3 * frames);
+    const double smallest = settings.rank_factor * scalars * settings.step * settings.step;
+    return static_cast<size_t>((of_region.energies.array() > smallest).count());
+  };
+  if (basis.regions.empty())
+    counts.push_back(count(basis, vertices));
+  for (size_t r = 0; r < basis.regions.size(); ++r)
+    counts.push_back(count(basis.regions[r], basis.clips->vertices(r).size()));
+  return counts;
 }
 
 std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearBasis& basis,

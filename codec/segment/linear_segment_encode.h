@@ -16,9 +16,9 @@
 
 namespace anicodec {
 
-/// Components of a basis that are worth coding at these settings.
-size_t component_count(const LinearBasis& basis, const LinearSettings& settings, size_t vertices,
-                       size_t frames);
+/// Components of a basis, of each of its regions, that are worth coding at these settings.
+std::vector<size_t> component_counts(const LinearBasis& basis, const LinearSettings& settings,
+                                     size_t vertices, size_t frames);
 
 /// Quantises and codes a basis as a segment: pose, time weights, the basis refitted to the decoded
 /// weights (closed loop), its coefficients predicted and rounded with their cost in mind.

@@ -26,7 +26,8 @@ struct LinearSettings {
   bool refit_weights = false;  ///< code the weights that are best for the decoded coefficients
   double rank_factor =
       0.2;  ///< components with less energy per scalar, in squared steps, are left out
-  size_t components = 0;  ///< exact number of components; 0: as many as rank_factor says
+  /// Exact numbers of components, one for each region; empty: as many as rank_factor says.
+  std::vector<size_t> components;
   uint8_t neighbours = 16;
   uint8_t passes_per_level = 1;
   uint8_t radius = 12;

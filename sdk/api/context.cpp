@@ -249,7 +249,7 @@ anic_status anic_forget_previous(anic_context* context) {
     // Weights that are the segment's stay where they are; interpolated ones and shapes move along.
     for (uint32_t p = 0; p < to.samples[t].count; ++p) {
       FrameState& part = to.samples[t].parts[p];
-      for (const float** values : {&part.weights, &part.shape}) {
+      for (const float** values : {&part.weights, &part.pose_maps, &part.shape}) {
         if (*values >= from.weights + begin && *values < from.weights + begin + count)
           *values = to.weights + (*values - from.weights);
       }

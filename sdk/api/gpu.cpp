@@ -27,7 +27,9 @@ void give_parts(const Clip& clip, const Sample& sample, anic_parts* host) {
     part.share = sample.share[p];
     part.weights = state.weights;
     part.shape = state.shape;
-    std::copy_n(state.pose_map.m, 12, part.pose_map);
+    const Affine identity;
+    std::copy_n(state.pose_maps ? state.pose_maps : identity.m, 12, part.pose_map);
+    parts.pose_maps[p] = state.pose_maps;
     std::copy_n(state.motion.m, 12, part.motion);
     part.corrections = reinterpret_cast<const anic_correction*>(state.corrections);
     part.correction_count = state.correction_count;
@@ -76,6 +78,8 @@ anic_status anic_get_basis(const anic_asset* asset, uint32_t segment, anic_basis
     filled.attribute = s.attribute;
     filled.first_component = s.first_component;
   }
+  filled.regions = s.regions;
+  filled.vertex_region = s.vertex_region.empty() ? nullptr : s.vertex_region.data();
   filled.vertex_shape = s.msgi.empty() || s.vertex_coded.empty() ? nullptr : s.vertex_coded.data();
   filled.reconstruction = s.msgi.empty() ? ANIC_RECONSTRUCTION_LINEAR : ANIC_RECONSTRUCTION_MSGI;
   for (size_t i = 0; i < 3; ++i)
@@ -134,6 +138,7 @@ anic_status anic_get_texture_layout(const anic_asset* asset, uint32_t segment, u
   filled.wide_height = layout.height(*found, BasisTexture::kWide);
   filled.narrow_height = layout.height(*found, BasisTexture::kNarrow);
   filled.state_floats = static_cast<uint32_t>(state_floats(*found));
+  filled.regions = found->regions;
   give(filled, out);
   return ANIC_OK;
 }

@@ -194,7 +194,8 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
       return at(*chunk, Status::kLimit, "more components than allowed");
     uint64_t channels = s.kind == BasisKind::kEigentrajectories ? 1 : 3;
     uint64_t coefficients = channels * s.components * out->meshes[s.mesh].coded_vertices;
-    uint64_t weights = uint64_t{4} * s.frames * s.components * (channels == 1 ? 3 : 1);
+    uint64_t weights =
+        uint64_t{4} * s.regions * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
     if (s.draco_bytes > file.file_size() || s.draco_points / 3 > out->meshes[s.mesh].triangles)

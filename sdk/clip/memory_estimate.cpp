@@ -75,7 +75,8 @@ Limits::Segment coarser(Limits::Segment s, double quality, bool exact) {
 // The factors of a product have at most 31 + 21 bits, its constant 6: each term fits 64 bits.
 uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
   const uint64_t n = (uint64_t{mesh.source_vertices} + 15) / 16 * 16;
-  const uint64_t frames = s.frames, components = s.components;
+  const uint64_t components = s.components;
+  const uint64_t frames = uint64_t{s.frames} * s.regions;
   const uint64_t integers = components + s.wide_components;  // in units of 16 bits
   uint64_t bytes = kStructure;
   switch (s.kind) {
@@ -95,8 +96,10 @@ uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
     const bool maps = s.reconstruction != Reconstruction::kMsgi;  // which has the map already
     bytes += exact_bytes(s, mesh) + (maps ? uint64_t{4} * mesh.source_vertices : 0);
   }
+  if (s.regions > 1)
+    bytes += n;
   if (s.corrections > 0)
-    bytes += uint64_t{16} * s.corrections + 4 * (frames + 1);
+    bytes += uint64_t{16} * s.corrections + 4 * (uint64_t{s.frames} + 1);
   return bytes;
 }
 
@@ -133,7 +136,8 @@ uint64_t opening(const Limits::Mesh& m) {
 
 uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
   // Kinds with a prediction: residuals and coefficients, weights, the order of the vertices.
-  const uint64_t n = mesh.coded_vertices, frames = s.frames, components = s.components;
+  const uint64_t n = mesh.coded_vertices, components = s.components;
+  const uint64_t frames = uint64_t{s.frames} * s.regions;
   // Key-frames as floats, faces and patches, and the fronts of the factorisation.
   uint64_t msgi = 0;
   if (s.reconstruction == Reconstruction::kMsgi)

@@ -13,10 +13,6 @@ namespace {
 /// Vertices whose parts are added up at a time.
 constexpr uint32_t kRange = 16 * kBlock;
 
-size_t weight_count(const Segment& s) {
-  return size_t{s.components} * s.weight_channels();
-}
-
 /// Frames of one segment, with weights that sum to one.
 struct Group {
   const Segment* segment = nullptr;
@@ -26,16 +22,14 @@ struct Group {
   double weights[FrameMix::kMost];
 };
 
-template <class Map>
-Affine mean_map(const Group& group, const Map& maps) {
-  Affine result;
-  for (int i = 0; i < 12; ++i) {
+/// The mean of `count` numbers in a row of each frame, rows `row` floats apart.
+void add_up(const Group& group, const float* rows, size_t row, size_t count, float* out) {
+  for (size_t i = 0; i < count; ++i) {
     double sum = 0;
     for (int t = 0; t < group.count; ++t)
-      sum += group.weights[t] * double{maps[group.frames[t]].m[i]};
-    result.m[i] = static_cast<float>(sum);
+      sum += group.weights[t] * double{rows[group.frames[t] * row + i]};
+    out[i] = static_cast<float>(sum);
   }
-  return result;
 }
 
 Affine mean_motion(const Group& group, const Vector<Affine>& motions) {
@@ -52,19 +46,18 @@ Affine mean_motion(const Group& group, const Vector<Affine>& motions) {
 
 FrameState mean_state(const Group& group, uint32_t components, float* weights) {
   const Segment& s = *group.segment;
-  const size_t n = weight_count(s), played = size_t{components} * s.weight_channels();
+  const size_t n = region_weights(s), played = size_t{components} * s.weight_channels();
   FrameState state;
   state.segment = &s;
   state.components = components;
   state.weights = weights;
-  for (size_t i = 0; i < played; ++i) {
-    double sum = 0;
-    for (int t = 0; t < group.count; ++t)
-      sum += group.weights[t] * double{s.weights[group.frames[t] * n + i]};
-    weights[i] = static_cast<float>(sum);
+  for (size_t r = 0; r < s.regions; ++r)
+    add_up(group, s.weights.data() + r * n, s.regions * n, played, weights + r * n);
+  if (!s.pose_maps.empty()) {
+    const size_t maps = size_t{12} * s.regions;
+    add_up(group, s.pose_maps[0].m, maps, maps, weights + s.regions * n);
+    state.pose_maps = weights + s.regions * n;
   }
-  if (!s.pose_maps.empty())
-    state.pose_map = mean_map(group, s.pose_maps);
   state.moves = !s.motions.empty();
   if (state.moves)
     state.motion = mean_motion(group, s.motions);
@@ -72,6 +65,10 @@ FrameState mean_state(const Group& group, uint32_t components, float* weights) {
 }
 
 }  // namespace
+
+size_t mixed_floats(const Segment& segment) {
+  return segment.regions * (region_weights(segment) + (segment.pose_maps.empty() ? 0 : 12));
+}
 
 RootState root_state(const Clip& clip, const FrameMix& mix) {
   RootState states[FrameMix::kMost];
@@ -140,7 +137,7 @@ Sample make_sample(const Clip& clip, uint32_t track, const FrameMix& mix, float*
     for (int t = 0; t < group.count; ++t)
       group.weights[t] /= group.share;
     sample.parts[g] = mean_state(group, played_components(*group.segment, quality), buffer);
-    buffer += weight_count(*group.segment);
+    buffer += mixed_floats(*group.segment);
   }
   if (!is_attribute && clip.has_root()) {
     const Affine root = root_state(clip, mix).affine(clip.root().axes());

@@ -34,6 +34,9 @@ struct Sample {
 /// How many parts the sample of a mix would have; make_sample() can make Sample::kMaxParts.
 uint32_t part_count(const Clip& clip, uint32_t track, const FrameMix& mix);
 
+/// Floats of a part that is made of several frames: weights, and maps of the pose.
+size_t mixed_floats(const Segment& segment);
+
 /// The motion of the whole at a time, left out of the positions or not. No motion in clips that
 /// have none. Cost: O(frames of the mix x log clips).
 RootState root_state(const Clip& clip, const FrameMix& mix);

@@ -16,7 +16,7 @@ constexpr uint64_t kMixedParts = Sample::kMaxParts;
 SampleSize segment_size(const Segment& s) {
   SampleSize size;
   size.segments = 1;
-  size.weights = uint64_t{s.components} * s.weight_channels();
+  size.weights = mixed_floats(s);
   if (!s.msgi.empty()) {
     size.shapes = 1;
     size.shape = shape_size(s);
@@ -29,8 +29,10 @@ SampleSize segment_size(const Limits::Segment& s, const Limits::Mesh& mesh, doub
   const bool keyframes = s.kind == BasisKind::kKeyframes;
   SampleSize size;
   size.segments = 1;
-  size.weights = uint64_t{keyframes ? s.components : wanted_components(quality, s.components)} *
-                 (s.kind == BasisKind::kEigentrajectories ? 3 : 1);
+  size.weights =
+      s.regions * (uint64_t{keyframes ? s.components : wanted_components(quality, s.components)} *
+                       (s.kind == BasisKind::kEigentrajectories ? 3 : 1) +
+                   (keyframes ? 0 : 12));
   if (s.reconstruction == Reconstruction::kMsgi) {
     size.shapes = 1;
     size.shape = uint64_t{3} * mesh.coded_vertices;

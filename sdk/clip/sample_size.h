@@ -14,7 +14,7 @@ namespace anicodec {
 
 /// Sizes of the samples of one track, by its segments.
 struct SampleSize {
-  uint64_t weights = 0;  ///< floats of a frame in the segment that has most
+  uint64_t weights = 0;  ///< mixed_floats() of the segment that has most
   uint64_t shape = 0;    ///< floats of a shape of MSGI
   uint64_t scratch = 0;  ///< bytes that make_sample() works in and leaves to others afterwards
   uint64_t segments = 0;

@@ -108,17 +108,18 @@ static const char VERTEX[] =
     "  vec3 sum = vec3(0.0);\n"
     "  for (int p = 0; p < parts; ++p) {\n"
     "    vec4 head = of(at);\n"     /* first rows: narrow, wide, pose; length */
-    "    vec4 kind = of(at + 1);\n" /* vectors?, texels of the wide weights */
+    "    vec4 kind = of(at + 1);\n" /* vectors?, texels of the wide weights, of a region's state */
     "    bool is_vectors = kind.x > 0.5;\n"
-    "    vec4 counts = of(at + 8);\n"
+    "    vec4 still = vec4(0.0);\n" /* and the region */
+    "    if (head.z >= 0.0) still = texelFetch(pose, ivec2(v.x, int(head.z) + v.y), 0);\n"
+    "    int region = at + 2 + int(still.w) * int(kind.z);\n"
+    "    vec4 counts = of(region + 6);\n"
     "    vec3 x = vec3(0.0);\n"
-    "    int w = at + 9;\n"
+    "    int w = region + 7;\n"
     "    SUM(wide, int(head.y), int(counts.x), w)\n"
     "    w += int(kind.y);\n"
     "    SUM(narrow, int(head.x), int(counts.y), w)\n"
-    "    vec3 still = vec3(0.0);\n"
-    "    if (head.z >= 0.0) still = texelFetch(pose, ivec2(v.x, int(head.z) + v.y), 0).xyz;\n"
-    "    sum += counts.z * moved(at + 5, x + moved(at + 2, still));\n"
+    "    sum += counts.z * moved(region + 3, x + moved(region, still.xyz));\n"
     "    at += int(head.w);\n"
     "  }\n"
     "  shown = sum;\n"
@@ -450,7 +451,8 @@ static void stage(Instance* instance, double time, const float* view, const floa
     const int vectors = basis.channels == 3;
     const uint32_t wide = (basis.wide_components + 3) / 4;
     const uint32_t narrow = (basis.components - basis.wide_components + 3) / 4;
-    const uint32_t texels = 2 + ANIC_STATE_FLOATS / 4 + (wide + narrow) * (vectors ? 1 : 3);
+    const uint32_t region = ANIC_STATE_FLOATS / 4 + (wide + narrow) * (vectors ? 1 : 3);
+    const uint32_t texels = 2 + basis.regions * region;
     const uint32_t* first = model->first[part->segment];
     to[0] = (float)first[ANIC_TEXTURE_NARROW];
     to[1] = (float)first[ANIC_TEXTURE_WIDE];
@@ -458,6 +460,7 @@ static void stage(Instance* instance, double time, const float* view, const floa
     to[3] = (float)texels;
     to[4] = (float)vectors;
     to[5] = (float)(wide * (vectors ? 1 : 3));
+    to[6] = (float)region;
     anic_write_state(instance->context, model->mesh, ANIC_WHEN_CURRENT, p, to + 8,
                      16 * (size_t)(texels - 2));
     to += 4 * texels;

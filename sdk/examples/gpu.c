@@ -7,7 +7,7 @@
  * In GLSL, with the basis in 16 bits, two to a uint, and weights and matrices of an instance in a
  * buffer; with one channel a weight is a vec3 and basis(j, v) one number:
  *
- * - vec3 x = (pose_map * vec4(pose(v), 1.0)).xyz;
+ * - vec3 x = (pose_map * vec4(pose(v), 1.0)).xyz;  // pose_map and weights of the vertex' region
  * - for (uint j = 0u; j < components; ++j) x += weights[j] * basis(j, v);
  * - x = (motion * vec4(x + origin, 1.0)).xyz;
  */
@@ -23,7 +23,8 @@ static void transform(const float* map, const float* in, float* out) {
 }
 
 /* The vertex shader. */
-static void shade(const anic_basis* basis, const anic_part* part, uint32_t v, float* x) {
+static void shade(const anic_basis* basis, const anic_part* part, const float* pose_maps, uint32_t v,
+                  float* x) {
   const size_t b = v / ANIC_BLOCK_VERTICES, i = v % ANIC_BLOCK_VERTICES;
   const uint32_t wide = basis->wide_components, narrow = basis->components - wide;
   if (part->shape != NULL) { /* ANIC_RECONSTRUCTION_MSGI: a buffer that changes with the frame */
@@ -31,12 +32,14 @@ static void shade(const anic_basis* basis, const anic_part* part, uint32_t v, fl
     transform(part->motion, part->shape + 3 * (size_t)point, x);
     return;
   }
+  const size_t region = basis->vertex_region != NULL ? basis->vertex_region[v] : 0;
+  const float* weights = part->weights + region * basis->components * basis->weight_channels;
   x[0] = x[1] = x[2] = 0;
   if (basis->pose != NULL) {
     float pose[3];
     for (size_t c = 0; c < 3; ++c)
       pose[c] = basis->pose[(b * 3 + c) * ANIC_BLOCK_VERTICES + i];
-    transform(part->pose_map, pose, x);
+    transform(pose_maps + 12 * region, pose, x);
   }
   for (uint32_t j = 0; j < basis->components; ++j) {
     for (size_t c = 0; c < 3; ++c) {
@@ -49,7 +52,7 @@ static void shade(const anic_basis* basis, const anic_part* part, uint32_t v, fl
               : (float)basis->narrow[((b * narrow + j - wide) * basis->channels + channel) *
                                          ANIC_BLOCK_VERTICES +
                                      i];
-      x[c] += part->weights[weight] * value;
+      x[c] += weights[weight] * value;
     }
   }
   float still[3];
@@ -102,7 +105,7 @@ int main(int argc, char** argv) {
         return 1;
       for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
         float x[3];
-        shade(&basis, part, v, x);
+        shade(&basis, part, shown.pose_maps[p], v, x);
         for (int c = 0; c < 3; ++c)
           made[3 * v + c] += part->share * x[c];
       }

@@ -55,15 +55,97 @@ void set_output(const VertexOutput& output, PlayJob::Frame* frame) {
 }
 
 void set_frame(const FrameState& state, const VertexOutput& output, uint32_t first,
-               PlayJob::Frame* frame) {
-  frame->weights = state.weights;
-  frame->pose_map = state.pose_map.m;
+               uint32_t region, PlayJob::Frame* frame) {
+  frame->weights = state.weights + region * region_weights(*state.segment);
+  frame->pose_map = state.pose_maps ? state.pose_maps + size_t{12} * region : nullptr;
   frame->motion = state.moves ? state.motion.m : nullptr;
   frame->corrections_end = state.corrections + state.correction_count;
   frame->correction = std::partition_point(state.corrections, frame->corrections_end,
                                            [&](const auto& c) { return c.vertex < first; });
   set_output(output, frame);
 }
+
+/// The region that all vertices of a block are of; kMaxRegions: they are of several.
+uint32_t region_of_block(const Segment& segment, uint32_t block) {
+  uint64_t all[kBlock / 8];
+  const uint8_t* regions = segment.vertex_region.data() + size_t{block} * kBlock;
+  __builtin_memcpy(all, regions, sizeof all);
+  const uint64_t same = 0x0101010101010101U * regions[0];
+  return all[0] == same && all[1] == same ? regions[0] : kMaxRegions;
+}
+
+/// Positions made with one set of kernels: of a few frames of a segment, for a range of vertices.
+class RegionPlayer {
+ public:
+  /// The states are of one segment and play as many components; kMaxPlayedFrames at most.
+  RegionPlayer(const PlayKernels& kernels, const FrameState* states, uint32_t frames)
+      : kernels_(kernels), segment_(*states->segment), states_(states), frames_(frames) {
+    set_segment(segment_, states->components, &job_);
+    job_.frames = frames;
+  }
+
+  /// Vertices of one region go to the outputs.
+  void play_region(uint32_t region, uint32_t first, uint32_t count, const VertexOutput* outputs) {
+    job_.first = first;
+    job_.end = first + count;
+    for (uint32_t f = 0; f < frames_; ++f)
+      set_frame(states_[f], outputs[f], first, region, &job_.frame[f]);
+    kernels_.play(job_);
+  }
+
+  /// Runs of blocks of one region are played as a whole, a block of several once for each of them.
+  /// The outputs are for vertices from `begin` on.
+  void play(uint32_t begin, uint32_t count, const VertexOutput* outputs) {
+    for (uint32_t first = begin, end = begin + count; first < end;) {
+      const uint32_t block = first / kBlock, region = region_of_block(segment_, block);
+      uint32_t next = block + 1;
+      while (region < kMaxRegions && next * kBlock < end &&
+             region_of_block(segment_, next) == region)
+        ++next;
+      const uint32_t stop = std::min(end, next * kBlock);
+      VertexOutput rest[kMaxPlayedFrames];
+      for (uint32_t f = 0; f < frames_; ++f) {
+        rest[f] = outputs[f];
+        rest[f].data =
+            static_cast<unsigned char*>(outputs[f].data) + outputs[f].stride * (first - begin);
+      }
+      if (region < kMaxRegions)
+        play_region(region, first, stop - first, rest);
+      else
+        play_border(first, stop - first, rest);
+      first = stop;
+    }
+  }
+
+ private:
+  /// Vertices of a block of several regions.
+  void play_border(uint32_t first, uint32_t count, const VertexOutput* outputs) {
+    const uint8_t* regions = segment_.vertex_region.data() + first;
+    float blocks[kMaxPlayedFrames][3 * kBlock] = {}, points[kMaxPlayedFrames][3 * kBlock];
+    VertexOutput plain[kMaxPlayedFrames];
+    for (uint32_t f = 0; f < frames_; ++f)
+      plain[f].data = points[f];
+    for (uint32_t r = 0; r < segment_.regions; ++r) {
+      if (std::find(regions, regions + count, r) == regions + count)
+        continue;
+      play_region(r, first, count, plain);
+      for (uint32_t f = 0; f < frames_; ++f) {
+        for (uint32_t i = 0; i < count; ++i) {
+          for (uint32_t c = 0; c < 3 && regions[i] == r; ++c)
+            blocks[f][c * kBlock + i] = points[f][3 * i + c];
+        }
+      }
+    }
+    for (uint32_t f = 0; f < frames_; ++f)
+      store_points(blocks[f], 0, count, outputs[f]);
+  }
+
+  const PlayKernels& kernels_;
+  const Segment& segment_;
+  const FrameState* states_;
+  uint32_t frames_;
+  PlayJob job_;
+};
 
 /// Vertices of a shape that are moved at a time.
 constexpr uint32_t kRange = 16 * kBlock;
@@ -165,14 +247,18 @@ void make_shape(FrameState* state, float* shape, float* scratch) {
   state->shape = shape;
 }
 
+size_t region_weights(const Segment& segment) {
+  return size_t{segment.components} * segment.weight_channels();
+}
+
 FrameState frame_state(const Segment& segment, uint32_t frame) {
   FrameState state;
   state.segment = &segment;
   state.components = segment.components;
   state.weights =
-      segment.weights.data() + size_t{frame} * segment.components * segment.weight_channels();
+      segment.weights.data() + size_t{frame} * segment.regions * region_weights(segment);
   if (!segment.pose_maps.empty())
-    state.pose_map = segment.pose_maps[frame];
+    state.pose_maps = segment.pose_maps[size_t{frame} * segment.regions].m;
   state.moves = !segment.motions.empty();
   if (state.moves)
     state.motion = segment.motions[frame];
@@ -235,18 +321,17 @@ void play_with(const PlayKernels& kernels, const FrameState* states, uint32_t fr
       ++f;
       continue;
     }
-    PlayJob job;
-    set_segment(*states[f].segment, states[f].components, &job);
-    job.first = first;
-    job.end = first + count;
-    do {
-      set_frame(states[f], outputs[f], first, &job.frame[job.frames]);
-      ++job.frames;
-      ++f;
-    } while (f < frames && job.frames < kMaxPlayedFrames && !states[f].exact &&
-             states[f].segment == states[f - 1].segment &&
-             states[f].components == states[f - 1].components);
-    kernels.play(job);
+    uint32_t end = f + 1;
+    while (end < frames && end - f < kMaxPlayedFrames && !states[end].exact &&
+           states[end].segment == states[f].segment &&
+           states[end].components == states[f].components)
+      ++end;
+    RegionPlayer player(kernels, states + f, end - f);
+    if (states[f].segment->vertex_region.empty())
+      player.play_region(0, first, count, outputs + f);
+    else
+      player.play(first, count, outputs + f);
+    f = end;
   }
 }
 

@@ -14,8 +14,8 @@ namespace anicodec {
 /// Points into the segment, or to what the caller interpolated.
 struct FrameState {
   const Segment* segment = nullptr;
-  const float* weights = nullptr;                    ///< components x weight_channels
-  Affine pose_map;                                   ///< A_f, where the segment has a pose
+  const float* weights = nullptr;    ///< regions x components of the segment x weight_channels
+  const float* pose_maps = nullptr;  ///< A_f, regions x 12; null where the segment has no pose
   Affine motion;                                     ///< M_f, where `moves`
   bool moves = false;  ///< the segment has motions, or the whole has one
   const Segment::Correction* corrections = nullptr;  ///< ascending by vertex
@@ -28,6 +28,9 @@ struct FrameState {
 /// A whole frame, 0 .. frames - 1 of the segment. O(1). In a segment of MSGI, where it lacks what
 /// make_shape() computes.
 FrameState frame_state(const Segment& segment, uint32_t frame);
+
+/// Weights of a region in a frame: components x weight_channels.
+size_t region_weights(const Segment& segment);
 
 /// How many of the segment's components are played at a quality in (0, 1]; key-frames are, all.
 uint32_t played_components(const Segment& segment, double quality);

@@ -10,7 +10,8 @@
 
 namespace anicodec {
 
-/// Textures of a basis: four numbers a texel, of float32, int32 and int16.
+/// Textures of a basis: four numbers a texel, of float32, int32 and int16. The fourth of a pose is the
+/// vertex' region.
 enum class BasisTexture : uint8_t { kPose = 0, kWide = 1, kNarrow = 2 };
 
 size_t texel_bytes(BasisTexture texture);
@@ -35,11 +36,11 @@ struct TextureLayout {
 void write_texture(const Segment& segment, BasisTexture texture, const TextureLayout& layout,
                    size_t stride, void* out);
 
-/// Floats of write_state(): 28 and the weights, in whole groups.
+/// Floats of write_state(): for each region 28 and the weights, in whole groups.
 size_t state_floats(const Segment& segment);
 
 /// Writes what a shader needs of a state: maps (the origin in the first one), counts of groups, share,
-/// corrections, weights. Cost: O(components).
+/// corrections, weights; so for each region, one after another. Cost: O(regions x components).
 void write_state(const FrameState& state, float share, float* out);
 
 }  // namespace anicodec

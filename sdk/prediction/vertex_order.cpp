@@ -16,6 +16,7 @@ namespace {
 // about six and never meet them, save for poles of fans.
 constexpr uint64_t kMinRemovedFraction = 16;  // a graph that loses less of it is replaced
 constexpr int kGridBits = 15;                 // per axis: squared distances fit 32 bits
+constexpr int kIdBits = 30, kCurveBits = 30;  // of a place on the curve, and the region above them
 
 /// Sorts by distance from `to`, then by index.
 uint64_t nearness(const GridVertex& a, const GridVertex& to) {
@@ -33,10 +34,19 @@ uint64_t spread_bits(uint64_t x) {  // ten bits to every third
   return (x | x << 2) & 0x9249249;
 }
 
-uint64_t morton_key(const GridVertex& v) {
+uint64_t morton_key(const GridVertex& v, uint8_t region) {
   constexpr int drop = kGridBits - 10;
   const auto part = [](int32_t c) { return spread_bits(static_cast<uint64_t>(c) >> drop); };
-  return (part(v.x) | part(v.y) << 1 | part(v.z) << 2) << 32 | v.id;
+  return uint64_t{region} << (kIdBits + kCurveBits) |
+         (part(v.x) | part(v.y) << 1 | part(v.z) << 2) << kIdBits | v.id;
+}
+
+uint32_t id_of(uint64_t key) {
+  return static_cast<uint32_t>(key & ((uint64_t{1} << kIdBits) - 1));
+}
+
+bool same_region(uint64_t a, uint64_t b) {
+  return a >> (kIdBits + kCurveBits) == b >> (kIdBits + kCurveBits);
 }
 
 /// Undirected graph without loops and multiple edges: vertex v has adjacent[start[v]] ..
@@ -53,8 +63,8 @@ struct Graph {
 
 class Contraction {
  public:
-  Contraction(MeshGraph mesh, int m, int colours, const HostThreads& threads)
-      : m_(m), colours_(colours), is_dense_(mesh.is_dense()), threads_(threads) {
+  Contraction(MeshGraph mesh, int m, int colours, const uint8_t* regions, const HostThreads& threads)
+      : m_(m), colours_(colours), is_dense_(mesh.is_dense()), regions_(regions), threads_(threads) {
     const size_t vertex_count = mesh.vertex_count();
     nodes_.resize(vertex_count);
     neighbours_.assign(vertex_count * static_cast<size_t>(m), -1);
@@ -66,6 +76,8 @@ class Contraction {
     for (size_t t = 0; t < teams_; ++t)
       stamps_[t].last.assign(vertex_count, 0);
     std::move(mesh).take(&graph_.start, &graph_.adjacent);
+    if (regions && !is_dense_)
+      cut_regions();
   }
 
   void set_grid(const int32_t* positions);
@@ -92,6 +104,7 @@ class Contraction {
   static constexpr size_t kTeams = 4;         ///< parts of a level, for threads
   static constexpr size_t kShared = 1 << 12;  ///< vertices of a level that is worth it
 
+  void cut_regions();
   void drop_isolated();
   void link_all();
   void select_removed();
@@ -106,6 +119,7 @@ class Contraction {
 
   int m_, colours_;
   bool is_dense_;               // the mesh, whose edges are not here
+  const uint8_t* regions_;      // of all vertices, by index; may be null
   Vector<GridVertex> nodes_;    // all vertices
   Vector<int32_t> neighbours_;  // indices, of all vertices by rank
   Vector<uint32_t> removal_;    // vertices, finest level first
@@ -145,6 +159,22 @@ void Contraction::set_grid(const int32_t* positions) {
   }
 }
 
+// Edges between regions leave the graph.
+void Contraction::cut_regions() {
+  uint32_t size = 0;
+  for (uint32_t v = 0; v < nodes_.size(); ++v) {
+    const uint32_t first = graph_.start[v], last = graph_.start[v + 1];
+    graph_.start[v] = size;
+    for (uint32_t e = first; e < last; ++e) {
+      const uint32_t u = graph_.adjacent[e];
+      if (regions_[u] == regions_[v])
+        graph_.adjacent[size++] = u;
+    }
+  }
+  graph_.start[nodes_.size()] = size;
+  graph_.adjacent.resize(size);
+}
+
 // Vertices without edges leave the graph; the others are renumbered.
 void Contraction::drop_isolated() {
   const auto n = static_cast<uint32_t>(active_.size());
@@ -171,8 +201,8 @@ void Contraction::drop_isolated() {
     u = renumbered_[u];
 }
 
-// The graph is replaced by one along a space-filling curve over all alive vertices: each is linked
-// to the two before and the two after it.
+// The graph is replaced by one along a space-filling curve over all alive vertices of a region: each
+// is linked to the two before and the two after it.
 void Contraction::link_all() {
   for (const GridVertex& v : active_)
     isolated_.push_back(v.id);
@@ -184,25 +214,25 @@ void Contraction::link_all() {
     active_.push_back(nodes_[isolated_[i]]);
     GridVertex local = active_.back();
     local.id = i;
-    curve.push_back(morton_key(local));
+    curve.push_back(morton_key(local, regions_ ? regions_[isolated_[i]] : uint8_t{0}));
   }
   isolated_.clear();
   sort_ascending(curve.begin(), curve.end());
   const auto n = static_cast<int64_t>(curve.size());
   Vector<uint32_t> place(curve.size());
   for (size_t i = 0; i < curve.size(); ++i)
-    place[curve[i] & 0xffffffff] = static_cast<uint32_t>(i);
+    place[id_of(curve[i])] = static_cast<uint32_t>(i);
   graph_.start.assign(1, 0);
   graph_.adjacent.clear();
   for (const uint32_t at : place) {
     for (const int d : {-2, -1, 1, 2}) {
       const int64_t other = int64_t{at} + d;
-      if (other >= 0 && other < n)
-        graph_.adjacent.push_back(
-            static_cast<uint32_t>(curve[static_cast<size_t>(other)] & 0xffffffff));
+      if (other >= 0 && other < n && same_region(curve[static_cast<size_t>(other)], curve[at]))
+        graph_.adjacent.push_back(id_of(curve[static_cast<size_t>(other)]));
     }
     graph_.start.push_back(static_cast<uint32_t>(graph_.adjacent.size()));
   }
+  drop_isolated();  // the last vertex of a region
 }
 
 // A maximal independent set of low degree, short edges and low degrees first.
@@ -418,9 +448,9 @@ void Contraction::run() {
       }
     }
     if (active_.empty()) {
-      if (isolated_.size() <= 1)
-        break;
       link_all();
+      if (active_.empty())
+        break;
     } else if (is_dense_ || is_dense(graph_.adjacent.size(), active_.size())) {
       link_all();
     }
@@ -437,10 +467,11 @@ void Contraction::run() {
     find_neighbours();
     advance();
   }
-  for (const uint32_t v : isolated_) {
-    removal_.push_back(v);
-    end_level(removal_.size() - 1);
-  }
+  // One vertex of each region is left.
+  const size_t first = removal_.size();
+  removal_.insert(removal_.end(), isolated_.begin(), isolated_.end());
+  if (!isolated_.empty())
+    end_level(first);
 }
 
 void Contraction::write(VertexOrder* out) {
@@ -462,13 +493,14 @@ void Contraction::write(VertexOrder* out) {
 }
 
 Status make_order(MeshGraph graph, const int32_t* positions, int neighbours, int colours,
-                  VertexOrder* out, uint64_t* visits, const HostThreads& threads = {}) {
+                  const uint8_t* regions, VertexOrder* out, uint64_t* visits,
+                  const HostThreads& threads = {}) {
   if (neighbours < 1 || neighbours > kMaxNeighbours || colours < 1 || colours > kMaxColours)
     return Status::kArgument;
   for (size_t i = 0; i < 3 * graph.vertex_count(); ++i)
     if (positions[i] > kMaxReferenceCoordinate || positions[i] < -kMaxReferenceCoordinate)
       return Status::kQuantizer;
-  Contraction contraction(std::move(graph), neighbours, colours, threads);
+  Contraction contraction(std::move(graph), neighbours, colours, regions, threads);
   contraction.set_grid(positions);
   contraction.run();
   contraction.write(out);
@@ -479,9 +511,10 @@ Status make_order(MeshGraph graph, const int32_t* positions, int neighbours, int
 }  // namespace
 
 Status make_vertex_order(MeshGraph graph, const int32_t* positions, int neighbours, int colours,
-                         VertexOrder* out, const HostThreads& threads) {
+                         VertexOrder* out, const uint8_t* regions, const HostThreads& threads) {
   uint64_t visits = 0;
-  return make_order(std::move(graph), positions, neighbours, colours, out, &visits, threads);
+  return make_order(std::move(graph), positions, neighbours, colours, regions, out, &visits,
+                    threads);
 }
 
 Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const int32_t* positions,
@@ -497,7 +530,7 @@ Status make_counted_vertex_order(const uint32_t* triangles, size_t triangle_coun
   MeshGraph graph;
   if (Status s = graph.init(triangles, triangle_count, vertex_count); s != Status::kOk)
     return s;
-  return make_order(std::move(graph), positions, neighbours, colours, out, visits);
+  return make_order(std::move(graph), positions, neighbours, colours, nullptr, out, visits);
 }
 
 }  // namespace anicodec

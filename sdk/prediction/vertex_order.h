@@ -22,6 +22,9 @@ constexpr int kMaxNeighbours = 24;
 /// Most colours a level can be split into.
 constexpr int kMaxColours = 8;
 
+/// Most regions that an order keeps apart.
+constexpr int kMaxOrderRegions = 8;
+
 /// Magnitude that no reference coordinate may exceed: differences of two are exact in binary32.
 constexpr int32_t kMaxReferenceCoordinate = 1 << 21;
 
@@ -47,8 +50,11 @@ struct VertexOrder {
 /// position is too large. Cost: O(vertices) for every input, however irregular. Neighbours are looked
 /// for on the host's threads; nothing depends on them. A graph that is not needed any more is best
 /// moved.
+/// regions: a number below kMaxOrderRegions for each vertex, whose neighbours are then of its own
+/// region; null: all are of one.
 Status make_vertex_order(MeshGraph graph, const int32_t* positions, int neighbours, int colours,
-                         VertexOrder* out, const HostThreads& threads = {});
+                         VertexOrder* out, const uint8_t* regions = nullptr,
+                         const HostThreads& threads = {});
 
 /// The same from triangles.
 Status make_vertex_order(const uint32_t* triangles, size_t triangle_count, const int32_t* positions,

@@ -61,6 +61,18 @@ AffineFunctions AffineFunctions::of(const int32_t* pose, size_t vertex_count) {
   return f;
 }
 
+AffineFunctions AffineFunctions::of_region(const Vector<int32_t>& pose,
+                                           const Vector<uint8_t>& regions, uint32_t region) {
+  if (regions.empty())
+    return of(pose.data(), pose.size() / 3);
+  Vector<int32_t> points;
+  for (size_t v = 0; v < regions.size(); ++v) {
+    if (regions[v] == region)
+      points.insert(points.end(), pose.data() + 3 * v, pose.data() + 3 * v + 3);
+  }
+  return of(points.data(), points.size() / 3);
+}
+
 void AffineFunctions::evaluate(const double p[3], double values[kAffineFunctions]) const {
   values[0] = constant;
   for (size_t a = 0; a < 3; ++a) {

@@ -43,9 +43,10 @@ void keep_components(const Vector<uint32_t>& used, uint32_t components, uint32_t
 
 bool rests(const Segment& s, uint32_t component) {
   const size_t channels = s.weight_channels(), row = s.components * channels;
-  for (size_t f = 0; f < s.frames; ++f) {
+  const size_t rows = size_t{s.frames} * s.regions;
+  for (size_t i = 0; i < rows; ++i) {
     for (size_t c = 0; c < channels; ++c) {
-      if (s.weights[f * row + component * channels + c] != 0)
+      if (s.weights[i * row + component * channels + c] != 0)
         return false;
     }
   }
@@ -70,11 +71,12 @@ void drop_resting_components(Segment* s) {
   keep_components(narrow, s->components - s->wide_components, s->channels(), blocks, &s->narrow);
   const size_t channels = s->weight_channels();
   Vector<float> weights;
-  weights.reserve(s->frames * used.size() * channels);
-  for (size_t f = 0; f < s->frames; ++f) {
+  const size_t rows = size_t{s->frames} * s->regions;
+  weights.reserve(rows * used.size() * channels);
+  for (size_t i = 0; i < rows; ++i) {
     for (uint32_t j : used) {
       const auto from =
-          s->weights.begin() + static_cast<ptrdiff_t>((f * s->components + j) * channels);
+          s->weights.begin() + static_cast<ptrdiff_t>((i * s->components + j) * channels);
       weights.insert(weights.end(), from, from + static_cast<ptrdiff_t>(channels));
     }
   }
@@ -87,9 +89,9 @@ void drop_resting_components(Segment* s) {
 
 void keep_frames(uint32_t first, uint32_t count, Segment* segment) {
   Segment& s = *segment;
-  const size_t row = size_t{s.components} * s.weight_channels();
+  const size_t row = size_t{s.regions} * s.components * s.weight_channels();
   keep(first * row, count * row, &s.weights);
-  keep(first, count, &s.pose_maps);
+  keep(size_t{first} * s.regions, size_t{count} * s.regions, &s.pose_maps);
   keep(first, count, &s.motions);
   keep_corrections(first, count, &s);
   if (!s.exact.empty()) {

@@ -7,6 +7,7 @@
 #include "sdk/base/bounded_float.h"
 #include "sdk/segment/affine_functions.h"
 #include "sdk/segment/basis_layer.h"
+#include "sdk/segment/region_coding.h"
 #include "sdk/segment/resident_writer.h"
 #include "sdk/segment/residual_reader.h"
 
@@ -34,7 +35,16 @@ Vector<double> step_factors(const LinearParameters& parameters, const Vector<uin
   return factors;
 }
 
-/// Reads time weights: those of the affine base become maps of the pose, the others stay integers.
+/// The edges of the mesh: those that its segments share, or made now.
+Status graph_of(const SegmentContext& context, MeshGraph* own, const MeshGraph** out) {
+  *out = context.graph ? context.graph : own;
+  if (context.graph)
+    return Status::kOk;
+  const Vector<uint32_t>& triangles = context.topology->triangles;
+  return own->init(triangles.data(), triangles.size() / 3, context.topology->coded_vertices);
+}
+
+/// Reads time weights: those of the affine bases become maps of the pose, the others stay integers.
 class WeightReader {
  public:
   WeightReader(const LinearParameters& parameters, const Vector<uint32_t>& runs,
@@ -42,50 +52,48 @@ class WeightReader {
       : parameters_(parameters), runs_(runs), model_(runs), integers_(*integers) {}
 
   /// Block `weights` of a segment. `factors`: of the weight step, for each frame.
-  Status read_base(ByteView bytes, const Vector<double>& factors, const PoseGrid& pose,
-                   Segment* out) {
-    const size_t frames = out->frames;
+  Status read_bases(ByteView bytes, const Vector<double>& factors, const PoseGrid& pose,
+                    const Vector<uint8_t>& regions, Segment* out) {
     BinaryDecoder decoder(bytes.data, bytes.size);
+    out->pose_maps.resize(size_t{out->frames} * out->regions);
     if (!parameters_.affine)
       return decoder.finish() ? keep_still(pose, out) : Status::kEntropy;
-    const double unit = parameters_.weight_step / (1 << kWeightFractionBits);
-    const AffineFunctions functions =
-        AffineFunctions::of(pose.points.data(), pose.points.size() / 3);
-    Vector<int32_t> values[kAffineFunctions];
-    for (Vector<int32_t>& v : values) {
-      v.resize(3 * frames);
-      if (Status s = model_.decode(decoder, 3, v.data()); s != Status::kOk)
-        return s;
-      integers_.add("affine weights", v.data(), v.size());
+    const size_t of_function = size_t{3} * out->frames;
+    Vector<int32_t> values(out->regions * kAffineFunctions * of_function);  // by region
+    for (size_t b = 0; b < kAffineFunctions; ++b) {
+      for (size_t r = 0; r < out->regions; ++r) {
+        int32_t* v = values.data() + (r * kAffineFunctions + b) * of_function;
+        if (Status s = model_.decode(decoder, 3, v); s != Status::kOk)
+          return s;
+        integers_.add("affine weights", v, of_function);
+      }
     }
-    out->pose_maps.resize(frames);
-    for (size_t f = 0; f < frames; ++f) {
-      double w[3][kAffineFunctions], map[12];
-      for (size_t axis = 0; axis < 3; ++axis) {
-        for (size_t b = 0; b < kAffineFunctions; ++b)
-          w[axis][b] = unit * factors[f] * values[b][axis * frames + f];
-      }
-      functions.map(w, map);
-      for (size_t i = 0; i < 12; ++i) {
-        if (!to_float(i % 4 == 3 ? map[i] + pose.origin[i / 4] : map[i], &out->pose_maps[f].m[i]))
-          return Status::kNonFinite;
-      }
+    for (uint32_t r = 0; r < out->regions; ++r) {
+      const int32_t* v = values.data() + r * kAffineFunctions * of_function;
+      const AffineFunctions functions = AffineFunctions::of_region(pose.points, regions, r);
+      if (Status s = set_maps(functions, v, factors, pose, r, out); s != Status::kOk)
+        return s;
     }
     return decoder.finish() ? Status::kOk : Status::kEntropy;
   }
 
-  /// The first `count` components of a layer: components x weight channels x frames.
+  /// The first `count` components of a layer: components x regions x weight channels x frames, 0 where
+  /// a region has none.
   Status read_layer(const BasisLayer& layer, uint32_t count, const Segment& segment, int32_t* to) {
     if (layer.count == 0)
       return Status::kOk;
     if (parameters_.layers_anew && layer.first > 0)
       model_ = TimeWeightModel(runs_);
     BinaryDecoder decoder(layer.weights.data, layer.weights.size);
-    const size_t per_component = size_t{segment.frames} * segment.weight_channels();
-    for (uint32_t j = 0; j < count; ++j, to += per_component) {
-      if (Status s = model_.decode(decoder, segment.weight_channels(), to); s != Status::kOk)
-        return s;
-      integers_.add("weights", to, per_component);
+    const size_t rows = size_t{segment.frames} * segment.weight_channels();
+    for (uint32_t j = layer.first; j < layer.first + count; ++j) {
+      for (uint32_t r = 0; r < segment.regions; ++r, to += rows) {
+        if (!parameters_.has_weights(r, j))
+          continue;
+        if (Status s = model_.decode(decoder, segment.weight_channels(), to); s != Status::kOk)
+          return s;
+        integers_.add("weights", to, rows);
+      }
     }
     return count < layer.count || decoder.finish() ? Status::kOk : Status::kEntropy;
   }
@@ -97,7 +105,29 @@ class WeightReader {
       if (!to_float(i % 4 == 3 ? pose.origin[i / 4] : i % 5 == 0 ? pose.step : 0.0, &still.m[i]))
         return Status::kNonFinite;
     }
-    out->pose_maps.assign(out->frames, still);
+    out->pose_maps.assign(out->pose_maps.size(), still);
+    return Status::kOk;
+  }
+
+  /// The maps of one region in all frames. `values`: kAffineFunctions x 3 x frames.
+  Status set_maps(const AffineFunctions& functions, const int32_t* values,
+                  const Vector<double>& factors, const PoseGrid& pose, uint32_t region,
+                  Segment* out) const {
+    const double unit = parameters_.weight_step / (1 << kWeightFractionBits);
+    const size_t frames = out->frames;
+    for (size_t f = 0; f < frames; ++f) {
+      double w[3][kAffineFunctions], map[12];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        for (size_t b = 0; b < kAffineFunctions; ++b)
+          w[axis][b] = unit * factors[f] * values[(3 * b + axis) * frames + f];
+      }
+      functions.map(w, map);
+      float* m = out->pose_maps[f * out->regions + region].m;
+      for (size_t i = 0; i < 12; ++i) {
+        if (!to_float(i % 4 == 3 ? map[i] + pose.origin[i / 4] : map[i], &m[i]))
+          return Status::kNonFinite;
+      }
+    }
     return Status::kOk;
   }
 
@@ -107,41 +137,19 @@ class WeightReader {
   DecodedIntegers& integers_;
 };
 
-/// The weights of the base, and those of the first `wanted` components.
-Status read_weights(ByteView of_base, const Vector<BasisLayer>& layers, uint32_t wanted,
-                    const LinearParameters& parameters, const Vector<uint32_t>& runs,
-                    const Vector<double>& factors, const PoseGrid& pose,
-                    DecodedIntegers* integers, Segment* out, Vector<int32_t>* weights) {
-  WeightReader reader(parameters, runs, integers);
-  if (Status s = reader.read_base(of_base, factors, pose, out); s != Status::kOk)
-    return s;
-  const size_t per_component = size_t{out->frames} * out->weight_channels();
-  weights->resize(per_component * wanted);
+/// The weights of the first `wanted` components.
+Status read_weights(const Vector<BasisLayer>& layers, uint32_t wanted, const Segment& segment,
+                    WeightReader& reader, Vector<int32_t>* weights) {
+  const size_t of_component =
+      size_t{segment.regions} * segment.frames * segment.weight_channels();
+  weights->assign(of_component * wanted, 0);
   for (const BasisLayer& layer : layers) {
     const uint32_t count = std::min(layer.count, wanted - layer.first);
-    if (Status s =
-            reader.read_layer(layer, count, *out, weights->data() + per_component * layer.first);
-        s != Status::kOk)
+    int32_t* to = weights->data() + of_component * layer.first;
+    if (Status s = reader.read_layer(layer, count, segment, to); s != Status::kOk)
       return s;
   }
   return Status::kOk;
-}
-
-/// The order in which the vertices are decoded.
-Status order_of(const SegmentContext& context, const LinearParameters& parameters,
-                VertexOrder* order) {
-  MeshGraph graph;
-  if (context.graph) {
-    graph = *context.graph;
-  } else {
-    const Vector<uint32_t>& triangles = context.topology->triangles;
-    if (Status s =
-            graph.init(triangles.data(), triangles.size() / 3, context.topology->coded_vertices);
-        s != Status::kOk)
-      return s;
-  }
-  return make_vertex_order(std::move(graph), context.pose->points.data(), parameters.neighbours,
-                           parameters.colours, order, context.threads);
 }
 
 /// Components in layers; no more than there can be.
@@ -182,6 +190,27 @@ Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ra
   return largest;
 }
 
+/// Scales the weights of a component and a region, whose coefficients have so many fraction bits.
+/// False: one is too large.
+bool set_weights(const Vector<int32_t>& weights, const LinearParameters& parameters,
+                 const Vector<double>& factors, uint32_t region, uint32_t component, int bits,
+                 Segment* out) {
+  const size_t channels = out->weight_channels();
+  const size_t place = size_t{component} * out->regions + region;
+  const double unit = parameters.weight_step / (1 << kWeightFractionBits) /
+                      LinearParameters::sigma_value(parameters.sigma[place]) *
+                      parameters.basis_step / (1 << bits);
+  const int32_t* w = weights.data() + place * channels * out->frames;
+  for (size_t f = 0; f < out->frames; ++f) {
+    float* to = &out->weights[((f * out->regions + region) * out->components + component) * channels];
+    for (size_t c = 0; c < channels; ++c) {
+      if (!to_float(unit * factors[f] * w[c * out->frames + f], to + c))
+        return false;
+    }
+  }
+  return true;
+}
+
 /// Puts the coefficients into the resident blocks, each component with as many fraction bits as
 /// fit, and scales its weights accordingly. `largest`: magnitudes by sample.
 Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t stride,
@@ -190,7 +219,7 @@ Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t st
                      ResidentWriter& writer, Segment* out) {
   uint32_t channels = out->channels(), weight_channels = out->weight_channels();
   Vector<float> scale(size_t{out->components} * channels);
-  out->weights.resize(size_t{out->frames} * out->components * weight_channels);
+  out->weights.resize(size_t{out->frames} * out->regions * out->components * weight_channels);
   for (uint32_t j = 0; j < out->components; ++j) {
     const float* of_component = largest.data() + size_t{channels} * j;
     const float most = *std::max_element(of_component, of_component + channels);
@@ -203,16 +232,9 @@ Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t st
     }
     for (uint32_t c = 0; c < channels; ++c)
       scale[size_t{j} * channels + c] = static_cast<float>(1 << bits);
-    double unit = parameters.weight_step / (1 << kWeightFractionBits) /
-                  LinearParameters::sigma_value(parameters.sigma[j]) * parameters.basis_step /
-                  (1 << bits);
-    const int32_t* w = weights.data() + size_t{j} * weight_channels * out->frames;
-    for (size_t f = 0; f < out->frames; ++f) {
-      for (size_t c = 0; c < weight_channels; ++c) {
-        if (!to_float(unit * factors[f] * w[c * out->frames + f],
-                      &out->weights[(f * out->components + j) * weight_channels + c]))
-          return Status::kNonFinite;
-      }
+    for (uint32_t r = 0; r < out->regions; ++r) {
+      if (!set_weights(weights, parameters, factors, r, j, bits, out))
+        return Status::kNonFinite;
     }
   }
   Vector<uint32_t> rank(order.order.size());
@@ -255,19 +277,28 @@ Bytes LinearParameters::write() const {
     w.u8(step);
   // The components' table: what changes little from one to the next.
   BinaryEncoder encoder;
+  UnsignedModel fewer_model;
+  for (uint32_t count : region_components)
+    fewer_model.code(encoder, static_cast<int32_t>(omega.size() - count));
   SymbolModel<> omega_model, sigma_model;
-  int32_t last_omega = 128, last_sigma = 0;
+  int32_t last_omega = 128, last_sigma[kMaxRegions] = {};
   for (size_t j = 0; j < omega.size(); ++j) {
     omega_model.code(encoder, omega[j] - last_omega);
-    sigma_model.code(encoder, sigma[j] - last_sigma);
     last_omega = omega[j];
-    last_sigma = sigma[j];
+    for (uint32_t r = 0; r < regions(); ++r) {
+      if (!has_weights(r, j))
+        continue;
+      const int32_t s = sigma[j * regions() + r];
+      sigma_model.code(encoder, s - last_sigma[r]);
+      last_sigma[r] = s;
+    }
   }
   w.raw(encoder.finish());
   return std::move(w.bytes());
 }
 
-Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs) {
+Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs,
+                              uint32_t region_count) {
   ByteReader r(bytes);
   uint8_t flags = r.u8();
   affine = flags & kAffineFlag;
@@ -306,19 +337,34 @@ Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs) 
   }
   ByteView stream = r.raw(r.remaining());
   BinaryDecoder decoder(stream.data, stream.size);
+  UnsignedModel fewer_model;
+  region_components.assign(region_count > 1 ? region_count : 0, components);
+  for (uint32_t& count : region_components) {
+    const auto fewer = static_cast<uint32_t>(fewer_model.code(decoder));
+    if (fewer > components)
+      return Status::kQuantizer;
+    count -= fewer;
+  }
   SymbolModel<> omega_model, sigma_model;
-  int32_t last_omega = 128, last_sigma = 0;
+  int32_t last_omega = 128, last_sigma[kMaxRegions] = {};
   omega.resize(components);
-  sigma.resize(components);
+  sigma.assign(size_t{components} * region_count, 0);
   for (uint32_t j = 0; j < components; ++j) {
-    int64_t o = int64_t{last_omega} + omega_model.code(decoder);
-    int64_t s = int64_t{last_sigma} + sigma_model.code(decoder);
+    const int64_t o = int64_t{last_omega} + omega_model.code(decoder);
+    bool in_range = o >= 0 && o <= 255;
+    for (uint32_t region = 0; region < region_count; ++region) {
+      if (!has_weights(region, j))
+        continue;
+      int32_t& last = last_sigma[region];
+      const int64_t s = int64_t{last} + sigma_model.code(decoder);
+      in_range &= s >= -8000 && s <= 8000;
+      sigma[size_t{j} * region_count + region] = last = in_range ? static_cast<int32_t>(s) : 0;
+    }
     if (!decoder.ok())
       return Status::kEntropy;
-    if (o < 0 || o > 255 || s < -8000 || s > 8000)
+    if (!in_range)
       return Status::kQuantizer;
     omega[j] = static_cast<uint8_t>(last_omega = static_cast<int32_t>(o));
-    sigma[j] = last_sigma = static_cast<int32_t>(s);
   }
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
@@ -329,11 +375,13 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   uint32_t components = context.sizes->components;
   const Vector<uint32_t> runs =
       context.runs.empty() ? Vector<uint32_t>(1, out->frames) : context.runs;
-  if (Status s = parameters.read(record.parameters, components, runs.size()); s != Status::kOk)
+  if (Status s =
+          parameters.read(record.parameters, components, runs.size(), context.sizes->regions);
+      s != Status::kOk)
     return s;
   out->coefficient_coder = parameters.coder;
   out->slices = parameters.slices;
-  if (record.motion.size != 0 || record.pose.size != 0)
+  if (record.motion.size != 0)
     return Status::kRecord;
   if (!context.pose)
     return Status::kChunkMissing;
@@ -341,6 +389,18 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   size_t n = topology.coded_vertices;
   const PoseGrid& pose = *context.pose;
   integers.add("pose", pose.points.data(), pose.points.size());
+  MeshGraph own;
+  const MeshGraph* graph = nullptr;
+  if (Status s = graph_of(context, &own, &graph); s != Status::kOk)
+    return s;
+  Vector<uint8_t> regions;
+  if (Status s = read_regions(record.pose, *graph, context.sizes->regions, &regions);
+      s != Status::kOk)
+    return s;
+  if (!regions.empty()) {
+    const Vector<int32_t> hashed(regions.begin(), regions.end());
+    integers.add("regions", hashed.data(), hashed.size());
+  }
 
   uint32_t wanted = wanted_components(context.quality, components);
   if (context.partial)
@@ -351,9 +411,10 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     return s;
   Vector<int32_t> weights;
   const Vector<double> factors = step_factors(parameters, runs);
-  if (Status s = read_weights(record.weights, layers, wanted, parameters, runs, factors, pose,
-                              &integers, out, &weights);
-      s != Status::kOk)
+  WeightReader reader(parameters, runs, &integers);
+  if (Status s = reader.read_bases(record.weights, factors, pose, regions, out); s != Status::kOk)
+    return s;
+  if (Status s = read_weights(layers, wanted, *out, reader, &weights); s != Status::kOk)
     return s;
   out->components = wanted;
   out->wide_components = std::min(out->wide_components, wanted);
@@ -361,11 +422,16 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     return Status::kSegment;
   VertexOrder order;
   if (wanted > 0) {
-    if (Status s = order_of(context, parameters, &order); s != Status::kOk)
+    if (Status s = make_vertex_order(context.graph ? *graph : std::move(own), pose.points.data(),
+                                     parameters.neighbours, parameters.colours, &order,
+                                     regions.empty() ? nullptr : regions.data(), context.threads);
+        s != Status::kOk)
       return s;
   }
   ResidentWriter writer(context.vertex_coded, out);
   writer.pose(pose.points.data());
+  if (!regions.empty())
+    writer.regions(regions);
   if (wanted == 0)
     return Status::kOk;
   show(context.trace, "vertex of each rank", order.order);

@@ -17,7 +17,8 @@ namespace anicodec {
 ///
 /// y are the coefficients in steps, in 1/64, predicted and decoded; u = weight / 16 * weight_step /
 /// sigma(j) with integer weights. The base is the reference pose, or in every frame an affine image
-/// of it, whose twelve numbers per frame are four more components of sigma 1.
+/// of it, whose twelve numbers per frame are four more components of sigma 1. Regions of the surface
+/// have weights and bases of their own.
 struct LinearParameters {
   bool affine = true;  ///< the base moves with the frames
   double basis_step = 1;
@@ -34,12 +35,25 @@ struct LinearParameters {
   /// all have weight_step.
   Vector<uint8_t> run_steps;
 
+  /// How many of the components each region has weights of; empty: there is one, with all.
+  Vector<uint32_t> region_components;
+
+  uint32_t regions() const {
+    return region_components.empty() ? 1 : static_cast<uint32_t>(region_components.size());
+  }
+
+  /// Whether a region has weights of a component.
+  bool has_weights(uint32_t region, size_t component) const {
+    return region_components.empty() || component < region_components[region];
+  }
+
   /// Per component, in the order of the file.
   Vector<uint8_t> omega;  ///< see omega_value()
-  Vector<int32_t> sigma;  ///< in eighths of an octave: sigma(j) = 2^(sigma / 8)
+  /// Components x regions, in eighths of an octave: sigma(j) = 2^(sigma / 8).
+  Vector<int32_t> sigma;
 
   Bytes write() const;
-  Status read(ByteView bytes, uint32_t components, size_t runs);
+  Status read(ByteView bytes, uint32_t components, size_t runs, uint32_t regions);
 
   /// 2^(eighths / 8).
   static double sigma_value(int32_t eighths);

@@ -22,6 +22,12 @@ void ResidentWriter::pose(const int32_t* points) {
   }
 }
 
+void ResidentWriter::regions(const Vector<uint8_t>& of_coded) {
+  segment_.vertex_region.resize(size_t{block_count(segment_.vertices)} * kBlock);
+  for (uint32_t v = 0; v < segment_.vertex_region.size(); ++v)
+    segment_.vertex_region[v] = of_coded[coded(std::min(v, segment_.vertices - 1))];
+}
+
 bool ResidentWriter::vectors(uint32_t component, const int32_t* values) {
   bool wide = component < segment_.wide_components;
   uint32_t count = wide ? segment_.wide_components : segment_.components - segment_.wide_components;

@@ -22,6 +22,9 @@ class ResidentWriter {
   /// Stores the reference pose: coded vertices x 3 integers.
   void pose(const int32_t* points);
 
+  /// Stores the regions: a number for each coded vertex.
+  void regions(const Vector<uint8_t>& of_coded);
+
   /// Stores a component of vectors: coded vertices x 3 integers. False when it is a narrow
   /// component and a value does not fit 16 bits.
   bool vectors(uint32_t component, const int32_t* values);

@@ -109,6 +109,7 @@ Status open_segment(const SegmentRecord& record, const SegmentContext& context, 
                                        : context.topology->coded_vertices;
   out->components = sizes.components;
   out->wide_components = sizes.wide_components;
+  out->regions = sizes.regions;
   out->stored_hash = record.hash;
   const FloatControl control;
   DecodedIntegers integers(context.trace);
@@ -123,7 +124,7 @@ Status open_segment(const SegmentRecord& record, const SegmentContext& context, 
 
 size_t Segment::resident_bytes() const {
   auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
-  return bytes(pose) + bytes(wide) + bytes(narrow) + bytes(weights) + bytes(pose_maps) +
+  return bytes(pose) + bytes(vertex_region) + bytes(wide) + bytes(narrow) + bytes(weights) + bytes(pose_maps) +
          bytes(motions) + bytes(correction_begin) + bytes(corrections) + bytes(vertex_coded) + bytes(exact) +
          (msgi.empty() ? 0 : msgi[0].resident_bytes());
 }

@@ -44,7 +44,8 @@ struct Affine {
 ///
 ///   x(v, f) = M_f * (A_f * pose(v) + sum_j weight(f, j) * coefficient(j, v)) + correction(v, f)
 ///
-/// with A_f affine, M_f rigid, both optional. Its vertices are those of the user, in the user's
+/// with A_f affine, M_f rigid, both optional. Where there are regions, A_f and the weights are those
+/// of the vertex' region. Its vertices are those of the user, in the user's
 /// order, or the coded ones (SegmentContext::vertex_coded).
 struct Segment {
   BasisKind kind = BasisKind::kKeyframes;
@@ -57,6 +58,7 @@ struct Segment {
   uint32_t vertices = 0;
   uint32_t components = 0;  ///< all resident ones; fewer than coded when opened at lower quality
   uint32_t wide_components = 0;  ///< the first ones, 32-bit; the others are 16-bit
+  uint32_t regions = 1;          ///< of the surface, at most kMaxRegions
 
   /// Scalars per vertex of a component: 3 (a vector; one weight per frame) or, for trajectories, 1
   /// (and three weights per frame).
@@ -67,8 +69,12 @@ struct Segment {
   Vector<float> pose;        ///< blocks x 3 x 16, empty when there is none
   Vector<int32_t> wide;      ///< blocks x wide_components x channels x 16
   Vector<int16_t> narrow;    ///< blocks x the other components x channels x 16
-  Vector<float> weights;     ///< frames x components x weight_channels, coefficient scale included
-  Vector<Affine> pose_maps;  ///< A_f; empty when there is no pose
+  /// frames x regions x components x weight_channels, coefficient scale included
+  Vector<float> weights;
+  Vector<Affine> pose_maps;  ///< A_f, frames x regions; empty when there is no pose
+  /// Region of each vertex, blocks x 16, places past the last vertex repeat it; empty: all are of
+  /// region 0.
+  Vector<uint8_t> vertex_region;
   Vector<Affine> motions;    ///< M_f; empty when there are none
 
   CoefficientCoder coefficient_coder =

@@ -195,13 +195,14 @@ export class Clip {
     decoder.call('basis', segment);
     const [kind, reconstruction, target, mesh, attribute, firstComponent, firstFrame, frameCount, vertexCount, components,
       wideComponents, channels, weightChannels, x, y, z, pose, wide, narrow, poseCount, wideCount, narrowCount,
-      vertexShape] = decoder.numbers(23);
+      vertexShape, regions, vertexRegion] = decoder.numbers(25);
     const copy = (Type, at, count) => (at ? decoder.view(Type, at, count).slice() : null);
     return {
       kind: ['keyframes', 'eigenshapes', 'eigentrajectories'][kind], msgi: reconstruction === 1, movesAttribute: target === 1,
       mesh, attribute, firstComponent, firstFrame, frameCount, vertexCount, components, wideComponents, channels, weightChannels,
       origin: [x, y, z], pose: copy(Float32Array, pose, poseCount), wide: copy(Int32Array, wide, wideCount),
       narrow: copy(Int16Array, narrow, narrowCount), vertexShape: copy(Uint32Array, vertexShape, vertexCount),
+      regions, vertexRegion: copy(Uint8Array, vertexRegion, vertexCount),
     };
   }
 
@@ -438,12 +439,12 @@ export class ClipMesh {
   parts(time, options) {
     const context = this.#clip.seek(time, options), decoder = this.#clip.decoder;
     decoder.call('parts', context, this.#index);
-    const count = decoder.numbers(1)[0], n = decoder.numbers(1 + 30 * count);
+    const count = decoder.numbers(1)[0], n = decoder.numbers(1 + 31 * count);
     return Array.from({ length: count }, (_, p) => {
-      const at = 1 + 30 * p;
+      const at = 1 + 31 * p;
       return {
         segment: n[at], share: n[at + 1], weightsAt: n[at + 2], shapeAt: n[at + 3], correctionsAt: n[at + 4], correctionCount: n[at + 5],
-        poseMap: n.slice(at + 6, at + 18), motion: n.slice(at + 18, at + 30),
+        poseMap: n.slice(at + 6, at + 18), motion: n.slice(at + 18, at + 30), poseMapsAt: n[at + 30],
       };
     });
   }

@@ -182,6 +182,8 @@ export interface Part {
   /** 3 x 4, row by row. */
   poseMap: Float64Array;
   motion: Float64Array;
+  /** Of the pose maps of all regions, twelve float32 each; 0: the basis has no pose. */
+  poseMapsAt: number;
 }
 
 /** The resident basis of a segment: anic_basis of anicodec.h. */
@@ -204,6 +206,10 @@ export interface Basis {
   wide: Int32Array | null;
   narrow: Int16Array | null;
   vertexShape: Uint32Array | null;
+  /** Of the surface, each with weights and a pose map of its own. */
+  regions: number;
+  /** Region of each vertex; null: all are of region 0. */
+  vertexRegion: Uint8Array | null;
 }
 
 /**

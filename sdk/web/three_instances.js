@@ -15,7 +15,7 @@ import {
 } from 'three';
 import { raycastInstances } from './three_rays.js';
 
-const LINEAR_TEXELS = 7;  // of an instance, before its weights: two maps of three rows, and the number of the segment
+const LINEAR_TEXELS = 7;  // of a region of an instance, before its weights: two maps of three rows, and the number of the segment
 const WIDTH = 1024;  // texels of a row of vertices
 
 const FULL = `
@@ -29,7 +29,7 @@ precision highp int;
 precision highp isampler2DArray;
 uniform isampler2DArray wide, narrow;
 uniform sampler2D pose, state;
-uniform int segment, rows, wideCount, narrowCount, scalar, hasPose;
+uniform int segment, rows, wideCount, narrowCount, scalar, hasPose, regionTexels;
 uniform vec3 origin;
 out vec4 result;
 vec4 of(int instance, int i) { return texelFetch(state, ivec2(i, instance), 0); }
@@ -42,8 +42,10 @@ void main() {
   int instance = at.y / rows;
   ivec2 v = ivec2(at.x, at.y % rows);
   if (int(of(instance, 6).x) != segment) discard;
-  vec3 x = hasPose == 1 ? moved(instance, 0, texelFetch(pose, v, 0).xyz) : vec3(0.0);
-  int w = ${LINEAR_TEXELS};
+  vec4 still = texelFetch(pose, v, 0);
+  int region = int(still.w) * regionTexels;
+  vec3 x = hasPose == 1 ? moved(instance, region, still.xyz) : vec3(0.0);
+  int w = region + ${LINEAR_TEXELS};
   if (scalar == 1) {
     // Four components of one number to a texel; their weights have three.
     for (int j = 0; j < wideCount; j += 4, w += 4) {
@@ -62,7 +64,7 @@ void main() {
     for (int j = 0; j < narrowCount; ++j)
       x += vec3(texelFetch(narrow, ivec3(v, j), 0).xyz) * of(instance, w + j / 4)[j % 4];
   }
-  result = vec4(moved(instance, 3, x + origin), 1.0);
+  result = vec4(moved(instance, region + 3, x + origin), 1.0);
 }`;
 
 const NORMALS = `
@@ -131,12 +133,40 @@ function basisTextures(basis) {
   for (let v = 0; basis.pose && v < vertexCount; ++v) {
     for (let c = 0; c < 3; ++c)
       pose[4 * v + c] = basis.pose[((v >> 4) * 3 + c) * 16 + (v & 15)];
+    pose[4 * v + 3] = basis.vertexRegion?.[v] ?? 0;
   }
   return {
     wide: layered(basis.wide, wideComponents, Int32Array, IntType, 'RGBA32I'),
     narrow: layered(basis.narrow, components - wideComponents, Int16Array, ShortType, 'RGBA16I'),
     pose: texture(Float32Array, DataTexture, pose, WIDTH, rows, 1, FloatType, RGBAFormat, 'RGBA32F'),
   };
+}
+
+const four = (n) => Math.ceil(n / 4);
+
+/** Texels of a region of an instance: a weight of three numbers to each, or four weights. */
+function regionTexels({ components, wideComponents, weightChannels }) {
+  return LINEAR_TEXELS + (weightChannels === 3 ? 4 : 1) * (four(wideComponents) + four(components - wideComponents));
+}
+
+/** Writes the weights of a region from a place on, wide and narrow ones in whole groups of four. */
+function placeWeights({ components, wideComponents, weightChannels }, weights, data, to) {
+  const narrow = components - wideComponents;
+  if (weightChannels !== 3) {
+    data.set(weights.subarray(0, wideComponents), to);
+    data.set(weights.subarray(wideComponents), to + 4 * four(wideComponents));
+    return;
+  }
+  for (let j = 0, k = 0; j < components; ++j, ++k) {
+    if (j === wideComponents)
+      k = 4 * four(wideComponents);
+    for (let c = 0; c < 3; ++c)
+      data[to + 4 * k + c] = weights[3 * j + c];
+  }
+  for (let k = wideComponents; k < 4 * four(wideComponents); ++k)
+    data.fill(0, to + 4 * k, to + 4 * k + 4);
+  for (let k = narrow; k < 4 * four(narrow); ++k)
+    data.fill(0, to + 4 * (4 * four(wideComponents) + k), to + 4 * (4 * four(wideComponents) + k) + 4);
 }
 
 /** Instances of a mesh of a clip. `times` are seconds, of the clips that `clips` numbers; setMatrixAt() and all else is as for InstancedMesh. */
@@ -213,7 +243,7 @@ export class AnicInstances extends InstancedMesh {
     const pass = (fragmentShader, uniforms) => new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: FULL, fragmentShader, uniforms, depthTest: false, depthWrite: false });
     const uniform = (names) => Object.fromEntries(names.map((name) => [name, { value: null }]));
     this.#passes = {
-      positions: pass(POSITIONS, uniform(['wide', 'narrow', 'pose', 'state', 'segment', 'rows', 'wideCount', 'narrowCount', 'scalar', 'hasPose', 'origin'])),
+      positions: pass(POSITIONS, uniform(['wide', 'narrow', 'pose', 'state', 'segment', 'rows', 'wideCount', 'narrowCount', 'scalar', 'hasPose', 'regionTexels', 'origin'])),
       normals: pass(NORMALS, {
         positions: { value: this.#targets.positions.texture }, elements: { value: uints(normalElements, this.#mesh.vertexCount) },
         corners: { value: uints(normalCorners, normalCorners.length / 4) }, rows: { value: this.#rows }, sourceRows: { value: this.#sourceRows },
@@ -246,30 +276,17 @@ export class AnicInstances extends InstancedMesh {
 
   /** Writes what an instance shows; false when the CPU has to do it. */
   #place(instance, part) {
-    const { basis } = this.#segment(part.segment), { components, wideComponents, weightChannels } = basis;
+    const { basis } = this.#segment(part.segment), { components, weightChannels, regions } = basis, { decoder } = this.#clip;
     if (basis.msgi || part.share !== 1 || part.correctionCount > 0)
       return false;
-    const four = (n) => Math.ceil(n / 4), narrow = components - wideComponents;
-    const texels = LINEAR_TEXELS + (weightChannels === 3 ? 4 * (four(wideComponents) + four(narrow)) : four(wideComponents) + four(narrow));
-    const data = this.#stateOf(texels).image.data, at = 4 * this.#width * instance;
-    data.set(part.poseMap, at);
-    data.set(part.motion, at + 12);
-    data[at + 24] = part.segment;
-    const weights = this.#clip.decoder.view(Float32Array, part.weightsAt, components * weightChannels), to = at + 4 * LINEAR_TEXELS;
-    if (weightChannels === 3) {
-      for (let j = 0, k = 0; j < components; ++j, ++k) {
-        if (j === wideComponents)
-          k = 4 * four(wideComponents);
-        for (let c = 0; c < 3; ++c)
-          data[to + 4 * k + c] = weights[3 * j + c];
-      }
-      for (let k = wideComponents; k < 4 * four(wideComponents); ++k)
-        data.fill(0, to + 4 * k, to + 4 * k + 4);
-      for (let k = narrow; k < 4 * four(narrow); ++k)
-        data.fill(0, to + 4 * (4 * four(wideComponents) + k), to + 4 * (4 * four(wideComponents) + k) + 4);
-    } else {
-      data.set(weights.subarray(0, wideComponents), to);
-      data.set(weights.subarray(wideComponents), to + 4 * four(wideComponents));
+    const texels = regionTexels(basis), data = this.#stateOf(regions * texels).image.data;
+    const count = components * weightChannels, weights = decoder.view(Float32Array, part.weightsAt, regions * count);
+    const maps = regions > 1 ? decoder.view(Float32Array, part.poseMapsAt, 12 * regions) : part.poseMap;
+    for (let r = 0, at = 4 * this.#width * instance; r < regions; ++r, at += 4 * texels) {
+      data.set(maps.slice(12 * r, 12 * r + 12), at);
+      data.set(part.motion, at + 12);
+      data[at + 24] = part.segment;
+      placeWeights(basis, weights.subarray(count * r, count * (r + 1)), data, at + 4 * LINEAR_TEXELS);
     }
     return true;
   }
@@ -318,7 +335,7 @@ export class AnicInstances extends InstancedMesh {
       const { basis, wide, narrow, pose } = this.#segment(index), { uniforms } = this.#passes.positions;
       const values = {
         wide, narrow, pose, state: this.#state, segment: index, rows: this.#sourceRows, wideCount: basis.wideComponents,
-        narrowCount: basis.components - basis.wideComponents, scalar: basis.channels === 1 ? 1 : 0, hasPose: basis.pose?.length > 0 ? 1 : 0,
+        narrowCount: basis.components - basis.wideComponents, scalar: basis.channels === 1 ? 1 : 0, hasPose: basis.pose?.length > 0 ? 1 : 0, regionTexels: regionTexels(basis),
         origin: new Vector3(...basis.origin),
       };
       for (const [name, value] of Object.entries(values))

@@ -408,14 +408,18 @@ TEST(AnicSampling, FindsBoxes) {
 }
 
 /// One vertex, computed as a shader does it.
-void shade(const anic_basis& basis, const anic_part& part, uint32_t v, double (&out)[3]) {
+void shade(const anic_basis& basis, const anic_part& part, const float* pose_maps, uint32_t v,
+           double (&out)[3]) {
   const size_t b = v / ANIC_BLOCK_VERTICES, i = v % ANIC_BLOCK_VERTICES;
+  const size_t region = basis.vertex_region ? basis.vertex_region[v] : 0;
+  const float* weights = part.weights + region * basis.components * basis.weight_channels;
   double x[3] = {0, 0, 0};
   if (basis.pose) {
     for (int r = 0; r < 3; ++r) {
-      x[r] = static_cast<double>(part.pose_map[4 * r + 3]);
+      const float* row = pose_maps + 12 * region + size_t{4} * static_cast<size_t>(r);
+      x[r] = static_cast<double>(row[3]);
       for (size_t c = 0; c < 3; ++c)
-        x[r] += static_cast<double>(part.pose_map[4 * static_cast<size_t>(r) + c]) *
+        x[r] += static_cast<double>(row[c]) *
                 static_cast<double>(basis.pose[(b * 3 + c) * ANIC_BLOCK_VERTICES + i]);
     }
   }
@@ -430,7 +434,7 @@ void shade(const anic_basis& basis, const anic_part& part, uint32_t v, double (&
                                  ANIC_BLOCK_VERTICES +
                              i];
       const size_t weight = basis.weight_channels == 3 ? 3 * size_t{j} + c : j;
-      x[c] += static_cast<double>(part.weights[weight]) * value;
+      x[c] += static_cast<double>(weights[weight]) * value;
     }
   }
   for (size_t r = 0; r < 3; ++r) {
@@ -467,7 +471,7 @@ TEST(AnicSampling, BasisAndWeightsMakeTheSameFrame) {
         for (uint32_t p = 0; p < shown.count; ++p) {
           anic_basis basis = ANIC_INIT(anic_basis);
           ASSERT_EQ(anic_get_basis(asset.get(), shown.parts[p].segment, &basis), ANIC_OK);
-          shade(basis, shown.parts[p], v, x);
+          shade(basis, shown.parts[p], shown.pose_maps[p], v, x);
         }
         for (size_t c = 0; c < 3; ++c) {
           largest = std::max(largest, std::abs(x[c] - static_cast<double>(expected[3 * v + c])));

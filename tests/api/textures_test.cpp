@@ -114,23 +114,25 @@ std::vector<double> shaded(const Asset& asset, const Context& context, uint32_t 
               ANIC_OK);
     EXPECT_EQ(state.back(), 77);
     const bool vectors = basis.channels == 3;
-    const auto wide_groups = static_cast<uint32_t>(state[24]);
-    const auto narrow_groups = static_cast<uint32_t>(state[25]);
-    EXPECT_EQ(static_cast<uint32_t>(state[27]), part.correction_count);
-    const float* narrow_weights =
-        state.data() + ANIC_STATE_FLOATS + (vectors ? 4 : 12) * ((basis.wide_components + 3) / 4);
+    EXPECT_EQ(layout.regions, basis.regions);
     for (uint32_t v = 0; v < n; ++v) {
       double x[3] = {0, 0, 0};
+      const float* of_region = state.data();
       if (layout.pose_height > 0) {
         const Texel still = pose.at(v, 0);
         std::copy_n(still.begin(), 3, x);
+        of_region += static_cast<size_t>(still[3]) * (layout.state_floats / layout.regions);
       }
-      transform(state.data(), x);
-      add_groups(wide, v, wide_groups, vectors, state.data() + ANIC_STATE_FLOATS, x);
-      add_groups(narrow, v, narrow_groups, vectors, narrow_weights, x);
-      transform(state.data() + 12, x);
+      EXPECT_EQ(static_cast<uint32_t>(of_region[27]), part.correction_count);
+      const float* narrow_weights =
+          of_region + ANIC_STATE_FLOATS + (vectors ? 4 : 12) * ((basis.wide_components + 3) / 4);
+      transform(of_region, x);
+      add_groups(wide, v, static_cast<uint32_t>(of_region[24]), vectors,
+                 of_region + ANIC_STATE_FLOATS, x);
+      add_groups(narrow, v, static_cast<uint32_t>(of_region[25]), vectors, narrow_weights, x);
+      transform(of_region + 12, x);
       for (size_t c = 0; c < 3; ++c)
-        out[3 * v + c] += static_cast<double>(state[26]) * x[c];
+        out[3 * v + c] += static_cast<double>(of_region[26]) * x[c];
     }
     for (uint32_t k = 0; k < part.correction_count; ++k) {
       for (size_t c = 0; c < 3; ++c)
@@ -154,7 +156,7 @@ void expect_shaded(const Asset& asset, const Context& context, uint32_t max_size
 
 TEST(AnicTextures, HoldWhatAShaderNeeds) {
   for (const char* name : {"limb_effort9", "heated", "other_parents", "quad_box_corrected",
-                           "saturated", "schedules", "vertex_order", "weights_in_time"}) {
+                           "regions", "saturated", "schedules", "vertex_order", "weights_in_time"}) {
     SCOPED_TRACE(name);
     const Asset asset = open(conformance_file(name));
     const Context context = context_of(asset);

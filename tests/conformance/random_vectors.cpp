@@ -109,7 +109,21 @@ class RandomVector {
     if (one_in(2))
       settings.joint_lambda = any({0.1, 1.0});
     settings.refit_weights = one_in(2);
-    switch (numbers_.below(6)) {
+    if (r.kind == BasisKind::kEigentrajectories && one_in(2)) {
+      r.regions = 2 + numbers_.below(7);
+      r.region_of = [regions = r.regions, scattered = one_in(3)](uint32_t n) {
+        Numbers numbers(n);
+        Vector<uint8_t> result(n);
+        for (uint32_t v = 0; v < n; ++v)  // none of them is empty
+          result[v] = static_cast<uint8_t>(v < regions   ? v
+                                           : scattered ? numbers.below(regions)
+                                                       : uint64_t{v} * regions / n);
+        return result;
+      };
+      for (uint32_t k = 0; k < r.regions && one_in(2); ++k)
+        settings.components.push_back(1 + numbers_.below(9));
+    }
+    switch (r.regions > 1 ? 6 : numbers_.below(6)) {
       case 0:
         r.change = with_partners(any({PoseCoding::kExact, PoseCoding::kRounded}));
         break;

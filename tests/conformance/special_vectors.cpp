@@ -139,7 +139,7 @@ Bytes weights_in_time() {
   Recipe short_one =
       recipe(130, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kNone);
   for (Recipe* r : {&shapes, &short_one}) {
-    r->settings.components = 9;
+    r->settings.components = {9};
     r->change = scramble_weights;
   }
   return file_of(clip, {shapes, short_one});
@@ -165,7 +165,7 @@ Bytes clips() {
   Recipe next = recipe(150, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kNone);
   shared.settings.run_steps = {0, 7, 64, 16, 3};  // the last of these clips goes on in the next
   for (Recipe* r : {&shared, &next}) {
-    r->settings.components = 9;
+    r->settings.components = {9};
     r->change = scramble_weights;
   }
   return file_of(library, {shared, next});
@@ -177,7 +177,7 @@ Bytes saturated() {
   Recipe shapes = recipe(16, BasisKind::kEigenshapes, step, 16, 1, 12, RefitSchedule::kDense);
   Recipe curves = recipe(16, BasisKind::kEigentrajectories, step, 16, 2, 12, RefitSchedule::kDense);
   for (Recipe* r : {&shapes, &curves}) {
-    r->settings.components = 14;  // the largest residuals are those of the 11th and 12th
+    r->settings.components = {14};  // the largest residuals are those of the 11th and 12th
     r->change = scramble_coefficients;
   }
   return file_of(clip, {shapes, curves});
@@ -189,7 +189,7 @@ Bytes batches() {
   const double step = 0.001 * diagonal(clip);
   Recipe wild = layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kBatches, false);
   wild.frames = 12;
-  wild.settings.components = 11;  // more than are told apart
+  wild.settings.components = {11};  // more than are told apart
   wild.change = scramble_coefficients;
   return file_of(clip,
                  {layered(BasisKind::kEigenshapes, step, CoefficientCoder::kBatches, false),
@@ -212,12 +212,47 @@ Bytes slices() {
   const uint32_t counts[] = {2, 4, 8, 4, 2};
   for (size_t i = 0; i < recipes.size(); ++i)
     recipes[i].change = in_slices(counts[i]);
-  recipes.back().settings.components = 11;
+  recipes.back().settings.components = {11};
   recipes.back().change = [](EncodedSegment& segment, const EncoderInput& input) {
     in_slices(2)(segment, input);
     scramble_coefficients(segment, input);
   };
   return file_of(clip, recipes);
+}
+
+/// Regions along the vertices, a few of which have fewer components or none; and scattered ones, over
+/// clips with steps of their own, by the other coder. Corrections.
+Bytes regions() {
+  const MeshSequence clip = corpus::make_scaled("limb", 600, 24);
+  const double step = 0.0008 * diagonal(clip);
+  Recipe bands = layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kMixing, false);
+  bands.frames = 12;
+  bands.regions = 8;
+  bands.region_of = [](uint32_t n) {
+    Vector<uint8_t> result(n);
+    for (uint32_t v = 0; v < n; ++v)
+      result[v] = static_cast<uint8_t>(uint64_t{v} * 8 / n);
+    return result;
+  };
+  bands.settings.components = {9, 3, 0, 8, 5, 9, 1, 2};
+  bands.change = [](EncodedSegment& segment, const EncoderInput& input) {
+    Segment opened = open_encoded(segment, input.layout);
+    const FrameView frames = input.frames(0, 12);
+    correct(frames, input.copies, 0.6 * measure(opened, frames, input.copies).max, opened, segment);
+  };
+  Recipe scattered = layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kBatches, true);
+  scattered.frames = 12;
+  scattered.regions = 3;
+  scattered.settings.passes_per_level = 2;
+  scattered.settings.components = {4, 7, 6};
+  scattered.region_of = [](uint32_t n) {
+    Numbers numbers;
+    Vector<uint8_t> result(n);
+    for (uint8_t& region : result)
+      region = static_cast<uint8_t>(numbers.below(3));
+    return result;
+  };
+  return file_of(clip, {bands, scattered});
 }
 
 /// Several meshes that come and go, several segments of one of them.
@@ -594,6 +629,7 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"saturated", saturated},
                                {"batches", batches},
                                {"slices", slices},
+                               {"regions", regions},
                                {"partners", partners},
                                {"other_parents", other_parents},
                                {"draco_parents", draco_parents},

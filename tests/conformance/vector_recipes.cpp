@@ -52,8 +52,13 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
     const LinearAnalysis analysis(frames);
     const bool shapes = recipe.kind == BasisKind::kEigenshapes;
     const LinearBasis basis =
-        analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
-                       shapes ? Base::kPose : Base::kAffine, 1000, 0);
+        recipe.region_of
+            ? RegionAnalysis(std::make_shared<const RegionClips>(
+                                 frames, recipe.region_of(input.layout.sizes.coded_vertices),
+                                 recipe.regions))
+                  .basis(analysis, ReferencePose::kRankThree, 1000)
+            : analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
+                             shapes ? Base::kPose : Base::kAffine, 1000, 0);
     std::optional<EncodedSegment> coded = encode_linear(
         frames, basis, recipe.settings, input.layout, nullptr, input.runs(first, recipe.frames));
     if (!coded)
@@ -285,7 +290,8 @@ namespace {
 LinearParameters parameters_of(const EncodedSegment& segment) {
   LinearParameters parameters;
   const size_t runs = std::max<size_t>(segment.runs.size(), 1);
-  if (parameters.read(segment.parameters, segment.sizes.components, runs) != Status::kOk)
+  if (parameters.read(segment.parameters, segment.sizes.components, runs,
+                      segment.sizes.regions) != Status::kOk)
     throw Error(ErrorKind::kInternal, "the parameters cannot be read");
   return parameters;
 }
@@ -361,10 +367,7 @@ void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
     omega = static_cast<uint8_t>(numbers.below(256));
   segment.parameters = parameters.write();
   const Topology& topology = input.layout.topology;
-  VertexOrder order;
-  make_vertex_order(topology.triangles.data(), topology.triangles.size() / 3,
-                    segment.reference->grid.points.data(), topology.coded_vertices,
-                    parameters.neighbours, parameters.colours, &order);
+  const VertexOrder order = order_of(segment, parameters, topology);
   const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
   const auto stride = static_cast<uint32_t>(order.neighbour_count);
   std::optional<CoefficientModel> model;

@@ -136,9 +136,9 @@ internal static class PackageTest
     }
 
     /// <summary>Positions as a shader would compute them, from the spans.</summary>
-    private static unsafe void GivesTheBasis()
+    private static unsafe void GivesTheBasis(string name)
     {
-        using (Asset asset = Asset.Open(Bytes("limb_default")))
+        using (Asset asset = Asset.Open(Bytes(name)))
         using (Context context = new Context(asset))
         {
             context.Seek(0.21);
@@ -154,11 +154,14 @@ internal static class PackageTest
                     Basis basis = asset.GetBasis(part.Segment);
                     double[] x = { basis.Origin.X, basis.Origin.Y, basis.Origin.Z };
                     int b = v / 16, i = v % 16, narrow = basis.Components - basis.WideComponents;
+                    int region = basis.VertexRegion.Length > 0 ? basis.VertexRegion[v] : 0;
+                    ReadOnlySpan<float> weights = part.RegionWeights(region);
+                    ReadOnlySpan<float> map = basis.Pose.Length > 0 ? part.RegionPoseMap(region) : default(ReadOnlySpan<float>);
                     for (int c = 0; c < 3 && basis.Pose.Length > 0; ++c)
                     {
                         for (int d = 0; d < 3; ++d)
-                            x[c] += part.PoseMap[4 * c + d] * basis.Pose[(b * 3 + d) * 16 + i];
-                        x[c] += part.PoseMap[4 * c + 3];
+                            x[c] += map[4 * c + d] * basis.Pose[(b * 3 + d) * 16 + i];
+                        x[c] += map[4 * c + 3];
                     }
                     for (int j = 0; j < basis.Components; ++j)
                     {
@@ -168,7 +171,7 @@ internal static class PackageTest
                             double value = j < basis.WideComponents
                                 ? basis.Wide[((b * basis.WideComponents + j) * basis.Channels + channel) * 16 + i]
                                 : basis.Narrow[((b * narrow + j - basis.WideComponents) * basis.Channels + channel) * 16 + i];
-                            x[c] += value * part.Weights[basis.WeightChannels == 3 ? 3 * j + c : j];
+                            x[c] += value * weights[basis.WeightChannels == 3 ? 3 * j + c : j];
                         }
                     }
                     for (int c = 0; c < 3; ++c)
@@ -362,7 +365,8 @@ internal static class PackageTest
         OpensAndTells();
         PlaysAndBlends();
         MakesWhatACardNeeds();
-        GivesTheBasis();
+        GivesTheBasis("limb_default");
+        GivesTheBasis("regions");
         PlaysCoarserAndFillsTextures();
         ReadsStreams();
         RefusesWhatIsWrong();

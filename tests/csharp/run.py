@@ -26,7 +26,8 @@ ENUMERATIONS = {"ANIC_E_": "Status", "ANIC_UP_": "UpAxis", "ANIC_ORDER_": "Verte
 # Names that are a constant of no enumeration of the header.
 EXTRA = {("Status", "Ok"), ("OpenFlags", "None")}
 # Fixed arrays of the header that C# writes as fields.
-ARRAYS = {("anic_parts", f"part{i}"): f"parts[{i}]" for i in range(4)}
+ARRAYS = {("anic_parts", f"{field}{i}"): f"{of}[{i}]" for field, of in (("part", "parts"), ("pose_maps", "pose_maps"))
+          for i in range(4)}
 
 
 def run(*command, **options):

@@ -25,7 +25,7 @@ const std::vector<std::vector<Part>>& files() {
     for (const char* name :
          {"triangle", "nonmanifold_keyframes", "polygons_all", "quad_box_corrected", "soup",
           "limb_small", "far_rigid", "uneven_times", "painted_box", "heated", "walk",
-          "exact", "alike"}) {
+          "exact", "alike", "regions"}) {
       std::ifstream in(std::string(ANICODEC_CONFORMANCE) + "/" + name + ".anic", std::ios::binary);
       const Bytes file(std::istreambuf_iterator<char>(in), {});
       ContainerReader reader;

@@ -201,9 +201,14 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
         require(basis.vertex_count == sizes.vertex_count);
         for (uint32_t k = 0; k < shown.parts[p].correction_count; ++k)
           require(shown.parts[p].corrections[k].vertex < sizes.vertex_count);
-        for (uint32_t j = 0; j < basis.components * basis.weight_channels; ++j)
-          require(j >= shown.components[p] * basis.weight_channels ||
+        const uint32_t row = basis.components * basis.weight_channels;
+        for (uint32_t j = 0; j < basis.regions * row; ++j)
+          require(j % row >= shown.components[p] * basis.weight_channels ||
                   std::isfinite(shown.parts[p].weights[j]));
+        for (uint32_t i = 0; shown.pose_maps[p] && i < 12 * basis.regions; ++i)
+          require(std::isfinite(shown.pose_maps[p][i]));
+        for (uint32_t v = 0; basis.vertex_region && v < basis.vertex_count; ++v)
+          require(basis.vertex_region[v] < basis.regions);
         check_textures(asset, shown.parts[p].segment);
         check_state(asset, context, mesh, when, p, shown.parts[p].segment);
       }

@@ -185,6 +185,11 @@ def limit_rules(files):
     yield 40, "limi_more", triangle.end("LIMI", b"\0"), "a byte after the last field, which is no attribute bytes"
     yield 40, "limi_short", triangle.end("LIMI", less=1), "LIMI that ends early"
     yield 40, "limi_long_varint", triangle.put("LIMI clip 0 frames", b"\x85\0"), "a varint that is not the shortest"
+    cut = files("regions")
+    yield 40, "limi_one_region", cut.put("LIMI segment 0 regions", b"\1"), "regions of which there is one"
+    yield 40, "limi_many_regions", cut.put("LIMI segment 0 regions", b"\x09"), "nine regions"
+    yield 12, "limi_regions_of_shapes", cut.put("LIMI segment 0 basis", b"\x41"), "eigenshapes in regions"
+    yield 12, "limi_regions_of_attribute", cut.put("LIMI segment 0 basis", b"\x62"), "an attribute in regions"
     yield 41, "limi_fewer_corrections", corrected.put("LIMI segment 0 corrections", lambda old: varint(1)), \
         "more corrections than announced"
 
@@ -365,6 +370,10 @@ def segment_rules(files):
     yield 41, "weights_more", far.grown("SEGM weights"), "bytes after the weights"
     yield 41, "motions_more", far.grown("SEGM motion"), "bytes after the motions"
     yield 40, "motion_of_shapes", shapes.grown("SEGM motion"), "eigenshapes with a motion"
+    cut = files("regions")
+    yield 41, "regions_more", cut.grown("SEGM pose"), "bytes after the regions"
+    yield 41, "regions_missing", cut.grown("SEGM pose", lambda old: b""), "no stream of regions"
+    yield 40, "regions_not_announced", corrected.grown("SEGM pose"), "a stream of regions where there is one"
     yield 41, "keyframes_more", triangle.grown("SEGM pose"), "bytes after native key-frames"
     loose = files("leftovers")
     draco = varint_value(loose.field("LIMI segment 0 Draco bytes"))
@@ -381,7 +390,7 @@ def stream_rules(files, status_of):
     for name, kind, status, count in (("polygons_all", "FMAP", 44, 16), ("polygons_all", "VMAP", 44, 12), ("tangle", "FMAP", 44, 6), ("tangle", "VMAP", 44, 3),
                                       ("tangle", "MESH", 43, 3), ("tangle", "MESH", 44, 2), ("heated", "ATTR", 41, 1),
                                       ("quad_box_corrected", "BASI", 41, 1), ("quad_box_corrected", "CORR", 41, 2),
-                                      ("limb_small", "POSE", 41, 1), ("soup", "SEGM", 41, 1)):
+                                      ("limb_small", "POSE", 41, 1), ("soup", "SEGM", 41, 1), ("regions", "SEGM", 41, 3), ("regions", "SEGM", 45, 1)):
         chunks, found = files(name).chunks(), []
         chunk = next(c for c in chunks if c.type == kind)
         good = chunk.payload

@@ -53,7 +53,7 @@ CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-error
 # Files whose chunks tests/fuzz/chunk_fuzz.cpp changes, in its order: one for each kind of chunk, quickly decoded.
 FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "quad_box_corrected.anic",
           "soup.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic",
-          "walk.anic", "exact.anic", "alike.anic"]
+          "walk.anic", "exact.anic", "alike.anic", "regions.anic"]
 
 
 def listing(command, path):

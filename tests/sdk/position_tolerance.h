@@ -39,6 +39,8 @@ inline double tolerance_used(const Segment& s, uint32_t frame,
   double worst = 0;
   for (size_t v = 0; v < s.vertices; ++v) {
     const size_t block = v / kBlock, lane = v % kBlock;
+    const size_t region = s.vertex_region.empty() ? 0 : s.vertex_region[v];
+    const size_t row_of_weights = size_t{frame} * s.regions + region;
     Number x[3];
     if (s.pose.empty()) {
       for (size_t c = 0; c < 3; ++c)
@@ -46,7 +48,7 @@ inline double tolerance_used(const Segment& s, uint32_t frame,
     } else {
       for (size_t c = 0; c < 3; ++c)
         x[c] = exact(s.pose[(block * 3 + c) * kBlock + lane]);
-      map(s.pose_maps[frame], x);
+      map(s.pose_maps[row_of_weights], x);
     }
     for (size_t j = 0; j < s.components; ++j) {
       for (size_t c = 0; c < 3; ++c) {
@@ -57,7 +59,7 @@ inline double tolerance_used(const Segment& s, uint32_t frame,
         const size_t at = (row * channels + channel) * kBlock + lane;
         const double q = wide ? s.wide[at] : s.narrow[at];
         const size_t w =
-            (size_t{frame} * s.components + j) * weight_channels + (weight_channels == 3 ? c : 0);
+            (row_of_weights * s.components + j) * weight_channels + (weight_channels == 3 ? c : 0);
         x[c].add(s.weights[w], exact(q));
       }
     }

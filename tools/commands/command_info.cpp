@@ -48,8 +48,8 @@ massaged, surface_error, surface_error_mean (those of a clip, of the first one),
 first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error, rmse,
 kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
 max_error, rmse in units of their values), segments (mesh, basis, of, reconstruction, first_frame,
-frames, components, corrections, coder, slices), chunks (type, offset, size, required, mesh,
-segment). Lengths are in scene units, errors those the encoder measured.)";
+frames, components, regions, corrections, coder, slices), chunks (type, offset, size, required,
+mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
 
 struct Contents {
   uint64_t bytes = 0;
@@ -240,6 +240,7 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
                                 {"first_frame", s.first_frame},
                                 {"frames", s.frames},
                                 {"components", s.components},
+                                {"regions", s.regions},
                                 {"corrections", s.corrections},
                                 {"coder", coder_of(c.clip, i)},
                                 {"slices", c.clip.segments()[i].slices}});
@@ -344,10 +345,11 @@ void print_segments(const Clip& clip) {
   const Limits& limits = clip.limits();
   for (size_t i = 0; i < limits.segments.size(); ++i) {
     const Limits::Segment& s = limits.segments[i];
-    row("segment", fmt::format("{}{}frames {}:{}, {}{}{}, {}",
+    row("segment", fmt::format("{}{}frames {}:{}, {}{}{}{}, {}",
                                limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
                                s.attribute == kPositions ? "" : moved_by(s) + ", ", s.first_frame,
                                s.first_frame + s.frames, counted_components(s.components, s.kind),
+                               s.regions > 1 ? fmt::format(" in {} regions", s.regions) : "",
                                s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "",
                                fmt::format(", coder {}{}", coder_of(clip, i), slices_of(clip, i)),
                                counted(s.corrections, "correction")));

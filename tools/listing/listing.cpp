@@ -32,11 +32,12 @@ void list_limits(FieldReader& r) {
   }
   for (uint64_t i = 0; i < segments && r.ok(); ++i) {
     r.varint(fmt::format("segment {} mesh", i));
-    constexpr uint8_t kMsgi = 16, kAttribute = 32, kExact = 64;
+    constexpr uint8_t kMsgi = 16, kAttribute = 32, kExact = 64, kRegions = 128;
     const uint8_t code = r.u8(fmt::format("segment {} basis", i));
-    const auto kind = static_cast<uint8_t>(code & ~(kAttribute | kExact));
+    const auto kind = static_cast<uint8_t>(code & ~(kAttribute | kExact | kRegions));
     r.explain((kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<BasisKind>(kind))) +
-              std::string(code & kAttribute ? ", of an attribute" : code & kExact ? ", exact" : ""));
+              std::string(code & kAttribute ? ", of an attribute" : "") +
+              (code & kExact ? ", exact" : "") + (code & kRegions ? ", in regions" : ""));
     for (const char* name :
          {"first frame", "frames", "components", "wide components", "corrections"})
       r.varint(fmt::format("segment {} {}", i, name));
@@ -51,6 +52,8 @@ void list_limits(FieldReader& r) {
       r.varint(fmt::format("segment {} attribute", i));
       r.varint(fmt::format("segment {} three components", i));
     }
+    if (code & kRegions)
+      r.varint(fmt::format("segment {} regions", i));
   }
   for (uint64_t i = 0; i < meshes && r.ok() && r.remaining() > 0; ++i)
     r.varint(fmt::format("mesh {} attribute bytes", i));

@@ -345,6 +345,9 @@ namespace Anicodec
                 result.Pose = new ReadOnlySpan<float>(b.pose, (int)b.pose_count);
             result.Wide = new ReadOnlySpan<int>(b.wide, (int)b.wide_count);
             result.Narrow = new ReadOnlySpan<short>(b.narrow, (int)b.narrow_count);
+            result.Regions = (int)b.regions;
+            if (b.vertex_region != null)
+                result.VertexRegion = new ReadOnlySpan<byte>(b.vertex_region, (int)b.vertex_count);
             return result;
         }
     }

@@ -128,6 +128,9 @@ namespace Anicodec
             result.Segment = (int)p->segment;
             result.Share = p->share;
             result.Weights = new ReadOnlySpan<float>(p->weights, (int)(parts.components[part] * basis.weight_channels));
+            result.weights = p->weights;
+            result.regionStride = (int)(basis.components * basis.weight_channels);
+            result.poseMaps = (&parts.pose_maps0)[part];
             if (p->shape != null)
                 result.Shape = new ReadOnlySpan<float>(p->shape, 3 * (int)asset.Mesh(mesh).coded_vertex_count);
             for (int i = 0; i < 12; ++i)

@@ -344,6 +344,8 @@ namespace Anicodec
             public short* narrow;
             public UIntPtr pose_count, wide_count, narrow_count;
             public uint* vertex_shape;
+            public uint regions;
+            public byte* vertex_region;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -366,13 +368,14 @@ namespace Anicodec
             public uint count;
             public anic_part part0, part1, part2, part3;
             public fixed uint components[4];
+            public float* pose_maps0, pose_maps1, pose_maps2, pose_maps3;
         }
 
         [StructLayout(LayoutKind.Sequential)]
         public struct anic_texture_layout
         {
             public UIntPtr struct_size;
-            public uint width, rows, pose_height, wide_height, narrow_height, state_floats;
+            public uint width, rows, pose_height, wide_height, narrow_height, state_floats, regions;
         }
 
         [StructLayout(LayoutKind.Sequential)]

@@ -141,6 +141,12 @@ namespace Anicodec
         public ReadOnlySpan<float> Pose;
         public ReadOnlySpan<int> Wide;
         public ReadOnlySpan<short> Narrow;
+
+        /// <summary>Of the surface, each with weights and a pose map of its own.</summary>
+        public int Regions;
+
+        /// <summary>Region of each vertex; empty: all are of region 0.</summary>
+        public ReadOnlySpan<byte> VertexRegion;
     }
 
     /// <summary>How a basis lies in textures; anic_texture_layout.</summary>
@@ -160,6 +166,9 @@ namespace Anicodec
 
         /// <summary>Floats that Context.WriteState() writes.</summary>
         public int StateFloats { get { return (int)native.state_floats; } }
+
+        /// <summary>States of so many regions follow one another in them.</summary>
+        public int Regions { get { return (int)native.regions; } }
     }
 
     /// <summary>
@@ -173,6 +182,21 @@ namespace Anicodec
         public float Share;
 
         public ReadOnlySpan<float> Weights;
+
+        /// <summary>Weights of a region, of which Weights are those of region 0.</summary>
+        public ReadOnlySpan<float> RegionWeights(int region)
+        {
+            return new ReadOnlySpan<float>(weights + region * regionStride, Weights.Length);
+        }
+
+        /// <summary>The matrix of the pose of a region, of which PoseMap is that of region 0.</summary>
+        public ReadOnlySpan<float> RegionPoseMap(int region)
+        {
+            return new ReadOnlySpan<float>(poseMaps + 12 * region, 12);
+        }
+
+        internal float* weights, poseMaps;
+        internal int regionStride;
 
         /// <summary>Three floats for each point; empty unless the basis is of Reconstruction.Msgi.</summary>
         public ReadOnlySpan<float> Shape;

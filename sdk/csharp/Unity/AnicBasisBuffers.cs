@@ -9,12 +9,12 @@ namespace Anicodec.Unity
     /// <summary>The basis of a segment in buffers of the graphics card, in the blocks of anic_basis.</summary>
     public sealed class AnicBasisBuffers : IDisposable
     {
-        public readonly int Vertices, Components, WideComponents, Channels, WeightChannels;
+        public readonly int Vertices, Components, WideComponents, Channels, WeightChannels, Regions;
         public readonly bool HasPose, Linear;
         public readonly Vector4 Origin;
 
-        /// <summary>Floats; int32; int16, two to a uint.</summary>
-        public readonly GraphicsBuffer Pose, Wide, Narrow;
+        /// <summary>Floats; int32; int16, two to a uint; bytes, four to a uint.</summary>
+        public readonly GraphicsBuffer Pose, Wide, Narrow, VertexRegion;
 
         public AnicBasisBuffers(Basis basis)
         {
@@ -29,6 +29,8 @@ namespace Anicodec.Unity
             Pose = Upload(MemoryMarshal.AsBytes(basis.Pose));
             Wide = Upload(MemoryMarshal.AsBytes(basis.Wide));
             Narrow = Upload(MemoryMarshal.AsBytes(basis.Narrow));
+            Regions = basis.Regions;
+            VertexRegion = Upload(basis.VertexRegion);
         }
 
         public static GraphicsBuffer Upload(ReadOnlySpan<byte> bytes)
@@ -46,6 +48,7 @@ namespace Anicodec.Unity
             Pose.Dispose();
             Wide.Dispose();
             Narrow.Dispose();
+            VertexRegion.Dispose();
         }
     }
 }

@@ -54,7 +54,7 @@ namespace Anicodec.Unity
             AnicBasisBuffers basis = clip.Buffers(part.Segment);
             if (!basis.Linear || part.Corrections.Length > 0)
                 return false;
-            Stage(part);
+            Stage(part, basis.Regions);
             shader.SetInt("vertexCount", basis.Vertices);
             shader.SetInt("renderVertexCount", clip.Plan(index).VertexCount);
             shader.SetInt("components", part.Weights.Length / basis.WeightChannels);
@@ -62,11 +62,14 @@ namespace Anicodec.Unity
             shader.SetInt("wideComponents", basis.WideComponents);
             shader.SetInt("channels", basis.Channels);
             shader.SetInt("hasPose", basis.HasPose ? 1 : 0);
+            shader.SetInt("hasRegions", basis.Regions > 1 ? 1 : 0);
+            shader.SetInt("regionFloats", MapFloats + part.Weights.Length);
             shader.SetInt("zUp", clip.Asset.Up == UpAxis.Z ? 1 : 0);
             shader.SetVector("origin", basis.Origin);
             shader.SetBuffer(positionsKernel, "pose", basis.Pose);
             shader.SetBuffer(positionsKernel, "wide", basis.Wide);
             shader.SetBuffer(positionsKernel, "narrow", basis.Narrow);
+            shader.SetBuffer(positionsKernel, "vertexRegion", basis.VertexRegion);
             shader.SetBuffer(positionsKernel, "state", state);
             shader.SetBuffer(positionsKernel, "points", points);
             shader.Dispatch(positionsKernel, (basis.Vertices + GroupSize - 1) / GroupSize, 1, 1);
@@ -81,10 +84,10 @@ namespace Anicodec.Unity
             return true;
         }
 
-        /// <summary>Uploads matrices and weights.</summary>
-        private unsafe void Stage(Part part)
+        /// <summary>Uploads matrices and weights of each region.</summary>
+        private unsafe void Stage(Part part, int regions)
         {
-            int count = MapFloats + part.Weights.Length;
+            int ofRegion = MapFloats + part.Weights.Length, count = regions * ofRegion;
             if (state == null || state.count < count)
             {
                 if (state != null)
@@ -95,13 +98,17 @@ namespace Anicodec.Unity
                 state = new GraphicsBuffer(GraphicsBuffer.Target.Structured, count, 4);
                 staged = new NativeArray<float>(count, Allocator.Persistent);
             }
-            for (int i = 0; i < 12; ++i)
+            for (int r = 0, at = 0; r < regions; ++r, at += ofRegion)
             {
-                staged[i] = part.PoseMap[i];
-                staged[12 + i] = part.Motion[i];
+                ReadOnlySpan<float> weights = part.RegionWeights(r);
+                for (int i = 0; i < 12; ++i)
+                {
+                    staged[at + i] = regions > 1 ? part.RegionPoseMap(r)[i] : part.PoseMap[i];
+                    staged[at + 12 + i] = part.Motion[i];
+                }
+                for (int i = 0; i < weights.Length; ++i)
+                    staged[at + MapFloats + i] = weights[i];
             }
-            for (int i = 0; i < part.Weights.Length; ++i)
-                staged[MapFloats + i] = part.Weights[i];
             state.SetData(staged);
         }
 

@@ -278,6 +278,7 @@ bool Entity::fill_row(size_t mesh) {
     head[3] = static_cast<float>(texels);
     head[4] = vectors ? 1 : 0;
     head[5] = static_cast<float>((basis.wide_components + 3) / 4 * (vectors ? 1 : 3));
+    head[6] = static_cast<float>(layout.state_floats / 4 / layout.regions);
     if (!context_.write_state(p, {head + 4 * kPartTexels, layout.state_floats}, ANIC_WHEN_CURRENT,
                               m))
       return false;

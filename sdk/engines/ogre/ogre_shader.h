@@ -50,13 +50,15 @@ void main() {
   vec3 x = vec3(0.0);
   int at = 1, parts = int(of(0).x);
   for (int p = 0; p < parts; ++p) {
-    vec4 head = of(at), kind = of(at + 1), counts = of(at + 8);
+    vec4 head = of(at), kind = of(at + 1);
+    vec4 still = head.z < 0.0 ? vec4(0.0) : texelFetch(pose, ivec2(v.x, int(head.z) + v.y), 0);
+    int region = at + 2 + int(still.w) * int(kind.z);
+    vec4 counts = of(region + 6);
     bool vectors = kind.x > 0.5;
-    int w = at + 9;
+    int w = region + 7;
     vec3 s = sum(wide, v, int(head.y), int(counts.x), vectors, w) +
              sum(narrow, v, int(head.x), int(counts.y), vectors, w + int(kind.y));
-    vec3 still = head.z < 0.0 ? vec3(0.0) : texelFetch(pose, ivec2(v.x, int(head.z) + v.y), 0).xyz;
-    x += counts.z * moved(at + 5, s + moved(at + 2, still));
+    x += counts.z * moved(region + 3, s + moved(region, still.xyz));
     at += int(head.w);
   }
   place = (world * vec4(x, 1.0)).xyz;

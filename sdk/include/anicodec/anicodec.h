@@ -1172,6 +1172,9 @@ enum anic_reconstruction ANIC_INT32 {
 /** Vertices of a block: blocks store the same coefficient of all their vertices side by side. */
 #define ANIC_BLOCK_VERTICES 16
 
+/** The surface of a segment has at most this many regions. */
+#define ANIC_MAX_REGIONS 8
+
 /**
  * The basis of a segment, to be uploaded once. The arrays belong to the asset. With b = v / 16 and
  * i = v % 16:
@@ -1210,6 +1213,10 @@ typedef struct anic_basis {
   size_t narrow_count;
   const uint32_t* vertex_shape; /**< of ANIC_RECONSTRUCTION_MSGI: the point of the shape that each
                                    vertex is; NULL: vertex v is point v */
+  uint32_t regions; /**< of the surface, each with weights and a pose_map of its own; 1: none. At
+                       most ANIC_MAX_REGIONS */
+  const uint8_t* vertex_region; /**< region of each vertex, below `regions`; NULL: all are of
+                                   region 0 */
 } anic_basis;
 
 /** - Errors: ANIC_E_ARGUMENT: there is no such segment; ANIC_E_STATE: it has not arrived yet */
@@ -1227,7 +1234,9 @@ typedef struct anic_correction {
  * - x = motion * (x + origin, 1)
  * - x = x + delta of the corrections of v, which are few and ascending by vertex
  *
- * With one channel, basis(j, v) is multiplied by each of the three weights. With
+ * With one channel, basis(j, v) is multiplied by each of the three weights. Where the basis has
+ * regions, r = vertex_region[v] has the pose_map at anic_parts.pose_maps + 12 r and the weights from
+ * weights + r * anic_basis.components * weight_channels on. With
  * ANIC_RECONSTRUCTION_MSGI the first line and the origin give way to x = shape(vertex_shape(v)),
  * three floats for each point, which the seek has made.
  *
@@ -1236,9 +1245,9 @@ typedef struct anic_correction {
 typedef struct anic_part {
   uint32_t segment;
   float share; /**< the position is the sum of share * x over the parts */
-  const float* weights;
+  const float* weights; /**< of region 0, then of the others */
   const float* shape; /**< NULL with ANIC_RECONSTRUCTION_LINEAR */
-  float pose_map[12];
+  float pose_map[12]; /**< of region 0 */
   float motion[12];
   const anic_correction* corrections;
   uint32_t correction_count;
@@ -1255,6 +1264,8 @@ typedef struct anic_parts {
   uint32_t
       components[ANIC_MAX_PARTS]; /**< of each part: how many weights are to be used, all unless
                                           anic_set_quality() said otherwise */
+  const float* pose_maps[ANIC_MAX_PARTS]; /**< of each part: pose_map of each region, 12 numbers each;
+                                             NULL: the basis has no pose */
 } anic_parts;
 
 /**
@@ -1281,7 +1292,7 @@ ANIC_API anic_status anic_get_attribute_parts(const anic_context* context, uint3
 
 /** Textures that hold the basis of a segment for shaders, of four numbers a texel. */
 enum anic_texture ANIC_INT32 {
-  ANIC_TEXTURE_POSE = 0,  /**< float32: x, y, z, 0 */
+  ANIC_TEXTURE_POSE = 0,  /**< float32: x, y, z, region */
   ANIC_TEXTURE_WIDE = 1,  /**< int32 */
   ANIC_TEXTURE_NARROW = 2 /**< int16 */
 };
@@ -1302,6 +1313,7 @@ typedef struct anic_texture_layout {
   uint32_t wide_height;   /**< as above */
   uint32_t narrow_height; /**< as above */
   uint32_t state_floats;  /**< that anic_write_state() writes */
+  uint32_t regions;       /**< states of so many regions follow one another in them */
 } anic_texture_layout;
 
 /**
@@ -1326,7 +1338,7 @@ ANIC_API anic_status anic_write_texture(const anic_asset* asset, uint32_t segmen
                                         anic_texture texture, const anic_texture_layout* layout,
                                         size_t row_bytes, void* out, size_t size);
 
-/** Floats of anic_write_state() before the weights. */
+/** Floats of anic_write_state() before the weights of a region. */
 #define ANIC_STATE_FLOATS 28
 
 /**
@@ -1344,6 +1356,9 @@ ANIC_API anic_status anic_write_texture(const anic_asset* asset, uint32_t segmen
  * w.x a.xyz + w.y (a.w, b.xy) + w.z (b.zw, c.x) + w.w c.yzw;
  * for numbers, with the texel a and the weights u, v, w,
  * a.x u.xyz + a.y (u.w, v.xy) + a.z (v.zw, w.x) + a.w w.yzw.
+ *
+ * Where the segment has regions, that is written for each of them: the state of the region that the
+ * fourth number of a vertex' pose names begins at texel region * state_floats / (4 * regions).
  *
  * Components that anic_set_quality() leaves out have weight 0.
  *

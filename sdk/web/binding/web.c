@@ -506,13 +506,15 @@ EXPORT(basis) int web_basis(uint32_t segment) {
                         (double)b.pose_count,
                         (double)b.wide_count,
                         (double)b.narrow_count,
-                        address(b.vertex_shape)};
+                        address(b.vertex_shape),
+                        b.regions,
+                        address(b.vertex_region)};
   memcpy(numbers, all, sizeof all);
   return status;
 }
 
-/* numbers: count of parts; then 30 for each: segment, share, addresses of weights, shape and
- * corrections, count of corrections, pose_map, motion */
+/* numbers: count of parts; then 31 for each: segment, share, addresses of weights, shape and
+ * corrections, count of corrections, pose_map, motion, address of the pose_maps of regions */
 EXPORT(parts) int web_parts(const anic_context* context, uint32_t mesh) {
   anic_parts parts = ANIC_INIT(anic_parts);
   const anic_status status = anic_get_parts(context, mesh, ANIC_WHEN_CURRENT, &parts);
@@ -530,6 +532,7 @@ EXPORT(parts) int web_parts(const anic_context* context, uint32_t mesh) {
       *to++ = (double)part->pose_map[i];
     for (int i = 0; i < 12; ++i)
       *to++ = (double)part->motion[i];
+    *to++ = address(parts.pose_maps[p]);
   }
   return status;
 }

@@ -19,13 +19,13 @@ namespace {
 struct Shape {
   BasisKind kind = BasisKind::kEigenshapes;
   uint32_t vertices = 0, components = 0, wide = 0;
-  bool pose = false, motions = false, corrections = false;
+  bool pose = false, motions = false, corrections = false, regions = false;
 
   std::string name() const {
     return std::to_string(static_cast<int>(kind)) + ": " + std::to_string(vertices) +
            " vertices, " + std::to_string(components) + " components, " + std::to_string(wide) +
            " wide" + (pose ? ", pose" : "") + (motions ? ", motions" : "") +
-           (corrections ? ", corrections" : "");
+           (corrections ? ", corrections" : "") + (regions ? ", regions" : "");
   }
 };
 
@@ -39,6 +39,8 @@ std::vector<Shape> shapes() {
           for (int options = 0; wide <= components && options < 8; ++options)
             all.push_back({kind, vertices, components, wide, (options & 1) != 0, (options & 2) != 0,
                            (options & 4) != 0});
+          if (kind == BasisKind::kEigentrajectories && wide <= components)
+            all.push_back({kind, vertices, components, wide, true, true, true, true});
         }
       }
     }
@@ -70,16 +72,23 @@ Segment random_segment(const Shape& shape, uint32_t seed) {
   s.narrow.resize(scalars * (s.components - s.wide_components));
   for (size_t i = 0; i < s.narrow.size(); ++i)
     s.narrow[i] = static_cast<int16_t>(static_cast<int32_t>(random()) >> (16 + random() % 8));
-  s.weights.resize(size_t{kFrames} * s.components * s.weight_channels());
+  if (shape.regions) {
+    s.regions = 3;
+    s.vertex_region.resize(size_t{block_count(s.vertices)} * kBlock);
+    for (uint32_t v = 0; v < s.vertex_region.size(); ++v)  // pure blocks, and borders of two and three
+      s.vertex_region[v] =
+          v < 20 ? 0 : v < 90 ? 2 : v < 100 ? static_cast<uint8_t>(random() % 3) : 1;
+  }
+  s.weights.resize(size_t{kFrames} * s.regions * s.components * s.weight_channels());
   for (size_t i = 0; i < s.weights.size(); ++i)
     s.weights[i] = real() * 1e-4f;
   if (shape.pose) {
     s.pose.resize(size_t{block_count(s.vertices)} * 3 * kBlock);
     for (size_t i = 0; i < s.pose.size(); ++i)
       s.pose[i] = std::floor(real() * 1000);
-    s.pose_maps.resize(kFrames);
-    for (size_t f = 0; f < kFrames; ++f)
-      s.pose_maps[f] = affine();
+    s.pose_maps.resize(size_t{kFrames} * s.regions);
+    for (Affine& map : s.pose_maps)
+      map = affine();
   } else {
     for (double& x : s.origin)
       x = real() * 100;
@@ -210,8 +219,10 @@ TEST(Play, PlaysAnInterpolatedState) {
   for (size_t i = 0; i < weights.size(); ++i)
     weights[i] = (a.weights[i] + b.weights[i]) / 2;
   middle.weights = weights.data();
+  Affine map;
   for (size_t i = 0; i < 12; ++i)
-    middle.pose_map.m[i] = (a.pose_map.m[i] + b.pose_map.m[i]) / 2;
+    map.m[i] = (a.pose_maps[i] + b.pose_maps[i]) / 2;
+  middle.pose_maps = map.m;
   std::vector<float> at(120), before(120), after(120);
   play(middle, 0, 40, at.data());
   play(a, 0, 40, before.data());

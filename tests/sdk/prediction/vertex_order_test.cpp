@@ -101,6 +101,38 @@ void expect_valid(const Mesh& mesh, const VertexOrder& o) {
   }
 }
 
+/// An order that keeps regions apart.
+VertexOrder order_of(const Mesh& mesh, const std::vector<uint8_t>& regions) {
+  MeshGraph graph;
+  VertexOrder o;
+  EXPECT_EQ(graph.init(mesh.triangles.data(), mesh.triangles.size() / 3, mesh.vertex_count()),
+            Status::kOk);
+  EXPECT_EQ(make_vertex_order(graph, mesh.positions.data(), 16, 1, &o, regions.data()), Status::kOk);
+  return o;
+}
+
+/// Ranks whose vertices have no neighbours: the first of each region.
+size_t expect_apart(const VertexOrder& o, const std::vector<uint8_t>& regions) {
+  Vector<uint32_t> sorted = o.order;
+  std::sort(sorted.begin(), sorted.end());
+  for (uint32_t v = 0; v < sorted.size(); ++v)
+    EXPECT_EQ(sorted[v], v);
+  size_t alone = 0;
+  for (size_t l = 0; l < o.level_count(); ++l) {
+    for (size_t r = o.level_start[l]; r < o.level_start[l + 1]; ++r) {
+      alone += o.neighbours[r * 16] < 0;
+      for (size_t a = 0; a < 16; ++a) {
+        const int32_t b = o.neighbours[r * 16 + a];
+        if (b < 0)
+          continue;
+        EXPECT_LT(b, static_cast<int32_t>(o.level_start[l]));
+        EXPECT_EQ(regions[o.order[static_cast<size_t>(b)]], regions[o.order[r]]);
+      }
+    }
+  }
+  return alone;
+}
+
 /// Visits of vertices and edges while an order is made, for each vertex and corner of the mesh.
 double visits_of(const Mesh& mesh, int colours) {
   VertexOrder o;
@@ -112,6 +144,42 @@ double visits_of(const Mesh& mesh, int colours) {
   expect_valid(mesh, o);
   return static_cast<double>(visits) /
          static_cast<double>(mesh.vertex_count() + mesh.triangles.size());
+}
+
+TEST(VertexOrder, KeepsRegionsApart) {
+  const Mesh mesh = sheet(40, 30);
+  const size_t n = mesh.vertex_count();
+  std::vector<uint8_t> halves(n), eight(n), scattered(n), lone(n, 5), one(n, 3);
+  SmallRandom random(7);
+  for (size_t v = 0; v < n; ++v) {
+    halves[v] = v % 40 < 20;
+    eight[v] = static_cast<uint8_t>(v % 40 / 10 + v / 600 * 4);
+    scattered[v] = static_cast<uint8_t>(random.bits() >> 29);
+  }
+  lone[611] = 2;
+  EXPECT_EQ(expect_apart(order_of(mesh, halves), halves), 2u);
+  EXPECT_EQ(expect_apart(order_of(mesh, eight), eight), 8u);
+  EXPECT_EQ(expect_apart(order_of(mesh, scattered), scattered), 8u);
+  EXPECT_EQ(expect_apart(order_of(mesh, lone), lone), 2u);
+  const VertexOrder whole = order_of(mesh), same = order_of(mesh, one);
+  EXPECT_EQ(whole.order, same.order);
+  EXPECT_EQ(whole.neighbours, same.neighbours);
+}
+
+TEST(VertexOrder, KeepsRegionsOfDenseAndLooseMeshesApart) {
+  Mesh dense, loose;
+  for (uint32_t v = 0; v < 60; ++v) {
+    dense.add(static_cast<int32_t>(v * v), static_cast<int32_t>(37 * v % 60), 0);
+    loose.add(static_cast<int32_t>(v), static_cast<int32_t>(v % 7), 5);
+  }
+  for (uint32_t a = 0; a < 60; ++a)
+    for (uint32_t b = a + 1; b + 1 < 60; ++b)
+      dense.face(a, b, b + 1);
+  std::vector<uint8_t> regions(60);
+  for (size_t v = 0; v < 60; ++v)
+    regions[v] = v < 57 ? v % 2 : static_cast<uint8_t>(v - 55);
+  EXPECT_EQ(expect_apart(order_of(dense, regions), regions), 5u);
+  EXPECT_EQ(expect_apart(order_of(loose, regions), regions), 5u);
 }
 
 TEST(VertexOrder, IsAPermutationInWhichNeighboursComeFirst) {

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/segment/surface_regions.h"
+
+#include "codec/algebra/blocked_product.h"
+#include "codec/algebra/leading_eigenpairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <tbb/parallel_for.h>
+
+namespace anicodec {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr size_t kMostFrames = 48;             // looked at
+constexpr size_t kMostNumbers = size_t{1} << 24;  // of the trajectories looked at
+constexpr size_t kMostSamples = 1024;          // vertices of a region that its trajectories are found by
+constexpr Index kRank = 8;                     // of them
+constexpr int kRounds = 20, kSmoothings = 3;
+constexpr double kFewestMoves = 0.002;  // of the vertices, in a round that is not the last
+constexpr double kSmall = 0.4;          // of the mean size: a region that loses none
+constexpr double kSizePower = 0.5;      // of what a size counts for
+
+using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The frames looked at: trajectories in rows, about the mean of all, and [1, mean position].
+struct Trajectories {
+  explicit Trajectories(const FrameView& clip) {
+    const size_t n = clip.vertex_count;
+    const size_t most = std::clamp<size_t>(kMostNumbers / (3 * n + 1), 4, kMostFrames);
+    const size_t step = (clip.frame_count + most - 1) / most;
+    const FrameView some = clip.frames(0, (clip.frame_count + step - 1) / step, step);
+    motion.resize(static_cast<Index>(n), static_cast<Index>(3 * some.frame_count));
+    base.resize(static_cast<Index>(n), 4);
+    tbb::parallel_for(size_t{0}, n, [&](size_t v) {
+      const auto row = static_cast<Index>(v);
+      double mean[3] = {};
+      for (size_t f = 0; f < some.frame_count; ++f) {
+        for (size_t c = 0; c < 3; ++c) {
+          const float x = some.frame(f)[3 * v + c];
+          motion(row, static_cast<Index>(3 * f + c)) = x;
+          mean[c] += static_cast<double>(x) / static_cast<double>(some.frame_count);
+        }
+      }
+      base.row(row) << 1, mean[0], mean[1], mean[2];
+    });
+  }
+
+  RowMatrix motion;
+  MatrixXd base;
+};
+
+/// What a region explains of the motion of a vertex.
+class RegionModel {
+ public:
+  RegionModel(const Trajectories& all, const std::vector<uint32_t>& vertices) : all_(all) {
+    const size_t step = std::max<size_t>((vertices.size() + kMostSamples - 1) / kMostSamples, 1);
+    const auto n = static_cast<Index>((vertices.size() + step - 1) / step);
+    MatrixXd base(n, 4), motion(n, all.motion.cols());
+    for (Index i = 0; i < n; ++i) {
+      const uint32_t v = vertices[static_cast<size_t>(i) * step];
+      base.row(i) = all.base.row(v);
+      motion.row(i) = all.motion.row(v).cast<double>();
+    }
+    MatrixXd gram = MatrixXd::Zero(4, 4), products_of_base = MatrixXd::Zero(4, motion.cols());
+    add_products(base, base, gram);
+    add_products(base, motion, products_of_base);
+    gram.diagonal() *= 1 + 1e-9;
+    affine_ = gram.ldlt().solve(products_of_base);
+    motion -= base * affine_;
+    MatrixXd products = MatrixXd::Zero(motion.cols(), motion.cols());
+    add_self_products(motion, products);
+    mirror_upper(products);
+    axes_ = leading_eigenpairs(products, kRank, 0).vectors;
+  }
+
+  /// The squared motion of a vertex that is left.
+  double left(uint32_t v) const {
+    const Eigen::RowVectorXd rest = all_.motion.row(v).cast<double>() - all_.base.row(v) * affine_;
+    return std::max(rest.squaredNorm() - (rest * axes_).squaredNorm(), 0.0);
+  }
+
+ private:
+  const Trajectories& all_;
+  MatrixXd affine_, axes_;
+};
+
+class RegionSearch {
+ public:
+  RegionSearch(const FrameView& clip, const MeshGraph& graph, uint32_t count)
+      : graph_(graph), count_(count), all_(clip), regions_(clip.vertex_count, 0) {
+    find_pieces();
+  }
+
+  Vector<uint8_t> run() {
+    seed();
+    for (int round = 0; round < kRounds; ++round) {
+      if (static_cast<double>(move_borders()) < kFewestMoves * static_cast<double>(size()))
+        break;
+    }
+    for (int round = 0; round < kSmoothings; ++round)
+      smooth();
+    return std::move(regions_);
+  }
+
+ private:
+  size_t size() const { return regions_.size(); }
+
+  /// Calls visit(u) for the neighbours of a vertex.
+  template <class Visit>
+  void around(uint32_t v, const Visit& visit) const {
+    if (graph_.is_dense())
+      return;
+    for (uint32_t e = graph_.start()[v]; e < graph_.start()[v + 1]; ++e)
+      visit(graph_.adjacent()[e]);
+  }
+
+  size_t fewest() const {
+    return static_cast<size_t>(kSmall * static_cast<double>(size()) / count_);
+  }
+
+  bool is_small(uint32_t v) const { return pieces_[piece_[v]].size() < fewest(); }
+
+  /// Connected vertices.
+  void find_pieces() {
+    constexpr auto kNone = UINT32_MAX;
+    piece_.assign(size(), kNone);
+    for (uint32_t first = 0; first < size(); ++first) {
+      if (piece_[first] != kNone)
+        continue;
+      const auto number = static_cast<uint32_t>(pieces_.size());
+      std::vector<uint32_t> found{first};
+      piece_[first] = number;
+      for (size_t i = 0; i < found.size(); ++i) {
+        around(found[i], [&](uint32_t u) {
+          if (piece_[u] == kNone) {
+            piece_[u] = number;
+            found.push_back(u);
+          }
+        });
+      }
+      pieces_.push_back(std::move(found));
+    }
+  }
+
+  double distance(uint32_t a, uint32_t b) const {
+    return (all_.base.row(a) - all_.base.row(b)).norm();
+  }
+
+  /// Each next seed is furthest from those before along the edges, in pieces that are not small;
+  /// vertices are of the nearest.
+  void seed() {
+    std::vector<double> away(size(), std::numeric_limits<double>::infinity());
+    for (uint32_t v = 0; v < size(); ++v)
+      away[v] = is_small(v) ? -1 : away[v];
+    auto from = static_cast<uint32_t>(std::ranges::max_element(away) - away.begin());
+    for (uint32_t r = 0; r < count_; ++r) {
+      using Place = std::pair<double, uint32_t>;
+      std::priority_queue<Place, std::vector<Place>, std::greater<>> open;
+      away[from] = 0;
+      open.push({0, from});
+      while (!open.empty()) {
+        const auto [d, v] = open.top();
+        open.pop();
+        if (d > away[v])
+          continue;
+        regions_[v] = static_cast<uint8_t>(r);
+        around(v, [&](uint32_t u) {
+          const double next = d + distance(u, v);
+          if (next < away[u])
+            open.push({away[u] = next, u});
+        });
+      }
+      from = static_cast<uint32_t>(std::ranges::max_element(away) - away.begin());
+    }
+  }
+
+  std::vector<std::vector<uint32_t>> members() const {
+    std::vector<std::vector<uint32_t>> result(count_);
+    for (uint32_t v = 0; v < size(); ++v)
+      result[regions_[v]].push_back(v);
+    return result;
+  }
+
+  /// Moves vertices to the region of a neighbour that leaves less; returns how many.
+  size_t move_borders() {
+    const std::vector<std::vector<uint32_t>> all = members();
+    std::vector<RegionModel> models;
+    std::vector<double> price;
+    const double mean = static_cast<double>(size()) / count_;
+    for (const std::vector<uint32_t>& vertices : all) {
+      models.emplace_back(all_, vertices);
+      price.push_back(std::pow(static_cast<double>(vertices.size()) / mean, kSizePower));
+    }
+    std::vector<uint8_t> wanted(regions_.begin(), regions_.end());
+    tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(size()), [&](uint32_t v) {
+      uint32_t near = 0;
+      around(v, [&](uint32_t u) { near |= 1U << regions_[u]; });
+      const uint32_t own = regions_[v];
+      if ((near & ~(1U << own)) == 0)
+        return;
+      double least = price[own] * models[own].left(v);
+      for (uint32_t r = 0; r < count_; ++r) {
+        const double cost = r != own && (near >> r & 1) ? price[r] * models[r].left(v) : least;
+        if (cost < least) {
+          least = cost;
+          wanted[v] = static_cast<uint8_t>(r);
+        }
+      }
+    });
+    const size_t moved = take(wanted);
+    for (const std::vector<uint32_t>& piece : pieces_) {
+      if (piece.size() < fewest())
+        move_piece(piece, models, price);
+    }
+    return moved;
+  }
+
+  void move_piece(const std::vector<uint32_t>& piece, const std::vector<RegionModel>& models,
+                  const std::vector<double>& price) {
+    std::vector<double> left(count_, 0);
+    for (uint32_t r = 0; r < count_; ++r) {
+      for (uint32_t v : piece)
+        left[r] += price[r] * models[r].left(v);
+    }
+    const auto best =
+        static_cast<uint8_t>(std::ranges::min_element(left) - left.begin());
+    for (uint32_t v : piece)
+      regions_[v] = best;
+  }
+
+  /// Does as vertices want, as long as the region that they leave is not small.
+  size_t take(const std::vector<uint8_t>& wanted) {
+    std::vector<size_t> sizes(count_);
+    for (uint8_t r : regions_)
+      ++sizes[r];
+    size_t moved = 0;
+    for (uint32_t v = 0; v < size(); ++v) {
+      if (wanted[v] == regions_[v] || sizes[regions_[v]] <= fewest())
+        continue;
+      --sizes[regions_[v]];
+      ++sizes[wanted[v]];
+      regions_[v] = wanted[v];
+      ++moved;
+    }
+    return moved;
+  }
+
+  /// Vertices join the region of most of their neighbours: shorter borders.
+  void smooth() {
+    std::vector<uint8_t> wanted(regions_.begin(), regions_.end());
+    for (uint32_t v = 0; v < size(); ++v) {
+      std::vector<uint32_t> seen(count_);
+      uint32_t total = 0;
+      around(v, [&](uint32_t u) {
+        ++seen[regions_[u]];
+        ++total;
+      });
+      const auto most = std::max_element(seen.begin(), seen.end());
+      if (2 * *most > total && total > 0)
+        wanted[v] = static_cast<uint8_t>(most - seen.begin());
+    }
+    take(wanted);
+  }
+
+  const MeshGraph& graph_;
+  uint32_t count_;
+  Trajectories all_;
+  Vector<uint8_t> regions_;
+  std::vector<uint32_t> piece_;                ///< of each vertex
+  std::vector<std::vector<uint32_t>> pieces_;  ///< connected vertices
+};
+
+}  // namespace
+
+Vector<uint8_t> find_regions(const FrameView& clip, const MeshGraph& graph, uint32_t count) {
+  return RegionSearch(clip, graph, count).run();
+}
+
+RegionClips::RegionClips(const FrameView& clip, Vector<uint8_t> regions, uint32_t count)
+    : regions_(std::move(regions)), vertices_(count) {
+  for (uint32_t v = 0; v < regions_.size(); ++v)
+    vertices_[regions_[v]].push_back(v);
+  positions_.resize(3 * clip.vertex_count * clip.frame_count);
+  view_ = FrameView(positions_.data(), clip.frame_count, clip.vertex_count);
+  size_t first = 0;
+  for (const std::vector<uint32_t>& vertices : vertices_) {
+    first_.push_back(first);
+    for (size_t f = 0; f < clip.frame_count; ++f) {
+      float* to = positions_.data() + f * view_.frame_stride + 3 * first;
+      for (uint32_t v : vertices)
+        to = std::copy_n(clip.frame(f) + size_t{3} * v, 3, to);
+    }
+    first += vertices.size();
+  }
+}
+
+FrameView RegionClips::clip(size_t region) const {
+  return view_.vertices(first_[region], vertices_[region].size());
+}
+
+}  // namespace anicodec
