@@ -216,9 +216,12 @@ double LinearCoder::probe(double rmse) {
 
 LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
   Probed result{rmse, trial.bytes, std::abs(trial.rmse / rmse - 1) < kNear};
-  result.weights = static_cast<double>(trial.part.encoded.weights.size());
-  for (const Bytes& layer : trial.part.encoded.layers)
-    result.coefficients += static_cast<double>(layer.size());
+  const EncodedSegment& encoded = trial.part.encoded;
+  result.weights = static_cast<double>(encoded.weights.size());
+  for (const Bytes& layer : encoded.layers)
+    result.weights += static_cast<double>(layer.size());
+  result.coefficients = static_cast<double>(encoded.coefficient_bytes);
+  result.weights -= result.coefficients;
   return result;
 }
 
