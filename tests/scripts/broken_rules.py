@@ -188,8 +188,8 @@ def limit_rules(files):
     cut = files("regions")
     yield 40, "limi_one_region", cut.put("LIMI segment 0 regions", b"\1"), "regions of which there is one"
     yield 40, "limi_many_regions", cut.put("LIMI segment 0 regions", b"\x09"), "nine regions"
-    yield 12, "limi_regions_of_shapes", cut.put("LIMI segment 0 basis", b"\x41"), "eigenshapes in regions"
-    yield 12, "limi_regions_of_attribute", cut.put("LIMI segment 0 basis", b"\x62"), "an attribute in regions"
+    yield 12, "limi_regions_of_shapes", cut.put("LIMI segment 0 basis", b"\x81"), "eigenshapes in regions"
+    yield 12, "limi_regions_of_attribute", cut.put("LIMI segment 0 basis", b"\xa2"), "an attribute in regions"
     yield 41, "limi_fewer_corrections", corrected.put("LIMI segment 0 corrections", lambda old: varint(1)), \
         "more corrections than announced"
 
