@@ -34,9 +34,7 @@ constexpr Table kTable{};
 }  // namespace
 
 uint32_t bit_cost(uint32_t p) {
-  int exponent = 31;
-  while (!(p >> exponent))
-    --exponent;
+  const int exponent = 31 - __builtin_clz(p);
   // p = 2^exponent * m with m in [1, 2); the top kTableBits of the mantissa, rounded.
   const uint32_t m = exponent >= kTableBits
                          ? ((p >> (exponent - kTableBits)) +

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 namespace anicodec {
@@ -54,6 +55,9 @@ class DryEncoder {
   static constexpr bool kAdapts = true;
   static constexpr bool kDecodes = false;
 
+  /// `most`: bits from which on the predictor cannot be the best.
+  explicit DryEncoder(double most) : most_(most) {}
+
   bool bit(uint32_t p, bool value) { return counter_.bit(p, value); }
 
   bool bit(AdaptiveBit& model, bool value) {
@@ -66,14 +70,18 @@ class DryEncoder {
 
   double bits() const { return static_cast<double>(counter_.total()) / kBitCostOne; }
 
+  bool ok() const { return bits() <= most_; }
+
  private:
+  double most_;
   BitCounter counter_;
 };
 
-/// True once a decoder's stream has run out: what follows is not worth the time.
+/// True once a decoder's stream has run out, or a trial costs too much: what follows is not worth the
+/// time.
 template <class Coder>
 bool exhausted(const Coder& coder) {
-  if constexpr (Coder::kDecodes)
+  if constexpr (Coder::kDecodes || std::is_same_v<Coder, DryEncoder>)
     return !coder.ok();
   return false;
 }
@@ -567,21 +575,23 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
   if (frames_ == 0)
     return best;
   double least = std::numeric_limits<double>::max();
-  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+  for (uint32_t p = kWeightPredictors; p-- > 0;) {  // the last are the best as a rule: others end soon
     auto predictor = static_cast<WeightPredictor>(p);
     if (!(allowed >> p & 1) ||
         (predictor == WeightPredictor::kCosine && longest_run_ > CosineTransform::kMaxLength))
       continue;
     State trial = *state_;
-    DryEncoder dry;
+    DryEncoder dry(least / kBitWorth);
     trial.code(dry, channels, &source, predictor, values);
+    if (!dry.ok())
+      continue;
     double error = 0;
     for (size_t i = 0; i < size_t{channels} * frames_; ++i) {
       const double d = values[i] * (1.0 / kStep) - x[i];
       error += d * d;
     }
     const double cost = error + kBitWorth * dry.bits();
-    if (cost < least) {
+    if (cost <= least) {
       least = cost;
       best = {predictor, error, dry.bits()};
     }

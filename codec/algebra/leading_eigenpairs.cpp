@@ -17,9 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kDirectSize = 320;
 constexpr Index kWidth = 16;
-constexpr double kResidual = 1e-5;
+constexpr double kResidual = 0.02, kNoise = 1e-12;  // of a value, and of the largest one
 
 // Descending; only as many as are wanted.
 Eigenpairs select(const VectorXd& ascending, const MatrixXd& vectors, Index max_count,
@@ -48,9 +47,10 @@ MatrixXd orthonormal(MatrixXd w, const Eigen::Ref<const MatrixXd>& q) {
 
 }  // namespace
 
-Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double smallest) {
+Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double smallest,
+                              Index direct_size) {
   const Index n = symmetric.rows();
-  if (n <= kDirectSize)
+  if (n <= direct_size)
     return diagonalise(symmetric, max_count, smallest);
   const Index limit = n / 2 / kWidth * kWidth;
   MatrixXd space(n, limit), image(n, limit);
@@ -77,7 +77,8 @@ Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double
             image.leftCols(size) * small.vectors - vectors * small.values.asDiagonal();
         bool converged = true;
         for (Index j = 0; j < count && converged; ++j)
-          converged = residual.col(j).norm() <= kResidual * small.values[j];
+          converged = residual.col(j).norm() <=
+                      std::max(kResidual * small.values[j], kNoise * small.values[0]);
         // A value below the threshold that has not converged may still rise above it.
         if (converged && (count == max_count || size >= count + 2 * kWidth)) {
           return {small.values, vectors};

@@ -13,12 +13,13 @@ struct Eigenpairs {
   Eigen::MatrixXd vectors;
 };
 
-/// Eigenpairs with values above `smallest`, at most max_count. Small matrices are diagonalised; of
-/// large ones a block Krylov space is built that holds the wanted pairs (Golub and Underwood 1977,
-/// with full reorthogonalisation), with residuals below 1e-5 of the value. Deterministic: the start
-/// vectors are fixed. Cost O(n^3), or O(n^2 count) where few pairs are wanted.
+/// Eigenpairs with values above `smallest`, at most max_count. Matrices of at most direct_size rows
+/// are diagonalised; of larger ones a block Krylov space is built that holds the wanted pairs (Golub
+/// and Underwood 1977, with full reorthogonalisation), with residuals below 2 % of the value, which is
+/// then right to some parts in ten thousand. Deterministic: the start vectors are fixed. Cost O(n^3),
+/// or O(n^2 count) where few pairs are wanted.
 Eigenpairs leading_eigenpairs(const Eigen::MatrixXd& symmetric, Eigen::Index max_count,
-                              double smallest);
+                              double smallest, Eigen::Index direct_size = 320);
 
 }  // namespace anicodec
 

@@ -22,6 +22,7 @@ constexpr double kNear = 0.04;      // of the error asked for: sizes can be comp
 // Relative doubt of a size from one trial: with 0.01, quad_box at --kg 0.1 grew from effort 5 to 7.
 constexpr double kDoubt = 0.03;
 constexpr size_t kMostComponents = 2000;
+constexpr size_t kFirstComponents = 48;  // found at first; twice as many whenever all are of use
 constexpr int kRegionsEffort = 2;        // from here on, surfaces are cut
 constexpr size_t kRichComponents = 24;   // of clips whose surface is
 constexpr size_t kFewestVertices = 200;  // of a region, on average
@@ -84,18 +85,18 @@ void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
   chosen_ = true;
 }
 
-const LinearBasis& LinearCoder::basis(const LinearChoice& choice) {
-  auto [found, fresh] = bases_.try_emplace({choice.pose, choice.base, choice.regions});
-  if (!fresh)
-    return found->second;
-  if (choice.regions == 1) {
-    found->second = analysis_.basis(kind_, choice.pose, choice.base, kMostComponents, 0, given());
-  } else {
-    // A region needs no more than the whole, give or take.
-    const size_t most = most_components(choice.settings) * 3 / 2 + 8;
-    found->second = analysis_of(choice.regions).basis(analysis_, choice.pose, most, given());
-  }
-  return found->second;
+const LinearBasis& LinearCoder::basis(const LinearChoice& choice, size_t wanted) {
+  Basis& known = bases_[{choice.pose, choice.base, choice.regions}];
+  if (known.most >= std::min(wanted, kMostComponents))
+    return known.basis;
+  known.most = std::min(std::max(wanted, 2 * known.most), kMostComponents);
+  known.basis =
+      choice.regions == 1
+          ? analysis_.basis(kind_, choice.pose, choice.base, known.most, 0, given())
+          : analysis_of(choice.regions).basis(analysis_, choice.pose, known.most, given());
+  if (known.basis.most_components() < known.most)
+    known.most = kMostComponents;  // these are all
+  return known.basis;
 }
 
 const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
@@ -117,15 +118,23 @@ const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
 /// The choice with a step and a number of components that should meet the error.
 LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
   rmse *= choice.aim;
-  const LinearBasis& b = basis(choice);
-  FrameView clip = analysis_.clip();
-  double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
-  bool shapes = kind_ == BasisKind::kEigenshapes;
+  for (size_t wanted = kFirstComponents;; wanted *= 2) {
+    const LinearBasis& b = basis(choice, wanted);
+    set_step(b, rmse, choice.settings);
+    if (wanted >= kMostComponents || most_components(choice.settings) < wanted)
+      return choice;
+  }
+}
+
+/// The step and the components of a basis that should meet the error.
+void LinearCoder::set_step(const LinearBasis& b, double rmse, LinearSettings& settings) const {
+  const FrameView clip = analysis_.clip();
+  const double budget = rmse * rmse * static_cast<double>(clip.vertex_count * clip.frame_count);
+  const bool shapes = kind_ == BasisKind::kEigenshapes;
   // Bisection: the error of rounding and of what is left out grows with the step.
   // Without components the step is that of the pose, tied to the number of frames.
   double low = rmse * 1e-6;
   double high = 3 * rmse * std::sqrt(static_cast<double>(clip.frame_count));
-  LinearSettings& settings = choice.settings;
   for (int round = 0; round < 60; ++round) {
     settings.components.clear();
     settings.step = std::sqrt(low * high);
@@ -141,14 +150,14 @@ LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
                          0.12 * coefficients * settings.step * settings.step;
     (error > budget ? high : low) = settings.step;
   }
-  return choice;
 }
 
 LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double rmse) {
   input_.begin_trial();
   Measured m;
   std::optional<EncodedSegment> encoded =
-      encode_linear(analysis_.clip(), basis(choice), choice.settings, input_.layout, pose_, runs_);
+      encode_linear(analysis_.clip(), basis(choice, most_components(choice.settings)),
+                    choice.settings, input_.layout, pose_, runs_);
   if (!encoded) {
     m.rmse = m.bytes = std::numeric_limits<double>::infinity();
     return m;
@@ -229,7 +238,7 @@ LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
 /// whole: coefficients of a region are fewer and dearer, for they have more of the motion.
 double LinearCoder::expected_bytes(const LinearChoice& choice) {
   constexpr double kOfWeight = 0.9, kOfCoefficient = 1.5;  // measured on pcow, crane, jumping
-  const LinearBasis& b = basis(choice);
+  const LinearBasis& b = basis(choice, most_components(choice.settings));
   const auto whole = static_cast<double>(most_components(choice_.settings));
   double weights = 0, coefficients = 0;
   for (size_t r = 0; r < choice.settings.components.size(); ++r) {

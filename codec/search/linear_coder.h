@@ -81,7 +81,14 @@ class LinearCoder : public SegmentCoder {
     std::unique_ptr<RegionAnalysis> analysis;  ///< made when needed
   };
 
-  const LinearBasis& basis(const LinearChoice& choice);
+  /// A basis, of which no region has more than `most` components.
+  struct Basis {
+    LinearBasis basis;
+    size_t most = 0;
+  };
+
+  /// A basis with `wanted` components in each region, or as many as there are.
+  const LinearBasis& basis(const LinearChoice& choice, size_t wanted);
   const RegionAnalysis& analysis_of(uint32_t regions);
   void try_regions(double rmse);
   double expected_bytes(const LinearChoice& choice);
@@ -89,6 +96,7 @@ class LinearCoder : public SegmentCoder {
   const Eigen::MatrixXd* given() const { return pose_ ? &given_pose_ : nullptr; }
   static Probed probed(const Measured& trial, double rmse);
   LinearChoice started(LinearChoice choice, double rmse);
+  void set_step(const LinearBasis& b, double rmse, LinearSettings& settings) const;
   Measured measured(const LinearChoice& choice, double rmse);
   static void even_out(const Measured& trial, LinearChoice& choice);
   static void learn(const Measured& trial, double rmse, LinearChoice& choice);
@@ -114,7 +122,7 @@ class LinearCoder : public SegmentCoder {
   bool chosen_ = false;
   std::shared_ptr<const EncodedPose> pose_;
   Eigen::MatrixXd given_pose_;
-  std::map<std::tuple<ReferencePose, Base, uint32_t>, LinearBasis> bases_;
+  std::map<std::tuple<ReferencePose, Base, uint32_t>, Basis> bases_;
   std::map<uint32_t, Regions> regions_;  ///< by their number
 };
 

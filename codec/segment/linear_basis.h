@@ -7,6 +7,7 @@
 #include "codec/sequence/frame_view.h"
 #include "format/records.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -46,6 +47,14 @@ struct LinearBasis {
   /// whole are then empty. Else null and empty.
   std::shared_ptr<const RegionClips> clips;
   std::vector<LinearBasis> regions;
+
+  /// Components of the whole, or of the region that has most.
+  size_t most_components() const {
+    auto most = static_cast<size_t>(energies.size());
+    for (const LinearBasis& region : regions)
+      most = std::max(most, region.most_components());
+    return most;
+  }
 };
 
 /// Finds the bases of a segment. Eigenshapes: a component is a vector per vertex and a weight per

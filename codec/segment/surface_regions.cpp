@@ -24,6 +24,7 @@ constexpr size_t kMostFrames = 48;             // looked at
 constexpr size_t kMostNumbers = size_t{1} << 24;  // of the trajectories looked at
 constexpr size_t kMostSamples = 1024;          // vertices of a region that its trajectories are found by
 constexpr Index kRank = 8;                     // of them
+constexpr Index kDirect = 64;                  // numbers of a trajectory, from which on few axes are cheaper
 constexpr int kRounds = 20, kSmoothings = 3;
 constexpr double kFewestMoves = 0.002;  // of the vertices, in a round that is not the last
 constexpr double kSmall = 0.4;          // of the mean size: a region that loses none
@@ -79,7 +80,7 @@ class RegionModel {
     MatrixXd products = MatrixXd::Zero(motion.cols(), motion.cols());
     add_self_products(motion, products);
     mirror_upper(products);
-    axes_ = leading_eigenpairs(products, kRank, 0).vectors;
+    axes_ = leading_eigenpairs(products, kRank, 0, kDirect).vectors;
   }
 
   /// The squared motion of a vertex that is left.

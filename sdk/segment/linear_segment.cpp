@@ -137,16 +137,21 @@ class WeightReader {
   DecodedIntegers& integers_;
 };
 
-/// The weights of the first `wanted` components.
-Status read_weights(const Vector<BasisLayer>& layers, uint32_t wanted, const Segment& segment,
-                    WeightReader& reader, Vector<int32_t>* weights) {
-  const size_t of_component =
-      size_t{segment.regions} * segment.frames * segment.weight_channels();
+/// The weights of the bases, and those of the first `wanted` components.
+Status read_weights(ByteView of_bases, const Vector<BasisLayer>& layers, uint32_t wanted,
+                    const LinearParameters& parameters, const Vector<uint32_t>& runs,
+                    const Vector<double>& factors, const PoseGrid& pose,
+                    const Vector<uint8_t>& regions, DecodedIntegers* integers, Segment* out,
+                    Vector<int32_t>* weights) {
+  WeightReader reader(parameters, runs, integers);
+  if (Status s = reader.read_bases(of_bases, factors, pose, regions, out); s != Status::kOk)
+    return s;
+  const size_t of_component = size_t{out->regions} * out->frames * out->weight_channels();
   weights->assign(of_component * wanted, 0);
   for (const BasisLayer& layer : layers) {
     const uint32_t count = std::min(layer.count, wanted - layer.first);
     int32_t* to = weights->data() + of_component * layer.first;
-    if (Status s = reader.read_layer(layer, count, segment, to); s != Status::kOk)
+    if (Status s = reader.read_layer(layer, count, *out, to); s != Status::kOk)
       return s;
   }
   return Status::kOk;
@@ -411,10 +416,9 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     return s;
   Vector<int32_t> weights;
   const Vector<double> factors = step_factors(parameters, runs);
-  WeightReader reader(parameters, runs, &integers);
-  if (Status s = reader.read_bases(record.weights, factors, pose, regions, out); s != Status::kOk)
-    return s;
-  if (Status s = read_weights(layers, wanted, *out, reader, &weights); s != Status::kOk)
+  if (Status s = read_weights(record.weights, layers, wanted, parameters, runs, factors, pose,
+                              regions, &integers, out, &weights);
+      s != Status::kOk)
     return s;
   out->components = wanted;
   out->wide_components = std::min(out->wide_components, wanted);
