@@ -74,6 +74,7 @@ def layout_faults(layout, checkout, work, compiler):
     theirs = set(run(work / "layout").splitlines())
     yield from (f"C has {line}" for line in sorted(theirs - ours))
     known = {(words[1], words[2]) for words in lines if words[0] == "field"}
+    known |= {(struct, member.split("[")[0]) for (struct, _), member in ARRAYS.items()}
     for struct, body in re.findall(r"^typedef struct (anic_\w+) \{\n(.*?)^\}", header, re.MULTILINE | re.DOTALL):
         declared = {words[1] for words in lines if words[0] == "struct"}
         if struct in ("anic_box", "anic_correction"):
@@ -84,7 +85,7 @@ def layout_faults(layout, checkout, work, compiler):
         code = re.sub(r"/\*.*?\*/", "", body, flags=re.DOTALL)
         code = re.sub(r"\(\*(\w+)\)\(.*?\);", r"\1;", code, flags=re.DOTALL)
         for field in re.findall(r"(\w+)(?:\[\w+\])?\s*[;,]", code):
-            if (struct, field) not in known and (struct, field) != ("anic_parts", "parts"):
+            if (struct, field) not in known:
                 yield f"C# has no {struct}.{field}"
     functions = {name for name in re.findall(r"\b(anic_\w+)\(", re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL))}
     functions &= set(re.findall(r"ANIC_API[^;]*?\b(anic_\w+)\(", header))
