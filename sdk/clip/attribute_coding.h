@@ -224,7 +224,7 @@ class AttributeCoding {
   /// Codes the numbers of a polygon's new entries, from a known corner onwards if there is one.
   void predict(uint32_t p) {
     const uint32_t begin = graph_.begin(p), n = graph_.end(p) - begin;
-    coded_.assign(older_.size() - first_new_, false);
+    coded_.assign(older_.size() - first_new_, 0);
     if (components_ == 0 || coded_.empty())
       return;
     uint32_t start = 0;
@@ -237,7 +237,7 @@ class AttributeCoding {
       if (known(c))
         continue;
       code_numbers(entry_at(c), guess(c, n), guess_.data());
-      coded_[entry_at(c) - first_new_] = true;
+      coded_[entry_at(c) - first_new_] = 1;
     }
   }
 
@@ -314,7 +314,7 @@ class AttributeCoding {
   Vector<uint32_t> maker_;   ///< encoder: the element that each entry was made for
   Vector<int32_t> last_, guess_;
   uint32_t first_new_ = 0;  ///< entry of the polygon
-  Vector<bool> coded_;      ///< of the entries from first_new_ on
+  Vector<uint8_t> coded_;   ///< of the entries from first_new_ on
   uint32_t size_ = 0;       ///< magnitude of the residual before
 
   AdaptiveBit as_guessed_[12], new_;

@@ -27,7 +27,7 @@ struct WalkedFaces {
   /// For the side that starts at a corner: the corner of an earlier face where the same side starts
   /// that leads the other way, or kNone.
   Vector<uint32_t> opposite;
-  Vector<bool> repeats;  ///< whether a face has the corners of the one before, in the same order
+  Vector<uint8_t> repeats;  ///< whether a face has the corners of the one before, in the same order
 };
 
 /// A decoder's knowledge of the faces beforehand: nothing. An encoder chooses a face with find() or

@@ -65,15 +65,6 @@ void set_frame(const FrameState& state, const VertexOutput& output, uint32_t fir
   set_output(output, frame);
 }
 
-/// The region that all vertices of a block are of; kMaxRegions: they are of several.
-uint32_t region_of_block(const Segment& segment, uint32_t block) {
-  uint64_t all[kBlock / 8];
-  const uint8_t* regions = segment.vertex_region.data() + size_t{block} * kBlock;
-  __builtin_memcpy(all, regions, sizeof all);
-  const uint64_t same = 0x0101010101010101U * regions[0];
-  return all[0] == same && all[1] == same ? regions[0] : kMaxRegions;
-}
-
 /// Positions made with one set of kernels: of a few frames of a segment, for a range of vertices.
 class RegionPlayer {
  public:
@@ -93,53 +84,26 @@ class RegionPlayer {
     kernels_.play(job_);
   }
 
-  /// Runs of blocks of one region are played as a whole, a block of several once for each of them.
-  /// The outputs are for vertices from `begin` on.
+  /// Vertices that follow one another in one region are played as a whole. The outputs are for
+  /// vertices from `begin` on.
   void play(uint32_t begin, uint32_t count, const VertexOutput* outputs) {
+    const uint8_t* regions = segment_.vertex_region.data();
     for (uint32_t first = begin, end = begin + count; first < end;) {
-      const uint32_t block = first / kBlock, region = region_of_block(segment_, block);
-      uint32_t next = block + 1;
-      while (region < kMaxRegions && next * kBlock < end &&
-             region_of_block(segment_, next) == region)
+      uint32_t next = first + 1;
+      while (next < end && regions[next] == regions[first])
         ++next;
-      const uint32_t stop = std::min(end, next * kBlock);
       VertexOutput rest[kMaxPlayedFrames];
       for (uint32_t f = 0; f < frames_; ++f) {
         rest[f] = outputs[f];
         rest[f].data =
             static_cast<unsigned char*>(outputs[f].data) + outputs[f].stride * (first - begin);
       }
-      if (region < kMaxRegions)
-        play_region(region, first, stop - first, rest);
-      else
-        play_border(first, stop - first, rest);
-      first = stop;
+      play_region(regions[first], first, next - first, rest);
+      first = next;
     }
   }
 
  private:
-  /// Vertices of a block of several regions.
-  void play_border(uint32_t first, uint32_t count, const VertexOutput* outputs) {
-    const uint8_t* regions = segment_.vertex_region.data() + first;
-    float blocks[kMaxPlayedFrames][3 * kBlock] = {}, points[kMaxPlayedFrames][3 * kBlock];
-    VertexOutput plain[kMaxPlayedFrames];
-    for (uint32_t f = 0; f < frames_; ++f)
-      plain[f].data = points[f];
-    for (uint32_t r = 0; r < segment_.regions; ++r) {
-      if (std::find(regions, regions + count, r) == regions + count)
-        continue;
-      play_region(r, first, count, plain);
-      for (uint32_t f = 0; f < frames_; ++f) {
-        for (uint32_t i = 0; i < count; ++i) {
-          for (uint32_t c = 0; c < 3 && regions[i] == r; ++c)
-            blocks[f][c * kBlock + i] = points[f][3 * i + c];
-        }
-      }
-    }
-    for (uint32_t f = 0; f < frames_; ++f)
-      store_points(blocks[f], 0, count, outputs[f]);
-  }
-
   const PlayKernels& kernels_;
   const Segment& segment_;
   const FrameState* states_;

@@ -80,7 +80,7 @@ class Front {
         place_(table.vertex_count(), 0),
         gates_(table.vertex_count(), 0),
         known_corners_(table.vertex_count(), 0),
-        done_(table.vertex_count(), false) {}
+        done_(table.vertex_count(), 0) {}
 
   /// The next vertex, or the first that is not done when none waits.
   uint32_t next() {
@@ -97,7 +97,7 @@ class Front {
   }
 
   void add(uint32_t v) {
-    done_[v] = true;
+    done_[v] = 1;
     for (uint32_t i = 0; i < table_.valence(v); ++i) {
       uint32_t c = table_.corner(v, i), o = table_.opposite(c);
       uint32_t a = CornerTable::next(c), b = CornerTable::previous(c);
@@ -141,7 +141,7 @@ class Front {
   Vector<uint8_t> place_;
   Vector<uint32_t> gates_;          ///< complete parallelograms
   Vector<uint32_t> known_corners_;  ///< corners of its triangles at vertices that are done
-  Vector<bool> done_;
+  Vector<uint8_t> done_;
   uint32_t seed_ = 0;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/prediction/predictor.h"
 
+#include "format/sort.h"
 #include "sdk/base/float_control.h"
 #include "sdk/prediction/prediction_job.h"
 
@@ -70,7 +71,7 @@ Vector<size_t> refits_of(const PredictionParameters& parameters, size_t componen
   const uint16_t* refits = refit_components(parameters.schedule, &count);
   for (size_t i = 0; i < count && size_t{refits[i]} + 1 < components; ++i)
     list.push_back(refits[i]);
-  std::sort(list.begin(), list.end());
+  sort_ascending(list.begin(), list.end());
   list.resize(static_cast<size_t>(std::unique(list.begin(), list.end()) - list.begin()));
   return list;
 }

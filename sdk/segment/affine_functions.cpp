@@ -14,21 +14,29 @@ constexpr double kIndependent = 1e-9;
 
 }  // namespace
 
-AffineFunctions AffineFunctions::of(const int32_t* pose, size_t vertex_count) {
+AffineFunctions AffineFunctions::of(const int32_t* pose, size_t vertex_count,
+                                    const uint8_t* regions, uint32_t region) {
   const FloatControl control;
   AffineFunctions f;
-  if (vertex_count == 0)
-    return f;
-  const auto n = static_cast<double>(vertex_count);
-  f.constant = 1 / std::sqrt(n);
+  size_t count = 0;
   int64_t sum[3] = {};
-  for (size_t v = 0; v < vertex_count; ++v)
+  for (size_t v = 0; v < vertex_count; ++v) {
+    if (regions && regions[v] != region)
+      continue;
+    ++count;
     for (size_t d = 0; d < 3; ++d)
       sum[d] += pose[3 * v + d];
+  }
+  if (count == 0)
+    return f;
+  const auto n = static_cast<double>(count);
+  f.constant = 1 / std::sqrt(n);
   for (size_t d = 0; d < 3; ++d)
     f.mean[d] = static_cast<double>(sum[d]) / n;
   double moments[3][3] = {};  // lower triangle
   for (size_t v = 0; v < vertex_count; ++v) {
+    if (regions && regions[v] != region)
+      continue;
     double c[3];
     for (size_t d = 0; d < 3; ++d)
       c[d] = pose[3 * v + d] - f.mean[d];
@@ -59,18 +67,6 @@ AffineFunctions AffineFunctions::of(const int32_t* pose, size_t vertex_count) {
     }
   }
   return f;
-}
-
-AffineFunctions AffineFunctions::of_region(const Vector<int32_t>& pose,
-                                           const Vector<uint8_t>& regions, uint32_t region) {
-  if (regions.empty())
-    return of(pose.data(), pose.size() / 3);
-  Vector<int32_t> points;
-  for (size_t v = 0; v < regions.size(); ++v) {
-    if (regions[v] == region)
-      points.insert(points.end(), pose.data() + 3 * v, pose.data() + 3 * v + 3);
-  }
-  return of(points.data(), points.size() / 3);
 }
 
 void AffineFunctions::evaluate(const double p[3], double values[kAffineFunctions]) const {

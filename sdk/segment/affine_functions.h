@@ -5,8 +5,6 @@
 #ifndef ANICODEC_SDK_SEGMENT_AFFINE_FUNCTIONS_H_
 #define ANICODEC_SDK_SEGMENT_AFFINE_FUNCTIONS_H_
 
-#include "format/memory.h"
-
 #include <cstddef>
 #include <cstdint>
 
@@ -23,12 +21,10 @@ struct AffineFunctions {
   double mean[3] = {};        ///< of the pose, on its integer grid
   double inverse[3][3] = {};  ///< lower triangular: the others are inverse * (p - mean)
 
-  /// For a pose of vertex_count x 3 integers. Cost: two passes. In double and in fixed order.
-  static AffineFunctions of(const int32_t* pose, size_t vertex_count);
-
-  /// For the vertices of one region of the surface; `regions` empty: all are of region 0.
-  static AffineFunctions of_region(const Vector<int32_t>& pose, const Vector<uint8_t>& regions,
-                                   uint32_t region);
+  /// For a pose of vertex_count x 3 integers, or for its vertices of one region, by a number for each;
+  /// `regions` null: all. Cost: two passes. In double and in fixed order.
+  static AffineFunctions of(const int32_t* pose, size_t vertex_count,
+                            const uint8_t* regions = nullptr, uint32_t region = 0);
 
   /// Values of the functions at grid position p.
   void evaluate(const double p[3], double values[kAffineFunctions]) const;

@@ -70,7 +70,9 @@ class WeightReader {
     }
     for (uint32_t r = 0; r < out->regions; ++r) {
       const int32_t* v = values.data() + r * kAffineFunctions * of_function;
-      const AffineFunctions functions = AffineFunctions::of_region(pose.points, regions, r);
+      const AffineFunctions functions =
+          AffineFunctions::of(pose.points.data(), pose.points.size() / 3,
+                              regions.empty() ? nullptr : regions.data(), r);
       if (Status s = set_maps(functions, v, factors, pose, r, out); s != Status::kOk)
         return s;
     }
@@ -147,7 +149,7 @@ Status read_weights(ByteView of_bases, const Vector<BasisLayer>& layers, uint32_
   if (Status s = reader.read_bases(of_bases, factors, pose, regions, out); s != Status::kOk)
     return s;
   const size_t of_component = size_t{out->regions} * out->frames * out->weight_channels();
-  weights->assign(of_component * wanted, 0);
+  weights->resize(of_component * wanted);
   for (const BasisLayer& layer : layers) {
     const uint32_t count = std::min(layer.count, wanted - layer.first);
     int32_t* to = weights->data() + of_component * layer.first;
@@ -343,17 +345,18 @@ Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs,
   ByteView stream = r.raw(r.remaining());
   BinaryDecoder decoder(stream.data, stream.size);
   UnsignedModel fewer_model;
-  region_components.assign(region_count > 1 ? region_count : 0, components);
+  region_components.resize(region_count > 1 ? region_count : 0);
   for (uint32_t& count : region_components) {
     const auto fewer = static_cast<uint32_t>(fewer_model.code(decoder));
     if (fewer > components)
       return Status::kQuantizer;
-    count -= fewer;
+    count = components - fewer;
   }
   SymbolModel<> omega_model, sigma_model;
   int32_t last_omega = 128, last_sigma[kMaxRegions] = {};
   omega.resize(components);
-  sigma.assign(size_t{components} * region_count, 0);
+  sigma.clear();
+  sigma.resize(size_t{components} * region_count);
   for (uint32_t j = 0; j < components; ++j) {
     const int64_t o = int64_t{last_omega} + omega_model.code(decoder);
     bool in_range = o >= 0 && o <= 255;
@@ -403,8 +406,9 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
       s != Status::kOk)
     return s;
   if (!regions.empty()) {
-    const Vector<int32_t> hashed(regions.begin(), regions.end());
-    integers.add("regions", hashed.data(), hashed.size());
+    Vector<int32_t> hashed(n);
+    std::copy_n(regions.data(), n, hashed.data());
+    integers.add("regions", hashed.data(), n);
   }
 
   uint32_t wanted = wanted_components(context.quality, components);
