@@ -12,6 +12,9 @@
 #include <string>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 namespace anicodec {
 namespace {
 
@@ -58,7 +61,8 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
       first_frame_(first_frame),
       runs_(input.runs(first_frame, static_cast<uint32_t>(analysis.clip().frame_count))),
       kind_(kind),
-      effort_(std::clamp(effort, 1, 9)) {
+      effort_(std::clamp(effort, 1, 9)),
+      bases_(std::make_unique<Bases>()) {
   const bool shapes = kind == BasisKind::kEigenshapes;
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
@@ -81,22 +85,27 @@ void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
     given_pose_(i / 3, i % 3) = grid.points[static_cast<size_t>(i)] * grid.step;
   choice_.pose = ReferencePose::kGiven;
   choice_.base = Base::kAffine;
-  bases_.clear();
+  bases_->made.clear();
   chosen_ = true;
 }
 
 const LinearBasis& LinearCoder::basis(const LinearChoice& choice, size_t wanted) {
-  Basis& known = bases_[{choice.pose, choice.base, choice.regions}];
-  if (known.most >= std::min(wanted, kMostComponents))
-    return known.basis;
-  known.most = std::min(std::max(wanted, 2 * known.most), kMostComponents);
-  known.basis =
-      choice.regions == 1
-          ? analysis_.basis(kind_, choice.pose, choice.base, known.most, 0, given())
-          : analysis_of(choice.regions).basis(analysis_, choice.pose, known.most, given());
-  if (known.basis.most_components() < known.most)
-    known.most = kMostComponents;  // these are all
-  return known.basis;
+  // Never more than what was asked for before, for what a basis is must not depend on that.
+  size_t most = kFirstComponents;
+  while (most < std::min(wanted, kMostComponents))
+    most *= 2;
+  const std::scoped_lock lock(bases_->mutex);
+  const auto [found, fresh] =
+      bases_->made.try_emplace({choice.pose, choice.base, choice.regions, most});
+  if (fresh) {
+    // A thread that waits for others here must not take a task that waits for the lock.
+    tbb::this_task_arena::isolate([&, &basis = found->second] {
+      basis = choice.regions == 1
+                  ? analysis_.basis(kind_, choice.pose, choice.base, most, 0, given())
+                  : analysis_of(choice.regions).basis(analysis_, choice.pose, most, given());
+    });
+  }
+  return found->second;
 }
 
 const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
@@ -121,7 +130,8 @@ LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
   for (size_t wanted = kFirstComponents;; wanted *= 2) {
     const LinearBasis& b = basis(choice, wanted);
     set_step(b, rmse, choice.settings);
-    if (wanted >= kMostComponents || most_components(choice.settings) < wanted)
+    if (wanted >= kMostComponents || b.most_components() < wanted ||
+        most_components(choice.settings) < wanted)
       return choice;
   }
 }
@@ -154,6 +164,21 @@ void LinearCoder::set_step(const LinearBasis& b, double rmse, LinearSettings& se
 
 LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double rmse) {
   input_.begin_trial();
+  return trial(choice, rmse);
+}
+
+std::vector<LinearCoder::Measured> LinearCoder::measured(const std::vector<LinearChoice>& choices,
+                                                         double rmse) {
+  std::vector<Measured> trials(choices.size());
+  for (size_t i = 0; i < choices.size(); ++i)
+    input_.begin_trial();
+  tbb::parallel_for(
+      size_t{0}, choices.size(), [&](size_t i) { trials[i] = trial(choices[i], rmse); },
+      tbb::simple_partitioner());
+  return trials;
+}
+
+LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse) {
   Measured m;
   std::optional<EncodedSegment> encoded =
       encode_linear(analysis_.clip(), basis(choice, most_components(choice.settings)),
@@ -269,9 +294,13 @@ void LinearCoder::try_regions(double rmse) {
       cuts.emplace_back(expected, std::move(cut));
   }
   std::ranges::sort(cuts, {}, [](const auto& cut) { return cut.first; });
-  for (size_t i = 0; i < std::min(cuts.size(), kMostCuts); ++i) {
-    LinearChoice& cut = cuts[i].second;
-    Measured trial = measured(cut, rmse);
+  std::vector<LinearChoice> best;
+  for (size_t i = 0; i < std::min(cuts.size(), kMostCuts); ++i)
+    best.push_back(std::move(cuts[i].second));
+  std::vector<Measured> trials = measured(best, rmse);
+  for (size_t i = 0; i < best.size(); ++i) {
+    LinearChoice& cut = best[i];
+    Measured& trial = trials[i];
     learn(trial, rmse, cut);
     if (std::abs(trial.rmse / rmse - 1) > kNear && trial.bytes < kFarFromBest * probed_.bytes) {
       cut = started(cut, rmse);
@@ -292,36 +321,46 @@ void LinearCoder::choose_settings(double rmse) {
   const bool shapes = kind_ == BasisKind::kEigenshapes;
   double least = probe(rmse);
   for (int effort = 2; effort <= effort_; ++effort) {
-    const Candidate before{choice_, least};
-    bool changes = false;
+    std::vector<LinearStep> steps;
     for (const LinearStep& step : linear_steps()) {
-      if (effort != (shapes ? step.shapes_from : step.trajectories_from))
-        continue;
-      changes |= try_step(step, rmse, &least);
+      if (effort == (shapes ? step.shapes_from : step.trajectories_from))
+        steps.push_back(step);
     }
-    if (changes)
-      earlier_.push_back(before);
+    Candidate before{choice_, least};
+    if (try_steps(steps, rmse, &least))
+      earlier_.push_back(std::move(before));
   }
-  if (opening_ != OpeningChoice::kSmall && effort_ > 1) {
-    for (const LinearStep& step : opening_steps())
-      try_step(step, rmse, &least);
-  }
+  if (opening_ != OpeningChoice::kSmall && effort_ > 1)
+    try_steps(opening_steps(), rmse, &least);
   least_ = least;
 }
 
-/// Keeps a change of the settings if it helps.
-bool LinearCoder::try_step(const LinearStep& step, double rmse, double* least) {
-  LinearChoice changed = choice_;
-  step.change(changed, kind_);
-  changed = started(changed, rmse);
-  const Measured trial = measured(changed, rmse);
-  if (!(trial.bytes < *least))
-    return false;
-  *least = trial.bytes;
-  choice_ = changed;
-  choice_.steps.push_back(step.name);
-  learn(trial, rmse, choice_);
-  return true;
+/// Keeps the changes of the settings that help, each made to what those before it left. As many as
+/// there are threads are tried at a time: those after one that helps are then tried again.
+bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse, double* least) {
+  const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
+  bool changes = false;
+  while (!steps.empty()) {
+    std::vector<LinearChoice> changed;
+    for (const LinearStep& step : steps.first(std::min(threads, steps.size()))) {
+      LinearChoice& choice = changed.emplace_back(choice_);
+      step.change(choice, kind_);
+      choice = started(choice, rmse);
+    }
+    const std::vector<Measured> trials = measured(changed, rmse);
+    const auto helps = std::ranges::find_if(
+        trials, [&](const Measured& trial) { return trial.bytes < *least; });
+    const auto at = static_cast<size_t>(helps - trials.begin());
+    if (helps != trials.end()) {
+      *least = helps->bytes;
+      choice_ = changed[at];
+      choice_.steps.push_back(steps[at].name);
+      learn(*helps, rmse, choice_);
+      changes = true;
+    }
+    steps = steps.subspan(std::min(at + 1, changed.size()));
+  }
+  return changes;
 }
 
 std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {

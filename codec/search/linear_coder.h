@@ -13,7 +13,9 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -81,10 +83,10 @@ class LinearCoder : public SegmentCoder {
     std::unique_ptr<RegionAnalysis> analysis;  ///< made when needed
   };
 
-  /// A basis, of which no region has more than `most` components.
-  struct Basis {
-    LinearBasis basis;
-    size_t most = 0;
+  /// By pose, base, regions and the most components that one of them has.
+  struct Bases {
+    std::mutex mutex;
+    std::map<std::tuple<ReferencePose, Base, uint32_t, size_t>, LinearBasis> made;
   };
 
   /// A basis with `wanted` components in each region, or as many as there are.
@@ -98,9 +100,12 @@ class LinearCoder : public SegmentCoder {
   LinearChoice started(LinearChoice choice, double rmse);
   void set_step(const LinearBasis& b, double rmse, LinearSettings& settings) const;
   Measured measured(const LinearChoice& choice, double rmse);
+  /// The same of several, at the same time.
+  std::vector<Measured> measured(const std::vector<LinearChoice>& choices, double rmse);
+  Measured trial(const LinearChoice& choice, double rmse);
   static void even_out(const Measured& trial, LinearChoice& choice);
   static void learn(const Measured& trial, double rmse, LinearChoice& choice);
-  bool try_step(const LinearStep& step, double rmse, double* least);
+  bool try_steps(std::span<const LinearStep> steps, double rmse, double* least);
   void choose_settings(double rmse);
   void turn_down(double rmse, CodedPart& best);
   std::optional<CodedPart> reached(LinearChoice choice, double rmse);
@@ -122,7 +127,7 @@ class LinearCoder : public SegmentCoder {
   bool chosen_ = false;
   std::shared_ptr<const EncodedPose> pose_;
   Eigen::MatrixXd given_pose_;
-  std::map<std::tuple<ReferencePose, Base, uint32_t>, Basis> bases_;
+  std::unique_ptr<Bases> bases_;
   std::map<uint32_t, Regions> regions_;  ///< by their number
 };
 

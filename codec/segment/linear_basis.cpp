@@ -8,6 +8,7 @@
 #include "codec/sequence/error.h"
 
 #include <Eigen/Eigenvalues>
+#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -169,8 +170,10 @@ LinearBasis LinearAnalysis::basis(BasisKind kind, ReferencePose pose, Base base,
 
 RegionAnalysis::RegionAnalysis(std::shared_ptr<const RegionClips> clips)
     : clips_(std::move(clips)) {
-  for (size_t r = 0; r < clips_->count(); ++r)
-    analyses_.emplace_back(clips_->clip(r));
+  analyses_.resize(clips_->count());
+  tbb::parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
+    analyses_[r] = std::make_unique<const LinearAnalysis>(clips_->clip(r));
+  });
 }
 
 LinearBasis RegionAnalysis::basis(const LinearAnalysis& whole, ReferencePose pose,
@@ -181,14 +184,16 @@ LinearBasis RegionAnalysis::basis(const LinearAnalysis& whole, ReferencePose pos
   // The leading trajectories of a region, mapped onto a frame that all regions share.
   const bool by_region = pose == ReferencePose::kRankThree;
   out.pose = whole.pose(by_region ? ReferencePose::kFrame : pose, given_pose);
-  for (size_t r = 0; r < analyses_.size(); ++r) {
-    const std::vector<uint32_t>& vertices = clips_->vertices(r);
-    const MatrixXd rows = out.pose(vertices, Eigen::all);
-    out.regions.push_back(analyses_[r].basis(
-        BasisKind::kEigentrajectories, by_region ? pose : ReferencePose::kGiven, Base::kAffine,
-        max_components, 0, &rows));
-    out.pose(vertices, Eigen::all) = out.regions.back().pose;
-    out.base_energy += out.regions.back().base_energy;
+  out.regions.resize(analyses_.size());
+  tbb::parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
+    const MatrixXd rows = out.pose(clips_->vertices(r), Eigen::all);
+    out.regions[r] = analyses_[r]->basis(BasisKind::kEigentrajectories,
+                                         by_region ? pose : ReferencePose::kGiven, Base::kAffine,
+                                         max_components, 0, &rows);
+  });
+  for (size_t r = 0; r < out.regions.size(); ++r) {
+    out.pose(clips_->vertices(r), Eigen::all) = out.regions[r].pose;
+    out.base_energy += out.regions[r].base_energy;
   }
   return out;
 }

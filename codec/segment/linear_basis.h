@@ -107,7 +107,7 @@ class RegionAnalysis {
 
  private:
   std::shared_ptr<const RegionClips> clips_;
-  std::vector<LinearAnalysis> analyses_;
+  std::vector<std::unique_ptr<const LinearAnalysis>> analyses_;
 };
 
 }  // namespace anicodec
