@@ -181,6 +181,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   }
   ClipSearch search(input, stored, limited, searched, clip_diagonal);
   SearchProgress steps(progress, search.expected_trials());
+  input.without = options.without;
   input.on_trial = [&steps] { steps.trial(); };
   CodedClip coded = search.run(record);
   if (lossless)

@@ -60,6 +60,9 @@ struct EncodeOptions {
   std::shared_ptr<const EncodedPose> pose;
   AttributeOptions attributes;
   int effort = 5;  ///< 1..9: how long to search
+  /// What the search of eigenshapes and eigentrajectories does without, by the names of
+  /// search_means(): to measure what each is worth.
+  std::vector<std::string> without;
   OpeningChoice opening = OpeningChoice::kSmall;
   /// Streams that coefficients are in, for as many threads: 1, 2, 4 or 8. 0: as many as enlarge the
   /// file by no more than 0.3 %, where opening takes long enough.

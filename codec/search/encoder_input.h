@@ -8,11 +8,13 @@
 #include "codec/sequence/frame_view.h"
 #include "codec/sequence/mesh_sequence.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -90,6 +92,11 @@ struct EncoderInput {
   double largest_coordinate = 0;  ///< in magnitude
   std::vector<float> first_pose;  ///< coded vertices x 3: frame 0 of the source, before any cut
   std::shared_ptr<const EncodedPose> pose;  ///< what a part must refer to, else null
+
+  std::vector<std::string> without;  ///< EncodeOptions::without
+
+  /// Whether a search may do what has this name among search_means().
+  bool allows(const char* mean) const { return std::ranges::find(without, mean) == without.end(); }
 
   /// Called by coders before every trial, which is what takes time; may be empty.
   std::function<void()> on_trial;

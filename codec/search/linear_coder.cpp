@@ -70,6 +70,11 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   if (opening != OpeningChoice::kSmall)
     choice_.settings.coder = CoefficientCoder::kBatches;
   thorough_ = effort >= kThoroughEffort;
+  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+    const char* mean = mean_of(static_cast<WeightPredictor>(p));
+    if (mean && !input.allows(mean))
+      choice_.settings.weight_predictors &= ~(1U << p);
+  }
   if (!shapes) {
     // Trajectories are many: half the time that prediction takes, for two bytes in a hundred.
     choice_.settings.neighbours = 12;
@@ -243,7 +248,8 @@ double LinearCoder::probe(double rmse) {
     probed_ = probed(trial, rmse);
     learn(trial, rmse, choice_);
   }
-  if (!pose_ && effort_ >= kRegionsEffort && kind_ == BasisKind::kEigentrajectories)
+  if (!pose_ && effort_ >= kRegionsEffort && kind_ == BasisKind::kEigentrajectories &&
+      input_.allows(kRegionsMean))
     try_regions(rmse);
   return probed_.bytes;
 }
@@ -323,7 +329,8 @@ void LinearCoder::choose_settings(double rmse) {
   for (int effort = 2; effort <= effort_; ++effort) {
     std::vector<LinearStep> steps;
     for (const LinearStep& step : linear_steps()) {
-      if (effort == (shapes ? step.shapes_from : step.trajectories_from))
+      if (effort == (shapes ? step.shapes_from : step.trajectories_from) &&
+          input_.allows(step.name))
         steps.push_back(step);
     }
     Candidate before{choice_, least};
@@ -404,8 +411,8 @@ std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) 
   for (int round = 0; round < kStepRounds; ++round) {
     LinearChoice tried = choice;
     if (thorough_) {
-      tried.settings.joint_lambda = choice.price;
-      tried.settings.refit_weights = true;
+      tried.settings.joint_lambda = input_.allows(kJointRoundingMean) ? choice.price : 0;
+      tried.settings.refit_weights = input_.allows(kRefittedWeightsMean);
     }
     Measured trial = measured(tried, rmse);
     if (std::isinf(trial.rmse))

@@ -84,4 +84,31 @@ const std::vector<LinearStep>& opening_steps() {
   return steps;
 }
 
+const char* mean_of(WeightPredictor predictor) {
+  switch (predictor) {
+    case WeightPredictor::kOrder0:
+      return nullptr;
+    case WeightPredictor::kOrder1:
+      return "weights from the frame before";
+    case WeightPredictor::kOrder2:
+      return "weights from two frames before";
+    case WeightPredictor::kBisection:
+      return "weights from both sides";
+    case WeightPredictor::kCosine:
+      return "weights by cosines";
+  }
+  return nullptr;
+}
+
+std::vector<std::string> search_means() {
+  std::vector<std::string> names = {kRegionsMean, kJointRoundingMean, kRefittedWeightsMean};
+  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+    if (const char* name = mean_of(static_cast<WeightPredictor>(p)))
+      names.emplace_back(name);
+  }
+  for (const LinearStep& step : linear_steps())
+    names.emplace_back(step.name);
+  return names;
+}
+
 }  // namespace anicodec

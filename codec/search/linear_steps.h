@@ -4,7 +4,9 @@
 #define ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_
 
 #include "codec/search/linear_choice.h"
+#include "format/time_weights.h"
 
+#include <string>
 #include <vector>
 
 namespace anicodec {
@@ -25,6 +27,16 @@ const std::vector<LinearStep>& linear_steps();
 /// Steps that may open sooner, for searches to which that is worth bytes: tried last, at efforts
 /// from 2 on.
 const std::vector<LinearStep>& opening_steps();
+
+/// What a search does beside the steps.
+inline constexpr const char *kRegionsMean = "regions", *kJointRoundingMean = "joint rounding",
+                            *kRefittedWeightsMean = "refitted weights";
+
+/// Names of all that a search may do, each of which can be left out: EncodeOptions::without.
+std::vector<std::string> search_means();
+
+/// The name of a predictor of time weights among them; null: it cannot be left out.
+const char* mean_of(WeightPredictor predictor);
 
 }  // namespace anicodec
 

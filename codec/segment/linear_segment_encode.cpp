@@ -28,6 +28,7 @@ class WeightCoder {
   WeightCoder(size_t frames, const Vector<uint32_t>& runs, const LinearSettings& settings)
       : frames_(frames),
         lambda_(settings.weight_lambda),
+        predictors_(settings.weight_predictors),
         runs_(runs.empty() ? Vector<uint32_t>(1, static_cast<uint32_t>(frames)) : runs),
         model_(runs_) {
     for (size_t r = 0; r < settings.run_steps.size(); ++r)
@@ -48,7 +49,7 @@ class WeightCoder {
         x[c * frames_ + f] = value;
       }
     }
-    model_.encode(encoder_, channels, x.data(), lambda_, values.data());
+    model_.encode(encoder_, channels, x.data(), lambda_, values.data(), predictors_);
     for (size_t f = 0; f < frames_; ++f) {
       for (size_t c = 0; c < channels; ++c)
         column[static_cast<Index>(channels * f + c)] =
@@ -69,6 +70,7 @@ class WeightCoder {
  private:
   size_t frames_;
   double lambda_;
+  uint32_t predictors_;
   std::vector<double> factors_;  ///< of the unit, for each frame
   Vector<uint32_t> runs_;
   TimeWeightModel model_;

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_SEGMENT_LINEAR_SETTINGS_H_
 #define ANICODEC_CODEC_SEGMENT_LINEAR_SETTINGS_H_
 
+#include "format/time_weights.h"
 #include "sdk/prediction/predictor.h"
 #include "sdk/segment/linear_segment.h"
 
@@ -19,6 +20,7 @@ struct LinearSettings {
   double pose_factor = 2;          ///< step of the pose: pose_factor * step / sqrt(frames)
   double lambda = 0.08;            ///< squared steps that a bit is worth when rounding coefficients
   double weight_lambda = 0.1;      ///< the same for time weights
+  uint32_t weight_predictors = (1U << kWeightPredictors) - 1;  ///< a bit for each that may be used
   std::vector<uint8_t> run_steps;  ///< of each clip, LinearParameters::run_steps
   /// Not 0: the coefficients of a component are rounded together, at so many squared steps to a
   /// bit, instead of one by one at `lambda`.

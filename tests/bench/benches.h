@@ -47,6 +47,9 @@ Table run_lossless(const BenchOptions& options);
 Table run_encode(const BenchOptions& options, double kg, const std::vector<uint32_t>& vertices,
                  const std::vector<uint32_t>& frames);
 
+/// Bytes at a KG error without each of `means`, names of search_means(), or of all that there are.
+Table run_ablate(const BenchOptions& options, double kg, const std::vector<std::string>& means);
+
 /// Opening and playing all frames, against Draco decoding them one by one; one thread.
 Table run_decode(const BenchOptions& options, double kg, int runs);
 

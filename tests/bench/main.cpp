@@ -26,7 +26,7 @@ $ANICODEC_DATA (classic/dance), or files joined by commas (mesh.obj,cache.pc2). 
 clips, or together the files of one clip as anicodec encode takes them.)";
 
 struct Arguments {
-  std::vector<std::string> inputs, clips;
+  std::vector<std::string> inputs, clips, without;
   BenchOptions bench;
   bool json = false, csv = false;
   std::vector<double> kg{0.1, 0.02};
@@ -151,6 +151,18 @@ void add_lossless(Bench& bench) {
                   return std::vector{run_lossless(args.bench)};
                 }),
             bench.arguments);
+}
+
+void add_ablate(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "ablate", "Bytes without each thing that the search may do", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{run_ablate(args.bench, args.one_kg, args.without)};
+      });
+  options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
+  options.repeated("--without", a.without, "NAME", "One thing; may be repeated (default: each)");
+  add_basis(options, a);
 }
 
 void add_encode(Bench& bench) {
@@ -347,8 +359,8 @@ void add_massage(Bench& bench) {
 void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
   Bench bench{commands, common, arguments};
   for (auto add_bench :
-       {add_rate, add_gltf, add_near, add_lossless, add_encode, add_decode, add_open, add_play, add_blend,
-        add_auto, add_poses, add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
+       {add_rate, add_gltf, add_near, add_lossless, add_ablate, add_encode, add_decode, add_open, add_play,
+        add_blend, add_auto, add_poses, add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
     add_bench(bench);
 }
 
