@@ -209,8 +209,8 @@ TEST_P(RealDataGltf, ImportsAndKeepsItsPromise) {
   const nlohmann::json said = encoded.json();
   for (const auto& clip : said.value("clips", nlohmann::json::array()))
     clips.push_back(clip["name"]);
-  if (clips.empty())
-    clips.emplace_back();
+  if (clips.size() < 2)  // one animation may have no name
+    clips.assign(1, "");
   for (const std::string& clip : clips) {
     std::vector<std::string> options = {"compare", source, folder / "a.anic", "--json", "--no-sted"};
     if (!clip.empty())
