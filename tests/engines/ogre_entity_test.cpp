@@ -57,8 +57,10 @@ class OgreEntity : public testing::Test {
   }
 
   /// An entity two units wide at a place.
-  Entity* make(const std::string& file, const char* path, Ogre::Vector3 at = Ogre::Vector3::ZERO) {
-    const Ogre::NameValuePairList parameters = {{"file", file + ".anic"}, {"path", path}};
+  Entity* make(const std::string& file, const char* path, Ogre::Vector3 at = Ogre::Vector3::ZERO,
+               const char* in_place = "false") {
+    const Ogre::NameValuePairList parameters = {
+        {"file", file + ".anic"}, {"path", path}, {"in_place", in_place}};
     auto* entity = static_cast<Entity*>(
         scene_->createMovableObject(std::to_string(count_++), EntityFactory::kType, &parameters));
     Ogre::SceneNode* node = scene_->getRootSceneNode()->createChildSceneNode(at);
@@ -159,6 +161,29 @@ TEST_F(OgreEntity, MakesRoomForManyOnTheCard) {
   draw();
   for (const Entity* entity : many)
     EXPECT_TRUE(entity->is_on_card());
+}
+
+TEST_F(OgreEntity, MovesItsRoot) {
+  Entity* whole = make("walk", "cpu");
+  Entity* in_place = make("walk", "cpu", Ogre::Vector3::ZERO, "true");
+  EXPECT_NE(&whole->asset(), &in_place->asset());
+  Ogre::SceneNode* node = in_place->getParentSceneNode();
+  in_place->set_root(node);
+  node->setPosition(Ogre::Vector3::ZERO);
+  node->setScale(Ogre::Vector3(3));
+  for (int i = 0; i < 10; ++i)
+    in_place->add_time(0.05);
+  anic_root_motion step = ANIC_INIT(anic_root_motion);
+  ASSERT_TRUE(in_place->asset().root_step(0, 0, 0.5, &step));
+  ASSERT_TRUE(step.moves && step.turns);
+  const Ogre::Vector3 way(static_cast<float>(step.move[0]), static_cast<float>(step.move[2]),
+                          static_cast<float>(-step.move[1]));
+  EXPECT_GT(way.length(), 0.01F);
+  EXPECT_LT(node->getPosition().distance(3 * way), 1e-4F) << "the file has z up";
+  EXPECT_NEAR(node->getOrientation().getYaw().valueRadians(), step.turn, 1e-4);
+  in_place->add_time(-0.5);
+  EXPECT_LT(node->getPosition().length(), 1e-4F);
+  EXPECT_NEAR(node->getOrientation().getYaw().valueRadians(), 0, 1e-4);
 }
 
 TEST_F(OgreEntity, LeavesOutMeshesThatAreNotThere) {

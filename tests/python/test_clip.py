@@ -225,6 +225,9 @@ def test_root_motion_and_events(tmp_path):
     clip, still = anicodec.open(data), anicodec.open(data, in_place=True)
     assert clip.clips[0].events == (("step", 0.4), ("end", 1.9))
     motion = clip.root_motion(1.0)
+    step = clip.root_step(0.0, 1.0)
+    first = np.vstack([clip.root_motion(0.0).matrix, [0, 0, 0, 1]])
+    np.testing.assert_allclose(first @ np.vstack([step.matrix, [0, 0, 0, 1]]), np.vstack([motion.matrix, [0, 0, 0, 1]]), atol=1e-5)
     assert np.allclose(motion.move, (3, 0, -1), atol=1e-3)
     moved = still.at(1.0) @ motion.matrix[:, :3].T + motion.matrix[:, 3]
     assert np.allclose(clip.at(1.0), moved, atol=1e-4)

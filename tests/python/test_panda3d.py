@@ -89,6 +89,23 @@ def test_fades_between_clips_of_a_file():
         actor.loop("nothing")
 
 
+def test_moves_its_root():
+    clip = anicodec.open(str(FILES / "walk.anic"), in_place=True)
+    actor = ClipActor(clip)
+    actor.root = actor
+    actor.set_scale(3)
+    actor.loop("turn")
+    for _ in range(10):
+        actor.update(0.05)
+    step = clip.root_step(0, 0.5, "turn")
+    assert np.linalg.norm(step.move) > 0.01 and abs(step.turn) > 0.01
+    np.testing.assert_allclose(np.array(actor.get_pos()) / 3, step.move, atol=1e-4)
+    assert np.radians(actor.get_h()) == pytest.approx(step.turn, abs=1e-4)
+    actor.set_play_rate(-1)
+    actor.update(0.5)
+    np.testing.assert_allclose(actor.get_pos(), (0, 0, 0), atol=1e-3)
+
+
 def test_hides_meshes_that_are_not_there():
     actor = ClipActor(str(FILES / "scene.anic"))
     hidden = set()

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <Ogre.h>
@@ -94,11 +95,13 @@ void set_pass(Ogre::Pass* pass, const ClipMesh& mesh, const Ogre::TexturePtr& st
 
 }  // namespace
 
-Clip::Clip(const Ogre::String& file, const Ogre::String& group) : name_(file) {
+Clip::Clip(const Ogre::String& file, const Ogre::String& group, bool in_place) : name_(file) {
   Ogre::DataStreamPtr stream = Ogre::ResourceGroupManager::getSingleton().openResource(file, group);
   Ogre::MemoryDataStream bytes(stream);
   anic_options options = ANIC_INIT(anic_options);
   options.flags = ANIC_OPEN_BOUNDS;
+  if (in_place)
+    options.flags |= ANIC_OPEN_IN_PLACE;
   check(asset_.open({bytes.getPtr(), bytes.size()}, &options), name_);
   const uint32_t count = asset_.info().mesh_count;
   meshes_.resize(count);
@@ -314,12 +317,13 @@ Ogre::MaterialPtr plain_material() {
   return material;
 }
 
-std::shared_ptr<Clip> shared_clip(const Ogre::String& file, const Ogre::String& group) {
-  static std::map<std::pair<Ogre::String, Ogre::String>, std::weak_ptr<Clip>> open;
-  std::weak_ptr<Clip>& kept = open[{group, file}];
+std::shared_ptr<Clip> shared_clip(const Ogre::String& file, const Ogre::String& group,
+                                  bool in_place) {
+  static std::map<std::tuple<Ogre::String, Ogre::String, bool>, std::weak_ptr<Clip>> open;
+  std::weak_ptr<Clip>& kept = open[{group, file, in_place}];
   std::shared_ptr<Clip> clip = kept.lock();
   if (!clip) {
-    clip = std::make_shared<Clip>(file, group);
+    clip = std::make_shared<Clip>(file, group, in_place);
     kept = clip;
   }
   return clip;

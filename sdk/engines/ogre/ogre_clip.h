@@ -41,8 +41,9 @@ struct ClipMesh {
 /// A file, opened once for all entities of it. Made and destroyed on the thread that renders.
 class Clip {
  public:
-  /// Opens a resource. Throws Ogre::Exception when there is none or it is damaged.
-  Clip(const Ogre::String& file, const Ogre::String& group);
+  /// Opens a resource; `in_place`: without the motion of the whole. Throws Ogre::Exception when there is
+  /// none or it is damaged.
+  Clip(const Ogre::String& file, const Ogre::String& group, bool in_place);
   ~Clip();
 
   const anic::Asset& asset() const { return asset_; }
@@ -84,8 +85,10 @@ class Clip {
 /// A white material for the vertex buffers of the CPU, with shaders, which some renderers do not go without.
 Ogre::MaterialPtr plain_material();
 
-/// The clip of a resource; entities share it while any of them is there.
-std::shared_ptr<Clip> shared_clip(const Ogre::String& file, const Ogre::String& group);
+/// The clip of a resource, with the motion of the whole or without; entities share it while any of them
+/// is there.
+std::shared_ptr<Clip> shared_clip(const Ogre::String& file, const Ogre::String& group,
+                                  bool in_place);
 
 }  // namespace anicodec::ogre
 

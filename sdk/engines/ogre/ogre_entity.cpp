@@ -178,7 +178,30 @@ void Entity::set_time(double seconds) {
   stale_ = cut_ = true;
 }
 
+void Entity::move_root(double seconds) {
+  const double share = is_fading() ? std::min(fade_done_ / fade_length_, 1.0) : 0;
+  Ogre::Vector3 move = Ogre::Vector3::ZERO;
+  double turn = 0;
+  const auto add = [&](uint32_t clip, double time, double weight) {
+    anic_root_motion step = ANIC_INIT(anic_root_motion);
+    if (!asset().root_step(clip, time, time + seconds, &step, ANIC_SAMPLE_LINEAR, wrap_))
+      return;
+    turn += weight * step.turn;
+    const Ogre::Vector3 way(static_cast<Ogre::Real>(step.move[0]),
+                            static_cast<Ogre::Real>(step.move[z_up_ ? 2 : 1]),
+                            static_cast<Ogre::Real>(z_up_ ? -step.move[1] : step.move[2]));
+    move += static_cast<Ogre::Real>(weight) * way;
+  };
+  add(playing_, time_, 1 - share);
+  if (is_fading())
+    add(fading_, fade_time_, share);
+  root_->translate(root_->getOrientation() * (root_->getScale() * move));
+  root_->yaw(Ogre::Radian(static_cast<Ogre::Real>(turn)));
+}
+
 void Entity::add_time(double seconds) {
+  if (root_)
+    move_root(seconds);
   time_ += seconds;
   stale_ = true;
   if (!is_fading())
@@ -396,7 +419,7 @@ Ogre::MovableObject* EntityFactory::createInstanceImpl(const Ogre::String& name,
     OGRE_EXCEPT(Ogre::Exception::ERR_INVALIDPARAMS, "the parameter `file` is missing", "anicodec");
   const Ogre::String group =
       given("group", Ogre::ResourceGroupManager::AUTODETECT_RESOURCE_GROUP_NAME);
-  return new Entity(name, shared_clip(file, group),
+  return new Entity(name, shared_clip(file, group, given("in_place", "false") == "true"),
                     given("path", "cpu") == "card" ? Entity::Path::kCard : Entity::Path::kCpu);
 }
 

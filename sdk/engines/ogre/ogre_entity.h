@@ -41,6 +41,10 @@ class Entity : public Ogre::MovableObject {
   /// Goes on by so many seconds, backwards too; a cross-fade goes on as well.
   void add_time(double seconds);
 
+  /// A node that add_time() moves by the motion of the whole, along the ground and about the vertical, from where
+  /// it stands on; of a cross-fade, by that of both clips. It must outlive the entity, whose file was opened in place; null: none.
+  void set_root(Ogre::SceneNode* node) { root_ = node; }
+
   /// Fades to the beginning of another clip of the file, or of the same.
   void cross_fade(const Ogre::String& name, double seconds);
 
@@ -75,6 +79,7 @@ class Entity : public Ogre::MovableObject {
 
  private:
   friend class EntitySection;
+  void move_root(double seconds);
   void show();
   void fill(size_t mesh);
   bool fill_row(size_t mesh);
@@ -82,6 +87,7 @@ class Entity : public Ogre::MovableObject {
 
   std::shared_ptr<Clip> clip_;
   anic::Context context_;
+  Ogre::SceneNode* root_ = nullptr;
   Path path_;
   uint32_t row_ = 0;
   uint32_t generation_ = 0;
@@ -96,7 +102,8 @@ class Entity : public Ogre::MovableObject {
   unsigned long drawn_ = 0;  ///< number of the frame
 };
 
-/// Makes entities: createMovableObject(name, "Anic", {{"file", ...}, {"group", ...}, {"path", "cpu" or "card"}}).
+/// Makes entities: createMovableObject(name, "Anic", {{"file", ...}, {"group", ...}, {"path", "cpu" or "card"},
+/// {"in_place", "true"}}).
 class EntityFactory : public Ogre::MovableObjectFactory {
  public:
   static const Ogre::String kType;

@@ -285,6 +285,15 @@ class Clip:
             self.clip_number(clip), float(seconds), chosen(_SAMPLING, sampling, "sampling"), chosen(_WRAP, wrap, "wrap"))
         return RootMotion(turn, move, pivot, np.array(matrix).reshape(3, 4))
 
+    def root_step(self, begin: float, end: float, clip: Union[None, int, str] = None, sampling: str = "linear",
+                  wrap: str = "loop") -> RootMotion:
+        """What moves a character on from one time to another, in the axes that it has at `begin`: its matrix times this one
+        is the next. A loop goes on at its end from where it is."""
+        turn, move, pivot, matrix = self._asset.root_step(
+            self.clip_number(clip), float(begin), float(end), chosen(_SAMPLING, sampling, "sampling"),
+            chosen(_WRAP, wrap, "wrap"))
+        return RootMotion(turn, move, pivot, np.array(matrix).reshape(3, 4))
+
     def time(self, frame: int) -> float:
         """Seconds at which a frame is shown, from the first of its clip on."""
         return self._asset.frame_time(range(self.frame_count)[frame])

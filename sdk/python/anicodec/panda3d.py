@@ -94,8 +94,11 @@ class ClipActor(NodePath):
     hard, where the file does not tell. A node for each mesh, below it one for each material, by their names and with
     their colours; textures are for the scene to set. Axes are turned to z up. Normals are smooth, recomputed for each frame.
 
-    `update(dt)` goes on in time; `start(task_mgr)` has it called once for each frame drawn.
+    `update(dt)` goes on in time; `start(task_mgr)` has it called once for each frame drawn. `root`, a node, the actor itself as
+    a rule, is then moved on by the motion of the whole, which `anicodec.open(path, in_place=True)` leaves out of the positions.
     """
+
+    root: Optional[NodePath] = None
 
     def __init__(self, source: Any, name: str = "", crease: float = 60):
         self.clip: Clip
@@ -200,6 +203,8 @@ class ClipActor(NodePath):
         step = seconds * self._rate
         if step == 0:
             return
+        if self.root is not None:
+            self._move_root(step)
         self._time += step
         if self._fade:
             self._fade["time"] += step
@@ -207,6 +212,22 @@ class ClipActor(NodePath):
             if self._fade["done"] >= self._fade["length"]:
                 self._playing, self._time, self._fade = int(self._fade["clip"]), self._fade["time"], None
         self.show_time(self._time)
+
+    def _move_root(self, seconds: float) -> None:
+        """A step of the clip that plays, and of what fades in by its share."""
+        share = min(self._fade["done"] / self._fade["length"], 1.0) if self._fade else 0.0
+        moves = [(self._playing, self._time, 1 - share)]
+        if self._fade:
+            moves.append((int(self._fade["clip"]), self._fade["time"], share))
+        move, turn = np.zeros(3), 0.0
+        for clip, time, weight in moves:
+            step = self.clip._asset.root_step(clip, time, time + seconds, _LINEAR, self._wrap)
+            move += weight * np.array(step[1])
+            turn += weight * step[0]
+        if self.clip.info["up"] != "z":
+            move = np.array([move[0], -move[2], move[1]])
+        self.root.set_pos(self.root, *move)
+        self.root.set_h(self.root, np.degrees(turn))
 
     def show_time(self, seconds: float) -> None:
         """Shows a time of the clip that plays, with what fades in."""

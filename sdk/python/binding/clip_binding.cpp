@@ -304,6 +304,19 @@ class Asset {
     check_status(anic_get_root_motion(asset_.get(), clip, seconds,
                                       static_cast<anic_sampling>(sampling),
                                       static_cast<anic_wrap>(wrap), &motion));
+    return tuple_of(motion);
+  }
+
+  /// The same from one time to another.
+  nb::tuple root_step(uint32_t clip, double from, double to, int sampling, int wrap) const {
+    anic_root_motion motion = ANIC_INIT(anic_root_motion);
+    check_status(anic_get_root_step(asset_.get(), clip, from, to,
+                                    static_cast<anic_sampling>(sampling),
+                                    static_cast<anic_wrap>(wrap), &motion));
+    return tuple_of(motion);
+  }
+
+  static nb::tuple tuple_of(const anic_root_motion& motion) {
     const double *m = motion.move, *p = motion.pivot;
     nb::list matrix;
     for (float x : motion.matrix)
@@ -377,6 +390,7 @@ void bind_clip(nb::module_& module) {
   nb::class_<Asset>(module, "Asset")
       .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&, bool, bool>())
       .def("root_motion", &Asset::root_motion)
+      .def("root_step", &Asset::root_step)
       .def("info", &Asset::info)
       .def("mesh", &Asset::mesh)
       .def("polygons", &Asset::polygons)
