@@ -132,17 +132,17 @@ class RegionSearch {
 
   /// Connected vertices.
   void find_pieces() {
-    constexpr auto kNone = UINT32_MAX;
-    piece_.assign(size(), kNone);
+    constexpr auto kNotYet = UINT32_MAX;
+    piece_.assign(size(), kNotYet);
     for (uint32_t first = 0; first < size(); ++first) {
-      if (piece_[first] != kNone)
+      if (piece_[first] != kNotYet)
         continue;
       const auto number = static_cast<uint32_t>(pieces_.size());
       std::vector<uint32_t> found{first};
       piece_[first] = number;
       for (size_t i = 0; i < found.size(); ++i) {
         around(found[i], [&](uint32_t u) {
-          if (piece_[u] == kNone) {
+          if (piece_[u] == kNotYet) {
             piece_[u] = number;
             found.push_back(u);
           }
