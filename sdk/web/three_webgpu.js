@@ -12,7 +12,11 @@ import {
 } from 'three/webgpu';
 import { raycastInstances } from './three_rays.js';
 
-const MATRIX = 0, POSE_MAP = 3, MOTION = 6, SEGMENT = 9, WEIGHTS = 10;  // of an instance, in vectors of four
+const MATRIX = 0, MOTION = 3, SEGMENT = 6, REGIONS = 7;  // of an instance, in vectors of four
+const POSE_MAP = 0, WEIGHTS = 3;  // of one of its regions
+
+/** Vectors of a region: a weight of three numbers to each, or four weights. */
+const regionVectors = ({ components, weightChannels }) => WEIGHTS + (weightChannels === 3 ? components : Math.ceil(components / 4));
 
 const reading = (array, size, type) => {
   const attribute = new StorageBufferAttribute(array, size);
@@ -55,8 +59,7 @@ export class AnicInstances extends Mesh {
     const { normalElements, normalCorners } = mesh.normalPlan;
     this.#plan = { elements: reading(normalElements, 4, 'uvec4'), corners: reading(normalCorners, 4, 'uvec4') };
     const segments = Array.from({ length: mesh.clip.info.segments }, (_, s) => mesh.clip.basis(s)).filter((basis) => basis.mesh === mesh.index && !basis.movesAttribute);
-    const vectors = segments.map(({ components, weightChannels }) => (weightChannels === 3 ? components : Math.ceil(components / 4)));
-    this.#stride = WEIGHTS + Math.max(...vectors, 1);
+    this.#stride = REGIONS + Math.max(...segments.map((basis) => basis.regions * regionVectors(basis)), 1);
     this.#state = reading(new Float32Array(4 * this.#stride * count), 4, 'vec4');
     this.#positions = new StorageBufferAttribute(new Float32Array(4 * mesh.sourceVertexCount * count), 4);
     for (let i = 0; i < count; ++i)
@@ -105,19 +108,23 @@ export class AnicInstances extends Mesh {
     return this.#segments.get(index);
   }
 
-  #pass(index, { components, wideComponents, channels, weightChannels, origin, pose, wide, narrow }) {
+  #pass(index, basis) {
+    const { components, wideComponents, channels, origin, pose, wide, narrow, vertexRegion } = basis;
     const state = this.#state, stride = this.#stride, vertices = this.#mesh.sourceVertexCount, total = vertices * this.count;
     const wides = reading(wide?.length ? wide : new Int32Array(1), 1, 'int'), narrows = reading(packed(narrow), 1, 'uint');
     const poses = reading(pose?.length ? pose : new Float32Array(1), 1, 'float'), out = storage(this.#positions, 'vec4', this.#positions.count);
+    const regions = vertexRegion ? reading(Int32Array.from(vertexRegion), 1, 'int') : undefined;
     return Fn(() => {
       const instance = int(instanceIndex).div(vertices).toVar(), v = int(instanceIndex).mod(vertices).toVar();
       const base = instance.mul(stride).toVar(), of = (i) => state.element(base.add(i));
       If(of(SEGMENT).x.notEqual(float(index)), () => { Return(); });
       const block = v.div(16).toVar(), lane = v.mod(16).toVar(), x = vec3(0).toVar();
-      const moved = (first, p) => vec3(dot(of(first), p), dot(of(first + 1), p), dot(of(first + 2), p));
+      const region = (regions ? base.add(regions.element(v).mul(regionVectors(basis))) : base).add(REGIONS).toVar();
+      const ofRegion = (i) => state.element(region.add(i));
+      const moved = (rows, first, p) => vec3(dot(rows(first), p), dot(rows(first + 1), p), dot(rows(first + 2), p));
       if (pose?.length > 0) {
         const place = (c) => poses.element(block.mul(48).add(16 * c).add(lane));
-        x.assign(moved(POSE_MAP, vec4(place(0), place(1), place(2), 1)));
+        x.assign(moved(ofRegion, POSE_MAP, vec4(place(0), place(1), place(2), 1)));
       }
       const number = (at, isWide) => {
         if (isWide)
@@ -126,19 +133,19 @@ export class AnicInstances extends Mesh {
         return float(int(word.shiftLeft(shift)).shiftRight(int(16)));
       };
       const weight = (j) => {
-        const four = of(j.div(4).add(WEIGHTS)).toVar(), k = j.mod(4);
+        const four = ofRegion(j.div(4).add(WEIGHTS)).toVar(), k = j.mod(4);
         return k.equal(0).select(four.x, k.equal(1).select(four.y, k.equal(2).select(four.z, four.w)));
       };
       const add = (isWide, begin, count) => count > 0 && Loop({ start: int(0), end: int(count), type: 'int', condition: '<' }, ({ i }) => {
         const at = block.mul(count).add(i).mul(channels).mul(16).add(lane).toVar(), j = i.add(begin).toVar();
         if (channels === 1)
-          x.addAssign(of(j.add(WEIGHTS)).xyz.mul(number(at, isWide)));
+          x.addAssign(ofRegion(j.add(WEIGHTS)).xyz.mul(number(at, isWide)));
         else
           x.addAssign(vec3(number(at, isWide), number(at.add(16), isWide), number(at.add(32), isWide)).mul(weight(j)));
       });
       add(true, 0, wideComponents);
       add(false, wideComponents, components - wideComponents);
-      out.element(instanceIndex).assign(vec4(moved(MOTION, vec4(x.add(vec3(...origin)), 1)), 1));
+      out.element(instanceIndex).assign(vec4(moved(of, MOTION, vec4(x.add(vec3(...origin)), 1)), 1));
     })().compute(total);
   }
 
@@ -147,19 +154,23 @@ export class AnicInstances extends Mesh {
   }
 
   /** Writes what an instance shows; false when the CPU has to do it. */
-  #place(instance, { segment, share, correctionCount, poseMap, motion, weightsAt }) {
-    const { basis: { msgi, components, weightChannels } } = this.#segment(segment), { array } = this.#state.attribute;
+  #place(instance, { segment, share, correctionCount, poseMap, poseMapsAt, motion, weightsAt }) {
+    const { basis } = this.#segment(segment), { msgi, components, weightChannels, regions } = basis, { array } = this.#state.attribute;
     if (msgi || share !== 1 || correctionCount > 0)
       return false;
-    array.set(poseMap, this.#at(instance, POSE_MAP));
     array.set(motion, this.#at(instance, MOTION));
     array[this.#at(instance, SEGMENT)] = segment;
-    const weights = this.#mesh.clip.decoder.view(Float32Array, weightsAt, components * weightChannels), to = this.#at(instance, WEIGHTS);
-    if (weightChannels === 3) {
-      for (let j = 0; j < components; ++j)
-        array.set(weights.subarray(3 * j, 3 * j + 3), to + 4 * j);
-    } else {
-      array.set(weights, to);
+    const { decoder } = this.#mesh.clip, count = components * weightChannels, weights = decoder.view(Float32Array, weightsAt, regions * count);
+    const maps = regions > 1 ? decoder.view(Float32Array, poseMapsAt, 12 * regions) : poseMap;
+    for (let r = 0, at = this.#at(instance, REGIONS); r < regions; ++r, at += 4 * regionVectors(basis)) {
+      const own = weights.subarray(count * r, count * (r + 1)), to = at + 4 * WEIGHTS;
+      array.set(maps.slice(12 * r, 12 * r + 12), at + 4 * POSE_MAP);
+      if (weightChannels === 3) {
+        for (let j = 0; j < components; ++j)
+          array.set(own.subarray(3 * j, 3 * j + 3), to + 4 * j);
+      } else {
+        array.set(own, to);
+      }
     }
     return true;
   }
