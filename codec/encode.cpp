@@ -41,6 +41,8 @@ EncodeResult result_of(const std::vector<MeasuredClip>& clips, const EncoderInpu
     const Comparison& clip = clips[c].positions;
     squared += clip.rmse * clip.rmse * input.clips[c].frames.count;
     result.max_error = std::max(result.max_error, clip.max_error);
+    result.max_displacement_error =
+        std::max(result.max_displacement_error, clip.max_displacement_error);
   }
   result.rmse = std::sqrt(squared / result.frames);
   result.kg = clips.size() == 1 ? clips[0].positions.kg
@@ -153,6 +155,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   if (options.root_motion) {
     if (options.part)
       throw Error(ErrorKind::kUsage, "the motion of the whole is of a clip, not of a part");
+    if (is_motion(target.metric))
+      throw Error(ErrorKind::kUsage, "an error of the motion cannot be kept with the motion of the whole apart");
     whole = sequence.positions;
     root = take_root_motion(clip_diagonal, &sequence);
   }
@@ -201,13 +205,14 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     clip.kg = positions.kg;
     clip.rmse = positions.rmse;
     clip.max_error = positions.max_error;
+    clip.max_displacement_error = positions.max_displacement_error;
     clip.attribute_errors = measured[c].attributes;
     if (measured.size() > 1)
       clip.diagonal = positions.diagonal;
     result.clips.push_back({std::string(clip.name.begin(), clip.name.end()),
                             input.clips[c].frames.count, rates[c], clip.kg, clip.rmse,
-                            clip.max_error});
-    const FileMeasures measures{clip.kg,     clip.rmse,       clip.max_error,
+                            clip.max_error, clip.max_displacement_error});
+    const FileMeasures measures{clip.kg,     clip.rmse,       clip.max_error, clip.max_displacement_error,
                                 file.size(), result.vertices, result.frames};
     if (!is_kept(target, cap, measures))
       throw Error(ErrorKind::kInternal, "the encoded file does not keep what was asked");

@@ -19,7 +19,7 @@ constexpr double kSampleKg = 0.1;
 
 bool is_error(ErrorMetric metric) {
   return metric == ErrorMetric::kKg || metric == ErrorMetric::kMaxError ||
-         metric == ErrorMetric::kRmse;
+         metric == ErrorMetric::kRmse || is_motion(metric);
 }
 
 /// Evenly spaced frames with the reference first.

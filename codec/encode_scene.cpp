@@ -174,6 +174,8 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
         all.kind = result.kind;
       all.components = std::max(all.components, result.components);
       all.max_error = std::max(all.max_error, result.max_error);
+      all.max_displacement_error =
+          std::max(all.max_displacement_error, result.max_displacement_error);
       squared += result.rmse * result.rmse * static_cast<double>(result.positions);
       all.positions += result.positions;
       all.attributes.insert(all.attributes.end(), result.attributes.begin(),
@@ -194,6 +196,7 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
       clips_record(scene.clip, options, in_scene_units(options.target, length), {length});
   ClipRecord& clip = record.clips[0];
   clip.max_error = all.max_error;
+  clip.max_displacement_error = all.max_displacement_error;
   clip.rmse = all.rmse;
   clip.kg = all.kg;
   std::vector<PlacedPart> placed;

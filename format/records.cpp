@@ -224,7 +224,8 @@ void write_clip(const ClipRecord& clip, ByteWriter& w) {
   for (double t : clip.times)
     w.f64(t);
   w.u8(static_cast<uint8_t>(clip.asked));
-  for (double x : {clip.asked_value, clip.max_error, clip.rmse, clip.kg, clip.diagonal})
+  for (double x : {clip.asked_value, clip.max_error, clip.rmse, clip.kg,
+                   clip.max_displacement_error, clip.diagonal})
     w.f64(x);
   if (clip.massaged) {
     w.f64(clip.surface_error);
@@ -316,12 +317,13 @@ bool read_clip(ByteReader& r, ClipRecord* out) {
     return false;
   const uint8_t asked = r.u8();
   out->asked = static_cast<ErrorMetric>(asked);
-  for (double* x : {&out->asked_value, &out->max_error, &out->rmse, &out->kg, &out->diagonal})
+  for (double* x : {&out->asked_value, &out->max_error, &out->rmse, &out->kg,
+                    &out->max_displacement_error, &out->diagonal})
     *x = r.f64();
   out->surface_error = out->massaged ? r.f64() : 0;
   out->surface_error_mean = out->massaged ? r.f64() : 0;
-  for (double x : {out->asked_value, out->max_error, out->rmse, out->kg, out->diagonal,
-                   out->surface_error, out->surface_error_mean}) {
+  for (double x : {out->asked_value, out->max_error, out->rmse, out->kg,
+                   out->max_displacement_error, out->diagonal, out->surface_error, out->surface_error_mean}) {
     if (!is_length(x))
       return false;
   }
@@ -330,7 +332,7 @@ bool read_clip(ByteReader& r, ClipRecord* out) {
   if ((flags & kEvents) && !read_events(r, out))
     return false;
   return r.ok() && out->rate_numerator != 0 && out->rate_denominator != 0 && !(flags & 0x80) &&
-         std::isfinite(out->start_time) && asked <= static_cast<uint8_t>(ErrorMetric::kBpfv);
+         std::isfinite(out->start_time) && asked <= static_cast<uint8_t>(ErrorMetric::kSted);
 }
 
 }  // namespace
@@ -367,9 +369,9 @@ Status ClipsRecord::read(ByteView view, const Limits& limits, ClipsRecord* out) 
   const uint8_t order = r.u8();
   out->order = static_cast<OrderMode>(order);
   out->metres_per_unit = static_cast<double>(r.f32());
-  // A clip takes at least 53 bytes.
+  // A clip takes at least 61 bytes.
   if (!r.ok() || out->up > 2 || order > static_cast<uint8_t>(OrderMode::kAll) ||
-      !is_length(out->metres_per_unit) || limits.clip_frames.size() > r.remaining() / 53)
+      !is_length(out->metres_per_unit) || limits.clip_frames.size() > r.remaining() / 61)
     return Status::kRecord;
   out->clips.assign(limits.clip_frames.size(), {});
   for (size_t c = 0; c < out->clips.size(); ++c) {

@@ -101,7 +101,9 @@ enum class ErrorMetric : uint8_t {
   kMaxError = 2,
   kRmse = 3,
   kSize = 4,
-  kBpfv = 5
+  kBpfv = 5,
+  kDisplacement = 6,  ///< the largest error of a move from frame to frame
+  kSted = 7
 };
 enum class OrderMode : uint8_t { kVertices = 0, kFree = 1, kAll = 2 };
 
@@ -138,6 +140,7 @@ struct ClipRecord {
   double max_error = 0;                     ///< measured, scene units
   double rmse = 0;                          ///< measured, scene units
   double kg = 0;                            ///< measured, per cent
+  double max_displacement_error = 0;        ///< measured, of a move from frame to frame, scene units
   double diagonal = 0;                      ///< of the box around all frames
   double surface_error = 0;                 ///< when massaged: how far the surface moved at most
   double surface_error_mean = 0;            ///< and on average

@@ -8,6 +8,8 @@
 #include "format/recursive_least_squares.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -24,10 +26,14 @@ constexpr uint32_t kMedium = 20;  ///< the same, fewer
 constexpr uint32_t kCoarse = 14;  ///< one per octave
 constexpr uint32_t kSelect = 8;
 constexpr uint32_t kMaxChannels = 3;
+constexpr uint32_t kSignGroups = 9;
 constexpr double kBitWorth =
     0.14;                       ///< squared steps that a bit is worth when predictors are compared
 constexpr uint32_t kUnit = 64;  ///< magnitudes are kept in 1/64
-constexpr uint32_t kSpacing = 64;  ///< of the frames the bisection starts from
+
+constexpr uint32_t kMostError = 1U << 28;  ///< of a prediction, in 1/16 step
+constexpr size_t kForward = 3;  ///< predictors that go from frame to frame: the first ones
+constexpr auto kHold = static_cast<size_t>(WeightPredictor::kHold);
 
 uint32_t fine(uint32_t x) {
   return magnitude_class<1>(x, kFine);
@@ -109,42 +115,31 @@ struct TimeWeightModel::State {
   explicit State(const Vector<uint32_t>& runs);
 
   template <class Coder>
-  bool code(Coder& coder, uint32_t channels, const Source* source, WeightPredictor& predictor,
+  void code(Coder& coder, uint32_t channels, const Source* source, WeightPredictor& predictor,
             int32_t* values);
 
  private:
-  using Filter = RecursiveLeastSquares<6>;
+  using Filter = RecursiveLeastSquares<6, 990>;
 
-  struct Regressors {
-    Filter::Vector z{}, weights{};
-    size_t own = 2;     ///< numbers of the channel's values, in front of those of other channels
-    uint32_t kind = 0;  ///< of the filter, see filters_
-  };
+  /// The next value of a row by each predictor that goes from frame to frame.
+  using Predictions = std::array<int32_t, kForward>;
 
   template <class Coder>
-  void code_in_order(Coder& coder, uint32_t channels, const Source* source, int order,
-                     int32_t* values);
-  template <class Coder>
-  void code_bisection(Coder& coder, uint32_t channels, const Source* source, int32_t* values);
-  template <class Coder>
-  void code_frame(Coder& coder, uint32_t channels, const Source* source, int64_t f, int64_t s,
-                  int64_t spacing, uint32_t level, int32_t* values);
+  void code_forward(Coder& coder, uint32_t channels, const Source* source, size_t predictor,
+                    int32_t* values);
   template <class Coder>
   void code_cosine(Coder& coder, uint32_t channels, const Source* source, int32_t* values);
 
   template <class Coder, class Model>
   int32_t code_value(Coder& coder, Model& model, double x, double lambda);
-  void prepare_sign(uint32_t family, uint32_t group, size_t index, uint32_t c, int32_t a, int32_t b,
-                    int32_t d);
+  void prepare_sign(uint32_t group, size_t index, uint32_t c, int32_t a, int32_t b, int32_t d);
   void learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate);
   uint32_t previous(const Trace& trace, int64_t f, int reach) const;
-  Regressors regressors(const int32_t* row, int64_t f, int64_t s, int64_t spacing,
-                        uint32_t level) const;
-  Filter& filter_of(const Regressors& r, uint32_t channels, uint32_t c, size_t size);
+  Filter& filter_of(uint32_t channels, uint32_t c);
+  Filter::Vector regressors(const int32_t* v, uint32_t f, uint32_t c) const;
+  static Predictions predict(const Filter& filter, const Filter::Vector& z, const int32_t* v,
+                             uint32_t f);
   static int32_t rounded_prediction(double predicted);
-  bool is_known(int64_t g, int64_t f, int64_t s) const;
-  void select_bisection(int64_t f, int64_t s, int64_t spacing, uint32_t level, uint32_t c,
-                        uint32_t m4);
 
   /// Place of frame f of the run at hand in a component's arrays, which hold all runs.
   size_t at(uint32_t c, size_t f) const { return size_t{c} * all_frames_ + begin_ + f; }
@@ -152,30 +147,27 @@ struct TimeWeightModel::State {
   Vector<uint32_t> runs_;
   uint32_t all_frames_ = 0;
   uint32_t begin_ = 0, frames_ = 0;  ///< of the run at hand
-  AdaptiveBit predictor_[kWeightPredictors];
-  MixedSymbolModel<5> ordered_;
-  MixedSymbolModel<6> bisection_;
+  AdaptiveBit predictor_[kWeightPredictors - 1];
+  MixedSymbolModel<6> forward_;
   MixedSymbolModel<5> cosine_;
-  /// Per number of channels (1, 3), level and channel. Levels 0 to 5 interpolate; 6 has no frame to
-  /// the right; 7 is the frames at kSpacing.
-  Filter filters_[2][8][3];
+  Filter filters_[2][3];         ///< per number of channels (1, 3) and channel
+  uint32_t errors_[3][kForward]; ///< of predictions in the last eight frames or so, in 1/16 step
   MixedModel<4> signs_;
   int32_t agreement_[3][3];  ///< of the signs of two channels, in this component
   Vector<int32_t> coded_;    ///< of this component, channels x frames
   Trace trace_;              ///< of the component at hand
   Trace before_[2];          ///< of the last one coded over frames; over frequencies
-  uint32_t slow_[3], all_;
+  uint32_t slow_[3];
 };
 
 TimeWeightModel::State::State(const Vector<uint32_t>& runs)
     : runs_(runs),
-      ordered_({kFine * 3, kMedium * kMedium, kFine * 3, kCoarse * kCoarse, kFine}, {kSelect, 3}),
-      bisection_(
-          {kFine * 3 * 8, kMedium * kMedium * 3, kFine * 8, kCoarse * kCoarse, 64, kMedium * 8},
-          {kSelect, 8 * 3}),
+      forward_({kFine * 3, kMedium * kMedium, kFine * 3, kCoarse * kCoarse, kFine,
+                kMedium * kMedium},
+               {kSelect, 3}),
       cosine_({kFine * 3, kMedium * 26, kMedium * kMedium, kCoarse * kCoarse, kMedium * 26},
               {kSelect, 26}),
-      signs_({27 * 24, 49 * 24, 33 * 3, 21 * 24}, {24, 17}, 1) {
+      signs_({27 * kSignGroups, 49 * kSignGroups, 33 * 2, 21 * kSignGroups}, {kSignGroups, 17}, 1) {
   for (uint32_t run : runs_)
     all_frames_ += run;
 }
@@ -213,9 +205,9 @@ int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x,
 }
 
 /// Contexts of the sign of the value at `index`: signs and sizes of three values near it, and of
-/// the channels before.
-void TimeWeightModel::State::prepare_sign(uint32_t family, uint32_t group, size_t index, uint32_t c,
-                                          int32_t a, int32_t b, int32_t d) {
+/// the channels before. group: 0 of a frame, 1 to 8 of a frequency.
+void TimeWeightModel::State::prepare_sign(uint32_t group, size_t index, uint32_t c, int32_t a,
+                                          int32_t b, int32_t d) {
   const auto ternary = [](int32_t x) { return static_cast<uint32_t>(sign(x) + 1); };
   const auto level = [](int32_t x) {
     return static_cast<uint32_t>(3 + sign(x) * static_cast<int32_t>(magnitude_class<0>(
@@ -227,11 +219,10 @@ void TimeWeightModel::State::prepare_sign(uint32_t family, uint32_t group, size_
   const auto strength =
       magnitude_class<1>(static_cast<uint32_t>(evidence < 0 ? -evidence : evidence) >> 2, 16);
   const auto s = static_cast<uint32_t>(16 + sign(evidence) * static_cast<int32_t>(strength));
-  const uint32_t g = family * 8 + group;
-  signs_.select(
-      {((ternary(a) * 3 + ternary(b)) * 3 + ternary(d)) * 24 + g,
-       (level(a) * 7 + level(b)) * 24 + g, s * 3 + family, (level(d) * 3 + ternary(a)) * 24 + g},
-      g, s / 2);
+  signs_.select({((ternary(a) * 3 + ternary(b)) * 3 + ternary(d)) * kSignGroups + group,
+                 (level(a) * 7 + level(b)) * kSignGroups + group, s * 2 + (group > 0),
+                 (level(d) * 3 + ternary(a)) * kSignGroups + group},
+                group, s / 2);
 }
 
 /// rate: of the channel's running mean, in 1/32.
@@ -245,7 +236,6 @@ void TimeWeightModel::State::learn(uint32_t index, uint32_t c, int32_t q, uint32
       agreement += 32 * sign(q) * sign(coded_[at(e, index)]) - agreement / 8;
     }
   slow_[c] = ((32 - rate) * slow_[c] + rate * m) >> 5;
-  all_ = (31 * all_ + m) >> 5;
 }
 
 /// Mean over the channels of an earlier component's magnitudes around f: weights 1 2 1 (reach 1) or
@@ -266,91 +256,31 @@ uint32_t TimeWeightModel::State::previous(const Trace& trace, int64_t f, int rea
   return static_cast<uint32_t>(sum / weight);
 }
 
-template <class Coder>
-void TimeWeightModel::State::code_in_order(Coder& coder, uint32_t channels, const Source* source,
-                                           int order, int32_t* values) {
-  std::fill_n(slow_, 3, 0);
-  all_ = 0;
-  for (uint32_t f = 0; f < frames_ && !exhausted(coder); ++f) {
-    const uint32_t m4 = previous(before_[0], f, 1);
-    for (uint32_t c = 0; c < channels; ++c) {
-      int32_t* v = values + at(c, f);
-      const int32_t prediction = order == 0 || f == 0   ? 0
-                                 : order == 1 || f == 1 ? v[-1]
-                                                        : 2 * v[-1] - v[-2];
-      const uint32_t* m = &trace_.magnitude[at(c, f)];
-      const uint32_t m1 = f == 0 ? 0 : f == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
-      uint32_t m3 = 0;
-      for (uint32_t e = 0; e < channels; ++e)
-        if (e != c && (e < c || f > 0))
-          m3 += trace_.magnitude[at(e, f) - (e < c ? 0 : 1)];
-      m3 /= std::max(channels - 1, 1u);
-      const uint32_t slow = slow_[c], expected = (2 * m1 + 2 * slow + m3 + m4) / 6;
-      ordered_.select(
-          {fine((5 * m1 + 3 * slow) >> 3) * 3 + c, medium(m1) * kMedium + medium(m3),
-           fine(m4) * 3 + std::min(f, 2u), coarse(slow) * kCoarse + coarse(m4), fine(all_)},
-          f == 0 ? kSelect - 1 : selector(expected), c);
-      const int32_t* q0 = &coded_[at(c, f)];
-      prepare_sign(0, static_cast<uint32_t>(order), f, c, f > 0 ? q0[-1] : 0, f > 1 ? q0[-2] : 0,
-                   f > 2 ? q0[-3] : 0);
-      const double x = source ? source->x[at(c, f)] - prediction * (1.0 / kStep) : 0;
-      const int32_t q = code_value(coder, ordered_, x, source ? source->lambda : 0);
-      *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
-      learn(f, c, q, 5);
-    }
-  }
-}
-
-/// The values that predict frame f of one channel: those at distances s and 3 s; s = 0:
-/// those at one and two times `spacing` before.
-TimeWeightModel::State::Regressors TimeWeightModel::State::regressors(const int32_t* row, int64_t f,
-                                                                      int64_t s, int64_t spacing,
-                                                                      uint32_t level) const {
-  const int64_t frames = frames_;
-  const auto value = [&](int64_t g) { return row[g] * (1.0 / kStep); };
-  Regressors r;
-  r.kind = level;
-  if (s == 0) {
-    r.z[0] = f >= spacing ? value(f - spacing) : 0;
-    r.z[1] = f >= 2 * spacing ? value(f - 2 * spacing) : 0;
-    r.weights[0] = 1;
-    return r;
-  }
-  const double a = value(f - s);
-  const bool left = f >= 3 * s;
-  if (f + s >= frames) {
-    r.kind = 6;
-    r.z[0] = a;
-    r.z[1] = left ? value(f - 3 * s) : a;
-    r.weights[0] = 1.25;
-    r.weights[1] = -0.25;
-    return r;
-  }
-  r.own = 4;
-  const double b = value(f + s);
-  const double before = left ? value(f - 3 * s) : 2 * a - b;
-  const double after = f + 3 * s < frames ? value(f + 3 * s) : 2 * b - a;
-  r.z[0] = a + b;
-  r.z[1] = before + after;
-  r.z[2] = a - b;
-  r.z[3] = before - after;
-  r.weights[0] = 0.5625;
-  r.weights[1] = -0.0625;
-  return r;
-}
-
-/// The filter for regressors of `size` numbers, started if it is new.
-TimeWeightModel::State::Filter& TimeWeightModel::State::filter_of(const Regressors& r,
-                                                                  uint32_t channels, uint32_t c,
-                                                                  size_t size) {
-  Filter& filter = filters_[channels == 1 ? 0 : 1][r.kind][c];
-  if (filter.size() == 0) {
-    Filter::Vector variance{};
-    for (size_t i = 0; i < size; ++i)
-      variance[i] = i < r.own ? 0.01 : 0.04;
-    filter.start(size, r.weights, variance);
-  }
+/// The regression of channel c, started if it is new: a straight line.
+TimeWeightModel::State::Filter& TimeWeightModel::State::filter_of(uint32_t channels, uint32_t c) {
+  Filter& filter = filters_[channels == 1 ? 0 : 1][c];
+  if (filter.size() == 0)
+    filter.start(4 + c, {1, 1}, {0.04, 0.04, 0.04, 0.04, 0.04, 0.04});
   return filter;
+}
+
+/// The value before frame f, its first three differences, and the integers of the channels before.
+TimeWeightModel::State::Filter::Vector TimeWeightModel::State::regressors(const int32_t* v,
+                                                                          uint32_t f,
+                                                                          uint32_t c) const {
+  constexpr double kValue = 1.0 / kStep;
+  Filter::Vector z{};
+  if (f > 0)
+    z[0] = v[-1] * kValue;
+  if (f > 1)
+    z[1] = (v[-1] - v[-2]) * kValue;
+  if (f > 2)
+    z[2] = (v[-1] - 2 * v[-2] + v[-3]) * kValue;
+  if (f > 3)
+    z[3] = (v[-1] - 3 * v[-2] + 3 * v[-3] - v[-4]) * kValue;
+  for (uint32_t e = 0; e < c; ++e)
+    z[4 + e] = coded_[at(e, f)];
+  return z;
 }
 
 /// Rounded to a quarter of a step; the comparison is false for what is not a number.
@@ -363,83 +293,62 @@ int32_t TimeWeightModel::State::rounded_prediction(double predicted) {
           : 0);
 }
 
-/// Whether frame g is known while frame f is coded: a multiple of 2 s, or of s and before f.
-bool TimeWeightModel::State::is_known(int64_t g, int64_t f, int64_t s) const {
-  return g >= 0 && g < int64_t{frames_} && (g % (2 * s) == 0 || g < f);
+TimeWeightModel::State::Predictions TimeWeightModel::State::predict(const Filter& filter,
+                                                                    const Filter::Vector& z,
+                                                                    const int32_t* v, uint32_t f) {
+  const int32_t held = f > 0 ? v[-1] : 0;
+  return {f > 1 ? 2 * v[-1] - v[-2] : held, held, rounded_prediction(filter.predict(z))};
 }
 
-/// Contexts of channel c at frame f from magnitudes near it, in the channels before, and (m4) in
-/// the component before; and those of the sign.
-void TimeWeightModel::State::select_bisection(int64_t f, int64_t s, int64_t spacing, uint32_t level,
-                                              uint32_t c, uint32_t m4) {
-  uint32_t m1 = 8 * kUnit, m3 = 0;
-  const uint32_t* m = &trace_.magnitude[at(c, 0)];
-  if (s == 0) {
-    if (f >= spacing)
-      m1 = m[f - spacing];
-  } else {
-    uint32_t sum = 0, count = 0;
-    for (const int64_t d : {-s, s, -2 * s, 2 * s})
-      if (is_known(f + d, f, s)) {
-        sum += m[f + d];
-        ++count;
+template <class Coder>
+void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const Source* source,
+                                          size_t predictor, int32_t* values) {
+  std::fill_n(slow_, 3, 0);
+  for (auto& row : errors_)
+    std::fill(std::begin(row), std::end(row), 0);
+  for (uint32_t f = 0; f < frames_ && !exhausted(coder); ++f) {
+    const uint32_t m4 = previous(before_[0], f, 1);
+    for (uint32_t c = 0; c < channels; ++c) {
+      int32_t* v = values + at(c, f);
+      Filter& filter = filter_of(channels, c);
+      const Filter::Vector z = regressors(v, f, c);
+      const Predictions p = predict(filter, z, v, f);
+      const int32_t prediction = p[predictor];
+      const uint32_t* m = &trace_.magnitude[at(c, f)];
+      const uint32_t m1 = f == 0 ? 0 : f == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
+      uint32_t m3 = 0;
+      for (uint32_t e = 0; e < channels; ++e)
+        if (e != c && (e < c || f > 0))
+          m3 += trace_.magnitude[at(e, f) - (e < c ? 0 : 1)];
+      m3 /= std::max(channels - 1, 1u);
+      const uint32_t slow = slow_[c], expected = (2 * m1 + 2 * slow + m3 + m4) / 6;
+      const auto [least, most] = std::minmax_element(p.begin(), p.end());
+      const auto spread = static_cast<uint32_t>(std::min(*most - *least, 1 << 28)) * (kUnit / kStep);
+      const uint32_t error = errors_[c][predictor] >> 1;
+      forward_.select(
+          {fine((5 * m1 + 3 * slow) >> 3) * 3 + c, medium(m1) * kMedium + medium(m3),
+           fine(m4) * 3 + std::min(f, 2u), coarse(slow) * kCoarse + coarse(m4), fine(spread),
+           medium(error) * kMedium + medium(spread)},
+          f == 0 ? kSelect - 1 : selector(expected), c);
+      // Where two other predictions are; of the predictor at hand that is held.
+      const auto beside = [&](WeightPredictor other) {
+        const auto k = static_cast<size_t>(other);
+        return (p[k == predictor ? kHold : k] - prediction) >> 3;
+      };
+      prepare_sign(0, f, c, beside(WeightPredictor::kRegression),
+                   f > 0 ? coded_[at(c, f) - 1] : 0, beside(WeightPredictor::kLine));
+      const double x = source ? source->x[at(c, f)] - prediction * (1.0 / kStep) : 0;
+      const int32_t q = code_value(coder, forward_, x, source ? source->lambda : 0);
+      *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
+      learn(f, c, q, 5);
+      for (size_t k = 0; k < kForward; ++k) {
+        const auto miss = static_cast<uint32_t>(std::abs(*v - p[k]));
+        errors_[c][k] += std::min(miss, kMostError) - (errors_[c][k] >> 3);
       }
-    m1 = sum / count;
+      const double noise = slow_[c] * (1.0 / kUnit);
+      filter.learn(z, *v * (1.0 / kStep), 1.0 / 12 + noise * noise);
+    }
   }
-  for (uint32_t e = 0; e < c; ++e)
-    m3 += trace_.magnitude[at(e, static_cast<size_t>(f))];
-  m3 = c == 0 ? m1 : m3 / c;
-  const uint32_t slow = slow_[c], expected = (slow + m3 + 2 * m4 + (c ? 0 : all_)) / 4;
-  bisection_.select({(fine(slow) * 3 + c) * 8 + level, (medium(m3) * kMedium + medium(m4)) * 3 + c,
-                     fine(m4) * 8 + level, coarse(m1) * kCoarse + coarse(m4),
-                     magnitude_class<2>(expected, 64), medium(all_) * 8 + level},
-                    selector(expected), level * 3 + c);
-  const int32_t* q0 = &coded_[at(c, 0)];
-  const auto near = [&](int64_t g) { return s != 0 && is_known(g, f, s) ? q0[g] : 0; };
-  prepare_sign(1, level, static_cast<size_t>(f), c, near(f - 2 * s), near(f - s), near(f + s));
-}
-
-/// Codes all channels of frame f from those at distances s and 3 s; s = 0: a frame at `spacing`.
-template <class Coder>
-void TimeWeightModel::State::code_frame(Coder& coder, uint32_t channels, const Source* source,
-                                        int64_t f, int64_t s, int64_t spacing, uint32_t level,
-                                        int32_t* values) {
-  const uint32_t m4 = previous(before_[0], f, 1);
-  for (uint32_t c = 0; c < channels; ++c) {
-    const int32_t* row = values + at(c, 0);
-    Regressors r = regressors(row, f, s, spacing, level);
-    size_t size = r.own;
-    if (s != 0)
-      for (uint32_t e = 0; e < c; ++e)
-        r.z[size++] = coded_[at(e, static_cast<size_t>(f))];
-    Filter& filter = filter_of(r, channels, c, size);
-    const int32_t prediction = rounded_prediction(filter.predict(r.z));
-    select_bisection(f, s, spacing, level, c, m4);
-    const size_t index = at(c, static_cast<size_t>(f));
-    const double x = source ? source->x[index] - prediction * (1.0 / kStep) : 0;
-    const int32_t q = code_value(coder, bisection_, x, source ? source->lambda : 0);
-    values[index] = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
-    learn(static_cast<uint32_t>(f), c, q, 5);
-    const double noise = slow_[c] * (1.0 / kUnit);
-    filter.learn(r.z, row[f] * (1.0 / kStep), 1.0 / 12 + noise * noise);
-  }
-}
-
-template <class Coder>
-void TimeWeightModel::State::code_bisection(Coder& coder, uint32_t channels, const Source* source,
-                                            int32_t* values) {
-  const int64_t frames = frames_;
-  int64_t spacing = 1;
-  while (spacing * 2 < frames && spacing < int64_t{kSpacing})
-    spacing *= 2;
-  std::fill_n(slow_, 3, 8 * kUnit);
-  all_ = 8 * kUnit;
-  for (int64_t f = 0; f < frames && !exhausted(coder); f += spacing)
-    code_frame(coder, channels, source, f, 0, spacing, 7, values);
-  uint32_t level = 0;
-  for (int64_t s = spacing / 2; s >= 1; s /= 2, ++level)
-    for (int64_t f = s; f < frames && !exhausted(coder); f += 2 * s)
-      code_frame(coder, channels, source, f, s, spacing, level, values);
 }
 
 template <class Coder>
@@ -451,7 +360,6 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
     for (uint32_t c = 0; c < channels; ++c)
       transform.forward(source->x + at(c, 0), &target[size_t{c} * frames_]);
   std::fill_n(slow_, 3, 4 * kUnit);
-  all_ = 0;
   for (uint32_t k = 0; k < frames_ && !exhausted(coder); ++k) {
     const uint32_t m4 = before_[1].channels ? previous(before_[1], k, 2) : 0;
     // Half octaves of the frequency.
@@ -471,7 +379,7 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
           selector(expected), band);
       const size_t index = size_t{c} * frames_ + k;
       const int32_t* q0 = &coded_[at(c, k)];
-      prepare_sign(2, std::min(band, 7u), k, c, k > 0 ? q0[-1] : 0, k > 1 ? q0[-2] : 0,
+      prepare_sign(1 + std::min(band, 7u), k, c, k > 0 ? q0[-1] : 0, k > 1 ? q0[-2] : 0,
                    k > 2 ? q0[-3] : 0);
       int32_t q =
           code_value(coder, cosine_, source ? target[index] : 0, source ? source->lambda : 0);
@@ -484,7 +392,7 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
 }
 
 template <class Coder>
-bool TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source* source,
+void TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source* source,
                                   WeightPredictor& predictor, int32_t* values) {
   const auto wanted = static_cast<uint32_t>(predictor);
   uint32_t p = 0;
@@ -492,26 +400,28 @@ bool TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source*
     ++p;
   predictor = static_cast<WeightPredictor>(p);
   const bool cosine = predictor == WeightPredictor::kCosine;
-  if (cosine && *std::max_element(runs_.begin(), runs_.end()) > CosineTransform::kMaxLength)
-    return false;
   std::fill_n(values, size_t{channels} * all_frames_, 0);
   trace_.start(channels, all_frames_);
   coded_.assign(size_t{channels} * all_frames_, 0);
   for (auto& row : agreement_)
     std::fill(std::begin(row), std::end(row), 0);
+  uint32_t run_end = 0;
   begin_ = 0;
   for (uint32_t run : runs_) {
+    run_end += run;
     frames_ = run;
-    if (cosine)
+    if (!cosine)
+      code_forward(coder, channels, source, p, values);
+    // Pieces of a length as equal as can be, none of them longer than a transform.
+    for (uint32_t pieces = (run - 1) / CosineTransform::kMaxLength + 1; cosine && pieces > 0;
+         --pieces) {
+      frames_ = (run_end - begin_) / pieces;
       code_cosine(coder, channels, source, values);
-    else if (predictor == WeightPredictor::kBisection)
-      code_bisection(coder, channels, source, values);
-    else
-      code_in_order(coder, channels, source, static_cast<int>(p), values);
-    begin_ += run;
+      begin_ += frames_;
+    }
+    begin_ = run_end;
   }
   std::swap(before_[cosine], trace_);
-  return true;
 }
 
 void TimeWeightModel::Release::operator()(State* state) const {
@@ -542,17 +452,15 @@ TimeWeightModel::StatePointer TimeWeightModel::make_state(const Source& source) 
 
 TimeWeightModel::TimeWeightModel(const Vector<uint32_t>& runs)
     : frames_(std::accumulate(runs.begin(), runs.end(), 0U)),
-      longest_run_(runs.empty() ? 0 : *std::max_element(runs.begin(), runs.end())),
       state_(make_state(runs)) {}
 
 TimeWeightModel::~TimeWeightModel() = default;
 
 TimeWeightModel::TimeWeightModel(const TimeWeightModel& other)
-    : frames_(other.frames_), longest_run_(other.longest_run_), state_(make_state(*other.state_)) {}
+    : frames_(other.frames_), state_(make_state(*other.state_)) {}
 
 TimeWeightModel& TimeWeightModel::operator=(const TimeWeightModel& other) {
   frames_ = other.frames_;
-  longest_run_ = other.longest_run_;
   *state_ = *other.state_;
   return *this;
 }
@@ -563,22 +471,21 @@ Status TimeWeightModel::decode(BinaryDecoder& decoder, uint32_t channels, int32_
   if (frames_ == 0)
     return Status::kOk;
   WeightPredictor predictor{};
-  const bool ok = state_->code(decoder, channels, nullptr, predictor, values);
-  return ok && decoder.ok() ? Status::kOk : Status::kEntropy;
+  state_->code(decoder, channels, nullptr, predictor, values);
+  return decoder.ok() ? Status::kOk : Status::kEntropy;
 }
 
 TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t channels,
                                                 const double* x, double lambda, int32_t* values,
                                                 uint32_t allowed) {
   const Source source{x, lambda};
-  Choice best{WeightPredictor::kOrder0, 0, 0};
+  Choice best{WeightPredictor::kLine, 0, 0};
   if (frames_ == 0)
     return best;
   double least = std::numeric_limits<double>::max();
-  for (uint32_t p = kWeightPredictors; p-- > 0;) {  // the last are the best as a rule: others end soon
+  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
     auto predictor = static_cast<WeightPredictor>(p);
-    if (!(allowed >> p & 1) ||
-        (predictor == WeightPredictor::kCosine && longest_run_ > CosineTransform::kMaxLength))
+    if (!(allowed >> p & 1))
       continue;
     State trial = *state_;
     DryEncoder dry(least / kBitWorth);
@@ -591,7 +498,7 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
       error += d * d;
     }
     const double cost = error + kBitWorth * dry.bits();
-    if (cost <= least) {
+    if (cost < least) {
       least = cost;
       best = {predictor, error, dry.bits()};
     }

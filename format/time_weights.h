@@ -18,15 +18,13 @@ namespace anicodec {
 
 /// How the weights of a component are predicted in time; chosen per component. Numbers are pinned.
 enum class WeightPredictor : uint8_t {
-  kOrder0 = 0,
-  kOrder1 = 1,
-  kOrder2 = 2,  ///< a straight line through the two frames before
-  kBisection =
-      3,        ///< frames in halving distances, interpolated from both sides by adapting weights
-  kCosine = 4,  ///< discrete cosine transform over all frames of a run
+  kLine = 0,        ///< through the two frames before
+  kHold = 1,        ///< the frame before
+  kRegression = 2,  ///< on the four frames before and the channels before, which adapts
+  kCosine = 3,      ///< discrete cosine transform over the frames of a run
 };
 
-constexpr uint32_t kWeightPredictors = 5;
+constexpr uint32_t kWeightPredictors = 4;
 
 /// Decoded weights are in 1/16 of the weight step.
 constexpr int kWeightFractionBits = 4;
@@ -37,7 +35,7 @@ constexpr int32_t kWeightLimit = 1 << 22;
 /// Codes the time weights of the components of one segment, one component after the other:
 /// `channels` (1 or 3) rows of `frames` values each. The frames are runs, one for each clip that the
 /// segment has frames of: nothing is predicted over the end of a run, which would be a hard cut.
-/// Contexts and the bisection's weights carry over from run to run and from component to component.
+/// Contexts and regressions carry over from run to run and from component to component.
 /// Memory: about 0.5 MiB and 80 bytes per frame.
 class TimeWeightModel {
  public:
@@ -52,8 +50,8 @@ class TimeWeightModel {
   TimeWeightModel& operator=(const TimeWeightModel&);
 
   /// Reads a component into `values`: channels x frames. kEntropy: not a stream of an encoder;
-  /// values are then arbitrary but within limits. O(frames x channels), with kCosine O(frames^2 x
-  /// channels) for each run, which takes at most CosineTransform::kMaxLength frames.
+  /// values are then arbitrary but within limits. O(frames x channels), with kCosine times the
+  /// length of a transform, at most CosineTransform::kMaxLength.
   Status decode(BinaryDecoder& decoder, uint32_t channels, int32_t* values);
 
   struct Choice {
@@ -83,8 +81,7 @@ class TimeWeightModel {
   template <class Source>
   static StatePointer make_state(const Source& source);
 
-  uint32_t frames_;       ///< of all runs
-  uint32_t longest_run_;  ///< in frames
+  uint32_t frames_;  ///< of all runs
   StatePointer state_;
 };
 

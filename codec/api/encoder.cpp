@@ -190,6 +190,7 @@ void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_e
   out->max_error = result.max_error;
   out->rmse = result.rmse;
   out->kg = result.kg;
+  out->max_displacement_error = result.max_displacement_error;
   out->diagonal = result.diagonal;
   out->components = result.components;
   out->basis = static_cast<anic_basis_kind>(result.kind);

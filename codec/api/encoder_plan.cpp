@@ -44,7 +44,8 @@ double amount(double value, const char* what) {
 void set_goal(const anic_encode_options& host, EncodeOptions& options) {
   constexpr ErrorMetric kMetrics[] = {ErrorMetric::kNone, ErrorMetric::kMaxError,
                                       ErrorMetric::kKg,   ErrorMetric::kRmse,
-                                      ErrorMetric::kSize, ErrorMetric::kBpfv};
+                                      ErrorMetric::kSize, ErrorMetric::kBpfv,
+                                      ErrorMetric::kDisplacement, ErrorMetric::kSted};
   const ErrorMetric metric = chosen(host.goal, kMetrics, "goal");
   const bool percent = host.flags & ANIC_ENCODE_PERCENT;
   if (host.flags & ANIC_ENCODE_LOSSLESS) {
@@ -56,7 +57,8 @@ void set_goal(const anic_encode_options& host, EncodeOptions& options) {
   if (metric != ErrorMetric::kNone) {
     if (!(std::isfinite(host.goal_value) && host.goal_value > 0))
       refuse("the goal must be finite and greater than 0");
-    const bool length = metric == ErrorMetric::kMaxError || metric == ErrorMetric::kRmse;
+    const bool length = metric == ErrorMetric::kMaxError || metric == ErrorMetric::kRmse ||
+                        metric == ErrorMetric::kDisplacement;
     if (percent && !length)
       refuse("only lengths are in per cent of the diagonal");
     options.target = {metric, host.goal_value, percent};

@@ -99,6 +99,7 @@ struct ClipResult {
   double kg = 0;         ///< per cent
   double rmse = 0;       ///< scene units
   double max_error = 0;  ///< scene units
+  double max_displacement_error = 0;  ///< of a move from frame to frame, scene units
 };
 
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
@@ -114,6 +115,7 @@ struct EncodeResult {
   double kg = 0;         ///< per cent
   double rmse = 0;       ///< scene units
   double max_error = 0;  ///< scene units
+  double max_displacement_error = 0;  ///< of a move from frame to frame, scene units
   double diagonal = 0;
   std::vector<AttributeResult> attributes;  ///< those that change
   std::vector<ClipResult> clips;            ///< in the order of their frames

@@ -120,6 +120,10 @@ ClipsRecord joined_record(const std::vector<OpenPart>& parts) {
     if (r.kg > 0)
       reference += of_part / (r.kg * r.kg / 1e4);
     frames += part.limits.frames;
+    // Of the move from one part to the next, no more is known than the errors of its two frames.
+    const double seam = &part == parts.data() ? 0 : (&part)[-1].clip().max_error + r.max_error;
+    record.max_displacement_error =
+        std::max({record.max_displacement_error, r.max_displacement_error, seam});
     record.max_error = std::max(record.max_error, r.max_error);
     record.diagonal = std::max(record.diagonal, r.diagonal);
     record.surface_error = std::max(record.surface_error, r.surface_error);
@@ -129,7 +133,10 @@ ClipsRecord joined_record(const std::vector<OpenPart>& parts) {
     for (double t : r.times)
       record.times.push_back(r.start_time - record.start_time + t);
   }
-  if (record.asked == ErrorMetric::kSize || record.asked == ErrorMetric::kNone) {
+  const bool of_motion = record.asked == ErrorMetric::kSted ||
+                         (record.asked == ErrorMetric::kDisplacement &&
+                          !(record.max_displacement_error <= record.asked_value));
+  if (record.asked == ErrorMetric::kSize || record.asked == ErrorMetric::kNone || of_motion) {
     record.asked = ErrorMetric::kNone;
     record.asked_value = 0;
   }

@@ -39,9 +39,12 @@ bool is_kept(const Target& target, std::optional<double> cap, const FileMeasures
       return file.rmse <= target.value;
     case ErrorMetric::kMaxError:
       return file.max_error <= target.value;
+    case ErrorMetric::kDisplacement:
+      return file.max_displacement_error <= target.value;
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
       return static_cast<double>(file.bytes) <= *allowed_bytes(target, file.vertices, file.frames);
+    case ErrorMetric::kSted:
     case ErrorMetric::kNone:
       break;
   }

@@ -36,17 +36,24 @@ inline bool is_size(const Target& target) {
   return target.metric == ErrorMetric::kSize || target.metric == ErrorMetric::kBpfv;
 }
 
+/// Whether a target is about how a clip moves, which is measured over pairs of frames and not frame
+/// by frame.
+inline bool is_motion(ErrorMetric metric) {
+  return metric == ErrorMetric::kDisplacement || metric == ErrorMetric::kSted;
+}
+
 /// Errors measured on a file: KG in per cent, lengths in scene units.
 struct FileMeasures {
   double kg = 0;
   double rmse = 0;
   double max_error = 0;
+  double max_displacement_error = 0;
   size_t bytes = 0;
   uint32_t vertices = 0;
   uint32_t frames = 0;
 };
 
-/// Whether a file keeps to the target, and to the largest maximum error `cap` if there is one.
+/// Whether a file keeps to the target, but for a STED, and to the largest maximum error `cap` if there is one.
 bool is_kept(const Target& target, std::optional<double> cap, const FileMeasures& file);
 
 /// A number for a message, with four digits.

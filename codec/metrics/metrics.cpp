@@ -83,7 +83,7 @@ Comparison compare(const Polygons& polygons, uint32_t vertex_count, uint32_t fra
   if (options.sted)
     sted.emplace(polygons, vertex_count);
   Box box;
-  double error_sum = 0, spread_sum = 0, displacement_sum = 0, max_square = 0;
+  double error_sum = 0, spread_sum = 0, displacement_sum = 0, max_square = 0, max_change = 0;
   // Errors are kept in double: the difference of two differences would lose what they agree in.
   std::vector<double> error(size_t{vertex_count} * 3);
   result.frames.reserve(frame_count);
@@ -104,7 +104,10 @@ Comparison compare(const Polygons& polygons, uint32_t vertex_count, uint32_t fra
         error[i + axis] = e;
       }
       frame_sum += square;
-      displacement_sum += f == 0 ? 0 : change;
+      if (f > 0) {
+        displacement_sum += change;
+        max_change = std::max(max_change, change);
+      }
       if (square > frame_max) {
         frame_max = square;
         frame.max_vertex = v;
@@ -127,6 +130,7 @@ Comparison compare(const Polygons& polygons, uint32_t vertex_count, uint32_t fra
   result.kg = 100 * std::sqrt(error_sum) / (spread_sum == 0 ? 1 : std::sqrt(spread_sum));
   result.rmse = std::sqrt(error_sum / samples);
   result.max_error = std::sqrt(max_square);
+  result.max_displacement_error = std::sqrt(max_change);
   result.diagonal = box.diagonal();
   result.psnr = result.rmse == 0 ? std::numeric_limits<double>::infinity()
                                  : 20 * std::log10(result.diagonal / result.rmse);

@@ -35,6 +35,7 @@ struct Comparison {
   /// sqrt of the mean over frames 1.. and vertices of the squared length of the difference of the
   /// moves since the frame before, scene units; 0 for one frame.
   double displacement_error = 0;
+  double max_displacement_error = 0;  ///< the largest of these lengths
   bool has_sted = false;
   Sted sted;  ///< if has_sted
   std::vector<FrameError> frames;

@@ -86,14 +86,12 @@ const std::vector<LinearStep>& opening_steps() {
 
 const char* mean_of(WeightPredictor predictor) {
   switch (predictor) {
-    case WeightPredictor::kOrder0:
+    case WeightPredictor::kLine:
       return nullptr;
-    case WeightPredictor::kOrder1:
+    case WeightPredictor::kHold:
       return "weights from the frame before";
-    case WeightPredictor::kOrder2:
-      return "weights from two frames before";
-    case WeightPredictor::kBisection:
-      return "weights from both sides";
+    case WeightPredictor::kRegression:
+      return "weights by regression";
     case WeightPredictor::kCosine:
       return "weights by cosines";
   }

@@ -41,7 +41,7 @@ Solution RateControl::solve() {
 }
 
 void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
-  std::optional<Solution> solution = search_.reach(coder);
+  std::optional<Solution> solution = search_.reach(coder, best->has_value() ? &**best : nullptr);
   if (solution && (!*best || search_.better(*solution, **best)))
     *best = std::move(solution);
 }
@@ -110,7 +110,7 @@ std::optional<Solution> RateControl::by_linear_bases() {
   const auto used =
       std::ranges::find_if(coders, [&](const auto& coder) { return coder->kind() == kind; });
   std::optional<Solution> cut = cut_in_time(*best, **used);
-  return cut && search_.better(*cut, *best) ? std::move(cut) : std::move(best);
+  return cut && search_.better(*cut, *best) && search_.keeps_motion(*cut) ? std::move(cut) : std::move(best);
 }
 
 std::optional<Solution> RateControl::cut_in_time(const Solution& whole, const LinearCoder& coder) {

@@ -16,18 +16,24 @@
 namespace anicodec {
 
 /// Finds what one coder does for a target: an error is met directly, a maximum error with
-/// corrections of outliers, a size by bisection.
+/// corrections of outliers, a size by bisection, an error of the motion by the mean error that
+/// leads to it.
 class TargetSearch {
  public:
   /// Throws Error(kUsage) for a maximum error that float32 cannot keep.
   TargetSearch(const EncoderInput& input, const EncodeOptions& options, const Target& target,
                double diagonal);
 
-  /// The best file of a coder that keeps to the target; nothing when there is none.
-  std::optional<Solution> reach(SegmentCoder& coder);
+  /// The best file of a coder that keeps to the target; nothing when there is none. It need not be the
+  /// best if it is far behind `rival`, which another coder made: null for none.
+  std::optional<Solution> reach(SegmentCoder& coder, const Solution* rival = nullptr);
 
   /// Whether a is the better of two files that keep to the target.
   bool better(const Solution& a, const Solution& b) const;
+
+  /// Whether a file that was put together otherwise keeps to a target that is about motion; true for
+  /// other targets.
+  bool keeps_motion(const Solution& solution) const;
 
   /// About the root mean square error of a file that keeps to the target.
   double typical_rmse() const;
@@ -41,7 +47,8 @@ class TargetSearch {
 
  private:
   std::optional<Solution> at_rmse(SegmentCoder& coder, double rmse);
-  std::optional<Solution> at_max_error(SegmentCoder& coder, double bound);
+  std::optional<Solution> at_max_error(SegmentCoder& coder, double bound, const Solution* rival);
+  std::optional<Solution> at_motion_error(SegmentCoder& coder, double bound);
   std::optional<Solution> at_bytes(SegmentCoder& coder, size_t bytes);
 
   const EncoderInput& input_;

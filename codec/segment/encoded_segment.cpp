@@ -43,6 +43,49 @@ double squared_distance(const float* a, const float* b) {
   return s;
 }
 
+/// Squared distance of a decoded vertex from the source once it is corrected.
+double error_of(const IntegerCorrection& c, const float* decoded, const float* original,
+                double step) {
+  float corrected[3];
+  for (size_t i = 0; i < 3; ++i)
+    corrected[i] = decoded[i] + static_cast<float>(c.delta[i] * step);
+  return squared_distance(corrected, original);
+}
+
+IntegerCorrection nearest_correction(const float* decoded, const float* original, double step) {
+  IntegerCorrection c;
+  for (size_t i = 0; i < 3; ++i) {
+    const double steps = std::round(
+        (static_cast<double>(original[i]) - static_cast<double>(decoded[i])) / step);
+    c.delta[i] = static_cast<int32_t>(std::clamp(steps, -1e9, 1e9));
+  }
+  return c;
+}
+
+/// Makes numbers of a correction smaller by one as long as the vertex stays within `bound`, that first
+/// which costs the least error: fewer bits.
+void shorten(const float* decoded, const float* original, double step, double bound,
+             IntegerCorrection& c) {
+  for (;;) {
+    IntegerCorrection best = c;
+    double least = bound * bound;
+    for (size_t i = 0; i < 3; ++i) {
+      if (c.delta[i] == 0)
+        continue;
+      IntegerCorrection shorter = c;
+      shorter.delta[i] -= c.delta[i] > 0 ? 1 : -1;
+      const double error = error_of(shorter, decoded, original, step);
+      if (error <= least) {
+        least = error;
+        best = shorter;
+      }
+    }
+    if (std::equal(best.delta, best.delta + 3, c.delta))
+      return;
+    c = best;
+  }
+}
+
 }  // namespace
 
 size_t EncodedSegment::bytes() const {
@@ -118,15 +161,10 @@ void correct(const FrameView& source, const std::vector<uint32_t>& copies, doubl
       const float *d = decoded + size_t{3} * v, *o = original + size_t{3} * v;
       if (squared_distance(d, o) <= bound * bound)
         continue;
-      IntegerCorrection& c = frames[f].emplace_back();
+      IntegerCorrection& c = frames[f].emplace_back(nearest_correction(d, o, step));
       c.vertex = v;
-      float corrected[3];
-      for (size_t i = 0; i < 3; ++i) {
-        double steps = std::round((static_cast<double>(o[i]) - static_cast<double>(d[i])) / step);
-        c.delta[i] = static_cast<int32_t>(std::clamp(steps, -1e9, 1e9));
-        corrected[i] = d[i] + static_cast<float>(c.delta[i] * step);
-      }
-      too_fine[f] |= squared_distance(corrected, o) > bound * bound;
+      too_fine[f] |= error_of(c, d, o, step) > bound * bound;
+      shorten(d, o, step, 0.98 * bound, c);
     }
   });
   if (std::find(too_fine.begin(), too_fine.end(), 1) != too_fine.end())

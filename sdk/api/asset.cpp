@@ -62,6 +62,7 @@ anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
   filled.max_error = first.max_error;
   filled.rmse = first.rmse;
   filled.kg = first.kg;
+  filled.max_displacement_error = first.max_displacement_error;
   filled.surface_error = first.surface_error;
   filled.surface_error_mean = first.surface_error_mean;
   filled.name = first.name;
@@ -100,6 +101,7 @@ anic_status anic_clip_info(const anic_asset* asset, uint32_t clip, anic_clip* ou
   filled.max_error = record.max_error;
   filled.rmse = record.rmse;
   filled.kg = record.kg;
+  filled.max_displacement_error = record.max_displacement_error;
   filled.surface_error = record.surface_error;
   filled.surface_error_mean = record.surface_error_mean;
   give(filled, out);

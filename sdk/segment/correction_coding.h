@@ -43,6 +43,7 @@ class CorrectionCoding {
     }
     corrected_blocks_.clear();
     uint32_t left_block = 0, left = 0;  // neighbours to the left: corrected or not
+    uint8_t beside = 0;                 // signs of the vertex to the left
     for (uint32_t b = 0; b < block_before_.size(); ++b) {
       uint32_t first = b * kBlock, last = std::min(first + kBlock, vertices_);
       bool here = at < frame->size() && (*frame)[at].vertex < last;
@@ -51,13 +52,15 @@ class CorrectionCoding {
       left_block = block_before_[b] = here;
       if (!here) {
         left = 0;
+        beside = 0;
         if (was_here)
           std::fill(before_.begin() + first, before_.begin() + last, uint8_t{0});
         continue;
       }
       for (uint32_t v = first; v < last; ++v) {
         bool corrected = at < frame->size() && (*frame)[at].vertex == v;
-        corrected = coder.bit(vertex_[left + 4U * before_[v]], corrected);
+        const uint8_t before = before_[v];
+        corrected = coder.bit(vertex_[left + 4U * (before != 0)], corrected);
         left = (left << 1 | uint32_t{corrected}) & 3;
         if (corrected) {
           if constexpr (Coder::kDecodes) {
@@ -67,11 +70,14 @@ class CorrectionCoding {
           }
           for (uint32_t c = 0; c < 3; ++c) {
             int32_t& d = (*frame)[at].delta[c];
-            d = delta_[c + 3U * before_[v]].code(coder, d);
+            d = delta_[c][ternary(before, c)][ternary(beside, c)].code(coder, d);
           }
+          before_[v] = signs((*frame)[at].delta);
           ++at;
+        } else {
+          before_[v] = 0;
         }
-        before_[v] = corrected;
+        beside = before_[v];
       }
       corrected_blocks_.push_back(b);
       if (!alive(coder))
@@ -91,6 +97,17 @@ class CorrectionCoding {
     corrected_blocks_.clear();
   }
 
+  /// What is kept of a correction: 0 of none, else 64 and a sign in two bits for each coordinate.
+  static uint8_t signs(const int32_t (&delta)[3]) {
+    uint32_t packed = 64;
+    for (uint32_t c = 0; c < 3; ++c)
+      packed |= (delta[c] > 0 ? 1U : delta[c] < 0 ? 2U : 0U) << (2 * c);
+    return static_cast<uint8_t>(packed);
+  }
+
+  /// 0, 1 if it is positive, 2 if it is negative.
+  static uint32_t ternary(uint8_t packed, uint32_t c) { return packed >> (2 * c) & 3U; }
+
   template <class Coder>
   static bool alive(const Coder& coder) {
     if constexpr (Coder::kDecodes)
@@ -99,11 +116,12 @@ class CorrectionCoding {
   }
 
   uint32_t vertices_;
-  Vector<uint8_t> before_, block_before_;  ///< corrected in the previous frame
+  Vector<uint8_t> before_;         ///< corrections of the previous frame, as signs() tells them
+  Vector<uint8_t> block_before_;   ///< has any in the previous frame
   Vector<uint32_t> corrected_blocks_;      ///< of the previous frame
   bool any_before_ = false;
   AdaptiveBit any_[2], block_[4], vertex_[8];
-  SymbolModel<> delta_[6];
+  SymbolModel<> delta_[3][3][3];  ///< coordinate, signs of the frame before and of the left
 };
 
 }  // namespace anicodec

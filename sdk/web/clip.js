@@ -36,11 +36,11 @@ export class Clip {
     this.#seeked = undefined;
     decoder.call('info');
     const [meshes, segments, frames, rate, up, rateAssumed, uneven, loop, closedLoop, partial, startTime, duration, loopDuration,
-      metresPerUnit, diagonal, maxError, rmse, kg, residentBytes, contextBytes] = decoder.numbers(20);
+      metresPerUnit, diagonal, maxError, rmse, kg, maxDisplacementError, residentBytes, contextBytes] = decoder.numbers(21);
     this.info = Object.freeze({
       name: decoder.string(decoder.run('name')), frames, rate, rateAssumed: !!rateAssumed, uneven: !!uneven, loop: !!loop,
       closedLoop: !!closedLoop, partial: !!partial, startTime, duration, loopDuration, up: [undefined, 'y', 'z'][up],
-      metresPerUnit: metresPerUnit || undefined, diagonal, maxError, rmse, kg, segments, residentBytes, contextBytes,
+      metresPerUnit: metresPerUnit || undefined, diagonal, maxError, rmse, kg, maxDisplacementError, segments, residentBytes, contextBytes,
     });
     this.clips = Object.freeze(Array.from({ length: decoder.run('clip_count') }, (_, i) => this.#clipInfo(i)));
     this.#first = this.clips.find(({ isOpen }) => isOpen);
@@ -54,10 +54,11 @@ export class Clip {
     const decoder = this.#decoder;
     decoder.call('clip', index);
     const [name, firstFrame, frames, rate, rateAssumed, uneven, loop, closedLoop, isOpen, startTime, duration, loopDuration, diagonal,
-      maxError, rmse, kg] = decoder.numbers(16);
+      maxError, rmse, kg, maxDisplacementError] = decoder.numbers(17);
     return Object.freeze({
       index, name: decoder.string(name), firstFrame, frames, rate, rateAssumed: !!rateAssumed, uneven: !!uneven, loop: !!loop,
       closedLoop: !!closedLoop, isOpen: !!isOpen, startTime, duration, loopDuration, diagonal, maxError, rmse, kg,
+      maxDisplacementError,
       events: this.#events(index),
     });
   }

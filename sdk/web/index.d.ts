@@ -78,6 +78,7 @@ export interface NamedClip {
   readonly maxError: number;
   readonly rmse: number;
   readonly kg: number;
+  readonly maxDisplacementError: number;
   /** Named times, seconds from its first frame on. */
   readonly events: readonly { readonly name: string; readonly seconds: number }[];
 }
@@ -127,6 +128,8 @@ export interface ClipInfo {
   readonly rmse: number;
   /** KG error, per cent. */
   readonly kg: number;
+  /** Largest error of a vertex' move from frame to frame. */
+  readonly maxDisplacementError: number;
   readonly segments: number;
   readonly residentBytes: number;
   readonly contextBytes: number;

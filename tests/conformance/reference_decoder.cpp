@@ -189,6 +189,7 @@ std::string clip_facts(const Clip& clip, uint32_t of) {
                                    {"max_error", r.max_error},
                                    {"rmse", r.rmse},
                                    {"kg", r.kg},
+                                   {"max_displacement_error", r.max_displacement_error},
                                    {"diagonal", r.diagonal},
                                    {"surface_error", r.surface_error},
                                    {"surface_error_mean", r.surface_error_mean}})

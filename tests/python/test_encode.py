@@ -36,6 +36,21 @@ def test_same_bytes_as_the_command(tmp_path, command, target):
     assert data == (tmp_path / "limb.anic").read_bytes()
 
 
+def test_targets_of_motion(wave):
+    for options, bound in (({"displacement": "0.1%"}, None), ({"sted": 0.05}, 0.05), ({"quality": "better"}, 0.02)):
+        data = anicodec.encode(*wave, effort=1, **options)
+        clip = anicodec.open(data)
+        measured = anicodec.compare(wave[0], clip, wave[1])
+        assert measured["max_displacement_error"] == pytest.approx(data.measured["max_displacement_error"], rel=1e-4)
+        assert clip.clips[0].max_displacement_error == data.measured["max_displacement_error"]
+        if bound is None:
+            assert data.measured["max_displacement_error"] <= 0.001 * data.measured["diagonal"]
+        else:
+            assert measured["sted"] <= bound * (1 + 1e-6)
+    with pytest.raises(anicodec.InputError, match="two targets"):
+        anicodec.encode(*wave, quality="good", sted=0.1)
+
+
 def test_every_kind_of_array_gives_the_same_bytes(wave):
     positions, faces = wave
     expected = anicodec.encode(positions, faces, effort=1)

@@ -203,9 +203,9 @@ def clip_rules(files):
     for name, label, value in (
             ("rate", "rate numerator", b"\0"), ("rate_denominator", "rate denominator", b"\0"), ("flags", "flags", b"\x80"),
             ("up", "up axis", b"\3"), ("order", "order", b"\3"), ("start", "start time", INFINITE),
-            ("metres", "metres per unit", struct.pack("<f", -1)), ("asked", "asked", b"\6"),
+            ("metres", "metres per unit", struct.pack("<f", -1)), ("asked", "asked", b"\x08"),
             ("asked_value", "asked value", NAN), ("max_error", "max error", f64(-1)), ("rmse", "RMSE", INFINITE),
-            ("kg", "KG", NAN), ("diagonal", "diagonal", f64(-1))):
+            ("kg", "KG", NAN), ("displacement", "max displacement error", f64(-1)), ("diagonal", "diagonal", f64(-1))):
         yield 40, f"clip_{name}", triangle.put(f"CLIP {label}", value), f"CLIP {label} that is out of range"
     yield 40, "clip_name", triangle.put("CLIP name", lambda old: b"\xff\x7f" + old[1:]), "a name longer than the record"
     yield 40, "clip_more", triangle.end("CLIP", b"\0"), "a byte after the last field"

@@ -50,14 +50,14 @@ void write_file(const std::string& path, const Bytes& bytes, bool overwrite) {
 /// What the last clip was encoded for, if it can be asked of another one.
 Target target_of(const ClipHome& home) {
   if (home.asked == ErrorMetric::kKg || home.asked == ErrorMetric::kMaxError ||
-      home.asked == ErrorMetric::kRmse)
+      home.asked == ErrorMetric::kRmse || is_motion(home.asked))
     return {home.asked, home.asked_value, false};
   return {ErrorMetric::kMaxError, 0.05, true};
 }
 
 bool has_target(const EncodeArguments& command) {
   return !command.kg.empty() || !command.max_error.empty() || !command.rmse.empty() ||
-         !command.size.empty() || !command.bpfv.empty();
+         !command.displacement.empty() || !command.sted.empty() || command.quality || !command.size.empty() || !command.bpfv.empty();
 }
 
 void check_agrees(const std::string& path, const ClipHome& home, MeshSequence* sequence) {

@@ -203,6 +203,7 @@ nlohmann::ordered_json json_of(const ComparedClip& a, const ComparedClip& b, con
                           "sted_spatial",
                           "sted_temporal",
                           "displacement_error",
+                          "max_displacement_error",
                           "normal_error_mean",
                           "normal_error_max",
                           "hausdorff",
@@ -231,6 +232,7 @@ nlohmann::ordered_json json_of(const ComparedClip& a, const ComparedClip& b, con
       json["sted_temporal"] = c->sted.temporal;
     }
     json["displacement_error"] = c->displacement_error;
+    json["max_displacement_error"] = c->max_displacement_error;
   }
   if (const auto& n = m.normals) {
     json["normal_error_mean"] = n->mean;
@@ -279,7 +281,8 @@ void print_text(const ComparedClip& b, const Measured& m, int verbosity) {
     row("PSNR", std::isinf(c->psnr) ? "infinite" : fmt::format("{:.1f} dB", c->psnr));
     if (c->has_sted)
       row("STED", fmt::format("{:.4g}", c->sted.sted));
-    row("displacement error", fmt::format("{:.4g}", c->displacement_error));
+    row("displacement error", fmt::format("{:.4g} ({:.4g} at most)", c->displacement_error,
+                                          c->max_displacement_error));
   }
   if (const auto& n = m.normals)
     row("normal error", fmt::format("{:.3g} degrees on average, {:.3g} at most", n->mean, n->max));

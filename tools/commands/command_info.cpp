@@ -187,6 +187,7 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
   json["max_error_percent"] = percent(record);
   json["rmse"] = record.rmse;
   json["kg"] = record.kg;
+  json["max_displacement_error"] = record.max_displacement_error;
   json["massaged"] = record.massaged;
   json["surface_error"] = record.surface_error;
   json["surface_error_mean"] = record.surface_error_mean;
@@ -206,6 +207,7 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
          {"max_error", clip.max_error},
          {"rmse", clip.rmse},
          {"kg", clip.kg},
+         {"max_displacement_error", clip.max_displacement_error},
          {"root_motion", root_words(c.clip.root().holds(static_cast<uint32_t>(&clip - c.clip.clips().data())))},
          {"events", events_json(clip)}});
   json["attributes"] = nlohmann::ordered_json::array();
@@ -272,6 +274,10 @@ std::string asked_text(const ClipRecord& record) {
       return fmt::format("max error of at most {:.4g}", value);
     case ErrorMetric::kRmse:
       return fmt::format("RMSE of at most {:.4g}", value);
+    case ErrorMetric::kDisplacement:
+      return fmt::format("moves from frame to frame with an error of at most {:.4g}", value);
+    case ErrorMetric::kSted:
+      return fmt::format("STED of at most {:.4g}", value);
     case ErrorMetric::kSize:
       return fmt::format("at most {} bytes", grouped(static_cast<uint64_t>(value)));
     case ErrorMetric::kBpfv:
@@ -364,8 +370,9 @@ std::string traits_of(const ClipRecord& clip) {
 void print_promise(const ClipRecord& clip) {
   row("asked", asked_text(clip));
   row("measured",
-      fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %",
-                  clip.max_error, percent(clip), clip.rmse, clip.kg));
+      fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %, of a move from "
+                  "frame to frame {:.4g}",
+                  clip.max_error, percent(clip), clip.rmse, clip.kg, clip.max_displacement_error));
   if (clip.massaged)
     row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
                                 clip.surface_error_mean, clip.surface_error));

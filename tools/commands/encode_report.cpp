@@ -53,6 +53,7 @@ nlohmann::ordered_json EncodeReport::json() const {
   json["components"] = result.components;
   json["kg"] = result.kg;
   json["rmse"] = result.rmse;
+  json["max_displacement_error"] = result.max_displacement_error;
   json["max_error"] = result.max_error;
   json["max_error_percent"] = percent(result.max_error, result.diagonal);
   json["diagonal"] = result.diagonal;
@@ -67,6 +68,7 @@ nlohmann::ordered_json EncodeReport::json() const {
                              {"fps_from", origin_of(clip.rate)},
                              {"kg", clip.kg},
                              {"rmse", clip.rmse},
+                             {"max_displacement_error", clip.max_displacement_error},
                              {"max_error", clip.max_error}});
   json["moving_attributes"] = nlohmann::ordered_json::array();
   for (const AttributeResult& a : result.attributes)

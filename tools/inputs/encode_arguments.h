@@ -26,11 +26,15 @@ enum class TopologyChanges { kRefuse, kKeep, kTransfer };
 /// numbers of their vertices.
 enum class OrderChoice { kAuto, kVertices, kFree, kAll };
 
+/// Targets that have a name.
+enum class Quality : uint8_t { kGood, kBetter, kBest };
+
 /// The arguments of encode on the command line.
 struct EncodeArguments {
   std::vector<std::string> inputs;
   std::string output, mesh, clip, clips, names, batch, memory, part;
-  std::string kg, max_error, rmse, size, bpfv;
+  std::string kg, max_error, rmse, displacement, sted, size, bpfv;
+  std::optional<Quality> quality;
   bool lossless = false;
   BasisChoice basis = BasisChoice::kAuto;
   uint32_t keyframes = 0;

@@ -80,7 +80,7 @@ void list_clip(FieldReader& r, const std::string& clip, uint32_t frames) {
   for (uint32_t f = 0; (flags & kTimes) && f < frames && r.ok(); ++f)
     r.f64(fmt::format("{}time of frame {}", clip, f));
   r.explain(name_of(static_cast<ErrorMetric>(r.u8(clip + "asked"))));
-  for (const char* name : {"asked value", "max error", "RMSE", "KG", "diagonal"})
+  for (const char* name : {"asked value", "max error", "RMSE", "KG", "max displacement error", "diagonal"})
     r.f64(clip + name);
   if (flags & kMassaged) {
     r.f64(clip + "surface error");

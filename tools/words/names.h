@@ -42,6 +42,7 @@ inline constexpr Word<OrderMode> kOrderModes[] = {
 inline constexpr Word<ErrorMetric> kErrorMetrics[] = {
     {ErrorMetric::kNone, "none"},          {ErrorMetric::kKg, "kg"},
     {ErrorMetric::kMaxError, "max_error"}, {ErrorMetric::kRmse, "rmse"},
+    {ErrorMetric::kDisplacement, "displacement"}, {ErrorMetric::kSted, "sted"},
     {ErrorMetric::kSize, "size"},          {ErrorMetric::kBpfv, "bpfv"}};
 
 inline constexpr Word<AttributeKind> kAttributeKinds[] = {

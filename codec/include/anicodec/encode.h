@@ -185,7 +185,9 @@ enum anic_goal ANIC_INT32 {
   ANIC_GOAL_KG = 2,        /**< KG error in per cent */
   ANIC_GOAL_RMSE = 3,      /**< root of the mean squared error */
   ANIC_GOAL_SIZE = 4,      /**< bytes, with the smallest error; of one mesh alone */
-  ANIC_GOAL_BPFV = 5       /**< bits per frame and vertex, with the smallest error */
+  ANIC_GOAL_BPFV = 5,      /**< bits per frame and vertex, with the smallest error */
+  ANIC_GOAL_DISPLACEMENT = 6, /**< largest error of any vertex's move from frame to frame */
+  ANIC_GOAL_STED = 7          /**< STED, an error as viewers see it; of every mesh and clip */
 };
 
 /** Kind of basis. */
@@ -305,6 +307,7 @@ typedef struct anic_encoding {
   uint32_t components;   /**< of the largest basis */
   anic_basis_kind basis; /**< of the first mesh */
   uint8_t massaged;
+  double max_displacement_error; /**< of a vertex's move from frame to frame */
 } anic_encoding;
 
 /**

@@ -118,6 +118,9 @@ namespace Anicodec
         /// <summary>Largest distance of a vertex from its place in the source, in units of the clip.</summary>
         public double MaxError { get { return info.max_error; } }
 
+        /// <summary>Largest error of a vertex's move from frame to frame, in units of the clip.</summary>
+        public double MaxDisplacementError { get { return info.max_displacement_error; } }
+
         public bool Partial { get { return info.partial != 0; } }
         public long ResidentBytes { get { return (long)info.resident_bytes; } }
         public long ContextBytes { get { return (long)info.context_bytes; } }

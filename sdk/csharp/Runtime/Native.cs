@@ -175,6 +175,7 @@ namespace Anicodec
             public double start_time, duration, loop_duration, metres_per_unit, diagonal, max_error, rmse, kg, surface_error,
                 surface_error_mean;
             public ulong resident_bytes, context_bytes;
+            public double max_displacement_error;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -184,7 +185,8 @@ namespace Anicodec
             public byte* name;
             public uint first_frame, frame_count, rate_numerator, rate_denominator;
             public byte rate_assumed, uneven, loop, closed, massaged, open;
-            public double start_time, duration, loop_duration, diagonal, max_error, rmse, kg, surface_error, surface_error_mean;
+            public double start_time, duration, loop_duration, diagonal, max_error, rmse, kg, surface_error, surface_error_mean,
+                max_displacement_error;
         }
 
         [StructLayout(LayoutKind.Sequential)]

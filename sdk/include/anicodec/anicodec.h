@@ -421,6 +421,7 @@ typedef struct anic_asset_info {
   double surface_error_mean; /**< mean distance from it */
   uint64_t resident_bytes;   /**< held by this asset */
   uint64_t context_bytes;    /**< held by each context */
+  double max_displacement_error; /**< largest error of a vertex's move from frame to frame */
 } anic_asset_info;
 
 /** - Errors: ANIC_E_ARGUMENT */
@@ -450,6 +451,7 @@ typedef struct anic_clip {
   double kg;
   double surface_error;
   double surface_error_mean;
+  double max_displacement_error;
 } anic_clip;
 
 /** How many clips the file has; 0 for NULL. */

@@ -25,7 +25,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("-q", "--quiet", action="store_true")
     parser.add_argument("-j", "--threads", type=int)
     parser.add_argument("--mesh", help="path of a prim")
-    for name in ("max-error", "rmse", "kg", "size", "bpfv", "fps", "basis", "order", "unit", "up", "topology-changes",
+    for name in ("max-error", "rmse", "kg", "displacement", "sted", "quality", "size", "bpfv", "fps", "basis", "order", "unit", "up", "topology-changes",
                  "keyframe-selection", "interpolation", "keyframe-coder", "attribute-error"):
         parser.add_argument("--" + name)
     for name in ("effort", "keyframes", "uv-bits", "colour-bits"):

@@ -23,7 +23,7 @@ UP = (None, "y", "z")
 Blend = Tuple[Union[int, str], float, float]  #: a clip, seconds of it, and its weight
 
 
-def chosen(table: Dict[str, int], name: str, what: str) -> int:
+def chosen(table: Dict[str, Any], name: str, what: str) -> Any:
     """The number of a word."""
     if name not in table:
         raise InputError(f"{what} is one of {', '.join(table)}, not {name!r}")
@@ -65,6 +65,7 @@ class ClipInfo(NamedTuple):
     max_error: float  #: its promise, in units of the file, and so are those that follow
     rmse: float
     kg: float  #: per cent
+    max_displacement_error: float  #: of a vertex's move from frame to frame
     opened: bool  #: see open(); frames of others are absent
     events: Tuple[Tuple[str, float], ...] = ()  #: names and seconds from its first frame on
 

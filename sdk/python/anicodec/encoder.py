@@ -15,7 +15,8 @@ from .errors import InputError
 from .material import Material, to_file
 
 _PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _ROOT_MOTION, _LOSSLESS = 1, 2, 4, 8, 16, 32
-_GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5}
+_GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5, "displacement": 6, "sted": 7}
+_QUALITIES = {"good": 0.05, "better": 0.02, "best": 0.01}  # as STED
 _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
             "selection": {"pivot": 0, "gas": 1, "uniform": 2},
             "interpolation": {"linear": 0, "msgi": 1, "auto": 2},
@@ -89,7 +90,12 @@ def _size(value: Any) -> float:
 
 def _goal(options: Dict[str, Any]) -> Dict[str, Any]:
     """The target among the options, taken out of them."""
+    quality = options.pop("quality", None)
     given = {name: options.pop(name) for name in _GOALS if options.get(name) is not None}
+    if quality is not None:
+        if "sted" in given:
+            raise InputError("quality and sted are two targets")
+        given["sted"] = chosen(_QUALITIES, quality, "quality")
     choices: Dict[str, Any] = {"flags": 0}
     if options.pop("lossless", False):
         if given:
@@ -99,7 +105,7 @@ def _goal(options: Dict[str, Any]) -> Dict[str, Any]:
     if len(given) > 1:
         raise InputError(f"{' and '.join(given)} are two targets; there is one, and max_error may stand beside it")
     for name, value in given.items():
-        number, percent = (_length(value, name) if name in ("max_error", "rmse") else
+        number, percent = (_length(value, name) if name in ("max_error", "rmse", "displacement") else
                            (_size(value) if name == "size" else _length(value, name)[0], False))
         if not number > 0 or not np.isfinite(number):
             raise InputError(f"{name} must be greater than 0, not {value!r}")
@@ -286,7 +292,8 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
         vertices x 3 for a frame, with vertex_count= and frame_count=.
     faces: polygons x corners, a list of polygons, a pair (offsets, corners), or None.
     One target: max_error (default "0.05%"), rmse: scene units, or a text in per cent of the diagonal; kg: per cent;
-        size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other;
+        displacement: the largest error of a vertex's move from frame to frame; sted, or quality "good", "better", "best":
+        an error as viewers see it; size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other;
         or lossless=True: positions, as float32, come back bit for bit.
     uv, colours, normals, custom, materials, parts: see SourceMesh.
     fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop, events (pairs of a name and seconds): stored.

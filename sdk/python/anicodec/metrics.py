@@ -12,8 +12,8 @@ from .errors import InputError
 def compare(original: Any, decoded: Any, faces: Any = None, sted: bool = True) -> Dict[str, float]:
     """Measures of two clips of one connectivity: frames x vertices x 3 each, or a Clip.
 
-    Returns kg (per cent), rmse, max_error, max_frame, max_vertex, diagonal, psnr (dB), displacement_error, and sted if
-    asked for. Lengths are in scene units.
+    Returns kg (per cent), rmse, max_error, max_frame, max_vertex, diagonal, psnr (dB), displacement_error,
+    max_displacement_error, and sted if asked for. Lengths are in scene units.
     """
     a, b = _frames(original), _frames(decoded)
     if a.shape != b.shape:

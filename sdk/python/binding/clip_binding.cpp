@@ -109,6 +109,7 @@ class Asset {
     d["max_error"] = info_.max_error;
     d["rmse"] = info_.rmse;
     d["kg"] = info_.kg;
+    d["max_displacement_error"] = info_.max_displacement_error;
     d["surface_error"] = info_.surface_error;
     d["resident_bytes"] = info_.resident_bytes;
     return d;
@@ -285,6 +286,7 @@ class Asset {
       d["max_error"] = clip.max_error;
       d["rmse"] = clip.rmse;
       d["kg"] = clip.kg;
+      d["max_displacement_error"] = clip.max_displacement_error;
       d["opened"] = clip.open != 0;
       nb::list events;
       for (uint32_t e = 0; e < anic_event_count(asset_.get(), i); ++e) {

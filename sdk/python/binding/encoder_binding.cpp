@@ -259,6 +259,7 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
   measured["max_error"] = result.max_error;
   measured["rmse"] = result.rmse;
   measured["kg"] = result.kg;
+  measured["max_displacement_error"] = result.max_displacement_error;
   measured["diagonal"] = result.diagonal;
   measured["components"] = result.components;
   measured["massaged"] = result.massaged != 0;

@@ -45,6 +45,7 @@ nb::dict compare_clips(const Array<float>& a, const Array<float>& b, const Array
   d["diagonal"] = c.diagonal;
   d["psnr"] = c.psnr;
   d["displacement_error"] = c.displacement_error;
+  d["max_displacement_error"] = c.max_displacement_error;
   if (c.has_sted)
     d["sted"] = c.sted.sted;
   return d;

@@ -202,6 +202,7 @@ EXPORT(info) int web_info(void) {
       info.max_error,
       info.rmse,
       info.kg,
+      info.max_displacement_error,
       (double)info.resident_bytes,
       (double)info.context_bytes};
   memcpy(numbers, all, sizeof all);
@@ -236,7 +237,8 @@ EXPORT(clip) int web_clip(uint32_t clip) {
       info.diagonal,
       info.max_error,
       info.rmse,
-      info.kg};
+      info.kg,
+      info.max_displacement_error};
   memcpy(numbers, all, sizeof all);
   return status;
 }

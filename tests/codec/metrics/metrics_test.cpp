@@ -74,7 +74,17 @@ TEST(Metrics, TranslationCountsItsLength) {
   EXPECT_DOUBLE_EQ(c.percent(c.max_error), 100 * 0.625 / std::sqrt(2));
   EXPECT_DOUBLE_EQ(c.psnr, 20 * std::log10(std::sqrt(2) / 0.625));
   EXPECT_EQ(c.displacement_error, 0);
+  EXPECT_EQ(c.max_displacement_error, 0);
   EXPECT_EQ(c.sted.sted, 0);
+}
+
+TEST(Metrics, DisplacementIsThatOfTheWorstMove) {
+  MeshSequence p = square(3), q = p;
+  q.positions[3 * (4 + 1)] += 0.25F;  // vertex 1 in frame 1
+  q.positions[3 * (8 + 1)] -= 0.5F;
+  const Comparison c = compare(p, q);
+  EXPECT_DOUBLE_EQ(c.max_displacement_error, 0.75);
+  EXPECT_DOUBLE_EQ(c.displacement_error, std::sqrt((0.0625 + 0.5625) / 8));
 }
 
 TEST(Metrics, ScaleAboutTheMeanGivesItsKg) {

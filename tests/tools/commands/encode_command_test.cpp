@@ -112,11 +112,37 @@ TEST_F(EncodeCommand, KeepsEveryKindOfTarget) {
   EXPECT_LE(encoded({"--kg", "0.5%"}, "1p.anic")["kg"], 0.5);
   nlohmann::json rmse = encoded({"--rmse", "0.02%"}, "2.anic");
   EXPECT_LE(rmse["rmse"], 0.0002 * double(rmse["diagonal"]));
+  const nlohmann::json moves = encoded({"--displacement", "0.1%"}, "6.anic");
+  EXPECT_LE(moves["max_displacement_error"], 0.001 * double(moves["diagonal"]));
+  EXPECT_GE(moves["max_displacement_error"], 0.0008 * double(moves["diagonal"]));
   EXPECT_LE(encoded({"--size", "9k"}, "3.anic")["bytes"], 9000);
   EXPECT_LE(encoded({"--bpfv", "1.5"}, "4.anic")["bpfv"], 1.5);
   nlohmann::json capped = encoded({"--kg", "2", "--max-error", "0.5%"}, "5.anic");
   EXPECT_LE(capped["kg"], 2);
   EXPECT_LE(capped["max_error_percent"], 0.5);
+}
+
+// What viewers see is measured on the decoded file; better qualities are larger.
+TEST_F(EncodeCommand, KeepsAnErrorOfWhatViewersSee) {
+  size_t before = 0;
+  for (const auto& [options, bound] :
+       {std::pair{std::vector<std::string>{"--sted", "0.1"}, 0.1},
+        std::pair{std::vector<std::string>{"--quality", "good"}, 0.05},
+        std::pair{std::vector<std::string>{"--quality", "better"}, 0.02},
+        std::pair{std::vector<std::string>{"--quality", "best"}, 0.01}}) {
+    std::vector<std::string> with{"--effort", "1", "-f"};
+    with.insert(with.end(), options.begin(), options.end());
+    ASSERT_EQ(encode(with).status, 0);
+    const std::string file = folder_ / "a.anic";
+    const double sted =
+        anicodec({"compare", folder_ / "a.pc2", file, "--json"}).json()["sted"].get<double>();
+    EXPECT_LE(sted, bound);
+    EXPECT_GE(sted, 0.7 * bound);
+    EXPECT_EQ(anicodec({"info", file, "--json"}).json()["asked"],
+              (nlohmann::json{{"metric", "sted"}, {"value", bound}}));
+    EXPECT_GT(folder_.read("a.anic").size(), before);
+    before = folder_.read("a.anic").size();
+  }
 }
 
 TEST_F(EncodeCommand, UsesTheNumberOfKeyframesAskedFor) {
@@ -196,6 +222,11 @@ TEST_F(EncodeCommand, RefusesImpossibleOptionsAndLeavesNoFile) {
   const std::vector<std::vector<std::string>> impossible = {
       {"--kg", "1", "--size", "20k"},
       {"--kg", "0"},
+      {"--sted", "0"},
+      {"--displacement", "-1"},
+      {"--quality", "good", "--sted", "0.1"},
+      {"--quality", "worst"},
+      {"--displacement", "1%", "--root-motion"},
       {"--kg", "-1"},
       {"--max-error", "0"},
       {"--max-error", "nan"},

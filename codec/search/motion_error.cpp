@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/search/motion_error.h"
+
+#include "codec/metrics/metrics.h"
+#include "sdk/play/play.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+namespace anicodec {
+namespace {
+
+/// Plays the frames of parts, by the vertices of the source.
+class Player {
+ public:
+  Player(const std::vector<CodedPart>& parts, const EncoderInput& input)
+      : parts_(parts), input_(input) {}
+
+  std::span<const float> frame(uint32_t f) {
+    const auto part = std::ranges::find_if(parts_, [f](const CodedPart& p) {
+      return f < p.encoded.sizes.first_frame + p.encoded.sizes.frames;
+    });
+    const Segment& segment = part->opened;
+    shape_.resize(shape_size(segment));
+    scratch_.resize(shape_scratch_size(segment));
+    coded_.resize(size_t{3} * segment.vertices);
+    FrameState state = frame_state(segment, f - part->encoded.sizes.first_frame);
+    make_shape(&state, shape_.data(), scratch_.data());
+    play(state, 0, segment.vertices, coded_.data());
+    return by_source(coded_.data());
+  }
+
+  std::span<const float> by_source(const float* coded) {
+    const auto& coded_of = input_.layout.source_coded;
+    source_.resize(3 * coded_of.size());
+    for (size_t v = 0; v < coded_of.size(); ++v)
+      std::copy_n(coded + size_t{3} * coded_of[v], 3, source_.data() + 3 * v);
+    return source_;
+  }
+
+ private:
+  const std::vector<CodedPart>& parts_;
+  const EncoderInput& input_;
+  std::vector<float> shape_, scratch_, coded_, source_;
+};
+
+}  // namespace
+
+double motion_error(ErrorMetric metric, const std::vector<CodedPart>& parts,
+                    const EncoderInput& input) {
+  Player decoded(parts, input), original(parts, input);
+  CompareOptions options;
+  options.sted = metric == ErrorMetric::kSted;
+  double worst = 0;
+  for (const InputClip& clip : input.clips) {
+    const uint32_t first = clip.frames.first;
+    const Comparison compared = compare(
+        input.sequence.polygons, input.sequence.vertex_count, clip.frames.count,
+        [&](uint32_t f) { return original.by_source(input.shown().frame(first + f)); },
+        [&](uint32_t f) { return decoded.frame(first + f); }, options);
+    worst = std::max(worst, options.sted ? compared.sted.sted : compared.max_displacement_error);
+  }
+  return worst;
+}
+
+}  // namespace anicodec
