@@ -313,7 +313,7 @@ TEST_F(AnicEncoder, TellsWhatIsWrong) {
   sequence_.frame(3)[3] = before;
 
   for (auto spoil : std::initializer_list<void (*)(anic_encode_options&)>{
-           [](auto& o) { o.goal_value = -1; }, [](auto& o) { o.goal = static_cast<anic_goal>(6); },
+           [](auto& o) { o.goal_value = -1; }, [](auto& o) { o.goal = static_cast<anic_goal>(8); },
            [](auto& o) { o.effort = 10; }, [](auto& o) { o.flags = uint64_t{1} << 40; },
            [](auto& o) { o.max_error = std::numeric_limits<double>::infinity(); },
            [](auto& o) { o.keyframes = 13; }, [](auto& o) { o.threads = 5000; },
