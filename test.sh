@@ -6,7 +6,7 @@ cd -P "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/common.sh
 
 usage="usage: ./test.sh [--no-install] [ctest options]
-Installs the Debian packages anicodec needs, builds it in build/dev with warnings as errors, and runs
+Installs the Debian packages anicodec needs, builds it in build/test with warnings as errors, and runs
 all tests. --no-install: without the packages. Other options go to ctest: -L tools runs those of one
 module, -E 'Slow|RealData' leaves out those that take long or want real data."
 
@@ -44,6 +44,6 @@ if command -v npm >/dev/null; then
     build wasm-scalar
   fi
 fi
-build dev
+build test
 say "Running the tests"
-ctest --preset dev -j "$(nproc)" "${ctest_options[@]}"
+ctest --preset test -j "$(nproc)" "${ctest_options[@]}"

@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t kUv = 0, kColour = 1, kHeat = 2;
 
-const MeshSequence& source() {
+const MeshSequence& attributed_source() {
   static const MeshSequence clip = corpus::make_clip("heated");
   return clip;
 }
@@ -51,12 +51,12 @@ TEST(AnicAttributeValues, AreThoseOfTheFrameChosen) {
   for (uint32_t frame : {0U, 23U, 7U, 20U, 7U}) {
     ASSERT_EQ(anic_seek_frame(context.get(), frame), ANIC_OK);
     for (uint32_t a : {kUv, kColour, kHeat})
-      EXPECT_LE(error_at(values(asset, context, a), source().attributes[a], frame), bounds[a])
+      EXPECT_LE(error_at(values(asset, context, a), attributed_source().attributes[a], frame), bounds[a])
           << "attribute " << a << ", frame " << frame;
   }
   // What was shown before.
   EXPECT_LE(
-      error_at(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS), source().attributes[kHeat], 20),
+      error_at(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS), attributed_source().attributes[kHeat], 20),
       bounds[kHeat]);
   ASSERT_EQ(anic_forget_previous(context.get()), ANIC_OK);
   EXPECT_EQ(values(asset, context, kHeat, ANIC_WHEN_PREVIOUS), values(asset, context, kHeat));
@@ -243,7 +243,7 @@ TEST(AnicAttributeValues, AreCoarserAtLowerQualityAndOfTheFirstFrameUntilTheyArr
   const Asset coarse = open(heated(), &options);
   const Context context = context_of(coarse);
   ASSERT_EQ(anic_seek_frame(context.get(), 20), ANIC_OK);
-  const double error = error_at(values(coarse, context, kHeat), source().attributes[kHeat], 20);
+  const double error = error_at(values(coarse, context, kHeat), attributed_source().attributes[kHeat], 20);
   EXPECT_GT(error, 0.46);
   EXPECT_LT(error, 200);
 

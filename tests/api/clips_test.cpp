@@ -20,7 +20,7 @@ namespace anicodec {
 namespace {
 
 constexpr const char* kNames[] = {"walk", "run", "jump"};
-constexpr uint32_t kFrames[] = {20, 31, 9};
+constexpr uint32_t kFrameCounts[] = {20, 31, 9};
 constexpr double kKg = 0.5;
 
 /// Three clips of a limb: one calm, one wild, one of uneven times.
@@ -29,7 +29,7 @@ MeshSequence limbs() {
   for (size_t c = 0; c < 3; ++c) {
     MeshSequence clip = corpus::make_scaled("limb", 300, 40);
     clip.name = kNames[c];
-    clip.frame_count = kFrames[c];
+    clip.frame_count = kFrameCounts[c];
     clip.positions.resize(size_t{3} * clip.vertex_count * clip.frame_count);
     for (uint32_t f = 0; f < clip.frame_count; ++f) {
       for (size_t i = 0; i < clip.frame(f).size(); ++i)
@@ -72,20 +72,20 @@ TEST(AnicClips, EachHasItsNameClockAndPromise) {
       ASSERT_EQ(anic_clip_info(asset.get(), c, &clip), ANIC_OK);
       EXPECT_STREQ(clip.name, kNames[c]);
       EXPECT_EQ(clip.first_frame, first);
-      EXPECT_EQ(clip.frame_count, kFrames[c]);
+      EXPECT_EQ(clip.frame_count, kFrameCounts[c]);
       EXPECT_EQ(clip.rate_numerator, c == 1 ? 60U : 30U);
       EXPECT_EQ(clip.uneven, c == 2);
       EXPECT_EQ(clip.loop, c == 0);
       EXPECT_TRUE(clip.open);
       EXPECT_LE(clip.kg, kKg);
       EXPECT_GT(clip.kg, 0);
-      EXPECT_NEAR(clip.duration, c == 2 ? 0.64 : (kFrames[c] - 1) / (c == 1 ? 60.0 : 30.0), 1e-12);
+      EXPECT_NEAR(clip.duration, c == 2 ? 0.64 : (kFrameCounts[c] - 1) / (c == 1 ? 60.0 : 30.0), 1e-12);
       uint32_t found = 9;
       EXPECT_EQ(anic_find_clip(asset.get(), kNames[c], &found), ANIC_OK);
       EXPECT_EQ(found, c);
       EXPECT_EQ(anic_get_frame_time(asset.get(), first), 0);
-      EXPECT_EQ(anic_get_frame_time(asset.get(), first + kFrames[c] - 1), clip.duration);
-      first += kFrames[c];
+      EXPECT_EQ(anic_get_frame_time(asset.get(), first + kFrameCounts[c] - 1), clip.duration);
+      first += kFrameCounts[c];
     }
     uint32_t found = 0;
     EXPECT_EQ(anic_find_clip(asset.get(), "fly", &found), ANIC_E_ABSENT);
@@ -123,9 +123,9 @@ TEST(AnicClips, TimesAreOfTheChosenClip) {
       EXPECT_EQ(shown(0, ANIC_WRAP_CLAMP), frame(first));
       EXPECT_EQ(shown(-1, ANIC_WRAP_CLAMP), frame(first));
       // Nothing leads over to the next clip.
-      EXPECT_EQ(shown(clip.duration + 1e-3, ANIC_WRAP_CLAMP), frame(first + kFrames[c] - 1));
+      EXPECT_EQ(shown(clip.duration + 1e-3, ANIC_WRAP_CLAMP), frame(first + kFrameCounts[c] - 1));
       EXPECT_EQ(shown(clip.loop_duration, ANIC_WRAP_LOOP), frame(first));
-      first += kFrames[c];
+      first += kFrameCounts[c];
     }
     EXPECT_EQ(anic_set_clip(context.get(), 3), ANIC_E_ARGUMENT);
     EXPECT_EQ(anic_set_clip(nullptr, 0), ANIC_E_ARGUMENT);
@@ -335,12 +335,12 @@ TEST(AnicClips, OneCanBeTakenOutOfAnOpenFile) {
     ASSERT_TRUE(all.open(encoded_limbs(basis).file).ok());
     ASSERT_TRUE(one.open(encoded_limbs(basis).file).ok());
     one.take_clip(1);
-    EXPECT_EQ(one.frame_count(), kFrames[1]);
+    EXPECT_EQ(one.frame_count(), kFrameCounts[1]);
     ASSERT_EQ(one.clips().size(), 1U);
     EXPECT_EQ(one.clips()[0].name, "run");
     std::vector<float> a(size_t{3} * all.vertex_count()), b(a.size());
-    for (uint32_t f = 0; f < kFrames[1]; ++f) {
-      ASSERT_EQ(all.positions(0, kFrames[0] + f, a.data()), Status::kOk);
+    for (uint32_t f = 0; f < kFrameCounts[1]; ++f) {
+      ASSERT_EQ(all.positions(0, kFrameCounts[0] + f, a.data()), Status::kOk);
       ASSERT_EQ(one.positions(0, f, b.data()), Status::kOk);
       EXPECT_EQ(a, b);
     }

@@ -14,10 +14,10 @@
 namespace anicodec {
 namespace {
 
-constexpr uint32_t kFrames = 12;
+constexpr uint32_t kExactFrames = 12;
 
-MeshSequence source() {
-  MeshSequence clip = corpus::make_scaled("limb", 200, kFrames);
+MeshSequence exact_source() {
+  MeshSequence clip = corpus::make_scaled("limb", 200, kExactFrames);
   clip.positions[3] = -0.0F;
   return clip;
 }
@@ -57,7 +57,7 @@ Bytes encoded() {
   options.flags = ANIC_ENCODE_LOSSLESS;
   options.effort = 1;
   Bytes file;
-  EXPECT_EQ(encode_with(source(), options, &file), ANIC_OK);
+  EXPECT_EQ(encode_with(exact_source(), options, &file), ANIC_OK);
   return file;
 }
 
@@ -79,7 +79,7 @@ bool has_source(const Context& context, const MeshSequence& clip, uint32_t frame
 }
 
 TEST(AnicLossless, RangesOfAnyFrameHaveTheBitsOfTheSource) {
-  const MeshSequence clip = source();
+  const MeshSequence clip = exact_source();
   const Asset asset = open(encoded());
   EXPECT_EQ(anic_verify_asset(asset.get()), ANIC_OK);
   const Context context = context_of(asset);
@@ -91,12 +91,12 @@ TEST(AnicLossless, RangesOfAnyFrameHaveTheBitsOfTheSource) {
     }
   }
   EXPECT_TRUE(has_source(context, clip, 11, 0, clip.vertex_count, ANIC_WHEN_PREVIOUS));
-  for (uint32_t f = 0; f < kFrames; ++f)
+  for (uint32_t f = 0; f < kExactFrames; ++f)
     EXPECT_EQ(std::memcmp(frame(asset, f).data(), clip.frame(f).data(), clip.frame(f).size_bytes()), 0);
 }
 
 TEST(AnicLossless, PlaysTheBasisBetweenFramesAndWhereLeftClosed) {
-  const MeshSequence clip = source();
+  const MeshSequence clip = exact_source();
   const Bytes file = encoded();
   anic_options closed = ANIC_INIT(anic_options);
   closed.flags = ANIC_OPEN_INEXACT;
@@ -144,7 +144,7 @@ TEST(AnicLossless, MemoryIsAnnounced) {
 }
 
 TEST(AnicLossless, AStreamPlaysBeforeItIsExact) {
-  const MeshSequence clip = source();
+  const MeshSequence clip = exact_source();
   const Bytes file = encoded();
   anic_stream* stream = nullptr;
   ASSERT_EQ(anic_create_stream(nullptr, &stream), ANIC_OK);
@@ -174,13 +174,13 @@ TEST(AnicLossless, GoesWithoutAGoalOfItsOwn) {
   options.goal = ANIC_GOAL_KG;
   options.goal_value = 1;
   Bytes file;
-  EXPECT_EQ(encode_with(source(), options, &file), ANIC_E_ARGUMENT);
+  EXPECT_EQ(encode_with(exact_source(), options, &file), ANIC_E_ARGUMENT);
   options.goal = ANIC_GOAL_DEFAULT;
   options.max_error = 1;
-  EXPECT_EQ(encode_with(source(), options, &file), ANIC_E_ARGUMENT);
+  EXPECT_EQ(encode_with(exact_source(), options, &file), ANIC_E_ARGUMENT);
   options.max_error = 0;
   options.massage = ANIC_MASSAGE_ON;
-  EXPECT_EQ(encode_with(source(), options, &file), ANIC_E_ARGUMENT);
+  EXPECT_EQ(encode_with(exact_source(), options, &file), ANIC_E_ARGUMENT);
 }
 
 }  // namespace

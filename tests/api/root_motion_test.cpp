@@ -13,12 +13,12 @@
 namespace anicodec {
 namespace {
 
-constexpr uint32_t kFrames = 24;
+constexpr uint32_t kWalkFrames = 24;
 constexpr double kMaxError = 0.01, kTurnOfFrame = 0.08, kMoveOfFrame = 0.2;
 
 /// A limb that walks in a curve, or stands.
 MeshSequence limb(const char* name, UpAxis up, double turn, double move) {
-  MeshSequence clip = corpus::make_scaled("limb", 200, kFrames);
+  MeshSequence clip = corpus::make_scaled("limb", 200, kWalkFrames);
   clip.name = name;
   clip.up = up;
   clip.rate = {10, 1, false};
@@ -214,7 +214,7 @@ Matrix motion_at(const Asset& asset, double seconds) {
 TEST(AnicRootStep, GoesFromOneTimeToAnotherAndOnThroughLoops) {
   for (UpAxis up : {UpAxis::kY, UpAxis::kZ}) {
     const Asset asset = in_place(encoded(up, BasisChoice::kEigentrajectories));
-    const double duration = (kFrames - 1) / 10.0, loop = kFrames / 10.0;
+    const double duration = (kWalkFrames - 1) / 10.0, loop = kWalkFrames / 10.0;
     const Matrix still = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     for (anic_wrap wrap : {ANIC_WRAP_CLAMP, ANIC_WRAP_LOOP}) {
       const Matrix s = step(asset, 0.31, 1.87, wrap);

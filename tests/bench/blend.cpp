@@ -42,11 +42,6 @@ void check(anic_status status) {
     throw Error(ErrorKind::kInternal, anic_get_status_text(status));
 }
 
-double median(std::vector<double> x) {
-  std::sort(x.begin(), x.end());
-  return x[x.size() / 2];
-}
-
 }  // namespace
 
 Table run_blend(const BenchOptions& options, const std::vector<uint32_t>& sizes, int runs) {

@@ -87,12 +87,6 @@ double reproduction(Interpolation& interpolation, const Inputs& inputs, double d
   return largest / diagonal;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
 Table run_poses(const std::vector<std::string>& words) {

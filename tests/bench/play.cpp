@@ -19,15 +19,8 @@
 namespace anicodec::bench {
 namespace {
 
-constexpr uint32_t kFrames = 4;  // per pass
+constexpr uint32_t kPassFrames = 4;  // per pass
 constexpr int kDracoBits = 11;
-
-double median(std::vector<double> x) {
-  std::sort(x.begin(), x.end());
-  if (x.empty())
-    return 0;
-  return (x[(x.size() - 1) / 2] + x[x.size() / 2]) / 2;
-}
 
 /// A segment with narrow components only and a moving base, and somewhere to play four frames to.
 struct Stage {
@@ -35,7 +28,7 @@ struct Stage {
     segment.kind = kind;
     segment.vertices = vertices;
     segment.components = components;
-    segment.frames = kFrames;
+    segment.frames = kPassFrames;
     uint32_t seed = 1;
     auto random = [&] { return (seed = seed * 1664525 + 1013904223) >> 16; };
     segment.narrow.resize(size_t{block_count(vertices)} * components * segment.channels() * kBlock);
@@ -44,11 +37,11 @@ struct Stage {
     segment.pose.resize(size_t{block_count(vertices)} * 3 * kBlock);
     for (size_t i = 0; i < segment.pose.size(); ++i)
       segment.pose[i] = static_cast<float>(random());
-    segment.weights.resize(size_t{kFrames} * components * segment.weight_channels());
+    segment.weights.resize(size_t{kPassFrames} * components * segment.weight_channels());
     for (size_t i = 0; i < segment.weights.size(); ++i)
       segment.weights[i] = 1e-9F * static_cast<float>(random());
-    segment.pose_maps.resize(kFrames);
-    for (uint32_t f = 0; f < kFrames; ++f) {
+    segment.pose_maps.resize(kPassFrames);
+    for (uint32_t f = 0; f < kPassFrames; ++f) {
       states[f] = frame_state(segment, f);
       positions[f].resize(size_t{3} * vertices);
       outputs[f].data = positions[f].data();
@@ -60,9 +53,9 @@ struct Stage {
   }
 
   Segment segment;
-  std::array<FrameState, kFrames> states;
-  std::array<std::vector<float>, kFrames> positions;
-  std::array<VertexOutput, kFrames> outputs;
+  std::array<FrameState, kPassFrames> states;
+  std::array<std::vector<float>, kPassFrames> positions;
+  std::array<VertexOutput, kPassFrames> outputs;
 };
 
 /// Processor seconds of each work, `runs` of them in turns: every time often enough to be
@@ -151,7 +144,7 @@ Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertice
         float result = 0;
         size_t multiplied = 0;
         const auto seconds =
-            in_turns(runs, {[&] { stage.play(1); }, [&] { stage.play(kFrames); },
+            in_turns(runs, {[&] { stage.play(1); }, [&] { stage.play(kPassFrames); },
                             [&] { sum_read = peers->read_all(narrow.data(), narrow.size()); },
                             [&] { multiplied = peers->multiply_adds(size_t{1} << 24, &result); },
                             [&] { eigen->run(); }, [&] { peers::decode_draco(peer.draco); }});
@@ -160,7 +153,7 @@ Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertice
         // The moving base takes as many as three components of vectors.
         const double limit = 3.0 * v * (k + 3) / static_cast<double>(multiplied);
         // Four frames cannot be faster than their multiply-adds, nor than reading once.
-        const double fma_ratio = ratio(four, seconds[3]) / limit / kFrames;
+        const double fma_ratio = ratio(four, seconds[3]) / limit / kPassFrames;
         const double four_limit = std::min(fma_ratio, ratio(four, seconds[2]));
         eigen_ratios.push_back(ratio(seconds[4], one));
         table.add({{"basis", trajectories ? "trajectories" : "shapes"},
@@ -168,7 +161,7 @@ Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertice
                    {"clip", peer.name},
                    {"vertices", v},
                    {"one_ns", per_vertex * median(one)},
-                   {"four_ns", per_vertex * median(four) / kFrames},
+                   {"four_ns", per_vertex * median(four) / kPassFrames},
                    {"read_ns", per_vertex * median(seconds[2])},
                    {"eigen_ns", per_vertex * median(seconds[4])},
                    {"draco_ns", per_vertex * median(seconds[5])},
@@ -178,7 +171,7 @@ Table run_play(const BenchOptions& options, const std::vector<uint32_t>& vertice
                    {"four_limit", four_limit},
                    {"eigen", eigen_ratios.back()},
                    {"draco", ratio(seconds[5], one)},
-                   {"draco_four", ratio(seconds[5], four) * kFrames}});
+                   {"draco_four", ratio(seconds[5], four) * kPassFrames}});
       }
     }
   }

@@ -4,8 +4,10 @@
 #define ANICODEC_TESTS_BENCH_STOPWATCH_H_
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <ctime>
+#include <utility>
 #include <vector>
 
 #include <sys/resource.h>
@@ -30,6 +32,13 @@ class Stopwatch {
   double start_;
 };
 
+/// The middle value, of an even number the mean of the two in the middle; 0 of none.
+inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return n == 0 ? 0 : (values[(n - 1) / 2] + values[n / 2]) / 2;
+}
+
 /// Processor time of one thread, which other programs disturb least; median of `runs` calls.
 template <class Work>
 double median_thread_seconds(int runs, Work work) {
@@ -39,8 +48,7 @@ double median_thread_seconds(int runs, Work work) {
     work();
     seconds.push_back(watch.seconds());
   }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[seconds.size() / 2];
+  return median(std::move(seconds));
 }
 
 /// Largest resident memory of the process so far, in bytes.

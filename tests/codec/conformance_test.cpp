@@ -21,7 +21,7 @@ namespace {
 
 const std::string kSource = ANICODEC_SOURCE_DIR;
 
-struct Vector {
+struct ConformanceVector {
   const char* file;
   const char* clip;
   uint32_t vertices = 0, frames = 0;  ///< when it is scaled
@@ -32,7 +32,7 @@ Bytes read(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-class Conformance : public testing::TestWithParam<Vector> {};
+class Conformance : public testing::TestWithParam<ConformanceVector> {};
 
 TEST_P(Conformance, DecodesAsTheFileSays) {
   Clip clip;
@@ -75,18 +75,18 @@ TEST_P(Conformance, DecodesAsTheFileSays) {
 
 INSTANTIATE_TEST_SUITE_P(
     Files, Conformance,
-    testing::Values(Vector{"triangle.anic", "one_triangle"},
-                    Vector{"nonmanifold_keyframes.anic", "nonmanifold"},
-                    Vector{"polygons_all.anic", "polygons"},
-                    Vector{"quad_box_corrected.anic", "quad_box"}, Vector{"soup.anic", "soup"},
-                    Vector{"limb_effort9.anic", "limb"}, Vector{"limb_small.anic", "limb", 100, 8},
-                    Vector{"far_rigid.anic", "far"}, Vector{"uneven_times.anic", "uneven"},
-                    Vector{"leftovers.anic", "leftovers"}, Vector{"one_frame.anic", "one_frame"},
-                    Vector{"one_vertex.anic", "one_vertex"},
-                    Vector{"nonmanifold_interpolated.anic", "nonmanifold"},
-                    Vector{"limb_default.anic", "limb", 200, 12},
-                    Vector{"limb_native.anic", "limb", 200, 12},
-                    Vector{"painted_box.anic", "painted_box"}, Vector{"heated.anic", "heated"}),
+    testing::Values(ConformanceVector{"triangle.anic", "one_triangle"},
+                    ConformanceVector{"nonmanifold_keyframes.anic", "nonmanifold"},
+                    ConformanceVector{"polygons_all.anic", "polygons"},
+                    ConformanceVector{"quad_box_corrected.anic", "quad_box"}, ConformanceVector{"soup.anic", "soup"},
+                    ConformanceVector{"limb_effort9.anic", "limb"}, ConformanceVector{"limb_small.anic", "limb", 100, 8},
+                    ConformanceVector{"far_rigid.anic", "far"}, ConformanceVector{"uneven_times.anic", "uneven"},
+                    ConformanceVector{"leftovers.anic", "leftovers"}, ConformanceVector{"one_frame.anic", "one_frame"},
+                    ConformanceVector{"one_vertex.anic", "one_vertex"},
+                    ConformanceVector{"nonmanifold_interpolated.anic", "nonmanifold"},
+                    ConformanceVector{"limb_default.anic", "limb", 200, 12},
+                    ConformanceVector{"limb_native.anic", "limb", 200, 12},
+                    ConformanceVector{"painted_box.anic", "painted_box"}, ConformanceVector{"heated.anic", "heated"}),
     [](const auto& vector) {
       return std::string(vector.param.file, std::string(vector.param.file).find('.'));
     });

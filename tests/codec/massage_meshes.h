@@ -114,6 +114,14 @@ inline MeshSequence bending_sheet(const TestMesh& sheet, uint32_t frames, double
   return clip;
 }
 
+/// Root of the mean squared difference of the coordinates of two clips of one size.
+inline double rms_distance(const MeshSequence& a, const MeshSequence& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.positions.size(); ++i)
+    sum += std::pow(double{a.positions[i]} - double{b.positions[i]}, 2);
+  return std::sqrt(sum / static_cast<double>(a.positions.size()));
+}
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_TESTS_CODEC_MASSAGE_MESHES_H_

@@ -14,7 +14,7 @@
 namespace anicodec {
 namespace {
 
-struct Basis {
+struct BatchBasis {
   uint32_t vertices, channels, components, stride;
   Vector<uint32_t> levels;
   std::vector<int32_t> neighbours;  // vertices x stride, of earlier levels
@@ -25,9 +25,9 @@ struct Basis {
 
 /// Levels that double, as those of a mesh do; `draw` gives the residuals.
 template <class Draw>
-Basis make_basis(uint32_t vertices, uint32_t channels, uint32_t components, uint32_t stride,
+BatchBasis make_batch_basis(uint32_t vertices, uint32_t channels, uint32_t components, uint32_t stride,
                  Draw&& draw) {
-  Basis b{vertices, channels, components, stride, {}, {}, {}};
+  BatchBasis b{vertices, channels, components, stride, {}, {}, {}};
   Random random(vertices + channels + stride);
   uint32_t first = 0;  // of the level
   for (uint32_t v = 0; v < vertices; ++v) {
@@ -45,11 +45,11 @@ Basis make_basis(uint32_t vertices, uint32_t channels, uint32_t components, uint
   return b;
 }
 
-BatchCoefficientModel model_of(const Basis& b) {
+BatchCoefficientModel model_of(const BatchBasis& b) {
   return {b.channels, b.neighbours.data(), b.stride, b.levels};
 }
 
-Bytes encode(const Basis& b) {
+Bytes encode_batch(const BatchBasis& b) {
   RansEncoder encoder;
   BatchCoefficientModel model = model_of(b);
   std::vector<int32_t> q = b.q;
@@ -59,7 +59,7 @@ Bytes encode(const Basis& b) {
   return encoder.finish();
 }
 
-std::vector<int32_t> decode(const Basis& b, const Bytes& bytes, bool* exact) {
+std::vector<int32_t> decode_batch(const BatchBasis& b, const Bytes& bytes, bool* exact) {
   RansDecoder decoder(bytes);
   BatchCoefficientModel model = model_of(b);
   std::vector<int32_t> q(b.q.size());
@@ -69,13 +69,13 @@ std::vector<int32_t> decode(const Basis& b, const Bytes& bytes, bool* exact) {
   return q;
 }
 
-void expect_round_trip(const Basis& b) {
+void expect_batch_round_trip(const BatchBasis& b) {
   bool exact = false;
-  EXPECT_EQ(decode(b, encode(b), &exact), b.q);
+  EXPECT_EQ(decode_batch(b, encode_batch(b), &exact), b.q);
   EXPECT_TRUE(exact);
 }
 
-int32_t residual(Random& random) {
+int32_t batch_residual(Random& random) {
   const uint32_t r = random();
   return r % 8 ? 0 : static_cast<int32_t>(random() % 7) - 3;
 }
@@ -85,28 +85,28 @@ TEST(BatchCoefficientCoder, ReturnsTheResiduals) {
   for (const uint32_t channels : {1u, 3u})
     for (const uint32_t stride : {1u, 5u, 8u, 16u})
       for (const uint32_t vertices : {0u, 1u, 2u, 10u, 500u})
-        expect_round_trip(
-            make_basis(vertices, channels, 5, stride, [&](size_t) { return residual(random); }));
+        expect_batch_round_trip(
+            make_batch_basis(vertices, channels, 5, stride, [&](size_t) { return batch_residual(random); }));
 }
 
 TEST(BatchCoefficientCoder, ReturnsExtremeResiduals) {
   constexpr int32_t kMax = kCoefficientLimit - 1;
   for (const uint32_t channels : {1u, 3u}) {
-    expect_round_trip(make_basis(300, channels, 4, 8, [](size_t) { return 0; }));
-    expect_round_trip(make_basis(300, channels, 4, 8, [](size_t) { return kMax; }));
-    expect_round_trip(
-        make_basis(300, channels, 40, 8, [](size_t i) { return i % 2 ? kMax : -kMax; }));
-    expect_round_trip(make_basis(300, channels, 4, 8, [](size_t i) {
+    expect_batch_round_trip(make_batch_basis(300, channels, 4, 8, [](size_t) { return 0; }));
+    expect_batch_round_trip(make_batch_basis(300, channels, 4, 8, [](size_t) { return kMax; }));
+    expect_batch_round_trip(
+        make_batch_basis(300, channels, 40, 8, [](size_t i) { return i % 2 ? kMax : -kMax; }));
+    expect_batch_round_trip(make_batch_basis(300, channels, 4, 8, [](size_t i) {
       return static_cast<int32_t>(1u << (i % 24)) * (i % 3 ? 1 : -1);
     }));
-    expect_round_trip(
-        make_basis(300, channels, 4, 8, [](size_t i) { return static_cast<int32_t>(i % 130); }));
+    expect_batch_round_trip(
+        make_batch_basis(300, channels, 4, 8, [](size_t i) { return static_cast<int32_t>(i % 130); }));
   }
 }
 
 TEST(BatchCoefficientCoder, TakesNextToNothingForZeros) {
-  const Basis b = make_basis(20000, 1, 20, 8, [](size_t) { return 0; });
-  EXPECT_LT(encode(b).size(), 100u);
+  const BatchBasis b = make_batch_basis(20000, 1, 20, 8, [](size_t) { return 0; });
+  EXPECT_LT(encode_batch(b).size(), 100u);
 }
 
 TEST(BatchCoefficientCoder, LearnsSignsThatRepeat) {
@@ -115,7 +115,7 @@ TEST(BatchCoefficientCoder, LearnsSignsThatRepeat) {
     std::vector<int32_t> first(400);
     for (int32_t& x : first)
       x = random() % 2 ? 1 : -1;
-    return encode(make_basis(400, 1, 30, 8,
+    return encode_batch(make_batch_basis(400, 1, 30, 8,
                              [&](size_t i) {
                                const int32_t turn = i / 400 % 3 == 1 ? -1 : 1;
                                return repeat ? turn * first[i % 400] : random() % 2 ? 1 : -1;
@@ -127,28 +127,28 @@ TEST(BatchCoefficientCoder, LearnsSignsThatRepeat) {
 
 TEST(BatchCoefficientCoder, TruncatedOrCorruptStreamsEndInTime) {
   Random random(6);
-  const Basis b = make_basis(400, 3, 3, 8, [&](size_t) { return residual(random); });
-  const Bytes bytes = encode(b);
+  const BatchBasis b = make_batch_basis(400, 3, 3, 8, [&](size_t) { return batch_residual(random); });
+  const Bytes bytes = encode_batch(b);
   bool exact = true;
   for (size_t size = 0; size < bytes.size(); size += 11) {
-    decode(b, Bytes(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size)), &exact);
+    decode_batch(b, Bytes(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size)), &exact);
     EXPECT_FALSE(exact);
   }
   for (size_t i = 0; i < bytes.size(); ++i) {
     Bytes changed = bytes;
     changed[i] = static_cast<uint8_t>(random());
-    for (const int32_t q : decode(b, changed, &exact))
+    for (const int32_t q : decode_batch(b, changed, &exact))
       ASSERT_LT(std::abs(q), kCoefficientLimit);
   }
 }
 
 TEST(BatchCoefficientCoder, WritesThePinnedBytes) {
   Random random(8);
-  const Basis b = make_basis(600, 3, 6, 12, [&](size_t i) {
-    return i % 50 == 0 ? static_cast<int32_t>(random() % 5000) - 2500 : residual(random);
+  const BatchBasis b = make_batch_basis(600, 3, 6, 12, [&](size_t i) {
+    return i % 50 == 0 ? static_cast<int32_t>(random() % 5000) - 2500 : batch_residual(random);
   });
   uint32_t sum = 0;
-  const Bytes bytes = encode(b);
+  const Bytes bytes = encode_batch(b);
   for (const uint8_t byte : bytes)
     sum = sum * 31 + byte;
   EXPECT_EQ(bytes.size(), 1546u);

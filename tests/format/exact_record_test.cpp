@@ -10,7 +10,7 @@
 namespace anicodec {
 namespace {
 
-ExactRecord sample() {
+ExactRecord exact_sample() {
   ExactRecord record;
   record.hash = 0x123456789ABCDEF0;
   record.noise = 1e-9;
@@ -27,13 +27,13 @@ Status read(const Bytes& bytes, ExactRecord* out) {
   return ExactRecord::read(bytes, segment, mesh, out);
 }
 
-Status status_of(const ExactRecord& record) {
+Status exact_status(const ExactRecord& record) {
   ExactRecord out;
   return read(record.write(), &out);
 }
 
 TEST(ExactRecord, ComesBack) {
-  ExactRecord record = sample();
+  ExactRecord record = exact_sample();
   const Bytes stream = {1, 2, 3};
   record.stream = stream;
   const Bytes bytes = record.write();
@@ -55,30 +55,30 @@ TEST(ExactRecord, ComesBack) {
 }
 
 TEST(ExactRecord, RefusesEachFieldOutOfItsRange) {
-  EXPECT_EQ(status_of(sample()), Status::kOk);
-  ExactRecord record = sample();
+  EXPECT_EQ(exact_status(exact_sample()), Status::kOk);
+  ExactRecord record = exact_sample();
   for (double noise : {0.0, -1.0, double{INFINITY}, std::numeric_limits<double>::quiet_NaN()}) {
     record.noise = noise;
-    EXPECT_EQ(status_of(record), Status::kQuantizer) << noise;
+    EXPECT_EQ(exact_status(record), Status::kQuantizer) << noise;
   }
-  record = sample();
+  record = exact_sample();
   record.lattices[0].origin = INFINITY;
-  EXPECT_EQ(status_of(record), Status::kQuantizer);
-  record = sample();
+  EXPECT_EQ(exact_status(record), Status::kQuantizer);
+  record = exact_sample();
   record.lattices[2].step = INFINITY;
-  EXPECT_EQ(status_of(record), Status::kQuantizer);
+  EXPECT_EQ(exact_status(record), Status::kQuantizer);
   for (uint32_t count : {0U, 13U}) {
-    record = sample();
+    record = exact_sample();
     record.lattices[0].count = count;
-    EXPECT_EQ(status_of(record), Status::kRecord) << count;
+    EXPECT_EQ(exact_status(record), Status::kRecord) << count;
   }
-  Bytes bytes = sample().write();
+  Bytes bytes = exact_sample().write();
   ExactRecord out;
   for (uint8_t axes : {0x40, 0x80, 0x1F}) {
     bytes[0] = axes;
     EXPECT_EQ(read(bytes, &out), Status::kRecord);
   }
-  bytes = sample().write();
+  bytes = exact_sample().write();
   while (!bytes.empty()) {
     bytes.pop_back();
     EXPECT_EQ(read(bytes, &out), Status::kRecord) << bytes.size();

@@ -18,7 +18,7 @@ Limits limits_of(uint32_t root_frames) {
   return limits;
 }
 
-RootRecord sample() {
+RootRecord root_sample() {
   RootRecord record;
   record.clips.resize(3);
   record.clips[0] = {RootRecord::kMoves, {1, 2}, 0.5, 1};
@@ -26,14 +26,14 @@ RootRecord sample() {
   return record;
 }
 
-Status status_of(const RootRecord& record, uint32_t root_frames = 14) {
+Status root_status(const RootRecord& record, uint32_t root_frames = 14) {
   const Bytes bytes = record.write();
   RootRecord read;
   return RootRecord::read(bytes, limits_of(root_frames), &read);
 }
 
 TEST(RootRecord, ComesBack) {
-  RootRecord record = sample();
+  RootRecord record = root_sample();
   const Bytes stream = {1, 2, 3};
   record.stream = stream;
   const Bytes bytes = record.write();
@@ -50,23 +50,23 @@ TEST(RootRecord, ComesBack) {
 }
 
 TEST(RootRecord, RefusesWhatMakesNoSense) {
-  EXPECT_EQ(status_of(sample()), Status::kOk);
-  EXPECT_EQ(status_of(sample(), 13), Status::kRecord);
-  RootRecord record = sample();
+  EXPECT_EQ(root_status(root_sample()), Status::kOk);
+  EXPECT_EQ(root_status(root_sample(), 13), Status::kRecord);
+  RootRecord record = root_sample();
   record.clips[1].holds = 4;
-  EXPECT_EQ(status_of(record), Status::kRecord);
+  EXPECT_EQ(root_status(record), Status::kRecord);
   for (double bad : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
-    record = sample();
+    record = root_sample();
     record.clips[0].step = bad;
-    EXPECT_EQ(status_of(record), Status::kQuantizer) << bad;
-    record = sample();
+    EXPECT_EQ(root_status(record), Status::kQuantizer) << bad;
+    record = root_sample();
     record.clips[2].turn_step = bad;
-    EXPECT_EQ(status_of(record), Status::kQuantizer) << bad;
+    EXPECT_EQ(root_status(record), Status::kQuantizer) << bad;
   }
-  record = sample();
+  record = root_sample();
   record.clips[2].pivot[0] = std::nan("");
-  EXPECT_EQ(status_of(record), Status::kQuantizer);
-  const Bytes bytes = sample().write();
+  EXPECT_EQ(root_status(record), Status::kQuantizer);
+  const Bytes bytes = root_sample().write();
   for (size_t size = 0; size < bytes.size(); ++size) {
     RootRecord read;
     EXPECT_EQ(RootRecord::read({bytes.data(), size}, limits_of(14), &read), Status::kRecord)

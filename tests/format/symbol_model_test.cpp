@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = Vector<uint8_t>;
 
-void expect_round_trip(const std::vector<int32_t>& values) {
+void expect_values_round_trip(const std::vector<int32_t>& values) {
   const Bytes bytes = encode_integers(values);
   bool exact = false;
   EXPECT_EQ(decode_integers(bytes, values.size(), &exact), values);
@@ -27,17 +27,17 @@ void expect_round_trip(const std::vector<int32_t>& values) {
 
 TEST(SymbolModel, ReturnsSkewedAndExtremeValues) {
   constexpr int32_t kMax = std::numeric_limits<int32_t>::max();
-  expect_round_trip({});
-  expect_round_trip({0});
-  expect_round_trip({kMax, -kMax, 0, 1, -1, kMax, 2, -2, 3, -3, 4, 1 << 30, -(1 << 30)});
-  expect_round_trip(std::vector<int32_t>(10000, 0));
-  expect_round_trip(std::vector<int32_t>(3000, -kMax));
+  expect_values_round_trip({});
+  expect_values_round_trip({0});
+  expect_values_round_trip({kMax, -kMax, 0, 1, -1, kMax, 2, -2, 3, -3, 4, 1 << 30, -(1 << 30)});
+  expect_values_round_trip(std::vector<int32_t>(10000, 0));
+  expect_values_round_trip(std::vector<int32_t>(3000, -kMax));
   for (uint32_t seed = 0; seed < 20; ++seed)
-    expect_round_trip(skewed(seed * 300, seed));
+    expect_values_round_trip(skewed(seed * 300, seed));
   std::vector<int32_t> alternating(2000);
   for (size_t i = 0; i < alternating.size(); ++i)
     alternating[i] = i % 2 ? 1 << (i % 31) : 0;
-  expect_round_trip(alternating);
+  expect_values_round_trip(alternating);
 }
 
 TEST(SymbolModel, CodesUnsignedValuesWithoutASign) {

@@ -3,7 +3,7 @@
 #include "codec/keyframes/keyframe_fit.h"
 
 #include "tests/codec/keyframes/frame_of_fit.h"
-#include "tests/codec/moving_points.h"
+#include "tests/codec/keyframes/keyframe_testing.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -16,8 +16,6 @@ using Eigen::Matrix3d;
 
 constexpr KeyframeWeights kKinds[] = {KeyframeWeights::kLinear, KeyframeWeights::kSumToOne,
                                       KeyframeWeights::kRigid};
-constexpr KeyframeMethod kMethods[] = {KeyframeMethod::kGas, KeyframeMethod::kPivot,
-                                       KeyframeMethod::kUniform};
 
 // Every frame turned and moved along a path.
 void set_in_motion(MovingPoints& clip) {

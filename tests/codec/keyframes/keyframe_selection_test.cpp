@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/keyframes/keyframe_selection.h"
 
-#include "codec/algebra/gram.h"
 #include "codec/keyframes/keyframe_weights.h"
-#include "tests/codec/moving_points.h"
+#include "tests/codec/keyframes/keyframe_testing.h"
 
 #include <algorithm>
 #include <set>
@@ -18,13 +17,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr KeyframeMethod kMethods[] = {KeyframeMethod::kGas, KeyframeMethod::kPivot,
-                                       KeyframeMethod::kUniform};
 constexpr KeyframeSpan kSpans[] = {KeyframeSpan::kLinear, KeyframeSpan::kAffine};
-
-MatrixXd gram_of(const MovingPoints& clip) {
-  return frame_gram(clip.view()).clip_centred();
-}
 
 double error_of(const MatrixXd& gram, const std::vector<uint32_t>& keyframes, KeyframeSpan span) {
   return fit_weights(

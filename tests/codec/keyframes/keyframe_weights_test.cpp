@@ -2,10 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/keyframes/keyframe_weights.h"
 
-#include "codec/algebra/gram.h"
 #include "codec/keyframes/keyframe_fit.h"
 #include "tests/codec/keyframes/frame_of_fit.h"
-#include "tests/codec/moving_points.h"
+#include "tests/codec/keyframes/keyframe_testing.h"
 
 #include <gtest/gtest.h>
 
@@ -16,10 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr WeightConstraint kConstraints[] = {WeightConstraint::kNone, WeightConstraint::kSumToOne};
-
-MatrixXd gram_of(const MovingPoints& clip) {
-  return frame_gram(clip.view()).clip_centred();
-}
 
 TEST(KeyframeWeights, SumToOneWhenAsked) {
   const MatrixXd gram = gram_of(swinging_points(40, 30, 6, 1, 0.1));

@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/keyframes/neural_gas.h"
 
-#include "codec/algebra/gram.h"
-#include "tests/codec/moving_points.h"
+#include "tests/codec/keyframes/keyframe_testing.h"
 
 #include <algorithm>
 #include <set>
@@ -17,10 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-MatrixXd gram_of(const MovingPoints& clip) {
-  return frame_gram(clip.view()).clip_centred();
-}
 
 // Frames that dwell near a few poses, in the order of the poses.
 MovingPoints poses(size_t count, size_t frames_each, double spread, uint32_t seed) {

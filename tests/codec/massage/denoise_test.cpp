@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr uint32_t kSide = 16, kFrames = 20;
+constexpr uint32_t kNoisySide = 16, kNoisyFrames = 20;
 
 TEST(Denoise, LeavesFewFramesAlone) {
   const MeshSequence clip = corpus::make_scaled("sliding", 400, 7);
@@ -30,17 +30,17 @@ TEST(Denoise, LeavesFewFramesAlone) {
 }
 
 TEST(Denoise, KeepsTheBoundaryInPlace) {
-  const TestMesh sheet = flat_sheet(kSide);
-  const MeshSequence noisy = bending_sheet(sheet, kFrames, 0.02);
+  const TestMesh sheet = flat_sheet(kNoisySide);
+  const MeshSequence noisy = bending_sheet(sheet, kNoisyFrames, 0.02);
   const WeldedSurface welded(noisy);
   MeshSequence massaged = noisy;
   const std::vector<uint8_t> freedom = sliding_freedom(welded.topology, sheet.positions);
   denoise(noisy, welded, freedom, {}, &massaged);
-  for (uint32_t f = 0; f < kFrames; ++f) {
+  for (uint32_t f = 0; f < kNoisyFrames; ++f) {
     const Positions before = welded.frame(noisy.frame(f)), after = welded.frame(massaged.frame(f));
-    for (uint32_t corner : {0U, kSide - 1, kSide * kSide - 1})
+    for (uint32_t corner : {0U, kNoisySide - 1, kNoisySide * kNoisySide - 1})
       EXPECT_EQ(row(before, corner), row(after, corner));
-    EXPECT_NE(row(before, kSide + 1), row(after, kSide + 1));
+    EXPECT_NE(row(before, kNoisySide + 1), row(after, kNoisySide + 1));
   }
 }
 

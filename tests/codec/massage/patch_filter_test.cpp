@@ -21,13 +21,6 @@ using Eigen::Vector3d;
 
 constexpr uint32_t kSide = 16, kFrames = 20;
 
-double distance(const MeshSequence& a, const MeshSequence& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.positions.size(); ++i)
-    sum += std::pow(double{a.positions[i]} - double{b.positions[i]}, 2);
-  return std::sqrt(sum / static_cast<double>(a.positions.size()));
-}
-
 std::vector<uint32_t> all_vertices() {
   std::vector<uint32_t> vertices(kSide * kSide);
   std::iota(vertices.begin(), vertices.end(), 0U);
@@ -41,7 +34,7 @@ TEST(PatchFilter, TakesOutNoiseAndLeavesMotion) {
   MeshSequence filtered = noisy;
   const double components =
       PatchFilter(sheet.topology).run(1, all_vertices(), 0, kFrames, &filtered);
-  EXPECT_LT(distance(filtered, clean), 0.5 * distance(noisy, clean));
+  EXPECT_LT(rms_distance(filtered, clean), 0.5 * rms_distance(noisy, clean));
   EXPECT_GT(components, 0.5);
   EXPECT_LT(components, 5);
 }
@@ -65,7 +58,7 @@ TEST(PatchFilter, LeavesMotionOfFewComponentsWithoutNoise) {
   const MeshSequence clean = bending_sheet(sheet, kFrames, 0);
   MeshSequence filtered = clean;
   PatchFilter(sheet.topology).run(1, all_vertices(), 0, kFrames, &filtered);
-  EXPECT_LT(distance(filtered, clean), 1e-4);
+  EXPECT_LT(rms_distance(filtered, clean), 1e-4);
 }
 
 TEST(PatchFilter, KnowsTheMedianOfNoise) {

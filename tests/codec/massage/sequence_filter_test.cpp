@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/massage/sequence_filter.h"
 
+#include "tests/codec/massage_meshes.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -24,26 +26,19 @@ MeshSequence noisy_waves(double noise) {
   return clip;
 }
 
-double distance(const MeshSequence& a, const MeshSequence& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.positions.size(); ++i)
-    sum += std::pow(double{a.positions[i]} - b.positions[i], 2);
-  return std::sqrt(sum / static_cast<double>(a.positions.size()));
-}
-
 TEST(SequenceFilter, TakesOutNoiseAndLeavesMotion) {
   const MeshSequence clean = noisy_waves(0), noisy = noisy_waves(0.02);
   const SequenceFilter filter{FrameView(noisy)};
   MeshSequence filtered = noisy;
   play_frames(filter.weights(2 * filter.variances()[4]), 0, &filtered);
-  EXPECT_LT(distance(filtered, clean), 0.5 * distance(noisy, clean));
+  EXPECT_LT(rms_distance(filtered, clean), 0.5 * rms_distance(noisy, clean));
 }
 
 TEST(SequenceFilter, AtLevelZeroChangesNothing) {
   const MeshSequence noisy = noisy_waves(0.02);
   MeshSequence filtered = noisy;
   play_frames(SequenceFilter{FrameView(noisy)}.weights(0), 0, &filtered);
-  EXPECT_LT(distance(filtered, noisy), 1e-5);
+  EXPECT_LT(rms_distance(filtered, noisy), 1e-5);
 }
 
 TEST(SequenceFilter, CombinesFramesAsOneByOne) {

@@ -25,7 +25,7 @@ HausdorffDistance between(const Shape& a, const Shape& b) {
 }
 
 /// A square of side `side` at height z, as one quad, cornered at the origin.
-Shape square(float side, float z) {
+Shape square_at(float side, float z) {
   Shape s;
   s.polygons.add(std::vector<uint32_t>{0, 1, 2, 3});
   s.positions = {0, 0, z, side, 0, z, side, side, z, 0, side, z};
@@ -37,7 +37,7 @@ Shape frame_of(const MeshSequence& s, size_t f) {
 }
 
 TEST(Hausdorff, ParallelSquaresAreTheirDistanceApart) {
-  HausdorffDistance d = between(square(1, 0), square(1, 0.75F));
+  HausdorffDistance d = between(square_at(1, 0), square_at(1, 0.75F));
   for (const SurfaceDistance& way : {d.forward, d.backward}) {
     EXPECT_DOUBLE_EQ(way.mean, 0.75);
     EXPECT_DOUBLE_EQ(way.rms, 0.75);
@@ -48,7 +48,7 @@ TEST(Hausdorff, ParallelSquaresAreTheirDistanceApart) {
 TEST(Hausdorff, IsNotTheSameBothWays) {
   // From the small square every point is 0.5 below the large one; from the large one the far corner
   // is (1, 1, 0.5) from the corner of the small.
-  HausdorffDistance d = between(square(1, 0), square(2, 0.5F));
+  HausdorffDistance d = between(square_at(1, 0), square_at(2, 0.5F));
   EXPECT_DOUBLE_EQ(d.forward.max, 0.5);
   EXPECT_DOUBLE_EQ(d.forward.mean, 0.5);
   EXPECT_DOUBLE_EQ(d.backward.max, 1.5);
@@ -73,7 +73,7 @@ TEST(Hausdorff, ShiftedCubeIsItsShiftApart) {
 TEST(Hausdorff, WeighsByAreaNotByTheNumberOfSamples) {
   // A tilted square: the distance to the plane grows linearly from 0 to 1, whatever the
   // tessellation. The second is cut very unevenly.
-  Shape plane = square(100, 0);
+  Shape plane = square_at(100, 0);
   for (size_t i = 0; i < plane.positions.size(); i += 3) {
     plane.positions[i] -= 50;
     plane.positions[i + 1] -= 50;
@@ -113,7 +113,7 @@ TEST(Hausdorff, DegenerateTrianglesCountAsSegmentsAndPoints) {
   Shape segment;
   segment.polygons.add(std::vector<uint32_t>{0, 1, 1});
   segment.positions = {0, 0, 1, 1, 0, 1};
-  HausdorffDistance d = between(segment, square(1, 0));
+  HausdorffDistance d = between(segment, square_at(1, 0));
   EXPECT_DOUBLE_EQ(d.forward.mean, 1);
   EXPECT_DOUBLE_EQ(d.forward.max, 1);
   EXPECT_DOUBLE_EQ(d.backward.max, std::sqrt(2));
@@ -121,7 +121,7 @@ TEST(Hausdorff, DegenerateTrianglesCountAsSegmentsAndPoints) {
 }
 
 TEST(Hausdorff, UnusedVerticesAreNotPartOfASurface) {
-  Shape a = square(1, 0), b = a;
+  Shape a = square_at(1, 0), b = a;
   b.positions.insert(b.positions.end(), {50, 50, 50});
   EXPECT_LT(between(a, b).max(), 1e-15);
 }
@@ -136,7 +136,7 @@ TEST(Hausdorff, PointCloudsUseTheNearestVertex) {
   EXPECT_DOUBLE_EQ(d.forward.rms, std::sqrt((0 + 1 + 9) / 3.0));
   EXPECT_DOUBLE_EQ(d.backward.max, 2);
   // A cloud against a surface: its points to the surface, the surface to its points.
-  HausdorffDistance mixed = between(b, square(1, 0));
+  HausdorffDistance mixed = between(b, square_at(1, 0));
   EXPECT_DOUBLE_EQ(mixed.forward.max, 2);
   EXPECT_DOUBLE_EQ(mixed.backward.max, std::sqrt(2));
 }
@@ -197,15 +197,15 @@ TEST(Hausdorff, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(Hausdorff, RefusesWhatHasNoDistance) {
   Shape empty;
-  EXPECT_THROW(between(empty, square(1, 0)), Error);
-  EXPECT_THROW(between(square(1, 0), empty), Error);
-  Shape bad = square(1, 0);
+  EXPECT_THROW(between(empty, square_at(1, 0)), Error);
+  EXPECT_THROW(between(square_at(1, 0), empty), Error);
+  Shape bad = square_at(1, 0);
   bad.positions[4] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(between(square(1, 0), bad), Error);
-  EXPECT_THROW(between(bad, square(1, 0)), Error);
-  Shape cut_short = square(1, 0);
+  EXPECT_THROW(between(square_at(1, 0), bad), Error);
+  EXPECT_THROW(between(bad, square_at(1, 0)), Error);
+  Shape cut_short = square_at(1, 0);
   cut_short.positions.resize(9);
-  EXPECT_THROW(between(cut_short, square(1, 0)), Error);
+  EXPECT_THROW(between(cut_short, square_at(1, 0)), Error);
   EXPECT_THROW(compare_surfaces(corpus::make_clip("cuts"), corpus::make_clip("static")), Error);
 }
 

@@ -5,6 +5,7 @@
 #include "build_paths.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
+#include "tests/codec/metrics/square.h"
 #include "tests/random.h"
 
 #include <cmath>
@@ -20,20 +21,6 @@
 
 namespace anicodec {
 namespace {
-
-/// A unit square in two triangles, the same in every frame.
-MeshSequence square(uint32_t frames) {
-  MeshSequence s;
-  s.vertex_count = 4;
-  s.frame_count = frames;
-  s.polygons.add(std::vector<uint32_t>{0, 1, 2});
-  s.polygons.add(std::vector<uint32_t>{0, 2, 3});
-  for (uint32_t f = 0; f < frames; ++f) {
-    for (float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 1.F, 0.F})
-      s.positions.push_back(x);
-  }
-  return s;
-}
 
 /// Pseudo-random offsets of up to `size`.
 MeshSequence disturbed(MeshSequence s, float size) {

@@ -3,6 +3,7 @@
 #include "codec/metrics/sted.h"
 
 #include "corpus/clips.h"
+#include "tests/codec/metrics/square.h"
 #include "tests/random.h"
 
 #include <algorithm>
@@ -24,19 +25,6 @@ Sted sted_of(const MeshSequence& p, const MeshSequence& q) {
   for (uint32_t f = 0; f < p.frame_count; ++f)
     meter.add(p.frame(f), q.frame(f));
   return meter.finish();
-}
-
-MeshSequence square(uint32_t frames) {
-  MeshSequence s;
-  s.vertex_count = 4;
-  s.frame_count = frames;
-  s.polygons.add(std::vector<uint32_t>{0, 1, 2});
-  s.polygons.add(std::vector<uint32_t>{0, 2, 3});
-  for (uint32_t f = 0; f < frames; ++f) {
-    for (float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 1.F, 0.F})
-      s.positions.push_back(x);
-  }
-  return s;
 }
 
 TEST(Sted, TwoTrianglesOverThreeFramesByHand) {

@@ -15,15 +15,15 @@
 namespace anicodec {
 namespace {
 
-constexpr uint32_t kSide = 9, kVertices = kSide * kSide;
+constexpr uint32_t kSheetSide = 9, kVertices = kSheetSide * kSheetSide;
 
 Topology grid() {
   Topology topology;
   topology.coded_vertices = kVertices;
-  for (uint32_t y = 0; y + 1 < kSide; ++y) {
-    for (uint32_t x = 0; x + 1 < kSide; ++x) {
-      const uint32_t a = y * kSide + x;
-      for (uint32_t v : {a, a + 1, a + kSide, a + 1, a + kSide + 1, a + kSide})
+  for (uint32_t y = 0; y + 1 < kSheetSide; ++y) {
+    for (uint32_t x = 0; x + 1 < kSheetSide; ++x) {
+      const uint32_t a = y * kSheetSide + x;
+      for (uint32_t v : {a, a + 1, a + kSheetSide, a + 1, a + kSheetSide + 1, a + kSheetSide})
         topology.triangles.push_back(v);
     }
   }
@@ -55,13 +55,13 @@ size_t expect_same(const std::vector<float>& positions) {
   return bytes.size();
 }
 
-/// A sheet that waves, rounded by `round`.
+/// A sheet_frames that waves, rounded by `round`.
 template <class Round>
-std::vector<float> sheet(uint32_t frames, Round round) {
+std::vector<float> sheet_frames(uint32_t frames, Round round) {
   std::vector<float> positions;
   for (uint32_t f = 0; f < frames; ++f) {
     for (uint32_t v = 0; v < kVertices; ++v) {
-      const double x = v % kSide, y = static_cast<double>(v / kSide);
+      const double x = v % kSheetSide, y = static_cast<double>(v / kSheetSide);
       for (double c : {x, y + 0.1 * std::sin(0.2 * f), std::sin(0.5 * x + 0.3 * y + 0.1 * f)})
         positions.push_back(static_cast<float>(round(c)));
     }
@@ -95,14 +95,14 @@ TEST(ExactEncode, GivesBackZerosOfBothSignsAndTheEndsOfTheRange) {
 }
 
 TEST(ExactEncode, TakesLittleForMotionThatIsSmoothAndLessOnALattice) {
-  const size_t plain = expect_same(sheet(40, [](double x) { return x; }));
-  const size_t decimals = expect_same(sheet(40, [](double x) { return std::round(x * 1e3) / 1e3; }));
+  const size_t plain = expect_same(sheet_frames(40, [](double x) { return x; }));
+  const size_t decimals = expect_same(sheet_frames(40, [](double x) { return std::round(x * 1e3) / 1e3; }));
   EXPECT_LT(plain, 12 * kVertices * 40 / 2);
   EXPECT_LT(decimals, plain / 2);
 }
 
 TEST(ExactEncode, FramesThatCameBeforeTakeNextToNothing) {
-  std::vector<float> once = sheet(10, [](double x) { return x; });
+  std::vector<float> once = sheet_frames(10, [](double x) { return x; });
   const size_t bytes = expect_same(once);
   std::vector<float> thrice = once;
   for (int i = 0; i < 2; ++i)
@@ -111,7 +111,7 @@ TEST(ExactEncode, FramesThatCameBeforeTakeNextToNothing) {
 }
 
 TEST(ExactEncode, OneFrameAndOneVertex) {
-  expect_same(sheet(1, [](double x) { return x; }));
+  expect_same(sheet_frames(1, [](double x) { return x; }));
   Topology point;
   point.coded_vertices = 1;
   const std::vector<float> positions = {1, 2, 3, -0.0F, 2, 3.5F};
@@ -123,7 +123,7 @@ TEST(ExactEncode, OneFrameAndOneVertex) {
 
 TEST(ExactEncode, ADecoderRefusesWhatNoEncoderWrites) {
   const Topology topology = grid();
-  const std::vector<float> positions = sheet(6, [](double x) { return std::round(x * 1e3) / 1e3; });
+  const std::vector<float> positions = sheet_frames(6, [](double x) { return std::round(x * 1e3) / 1e3; });
   const Bytes good = encode_exact({positions.data(), 6, kVertices}, topology);
   Segment segment;
   Bytes bytes = good;

@@ -12,8 +12,8 @@
 namespace anicodec {
 namespace {
 
-constexpr size_t kSide = 24;
-constexpr size_t kCount = kSide * kSide;
+constexpr size_t kGridSide = 24;
+constexpr size_t kCount = kGridSide * kGridSide;
 
 /// A grid of triangles and its order, each vertex predicted as the mean of its neighbours.
 struct Grid {
@@ -23,15 +23,15 @@ struct Grid {
   Grid() {
     Vector<uint32_t> triangles;
     Vector<int32_t> positions;
-    for (uint32_t y = 0; y < kSide; ++y)
-      for (uint32_t x = 0; x < kSide; ++x) {
+    for (uint32_t y = 0; y < kGridSide; ++y)
+      for (uint32_t x = 0; x < kGridSide; ++x) {
         positions.insert(positions.end(),
                          {static_cast<int32_t>(100 * x), static_cast<int32_t>(100 * y), 0});
-        if (x + 1 == kSide || y + 1 == kSide)
+        if (x + 1 == kGridSide || y + 1 == kGridSide)
           continue;
-        const uint32_t v = y * kSide + x;
+        const uint32_t v = y * kGridSide + x;
         for (const uint32_t d :
-             {0u, 1u, uint32_t{kSide} + 1, 0u, uint32_t{kSide} + 1, uint32_t{kSide}})
+             {0u, 1u, uint32_t{kGridSide} + 1, 0u, uint32_t{kGridSide} + 1, uint32_t{kGridSide}})
           triangles.push_back(v + d);
       }
     EXPECT_EQ(make_vertex_order(triangles.data(), triangles.size() / 3, positions.data(), kCount, 8,
@@ -88,8 +88,8 @@ std::vector<float> target(const Grid& grid) {
   SmallRandom random(5);
   std::vector<float> t(kCount);
   for (size_t i = 0; i < kCount; ++i) {
-    const double x = grid.order.order[i] % kSide,
-                 y = static_cast<double>(grid.order.order[i] / kSide);
+    const double x = grid.order.order[i] % kGridSide,
+                 y = static_cast<double>(grid.order.order[i] / kGridSide);
     t[i] = static_cast<float>(6 * std::sin(0.3 * x) + 4 * std::cos(0.2 * y + 0.1 * x) +
                               0.6 * random.symmetric());
   }

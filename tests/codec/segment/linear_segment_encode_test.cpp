@@ -18,28 +18,28 @@
 namespace anicodec {
 namespace {
 
-constexpr uint32_t kWidth = 24, kHeight = 20, kFrames = 18;
+constexpr uint32_t kWaveWidth = 24, kWaveHeight = 20, kWaveFrames = 18;
 
 /// A sheet of two halves that wave apart.
 class Sheet {
  public:
   Sheet() {
     MeshSequence source;
-    source.vertex_count = kWidth * kHeight;
+    source.vertex_count = kWaveWidth * kWaveHeight;
     source.frame_count = 1;
-    for (uint32_t y = 0; y + 1 < kHeight; ++y)
-      for (uint32_t x = 0; x + 1 < kWidth; ++x)
-        source.polygons.add(std::vector<uint32_t>{y * kWidth + x, y * kWidth + x + 1,
-                                                  (y + 1) * kWidth + x + 1, (y + 1) * kWidth + x});
+    for (uint32_t y = 0; y + 1 < kWaveHeight; ++y)
+      for (uint32_t x = 0; x + 1 < kWaveWidth; ++x)
+        source.polygons.add(std::vector<uint32_t>{y * kWaveWidth + x, y * kWaveWidth + x + 1,
+                                                  (y + 1) * kWaveWidth + x + 1, (y + 1) * kWaveWidth + x});
     for (uint32_t v = 0; v < source.vertex_count; ++v)
       source.positions.insert(source.positions.end(),
-                              {float(v % kWidth), float(v / kWidth), 0.01F * float(v * v % 7)});
+                              {float(v % kWaveWidth), float(v / kWaveWidth), 0.01F * float(v * v % 7)});
     layout = lay_out_mesh(source);
     copies.assign(layout.sizes.coded_vertices, 1);
-    for (uint32_t f = 0; f < kFrames; ++f) {
+    for (uint32_t f = 0; f < kWaveFrames; ++f) {
       for (uint32_t v : layout.coded_source) {
-        const double x = v % kWidth, y = v / kWidth;
-        const double z = x < kWidth / 2. ? std::sin(0.8 * y + 0.7 * f) + std::sin(1.9 * y - f)
+        const double x = v % kWaveWidth, y = v / kWaveWidth;
+        const double z = x < kWaveWidth / 2. ? std::sin(0.8 * y + 0.7 * f) + std::sin(1.9 * y - f)
                                          : std::sin(0.9 * x + 0.4 * f) + std::cos(0.2 * x * f);
         positions.insert(positions.end(), {static_cast<float>(x + 0.1 * f),
                                            static_cast<float>(y), static_cast<float>(z)});
@@ -47,7 +47,7 @@ class Sheet {
     }
   }
 
-  FrameView view() const { return {positions.data(), kFrames, layout.sizes.coded_vertices}; }
+  FrameView view() const { return {positions.data(), kWaveFrames, layout.sizes.coded_vertices}; }
 
   LinearBasis basis(uint32_t regions, bool scattered = false) const {
     const LinearAnalysis analysis(view());
@@ -57,7 +57,7 @@ class Sheet {
     Vector<uint8_t> of_vertex(layout.sizes.coded_vertices);
     for (uint32_t v = 0; v < of_vertex.size(); ++v)
       of_vertex[v] = static_cast<uint8_t>(
-          (scattered ? v : layout.coded_source[v] % kWidth * regions / kWidth) % regions);
+          (scattered ? v : layout.coded_source[v] % kWaveWidth * regions / kWaveWidth) % regions);
     return RegionAnalysis(std::make_shared<const RegionClips>(view(), of_vertex, regions))
         .basis(analysis, ReferencePose::kRankThree, 1000);
   }
@@ -71,7 +71,7 @@ class Sheet {
   }
 
   double rmse(const Segment& segment) const {
-    return std::sqrt(measure(segment, view(), copies).squared / (kFrames * copies.size()));
+    return std::sqrt(measure(segment, view(), copies).squared / (kWaveFrames * copies.size()));
   }
 
   MeshLayout layout;

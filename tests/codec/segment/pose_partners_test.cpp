@@ -29,8 +29,8 @@ struct Shape {
   }
 };
 
-/// A wavy sheet of (2 n + 1)^2 vertices, symmetric about x = 0, with random diagonals.
-Shape sheet(int n, unsigned seed) {
+/// A wavy crumpled_sheet of (2 n + 1)^2 vertices, symmetric about x = 0, with random diagonals.
+Shape crumpled_sheet(int n, unsigned seed) {
   std::mt19937 random(seed);
   Shape s;
   const int side = 2 * n + 1;
@@ -69,7 +69,7 @@ size_t with_partners(const PosePartners& partners) {
 
 TEST(PosePartners, AreTheMirrorImagesWhateverTheDiagonals) {
   const int n = 12, side = 2 * n + 1;
-  const Shape s = sheet(n, 1);
+  const Shape s = crumpled_sheet(n, 1);
   const PoseSurface surface(s.topology);
   const PosePartners partners = find_partners(s.pose, surface);
   ASSERT_EQ(partners.partner.size(), static_cast<size_t>(side * side));
@@ -86,7 +86,7 @@ TEST(PosePartners, AreTheMirrorImagesWhateverTheDiagonals) {
 }
 
 TEST(PosePartners, OfACopyAreTheVerticesOfWhatItCopies) {
-  const Shape original = sheet(6, 2);
+  const Shape original = crumpled_sheet(6, 2);
   Shape s = original;
   // Bend what was symmetric.
   for (Eigen::Index v = 0; v < s.pose.rows(); ++v)
@@ -106,7 +106,7 @@ TEST(PosePartners, OfACopyAreTheVerticesOfWhatItCopies) {
 }
 
 TEST(PosePartners, AreNotSeenInNoise) {
-  Shape s = sheet(15, 3);
+  Shape s = crumpled_sheet(15, 3);
   s.pose += MatrixXd::Random(s.pose.rows(), 3);
   EXPECT_LT(with_partners(find_partners(s.pose, PoseSurface(s.topology))),
             static_cast<size_t>(s.pose.rows()) / 10);
@@ -122,7 +122,7 @@ TEST(PosePartners, OfOddMeshesAreFoundWithoutHarm) {
   s.pose.row(1) = Vector3d(1e30, 0, 0);
   find_partners(s.pose, PoseSurface(s.topology));
   // All vertices at one point, and at one fan.
-  s = sheet(8, 4);
+  s = crumpled_sheet(8, 4);
   s.pose.setZero();
   find_partners(s.pose, PoseSurface(s.topology));
   for (uint32_t v = 0; v + 2 < s.topology.coded_vertices; ++v)

@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kWidth = 40, kHeight = 12, kFrames = 30;
 
-MeshGraph sheet(uint32_t sheets = 1) {
+MeshGraph sheet_graph(uint32_t sheets = 1) {
   std::vector<uint32_t> triangles;
   for (uint32_t s = 0; s < sheets; ++s) {
     for (uint32_t y = 0; y + 1 < kHeight; ++y) {
@@ -31,7 +31,7 @@ MeshGraph sheet(uint32_t sheets = 1) {
   return graph;
 }
 
-/// A sheet whose columns below `border` wave in one way, the others in another one.
+/// A sheet_graph whose columns below `border` wave in one way, the others in another one.
 std::vector<float> waves(uint32_t border) {
   std::vector<float> positions;
   for (uint32_t f = 0; f < kFrames; ++f) {
@@ -51,7 +51,7 @@ std::vector<float> waves(uint32_t border) {
 TEST(SurfaceRegions, LieWhereTheMotionChanges) {
   const std::vector<float> positions = waves(14);
   const FrameView clip(positions.data(), kFrames, kWidth * kHeight);
-  const Vector<uint8_t> regions = find_regions(clip, sheet(), 2);
+  const Vector<uint8_t> regions = find_regions(clip, sheet_graph(), 2);
   uint32_t wrong = 0;
   for (uint32_t v = 0; v < regions.size(); ++v)
     wrong += (regions[v] == regions[0]) != (v % kWidth < 14);
@@ -62,14 +62,14 @@ TEST(SurfaceRegions, AreNeverSmall) {
   const std::vector<float> positions = waves(2);
   const FrameView clip(positions.data(), kFrames, kWidth * kHeight);
   for (uint32_t count : {2U, 4U, 8U}) {
-    const Vector<uint8_t> regions = find_regions(clip, sheet(), count);
+    const Vector<uint8_t> regions = find_regions(clip, sheet_graph(), count);
     for (uint8_t r = 0; r < count; ++r)
       EXPECT_GE(std::ranges::count(regions, r), kWidth * kHeight / count / 4);
   }
 }
 
 TEST(SurfaceRegions, KeepSmallPiecesWhole) {
-  // A sheet, and tenths of it that are far away.
+  // A sheet_graph, and tenths of it that are far away.
   constexpr uint32_t kPieces = 5, kSize = 20, kSheet = kWidth * kHeight;
   MeshGraph graph;
   std::vector<uint32_t> triangles;
@@ -102,9 +102,9 @@ TEST(SurfaceRegions, KeepSmallPiecesWhole) {
 TEST(SurfaceRegions, DoNotDependOnThreads) {
   const std::vector<float> positions = waves(14);
   const FrameView clip(positions.data(), kFrames, kWidth * kHeight);
-  const Vector<uint8_t> many = find_regions(clip, sheet(), 4);
+  const Vector<uint8_t> many = find_regions(clip, sheet_graph(), 4);
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(find_regions(clip, sheet(), 4), many);
+  EXPECT_EQ(find_regions(clip, sheet_graph(), 4), many);
 }
 
 TEST(SurfaceRegions, AcceptAMeshWithoutEdgesThatDoesNotMove) {

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-SurfaceFrame frame_of(const TestMesh& mesh) {
+SurfaceFrame transfer_frame(const TestMesh& mesh) {
   SurfaceFrame frame;
   for (const SurfaceTopology::Triangle& t : mesh.topology.triangles)
     frame.polygons.add(t);
@@ -31,12 +31,12 @@ SurfaceFrame frame_of(const TestMesh& mesh) {
 SurfaceFrame moved(TestMesh mesh, const std::function<Vector3d(const Vector3d&)>& to) {
   for (uint32_t i = 0; i < mesh.topology.vertex_count; ++i)
     mesh.positions.row(i) = to(row(mesh.positions, i)).transpose();
-  return frame_of(mesh);
+  return transfer_frame(mesh);
 }
 
 /// A ball with its inside out: every triangle of another faces against it.
 SurfaceFrame inside_out(uint32_t n) {
-  SurfaceFrame ball = frame_of(sphere(n));
+  SurfaceFrame ball = transfer_frame(sphere(n));
   for (size_t p = 0; p < ball.polygons.size(); ++p)
     std::swap(ball.polygons.corners[3 * p + 1], ball.polygons.corners[3 * p + 2]);
   return ball;
@@ -96,7 +96,7 @@ TestMesh post(uint32_t n, double angle) {
 }
 
 TEST(ConnectivityTransfer, TriesAgainWhereAPartSwingsFar) {
-  const TransferResult result = transfer(frame_of(post(31, -0.7)), frame_of(post(33, 0.7)));
+  const TransferResult result = transfer(transfer_frame(post(31, -0.7)), transfer_frame(post(33, 0.7)));
   EXPECT_EQ(result.segments.size(), 1U) << alarm_names(result.frames[1].alarms);
   EXPECT_GT(result.frames[1].attempts, 1);
 }
@@ -104,7 +104,7 @@ TEST(ConnectivityTransfer, TriesAgainWhereAPartSwingsFar) {
 TEST(ConnectivityTransfer, AlarmsWhereTheSurfaceIsNotCovered) {
   // A second ball appears.
   TestMesh two = sphere(8);
-  SurfaceFrame both = frame_of(two);
+  SurfaceFrame both = transfer_frame(two);
   const SurfaceFrame far =
       moved(two, [](const Vector3d& p) { return Vector3d(p + Vector3d(4, 0, 0)); });
   const auto shift = static_cast<uint32_t>(both.positions.size() / 3);
@@ -114,7 +114,7 @@ TEST(ConnectivityTransfer, AlarmsWhereTheSurfaceIsNotCovered) {
     both.polygons.add(shifted);
   }
   both.positions.insert(both.positions.end(), far.positions.begin(), far.positions.end());
-  const TransferResult result = transfer(frame_of(sphere(9)), both);
+  const TransferResult result = transfer(transfer_frame(sphere(9)), both);
   ASSERT_EQ(result.segments.size(), 2U);
   EXPECT_TRUE(result.frames[1].first);
   EXPECT_TRUE(result.frames[1].alarms & static_cast<uint8_t>(TransferAlarm::kDistance));
@@ -127,7 +127,7 @@ TEST(ConnectivityTransfer, AllowsForWhatCoarseMeshesCannotShow) {
   TransferOptions strict;
   strict.edges = 0;
   strict.distance = 0.1;
-  const SurfaceFrame a = frame_of(sphere(2)), b = frame_of(sphere(3));
+  const SurfaceFrame a = transfer_frame(sphere(2)), b = transfer_frame(sphere(3));
   EXPECT_TRUE(transfer(a, b, strict).frames[1].alarms &
               static_cast<uint8_t>(TransferAlarm::kDistance));
   TransferOptions scaled;
@@ -137,13 +137,13 @@ TEST(ConnectivityTransfer, AllowsForWhatCoarseMeshesCannotShow) {
 }
 
 TEST(ConnectivityTransfer, AlarmsWhereTrianglesTurn) {
-  const TransferResult result = transfer(frame_of(sphere(9)), inside_out(8));
+  const TransferResult result = transfer(transfer_frame(sphere(9)), inside_out(8));
   ASSERT_EQ(result.segments.size(), 2U);
   EXPECT_TRUE(result.frames[1].alarms & static_cast<uint8_t>(TransferAlarm::kTurned));
 }
 
 TEST(ConnectivityTransfer, AlarmsWhereCorrespondencesDisagree) {
-  const TransferResult result = transfer(frame_of(sphere(9)), inside_out(8));
+  const TransferResult result = transfer(transfer_frame(sphere(9)), inside_out(8));
   EXPECT_GT(result.frames[1].dropped, 50);
   EXPECT_TRUE(result.frames[1].alarms & static_cast<uint8_t>(TransferAlarm::kDropped));
 }
@@ -152,14 +152,14 @@ TEST(ConnectivityTransfer, AlarmsWhereTrianglesLoseTheirShapes) {
   // The ball becomes a cigar: covered all over, but of other triangles.
   const SurfaceFrame cigar = moved(
       sphere(12), [](const Vector3d& p) { return Vector3d(3.0 * p[0], 0.6 * p[1], 0.6 * p[2]); });
-  const TransferResult result = transfer(frame_of(sphere(10)), cigar);
+  const TransferResult result = transfer(transfer_frame(sphere(10)), cigar);
   ASSERT_EQ(result.segments.size(), 2U);
   EXPECT_TRUE(result.frames[1].alarms & static_cast<uint8_t>(TransferAlarm::kDistortion))
       << alarm_names(result.frames[1].alarms) << " " << result.frames[1].conformal;
 }
 
 TEST(ConnectivityTransfer, GoesOnFromTheFrameThatBeganASegment) {
-  auto source = [](uint32_t f) { return f < 2 ? frame_of(sphere(9 + f)) : inside_out(10 + f); };
+  auto source = [](uint32_t f) { return f < 2 ? transfer_frame(sphere(9 + f)) : inside_out(10 + f); };
   const TransferResult result = transfer_connectivity(source, 4, {});
   ASSERT_EQ(result.segments.size(), 2U)
       << alarm_names(result.frames[1].alarms) << "; " << alarm_names(result.frames[3].alarms)
@@ -172,7 +172,7 @@ TEST(ConnectivityTransfer, GoesOnFromTheFrameThatBeganASegment) {
 
 TEST(ConnectivityTransfer, RefusesOpenAndClosedMeshesInOneSequence) {
   try {
-    transfer(frame_of(sphere(6)), frame_of(flat_sheet(6)));
+    transfer(transfer_frame(sphere(6)), transfer_frame(flat_sheet(6)));
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kInput);
@@ -185,7 +185,7 @@ TEST(ConnectivityTransfer, RefusesOpenAndClosedMeshesInOneSequence) {
 TEST(ConnectivityTransfer, RefusesAFrameWithoutTriangles) {
   SurfaceFrame points = moved(sphere(6), same);
   points.polygons = {};
-  EXPECT_THROW(transfer(frame_of(sphere(6)), points), Error);
+  EXPECT_THROW(transfer(transfer_frame(sphere(6)), points), Error);
 }
 
 TEST(ConnectivityTransfer, NamesItsAlarms) {

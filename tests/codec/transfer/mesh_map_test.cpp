@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-SurfaceFrame frame_of(const TestMesh& mesh) {
+SurfaceFrame map_frame(const TestMesh& mesh) {
   SurfaceFrame frame;
   for (const SurfaceTopology::Triangle& t : mesh.topology.triangles)
     frame.polygons.add(t);
@@ -37,7 +37,7 @@ TestMesh distant_egg(uint32_t n) {
 }
 
 TEST(MeshMap, LaysAMeshOnADistantOneByLandmarks) {
-  const SurfaceFrame ball = frame_of(sphere(8)), egg = frame_of(distant_egg(8));
+  const SurfaceFrame ball = map_frame(sphere(8)), egg = map_frame(distant_egg(8));
   std::vector<VertexPair> pairs;
   for (uint32_t v : {0U, 40U, 90U, 150U, 200U})
     pairs.push_back({v, v});
@@ -58,7 +58,7 @@ Vector3d position_of(const MeshPoint& point, const SurfaceFrame& surface) {
 }
 
 TEST(MeshMap, TellsWhereVerticesAndCornersLieOnTheSurface) {
-  const SurfaceFrame ball = frame_of(sphere(6)), fine = frame_of(sphere(9));
+  const SurfaceFrame ball = map_frame(sphere(6)), fine = map_frame(sphere(9));
   const MeshMap map = map_mesh(ball, fine, {});
   const Positions at = positions_of(map.positions);
   ASSERT_EQ(map.points.size() * 3, ball.positions.size());
@@ -72,13 +72,13 @@ TEST(MeshMap, TellsWhereVerticesAndCornersLieOnTheSurface) {
 }
 
 TEST(MeshMap, NeedsNoLandmarksForMeshesOverEachOther) {
-  const MeshMap map = map_mesh(frame_of(sphere(6)), frame_of(sphere(9)), {});
+  const MeshMap map = map_mesh(map_frame(sphere(6)), map_frame(sphere(9)), {});
   EXPECT_LT(map.distance.max(), 0.05 * map.diagonal);
   EXPECT_LT(map.after.conformal_mean, 1.1);
 }
 
 TEST(MeshMap, RefusesWhatCannotBeMapped) {
-  const SurfaceFrame ball = frame_of(sphere(6)), sheet = frame_of(flat_sheet(6));
+  const SurfaceFrame ball = map_frame(sphere(6)), sheet = map_frame(flat_sheet(6));
   EXPECT_THROW(map_mesh(ball, sheet, {}), Error);
   EXPECT_THROW(map_mesh(ball, SurfaceFrame(), {}), Error);
   EXPECT_THROW(map_mesh(ball, ball, std::vector<VertexPair>{{0, 0}, {1, 1}, {99999, 2}}), Error);

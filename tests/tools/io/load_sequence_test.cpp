@@ -21,7 +21,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-MeshSequence load(std::vector<std::string> inputs, const LoadOptions& options = {}) {
+MeshSequence load_clip(std::vector<std::string> inputs, const LoadOptions& options = {}) {
   return load_sequence(inputs, options);
 }
 
@@ -47,7 +47,7 @@ std::string pc2(uint32_t vertices, uint32_t frames) {
 
 TEST(LoadSequence, ReadsOneMeshAsOneFrame) {
   TemporaryFolder folder;
-  MeshSequence clip = load({folder.write("a.b.OBJ", triangle("7"))});
+  MeshSequence clip = load_clip({folder.write("a.b.OBJ", triangle("7"))});
   EXPECT_EQ(clip.name, "a.b");
   EXPECT_EQ(clip.frame_count, 1U);
   EXPECT_EQ(clip.positions[0], 7);
@@ -72,10 +72,10 @@ TEST(LoadSequence, SortsGlobsNaturallyAndKeepsListsAsGiven) {
   TemporaryFolder folder;
   for (const char* x : {"1", "2", "10"})
     folder.write(std::string("f_") + x + ".obj", triangle(x));
-  MeshSequence globbed = load({folder / "f_*.obj"});
+  MeshSequence globbed = load_clip({folder / "f_*.obj"});
   EXPECT_THAT((std::vector<float>{globbed.frame(0)[0], globbed.frame(1)[0], globbed.frame(2)[0]}),
               ElementsAre(1, 2, 10));
-  MeshSequence listed = load({folder / "f_10.obj", folder / "f_1.obj"});
+  MeshSequence listed = load_clip({folder / "f_10.obj", folder / "f_1.obj"});
   EXPECT_EQ(listed.name, "f_10");
   EXPECT_EQ(listed.frame(0)[0], 10);
   EXPECT_EQ(listed.frame(1)[0], 1);
@@ -83,7 +83,7 @@ TEST(LoadSequence, SortsGlobsNaturallyAndKeepsListsAsGiven) {
 
 TEST(LoadSequence, TakesANameThatExistsAsNoPattern) {
   TemporaryFolder folder;
-  EXPECT_EQ(load({folder.write("a[1].obj", triangle("5"))}).positions[0], 5);
+  EXPECT_EQ(load_clip({folder.write("a[1].obj", triangle("5"))}).positions[0], 5);
 }
 
 TEST(LoadSequence, PairsCachesWithMeshesInEitherOrder) {
@@ -91,17 +91,17 @@ TEST(LoadSequence, PairsCachesWithMeshesInEitherOrder) {
   std::string mesh = folder.write("mesh.obj", triangle("0"));
   std::string cache = folder.write("cache.pc2", pc2(3, 2));
   for (auto inputs : {std::vector{mesh, cache}, std::vector{cache, mesh}}) {
-    MeshSequence clip = load(inputs);
+    MeshSequence clip = load_clip(inputs);
     EXPECT_EQ(clip.frame_count, 2U);
     EXPECT_EQ(clip.positions[17], 17);
     EXPECT_EQ(clip.polygons.size(), 1U);
   }
-  EXPECT_EQ(load({cache}, {.mesh = mesh}).name, "cache");
+  EXPECT_EQ(load_clip({cache}, {.mesh = mesh}).name, "cache");
   EXPECT_THAT(load_fault({cache}), HasSubstr("cache.pc2: a vertex cache has no faces"));
   folder.write("cache.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 2 1 0\n");
-  EXPECT_THAT(load({cache}).polygons[0], ElementsAre(2, 1, 0));
+  EXPECT_THAT(load_clip({cache}).polygons[0], ElementsAre(2, 1, 0));
   folder.write("cache.obj", triangle("0"));
-  EXPECT_THAT(load({cache}).polygons[0], ElementsAre(0, 1, 2));
+  EXPECT_THAT(load_clip({cache}).polygons[0], ElementsAre(0, 1, 2));
 }
 
 TEST(LoadSequence, FindsTheAxisThatIsUpInACacheOfAMesh) {
@@ -119,7 +119,7 @@ TEST(LoadSequence, FindsTheAxisThatIsUpInACacheOfAMesh) {
     note.clear();
     LoadOptions options;
     options.note = [&](const std::string& text) { note += text; };
-    return load({mesh, path}, options).up;
+    return load_clip({mesh, path}, options).up;
   };
   EXPECT_EQ(up_of(cache({0, -2, 1, 1, 0, 0, 0, 0, 3})), UpAxis::kZ);
   EXPECT_THAT(note, HasSubstr("cache.pc2: its axes are x,-z,y of the mesh; z is up (--up)"));
@@ -177,7 +177,7 @@ TEST(LoadSequence, RejectsFilesThatCannotBeRead) {
               HasSubstr("is a directory; name its frames with a pattern"));
   EXPECT_THAT(load_fault({folder.write("a.xyz", "")}), HasSubstr("a.xyz: is of unknown kind"));
   EXPECT_THAT(load_fault({folder.write("a.abc", "")}), HasSubstr("a.abc: is not an Alembic file"));
-  EXPECT_THAT(fault([&] { load({folder.write("b.abc", "\x89HDF\r\n\x1a\n old")}); },
+  EXPECT_THAT(fault([&] { load_clip({folder.write("b.abc", "\x89HDF\r\n\x1a\n old")}); },
                     ErrorKind::kUnsupported),
               HasSubstr("abcconvert"));
   EXPECT_THAT(load_fault({"/dev/null"}), HasSubstr("unknown kind"));
@@ -215,13 +215,13 @@ TEST(LoadSequence, WeldsStlSequencesOnRequest) {
     append_stl(quad, positions, paths.empty(), bytes);
     paths.push_back(folder.write(std::to_string(paths.size()) + ".stl", bytes));
   }
-  MeshSequence clip = load(paths);
+  MeshSequence clip = load_clip(paths);
   EXPECT_EQ(clip.vertex_count, 4U);
   EXPECT_EQ(clip.frame_count, 2U);
   EXPECT_EQ(clip.frame(1)[2], 5);
-  EXPECT_EQ(load(paths, {.weld_stl = false}).vertex_count, 6U);
+  EXPECT_EQ(load_clip(paths, {.weld_stl = false}).vertex_count, 6U);
   // Frame 1 first: its corners coincide in the other order, which is no fault.
-  EXPECT_EQ(load({paths[1], paths[0]}).vertex_count, 4U);
+  EXPECT_EQ(load_clip({paths[1], paths[0]}).vertex_count, 4U);
 }
 
 std::string mdd(const std::vector<float>& times) {
@@ -236,15 +236,15 @@ TEST(LoadSequence, TakesTheRateOfMddUnlessOneIsGiven) {
   TemporaryFolder folder;
   folder.write("a.obj", triangle("0"));
   std::string path = folder.write("a.mdd", mdd({0.5F, 0.75F, 1.5F}));
-  EXPECT_THAT(load({path}).times, ElementsAre(0, 0.25, 1));
-  EXPECT_EQ(load({path}).start_time, 0.5);
-  MeshSequence clip = load({path}, {.rate = parse_frame_rate("30000/1001")});
+  EXPECT_THAT(load_clip({path}).times, ElementsAre(0, 0.25, 1));
+  EXPECT_EQ(load_clip({path}).start_time, 0.5);
+  MeshSequence clip = load_clip({path}, {.rate = parse_frame_rate("30000/1001")});
   EXPECT_TRUE(clip.times.empty());
   EXPECT_EQ(clip.rate.numerator, 30000U);
   EXPECT_FALSE(clip.rate.assumed);
   path = folder.write("a.mdd", mdd({0, 0, 0}));
   EXPECT_THAT(load_fault({path}), HasSubstr("a.mdd: the time of frame 1 is not after"));
-  EXPECT_EQ(load({path}, {.rate = parse_frame_rate("24")}).rate.numerator, 24U);
+  EXPECT_EQ(load_clip({path}, {.rate = parse_frame_rate("24")}).rate.numerator, 24U);
 }
 
 TEST(LoadSequence, ReportsProgressAndCanBeCancelled) {
@@ -252,9 +252,9 @@ TEST(LoadSequence, ReportsProgressAndCanBeCancelled) {
   folder.write("a.obj", triangle("0"));
   std::string cache = folder.write("a.pc2", pc2(3, 2));
   double last = 0;
-  load({cache}, {.progress = [&](std::string_view, double done) { last = done; }});
+  load_clip({cache}, {.progress = [&](std::string_view, double done) { last = done; }});
   EXPECT_EQ(last, 1);
-  EXPECT_THROW(load({cache}, {.progress = [](std::string_view, double) { throw 1; }}), int);
+  EXPECT_THROW(load_clip({cache}, {.progress = [](std::string_view, double) { throw 1; }}), int);
 }
 
 // Real clips: in the folder that ANICODEC_DATA names.
@@ -279,7 +279,7 @@ double largest_difference(const std::vector<float>& a, const std::vector<float>&
 }
 
 TEST_F(RealDataLoadSequence, ReadsACache) {
-  MeshSequence dance = load({(*this)["classic/dance.obj"], (*this)["classic/dance.pc2"]});
+  MeshSequence dance = load_clip({(*this)["classic/dance.obj"], (*this)["classic/dance.pc2"]});
   EXPECT_EQ(dance.name, "dance");
   EXPECT_EQ(dance.vertex_count, 7061U);
   EXPECT_EQ(dance.frame_count, 201U);
@@ -288,8 +288,8 @@ TEST_F(RealDataLoadSequence, ReadsACache) {
 }
 
 TEST_F(RealDataLoadSequence, ReadsFramesLikeTheirCache) {
-  MeshSequence frames = load({(*this)["classic/horse_obj/*.obj"]});
-  MeshSequence cache = load({(*this)["classic/horse.pc2"]});
+  MeshSequence frames = load_clip({(*this)["classic/horse_obj/*.obj"]});
+  MeshSequence cache = load_clip({(*this)["classic/horse.pc2"]});
   EXPECT_EQ(frames.vertex_count, 8431U);
   EXPECT_EQ(frames.frame_count, 48U);
   EXPECT_LT(largest_difference(frames.positions, cache.positions), 1e-6 * diagonal(cache));
@@ -298,15 +298,15 @@ TEST_F(RealDataLoadSequence, ReadsFramesLikeTheirCache) {
 
 TEST_F(RealDataLoadSequence, ReadsMddLikePc2) {
   LoadOptions options{.mesh = (*this)["exported/obj/cesium1.obj"]};
-  MeshSequence mdd = load({(*this)["exported/cesium.mdd"]}, options);
-  MeshSequence pc2 = load({(*this)["exported/cesium.pc2"]}, options);
+  MeshSequence mdd = load_clip({(*this)["exported/cesium.mdd"]}, options);
+  MeshSequence pc2 = load_clip({(*this)["exported/cesium.pc2"]}, options);
   EXPECT_EQ(largest_difference(mdd.positions, pc2.positions), 0);
   EXPECT_EQ(mdd.polygons, pc2.polygons);
   EXPECT_EQ(mdd.rate.numerator, 24U);
   EXPECT_FALSE(mdd.rate.assumed);
   EXPECT_TRUE(pc2.rate.assumed);
 
-  MeshSequence frames = load({(*this)["exported/obj/cesium*.obj"]});
+  MeshSequence frames = load_clip({(*this)["exported/obj/cesium*.obj"]});
   ASSERT_EQ(frames.positions.size(), pc2.positions.size());
   float largest = 0;
   for (size_t i = 0; i < frames.positions.size(); i += 3) {

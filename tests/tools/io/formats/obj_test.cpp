@@ -15,23 +15,23 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Mesh parse(std::string_view text) {
+Mesh parse_obj_text(std::string_view text) {
   Mesh mesh;
   parse_obj(text, "a.obj", mesh);
   return mesh;
 }
 
 std::string obj_fault(std::string_view text) {
-  return fault([&] { parse(text); });
+  return fault([&] { parse_obj_text(text); });
 }
 
-constexpr std::string_view kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+constexpr std::string_view kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST(Obj, RoundTripsExactly) {
   MeshSequence clip = awkward_clip(1);
   std::string text;
   append_obj(clip.polygons, clip.positions, text);
-  Mesh mesh = parse(text);
+  Mesh mesh = parse_obj_text(text);
   EXPECT_EQ(mesh.polygons, clip.polygons);
   ASSERT_EQ(mesh.positions.size(), clip.positions.size());
   for (size_t i = 0; i < mesh.positions.size(); ++i)
@@ -60,7 +60,7 @@ TEST(ObjDetails, GroupFacesByObjectAndMaterial) {
 }
 
 TEST(Obj, ReadsAllFormsOfFaces) {
-  Mesh mesh = parse(std::string(kThree) +
+  Mesh mesh = parse_obj_text(std::string(kThreeVertices) +
                     "vt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\n"
                     "f 1/1/1 2/1/1 3/1/1\nf -3 -2 -1\nf -1/-1/-1 -2/-1/-1 -3/-1/-1\n");
   EXPECT_EQ(mesh.polygons.size(), 6U);
@@ -70,7 +70,7 @@ TEST(Obj, ReadsAllFormsOfFaces) {
 
 TEST(Obj, SkipsOtherStatementsByName) {
   Mesh mesh =
-      parse(std::string(kThree) +
+      parse_obj_text(std::string(kThreeVertices) +
             "mtllib a b.mtl\nusemtl m\no name\ng a b\ns off\nl 1 2\np 1\n"
             "cstype bspline\ndeg 3\nvp 0 1\ncurv 0 1 1 2\nparm u 0 1\nend\nf 1 2 3 # tail\n");
   EXPECT_EQ(mesh.polygons.size(), 1U);
@@ -78,7 +78,7 @@ TEST(Obj, SkipsOtherStatementsByName) {
 
 TEST(Obj, ReadsAllLineEndsAndContinuations) {
   for (std::string end : {"\n", "\r\n", "\r"}) {
-    Mesh mesh = parse("# c:\\" + end + "v 0 0 \\" + end + " 0" + end + end + "v\t1 0 0  " + end +
+    Mesh mesh = parse_obj_text("# c:\\" + end + "v 0 0 \\" + end + " 0" + end + end + "v\t1 0 0  " + end +
                       "v +0 1e0 0" + end + "g a \\" + end + "b" + end + "f 1 2\\" + end + "3");
     EXPECT_EQ(mesh.vertex_count(), 3U);
     EXPECT_EQ(mesh.positions[7], 1.0F);
@@ -88,16 +88,16 @@ TEST(Obj, ReadsAllLineEndsAndContinuations) {
 }
 
 TEST(Obj, ToleratesWeightsColoursAndByteOrderMark) {
-  Mesh mesh = parse("\xEF\xBB\xBFv 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 1 1 1\nf 1 2 3\n");
+  Mesh mesh = parse_obj_text("\xEF\xBB\xBFv 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 1 1 1\nf 1 2 3\n");
   EXPECT_EQ(mesh.vertex_count(), 3U);
 }
 
 TEST(Obj, ReadsFacesBeforeTheirVertices) {
-  EXPECT_EQ(parse("f 1 2 3\n" + std::string(kThree)).polygons.size(), 1U);
+  EXPECT_EQ(parse_obj_text("f 1 2 3\n" + std::string(kThreeVertices)).polygons.size(), 1U);
 }
 
 TEST(Obj, RoundsTinyNumbersToZeroOrDenormals) {
-  Mesh mesh = parse("v 1e-45 -1e-60 1e-500\n");
+  Mesh mesh = parse_obj_text("v 1e-45 -1e-60 1e-500\n");
   EXPECT_EQ(mesh.positions[0], 1e-45F);
   EXPECT_EQ(mesh.positions[1], 0.0F);
   EXPECT_TRUE(std::signbit(mesh.positions[1]));
@@ -125,7 +125,7 @@ TEST(Obj, RejectsJunkNamingTheLine) {
 }
 
 TEST(Obj, RejectsBadFacesNamingTheLine) {
-  std::string three(kThree);
+  std::string three(kThreeVertices);
   EXPECT_EQ(obj_fault(three + "f 1 2 3\nf 1 2 4\n"),
             "a.obj:5: vertex index 4 is out of range; there are 3 vertices");
   EXPECT_EQ(obj_fault(three + "f 0 1 2\n"),

@@ -15,21 +15,21 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Mesh parse(std::string_view text) {
+Mesh parse_off_text(std::string_view text) {
   Mesh mesh;
   parse_off(text, "a.off", mesh);
   return mesh;
 }
 
 std::string off_fault(std::string_view text) {
-  return fault([&] { parse(text); });
+  return fault([&] { parse_off_text(text); });
 }
 
 TEST(Off, RoundTripsExactly) {
   MeshSequence clip = awkward_clip(1);
   std::string text;
   append_off(clip.polygons, clip.positions, text);
-  Mesh mesh = parse(text);
+  Mesh mesh = parse_off_text(text);
   EXPECT_EQ(mesh.polygons, clip.polygons);
   ASSERT_EQ(mesh.positions.size(), clip.positions.size());
   for (size_t i = 0; i < mesh.positions.size(); ++i)
@@ -39,17 +39,17 @@ TEST(Off, RoundTripsExactly) {
 
 TEST(Off, ReadsHeaderVariants) {
   std::string face = "3 0 1 2\n";
-  EXPECT_EQ(parse("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + face).polygons.size(), 1U);
-  EXPECT_EQ(parse("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n" + face).polygons.size(), 1U);
-  EXPECT_EQ(parse("COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0 1\n0 1 0 7\n" + face).vertex_count(),
+  EXPECT_EQ(parse_off_text("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + face).polygons.size(), 1U);
+  EXPECT_EQ(parse_off_text("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n" + face).polygons.size(), 1U);
+  EXPECT_EQ(parse_off_text("COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0 1\n0 1 0 7\n" + face).vertex_count(),
             3U);
-  EXPECT_EQ(parse("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n" + face).vertex_count(),
+  EXPECT_EQ(parse_off_text("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n" + face).vertex_count(),
             3U);
-  EXPECT_EQ(parse("STCNOFF\n1 0 0\n0 0 0 0 0 1 1 1 1 1 0 0\n").vertex_count(), 1U);
+  EXPECT_EQ(parse_off_text("STCNOFF\n1 0 0\n0 0 0 0 0 1 1 1 1 1 0 0\n").vertex_count(), 1U);
 }
 
 TEST(Off, ReadsCommentsBlankLinesAndFaceColours) {
-  Mesh mesh = parse(
+  Mesh mesh = parse_off_text(
       "# first\r\nOFF # header\r\n\r\n# counts\r\n4 2 5 # counts\r\n0 0 0\r\n\r\n1 0 0 # v\r\n"
       "1 1 0\r\n0 1 0\r\n4 0 1 2 3 0.5 0.5 0.5 1\r\n3 0 0 0 9\r\n# end\r\n");
   ASSERT_EQ(mesh.polygons.size(), 2U);

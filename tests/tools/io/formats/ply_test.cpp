@@ -17,14 +17,14 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Mesh parse(std::string_view bytes) {
+Mesh parse_ply_text(std::string_view bytes) {
   Mesh mesh;
   parse_ply(bytes, "a.ply", mesh);
   return mesh;
 }
 
 std::string ply_fault(std::string_view bytes) {
-  return fault([&] { parse(bytes); });
+  return fault([&] { parse_ply_text(bytes); });
 }
 
 void expect_same_bits(const std::vector<float>& a, const std::vector<float>& b) {
@@ -38,7 +38,7 @@ TEST(Ply, RoundTripsExactly) {
   for (bool ascii : {true, false}) {
     std::string bytes;
     append_ply(clip.polygons, clip.positions, ascii, bytes);
-    Mesh mesh = parse(bytes);
+    Mesh mesh = parse_ply_text(bytes);
     EXPECT_EQ(mesh.polygons, clip.polygons);
     expect_same_bits(mesh.positions, clip.positions);
   }
@@ -54,7 +54,7 @@ TEST(Ply, RoundTripsPolygonsOfManyCorners) {
   for (bool ascii : {true, false}) {
     std::string bytes;
     append_ply(polygons, positions, ascii, bytes);
-    EXPECT_EQ(parse(bytes).polygons, polygons);
+    EXPECT_EQ(parse_ply_text(bytes).polygons, polygons);
   }
 }
 
@@ -110,7 +110,7 @@ std::string rich_ply(PlyEncoding encoding) {
 TEST(Ply, SkipsUnknownPropertiesAndElementsInEveryEncoding) {
   for (PlyEncoding encoding :
        {PlyEncoding::kAscii, PlyEncoding::kLittleEndian, PlyEncoding::kBigEndian}) {
-    Mesh mesh = parse(rich_ply(encoding));
+    Mesh mesh = parse_ply_text(rich_ply(encoding));
     EXPECT_THAT(mesh.positions,
                 ElementsAre(0.5F, 0.75F, 0.25F, 1.5F, 1.75F, 1.25F, 2.5F, 2.75F, 2.25F));
     ASSERT_EQ(mesh.polygons.size(), 2U);
@@ -136,12 +136,12 @@ std::string ascii_ply(const std::string& vertices, const std::string& faces) {
          vertices + faces;
 }
 
-constexpr const char* kThree = "0 0 0\n1 0 0\n0 1 0\n";
+constexpr const char* kThreeLines = "0 0 0\n1 0 0\n0 1 0\n";
 
 TEST(Ply, RejectsBadAsciiBodiesNamingTheLine) {
-  EXPECT_EQ(ply_fault(ascii_ply(kThree, "3 0 1 3\n")),
+  EXPECT_EQ(ply_fault(ascii_ply(kThreeLines, "3 0 1 3\n")),
             "a.ply:13: vertex index 3 is out of range; there are 3 vertices");
-  EXPECT_EQ(ply_fault(ascii_ply(kThree, "3 0 1 -1\n")),
+  EXPECT_EQ(ply_fault(ascii_ply(kThreeLines, "3 0 1 -1\n")),
             "a.ply:13: vertex index -1 is out of range; there are 3 vertices");
   EXPECT_EQ(ply_fault(ascii_ply("0 0 0\n0 nan 0\n0 0 0\n", "3 0 1 2\n")),
             "a.ply:11: coordinate nan of vertex 1 is not finite");
@@ -149,11 +149,11 @@ TEST(Ply, RejectsBadAsciiBodiesNamingTheLine) {
             "a.ply:11: the line ends where a coordinate is expected");
   EXPECT_EQ(ply_fault(ascii_ply("0 0 0\n0 0 0 9\n0 0 0\n", "3 0 1 2\n")),
             "a.ply:11: unexpected '9'");
-  EXPECT_EQ(ply_fault(ascii_ply(kThree, "")),
+  EXPECT_EQ(ply_fault(ascii_ply(kThreeLines, "")),
             "a.ply:13: the file ends after 0 of 1 elements 'face'");
-  EXPECT_THAT(ply_fault(ascii_ply(kThree, "3 0 1 2\n7\n")), HasSubstr("a.ply:14: unexpected '7'"));
-  EXPECT_THAT(ply_fault(ascii_ply(kThree, "2 0 1\n")), HasSubstr("a face of 2 corners"));
-  EXPECT_THAT(ply_fault(ascii_ply(kThree, "3 0 1 1.5\n")), HasSubstr("unexpected '.5'"));
+  EXPECT_THAT(ply_fault(ascii_ply(kThreeLines, "3 0 1 2\n7\n")), HasSubstr("a.ply:14: unexpected '7'"));
+  EXPECT_THAT(ply_fault(ascii_ply(kThreeLines, "2 0 1\n")), HasSubstr("a face of 2 corners"));
+  EXPECT_THAT(ply_fault(ascii_ply(kThreeLines, "3 0 1 1.5\n")), HasSubstr("unexpected '.5'"));
 }
 
 TEST(Ply, RejectsBadBinaryBodies) {
@@ -223,7 +223,7 @@ TEST(Ply, FindsTheBodyAfterAnyLineEnd) {
     std::string header;
     for (char c : bytes.substr(0, body))
       header += c == '\n' ? end : std::string(1, c);
-    EXPECT_EQ(parse(header + bytes.substr(body)).polygons, clip.polygons);
+    EXPECT_EQ(parse_ply_text(header + bytes.substr(body)).polygons, clip.polygons);
   }
 }
 

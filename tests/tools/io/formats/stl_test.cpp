@@ -13,14 +13,14 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::vector<float> parse(std::string_view bytes) {
+std::vector<float> parse_stl_bytes(std::string_view bytes) {
   std::vector<float> soup;
   parse_stl(bytes, "a.stl", soup);
   return soup;
 }
 
 std::string stl_fault(std::string_view bytes) {
-  return fault([&] { parse(bytes); });
+  return fault([&] { parse_stl_bytes(bytes); });
 }
 
 // Two triangles that share an edge, and a degenerate one.
@@ -40,7 +40,7 @@ TEST(Stl, RoundTripsTrianglesExactly) {
   for (bool ascii : {true, false}) {
     std::string bytes;
     append_stl(clip.polygons, clip.positions, ascii, bytes);
-    std::vector<float> soup = parse(bytes);
+    std::vector<float> soup = parse_stl_bytes(bytes);
     StlWeld weld(soup, "a.stl", true);
     std::vector<float> positions;
     weld.append_vertices(soup, "a.stl", positions);
@@ -55,14 +55,14 @@ TEST(Stl, WritesPolygonsAsFans) {
   std::string bytes;
   append_stl(quad, fan().positions, false, bytes);
   EXPECT_EQ(bytes.size(), 84U + 2 * 50);
-  EXPECT_THAT(StlWeld(parse(bytes), "", true).polygons().corners, ElementsAre(0, 1, 2, 0, 2, 3));
+  EXPECT_THAT(StlWeld(parse_stl_bytes(bytes), "", true).polygons().corners, ElementsAre(0, 1, 2, 0, 2, 3));
 }
 
 TEST(Stl, KeepsEveryCornerWithoutWelding) {
   MeshSequence clip = fan();
   std::string bytes;
   append_stl(clip.polygons, clip.positions, false, bytes);
-  StlWeld weld(parse(bytes), "a.stl", false);
+  StlWeld weld(parse_stl_bytes(bytes), "a.stl", false);
   EXPECT_EQ(weld.vertex_count(), 9U);
   EXPECT_THAT(weld.polygons().corners, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8));
 }
@@ -76,7 +76,7 @@ TEST(Stl, RejectsFramesThatBreakTheWeld) {
   MeshSequence clip = fan();
   std::string bytes;
   append_stl(clip.polygons, clip.positions, false, bytes);
-  std::vector<float> soup = parse(bytes);
+  std::vector<float> soup = parse_stl_bytes(bytes);
   StlWeld weld(soup, "0.stl", true);
   std::vector<float> positions;
   soup[9] += 1;  // corner 0 of triangle 1
@@ -96,7 +96,7 @@ constexpr const char* kFacet =
 
 TEST(Stl, ReadsAsciiOfSeveralSolids) {
   std::string text = "solid a b\n" + std::string(kFacet) + "endsolid a b\n";
-  EXPECT_EQ(parse(text + "solid\r\n" + kFacet + kFacet + "endsolid\r\n\r\n").size(), 27U);
+  EXPECT_EQ(parse_stl_bytes(text + "solid\r\n" + kFacet + kFacet + "endsolid\r\n\r\n").size(), 27U);
 }
 
 TEST(Stl, ReadsBinaryWhoseHeaderSaysSolid) {
@@ -104,7 +104,7 @@ TEST(Stl, ReadsBinaryWhoseHeaderSaysSolid) {
   std::string bytes;
   append_stl(clip.polygons, clip.positions, false, bytes);
   bytes.replace(0, 10, "solid name");
-  EXPECT_EQ(parse(bytes).size(), 27U);
+  EXPECT_EQ(parse_stl_bytes(bytes).size(), 27U);
 }
 
 TEST(Stl, RejectsMalformedAscii) {
