@@ -5,7 +5,9 @@ import type { Material } from '@babylonjs/core/Materials/material.js';
 import type { Mesh } from '@babylonjs/core/Meshes/mesh.js';
 import type { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
 import type { Scene } from '@babylonjs/core/scene.js';
-import type { Clip, OpenOptions, SampleOptions, Source } from './index.js';
+import type { Ray } from '@babylonjs/core/Culling/ray.js';
+import type { PickingInfo } from '@babylonjs/core/Collisions/pickingInfo.js';
+import type { Clip, ClipMesh, OpenOptions, SampleOptions, Source } from './index.js';
 
 /** Plays clips by animation groups; what moves is up to those that extend it. */
 export declare class AnicPlayer extends TransformNode {
@@ -33,6 +35,28 @@ export declare class AnicMesh extends AnicPlayer {
 
 /** Opens a clip and shows it in a scene. */
 export declare function loadAnic(source: Source, scene: Scene, options?: OpenOptions): Promise<AnicMesh>;
+
+/**
+ * Many instances of a mesh at different times, drawn by one call for each material: the graphics card combines the resident
+ * basis and makes smooth normals. Set `times` (seconds) and thinInstanceSetMatrixAt(). For WebGL 2 engines; the standard and
+ * PBR materials and shadows work, without a material those of the file. The clip must be opened with bounds.
+ */
+export declare class AnicInstances extends Mesh {
+  /** Throws where the engine draws into no float textures. A material is copied. */
+  constructor(mesh: ClipMesh, count: number, scene: Scene, material?: Material, options?: SampleOptions);
+  readonly times: Float64Array;
+  /** Numbers of the clips that the times are of. */
+  readonly clips: Uint16Array;
+  options: SampleOptions;
+  /** Instances that the last update() left to the CPU. */
+  readonly madeByCpu: number;
+  /** Makes what is drawn; the scene calls it before it renders. False while shaders are compiled. */
+  update(): boolean;
+  /** What a ray hits first, with its `thinInstanceIndex`; null if nothing. Scene.pick() does not know where vertices are. */
+  pick(ray: Ray): PickingInfo | null;
+  /** Reads back what the card made: positions in the order of the source, or normals of the vertices. */
+  read(instance: number, what?: 'positions' | 'normals'): Promise<Float32Array>;
+}
 
 /**
  * A plug-in of the glTF loader for the extension ANIC_mesh_animation:

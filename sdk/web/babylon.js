@@ -4,24 +4,18 @@
 // Clips in Babylon.js: a node that shows a clip at a time, and a plug-in of its glTF loader.
 import { Animation } from '@babylonjs/core/Animations/animation.js';
 import { AnimationGroup } from '@babylonjs/core/Animations/animationGroup.js';
-import { BoundingInfo } from '@babylonjs/core/Culling/boundingInfo.js';
-import { MultiMaterial } from '@babylonjs/core/Materials/multiMaterial.js';
-import { PBRMetallicRoughnessMaterial } from '@babylonjs/core/Materials/PBR/pbrMetallicRoughnessMaterial.js';
-import { StandardMaterial } from '@babylonjs/core/Materials/standardMaterial.js';
-import { Color3 } from '@babylonjs/core/Maths/math.color.js';
-import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { VertexBuffer } from '@babylonjs/core/Buffers/buffer.js';
 import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
-import { SubMesh } from '@babylonjs/core/Meshes/subMesh.js';
 import { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
+import { boundingInfo, giveSurface, turnToScene } from './babylon_surface.js';
 import { EXTENSION } from './glb.js';
 import { GltfSurface } from './gltf_surface.js';
 import { open } from './index.js';
 import { momentsOf, sampleOf } from './moments.js';
 
-const FRAMES_PER_SECOND = 60;  // of the keys of animation groups
+export { AnicInstances } from './babylon_instances.js';
 
-const boundingInfo = ({ min, max }) => new BoundingInfo(Vector3.FromArray(min), Vector3.FromArray(max));
+const FRAMES_PER_SECOND = 60;  // of the keys of animation groups
 
 /** Plays the clips of a file by animation groups, or shows one at `time`. What moves is up to show(). */
 export class AnicPlayer extends TransformNode {
@@ -95,55 +89,20 @@ export class AnicPlayer extends TransformNode {
   }
 }
 
-/** The material of a group of triangles, with the values that the file has; `metadata.anic` names its images. */
-function materialOf({ material: name = 'anic', look }, scene) {
-  if (!look)
-    return Object.assign(new StandardMaterial(name, scene), { backFaceCulling: false });
-  const { baseColour, metallic, roughness, emissive, alpha, alphaCutoff, doubleSided } = look;
-  return Object.assign(new PBRMetallicRoughnessMaterial(name, scene), {
-    baseColor: Color3.FromArray(baseColour), metallic, roughness, emissiveColor: Color3.FromArray(emissive), alpha: alpha === 'opaque' ? 1 : baseColour[3],
-    transparencyMode: ['opaque', 'mask', 'blend'].indexOf(alpha), alphaCutOff: alphaCutoff, backFaceCulling: !doubleSided, doubleSided, metadata: { anic: look },
-  });
-}
-
 /** Shows a clip: a node with a mesh for each mesh of the clip. A clip with z up is turned. */
 export class AnicMesh extends AnicPlayer {
   constructor(clip, scene, material) {
     super(clip.info.name || 'anic', clip, scene);
     this.parts = clip.meshes.filter((mesh) => mesh.triangleCount > 0).map((mesh) => this.#part(mesh, material, scene));
-    // Clips are right-handed.
-    if (!scene.useRightHandedSystem)
-      this.scaling.z = -1;
-    if (clip.info.up === 'z')
-      this.rotation.x = scene.useRightHandedSystem ? -Math.PI / 2 : Math.PI / 2;
+    turnToScene(this, clip, scene);
     this.refresh();
   }
 
   #part(mesh, material, scene) {
     const object = new Mesh(mesh.name || this.name, scene), n = mesh.vertexCount;
-    const positions = new Float32Array(3 * n), normals = new Float32Array(3 * n);
     object.parent = this;
-    object.setVerticesData(VertexBuffer.PositionKind, positions, true);
-    object.setVerticesData(VertexBuffer.NormalKind, normals, true);
-    const uv = mesh.attribute('uv'), colour = mesh.attributes.find((a) => a.kind === 'colour' && a.components >= 3 && a.domain !== 'polygon');
-    if (uv && uv.length === 2 * n)
-      object.setVerticesData(VertexBuffer.UVKind, uv);
-    if (colour)
-      object.setVerticesData(VertexBuffer.ColorKind, mesh.attribute(colour.index), colour.moves, colour.components);
-    object.setIndices(mesh.indices, n);
-    const made = material ? [material] : mesh.groups.map((group) => materialOf(group, scene));
-    if (made.length < 2) {
-      [object.material] = made;
-    } else {
-      object.material = Object.assign(new MultiMaterial(this.name, scene), { subMaterials: made });
-      object.subMeshes = [];
-      mesh.groups.forEach(({ start, count }, i) => new SubMesh(i, 0, n, start, count, object));
-    }
-    if (mesh.bounds)
-      object.setBoundingInfo(boundingInfo(mesh.bounds));
-    else
-      object.alwaysSelectAsActiveMesh = true;
-    return Object.assign(object, { anic: { mesh, positions, normals, colour: colour?.moves ? colour : undefined } });
+    const colour = giveSurface(object, mesh, scene, { material });
+    return Object.assign(object, { anic: { mesh, colour, positions: new Float32Array(3 * n), normals: new Float32Array(3 * n) } });
   }
 
   show(time, options) {

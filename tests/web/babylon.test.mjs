@@ -3,24 +3,26 @@
 //
 // anicodec/babylon in Chromium. `npm ci --prefix tests/web/babylon` installs Babylon.js.
 import assert from 'node:assert/strict';
-import { existsSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { Anicodec } from '../../sdk/web/index.js';
 import { bytesOf, movingGlb } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
 const PACKAGES = '/tests/web/babylon/node_modules';
-const MODULES = {
-  'Animations/animation': 'Animation', 'Animations/animationGroup': 'AnimationGroup', 'Buffers/buffer': 'VertexBuffer', 'Culling/boundingInfo': 'BoundingInfo',
-  'Materials/multiMaterial': 'MultiMaterial', 'Materials/standardMaterial': 'StandardMaterial', 'Materials/PBR/pbrMetallicRoughnessMaterial': 'PBRMetallicRoughnessMaterial', 'Maths/math.color': 'Color3', 'Maths/math.vector': 'Vector3', 'Meshes/mesh': 'Mesh',
-  'Meshes/subMesh': 'SubMesh', 'Meshes/transformNode': 'TransformNode',
-};
 // The package for scripts, which is one file, stands in for the one of modules, which are thousands.
 const imports = { anicodec: '/sdk/web/index.js', 'anicodec/babylon': '/sdk/web/babylon.js' };
-for (const [path, name] of Object.entries(MODULES))
-  imports[`@babylonjs/core/${path}.js`] = `data:text/javascript,export const ${name} = BABYLON.${name};`;
+for (const file of ['babylon.js', 'babylon_surface.js', 'babylon_instances.js']) {
+  const text = readFileSync(new URL(`../../sdk/web/${file}`, import.meta.url), 'utf8');
+  for (const [, names, module] of text.matchAll(/^import (?:\{ (.*) \} from )?'(@babylonjs\/.*)';$/gm)) {
+    const exported = (names ?? '').split(', ').filter(Boolean).map((name) => `export const ${name} = BABYLON.${name};`);
+    imports[module] = `${imports[module] ?? 'data:text/javascript,'}${exported.filter((one) => !imports[module]?.includes(one)).join('')}`;
+  }
+}
 const PAGE = `<!doctype html><link rel=icon href="data:,"><script src="${PACKAGES}/babylonjs/babylon.js"></script>
 <script src="${PACKAGES}/babylonjs-loaders/babylon.glTF2FileLoader.js"></script><script type=importmap>${JSON.stringify({ imports })}</script><canvas id=canvas width=320 height=240></canvas>`;
+// Corrections, shapes, trajectories, several segments, sharp turns, colours, clips, and regions.
+const INSTANCED = ['quad_box_corrected', 'limb_default', 'schedules', 'rings', 'heated', 'clips', 'walk', 'regions', 'slices'].map((name) => `${name}.anic`);
 const installed = existsSync(new URL('babylon/node_modules/babylonjs', import.meta.url));
 const skip = !CHROMIUM ? 'there is no Chromium' : installed ? false : 'there is no Babylon.js: npm ci --prefix tests/web/babylon';
 
@@ -42,6 +44,7 @@ test('Babylon.js shows, plays and fades clips, and plays glTF scenes that move b
           return scene;
         };
         const look = (scene, { min, max }) => {
+          new B.HemisphericLight('sky', new B.Vector3(0, 1, -0.5), scene).intensity = 0.5;
           const low = B.Vector3.FromArray(min), high = B.Vector3.FromArray(max), centre = low.add(high).scale(0.5), size = high.subtract(low).length();
           centre.z *= scene.useRightHandedSystem ? 1 : -1;
           const camera = new B.FreeCamera('camera', centre.add(new B.Vector3(size, size, 2 * size)), scene);
@@ -116,4 +119,110 @@ test('Babylon.js shows, plays and fades clips, and plays glTF scenes that move b
   } finally {
     server.close();
   }
+});
+
+test('Babylon.js draws instances by the graphics card as the CPU does', { skip }, async (t) => {
+  const server = await serve({ '/page': PAGE });
+  let byCard = 0;
+  try {
+    await withPage(async (page, messages) => {
+      await page.goto(`${server.url}/page`);
+      for (const file of INSTANCED) {
+        const result = await page.evaluate(async (name) => {
+          const { AnicInstances, AnicMesh } = await import('anicodec/babylon');
+          const { Anicodec } = await import('anicodec');
+          const clip = await Anicodec.open(`/tests/conformance/${name}`), B = globalThis.BABYLON, canvas = document.getElementById('canvas'), engine = new B.Engine(canvas, false, { preserveDrawingBuffer: true });
+          const scene = new B.Scene(engine), [mesh] = clip.meshes, { duration } = clip, { min, max } = clip.bounds;
+          scene.clearColor = new B.Color4(0, 0, 0, 1);
+          const sun = new B.DirectionalLight('sun', new B.Vector3(-1, -2, 3), scene);
+          new B.HemisphericLight('sky', new B.Vector3(0, 1, -0.5), scene).intensity = 0.5;
+          const low = B.Vector3.FromArray(min), high = B.Vector3.FromArray(max), centre = low.add(high).scale(0.5), size = high.subtract(low).length();
+          const turned = (p) => (clip.info.up === 'z' ? new B.Vector3(p.x, p.z, p.y) : new B.Vector3(p.x, p.y, -p.z)), target = turned(centre);
+          const camera = new B.FreeCamera('camera', target.add(new B.Vector3(size / 3, size / 3, -size)), scene);
+          camera.setTarget(target);
+          Object.assign(camera, { minZ: size / 100, maxZ: size * 100 });
+          const plain = () => Object.assign(new B.StandardMaterial('plain', scene), { backFaceCulling: false, twoSidedLighting: true, specularColor: B.Color3.Black() });
+          const drawn = async () => {
+            await scene.whenReadyAsync();
+            for (let tries = 0; tries < 200 && (tries < 5 || scene.meshes.some((one) => one.update?.() === false)); ++tries) {
+              scene.render();
+              await new Promise((done) => { setTimeout(done, 10); });
+            }
+            scene.render();
+            const gl = canvas.getContext('webgl2'), pixels = new Uint8Array(4 * 320 * 240);
+            gl.readPixels(0, 0, 320, 240, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+            return pixels;
+          };
+          const far = (p, q) => p.reduce((most, v, i) => Math.max(most, Math.abs(v - q[i])), 0);
+          const five = new AnicInstances(mesh, 5, scene, plain()), outcome = { far: 0, size: 0, byCpu: 0, diagonal: clip.info.diagonal };
+          five.times.set([0, 0.37, 0.5, 0.9, 1].map((share) => share * duration));
+          await drawn();
+          outcome.byCpu = five.madeByCpu;
+          for (let i = 0; i < 5; ++i) {
+            const p = mesh.sourcePositions(five.times[i]);
+            outcome.far = Math.max(outcome.far, far(p, await five.read(i)));
+            outcome.size = p.reduce((most, v) => Math.max(most, Math.abs(v)), outcome.size);
+          }
+          five.dispose();
+          // One instance beside the same frame by the CPU, with its shadow on a wall behind it.
+          const wall = B.MeshBuilder.CreatePlane('wall', { size: 6 * size }, scene), shadows = new B.ShadowGenerator(256, sun);
+          wall.position = target.add(new B.Vector3(0, 0, size));
+          wall.receiveShadows = true;
+          wall.material = plain();
+          Object.assign(sun, { position: target.subtract(sun.direction.scale(size)), shadowMinZ: 0, shadowMaxZ: 6 * size });
+          const cpu = new AnicMesh(clip, scene, plain()), one = new AnicInstances(mesh, 1, scene, plain());
+          cpu.time = one.times[0] = 0.5 * duration;
+          const shot = (shown, hidden) => {
+            shown.setEnabled(true);
+            hidden.setEnabled(false);
+            shadows.getShadowMap().renderList = shown === one ? [one] : cpu.parts;
+            return drawn();
+          };
+          const a = await shot(cpu, one), b = await shot(one, cpu);
+          one.setEnabled(false);
+          shadows.getShadowMap().renderList = [];
+          const empty = await drawn();
+          Object.assign(outcome, { different: 0, seen: 0 });
+          for (let k = 0; k < a.length; k += 4) {
+            outcome.seen += Math.abs(a[k] - empty[k]) > 8;
+            outcome.different += Math.abs(a[k] - b[k]) > 24;
+          }
+          one.setEnabled(true);
+          cpu.setEnabled(true);
+          cpu.refresh(true);
+          const ray = scene.createPickingRay(160, 120, B.Matrix.Identity(), camera), hit = one.pick(ray), by = scene.pickWithRay(ray, (picked) => cpu.parts.includes(picked));
+          outcome.picked = hit ? Math.abs(hit.distance - by.distance) < 1e-3 * size && hit.thinInstanceIndex === 0 : !by.hit;
+          one.dispose();
+          // Many at once: one call, and little time of the script.
+          cpu.setEnabled(false);
+          wall.dispose();
+          const many = new AnicInstances(mesh, 200, scene, plain());
+          many.thinInstanceSetMatrixAt(7, B.Matrix.Translation(0, 0, 1));
+          await drawn();
+          for (let i = 0; i < 200; ++i)
+            many.times[i] = (i * 0.37 % 1) * duration;
+          const before = performance.now();
+          many.update();
+          outcome.ms = (performance.now() - before) / 200;
+          const calls = new B.SceneInstrumentation(scene);
+          scene.render();
+          scene.render();
+          outcome.calls = calls.drawCallsCounter.current;
+          outcome.error = canvas.getContext('webgl2').getError();
+          engine.dispose();
+          clip.close();
+          return outcome;
+        }, file);
+        t.diagnostic(`${file}: ${JSON.stringify(result)}`);
+        byCard += 5 - result.byCpu;
+        assert.ok(result.far <= 1e-4 * result.diagonal + 2e-6 * result.size, JSON.stringify(result));
+        assert.ok(result.different <= 0.01 * result.seen + 20, JSON.stringify(result));
+        assert.deepEqual([result.picked, result.error], [true, 0], JSON.stringify(result));
+      }
+      assert.deepEqual(messages.filter((text) => !/BJS -|Babylon\.js v|GPU stall/.test(text)), []);
+    });
+  } finally {
+    server.close();
+  }
+  assert.ok(byCard >= 5);
 });

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Many instances of a clip's mesh at different times, played by the graphics card of a WebGL 2 engine of Babylon.js.
+//
+// Two passes make positions and normals of all instances, as instance_textures.js says; standard and PBR materials then
+// fetch both. What the first pass does not do, the CPU does for the instances concerned.
+import { VertexBuffer } from '@babylonjs/core/Buffers/buffer.js';
+import { Ray } from '@babylonjs/core/Culling/ray.js';
+import { Constants } from '@babylonjs/core/Engines/constants.js';
+import { EffectRenderer, EffectWrapper } from '@babylonjs/core/Materials/effectRenderer.js';
+import { MaterialPluginBase } from '@babylonjs/core/Materials/materialPluginBase.js';
+import { ShadowDepthWrapper } from '@babylonjs/core/Materials/shadowDepthWrapper.js';
+import { RawTexture } from '@babylonjs/core/Materials/Textures/rawTexture.js';
+import { RawTexture2DArray } from '@babylonjs/core/Materials/Textures/rawTexture2DArray.js';
+import { RenderTargetTexture } from '@babylonjs/core/Materials/Textures/renderTargetTexture.js';
+import { Matrix } from '@babylonjs/core/Maths/math.vector.js';
+import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
+import '@babylonjs/core/Meshes/thinInstanceMesh.js';
+import { boundingInfo, giveSurface, turnToScene } from './babylon_surface.js';
+import { FETCH, FULL, InstanceStates, NORMALS, POSITIONS, WIDTH, normalTexels, pointsOf, rowsOf } from './instance_textures.js';
+
+const NEAREST = Constants.TEXTURE_NEAREST_SAMPLINGMODE;
+const FLOATS = [Constants.TEXTUREFORMAT_RGBA, Constants.TEXTURETYPE_FLOAT];
+const INTEGERS = new Map([
+  [Int16Array, Constants.TEXTURETYPE_SHORT], [Int32Array, Constants.TEXTURETYPE_INT], [Uint32Array, Constants.TEXTURETYPE_UNSIGNED_INTEGER],
+]);
+
+const kindOf = (data) => (data instanceof Float32Array ? FLOATS : [Constants.TEXTUREFORMAT_RGBA_INTEGER, INTEGERS.get(data.constructor)]);
+
+function sheet(scene, data, width, height) {
+  const [format, type] = kindOf(data);
+  return new RawTexture(data, width, height, format, scene, false, false, NEAREST, type);
+}
+
+function layers(scene, { data, rows, layers: depth }) {
+  const [format, type] = kindOf(data);
+  return new RawTexture2DArray(data, WIDTH, rows, depth, format, scene, false, false, NEAREST, type);
+}
+
+const SAMPLERS = { positions: ['wide', 'narrow', 'pose', 'state'], normals: ['positions', 'elements', 'corners'] };
+const NUMBERS = { positions: ['segment', 'rows', 'wideCount', 'narrowCount', 'scalar', 'hasPose', 'regionTexels', 'origin'], normals: ['rows', 'sourceRows'] };
+
+const pass = (engine, name, fragmentShader) => new EffectWrapper({
+  engine, name: `anicodec ${name}`, vertexShader: `#version 300 es${FULL}`, fragmentShader: `#version 300 es${fragmentShader}`,
+  uniformNames: NUMBERS[name], samplerNames: SAMPLERS[name],
+});
+
+/** Lets a material fetch what the passes made. */
+class FetchPlugin extends MaterialPluginBase {
+  #textures;
+  #rows;
+
+  constructor(material, textures, rows) {
+    super(material, 'AnicInstances', 200, { ANICODEC: true });
+    this.#textures = textures;
+    this.#rows = rows;
+    this._enable(true);
+  }
+
+  getClassName() { return 'AnicInstances'; }
+
+  getSamplers(samplers) { samplers.push('anicPositions', 'anicNormals'); }
+
+  getUniforms() {
+    return { ubo: [{ name: 'anicSize', size: 2, type: 'vec2' }], vertex: 'uniform vec2 anicSize;' };
+  }
+
+  bindForSubMesh(uniforms) {
+    uniforms.updateFloat2('anicSize', this.#rows.normals, this.#rows.positions);
+    uniforms.setTexture('anicPositions', this.#textures.positions);
+    uniforms.setTexture('anicNormals', this.#textures.normals);
+  }
+
+  getCustomCode(stage) {
+    if (stage !== 'vertex')
+      return null;
+    return {
+      CUSTOM_VERTEX_DEFINITIONS: `uniform highp sampler2D anicPositions, anicNormals;
+#define anicRows int(anicSize.x)
+#define anicSourceRows int(anicSize.y)
+${FETCH}`,
+      CUSTOM_VERTEX_UPDATE_POSITION: 'positionUpdated = anicPosition();',
+      CUSTOM_VERTEX_UPDATE_NORMAL: 'normalUpdated = anicNormal().xyz;',
+    };
+  }
+}
+
+/** Instances of a mesh of a clip. `times` are seconds, of the clips that `clips` numbers; matrices are those of thin instances. */
+export class AnicInstances extends Mesh {
+  #mesh;
+  #rows;
+  #states;
+  #state;
+  #targets;
+  #renderer;
+  #passes;
+  #plan;
+
+  constructor(mesh, count, scene, material, options = {}) {
+    super(mesh.name || 'anic', scene);
+    const engine = scene.getEngine();
+    if (engine.isWebGPU || !engine.getCaps().textureFloatRender)
+      throw new Error('AnicInstances needs a WebGL 2 engine that draws into float textures; AnicMesh plays on the CPU');
+    if (!mesh.bounds)
+      throw new Error('AnicInstances needs a clip that was opened with bounds');
+    this.#mesh = mesh;
+    this.#states = new InstanceStates(mesh, count);
+    Object.assign(this, { options, times: new Float64Array(count), clips: new Uint16Array(count).fill(mesh.clip.find(options.clip).index), madeByCpu: 0 });
+    this.#rows = { positions: rowsOf(mesh.sourceVertexCount), normals: rowsOf(mesh.vertexCount) };
+    const target = (name) => {
+      const made = new RenderTargetTexture(`anicodec ${name}`, { width: WIDTH, height: count * this.#rows[name] }, scene, {
+        generateMipMaps: false, generateDepthBuffer: false, samplingMode: NEAREST, format: FLOATS[0], type: FLOATS[1],
+      });
+      return Object.assign(made, { wrapU: Constants.TEXTURE_CLAMP_ADDRESSMODE, wrapV: Constants.TEXTURE_CLAMP_ADDRESSMODE });
+    };
+    this.#targets = { positions: target('positions'), normals: target('normals') };
+    this.#renderer = new EffectRenderer(engine);
+    this.#passes = { positions: pass(engine, 'positions', POSITIONS), normals: pass(engine, 'normals', NORMALS) };
+    const { elements, corners } = normalTexels(mesh);
+    this.#plan = { elements: sheet(scene, elements.data, WIDTH, elements.rows), corners: sheet(scene, corners.data, WIDTH, corners.rows) };
+    const prepare = (one) => {
+      const own = material ? one.clone(one.name) : one;
+      new FetchPlugin(own, this.#targets, this.#rows);
+      own.shadowDepthWrapper = new ShadowDepthWrapper(own, scene);
+      return own;
+    };
+    giveSurface(this, mesh, scene, { material, prepare, updatable: false });
+    turnToScene(this, mesh.clip, scene);
+    this.alwaysSelectAsActiveMesh = true;  // instances are elsewhere than the box of the mesh
+    this.rawBoundingInfo = boundingInfo(mesh.bounds);  // or it would be made of the positions, which are 0
+    const matrices = new Float32Array(16 * count);
+    for (let i = 0; i < count; ++i)
+      Matrix.Identity().copyToArray(matrices, 16 * i);
+    this.thinInstanceSetBuffer('matrix', matrices, 16, false);
+    const observer = scene.onBeforeRenderObservable.add(() => this.update());
+    this.onDisposeObservable.addOnce(() => {
+      scene.onBeforeRenderObservable.remove(observer);
+      this.#release();
+    });
+  }
+
+  #optionsOf(instance) {
+    return { ...this.options, clip: this.clips[instance] };
+  }
+
+  /** A segment with its textures, made when an instance first shows it. */
+  #segment(index) {
+    const scene = this.getScene(), segment = this.#states.segment(index), { wide, narrow, pose } = segment.texels;
+    segment.made ??= { wide: layers(scene, wide), narrow: layers(scene, narrow), pose: sheet(scene, pose.data, WIDTH, pose.rows) };
+    return segment;
+  }
+
+  #draw(name, textures, { origin, ...numbers }) {
+    const wrapper = this.#passes[name], engine = this.getScene().getEngine();
+    this.#renderer.applyEffectWrapper(wrapper);
+    engine.setAlphaMode(Constants.ALPHA_DISABLE);
+    for (const [sampler, one] of Object.entries(textures))
+      wrapper.effect.setTexture(sampler, one);
+    for (const [uniform, one] of Object.entries(numbers))
+      wrapper.effect.setInt(uniform, one);
+    if (origin)
+      wrapper.effect.setFloat3('origin', ...origin);
+    this.#renderer.draw();
+  }
+
+  /** Makes positions and normals of all instances for their times; false while shaders are compiled. The scene calls it before it renders. */
+  update() {
+    const scene = this.getScene(), engine = scene.getEngine(), { positions, normals } = this.#targets;
+    if (!this.#passes.positions.effect.isReady() || !this.#passes.normals.effect.isReady())
+      return false;
+    const { segments, byCpu } = this.#states.fill(this.times, (i) => this.#optionsOf(i)), { data, width } = this.#states;
+    if (this.#state?.getSize().width === width) {
+      this.#state.update(data);
+    } else {
+      this.#state?.dispose();
+      this.#state = sheet(scene, data, width, this.times.length);
+    }
+    this.#renderer.saveStates();
+    const into = (target, draw) => {
+      engine.bindFramebuffer(target.renderTarget);
+      this.#renderer.setViewport();
+      draw();
+      engine.unBindFramebuffer(target.renderTarget, true);
+    };
+    into(positions, () => {
+      for (const index of segments) {
+        const { made, uniforms, origin } = this.#segment(index);
+        this.#draw('positions', { ...made, state: this.#state }, { ...uniforms, origin });
+      }
+    });
+    for (const [i, present] of byCpu) {
+      const rows = this.#states.positions(present, this.times[i], this.#optionsOf(i));
+      engine.updateTextureData(positions.getInternalTexture(), rows, 0, i * this.#rows.positions, WIDTH, this.#rows.positions);
+    }
+    into(normals, () => this.#draw('normals', { positions, ...this.#plan }, { rows: this.#rows.normals, sourceRows: this.#rows.positions }));
+    this.#renderer.restoreStates();
+    engine.restoreDefaultFramebuffer();
+    this.madeByCpu = byCpu.length;
+    return true;
+  }
+
+  /** Reads back what the card made: positions in the order of the source, or normals. For tests. */
+  async read(instance, what = 'positions') {
+    const rows = this.#rows[what], texels = await this.#targets[what].readPixels(0, 0, null, true, true, 0, instance * rows, WIDTH, rows);
+    return pointsOf(texels, what === 'positions' ? this.#mesh.sourceVertexCount : this.#mesh.vertexCount);
+  }
+
+  /** What a ray hits first: a PickingInfo with `thinInstanceIndex`, of instances as they are at their times; null if nothing. */
+  pick(ray) {
+    const scene = this.getScene(), world = this.computeWorldMatrix(true), probe = new Mesh('anic', scene);
+    let nearest = null;
+    probe.setVerticesData(VertexBuffer.PositionKind, new Float32Array(3 * this.#mesh.vertexCount), true);
+    probe.setIndices(this.#mesh.indices, this.#mesh.vertexCount);
+    this.thinInstanceGetWorldMatrices().forEach((matrix, i) => {
+      if (!this.#mesh.isPresent(this.times[i], this.#optionsOf(i)))
+        return;
+      probe.updateVerticesData(VertexBuffer.PositionKind, this.#mesh.positions(this.times[i], undefined, this.#optionsOf(i)), true);
+      const placed = matrix.multiply(world), hit = probe.intersects(Ray.Transform(ray, Matrix.Invert(placed)), false, undefined, false, placed);
+      if (hit.hit && !(nearest?.distance <= hit.distance))
+        nearest = Object.assign(hit, { thinInstanceIndex: i, pickedMesh: this });
+    });
+    probe.dispose();
+    return nearest;
+  }
+
+  #release() {
+    const made = [...this.#states.segments].flatMap((segment) => Object.values(segment.made ?? {}));
+    for (const one of [...made, ...Object.values(this.#targets), ...Object.values(this.#plan), ...Object.values(this.#passes), this.#renderer, this.#state])
+      one?.dispose();
+  }
+}
