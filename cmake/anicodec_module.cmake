@@ -12,6 +12,8 @@ target_compile_options(anicodec_flags INTERFACE
   # The integers a decoder predicts from must come out the same everywhere: no fused multiply-add
   # unless the source asks for it.
   -ffp-contract=off
+  # A linker leaves out what is not used, of rooms that are compiled as one source too.
+  -ffunction-sections -fdata-sections
   -Wall -Wextra -Wpedantic -Wshadow -Wundef
   # GCC 12 warns at -O3 of overlaps in std::string that there are not (bug 105651).
   $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>

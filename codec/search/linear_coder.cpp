@@ -29,8 +29,8 @@ constexpr size_t kFirstComponents = 48;  // found at first; twice as many whenev
 constexpr int kRegionsEffort = 2;        // from here on, surfaces are cut
 constexpr size_t kRichComponents = 24;   // of clips whose surface is
 constexpr size_t kFewestVertices = 200;  // of a region, on average
-constexpr size_t kMostCuts = 2;          // that are tried
-// Of the bytes of the whole, by expectation; and of the best, by a trial that missed the error.
+// Of the bytes of the whole, by expectation, which ranks cuts badly: all below are tried; and of the best, by a trial
+// that missed the error.
 constexpr double kWorthTrying = 1.05, kFarFromBest = 1.15;
 
 /// How near to the error asked for is near enough, and where to aim, as parts of it.
@@ -288,24 +288,19 @@ void LinearCoder::try_regions(double rmse) {
     return;
   tried_regions_ = true;
   const double whole = probed_.weights + probed_.coefficients;
-  std::vector<std::pair<double, LinearChoice>> cuts;
+  std::vector<LinearChoice> cuts;
   for (uint32_t regions : {2U, 4U, 8U}) {
     if (analysis_.clip().vertex_count < size_t{regions} * kFewestVertices)
       continue;
     LinearChoice cut = choice_;
     cut.regions = regions;
     cut = started(cut, rmse);
-    const double expected = expected_bytes(cut);
-    if (expected < kWorthTrying * whole)
-      cuts.emplace_back(expected, std::move(cut));
+    if (expected_bytes(cut) < kWorthTrying * whole)
+      cuts.push_back(std::move(cut));
   }
-  std::ranges::sort(cuts, {}, [](const auto& cut) { return cut.first; });
-  std::vector<LinearChoice> best;
-  for (size_t i = 0; i < std::min(cuts.size(), kMostCuts); ++i)
-    best.push_back(std::move(cuts[i].second));
-  std::vector<Measured> trials = measured(best, rmse);
-  for (size_t i = 0; i < best.size(); ++i) {
-    LinearChoice& cut = best[i];
+  std::vector<Measured> trials = measured(cuts, rmse);
+  for (size_t i = 0; i < cuts.size(); ++i) {
+    LinearChoice& cut = cuts[i];
     Measured& trial = trials[i];
     learn(trial, rmse, cut);
     if (std::abs(trial.rmse / rmse - 1) > kNear && trial.bytes < kFarFromBest * probed_.bytes) {

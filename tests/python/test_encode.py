@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import anicodec
+import anicodec.metrics
 
 
 def read_pc2(path):
@@ -40,7 +41,7 @@ def test_targets_of_motion(wave):
     for options, bound in (({"displacement": "0.1%"}, None), ({"sted": 0.05}, 0.05), ({"quality": "better"}, 0.02)):
         data = anicodec.encode(*wave, effort=1, **options)
         clip = anicodec.open(data)
-        measured = anicodec.compare(wave[0], clip, wave[1])
+        measured = anicodec.metrics.compare(wave[0], clip, wave[1])
         assert measured["max_displacement_error"] == pytest.approx(data.measured["max_displacement_error"], rel=1e-4)
         assert clip.clips[0].max_displacement_error == data.measured["max_displacement_error"]
         if bound is None:
@@ -250,6 +251,7 @@ def test_the_page_runs(tmp_path):
 def test_a_script_ends_silently(tmp_path):
     script = """
 import anicodec
+import anicodec.metrics
 import numpy as np
 positions = np.random.default_rng(0).random((4, 5, 3))
 open("a.anic", "wb").write(anicodec.encode(positions, [(0, 1, 2)]))
