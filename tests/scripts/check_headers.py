@@ -3,8 +3,8 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Checks that every header compiles alone: it includes all that it names.
 
-A header that the source of its name includes first has shown so in the build. The others are compiled one by one,
-by the command of a source of their folder or of one above it.
+A header that the source of its name includes first shows so in a build of preset dev, which compiles each source alone. The
+others are compiled one by one, by the command of a source of their folder or of one above it.
 
 usage: check_headers.py CHECKOUT COMPILE_COMMANDS.json      one line for every fault; exit status 1 if there is any
 """
@@ -33,6 +33,15 @@ def is_shown(checkout, header):
     return first is not None and first.group(1) == header
 
 
+def folder_of(entry, checkout, build):
+    """The folder of a source; of one that CMake made of several, that of their library."""
+    path = pathlib.Path(entry["file"])
+    if not path.is_relative_to(build):
+        return path.parent
+    parts = path.relative_to(build).parts
+    return checkout.joinpath(*parts[:parts.index("CMakeFiles")]) if "CMakeFiles" in parts else path.parent
+
+
 def lone_headers(checkout):
     for module in MODULES:
         headers = (p for p in (checkout / module).rglob("*.h") if "node_modules" not in p.parts)
@@ -42,12 +51,12 @@ def lone_headers(checkout):
                 yield header
 
 
-def command_for(checkout, header, commands):
+def command_for(checkout, header, commands, build):
     """The command of the source with the most folders in common, made to compile a text from the standard input."""
     folder = (checkout / header).parent
     while folder != checkout.parent:
         for entry in commands:
-            if pathlib.Path(entry["file"]).is_relative_to(folder):
+            if folder_of(entry, checkout, build).is_relative_to(folder):
                 words = entry.get("arguments") or shlex.split(entry["command"])
                 kept, skip = [], False
                 for word in words:
@@ -63,8 +72,8 @@ def command_for(checkout, header, commands):
     return None, None
 
 
-def fault(checkout, header, commands):
-    command, directory = command_for(checkout, header, commands)
+def fault(checkout, header, commands, build):
+    command, directory = command_for(checkout, header, commands, build)
     if command is None:
         return f"{header}: no source near it is built"
     include = header.split("include/", 1)[-1] if "/include/" in header else header
@@ -79,11 +88,12 @@ def main():
         sys.exit(__doc__)
     checkout = pathlib.Path(sys.argv[1]).resolve()
     commands = json.loads(pathlib.Path(sys.argv[2]).read_text(encoding="utf-8"))
+    build = pathlib.Path(sys.argv[2]).resolve().parent
     headers = list(lone_headers(checkout))
     if not headers:
         sys.exit(f"{checkout} has no headers")
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        faults = [f for f in pool.map(lambda h: fault(checkout, h, commands), headers) if f]
+        faults = [f for f in pool.map(lambda h: fault(checkout, h, commands, build), headers) if f]
     print("\n".join(faults) if faults else f"{len(headers)} headers compile alone, the others come first in a source")
     sys.exit(1 if faults else 0)
 
