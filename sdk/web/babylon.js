@@ -125,6 +125,14 @@ export async function loadAnic(source, scene, options) {
   return new AnicMesh(await open(source, options), scene);
 }
 
+/** What Babylon.js calls an attribute of a glTF; undefined if it has none for it. */
+function kindOf(attribute) {
+  const [kind, number] = attribute.split('_');
+  if (kind === 'COLOR')
+    return number === '0' ? VertexBuffer.ColorKind : undefined;
+  return number < 6 ? `${VertexBuffer.UVKind}${number > 0 ? Number(number) + 1 : ''}` : undefined;
+}
+
 /** Moves the meshes of a glTF scene that a clip is for. */
 class ScenePlayer extends AnicPlayer {
   #surfaces = new Map();
@@ -141,7 +149,15 @@ class ScenePlayer extends AnicPlayer {
     object.setVerticesData(VertexBuffer.PositionKind, positions, true);
     if (normals)
       object.setVerticesData(VertexBuffer.NormalKind, normals, true);
-    this.#parts.push({ object, mesh, firstVertex, count, positions, normals });
+    const attributes = this.#surfaces.get(mesh).attributes.flatMap((one) => {
+      const kind = kindOf(one.name), old = kind && object.getVertexBuffer(kind), width = old?.getSize();
+      if (!old)
+        return [];
+      const values = Float32Array.from(object.getVerticesData(kind));
+      object.setVerticesData(kind, values, true, width);
+      return [{ one, kind, values, width }];
+    });
+    this.#parts.push({ object, mesh, firstVertex, count, positions, normals, attributes });
     this.refresh(true);
     if (moving.bounds)
       object.setBoundingInfo(boundingInfo(moving.bounds));
@@ -149,7 +165,7 @@ class ScenePlayer extends AnicPlayer {
 
   show(time, options) {
     const present = new Map([...this.#surfaces].map(([mesh, surface]) => [mesh, surface.seek(time, options)]));
-    for (const { object, mesh, firstVertex, count, positions, normals } of this.#parts) {
+    for (const { object, mesh, firstVertex, count, positions, normals, attributes } of this.#parts) {
       object.isVisible = present.get(mesh);
       if (!object.isVisible)
         continue;
@@ -157,6 +173,10 @@ class ScenePlayer extends AnicPlayer {
       object.updateVerticesData(VertexBuffer.PositionKind, positions);
       if (normals)
         object.updateVerticesData(VertexBuffer.NormalKind, normals);
+      for (const { one, kind, values, width } of attributes) {
+        this.#surfaces.get(mesh).takeAttribute(one, firstVertex, count, values, width);
+        object.updateVerticesData(kind, values);
+      }
     }
   }
 }

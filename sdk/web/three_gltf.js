@@ -8,6 +8,14 @@ import { GltfSurface } from './gltf_surface.js';
 import { open } from './index.js';
 import { AnicPlayer } from './three_player.js';
 
+/** What GLTFLoader calls an attribute. */
+function nameOf(attribute) {
+  const [kind, number] = attribute.split('_');
+  if (kind === 'COLOR' && number === '0')
+    return 'color';
+  return kind === 'TEXCOORD' && number < 4 ? `uv${number > 0 ? number : ''}` : attribute.toLowerCase();
+}
+
 /** Moves the meshes of a scene that a clip is for. It is in the scene, and shows nothing itself. */
 class ScenePlayer extends AnicPlayer {
   #surfaces = new Map();
@@ -30,6 +38,15 @@ class ScenePlayer extends AnicPlayer {
     geometry.setAttribute('position', free(position));
     if (normal)
       geometry.setAttribute('normal', free(normal));
+    const attributes = this.#surfaces.get(mesh).attributes.flatMap((one) => {
+      const old = geometry.attributes[nameOf(one.name)];
+      if (!old)
+        return [];
+      const values = Float32Array.from({ length: old.count * old.itemSize }, (_, i) => old.getComponent(Math.floor(i / old.itemSize), i % old.itemSize));
+      const made = new BufferAttribute(values, old.itemSize).setUsage(DynamicDrawUsage);
+      geometry.setAttribute(nameOf(one.name), made);
+      return [{ one, made }];
+    });
     const { bounds } = moving;
     if (bounds) {
       geometry.boundingBox = new Box3(new Vector3(...bounds.min), new Vector3(...bounds.max));
@@ -39,12 +56,12 @@ class ScenePlayer extends AnicPlayer {
       this.refresh();
       Mesh.prototype.raycast.apply(object, args);
     };
-    this.#parts.push({ object, mesh, firstVertex });
+    this.#parts.push({ object, mesh, firstVertex, attributes });
   }
 
   show(time, options) {
     const present = new Map([...this.#surfaces].map(([mesh, surface]) => [mesh, surface.seek(time, options)]));
-    for (const { object, mesh, firstVertex } of this.#parts) {
+    for (const { object, mesh, firstVertex, attributes } of this.#parts) {
       object.visible = present.get(mesh);
       if (!object.visible)
         continue;
@@ -53,6 +70,10 @@ class ScenePlayer extends AnicPlayer {
       position.needsUpdate = true;
       if (normal)
         normal.needsUpdate = true;
+      for (const { one, made } of attributes) {
+        this.#surfaces.get(mesh).takeAttribute(one, firstVertex, made.count, made.array, made.itemSize);
+        made.needsUpdate = true;
+      }
     }
   }
 }

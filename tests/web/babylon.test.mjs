@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { Anicodec } from '../../sdk/web/index.js';
-import { bytesOf, movingGlb } from './files.mjs';
+import { bytesOf, movingGlb, sceneWithMovingTexture } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
 const PACKAGES = '/tests/web/babylon/node_modules';
@@ -27,11 +27,11 @@ const installed = existsSync(new URL('babylon/node_modules/babylonjs', import.me
 const skip = !CHROMIUM ? 'there is no Chromium' : installed ? false : 'there is no Babylon.js: npm ci --prefix tests/web/babylon';
 
 test('Babylon.js shows, plays and fades clips, and plays glTF scenes that move by them', { skip }, async () => {
-  const bytes = bytesOf('clips.anic'), server = await serve({ '/page': PAGE, '/moving.glb': movingGlb(bytes, await Anicodec.open(bytes)) });
+  const bytes = bytesOf('clips.anic'), texture = sceneWithMovingTexture(), server = await serve({ '/page': PAGE, ...(texture ? { '/texture.glb': texture } : {}), '/moving.glb': movingGlb(bytes, await Anicodec.open(bytes)) });
   try {
     await withPage(async (page, messages) => {
       await page.goto(`${server.url}/page`);
-      const result = await page.evaluate(async () => {
+      const result = await page.evaluate(async (textured) => {
         const { loadAnic, AnicGLTFExtension } = await import('anicodec/babylon');
         const { Anicodec } = await import('anicodec');
         const B = globalThis.BABYLON, canvas = document.getElementById('canvas'), engine = new B.Engine(canvas, false, { preserveDrawingBuffer: true });
@@ -108,12 +108,22 @@ test('Babylon.js shows, plays and fades clips, and plays glTF scenes that move b
         outcome.steps.gltf = far(moving.getVerticesData(B.VertexBuffer.PositionKind), again.meshes[0].sourcePositions(0.5, undefined, { clip: b }));
         outcome.groups = gltf.animationGroups.length;
         outcome.material = moving.material.name;
+        if (textured) {
+          const moved = make();
+          await B.SceneLoader.AppendAsync('/', 'texture.glb', moved);
+          const sheet = moved.getNodeByName('ANIC_mesh_animation'), shown = moved.meshes.find((one) => one.getTotalVertices() > 0);
+          sheet.time = 0.5;
+          sheet.refresh(true);
+          outcome.textured = [...shown.getVerticesData(B.VertexBuffer.UVKind).slice(0, 4), ...shown.getVerticesData(B.VertexBuffer.ColorKind).slice(0, 3)];
+        }
         return outcome;
-      });
+      }, texture !== undefined);
       assert.deepEqual(messages.filter((text) => !/BJS -|Babylon\.js v/.test(text)), []);
       assert.ok(Object.values(result.steps).every((distance) => distance < 1e-3), JSON.stringify(result));
       assert.ok(result.lit > 1000 && Math.abs(result.front - result.lit) < 0.02 * result.lit, JSON.stringify(result));
       assert.ok(Math.abs(result.weights[0] - 0.75) < 1e-6 && Math.abs(result.weights[1] - 0.25) < 1e-6, JSON.stringify(result));
+      if (texture)
+        [0.25, 0.125, 0.75, 0.125, 0.5, 0.625, 0.25].forEach((x, i) => assert.ok(Math.abs(x - result.textured[i]) < 0.01, JSON.stringify(result)));
       assert.deepEqual([result.current, result.closed, result.stopped, result.groups, result.material], ['clip of 70', true, true, 6, 'paint']);
     });
   } finally {

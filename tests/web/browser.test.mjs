@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { Anicodec } from '../../sdk/web/index.js';
-import { bytesOf, clipWithLooks, files, movingGlb } from './files.mjs';
+import { bytesOf, clipWithLooks, files, movingGlb, sceneWithMovingTexture } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
 const IMPORTS = JSON.stringify({ imports: {
@@ -15,13 +15,13 @@ const IMPORTS = JSON.stringify({ imports: {
   'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js', 'three/addons/': '/tests/web/node_modules/three/examples/jsm/',
 } });
 const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
-const looks = clipWithLooks();
+const looks = clipWithLooks(), texture = sceneWithMovingTexture();
 const skip = CHROMIUM ? false : 'there is no Chromium';
 const VIEWER = new URL('../../sdk/web/dist/viewer.html', import.meta.url);
 let server;
 before(async () => {
   const bytes = bytesOf('clips.anic'), clip = await Anicodec.open(bytes);
-  server = await serve({ ...(looks ? { '/looks.anic': looks } : {}), '/page': PAGE, '/moving.glb': movingGlb(bytes, clip), '/beside.glb': movingGlb(bytes, clip, { uri: 'tests/conformance/clips.anic' }) });
+  server = await serve({ ...(looks ? { '/looks.anic': looks, '/texture.glb': texture } : {}), '/page': PAGE, '/moving.glb': movingGlb(bytes, clip), '/beside.glb': movingGlb(bytes, clip, { uri: 'tests/conformance/clips.anic' }) });
 });
 after(() => server.close());
 
@@ -243,6 +243,24 @@ test('GLTFLoader plays scenes whose meshes move by a clip', { skip }, async () =
     assert.deepEqual([one.material, one.players, one.names.length], ['paint', 1, 6]);
   }
   assert.ok(result.still);
+});
+
+test('texture coordinates and colours of a scene move', { skip: skip || (texture ? false : 'ANICODEC_COMMAND names no command') }, async () => {
+  const { result } = await inPage(async () => {
+    const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js'), { AnicGLTFExtension } = await import('anicodec/three');
+    const { scene, userData: { anicPlayers: [player] } } = await new GLTFLoader().register((parser) => new AnicGLTFExtension(parser)).loadAsync('/texture.glb');
+    return [0, 0.5, 1].map((time) => {
+      player.time = time;
+      player.refresh(true);
+      let mesh;
+      scene.traverse((object) => { mesh = object.isMesh ? object : mesh; });
+      return [...mesh.geometry.attributes.uv.array.slice(0, 4), ...mesh.geometry.attributes.color.array.slice(0, 3)];
+    });
+  });
+  [0, 0.5, 1].forEach((t, i) => {
+    const expected = [0.5 * t, 0.25 * t, 0.5 + 0.5 * t, 0.25 * t, 0.75 - 0.5 * t, 0.5 + 0.25 * t, 0.25];
+    assert.ok(expected.every((x, k) => Math.abs(x - result[i][k]) < 0.01), JSON.stringify(result));
+  });
 });
 
 test('the viewer plays the clips that are in it, without a network', { skip: skip || (existsSync(VIEWER) ? false : 'there is no viewer') }, async () => {

@@ -223,7 +223,8 @@ StillSurface split_surface(MeshSequence& sequence) {
       still.normals = attribute.values;
   }
   std::erase_if(sequence.attributes, [](const Attribute& attribute) {
-    return attribute.kind == AttributeKind::kUv || attribute.kind == AttributeKind::kColour;
+    const bool moves = attribute.frames > 1;
+    return !moves && (attribute.kind == AttributeKind::kUv || attribute.kind == AttributeKind::kColour);
   });
   sequence.materials.looks.clear();
   return still;

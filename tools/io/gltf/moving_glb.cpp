@@ -281,10 +281,6 @@ class MovingGlb {
       else
         note("attribute " + shown(name) + " of a primitive that Draco coded is left out");
     }
-    for (const GltfVectors& target : vertices.targets) {
-      if (!target.sets.empty())
-        note("texture coordinates and colours that move stay as they are at rest");
-    }
     if (draco) {
       erase_extension(primitive, kDracoExtension);
       primitive["mode"] = 4;
@@ -360,7 +356,8 @@ class MovingGlb {
       document_["animations"] = std::move(kept);
     if (left_out > 0)
       note(std::to_string(left_out) +
-           " animation channels are in the clip or move nothing, and are left out");
+           (left_out == 1 ? " animation channel is in the clip or moves nothing, and is left out"
+                          : " animation channels are in the clip or move nothing, and are left out"));
   }
 
   bool is_of_use(Json& target, const std::vector<bool>& used) {

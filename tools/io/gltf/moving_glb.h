@@ -20,7 +20,7 @@ struct StillSurface {
 
 /// A glTF document as a GLB in which what parse_gltf() bakes with these options moves by a clip, the bytes
 /// of an .anic file with the vertices in that order: extension ANIC_mesh_animation, see
-/// spec/gltf-extension.md. Materials, textures, images, cameras, lights, nodes, extras and
+/// spec/gltf-extension.md; texture coordinates and colours that the clip has move, too. Materials, textures, images, cameras, lights, nodes, extras and
 /// extensions stay; skins, morph targets, and channels of nodes that carry nothing any more go, and
 /// with them what only they referred to. Images and buffers are taken into the file, buffer views
 /// decompressed. `options.note` is told what is lost. Throws as parse_gltf().
