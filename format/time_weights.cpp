@@ -98,17 +98,6 @@ struct Source {
   double lambda;
 };
 
-/// Magnitudes of a component's coded integers, in kUnit.
-struct Trace {
-  uint32_t channels = 0;       ///< 0: no component yet
-  Vector<uint32_t> magnitude;  ///< channels x frames
-
-  void start(uint32_t channel_count, uint32_t frames) {
-    channels = channel_count;
-    magnitude.assign(size_t{channel_count} * frames, 0);
-  }
-};
-
 }  // namespace
 
 struct TimeWeightModel::State {
@@ -120,6 +109,17 @@ struct TimeWeightModel::State {
 
  private:
   using Filter = RecursiveLeastSquares<6, 990>;
+
+  /// Magnitudes of a component's coded integers, in kUnit.
+  struct Trace {
+    uint32_t channels = 0;       ///< 0: no component yet
+    Vector<uint32_t> magnitude;  ///< channels x frames
+
+    void start(uint32_t channel_count, uint32_t frames) {
+      channels = channel_count;
+      magnitude.assign(size_t{channel_count} * frames, 0);
+    }
+  };
 
   /// The next value of a row by each predictor that goes from frame to frame.
   using Predictions = std::array<int32_t, kForward>;

@@ -112,7 +112,7 @@ class RegionPlayer {
 };
 
 /// Vertices of a shape that are moved at a time.
-constexpr uint32_t kRange = 16 * kBlock;
+constexpr uint32_t kPlayRange = 16 * kBlock;
 
 /// Moves and corrects the vertices of a shape, and stores them.
 void combine_shape(const FrameState& state, uint32_t first, uint32_t count, VertexOutput output) {
@@ -122,9 +122,9 @@ void combine_shape(const FrameState& state, uint32_t first, uint32_t count, Vert
   const Segment::Correction* end = state.corrections + state.correction_count;
   const Segment::Correction* correction =
       std::partition_point(state.corrections, end, [&](const auto& c) { return c.vertex < first; });
-  float blocks[3 * kRange];
+  float blocks[3 * kPlayRange];
   for (const uint32_t stop = first + count; first < stop;) {
-    const uint32_t base = first / kRange * kRange, last = std::min(stop, base + kRange);
+    const uint32_t base = first / kPlayRange * kPlayRange, last = std::min(stop, base + kPlayRange);
     for (uint32_t v = first; v < last; ++v) {
       const float* p =
           state.shape + size_t{3} * (segment.vertex_coded.empty() ? v : segment.vertex_coded[v]);
