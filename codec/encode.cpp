@@ -160,7 +160,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     whole = sequence.positions;
     root = take_root_motion(clip_diagonal, &sequence);
   }
-  EncoderInput input(std::move(sequence), options.part);
+  EncoderInput input(std::move(sequence), options.part, options.layout.get());
   EncodeOptions limited = options;
   Target searched = lossless ? basis_target(options) : target;
   if (root.frames > 0) {
@@ -174,8 +174,9 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   whole = {};
   if (searched.metric == ErrorMetric::kKg || searched.metric == ErrorMetric::kRmse)
     input.bound_clips(searched.metric);
-  const std::vector<StoredAttribute> stored =
-      encode_attributes(input.sequence, options.attributes, &input.layout);
+  std::vector<StoredAttribute> stored;
+  if (!options.layout)
+    stored = encode_attributes(input.sequence, options.attributes, &input.layout);
   if (options.part)
     input.pose = pose_of_parts(input, searched, clip_diagonal);
   if (options.pose) {

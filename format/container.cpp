@@ -14,7 +14,6 @@ namespace {
 
 constexpr size_t kChecksumAt = 32;
 constexpr size_t kTableBytesAt = 36;
-constexpr uint64_t kKnownFeatures = 0;
 // Flags of an entry.
 constexpr uint8_t kRequired = 1, kOfMesh = 2, kOfSegment = 4;
 
@@ -48,10 +47,10 @@ void ContainerWriter::add(const char (&type)[5], bool required, uint16_t mesh, u
   payloads_.push_back(std::move(payload));
 }
 
-Bytes ContainerWriter::finish() const {
+Bytes container_head(const Vector<Chunk>& chunks, uint64_t features) {
   ByteWriter table;
   uint64_t payload_bytes = 0;
-  for (const Chunk& chunk : chunks_) {
+  for (const Chunk& chunk : chunks) {
     const bool of_mesh = chunk.mesh != kNoMesh, of_segment = chunk.segment != kNoSegment;
     table.u32(chunk.type);
     table.u32(chunk.checksum);
@@ -68,8 +67,8 @@ Bytes ContainerWriter::finish() const {
   file.raw({kMagic, sizeof kMagic});
   file.u16(kVersionMajor);
   file.u16(kVersionMinor);
-  file.u32(static_cast<uint32_t>(chunks_.size()));
-  file.u64(0);  // no features beyond those of the version
+  file.u32(static_cast<uint32_t>(chunks.size()));
+  file.u64(features);
   file.u64(kHeaderBytes + table.size() + payload_bytes);
   file.u32(0);
   file.u32(static_cast<uint32_t>(table.size()));
@@ -77,9 +76,14 @@ Bytes ContainerWriter::finish() const {
   uint32_t checksum = low32(xxh64(file.bytes()));
   for (size_t i = 0; i < 4; ++i)
     file.bytes()[kChecksumAt + i] = static_cast<uint8_t>(checksum >> (8 * i));
-  for (const Bytes& payload : payloads_)
-    file.raw(payload);
   return std::move(file.bytes());
+}
+
+Bytes ContainerWriter::finish() const {
+  Bytes file = container_head(chunks_, features_);
+  for (const Bytes& payload : payloads_)
+    file.insert(file.end(), payload.begin(), payload.end());
+  return file;
 }
 
 uint64_t ContainerReader::head_bytes(ByteView bytes) {
@@ -89,7 +93,7 @@ uint64_t ContainerReader::head_bytes(ByteView bytes) {
   return uint64_t{kHeaderBytes} + header.u32();
 }
 
-Failure ContainerReader::open(ByteView file, bool prefix) {
+Failure ContainerReader::open(ByteView file, Extent extent) {
   chunks_.clear();
   by_key_.clear();
   file_ = {};
@@ -123,11 +127,14 @@ Failure ContainerReader::open(ByteView file, bool prefix) {
   std::fill_n(covered.begin() + kChecksumAt, 4, uint8_t{0});
   if (low32(xxh64(covered)) != checksum)
     return failure(Status::kHeaderChecksum, kChecksumAt, "header and table are damaged");
-  if (features_ & ~kKnownFeatures)
-    return failure(Status::kFeature, 16, "the file needs a feature this reader does not have");
-  if (size > file.size && !prefix)
+  if (features_ & ~(extent == Extent::kOfStream ? kContinuation : 0))
+    return failure(Status::kFeature, 16,
+                   features_ == kContinuation
+                       ? "the file continues another one of a live stream, which has its meshes"
+                       : "the file needs a feature this reader does not have");
+  if (size > file.size && extent == Extent::kWhole)
     return failure(Status::kTruncated, file.size, "the file is shorter than its header says");
-  if (size < file.size)
+  if (size < file.size && extent != Extent::kOfStream)
     return failure(Status::kTrailingBytes, size, "bytes follow the end of the file");
 
   ByteReader table({file.data + kHeaderBytes, static_cast<size_t>(table_end - kHeaderBytes)});
@@ -179,6 +186,12 @@ const Chunk* ContainerReader::find(const char (&type)[5], uint16_t mesh, uint32_
                                     [&](uint32_t i) { return chunk_key(chunks_[i]) < wanted; });
   return found != by_key_.end() && chunk_key(chunks_[*found]) == wanted ? &chunks_[*found]
                                                                         : nullptr;
+}
+
+ByteView ContainerReader::arrived(const Chunk& chunk) const {
+  const uint64_t begin = std::min<uint64_t>(chunk.offset, file_.size);
+  const uint64_t end = std::min<uint64_t>(chunk.offset + chunk.size, file_.size);
+  return {file_.data + begin, static_cast<size_t>(end - begin)};
 }
 
 Failure ContainerReader::payload(const Chunk& chunk, ByteView* out) const {

@@ -22,6 +22,9 @@ inline constexpr uint16_t kVersionMinor = 5;
 inline constexpr size_t kHeaderBytes = 40;
 inline constexpr size_t kLeastEntryBytes = 10;  // without mesh and segment, of a short payload
 
+/// Feature bit: the meshes are those of a file before it in a live stream (spec/05, section 8).
+inline constexpr uint64_t kContinuation = 1;
+
 /// Chunk types are four ASCII characters, the first one in the lowest byte.
 constexpr uint32_t chunk_type(const char (&name)[5]) {
   uint32_t type = 0;
@@ -51,15 +54,21 @@ inline std::tuple<uint32_t, uint16_t, uint32_t> chunk_key(const Chunk& chunk) {
   return {chunk.type, chunk.mesh, chunk.segment};
 }
 
+/// Header and table of a file of these chunks, whose offsets do not matter.
+Bytes container_head(const Vector<Chunk>& chunks, uint64_t features);
+
 /// Collects chunks in file order and lays out the file.
 class ContainerWriter {
  public:
+  explicit ContainerWriter(uint64_t features = 0) : features_(features) {}
+
   void add(const char (&type)[5], bool required, uint16_t mesh, uint32_t segment, Bytes payload);
 
   /// The whole file. Deterministic.
   Bytes finish() const;
 
  private:
+  uint64_t features_;
   Vector<Chunk> chunks_;
   Vector<Bytes> payloads_;
 };
@@ -70,13 +79,16 @@ class ContainerReader {
   /// Checks magic, version, features, sizes, table, the checksum of header and table, and that the
   /// payloads end where the file does. Payload checksums are checked by payload(). Cost: O(chunks
   /// log chunks).
-  Failure open(ByteView file) { return open(file, false); }
+  Failure open(ByteView file) { return open(file, Extent::kWhole); }
 
   /// The same for the bytes that have arrived of a file, from the front: all checks but those
   /// against the number of bytes. kTruncated, with head_bytes(), until header and table are there.
-  Failure open_prefix(ByteView bytes) { return open(bytes, true); }
+  Failure open_prefix(ByteView bytes) { return open(bytes, Extent::kPrefix); }
 
-  /// After open_prefix(): more of the same bytes are there, in another place perhaps.
+  /// The same for a file of a live stream, a continuation perhaps: bytes of the next one may follow.
+  Failure open_of_stream(ByteView bytes) { return open(bytes, Extent::kOfStream); }
+
+  /// After open_prefix() or open_of_stream(): more of the same bytes are there, in another place perhaps.
   void extend(ByteView bytes) { file_ = bytes; }
 
   /// How many bytes from the front hold header and table, as far as the bytes tell.
@@ -95,6 +107,9 @@ class ContainerReader {
   /// Whether the payload is there in full.
   bool has(const Chunk& chunk) const { return chunk.offset + chunk.size <= file_.size; }
 
+  /// As much of the payload as is there, unchecked.
+  ByteView arrived(const Chunk& chunk) const;
+
   /// The payload after checking its checksum; kTruncated when it is not there.
   Failure payload(const Chunk& chunk, ByteView* out) const;
 
@@ -107,11 +122,16 @@ class ContainerReader {
   /// The fields of the header.
   uint64_t file_size() const { return file_size_; }
 
+  bool is_continuation() const { return (features_ & kContinuation) != 0; }
+
   /// Whether all bytes are there.
-  bool is_complete() const { return file_.size == file_size_; }
+  bool is_complete() const { return file_.size >= file_size_; }
 
  private:
-  Failure open(ByteView file, bool prefix);
+  /// What the bytes are: a file, the first bytes of one, or those of a stream from a file's first one on.
+  enum class Extent : uint8_t { kWhole, kPrefix, kOfStream };
+
+  Failure open(ByteView file, Extent extent);
 
   ByteView file_;
   uint64_t file_size_ = 0;

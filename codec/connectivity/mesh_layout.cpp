@@ -3,7 +3,6 @@
 #include "codec/connectivity/mesh_layout.h"
 
 #include "codec/connectivity/face_source.h"
-#include "codec/connectivity/weld.h"
 #include "codec/sequence/error.h"
 #include "sdk/mesh/faces_coding.h"
 #include "sdk/mesh/map_coding.h"
@@ -72,8 +71,7 @@ void code_face_map(const FaceSource& source, MeshLayout* layout) {
 
 }  // namespace
 
-MeshLayout lay_out_mesh(const MeshSequence& sequence) {
-  const Weld weld = weld_trajectories(sequence);
+MeshLayout lay_out_mesh(const MeshSequence& sequence, const Weld& weld) {
   FaceSource source(sequence.polygons, weld);
   MeshLayout layout;
   layout.name = sequence.mesh_name;
@@ -89,6 +87,10 @@ MeshLayout lay_out_mesh(const MeshSequence& sequence) {
   code_vertex_map(source.canonical(), &layout);
   code_face_map(source, &layout);
   return layout;
+}
+
+MeshLayout lay_out_mesh(const MeshSequence& sequence) {
+  return lay_out_mesh(sequence, weld_trajectories(sequence));
 }
 
 }  // namespace anicodec

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_CONNECTIVITY_MESH_LAYOUT_H_
 #define ANICODEC_CODEC_CONNECTIVITY_MESH_LAYOUT_H_
 
+#include "codec/connectivity/weld.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "format/records.h"
 #include "sdk/mesh/topology.h"
@@ -33,6 +34,9 @@ struct MeshLayout {
 };
 
 /// Lays out a mesh. Cost: O(corners log corners).
+MeshLayout lay_out_mesh(const MeshSequence& sequence, const Weld& weld);
+
+/// The same where vertices of the same trajectory are one.
 MeshLayout lay_out_mesh(const MeshSequence& sequence);
 
 }  // namespace anicodec

@@ -60,4 +60,12 @@ Weld weld_trajectories(const MeshSequence& sequence) {
   return weld;
 }
 
+Weld no_weld(uint32_t vertices) {
+  Weld weld;
+  weld.welded.resize(vertices);
+  std::iota(weld.welded.begin(), weld.welded.end(), 0U);
+  weld.representative = weld.welded;
+  return weld;
+}
+
 }  // namespace anicodec

@@ -20,6 +20,9 @@ struct Weld {
 /// Cost: O(vertices x frames), one pass over the positions, memory 16 bytes per vertex.
 Weld weld_trajectories(const MeshSequence& sequence);
 
+/// All vertices on their own: for meshes whose trajectories are yet to come.
+Weld no_weld(uint32_t vertices);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_CONNECTIVITY_WELD_H_

@@ -58,8 +58,11 @@ struct EncodeOptions {
   /// Bases of eigenshapes and eigentrajectories lean on this pose, of a file that the clip goes to. Null: on
   /// any.
   std::shared_ptr<const EncodedPose> pose;
+  /// The mesh as it lies in a file that the clip goes to, with its attributes: those of the sequence are left
+  /// alone. Null: it is laid out.
+  std::shared_ptr<const MeshLayout> layout;
   AttributeOptions attributes;
-  int effort = 5;  ///< 1..9: how long to search
+  int effort = 5;  ///< 1..9: how long to search; 0: the first file that keeps the target is taken
   /// What the search of eigenshapes and eigentrajectories does without, by the names of
   /// search_means(): to measure what each is worth.
   std::vector<std::string> without;

@@ -8,8 +8,9 @@
 
 namespace anicodec {
 
-EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& part)
-    : sequence(std::move(source)), layout(lay_out_mesh(sequence)) {
+EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& part,
+                           const MeshLayout* laid_out)
+    : sequence(std::move(source)), layout(laid_out ? *laid_out : lay_out_mesh(sequence)) {
   const size_t n = layout.sizes.coded_vertices;
   copies.assign(n, 0);
   for (uint32_t c : layout.source_coded)

@@ -32,8 +32,9 @@ struct InputClip {
 /// The clip by coded vertices, and its way back to the source: shared by all ways of coding.
 struct EncoderInput {
   /// Takes the positions over: they are put into coded order in place. Of a part, only its frames
-  /// remain, of a mesh that serves all parts.
-  explicit EncoderInput(MeshSequence source, const std::optional<FrameRun>& part = {});
+  /// remain, of a mesh that serves all parts. `laid_out`: the mesh, where a file has it; null: to be laid out.
+  explicit EncoderInput(MeshSequence source, const std::optional<FrameRun>& part = {},
+                        const MeshLayout* laid_out = nullptr);
 
   /// Other trajectories over the same mesh: as many frames, frames x coded vertices x 3.
   EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories);

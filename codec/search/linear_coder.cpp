@@ -38,6 +38,7 @@ struct Nearness {
   double close, aim;
 };
 
+constexpr Nearness kFirst{0.93, 0.97};  // of no effort
 constexpr Nearness kPlain{0.997, 0.9985};
 constexpr Nearness kThorough{0.994, 0.997};  // errors vary by some thousandths
 
@@ -61,7 +62,7 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
       first_frame_(first_frame),
       runs_(input.runs(first_frame, static_cast<uint32_t>(analysis.clip().frame_count))),
       kind_(kind),
-      effort_(std::clamp(effort, 1, 9)),
+      effort_(std::clamp(effort, 0, 9)),
       bases_(std::make_unique<Bases>()) {
   const bool shapes = kind == BasisKind::kEigenshapes;
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
@@ -368,7 +369,7 @@ bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse, doub
 std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   if (!(rmse > 0))
     return std::nullopt;
-  if (!chosen_)
+  if (!chosen_ && effort_ > 0)
     choose_settings(rmse);
   std::optional<CodedPart> best = reached(choice_, rmse);
   if (thorough_ && best && least_ > 0 && bytes(*best) > least_)
@@ -400,7 +401,7 @@ void LinearCoder::turn_down(double rmse, CodedPart& best) {
 
 std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) {
   choice = started(choice, rmse);
-  const Nearness& near = thorough_ ? kThorough : kPlain;
+  const Nearness& near = thorough_ ? kThorough : effort_ > 0 ? kPlain : kFirst;
   std::optional<Measured> best;
   double inside = 0, outside = std::numeric_limits<double>::infinity();  // steps known to be so
   for (int round = 0; round < kStepRounds; ++round) {

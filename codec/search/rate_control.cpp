@@ -80,7 +80,9 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
   for (BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
     BasisChoice choice = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
                                                          : BasisChoice::kEigentrajectories;
-    if (options_.basis == BasisChoice::kAuto || options_.basis == choice)
+    const bool quickest = options_.effort == 0 && kind == BasisKind::kEigentrajectories;
+    if ((options_.basis == BasisChoice::kAuto && (options_.effort > 0 || quickest)) ||
+        options_.basis == choice)
       coders.push_back(std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort,
                                                      kLayers, options_.opening));
   }
@@ -104,7 +106,7 @@ std::optional<Solution> RateControl::by_linear_bases() {
   std::optional<Solution> best;
   for (std::unique_ptr<LinearCoder>& coder : coders)
     offer(*coder, &best);
-  if (!best)
+  if (!best || options_.effort == 0)
     return best;
   const BasisKind kind = best->parts[0].encoded.sizes.kind;
   const auto used =

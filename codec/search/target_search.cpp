@@ -88,6 +88,7 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   // usual ratio of maximum to mean error in the direction that pays. Horse, dance, flag and a
   // captured face do best with 2.5 to 3.8.
   constexpr double kUsual = 3.3, kFactor = 1.3;
+  constexpr double kOfPieces = 2.3;  // a second of dance, flag or horse: 2 to 2.6
   constexpr double kFarBehind = 1.15, kLeastGain = 0.003;
   std::optional<Solution> best;
   std::map<double, double> prices;  // by the ratio
@@ -100,6 +101,8 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
     best = std::move(trial);
     return true;
   };
+  if (effort_ == 0 && trial_is_better(kOfPieces))
+    return best;
   trial_is_better(kUsual);
   if (best && rival && best->price() > kFarBehind * rival->price())
     return best;
@@ -206,6 +209,8 @@ double TargetSearch::typical_rmse() const {
 double TargetSearch::expected_trials() const {
   constexpr double kOfOneError = 3;  // until an error is met
   double settings = 2 * effort_ - 3;
+  if (effort_ == 0)
+    return kOfOneError;
   switch (target_.metric) {
     case ErrorMetric::kMaxError:
       return std::max(settings, 0.0) + 4 * kOfOneError;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// The C interface: files that are read through a callback, or arrive piece by piece.
+// The C interface: files that are read through a callback, or arrive piece by piece, one after the other.
+#include "format/continuation.h"
 #include "sdk/api/objects.h"
 
 #include <algorithm>
@@ -10,8 +11,10 @@ struct anic_stream {
   explicit anic_stream(const anic_options& wanted) : options(wanted) {}
 
   anic_options options;
-  anicodec::Bytes bytes;
-  anicodec::ContainerReader file;  ///< of `bytes`
+  anicodec::Bytes meshes;                   ///< only_meshes() of the last file that had any of its own
+  anicodec::ContainerReader meshes_reader;  ///< of `meshes`
+  anicodec::Bytes bytes;                    ///< from the first one of the file at hand on
+  anicodec::ContainerReader file;           ///< of `bytes`
   bool has_table = false;          ///< header and table are there
   bool has_limits = false;
   size_t arrived = 0;  ///< chunks, from the front of the table
@@ -60,27 +63,43 @@ void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
   }
 }
 
+/// The file at hand, or as much of it as is there. `spliced` keeps a continuation with its meshes.
+ByteView playable_bytes(const anic_stream& stream, Bytes* spliced) {
+  if (!stream.file.is_continuation())
+    return {stream.bytes.data(),
+            static_cast<size_t>(std::min<uint64_t>(stream.bytes.size(), stream.info.file_bytes))};
+  *spliced = with_meshes(stream.meshes_reader, stream.file);
+  return *spliced;
+}
+
+Failure read_stream_limits(const anic_stream& stream, Limits* limits) {
+  Bytes spliced;
+  ContainerReader file;
+  if (Failure failure = file.open_prefix(playable_bytes(stream, &spliced)); !failure.ok())
+    return failure;
+  return read_limits(file, open_options(stream.options, file.file_size()), limits);
+}
+
 /// Reads header and table once they are there, then the limits.
 Failure read_head(anic_stream* stream) {
   ContainerReader& file = stream->file;
   anic_stream_info& info = stream->info;
   if (!stream->has_table) {
-    Failure failure = file.open_prefix(stream->bytes);
+    Failure failure = file.open_of_stream(stream->bytes);
     if (failure.status == Status::kTruncated)
       return {};
     if (!failure.ok())
       return failure;
+    if (file.is_continuation() && stream->meshes.empty())
+      return {Status::kFeature, 16, 0, "the stream begins with a file that continues another one"};
     stream->has_table = true;
     info.file_bytes = file.file_size();
-    if (stream->bytes.size() > info.file_bytes)
-      return {Status::kTrailingBytes, info.file_bytes, 0, "bytes follow the end of the file"};
   }
   const Chunk* chunk = file.find("LIMI");
   if (chunk && !file.has(*chunk))
     return {};
   Limits limits;
-  const OpenOptions options = open_options(stream->options, info.file_bytes);
-  if (Failure failure = read_limits(file, options, &limits); !failure.ok())
+  if (Failure failure = read_stream_limits(*stream, &limits); !failure.ok())
     return failure;
   stream->has_limits = true;
   const size_t segments = limits.segments.size(), chunks = file.chunks().size();
@@ -122,17 +141,32 @@ Failure take_chunks(anic_stream* stream) {
   return {};
 }
 
-Failure push(anic_stream* stream, const void* bytes, size_t size) {
-  const MemoryScope scope(&memory_of_object(stream));
+/// Bytes behind the end of the file at hand, as far as they are there, begin another one.
+Failure check_next(const anic_stream& stream) {
+  const uint64_t end = stream.info.file_bytes;
+  for (uint64_t i = end; i < std::min<uint64_t>(stream.bytes.size(), end + sizeof kMagic); ++i) {
+    if (stream.bytes[static_cast<size_t>(i)] != kMagic[i - end])
+      return {Status::kTrailingBytes, end, 0, "bytes follow the end of the file"};
+  }
+  return {};
+}
+
+/// Looks at all bytes that are there of the file at hand.
+Failure read_bytes(anic_stream* stream) {
   anic_stream_info& info = stream->info;
-  if (stream->has_table && size > info.file_bytes - stream->bytes.size())
-    return {Status::kTrailingBytes, info.file_bytes, 0, "bytes follow the end of the file"};
-  append(bytes, size, info.file_bytes, &stream->bytes);
   info.received_bytes = stream->bytes.size();
   if (stream->has_table)
     stream->file.extend(stream->bytes);
   if (!stream->has_limits) {
     if (Failure failure = read_head(stream); !failure.ok())
+      return failure;
+  }
+  if (!stream->has_table)
+    return {};
+  if (info.received_bytes > info.file_bytes) {
+    info.waiting_bytes = info.received_bytes - info.file_bytes;
+    info.received_bytes = info.file_bytes;
+    if (Failure failure = check_next(*stream); !failure.ok())
       return failure;
   }
   if (!stream->has_limits)
@@ -141,6 +175,35 @@ Failure push(anic_stream* stream, const void* bytes, size_t size) {
     return failure;
   info.complete = stream->file.is_complete();
   return {};
+}
+
+Failure push(anic_stream* stream, const void* bytes, size_t size) {
+  const MemoryScope scope(&memory_of_object(stream));
+  append(bytes, size, stream->info.file_bytes, &stream->bytes);
+  return read_bytes(stream);
+}
+
+/// Makes the next file of a live stream the one at hand.
+Failure advance(anic_stream* stream) {
+  const MemoryScope scope(&memory_of_object(stream));
+  if (!stream->file.is_continuation()) {
+    Bytes meshes = only_meshes(stream->file);
+    std::swap(stream->meshes, meshes);
+    if (Failure failure = stream->meshes_reader.open(stream->meshes); !failure.ok())
+      return failure;
+  }
+  const auto next = stream->bytes.begin() + static_cast<ptrdiff_t>(stream->info.file_bytes);
+  Bytes waiting(next, stream->bytes.end());
+  std::swap(stream->bytes, waiting);
+  stream->file = ContainerReader();
+  stream->has_table = stream->has_limits = false;
+  stream->arrived = 0;
+  stream->common_missing = stream->ready = stream->ready_positions = 0;
+  stream->of_positions.clear();
+  const uint32_t number = stream->info.file_number + 1;
+  stream->info = ANIC_INIT(anic_stream_info);
+  stream->info.file_number = number;
+  return stream->bytes.empty() ? Failure{} : read_bytes(stream);
 }
 
 /// Reads a whole file into `to`: its head first, so that limits are checked before the rest.
@@ -235,6 +298,16 @@ anic_status anic_push_bytes(anic_stream* stream, const void* bytes, size_t size)
   return c_status(stream->failure.status);
 }
 
+anic_status anic_advance_stream(anic_stream* stream) {
+  if (!stream)
+    return ANIC_E_ARGUMENT;
+  if (stream->failure.ok() && !stream->info.complete)
+    return ANIC_E_STATE;
+  if (stream->failure.ok())
+    stream->failure = guarded([&] { return advance(stream); });
+  return c_status(stream->failure.status);
+}
+
 anic_status anic_get_stream_info(const anic_stream* stream, anic_stream_info* out) {
   if (!stream || !is_sized(out))
     return ANIC_E_ARGUMENT;
@@ -261,8 +334,12 @@ anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
     return report(stream->failure, failure);
   if (!stream->info.playable)
     return report({Status::kState, stream->bytes.size(), 0, "nothing can be played yet"}, failure);
-  Failure what = guarded(
-      [&] { return open_asset(stream->bytes, stream->options, !stream->info.complete, out); });
+  Failure what = guarded([&] {
+    const MemoryScope scope(&memory_of_object(stream));
+    Bytes spliced;
+    return open_asset(playable_bytes(*stream, &spliced), stream->options, !stream->info.complete,
+                      out);
+  });
   // A prefix may be too short for what the whole file is allowed.
   if (what.status == Status::kLimit && !stream->info.complete)
     what = {Status::kState, stream->bytes.size(), what.chunk, "too little has arrived"};

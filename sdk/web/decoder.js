@@ -150,12 +150,20 @@ export class Decoder {
 
   /** Takes the next bytes, and tells how far the file is. */
   push(bytes) {
-    const status = this.withBytes(bytes, (at) => this.run('stream_push', at, bytes.byteLength));
+    return this.#arrived(this.withBytes(bytes, (at) => this.run('stream_push', at, bytes.byteLength)));
+  }
+
+  /** Turns to the next file of a live stream, and tells how far that is. */
+  advance() {
+    return this.#arrived(this.run('stream_advance'));
+  }
+
+  #arrived(status) {
     if (status !== 0)
       throw this.failure(status);
     this.call('stream_info');
-    const [received, size, playable, complete] = this.numbers(4);
-    return { received, size, playable: playable !== 0, complete: complete !== 0 };
+    const [received, size, playable, complete, waiting] = this.numbers(5);
+    return { received, size, playable: playable !== 0, complete: complete !== 0, waiting };
   }
 
   /** Opens what has arrived. */

@@ -297,8 +297,15 @@ export declare class Clip {
 /** Opens a clip. Fails with an AnicError, an AbortError, or what the network says. */
 export declare function open(source: Source, options?: OpenOptions): Promise<Clip>;
 
+/**
+ * Clips of a live stream, which `anicodec encode --live` writes: one for each of its files, as soon as that is there, with the
+ * time that it begins at (`clip.info.startTime`). They are opened in this thread, some milliseconds each; close() those that have been played.
+ * Fails as open() does, and with ANIC_E_TRUNCATED where the stream ends inside a file.
+ */
+export declare function live(source: Source, options?: Pick<OpenOptions, 'quality' | 'bounds' | 'maxBytes' | 'inPlace' | 'inexact' | 'signal'>): AsyncGenerator<Clip, void>;
+
 /** Gives a compiled module, where the files of dist/ cannot be fetched. */
 export declare function provideModule(kind: 'small' | 'full', module: WebAssembly.Module): void;
 
-export declare const Anicodec: { open: typeof open };
+export declare const Anicodec: { open: typeof open; live: typeof live };
 export default Anicodec;

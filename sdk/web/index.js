@@ -133,5 +133,26 @@ export function open(source, { quality, bounds, maxBytes, clips, inPlace, inexac
   });
 }
 
-export const Anicodec = { open };
+/** See index.d.ts. */
+export async function* live(source, { quality, bounds, maxBytes, inPlace, inexact, signal } = {}) {
+  const decoder = await Decoder.create(await loadModule('small'), () => signal?.aborted ?? false);
+  decoder.beginStream({ quality, bounds, maxBytes, inPlace, inexact });
+  try {
+    let state = { received: 0 };
+    for await (const bytes of pieces(source, signal)) {
+      for (state = decoder.push(bytes); state.complete; state = decoder.advance()) {
+        decoder.openStream();
+        yield new Clip(await Decoder.from(decoder.snapshot()));
+      }
+    }
+    if (state.received > 0)
+      throw new AnicError('ANIC_E_TRUNCATED', 'the stream ends inside a file', { offset: state.received });
+  } catch (error) {
+    throw signal?.aborted ? aborted(signal) : error;
+  } finally {
+    decoder.close();
+  }
+}
+
+export const Anicodec = { open, live };
 export default Anicodec;

@@ -145,6 +145,31 @@ inline std::vector<float> frame(const Asset& asset, uint32_t f) {
   return out;
 }
 
+struct StreamDestroyer {
+  void operator()(anic_stream* stream) const { anic_destroy_stream(stream); }
+};
+
+using Stream = std::unique_ptr<anic_stream, StreamDestroyer>;
+
+inline Stream new_stream(const anic_options* options = nullptr) {
+  anic_stream* stream = nullptr;
+  EXPECT_EQ(anic_create_stream(options, &stream), ANIC_OK);
+  return Stream(stream);
+}
+
+inline anic_stream_info info_of(const Stream& stream) {
+  anic_stream_info info = ANIC_INIT(anic_stream_info);
+  anic_get_stream_info(stream.get(), &info);
+  return info;
+}
+
+inline Asset open(const Stream& stream) {
+  anic_asset* asset = nullptr;
+  anic_failure failure = ANIC_INIT(anic_failure);
+  EXPECT_EQ(anic_open_asset_from_stream(stream.get(), &asset, &failure), ANIC_OK) << failure.detail;
+  return Asset(asset);
+}
+
 inline double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
   EXPECT_EQ(a.size(), b.size());
   double largest = 0;

@@ -11,31 +11,6 @@
 namespace anicodec {
 namespace {
 
-struct StreamDestroyer {
-  void operator()(anic_stream* stream) const { anic_destroy_stream(stream); }
-};
-
-using Stream = std::unique_ptr<anic_stream, StreamDestroyer>;
-
-Stream new_stream(const anic_options* options = nullptr) {
-  anic_stream* stream = nullptr;
-  EXPECT_EQ(anic_create_stream(options, &stream), ANIC_OK);
-  return Stream(stream);
-}
-
-anic_stream_info info_of(const Stream& stream) {
-  anic_stream_info info = ANIC_INIT(anic_stream_info);
-  anic_get_stream_info(stream.get(), &info);
-  return info;
-}
-
-Asset open(const Stream& stream) {
-  anic_asset* asset = nullptr;
-  anic_failure failure = ANIC_INIT(anic_failure);
-  EXPECT_EQ(anic_open_asset_from_stream(stream.get(), &asset, &failure), ANIC_OK) << failure.detail;
-  return Asset(asset);
-}
-
 void expect_same(const Asset& a, const Asset& b) {
   ASSERT_EQ(info_of(a).frame_count, info_of(b).frame_count);
   EXPECT_EQ(info_of(a).resident_bytes, info_of(b).resident_bytes);

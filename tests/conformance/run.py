@@ -14,6 +14,7 @@ COMMAND decodes {file}, or refuses it by an exit status other than 0, without a 
 Checked are
   valid    every file, as MANIFEST hashes it, decodes to what facts/NAME.json says, positions within the tolerance
   invalid  every file is refused
+  stream   every live stream is refused, or its files decode as one clip to what facts/NAME.json says
   limit    every file is refused, and nothing takes longer than a few seconds or more than a gigabyte (--memory 0:
            whatever it takes, for decoders with a sanitizer in them)
 --stop ends at the first fault. Exit status 1 if anything is wrong.
@@ -140,7 +141,9 @@ def faults_of(decoder, folder, kind, name, digest, scratch):
     file = folder / name
     if hashlib.sha256(file.read_bytes()).hexdigest() != digest:
         yield "is not the file of the manifest"
-    elif kind == "valid":
+    elif kind == "stream" and decoder.run(file, pathlib.Path(scratch) / "refused") > 0:
+        return  # a decoder of files, not of streams
+    elif kind in ("valid", "stream"):
         facts = json.loads((folder / "facts" / f"{file.stem}.json").read_text(encoding="utf-8"))
         yield from check_valid(decoder, file, facts, scratch)
     else:
@@ -160,7 +163,7 @@ def main():
         parser.error("COMMAND names no {file}")
     decoder = Decoder(arguments.command, arguments.memory)
     entries = [line.split() for line in (arguments.folder / "MANIFEST").read_text().splitlines()]
-    wrong, counts = False, {"valid": 0, "invalid": 0, "limit": 0}
+    wrong, counts = False, {"valid": 0, "stream": 0, "invalid": 0, "limit": 0}
     with tempfile.TemporaryDirectory() as scratch:
         for kind, name, digest, *_ in entries:
             counts[kind] += 1

@@ -225,6 +225,23 @@ internal static class PackageTest
                 asset.Verify();
             Check.Throws(Status.TrailingBytes, () => stream.Push(new byte[1]), "a byte too many");
         }
+        byte[] live = Bytes("streams/live");
+        using (AssetStream stream = new AssetStream())
+        {
+            Check.Throws(Status.State, () => stream.Advance(), "a file that is not complete");
+            stream.Push(live);
+            int frames = 0;
+            for (; stream.Complete; stream.Advance())
+            {
+                Check.That(stream.FileNumber < 3 && (stream.WaitingBytes > 0) == (stream.FileNumber < 2), "the files of a stream");
+                using (Asset asset = stream.Open())
+                {
+                    asset.Verify();
+                    frames += asset.FrameCount;
+                }
+            }
+            Check.That(frames == 20, "the frames of a stream");
+        }
     }
 
     private static void RefusesWhatIsWrong()

@@ -95,6 +95,11 @@ def entries(data):
         payload += size
 
 
+def file_size(data):
+    """The bytes of the first file of a stream."""
+    return struct.unpack_from("<Q", data, 24)[0]
+
+
 def read_chunks(data):
     """The chunks of a good file."""
     return [Chunk(kind, flags, mesh, segment, data[offset:offset + size])

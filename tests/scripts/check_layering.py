@@ -83,8 +83,9 @@ ROOMS = {
     "tools/render": ["tools/io/base", "tools/io/files"],
     "tools/inputs": ["tools/words", "tools/options", "tools/io", "tools/io/base", "tools/io/files"],
     "tools/report": ["tools/words", "tools/io/base", "tools/peers", "tools/render", "tools/inputs"],
+    "tools/encoding": ["tools/words", "tools/program", "tools/io", "tools/io/base", "tools/io/files", "tools/inputs"],
     "tools/commands": ["tools/words", "tools/options", "tools/program", "tools/listing", "tools/io", "tools/io/base", "tools/io/files",
-                       "tools/render", "tools/inputs", "tools/report"],
+                       "tools/render", "tools/inputs", "tools/report", "tools/encoding"],
     "tools": ["tools/commands"],
 }
 # A unit is a header, a source, or both of one name. A room of more is a hall, to be divided.

@@ -40,6 +40,7 @@ THROUGH = {
     "codec/transfer": ("tests/codec/transfer/registration_test.cpp", "the linear system of the registration"),
     "corpus": ("tests/corpus/manifest_test.cpp", "every clip's hash stands in the manifest"),
     "tools/commands": ("tests/tools/commands", "a command is tested as a process"),
+    "tools/encoding": ("tests/tools/commands/encode_command_test.cpp", "what `encode` prints of a file"),
     "tools/inputs": ("tests/tools/commands", "what commands read, tested with them"),
     "tools/io/alembic": ("tests/tools/io/alembic", "parts of one reader and one writer"),
     "tools/io/assimp": ("tests/tools/topology_test.cpp", "files of formats that assimp reads, through the command"),

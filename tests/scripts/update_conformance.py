@@ -56,6 +56,10 @@ FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "q
           "walk.anic", "exact.anic", "alike.anic", "regions.anic"]
 
 
+# A live stream: clip, frames in a second, which are a file, and options.
+STREAM = ("streams/live.anic", "limb --vertices 100 --frame-count 20", 8, "--kg 0.5 --effort 2")
+
+
 def listing(command, path):
     """Every field of a file: offset, bytes (eight to a line), what it is."""
     data = path.read_bytes()
@@ -257,12 +261,15 @@ def main():
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         lines.append(" ".join([kind, path.relative_to(FOLDER).as_posix(), digest, *fields]))
 
-    def add_valid(path, out):
+    def add_facts(path, out):
         for old in out.parent.glob(out.name + ".*"):
             old.unlink()
         subprocess.run([decoder, path, out], check=True)
-        add("valid", path)
         conformance_facts.write(conformance_facts.facts_of(out), FOLDER / "facts" / f"{path.stem}.json")
+
+    def add_valid(path, out):
+        add_facts(path, out)
+        add("valid", path)
 
     shutil.rmtree(FOLDER / "facts", ignore_errors=True)
     (FOLDER / "facts").mkdir()
@@ -283,6 +290,16 @@ def main():
             subprocess.run([special, what, FOLDER / f"{what}.anic"], check=True)
             add_valid(FOLDER / f"{what}.anic", pathlib.Path(name) / "decoded")
 
+        (FOLDER / "streams").mkdir(exist_ok=True)
+        file, clip, frames, options = STREAM
+        cache, joined = pathlib.Path(name) / "live.pc2", pathlib.Path(name) / "live.anic"
+        subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
+        subprocess.run([command, "encode", "-q", "-f", "--live", cache.with_suffix(".obj"), "--fps", str(frames), "-o",
+                        FOLDER / file] + options.split(), check=True, input=cache.read_bytes()[32:])
+        subprocess.run([command, "join", "-q", "-f", FOLDER / file, "-o", joined], check=True)
+        add_facts(joined, pathlib.Path(name) / "decoded")
+        add("stream", FOLDER / file)
+
     for folder in ("invalid", "limits"):
         shutil.rmtree(FOLDER / folder, ignore_errors=True)
         (FOLDER / folder).mkdir()
@@ -301,7 +318,10 @@ def main():
         path = FOLDER / "invalid" / f"{status}_{CODES[str(status)].lower()}.anic"
         path.write_bytes(data)
         add("invalid", path, str(status), CODES[str(status)], what or detail)
-    for status, what, data, text in [*broken_attributes(files[-1][1]), *broken_rules.broken_rules(command, FOLDER, lambda file: library.status(file)[0])]:
+    stream = (FOLDER / STREAM[0]).read_bytes()
+    second = stream[anic_file.file_size(stream):]
+    alone = [(12, "continuation", second[:anic_file.file_size(second)], "a continuation without the file that it continues")]
+    for status, what, data, text in [*alone, *broken_attributes(files[-1][1]), *broken_rules.broken_rules(command, FOLDER, lambda file: library.status(file)[0])]:
         seen, detail = library.status(data)
         if seen != status:
             sys.exit(f"{what} is answered with {seen}: {detail}")

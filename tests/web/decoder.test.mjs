@@ -39,6 +39,47 @@ async function expectFacts(file) {
   clip.close();
 }
 
+/** Bytes in pieces, as they come over a network. */
+const inPieces = (bytes, size) => new ReadableStream({
+  start(controller) {
+    for (let at = 0; at < bytes.length; at += size)
+      controller.enqueue(bytes.slice(at, at + size));
+    controller.close();
+  },
+});
+
+async function clipsOf(stream, each) {
+  const starts = [];
+  for await (const clip of Anicodec.live(stream)) {
+    starts.push(clip.info.startTime);
+    each?.(clip);
+    clip.close();
+  }
+  return starts;
+}
+
+/** The files of a live stream have, one after the other, what the facts say of one clip. */
+async function expectStream(file) {
+  const facts = factsOf(file), [mesh] = facts.meshes, bytes = bytesOf(file), rate = facts.clip.clips[0].rate[0] / facts.clip.clips[0].rate[1];
+  for (const size of [100, bytes.length]) {
+    let frames = 0, points = 0;
+    const starts = await clipsOf(inPieces(bytes, size), (clip) => {
+      clip.verify();
+      for (const [frame, vertex, ...point] of mesh.points.filter(([f]) => f >= frames && f < frames + clip.frames)) {
+        const seen = clip.meshes[0].sourcePositions(clip.frameTime(frame - frames), undefined, { sampling: 'step' });
+        point.forEach((value, c) => assert.ok(Math.abs(seen[3 * vertex + c] - value) <= mesh.tolerance));
+        ++points;
+      }
+      frames += clip.frames;
+    });
+    assert.deepEqual([frames, points], [mesh.counts[1], mesh.points.length]);
+    starts.forEach((start, i) => assert.ok(Math.abs(start - i * starts[1]) < 1e-6 && Math.abs(starts[1] * rate % 1) < 1e-6));
+  }
+  await assert.rejects(clipsOf(bytes.slice(0, -3)), ({ status }) => status === 'ANIC_E_TRUNCATED');
+  await assert.rejects(clipsOf(Uint8Array.of(...bytes, 0)), ({ status }) => status === 'ANIC_E_TRAILING_BYTES');
+  await assert.rejects(Anicodec.open(bytes), ({ status }) => status === 'ANIC_E_TRAILING_BYTES');
+}
+
 for (const [small, full] of [['small', 'full'], ['scalar', 'scalar']]) {
   test(`conformance files, module ${small}`, async (t) => {
     provideModule('small', await moduleOf(KINDS[small]));
@@ -52,6 +93,8 @@ for (const [small, full] of [['small', 'full'], ['scalar', 'scalar']]) {
               throw error;
             own.skip('coded by Draco');
           });
+        } else if (what === 'stream') {
+          await expectStream(file);
         } else {
           await assert.rejects(Anicodec.open(bytesOf(file)).then((clip) => clip.verify()),
             (error) => error instanceof AnicError && (error.status === status || isDraco(error)) && error.message.length > 5);

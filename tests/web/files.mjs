@@ -5,7 +5,7 @@
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 
 const folder = new URL('../conformance/', import.meta.url);
 
@@ -17,7 +17,7 @@ export const files = readFileSync(new URL('MANIFEST', folder), 'utf8').trim().sp
   return { what, file, code: Number(code), status: `ANIC_E_${status}` };
 });
 
-export const factsOf = (file) => JSON.parse(readFileSync(new URL(`facts/${file.replace('.anic', '.json')}`, folder), 'utf8'));
+export const factsOf = (file) => JSON.parse(readFileSync(new URL(`facts/${basename(file, '.anic')}.json`, folder), 'utf8'));
 
 /** Runs uses(run, file) with the command and names of files in a folder that goes; undefined without the command (ANICODEC_COMMAND). */
 function withCommand(uses) {

@@ -4,8 +4,9 @@
 #include "codec/encode_massaged.h"
 #include "codec/encode_scene.h"
 #include "codec/sequence/error.h"
-#include "tools/commands/batch.h"
-#include "tools/commands/encode_report.h"
+#include "tools/encoding/batch.h"
+#include "tools/encoding/encode_report.h"
+#include "tools/encoding/live_capture.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/encode_arguments.h"
 #include "tools/inputs/massage_transfer.h"
@@ -69,6 +70,11 @@ surfaces of all others (anicodec massage transfer), for scans of one body.
 --part A:B encodes some frames of a long clip, so that several machines can share the work; every
 machine reads the whole clip, and join makes one file of the parts.
 
+--live encodes a capture while it goes on: INPUT is the mesh, frames of --fps come from the standard
+input. What is written grows by a file every --piece seconds; anic_stream plays one after the other,
+and all commands take them together for one clip, which join -o makes a file that seeks and opens as
+others do. Of --effort, 1 is fast enough for 10,000 vertices.
+
 --batch encodes many clips to the folder -o, -j of them side by side: of a folder every scene, every
 vertex cache with its mesh, and every run of numbered frames, of a list a clip per line, its inputs
 separated by tabs. Clips that are done already, by the content of what goes in and comes out, are
@@ -101,7 +107,8 @@ Examples:
   anicodec encode hero.obj walk.pc2 run.pc2 -o hero.anic --fps 30
   anicodec encode flag.mdd --mesh flag.obj -o flag.anic --size 200k --max-error 1%
   anicodec encode dance.obj dance.pc2 -o dance.anic --keyframes 45
-  anicodec encode --batch clips -o encoded -j 4)";
+  anicodec encode --batch clips -o encoded -j 4
+  capture | anicodec encode --live body.obj --fps 30 --effort 1 -o take.anic)";
 
 MeshSequence load(const EncodeArguments& command, const Progress& progress,
                   EncodeOptions* encode_options) {
@@ -272,6 +279,8 @@ std::function<void(const std::string&)> notes_above(ProgressLine& line, bool qui
 }
 
 void run(EncodeArguments command, const CommonOptions& common) {
+  if (command.live)
+    return encode_live(command, common);
   if (!command.batch.empty())
     return encode_batch(command, common);
   if (command.inputs.empty())

@@ -3,8 +3,10 @@
 #include "tools/inputs/clip_input.h"
 
 #include "codec/connectivity/attribute_encode.h"
+#include "codec/file/live_stream.h"
 #include "codec/sequence/scene.h"
 #include "format/container.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/load_sequence.h"
 
@@ -105,6 +107,23 @@ void fail_clip(const std::string& path, const Failure& failure) {
   throw Error(error_kind(failure.status), text);
 }
 
+namespace {
+
+/// The clip that the files of a live stream make. What has not arrived in full is left out, and said so.
+std::string joined(const std::string& path, const std::string& bytes) {
+  const LiveStream stream = read_live_stream({path, view_of(bytes)});
+  if (stream.incomplete > 0)
+    fmt::print(stderr, "{}: the last {} bytes are of a file that is not complete, and left out\n",
+               printable(path), stream.incomplete);
+  std::vector<ClipPart> parts;
+  for (const Bytes& file : stream.files)
+    parts.push_back({path, file});
+  const Bytes clip = join_clips(parts);
+  return {reinterpret_cast<const char*>(clip.data()), clip.size()};
+}
+
+}  // namespace
+
 std::string read_bytes(const std::string& path) {
   std::string bytes;
   if (path == "-")
@@ -113,7 +132,7 @@ std::string read_bytes(const std::string& path) {
     read_file(path, bytes);
   if (std::optional<std::string> clip = clip_of_glb(bytes, path))
     return *std::move(clip);
-  return bytes;
+  return is_live_stream(view_of(bytes)) ? joined(path, bytes) : bytes;
 }
 
 bool takes_turns(const Clip& clip) {

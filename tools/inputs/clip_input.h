@@ -31,7 +31,7 @@ ErrorKind error_kind(Status status);
 [[noreturn]] void fail_clip(const std::string& path, const Failure& failure);
 
 /// The bytes of a file, or of the standard input if the path is "-"; of a GLB that moves by a clip
-/// (clip_of_glb), those of the clip. Throws Error(kInput).
+/// (clip_of_glb), those of the clip; of a live stream, those of the clip that its files make. Throws Error(kInput).
 std::string read_bytes(const std::string& path);
 
 inline ByteView view_of(const std::string& bytes) {

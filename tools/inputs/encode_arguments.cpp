@@ -275,6 +275,9 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.flag("--allow-outside", a.allow_outside,
                "Let a scene name files outside its folder: those of strangers then choose what is "
                "read");
+  options.flag("--live", a.live,
+               "INPUT is a mesh, its frames come from the standard input: float32 x, y, z of each vertex, little-endian");
+  options.number("--piece", a.piece, "SECONDS", {0.001, 3600}, "Of --live, what is encoded at a time (default 1)");
   add_target(options, a);
   add_method(options, a);
   add_massage_options(options, a);

@@ -53,6 +53,8 @@ struct EncodeArguments {
   std::string rate, unit;
   UpAxis up = UpAxis::kUnknown;
   bool loop = false;
+  bool live = false;
+  double piece = 1;                 ///< of a live stream, seconds
   std::vector<std::string> events;  ///< [CLIP:]NAME=SECONDS
   bool root_motion = false;
   bool allow_outside = false;

@@ -4,7 +4,7 @@ using System;
 
 namespace Anicodec
 {
-    /// <summary>A file that arrives from the front, piece by piece.</summary>
+    /// <summary>A file that arrives from the front, piece by piece; of a live stream, one file after the other.</summary>
     public sealed unsafe class AssetStream : IDisposable
     {
         private readonly StreamHandle handle;
@@ -29,9 +29,23 @@ namespace Anicodec
         {
             fixed (byte* first = bytes)
             {
-                if (Native.anic_push_bytes(handle, first, (UIntPtr)bytes.Length) == Status.Ok)
-                    return;
+                Check(Native.anic_push_bytes(handle, first, (UIntPtr)bytes.Length));
             }
+        }
+
+        /// <summary>Turns to the next file of a live stream, once the one at hand is complete and opened.</summary>
+        /// <exception cref="AnicException">Status.State: it is not complete; the bytes that waited cannot become a good file</exception>
+        public void Advance()
+        {
+            Check(Native.anic_advance_stream(handle));
+        }
+
+        private void Check(Status status)
+        {
+            if (status == Status.Ok)
+                return;
+            if (status == Status.State)
+                Native.Check(status);
             Native.anic_failure failure = Asset.Failure();
             Native.Check(Native.anic_get_stream_failure(handle, &failure));
             throw new AnicException(failure);
@@ -57,6 +71,12 @@ namespace Anicodec
         public bool Playable { get { return Info.playable != 0; } }
 
         public bool Complete { get { return Info.complete != 0; } }
+
+        /// <summary>In a live stream, from 0 on.</summary>
+        public int FileNumber { get { return (int)Info.file_number; } }
+
+        /// <summary>Bytes that follow the file: they are of the next ones of a live stream.</summary>
+        public long WaitingBytes { get { return (long)Info.waiting_bytes; } }
 
         /// <summary>Opens what has arrived; assets made before stay as they are.</summary>
         public Asset Open()

@@ -387,6 +387,8 @@ namespace Anicodec
             public ulong received_bytes, file_bytes;
             public uint segment_count, playable_segments, layers, arrived_layers;
             public byte playable, complete;
+            public uint file_number;
+            public ulong waiting_bytes;
         }
 
         [DllImport(Library)] public static extern uint anic_get_version();
@@ -452,6 +454,7 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_create_stream(anic_options* options, out StreamHandle result);
         [DllImport(Library)] public static extern void anic_destroy_stream(IntPtr stream);
         [DllImport(Library)] public static extern Status anic_push_bytes(StreamHandle stream, void* bytes, UIntPtr size);
+        [DllImport(Library)] public static extern Status anic_advance_stream(StreamHandle stream);
         [DllImport(Library)] public static extern Status anic_get_stream_info(StreamHandle stream, anic_stream_info* result);
         [DllImport(Library)] public static extern Status anic_get_stream_failure(StreamHandle stream, anic_failure* result);
         [DllImport(Library)] public static extern Status anic_open_asset_from_stream(StreamHandle stream, out AssetHandle result, anic_failure* failure);

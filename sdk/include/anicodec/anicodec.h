@@ -1374,7 +1374,10 @@ ANIC_API anic_status anic_write_state(const anic_context* context, uint32_t mesh
 
 /* ---- streams --------------------------------------------------------------------------------- */
 
-/** A file that arrives from the front, piece by piece. Spec: 05, section 7. */
+/**
+ * A file that arrives from the front, piece by piece; of a live stream, one file after the other. Spec: 05, sections 7
+ * and 8.
+ */
 typedef struct anic_stream anic_stream;
 
 /**
@@ -1388,7 +1391,7 @@ ANIC_API anic_status anic_create_stream(const anic_options* options, anic_stream
 /** NULL is allowed. Assets made from the stream live on. */
 ANIC_API void anic_destroy_stream(anic_stream* stream);
 
-/** How much of a file has arrived. */
+/** How much of a file has arrived, in a live stream of the one at hand. */
 typedef struct anic_stream_info {
   size_t struct_size;
   uint64_t received_bytes;
@@ -1400,18 +1403,31 @@ typedef struct anic_stream_info {
   uint8_t playable; /**< anic_open_asset_from_stream() gives an asset that plays at least one
                        segment of positions */
   uint8_t complete;
+  uint32_t file_number;   /**< in a live stream, from 0 on */
+  uint64_t waiting_bytes; /**< that follow the file: they are of the next ones of a live stream */
 } anic_stream_info;
 
 /**
  * Takes the next bytes of the file, and checks everything as soon as it is there: a stream that
- * cannot become a good file, or that breaks the limits, fails at once and stays failed.
+ * cannot become a good file, or that breaks the limits, fails at once and stays failed. Bytes of the next
+ * file of a live stream wait until anic_advance_stream().
  *
  * - Errors: those of anic_open_asset() that concern header, table, limits and checksums;
- *   ANIC_E_TRAILING_BYTES: more than the file has
- * - Memory: file_bytes, once the head is there
+ *   ANIC_E_TRAILING_BYTES: what follows the file begins no other one
+ * - Memory: file_bytes, once the head is there, and waiting_bytes
  * - Cost: O(size), checksums included
  */
 ANIC_API anic_status anic_push_bytes(anic_stream* stream, const void* bytes, size_t size);
+
+/**
+ * Turns to the next file of a live stream: what anicodec encode --live writes, a file for each second or so,
+ * of which all but the first leave out their meshes. Its clip has the time at which it begins (anic_clip.start_time).
+ * Open the file at hand before; the stream gives its bytes up, and keeps those of the meshes.
+ *
+ * - Errors: ANIC_E_STATE: the file is not complete; those of anic_push_bytes(), of the bytes that waited
+ * - Cost: O(waiting bytes)
+ */
+ANIC_API anic_status anic_advance_stream(anic_stream* stream);
 
 /** - Errors: ANIC_E_ARGUMENT */
 ANIC_API anic_status anic_get_stream_info(const anic_stream* stream, anic_stream_info* out);

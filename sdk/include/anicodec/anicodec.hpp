@@ -145,6 +145,9 @@ class Stream {
     return anic_push_bytes(get(), bytes.data(), bytes.size());
   }
 
+  /// Turns to the next file of a live stream: see anic_advance_stream().
+  Status advance() { return anic_advance_stream(get()); }
+
   anic_stream_info info() const {
     anic_stream_info info = ANIC_INIT(anic_stream_info);
     (void)anic_get_stream_info(get(), &info);

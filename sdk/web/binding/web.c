@@ -152,6 +152,15 @@ EXPORT(stream_info) int web_stream_info(void) {
   numbers[1] = (double)info.file_bytes;
   numbers[2] = info.playable;
   numbers[3] = info.complete;
+  numbers[4] = (double)info.waiting_bytes;
+  return status;
+}
+
+/* Turns to the next file of a live stream. */
+EXPORT(stream_advance) int web_stream_advance(void) {
+  const anic_status status = anic_advance_stream(stream);
+  failure = ANIC_INIT(anic_failure);
+  anic_get_stream_failure(stream, &failure);
   return status;
 }
 

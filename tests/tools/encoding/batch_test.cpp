@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/commands/batch.h"
+#include "tools/encoding/batch.h"
 
 #include "corpus/clips.h"
 #include "tests/tools/command_testing.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_TOOLS_COMMANDS_BATCH_H_
-#define ANICODEC_TOOLS_COMMANDS_BATCH_H_
+#ifndef ANICODEC_TOOLS_ENCODING_BATCH_H_
+#define ANICODEC_TOOLS_ENCODING_BATCH_H_
 
 #include "codec/encode.h"
 #include "codec/sequence/mesh_sequence.h"
@@ -41,4 +41,4 @@ uint64_t content_hash(const MeshSequence& sequence);
 
 }  // namespace anicodec::tools
 
-#endif  // ANICODEC_TOOLS_COMMANDS_BATCH_H_
+#endif  // ANICODEC_TOOLS_ENCODING_BATCH_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/commands/batch.h"
+#include "tools/encoding/batch.h"
 
 #include "codec/sequence/error.h"
 #include "format/checksum.h"

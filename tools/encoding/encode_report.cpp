@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "tools/commands/encode_report.h"
+#include "tools/encoding/encode_report.h"
 
 #include "tools/program/print.h"
 #include "tools/words/names.h"

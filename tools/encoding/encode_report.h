@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_TOOLS_COMMANDS_ENCODE_REPORT_H_
-#define ANICODEC_TOOLS_COMMANDS_ENCODE_REPORT_H_
+#ifndef ANICODEC_TOOLS_ENCODING_ENCODE_REPORT_H_
+#define ANICODEC_TOOLS_ENCODING_ENCODE_REPORT_H_
 
 #include "codec/encode.h"
 #include "codec/encode_massaged.h"
@@ -35,4 +35,4 @@ struct EncodeReport {
 
 }  // namespace anicodec::tools
 
-#endif  // ANICODEC_TOOLS_COMMANDS_ENCODE_REPORT_H_
+#endif  // ANICODEC_TOOLS_ENCODING_ENCODE_REPORT_H_

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_CODEC_ENCODE_LIVE_H_
+#define ANICODEC_CODEC_ENCODE_LIVE_H_
+
+#include "codec/file/encode_options.h"
+#include "codec/sequence/mesh_sequence.h"
+#include "format/bytes.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace anicodec {
+
+/// Encodes frames while they come, as a live stream (spec/05-file-layout.md, section 8): a file for each few of
+/// them. Mesh, attributes, order and reference pose are those of the first one, which alone has them.
+class LiveEncoder {
+ public:
+  /// `mesh`: all but the frames, with the clock of the clip; attributes are kept as they are in it. A largest error
+  /// in per cent is one of the diagonal of the first file's frames. Effort 1 takes the first file that keeps the
+  /// target, others search as one less does for a whole clip. Throws Error(kUsage) for what needs all frames:
+  /// sizes, key-frames, lossless files, the motion of the whole.
+  LiveEncoder(MeshSequence mesh, const EncodeOptions& options);
+
+  /// The next file of the stream: of frames x vertices x 3 floats, one frame at least. Errors as of encode().
+  /// Time and memory do not grow with the stream.
+  EncodeResult encode(std::vector<float> positions);
+
+ private:
+  void begin(const MeshSequence& sequence);
+
+  MeshSequence mesh_;  ///< without frames; start_time: of the next file
+  EncodeOptions options_;
+  Bytes base_;  ///< the file that continuations continue
+};
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_CODEC_ENCODE_LIVE_H_

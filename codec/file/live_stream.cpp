@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/file/live_stream.h"
+
+#include "codec/file/part_chunks.h"
+#include "codec/sequence/error.h"
+#include "format/continuation.h"
+
+#include <algorithm>
+#include <string>
+
+namespace anicodec {
+
+bool is_live_stream(ByteView bytes) {
+  ContainerReader reader;
+  if (!reader.open_of_stream(bytes).ok() || bytes.size <= reader.file_size())
+    return false;
+  const size_t more = bytes.size - static_cast<size_t>(reader.file_size());
+  return std::equal(kMagic, kMagic + std::min(more, sizeof kMagic),
+                    bytes.data + reader.file_size());
+}
+
+LiveStream read_live_stream(const ClipPart& stream) {
+  LiveStream out;
+  Bytes meshes;
+  ContainerReader meshes_reader;
+  ByteView left = stream.file;
+  while (left.size > 0) {
+    ContainerReader file;
+    const Failure failure = file.open_of_stream(left);
+    if (failure.status == Status::kTruncated || (failure.ok() && !file.is_complete()))
+      break;
+    const std::string place = "at byte " + std::to_string(stream.file.size - left.size) + ": ";
+    if (!failure.ok())
+      fail(stream, ErrorKind::kCorrupt, place + status_string(failure.status));
+    if (file.is_continuation()) {
+      if (meshes.empty())
+        fail(stream, ErrorKind::kCorrupt, place + "the stream begins with a file that continues another one");
+      out.files.push_back(with_meshes(meshes_reader, file));
+    } else {
+      const auto size = static_cast<size_t>(file.file_size());
+      out.files.push_back(copy({left.data, size}));
+      meshes = only_meshes(file);
+      if (!meshes_reader.open(meshes).ok())
+        fail(stream, ErrorKind::kInternal, place + "the meshes cannot be kept");
+    }
+    left.data += file.file_size();
+    left.size -= static_cast<size_t>(file.file_size());
+  }
+  out.incomplete = left.size;
+  return out;
+}
+
+}  // namespace anicodec

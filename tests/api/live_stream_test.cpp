@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Files of a live stream, one after the other.
+#include "codec/encode_live.h"
+#include "codec/file/live_stream.h"
+#include "corpus/clips.h"
+#include "tests/api/opened.h"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+/// A third of a clip in each file.
+const std::vector<Bytes>& files() {
+  static const std::vector<Bytes> made = [] {
+    const MeshSequence clip = corpus::make_scaled("limb", 300, 24);
+    MeshSequence mesh = clip;
+    mesh.positions = {};
+    EncodeOptions options;
+    options.target = {ErrorMetric::kMaxError, 0.2, true};
+    options.effort = 1;
+    LiveEncoder encoder(mesh, options);
+    std::vector<Bytes> all;
+    const auto size = static_cast<ptrdiff_t>(clip.positions.size() / 3);
+    for (auto at = clip.positions.begin(); at < clip.positions.end(); at += size)
+      all.push_back(encoder.encode({at, at + size}).file);
+    return all;
+  }();
+  return made;
+}
+
+Bytes stream_bytes() {
+  Bytes all;
+  for (const Bytes& file : files())
+    all.insert(all.end(), file.begin(), file.end());
+  return all;
+}
+
+/// Expects the file at hand to be what it is with its meshes.
+void expect_file(const Stream& stream, size_t number, const Bytes& whole) {
+  EXPECT_EQ(info_of(stream).file_number, number);
+  EXPECT_EQ(info_of(stream).file_bytes, files()[number].size());
+  const Asset asset = open(stream), expected = open(whole);
+  EXPECT_EQ(anic_verify_asset(asset.get()), ANIC_OK);
+  ASSERT_EQ(info_of(asset).frame_count, 8U);
+  for (uint32_t f = 0; f < 8; ++f)
+    EXPECT_EQ(frame(asset, f), frame(expected, f));
+  anic_clip clip = ANIC_INIT(anic_clip);
+  ASSERT_EQ(anic_clip_info(asset.get(), 0, &clip), ANIC_OK);
+  EXPECT_NEAR(clip.start_time, static_cast<double>(8 * number) / 24, 1e-9);
+}
+
+TEST(LiveStream, GivesOneFileAfterTheOther) {
+  const Bytes all = stream_bytes();
+  const std::vector<Bytes> whole = read_live_stream({"stream", all}).files;
+  ASSERT_EQ(whole.size(), 3U);
+  EXPECT_LT(files()[1].size(), files()[0].size());
+  for (const size_t piece : {size_t{1}, size_t{100}, all.size()}) {
+    CountingMemory memory;
+    anic_options options = ANIC_INIT(anic_options);
+    options.allocator = memory.allocator();
+    {
+      const Stream stream = new_stream(&options);
+      size_t number = 0;
+      for (size_t at = 0; at < all.size(); at += piece) {
+        const size_t size = std::min(piece, all.size() - at);
+        ASSERT_EQ(anic_push_bytes(stream.get(), all.data() + at, size), ANIC_OK);
+        if (!info_of(stream).complete) {
+          EXPECT_EQ(anic_advance_stream(stream.get()), ANIC_E_STATE);
+        }
+        for (; info_of(stream).complete; ++number) {
+          expect_file(stream, number, whole[number]);
+          const uint64_t waiting = info_of(stream).waiting_bytes;
+          ASSERT_EQ(anic_advance_stream(stream.get()), ANIC_OK);
+          EXPECT_EQ(info_of(stream).received_bytes + info_of(stream).waiting_bytes, waiting);
+        }
+      }
+      EXPECT_EQ(number, 3U);
+      EXPECT_EQ(info_of(stream).received_bytes, 0U);
+    }
+    EXPECT_EQ(memory.held, 0U);
+    EXPECT_EQ(memory.small, 0U);
+  }
+}
+
+TEST(LiveStream, PlaysContinuationsBeforeTheyAreComplete) {
+  const Stream stream = new_stream();
+  ASSERT_EQ(anic_push_bytes(stream.get(), files()[0].data(), files()[0].size()), ANIC_OK);
+  ASSERT_EQ(anic_advance_stream(stream.get()), ANIC_OK);
+  size_t coarse = 0;
+  for (const uint8_t& byte : files()[1]) {
+    ASSERT_EQ(anic_push_bytes(stream.get(), &byte, 1), ANIC_OK);
+    if (info_of(stream).playable && !info_of(stream).complete) {
+      ++coarse;
+      EXPECT_TRUE(info_of(open(stream)).partial);
+    }
+  }
+  EXPECT_GT(coarse, 0U);
+  EXPECT_FALSE(info_of(open(stream)).partial);
+}
+
+TEST(LiveStream, RefusesWhatIsNone) {
+  anic_asset* asset = nullptr;
+  EXPECT_EQ(anic_open_asset(files()[1].data(), files()[1].size(), nullptr, &asset, nullptr), ANIC_E_FEATURE);
+  const Bytes all = stream_bytes();
+  EXPECT_EQ(anic_open_asset(all.data(), all.size(), nullptr, &asset, nullptr), ANIC_E_TRAILING_BYTES);
+
+  const Stream second = new_stream();
+  EXPECT_EQ(anic_push_bytes(second.get(), files()[1].data(), files()[1].size()), ANIC_E_FEATURE);
+  EXPECT_EQ(anic_advance_stream(second.get()), ANIC_E_FEATURE);
+  EXPECT_EQ(anic_advance_stream(nullptr), ANIC_E_ARGUMENT);
+
+  const Stream stream = new_stream();
+  ASSERT_EQ(anic_push_bytes(stream.get(), files()[0].data(), files()[0].size()), ANIC_OK);
+  const uint8_t garbage[2] = {0x89, 'B'};
+  EXPECT_EQ(anic_push_bytes(stream.get(), garbage, 1), ANIC_OK);
+  EXPECT_EQ(anic_push_bytes(stream.get(), garbage + 1, 1), ANIC_E_TRAILING_BYTES);
+}
+
+TEST(LiveStream, NoticesEveryDamagedByteOfAContinuation) {
+  Bytes damaged = files()[1];
+  for (size_t i = 0; i < damaged.size(); ++i) {
+    damaged[i] ^= 0x20;
+    const Stream stream = new_stream();
+    ASSERT_EQ(anic_push_bytes(stream.get(), files()[0].data(), files()[0].size()), ANIC_OK);
+    ASSERT_EQ(anic_advance_stream(stream.get()), ANIC_OK);
+    anic_status status = anic_push_bytes(stream.get(), damaged.data(), damaged.size());
+    if (status == ANIC_OK) {
+      EXPECT_FALSE(info_of(stream).complete) << i;
+    }
+    damaged[i] ^= 0x20;
+  }
+}
+
+TEST(LiveStream, EndsCleanlyWhicheverAllocationFails) {
+  const Bytes all = stream_bytes();
+  size_t calls = 0;
+  for (size_t fail = 0; fail == 0 || fail < calls; fail += 1 + fail / 8) {
+    CountingMemory memory;
+    memory.fail_at = fail == 0 ? SIZE_MAX : fail - 1;
+    anic_options options = ANIC_INIT(anic_options);
+    options.allocator = memory.allocator();
+    anic_stream* made = nullptr;
+    anic_status status = anic_create_stream(&options, &made);
+    const Stream stream(made);
+    if (made)
+      status = anic_push_bytes(made, all.data(), all.size());
+    for (int i = 0; i < 3 && status == ANIC_OK; ++i) {
+      anic_asset* asset = nullptr;
+      status = anic_open_asset_from_stream(made, &asset, nullptr);
+      anic_close_asset(asset);
+      if (status == ANIC_OK)
+        status = anic_advance_stream(made);
+    }
+    EXPECT_EQ(status, fail == 0 ? ANIC_OK : ANIC_E_MEMORY) << fail;
+    if (fail == 0)
+      calls = memory.calls;
+  }
+  EXPECT_GT(calls, 50U);
+}
+
+}  // namespace
+}  // namespace anicodec

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/encode_live.h"
+
+#include "codec/file/live_stream.h"
+#include "codec/sequence/error.h"
+#include "corpus/clips.h"
+#include "format/continuation.h"
+#include "sdk/clip/clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+EncodeOptions options_of(double max_error_percent) {
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, max_error_percent, true};
+  options.effort = 1;
+  return options;
+}
+
+std::vector<float> frames_of(const MeshSequence& clip, uint32_t first, uint32_t count) {
+  const auto begin = clip.positions.begin() + ptrdiff_t{3} * clip.vertex_count * first;
+  return {begin, begin + ptrdiff_t{3} * clip.vertex_count * count};
+}
+
+/// The stream of a clip, so many frames a file.
+std::vector<Bytes> streamed(const MeshSequence& clip, uint32_t frames, const EncodeOptions& options) {
+  MeshSequence mesh = clip;
+  mesh.positions = {};
+  LiveEncoder encoder(mesh, options);
+  std::vector<Bytes> files;
+  for (uint32_t f = 0; f < clip.frame_count; f += frames)
+    files.push_back(encoder.encode(frames_of(clip, f, std::min(frames, clip.frame_count - f))).file);
+  return files;
+}
+
+Bytes joined(const std::vector<Bytes>& files) {
+  Bytes stream;
+  for (const Bytes& file : files)
+    stream.insert(stream.end(), file.begin(), file.end());
+  EXPECT_EQ(is_live_stream(stream), files.size() > 1);
+  const LiveStream read = read_live_stream({"stream", stream});
+  EXPECT_EQ(read.files.size(), files.size());
+  EXPECT_EQ(read.incomplete, 0U);
+  std::vector<ClipPart> parts;
+  for (const Bytes& file : read.files)
+    parts.push_back({"file", file});
+  return join_clips(parts);
+}
+
+double largest_error(const Bytes& file, const MeshSequence& clip) {
+  Clip opened;
+  EXPECT_TRUE(opened.open(file).ok());
+  EXPECT_EQ(opened.frame_count(), clip.frame_count);
+  std::vector<float> frame(size_t{3} * clip.vertex_count);
+  double largest = 0;
+  for (uint32_t f = 0; f < clip.frame_count; ++f) {
+    EXPECT_EQ(opened.positions(0, f, frame.data()), Status::kOk);
+    for (size_t i = 0; i < frame.size(); i += 3) {
+      double squared = 0;
+      for (size_t c = 0; c < 3; ++c) {
+        const double d = double{frame[i + c]} - double{clip.frame(f)[i + c]};
+        squared += d * d;
+      }
+      largest = std::max(largest, squared);
+    }
+  }
+  return std::sqrt(largest);
+}
+
+TEST(LiveEncoder, KeepsTheErrorInFilesThatMakeOneClip) {
+  for (const char* name : {"limb", "painted_box", "polygons"}) {
+    SCOPED_TRACE(name);
+    MeshSequence clip = corpus::make_clip(name);
+    for (Attribute& attribute : clip.attributes) {
+      attribute.values.resize(attribute.values.size() / attribute.frames);
+      attribute.frames = 1;
+    }
+    const uint32_t frames = std::max(1U, clip.frame_count / 3);
+    MeshSequence first = clip;
+    first.frame_count = frames;
+    first.positions = frames_of(clip, 0, frames);
+    const double bound = 0.2 / 100 * diagonal(first);
+    const std::vector<Bytes> files = streamed(clip, frames, options_of(0.2));
+    for (size_t i = 0; i < files.size(); ++i) {
+      ContainerReader reader;
+      ASSERT_TRUE(reader.open_of_stream(files[i]).ok());
+      EXPECT_EQ(reader.is_continuation(), i > 0);
+    }
+    const Bytes whole = joined(files);
+    EXPECT_LE(largest_error(whole, clip), bound * 1.000001);
+    Clip opened;
+    ASSERT_TRUE(opened.open(whole).ok());
+    EXPECT_EQ(opened.meshes()[0].attributes.empty(), clip.attributes.empty());
+    EXPECT_LE(opened.clips()[0].max_error, bound);
+  }
+}
+
+// Two vertices that move as one for a while are two.
+TEST(LiveEncoder, DoesNotWeldWhatMayPart) {
+  MeshSequence clip = corpus::make_clip("limb");
+  clip.frame_count = 12;
+  clip.positions = frames_of(clip, 0, 12);
+  const size_t stride = size_t{3} * clip.vertex_count;
+  for (size_t f = 0; f < 6; ++f)
+    std::copy_n(&clip.positions[f * stride], 3, &clip.positions[f * stride + 3]);
+  MeshSequence first = clip;
+  first.frame_count = 6;
+  first.positions = frames_of(clip, 0, 6);
+  const double bound = 0.1 / 100 * diagonal(first);
+  EXPECT_LE(largest_error(joined(streamed(clip, 6, options_of(0.1))), clip), bound * 1.000001);
+}
+
+TEST(LiveEncoder, StaysAsItIsWhereNothingMoves) {
+  MeshSequence clip = corpus::make_clip("limb");
+  for (uint32_t f = 1; f < clip.frame_count; ++f)
+    std::copy_n(clip.positions.begin(), size_t{3} * clip.vertex_count,
+                clip.positions.begin() + ptrdiff_t{3} * clip.vertex_count * f);
+  const std::vector<Bytes> files = streamed(clip, 1, options_of(0.1));
+  for (size_t i = 1; i < files.size(); ++i)
+    EXPECT_LT(files[i].size(), 400U);
+  joined(files);
+}
+
+TEST(LiveEncoder, RefusesWhatNeedsAllFrames) {
+  const MeshSequence clip = corpus::make_clip("limb");
+  EncodeOptions options;
+  options.target = {ErrorMetric::kSize, 1000, false};
+  EXPECT_THROW(LiveEncoder(clip, options), Error);
+  options = options_of(0.1);
+  options.keyframes = 3;
+  EXPECT_THROW(LiveEncoder(clip, options), Error);
+  options = options_of(0.1);
+  options.root_motion = true;
+  EXPECT_THROW(LiveEncoder(clip, options), Error);
+  LiveEncoder encoder(clip, options_of(0.1));
+  EXPECT_THROW(encoder.encode({}), Error);
+  std::vector<float> bad = frames_of(clip, 0, 2);
+  bad[7] = NAN;
+  EXPECT_THROW(encoder.encode(bad), Error);
+  EXPECT_GT(encoder.encode(frames_of(clip, 0, 2)).file.size(), 0U);
+}
+
+}  // namespace
+}  // namespace anicodec

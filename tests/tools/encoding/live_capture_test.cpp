@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Captures that are encoded while they go on.
+#include "tests/tools/command_testing.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anicodec::tools {
+namespace {
+
+using testing::HasSubstr;
+
+class LiveCapture : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(anicodec({"corpus", "limb", "-q", "-o", at("limb.pc2"), "--vertices", "100", "--frame-count", "25"})
+                  .status,
+              0);
+    const std::string cache = folder_.read("limb.pc2");
+    folder_.write("frames", cache.substr(32));  // behind the header
+  }
+
+  std::string at(const std::string& name) { return folder_ / name; }
+
+  /// Encodes the first bytes of the frames that the shell writes.
+  Outcome encode(const std::string& input, const std::string& more = "-o live.anic") {
+    return run_program({"sh", "-c",
+                        "cd " + at(".") + "; " + input + " | " ANICODEC_COMMAND
+                        " encode --live limb.obj --fps 10 --effort 1 " + more});
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LiveCapture, WritesAStreamThatCommandsTakeForAClip) {
+  const Outcome outcome = encode("cat frames");
+  ASSERT_EQ(outcome.status, 0) << outcome;
+  EXPECT_THAT(outcome.err, HasSubstr("2.00 s: 5 frames"));
+  const nlohmann::json info = anicodec({"info", at("live.anic"), "--json"}).json();
+  EXPECT_EQ(info["clips"][0]["frames"], 25);
+  EXPECT_EQ(anicodec({"verify", at("live.anic")}).status, 0);
+  const Outcome compared = anicodec({"compare", at("limb.pc2"), at("live.anic"), "--no-sted", "--json"});
+  EXPECT_LT(compared.json()["max_error_percent"], 0.06) << compared;
+  ASSERT_EQ(anicodec({"join", at("live.anic"), "-o", at("clip.anic"), "-q"}).status, 0);
+  EXPECT_EQ(anicodec({"info", at("clip.anic"), "--json"}).json()["clips"], info["clips"]);
+  EXPECT_LT(std::filesystem::file_size(at("clip.anic")), std::filesystem::file_size(at("live.anic")));
+}
+
+TEST_F(LiveCapture, LeavesWhatIsThereWhereTheInputEnds) {
+  const Outcome outcome = encode("head -c 20000 frames");  // 16 frames and two thirds
+  EXPECT_EQ(outcome.status, 2) << outcome;
+  EXPECT_THAT(outcome.err, HasSubstr("ends inside a frame"));
+  EXPECT_EQ(anicodec({"info", at("live.anic"), "--json"}).json()["clips"][0]["frames"], 10);
+  // What a capture leaves that was killed.
+  std::filesystem::resize_file(at("live.anic"), std::filesystem::file_size(at("live.anic")) - 5);
+  const Outcome cut = encode("cat frames", "-o cut.anic -q");
+  ASSERT_EQ(cut.status, 0);
+  EXPECT_EQ(cut.err, "");
+  std::filesystem::resize_file(at("cut.anic"), std::filesystem::file_size(at("cut.anic")) - 5);
+  const Outcome info = anicodec({"info", at("cut.anic"), "--json"});
+  EXPECT_EQ(info.json()["clips"][0]["frames"], 20);
+  EXPECT_THAT(info.err, HasSubstr("not complete"));
+}
+
+TEST_F(LiveCapture, RefusesWhatItCannotDo) {
+  EXPECT_EQ(encode("cat frames").status, 0);
+  EXPECT_EQ(encode("cat frames").status, 1);  // the output is there
+  EXPECT_EQ(encode("true", "-o none.anic").status, 2);
+  EXPECT_EQ(encode("cat frames", "-o full.anic --size 5k").status, 1);
+  EXPECT_EQ(encode("cat frames", "-o loop.anic --loop").status, 1);
+  EXPECT_NE(encode("cat frames", "-o /dev/full -f").status, 0);
+  const Outcome bad = encode("(head -c 16000 frames; head -c 16000 /dev/zero | tr '\\0' '\\377')", "-o nan.anic -q");
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_THAT(bad.err, HasSubstr("the frames from 10 on"));
+}
+
+TEST_F(LiveCapture, WritesToAPipe) {
+  const Outcome outcome = encode("cat frames", "-o - -q | " ANICODEC_COMMAND " info - --json");
+  EXPECT_EQ(outcome.json()["clips"][0]["frames"], 25) << outcome;
+}
+
+}  // namespace
+}  // namespace anicodec::tools

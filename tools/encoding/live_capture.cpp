@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "tools/encoding/live_capture.h"
+
+#include "codec/encode_live.h"
+#include "codec/sequence/error.h"
+#include "tools/io/base/byte_order.h"
+#include "tools/io/files/atomic_file.h"
+#include "tools/io/load_sequence.h"
+#include "tools/program/print.h"
+#include "tools/words/quantity.h"
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <future>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace anicodec::tools {
+namespace {
+
+struct FileCloser {
+  void operator()(std::FILE* file) const {
+    if (file != stdout)
+      std::fclose(file);
+  }
+};
+
+/// An output that grows: each file of the stream is there as soon as it is written.
+class GrowingOutput {
+ public:
+  GrowingOutput(const std::string& path, bool overwrite) : path_(path) {
+    if (path == "-") {
+      file_.reset(stdout);
+      return;
+    }
+    check_output(path, overwrite);
+    file_.reset(std::fopen(path.c_str(), "wb"));
+    if (!file_)
+      throw Error(ErrorKind::kUsage, fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  }
+
+  void write(const Bytes& bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
+        std::fflush(file_.get()) != 0)
+      throw Error(ErrorKind::kInternal, fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
+  }
+
+ private:
+  std::string path_;
+  std::unique_ptr<std::FILE, FileCloser> file_;
+};
+
+/// Up to `frames` frames of the standard input; fewer at its end. Throws Error(kInput) for part of a frame.
+std::vector<float> read_frames(size_t frames, size_t vertices) {
+  const size_t frame_bytes = 12 * vertices;
+  std::string bytes(frames * frame_bytes, '\0');
+  const size_t size = std::fread(bytes.data(), 1, bytes.size(), stdin);
+  if (std::ferror(stdin))
+    throw Error(ErrorKind::kInput, fmt::format("the standard input cannot be read: {}", std::strerror(errno)));
+  if (size % frame_bytes != 0)
+    throw Error(ErrorKind::kInput,
+                fmt::format("the standard input ends inside a frame: {} of {} bytes ({} vertices of three "
+                            "float32)",
+                            size % frame_bytes, frame_bytes, vertices));
+  std::vector<float> positions(size / 4);
+  for (size_t i = 0; i < positions.size(); ++i)
+    positions[i] = load<float>(bytes.data() + 4 * i, std::endian::little);
+  return positions;
+}
+
+MeshSequence load_mesh(const EncodeArguments& command) {
+  if (command.inputs.size() != 1)
+    throw Error(ErrorKind::kUsage, "encode --live: one INPUT is wanted, the mesh");
+  MeshSequence mesh = load_sequence(command.inputs, load_options(command, {}));
+  set_metadata(command, mesh);
+  return mesh;
+}
+
+void check_goes_with(const EncodeArguments& command) {
+  const auto refuse = [](bool given, const char* option) {
+    if (given)
+      throw Error(ErrorKind::kUsage, fmt::format("{} needs all frames, and --live gets them one by one", option));
+  };
+  refuse(!command.part.empty(), "--part");
+  refuse(!command.batch.empty(), "--batch");
+  refuse(command.split_objects, "--split-objects");
+  refuse(command.topology_changes != TopologyChanges::kRefuse, "--topology-changes");
+  refuse(command.massage != MassageMode::kOff, "--massage");
+  refuse(command.loop, "--loop");
+  refuse(!command.events.empty(), "--event");
+}
+
+/// What is said of a file of the stream.
+void report(const EncodeResult& result, double start, double seconds, const CommonOptions& common) {
+  if (common.json)
+    print_json({{"start", start}, {"frames", result.frames}, {"bytes", result.file.size()},
+                {"max_error", result.max_error}, {"kg", result.kg}, {"seconds", seconds}});
+  else if (!common.quiet)
+    print_line(stderr, "{:.2f} s: {}, {} bytes, max error {:.4g}, KG {:.3g} %, encoded in {:.2f} s", start,
+               counted(result.frames, "frame"), grouped(result.file.size()), result.max_error, result.kg,
+               seconds);
+}
+
+}  // namespace
+
+void encode_live(const EncodeArguments& command, const CommonOptions& common) {
+  check_goes_with(command);
+  MeshSequence mesh = load_mesh(command);
+  EncodeOptions options = encode_options(command);
+  set_target(command, mesh.metres_per_unit, &options);
+  const size_t vertices = mesh.vertex_count;
+  const double rate = mesh.rate.value();
+  const auto frames = static_cast<size_t>(std::max(1.0, std::round(command.piece * rate)));
+  LiveEncoder encoder(std::move(mesh), options);
+  GrowingOutput output(command.output, common.overwrite);
+  // Frames are read while those before them are encoded.
+  const auto read = [&] { return std::async(std::launch::async, read_frames, frames, vertices); };
+  std::future<std::vector<float>> next = read();
+  uint64_t first = 0;
+  for (std::vector<float> positions; !(positions = next.get()).empty();) {
+    next = read();
+    const auto begin = std::chrono::steady_clock::now();
+    EncodeResult result;
+    try {
+      result = encoder.encode(std::move(positions));
+    } catch (const Error& e) {
+      throw Error(e.kind(), fmt::format("the frames from {} on: {}", first, e.what()));
+    }
+    output.write(result.file);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    report(result, static_cast<double>(first) / rate, took.count(), common);
+    first += result.frames;
+  }
+  if (first == 0)
+    throw Error(ErrorKind::kInput, "the standard input has no frame");
+}
+
+}  // namespace anicodec::tools
