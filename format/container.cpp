@@ -97,7 +97,7 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   chunks_.clear();
   by_key_.clear();
   file_ = {};
-  file_size_ = 0;
+  file_size_ = features_ = 0;
   auto failure = [](Status status, uint64_t offset, const char* detail, uint32_t type = 0) {
     return Failure{status, offset, type, detail};
   };
@@ -111,7 +111,7 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   header.raw(sizeof kMagic);
   uint16_t major = header.u16(), minor = header.u16();
   uint32_t count = header.u32();
-  features_ = header.u64();
+  const uint64_t features = header.u64();
   uint64_t size = header.u64();
   uint32_t checksum = header.u32();
   header.u32();  // of the table, see head_bytes()
@@ -127,10 +127,10 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   std::fill_n(covered.begin() + kChecksumAt, 4, uint8_t{0});
   if (low32(xxh64(covered)) != checksum)
     return failure(Status::kHeaderChecksum, kChecksumAt, "header and table are damaged");
-  if (features_ & ~(extent == Extent::kOfStream ? kContinuation : 0))
+  if (features & ~(extent == Extent::kOfStream ? kContinuation : 0))
     return failure(Status::kFeature, 16,
-                   features_ == kContinuation
-                       ? "the file continues another one of a live stream, which has its meshes"
+                   features == kContinuation
+                       ? "the file continues another one, which has its meshes"
                        : "the file needs a feature this reader does not have");
   if (size > file.size && extent == Extent::kWhole)
     return failure(Status::kTruncated, file.size, "the file is shorter than its header says");
@@ -170,14 +170,42 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
                    "bytes follow the last entry of the table");
   if (at != size)
     return failure(Status::kFileSize, at, "the chunks end before the file does");
-  by_key_.resize(count);
+  sort_by_key();
+  file_ = file;
+  file_size_ = size;
+  features_ = features;
+  return {};
+}
+
+void ContainerReader::sort_by_key() {
+  by_key_.resize(chunks_.size());
   std::iota(by_key_.begin(), by_key_.end(), 0U);
   sort_ascending(by_key_.begin(), by_key_.end(), [&](uint32_t a, uint32_t b) {
     return std::pair(chunk_key(chunks_[a]), a) < std::pair(chunk_key(chunks_[b]), b);
   });
-  file_ = file;
-  file_size_ = size;
-  return {};
+}
+
+void ContainerReader::add_meshes(const ContainerReader& before, ByteView bytes) {
+  Vector<Chunk> all;
+  bool added = false;
+  const auto add = [&] {
+    for (const Chunk& chunk : before.chunks_) {
+      if (is_of_mesh(chunk) && !added)
+        all.push_back(chunk);
+    }
+    added = true;
+  };
+  for (Chunk& chunk : chunks_) {
+    if (chunk.segment != kNoSegment)
+      add();
+    chunk.offset += before.file_size_;
+    all.push_back(chunk);
+  }
+  add();
+  std::swap(chunks_, all);
+  file_size_ += before.file_size_;
+  file_ = bytes;
+  sort_by_key();
 }
 
 const Chunk* ContainerReader::find(const char (&type)[5], uint16_t mesh, uint32_t segment) const {
@@ -188,16 +216,10 @@ const Chunk* ContainerReader::find(const char (&type)[5], uint16_t mesh, uint32_
                                                                         : nullptr;
 }
 
-ByteView ContainerReader::arrived(const Chunk& chunk) const {
-  const uint64_t begin = std::min<uint64_t>(chunk.offset, file_.size);
-  const uint64_t end = std::min<uint64_t>(chunk.offset + chunk.size, file_.size);
-  return {file_.data + begin, static_cast<size_t>(end - begin)};
-}
-
 Failure ContainerReader::payload(const Chunk& chunk, ByteView* out) const {
   if (!has(chunk))
     return {Status::kTruncated, chunk.offset, chunk.type, "the chunk has not arrived"};
-  *out = {file_.data + chunk.offset, static_cast<size_t>(chunk.size)};
+  *out = unchecked(chunk);
   if (low32(xxh64(*out)) != chunk.checksum)
     return {Status::kChunkChecksum, chunk.offset, chunk.type, "the chunk is damaged"};
   return {};

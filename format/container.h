@@ -54,6 +54,11 @@ inline std::tuple<uint32_t, uint16_t, uint32_t> chunk_key(const Chunk& chunk) {
   return {chunk.type, chunk.mesh, chunk.segment};
 }
 
+/// Whether a chunk is of a mesh as a whole: continuations have none.
+inline bool is_of_mesh(const Chunk& chunk) {
+  return chunk.mesh != kNoMesh && chunk.segment == kNoSegment;
+}
+
 /// Header and table of a file of these chunks, whose offsets do not matter.
 Bytes container_head(const Vector<Chunk>& chunks, uint64_t features);
 
@@ -88,6 +93,10 @@ class ContainerReader {
   /// The same for a file of a live stream, a continuation perhaps: bytes of the next one may follow.
   Failure open_of_stream(ByteView bytes) { return open(bytes, Extent::kOfStream); }
 
+  /// Makes an opened continuation the file that it is with the chunks of the meshes of the file before it: `bytes` are
+  /// those of that file, in full, and behind them those of this one.
+  void add_meshes(const ContainerReader& before, ByteView bytes);
+
   /// After open_prefix() or open_of_stream(): more of the same bytes are there, in another place perhaps.
   void extend(ByteView bytes) { file_ = bytes; }
 
@@ -107,8 +116,10 @@ class ContainerReader {
   /// Whether the payload is there in full.
   bool has(const Chunk& chunk) const { return chunk.offset + chunk.size <= file_.size; }
 
-  /// As much of the payload as is there, unchecked.
-  ByteView arrived(const Chunk& chunk) const;
+  /// The payload, which is there.
+  ByteView unchecked(const Chunk& chunk) const {
+    return {file_.data + chunk.offset, static_cast<size_t>(chunk.size)};
+  }
 
   /// The payload after checking its checksum; kTruncated when it is not there.
   Failure payload(const Chunk& chunk, ByteView* out) const;
@@ -117,7 +128,6 @@ class ContainerReader {
 
   uint16_t version_minor() const { return kVersionMinor; }
 
-  uint64_t features() const { return features_; }
 
   /// The fields of the header.
   uint64_t file_size() const { return file_size_; }
@@ -132,6 +142,7 @@ class ContainerReader {
   enum class Extent : uint8_t { kWhole, kPrefix, kOfStream };
 
   Failure open(ByteView file, Extent extent);
+  void sort_by_key();
 
   ByteView file_;
   uint64_t file_size_ = 0;

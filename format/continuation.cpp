@@ -25,10 +25,8 @@ struct Spliced {
   Bytes bytes(uint64_t features) const {
     Bytes out = container_head(chunks, features);
     for (size_t i = 0; i < chunks.size(); ++i) {
-      const ByteView payload = files[i]->arrived(chunks[i]);
+      const ByteView payload = files[i]->unchecked(chunks[i]);
       out.insert(out.end(), payload.data, payload.data + payload.size);
-      if (payload.size < chunks[i].size)
-        break;
     }
     return out;
   }
@@ -42,19 +40,13 @@ Bytes without_meshes(const ContainerReader& file) {
   return out.bytes(kContinuation);
 }
 
-Bytes only_meshes(const ContainerReader& file) {
-  Spliced out;
-  out.add_if(file, true);
-  return out.bytes(0);
-}
-
-Bytes with_meshes(const ContainerReader& meshes, const ContainerReader& continuation) {
+Bytes with_meshes(const ContainerReader& before, const ContainerReader& continuation) {
   Spliced out;
   const Vector<Chunk>& chunks = continuation.chunks();
   size_t next = 0;
   for (; next < chunks.size() && chunks[next].segment == kNoSegment; ++next)
     out.add(continuation, chunks[next]);
-  out.add_if(meshes, true);
+  out.add_if(before, true);
   for (; next < chunks.size(); ++next)
     out.add(continuation, chunks[next]);
   return out.bytes(0);

@@ -5,6 +5,7 @@
 #include "format/symbol_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace anicodec {
 namespace {
@@ -82,19 +83,25 @@ void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) cons
 }
 
 void CosineTransform::forward(const double* values, double* coefficients) const {
-  const double unit = 1.0 / static_cast<double>(int64_t{1} << shift_);
-  const uint32_t period = 4 * length_;
-  for (uint32_t k = 0; k < length_; ++k) {
-    double sum = 0;
-    uint32_t m = k;
-    for (uint32_t f = 0; f < length_; ++f) {
-      sum += values[f] * (k == 0 ? constant_ : table_[m]);
-      m += 2 * k;
-      if (m >= period)
-        m -= period;
+  // Sum of v_f cos((f + 1/2) a) by the recurrence b_f = v_f + 2 cos(a) b_(f+1) - b_(f+2) (Clenshaw 1955), some
+  // angles side by side.
+  constexpr uint32_t kAngles = 8;
+  const double angle = 3.14159265358979323846 / length_, scale = std::sqrt(2.0 / length_);
+  for (uint32_t first = 0; first < length_; first += kAngles) {
+    double twice[kAngles], last[kAngles] = {}, before[kAngles] = {};
+    for (uint32_t i = 0; i < kAngles; ++i)
+      twice[i] = 2 * std::cos((first + i) * angle);
+    for (uint32_t f = length_; f-- > 0;) {
+      for (uint32_t i = 0; i < kAngles; ++i) {
+        const double next = values[f] + twice[i] * last[i] - before[i];
+        before[i] = last[i];
+        last[i] = next;
+      }
     }
-    coefficients[k] = sum * unit;
+    for (uint32_t i = 0; i < kAngles && first + i < length_; ++i)
+      coefficients[first + i] = scale * std::cos((first + i) * angle / 2) * (last[i] - before[i]);
   }
+  coefficients[0] *= std::sqrt(0.5);
 }
 
 }  // namespace anicodec

@@ -13,21 +13,114 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kTile = 64;
+constexpr Index kTile = 64, kStrip = 16;
 
 using Tiles = std::vector<std::pair<Index, Index>>;
 
+/// Sums over a depth: sums(i, j) += a(d, i) b(d, j). a lies in strips of kStrip columns, rows of which follow one another,
+/// b in columns.
+struct TileProduct {
+  const double* a;
+  const double* b;
+  double* sums;
+  size_t b_stride, sums_stride, depth, rows, columns;
+};
+
+/// Some columns by rows of Width x Groups numbers. Every entry is summed by itself in the order of the depth, so that
+/// the width of registers changes no bit; contraction is off.
+template <size_t Width, size_t Groups, size_t Columns>
+[[gnu::always_inline]] inline void multiply(const TileProduct& p, size_t row, size_t column) {
+  typedef double Lanes __attribute__((vector_size(sizeof(double) * Width), aligned(8), may_alias));
+  Lanes sums[Groups][Columns] = {};
+  const double* b = p.b + column * p.b_stride;
+  const double* strip = p.a + (row / kStrip * kStrip) * size_t{kProductDepth} + row % kStrip;
+  for (size_t d = 0; d < p.depth; ++d) {
+    const double* a = strip + d * size_t{kStrip};
+#pragma GCC unroll 4  // sums stay in registers
+    for (size_t j = 0; j < Columns; ++j) {
+      const double factor = b[d + j * p.b_stride];
+#pragma GCC unroll 2
+      for (size_t g = 0; g < Groups; ++g)
+        sums[g][j] += *reinterpret_cast<const Lanes*>(a + g * Width) * factor;
+    }
+  }
+  const size_t rows = std::min(Width * Groups, p.rows - row);
+  for (size_t j = 0; j < Columns; ++j) {
+    double* to = p.sums + (column + j) * p.sums_stride + row;
+    for (size_t i = 0; i < rows; ++i)
+      to[i] += sums[i / Width][j][i % Width];
+  }
+}
+
+template <size_t Width, size_t Groups>
+[[gnu::always_inline]] inline void multiply_tile(const TileProduct& p) {
+  constexpr size_t kColumns = 4;
+  for (size_t row = 0; row < p.rows; row += Width * Groups) {
+    size_t column = 0;
+    for (; column + kColumns <= p.columns; column += kColumns)
+      multiply<Width, Groups, kColumns>(p, row, column);
+    for (; column < p.columns; ++column)
+      multiply<Width, Groups, 1>(p, row, column);
+  }
+}
+
+void multiply_by_2(const TileProduct& p) {
+  multiply_tile<2, 2>(p);
+}
+
+// Eigen knows the registers of the machine that it is compiled for alone.
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void multiply_by_4(const TileProduct& p) {
+  multiply_tile<4, 2>(p);
+}
+
+[[gnu::target("avx512f")]] void multiply_by_8(const TileProduct& p) {
+  multiply_tile<8, 2>(p);
+}
+#endif
+
+using Multiply = void (*)(const TileProduct&);
+
+Multiply widest() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f"))
+    return multiply_by_8;
+  if (__builtin_cpu_supports("avx2"))
+    return multiply_by_4;
+#endif
+  return multiply_by_2;
+}
+
 void add_tiles(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Tiles& tiles,
                Eigen::MatrixXd& sums) {
+  static const Multiply run = widest();
   tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t t) {
     const auto [row, column] = tiles[t];
     const Index rows = std::min(kTile, a.cols() - row);
-    const Index columns = std::min(kTile, b.cols() - column);
-    auto sum = sums.block(row, column, rows, columns);
+    TileProduct p;
+    p.rows = static_cast<size_t>(rows);
+    p.columns = static_cast<size_t>(std::min(kTile, b.cols() - column));
+    p.sums = &sums(row, column);
+    p.sums_stride = static_cast<size_t>(sums.rows());
+    p.b_stride = static_cast<size_t>(b.rows());
+    alignas(64) double strips[kProductDepth * kTile];
+    p.a = strips;
+    if (rows < kTile)
+      std::fill(std::begin(strips), std::end(strips), 0.0);
     for (Index d = 0; d < a.rows(); d += kProductDepth) {
       const Index depth = std::min(kProductDepth, a.rows() - d);
-      sum.noalias() +=
-          a.block(d, row, depth, rows).transpose() * b.block(d, column, depth, columns);
+      for (Index i = 0; i < rows; i += kStrip) {
+        const double* from = &a(d, row + i);
+        double* to = strips + i * kProductDepth;
+        const Index columns = std::min(kStrip, rows - i);
+        for (Index k = 0; k < depth; ++k) {
+          for (Index c = 0; c < columns; ++c)
+            to[k * kStrip + c] = from[c * a.rows() + k];
+        }
+      }
+      p.depth = static_cast<size_t>(depth);
+      p.b = &b(d, column);
+      run(p);
     }
   });
 }

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/algebra/leading_eigenpairs.h"
 
+#include "codec/algebra/blocked_product.h"
 #include "codec/sequence/random.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kWidth = 16;
+constexpr Index kShared = 2000;  // rows from which threads share a product
 constexpr double kResidual = 0.02, kNoise = 1e-12;  // of a value, and of the largest one
 
 // Descending; only as many as are wanted.
@@ -62,7 +64,13 @@ Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double
   Index size = 0, check = 4 * kWidth;
   while (size < limit) {
     space.middleCols(size, kWidth) = next;
-    image.middleCols(size, kWidth).noalias() = symmetric * next;
+    if (n < kShared) {
+      image.middleCols(size, kWidth).noalias() = symmetric * next;
+    } else {
+      MatrixXd products = MatrixXd::Zero(n, kWidth);
+      add_products(symmetric, next, products);
+      image.middleCols(size, kWidth) = products;
+    }
     size += kWidth;
     if (size >= check || size == limit) {
       const MatrixXd projected = space.leftCols(size).transpose() * image.leftCols(size);

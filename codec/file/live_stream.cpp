@@ -22,8 +22,8 @@ bool is_live_stream(ByteView bytes) {
 
 LiveStream read_live_stream(const ClipPart& stream) {
   LiveStream out;
-  Bytes meshes;
-  ContainerReader meshes_reader;
+  ContainerReader before;  // the last file with meshes
+  bool is_first = true;
   ByteView left = stream.file;
   while (left.size > 0) {
     ContainerReader file;
@@ -34,16 +34,15 @@ LiveStream read_live_stream(const ClipPart& stream) {
     if (!failure.ok())
       fail(stream, ErrorKind::kCorrupt, place + status_string(failure.status));
     if (file.is_continuation()) {
-      if (meshes.empty())
+      if (is_first)
         fail(stream, ErrorKind::kCorrupt, place + "the stream begins with a file that continues another one");
-      out.files.push_back(with_meshes(meshes_reader, file));
+      out.files.push_back(with_meshes(before, file));
     } else {
       const auto size = static_cast<size_t>(file.file_size());
       out.files.push_back(copy({left.data, size}));
-      meshes = only_meshes(file);
-      if (!meshes_reader.open(meshes).ok())
-        fail(stream, ErrorKind::kInternal, place + "the meshes cannot be kept");
+      before = file;
     }
+    is_first = false;
     left.data += file.file_size();
     left.size -= static_cast<size_t>(file.file_size());
   }

@@ -99,7 +99,7 @@ struct EncoderInput {
   /// Whether a search may do what has this name among search_means().
   bool allows(const char* mean) const { return std::ranges::find(without, mean) == without.end(); }
 
-  /// Called by coders before every trial, which is what takes time; may be empty.
+  /// Called by coders before every trial, which is what takes time, in any thread; may be empty.
   std::function<void()> on_trial;
 
   void begin_trial() const {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 namespace anicodec {
@@ -290,25 +291,43 @@ void LinearCoder::try_regions(double rmse) {
   tried_regions_ = true;
   const double whole = probed_.weights + probed_.coefficients;
   std::vector<LinearChoice> cuts;
+  std::vector<uint32_t> counts;
   for (uint32_t regions : {2U, 4U, 8U}) {
-    if (analysis_.clip().vertex_count < size_t{regions} * kFewestVertices)
-      continue;
+    if (analysis_.clip().vertex_count >= size_t{regions} * kFewestVertices) {
+      counts.push_back(regions);
+      regions_[regions];  // its place
+    }
+  }
+  tbb::parallel_for(size_t{0}, counts.size(), [&](size_t i) { analysis_of(counts[i]); },
+                    tbb::simple_partitioner());
+  for (const uint32_t regions : counts) {
     LinearChoice cut = choice_;
     cut.regions = regions;
     cut = started(cut, rmse);
     if (expected_bytes(cut) < kWorthTrying * whole)
       cuts.push_back(std::move(cut));
   }
+  if (cuts.empty())
+    return;
   std::vector<Measured> trials = measured(cuts, rmse);
+  const double least = std::ranges::min(trials, {}, &Measured::bytes).bytes;
+  tbb::parallel_for(
+      size_t{0}, cuts.size(),
+      [&](size_t i) {
+        LinearChoice& cut = cuts[i];
+        Measured& trial = trials[i];
+        learn(trial, rmse, cut);
+        if (std::abs(trial.rmse / rmse - 1) > kNear &&
+            trial.bytes < kFarFromBest * std::min(least, probed_.bytes)) {
+          cut = started(cut, rmse);
+          trial = measured(cut, rmse);
+          learn(trial, rmse, cut);
+        }
+      },
+      tbb::simple_partitioner());
   for (size_t i = 0; i < cuts.size(); ++i) {
     LinearChoice& cut = cuts[i];
-    Measured& trial = trials[i];
-    learn(trial, rmse, cut);
-    if (std::abs(trial.rmse / rmse - 1) > kNear && trial.bytes < kFarFromBest * probed_.bytes) {
-      cut = started(cut, rmse);
-      trial = measured(cut, rmse);
-      learn(trial, rmse, cut);
-    }
+    const Measured& trial = trials[i];
     if (!(trial.bytes < probed_.bytes))
       continue;
     if (choice_.regions == 1)
@@ -371,7 +390,15 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
     return std::nullopt;
   if (!chosen_ && effort_ > 0)
     choose_settings(rmse);
-  std::optional<CodedPart> best = reached(choice_, rmse);
+  // The settings of less effort, if they will be wanted, are tried at the same time where a thread has nothing to do.
+  const bool thorough = thorough_;
+  std::optional<CodedPart> best, ahead;
+  const bool looks_ahead = !earlier_.empty() && tbb::this_task_arena::max_concurrency() > 1;
+  tbb::parallel_invoke([&] { best = reached(choice_, rmse); },
+                       [&] {
+                         if (looks_ahead)
+                           ahead = reached(earlier_.back().choice, rmse);
+                       });
   if (thorough_ && best && least_ > 0 && bytes(*best) > least_)
     turn_down(rmse, *best);
   const double all_means = best && least_ > 0 ? std::min(bytes(*best) / least_, 1.0) : 1;
@@ -379,7 +406,9 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   for (const Candidate& earlier : std::views::reverse(earlier_)) {
     if (best && earlier.bytes * all_means * (1 - kDoubt) > bytes(*best))
       continue;
-    std::optional<CodedPart> part = reached(earlier.choice, rmse);
+    const bool is_there = looks_ahead && &earlier == &earlier_.back() && thorough == thorough_;
+    std::optional<CodedPart> part =
+        is_there ? std::move(ahead) : reached(earlier.choice, rmse);
     if (part && (!best || bytes(*part) < bytes(*best))) {
       best = std::move(part);
       choice_ = earlier.choice;

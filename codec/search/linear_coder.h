@@ -35,6 +35,8 @@ class LinearCoder : public SegmentCoder {
 
   BasisKind kind() const { return kind_; }
 
+  const LinearAnalysis& analysis() const { return analysis_; }
+
   OpeningChoice opening() const { return opening_; }
 
   /// Makes the coder use a pose that the file has already, with a base that is an affine image of

@@ -2,13 +2,14 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/rate_control.h"
 
-#include "codec/algebra/gram.h"
 #include "codec/search/time_segmentation.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <string>
 #include <utility>
+
+#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -23,8 +24,10 @@ Solution RateControl::solve() {
   if (options_.basis == BasisChoice::kKeyframes || options_.keyframes) {
     best = by_keyframes_alone();
   } else {
-    best = by_linear_bases();
-    if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
+    const LinearAnalysis analysis(input_.frames());
+    best = by_linear_bases(analysis);
+    if (options_.basis == BasisChoice::kAuto && !input_.pose &&
+        !(best && beats_keyframes(analysis, *best))) {
       KeyframeCoder keyframes(input_, options_.select, options_.keyframes,
                               options_.keyframe_poses.value_or(KeyframePoses::kNative),
                               Reconstruction::kLinear);
@@ -93,15 +96,16 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
   if (coders.size() == 2) {
     // A kind that one trial shows to be far behind is not searched.
     double rmse = search_.typical_rmse();
-    double bytes[2] = {coders[0]->probe(rmse), coders[1]->probe(rmse)};
+    double bytes[2];
+    tbb::parallel_for(size_t{0}, size_t{2}, [&](size_t i) { bytes[i] = coders[i]->probe(rmse); },
+                      tbb::simple_partitioner());
     if (std::max(bytes[0], bytes[1]) > kFarBehind * std::min(bytes[0], bytes[1]))
       coders.erase(coders.begin() + (bytes[0] < bytes[1] ? 1 : 0));
   }
   return coders;
 }
 
-std::optional<Solution> RateControl::by_linear_bases() {
-  LinearAnalysis analysis(input_.frames());
+std::optional<Solution> RateControl::by_linear_bases(const LinearAnalysis& analysis) {
   LinearCoders coders = linear_coders(analysis);
   std::optional<Solution> best;
   for (std::unique_ptr<LinearCoder>& coder : coders)
@@ -132,13 +136,12 @@ std::optional<Solution> RateControl::cut_in_time(const Solution& whole, const Li
   return search_.files().put_together(std::move(parts));
 }
 
-bool RateControl::beats_keyframes(const Solution& solution) const {
-  // No fewer key-frames than principal components can do, each at a bit per coordinate at least.
-  std::vector<double> left = principal_errors(frame_gram(input_.frames()).clip_centred());
-  size_t k = 0;
-  while (k + 1 < left.size() && left[k] > solution.squared_error())
-    ++k;
-  return static_cast<double>(k) * 3 * input_.layout.sizes.coded_vertices / 8 >
+bool RateControl::beats_keyframes(const LinearAnalysis& analysis, const Solution& solution) const {
+  // No fewer key-frames than principal components can do, each at a bit per coordinate and a quarter
+  // of a bit per frame at least.
+  constexpr double kBits = 1, kBitsOfWeight = 0.25;
+  const auto k = static_cast<double>(analysis.fewest_fields(solution.squared_error()));
+  return k * (kBits * 3 * input_.layout.sizes.coded_vertices + kBitsOfWeight * input_.sequence.frame_count) / 8 >
          static_cast<double>(solution.bytes);
 }
 

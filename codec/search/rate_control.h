@@ -41,11 +41,11 @@ class RateControl {
   using LinearCoders = std::vector<std::unique_ptr<LinearCoder>>;
 
   std::optional<Solution> by_keyframes_alone();
-  std::optional<Solution> by_linear_bases();
+  std::optional<Solution> by_linear_bases(const LinearAnalysis& analysis);
   LinearCoders linear_coders(const LinearAnalysis& analysis);
   void offer(SegmentCoder& coder, std::optional<Solution>* best);
   std::optional<Solution> cut_in_time(const Solution& whole, const LinearCoder& coder);
-  bool beats_keyframes(const Solution& solution) const;
+  bool beats_keyframes(const LinearAnalysis& analysis, const Solution& solution) const;
   [[noreturn]] void fail() const;
   [[noreturn]] void fail(KeyframeCoder& keyframes) const;
 

@@ -5,12 +5,15 @@
 
 #include "codec/sequence/progress.h"
 
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 namespace anicodec {
 
 /// Tells how far a search is whose length is known only roughly: the part done never falls, and
-/// creeps towards 1 when more trials are made than were expected.
+/// creeps towards 1 when more trials are made than were expected. Trials may be made in any thread; only that of the
+/// constructor is told of them.
 class SearchProgress {
  public:
   SearchProgress(const Progress& progress, double expected_trials)
@@ -18,9 +21,9 @@ class SearchProgress {
 
   /// One more trial is about to begin.
   void trial() {
-    if (progress_)
-      progress_("encoding", part(trials_ / expected_));
-    trials_ += 1;
+    const int before = trials_++;
+    if (progress_ && std::this_thread::get_id() == owner_)
+      progress_("encoding", part(before / expected_));
   }
 
  private:
@@ -28,7 +31,8 @@ class SearchProgress {
 
   const Progress& progress_;
   double expected_;
-  double trials_ = 0;
+  std::atomic<int> trials_ = 0;
+  std::thread::id owner_ = std::this_thread::get_id();
 };
 
 }  // namespace anicodec

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_invoke.h>
+
 namespace anicodec {
 namespace {
 
@@ -40,14 +42,18 @@ LinearCoder TimeSegmentation::coder(const LinearAnalysis& analysis, const FrameR
   return coder;
 }
 
+LinearAnalysis TimeSegmentation::analysis(const FrameRun& range) const {
+  return {whole_.analysis(), range.first, range.count};
+}
+
 double TimeSegmentation::probed(const FrameRun& range) const {
-  LinearAnalysis analysis(input_.frames(range.first, range.count));
-  return coder(analysis, range).probe(rmse_) + kChunks;
+  const LinearAnalysis of_range = analysis(range);
+  return coder(of_range, range).probe(rmse_) + kChunks;
 }
 
 std::optional<CodedPart> TimeSegmentation::coded(const FrameRun& range) const {
-  LinearAnalysis analysis(input_.frames(range.first, range.count));
-  LinearCoder coder_of_range = coder(analysis, range);
+  const LinearAnalysis of_range = analysis(range);
+  LinearCoder coder_of_range = coder(of_range, range);
   return within_bounds(coder_of_range, input_, range.first, rmse_);
 }
 
@@ -71,7 +77,8 @@ void TimeSegmentation::split(const FrameRun& range, double bytes, std::vector<Fr
   if (std::optional<uint32_t> cut = candidate(range)) {
     FrameRun left{range.first, *cut - range.first};
     FrameRun right{*cut, range.first + range.count - *cut};
-    double of_left = probed(left), of_right = probed(right);
+    double of_left = 0, of_right = 0;
+    tbb::parallel_invoke([&] { of_left = probed(left); }, [&] { of_right = probed(right); });
     if (of_left + of_right < kWorthIt * bytes) {
       split(left, of_left, out);
       split(right, of_right, out);

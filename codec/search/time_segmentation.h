@@ -19,7 +19,8 @@ namespace anicodec {
 /// both sides.
 class TimeSegmentation {
  public:
-  /// `whole` coded the whole clip, with `pose`, to the error `rmse`.
+  /// `whole` coded the whole clip, with `pose`, to the error `rmse`. It must outlive this object, and so must
+  /// its analysis.
   TimeSegmentation(const EncoderInput& input, const LinearCoder& whole,
                    std::shared_ptr<const EncodedPose> pose, double rmse);
 
@@ -36,6 +37,7 @@ class TimeSegmentation {
   void split(const FrameRun& range, double bytes, std::vector<FrameRun>* out);
   std::optional<uint32_t> candidate(const FrameRun& range) const;
   double probed(const FrameRun& range) const;
+  LinearAnalysis analysis(const FrameRun& range) const;
   LinearCoder coder(const LinearAnalysis& analysis, const FrameRun& range) const;
 
   const EncoderInput& input_;

@@ -44,14 +44,53 @@ MatrixXd affine_span(const MatrixXd& pose) {
 }  // namespace
 
 LinearAnalysis::LinearAnalysis(const FrameView& clip) : clip_(clip) {
-  const Centroids centroids = frame_centroids(clip);
+  measure();
+}
+
+void LinearAnalysis::measure() {
+  const Centroids centroids = frame_centroids(clip_);
   origin_ = centroids.colwise().mean().transpose();
-  gram_ = trajectory_gram(clip, origin_);
+  gram_ = trajectory_gram(clip_, origin_);
   sums_.resize(gram_.rows());
   for (Index f = 0; f < centroids.rows(); ++f)
     sums_.segment<3>(3 * f) =
-        static_cast<double>(clip.vertex_count) * (centroids.row(f).transpose() - origin_);
-  kg_reference_ = gram_.trace() - sums_.squaredNorm() / static_cast<double>(clip.vertex_count);
+        static_cast<double>(clip_.vertex_count) * (centroids.row(f).transpose() - origin_);
+  kg_reference_ = gram_.trace() - sums_.squaredNorm() / static_cast<double>(clip_.vertex_count);
+}
+
+LinearAnalysis::LinearAnalysis(const LinearAnalysis& whole, size_t first_frame, size_t frame_count)
+    : clip_(whole.clip_.frames(first_frame, frame_count)) {
+  constexpr double kMostLost = 1e6;  // of the products, where the frames are far from the whole's origin
+  const auto first = static_cast<Index>(3 * first_frame), rows = static_cast<Index>(3 * frame_count);
+  const auto n = static_cast<double>(clip_.vertex_count);
+  const VectorXd sums = whole.sums_.segment(first, rows);
+  const Vector3d shift = sums.reshaped(3, rows / 3).rowwise().mean() / n;
+  const VectorXd shifts = shift.replicate(rows / 3, 1);
+  gram_ = whole.gram_.block(first, first, rows, rows);
+  const double before = gram_.trace();
+  gram_ += (n * shifts - sums) * shifts.transpose() - shifts * sums.transpose();
+  if (before > kMostLost * gram_.trace()) {
+    measure();
+    return;
+  }
+  origin_ = whole.origin_ + shift;
+  sums_ = sums - n * shifts;
+  kg_reference_ = gram_.trace() - sums_.squaredNorm() / n;
+}
+
+size_t LinearAnalysis::fewest_fields(double squared_error) const {
+  const MatrixXd products = sum_of_axes(gram_);
+  for (Index most = 48;; most *= 2) {
+    const VectorXd energies = leading_eigenpairs(products, most, 0).values;
+    double left = products.trace();
+    for (Index k = 0; k < energies.size(); ++k) {
+      if (left <= squared_error)
+        return static_cast<size_t>(k);
+      left -= energies[k];
+    }
+    if (energies.size() < most || left <= squared_error)
+      return static_cast<size_t>(energies.size());
+  }
 }
 
 // All that is needed about a frame as a set of functions is in the Gram matrix.

@@ -66,6 +66,9 @@ class LinearAnalysis {
   /// The view must outlive the object. Cost O(vertices frames^2), memory 9 frames^2 doubles.
   explicit LinearAnalysis(const FrameView& clip);
 
+  /// That of some of its frames, by the products that the whole has. Cost O(frames^2).
+  LinearAnalysis(const LinearAnalysis& whole, size_t first_frame, size_t frame_count);
+
   /// Components with energy above `smallest`, at most max_components. Trajectories need
   /// Base::kAffine. Cost: the eigenpairs, and at most two passes over the clip.
   /// For ReferencePose::kGiven: `given_pose`, vertices x 3, with any origin. For kRankThree it is what
@@ -80,10 +83,15 @@ class LinearAnalysis {
 
   const FrameView& clip() const { return clip_; }
 
+  /// How many vector fields any basis needs at least for its frames to have this squared error.
+  /// Cost: that of the eigenpairs.
+  size_t fewest_fields(double squared_error) const;
+
   /// Squared deviations of all frames from their own centroids: what the KG error is relative to.
   double kg_reference() const { return kg_reference_; }
 
  private:
+  void measure();
   size_t best_frame() const;
   Eigen::MatrixXd frame(size_t f) const;
   Eigen::MatrixXd rank_three_pose(const Eigen::MatrixXd& target) const;
@@ -92,7 +100,7 @@ class LinearAnalysis {
   Eigen::Vector3d origin_;
   Eigen::MatrixXd gram_;  // 3 frames x 3 frames
   Eigen::VectorXd sums_;  // 3 frames: over the vertices
-  double kg_reference_;
+  double kg_reference_ = 0;
 };
 
 /// The same for eigentrajectories of regions, over one pose of the whole.

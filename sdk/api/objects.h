@@ -173,8 +173,12 @@ anic_status find_sample(const anic_context* context, uint32_t mesh, anic_when wh
 anic_status find_attribute(const anic_context* context, uint32_t mesh, uint32_t attribute,
                            anic_when when, const MeshAttribute** out);
 
-/// Opens an asset: what anic_open_asset() does, for prefixes too. Throws std::bad_alloc.
-Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, anic_asset** out);
+/// Opens an asset of a file whose header and table have been read, or of its first bytes. `size`: how many bytes are
+/// there. Throws std::bad_alloc.
+Failure open_asset(const ContainerReader& file, size_t size, const anic_options& options, anic_asset** out);
+
+/// What anic_open_asset() does. Throws std::bad_alloc.
+Failure open_asset(ByteView bytes, const anic_options& options, anic_asset** out);
 
 }  // namespace anicodec
 

@@ -159,17 +159,18 @@ OpenOptions open_options(const anic_options& options, uint64_t file_size) {
 namespace {
 
 /// Opens the file behind an asset.
-Failure open_file(ByteView bytes, const anic_options& options, bool prefix, OpenedFile* file) {
+Failure open_file(const ContainerReader& container, size_t size, const anic_options& options,
+                  OpenedFile* file) {
   // The bytes of a stream that have arrived count for the limit.
-  OpenOptions opening = open_options(options, bytes.size);
+  OpenOptions opening = open_options(options, size);
   HostProgress progress(options.progress.report, options.progress.user);
   const bool boxes = options.flags & ANIC_OPEN_BOUNDS;
-  opening.prefix = prefix;
+  opening.prefix = !container.is_complete();
   opening.progress = &progress;
   opening.threads = {options.threads.run, options.threads.user};
   opening.progress_end = boxes ? kShareBeforeBoxes : 1;
   const MemoryScope scope(&memory_of_object(file));
-  if (Failure failure = file->clip.open(bytes, opening); !failure.ok())
+  if (Failure failure = file->clip.open(container, opening); !failure.ok())
     return failure;
   const Clip& clip = file->clip;
   file->quality = opening.quality;
@@ -218,10 +219,11 @@ Failure share_asset(const anic_asset& asset, const anic_options& options, anic_a
 
 }  // namespace
 
-Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, anic_asset** out) {
+Failure open_asset(const ContainerReader& container, size_t size, const anic_options& options,
+                   anic_asset** out) {
   OpenedFile* file = create<OpenedFile>(memory_of(&options.allocator), 0);
   try {
-    if (Failure failure = open_file(bytes, options, prefix, file); !failure.ok()) {
+    if (Failure failure = open_file(container, size, options, file); !failure.ok()) {
       destroy(file);
       return failure;
     }
@@ -232,6 +234,15 @@ Failure open_asset(ByteView bytes, const anic_options& options, bool prefix, ani
   }
   (*out)->resident_bytes += memory_of_object(file).held;
   return {};
+}
+
+Failure open_asset(ByteView bytes, const anic_options& options, anic_asset** out) {
+  Memory memory = memory_of(&options.allocator);
+  const MemoryScope scope(&memory);
+  ContainerReader container;
+  if (Failure failure = container.open(bytes); !failure.ok())
+    return failure;
+  return open_asset(container, bytes.size, options, out);
 }
 
 }  // namespace anicodec
@@ -269,7 +280,7 @@ anic_status anic_open_asset(const void* file, size_t size, const anic_options* o
   if (!out || (!file && size > 0) || !take_options(options, &wanted))
     return report(kBadArgument, failure);
   return report(guarded([&] {
-                  return open_asset({static_cast<const uint8_t*>(file), size}, wanted, false, out);
+                  return open_asset({static_cast<const uint8_t*>(file), size}, wanted, out);
                 }),
                 failure);
 }

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The C interface: files that are read through a callback, or arrive piece by piece, one after the other.
-#include "format/continuation.h"
 #include "sdk/api/objects.h"
 
 #include <algorithm>
@@ -11,10 +10,11 @@ struct anic_stream {
   explicit anic_stream(const anic_options& wanted) : options(wanted) {}
 
   anic_options options;
-  anicodec::Bytes meshes;                   ///< only_meshes() of the last file that had any of its own
-  anicodec::ContainerReader meshes_reader;  ///< of `meshes`
-  anicodec::Bytes bytes;                    ///< from the first one of the file at hand on
-  anicodec::ContainerReader file;           ///< of `bytes`
+  /// In a live stream the last file before the one at hand that had meshes, then the file at hand and what follows.
+  anicodec::Bytes bytes;
+  anicodec::ContainerReader meshes;  ///< of that file, which has `begin` bytes; 0: there is none
+  size_t begin = 0;
+  anicodec::ContainerReader file;  ///< the one at hand, with its meshes
   bool has_table = false;          ///< header and table are there
   bool has_limits = false;
   size_t arrived = 0;  ///< chunks, from the front of the table
@@ -63,21 +63,10 @@ void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
   }
 }
 
-/// The file at hand, or as much of it as is there. `spliced` keeps a continuation with its meshes.
-ByteView playable_bytes(const anic_stream& stream, Bytes* spliced) {
-  if (!stream.file.is_continuation())
-    return {stream.bytes.data(),
-            static_cast<size_t>(std::min<uint64_t>(stream.bytes.size(), stream.info.file_bytes))};
-  *spliced = with_meshes(stream.meshes_reader, stream.file);
-  return *spliced;
-}
-
-Failure read_stream_limits(const anic_stream& stream, Limits* limits) {
-  Bytes spliced;
-  ContainerReader file;
-  if (Failure failure = file.open_prefix(playable_bytes(stream, &spliced)); !failure.ok())
-    return failure;
-  return read_limits(file, open_options(stream.options, file.file_size()), limits);
+/// What `file` reads: the bytes of the file at hand, of a continuation behind those of its meshes.
+ByteView bytes_at_hand(const anic_stream& stream) {
+  const size_t from = stream.file.is_continuation() ? 0 : stream.begin;
+  return {stream.bytes.data() + from, stream.bytes.size() - from};
 }
 
 /// Reads header and table once they are there, then the limits.
@@ -85,21 +74,24 @@ Failure read_head(anic_stream* stream) {
   ContainerReader& file = stream->file;
   anic_stream_info& info = stream->info;
   if (!stream->has_table) {
-    Failure failure = file.open_of_stream(stream->bytes);
+    Failure failure = file.open_of_stream(bytes_at_hand(*stream));
     if (failure.status == Status::kTruncated)
       return {};
     if (!failure.ok())
       return failure;
-    if (file.is_continuation() && stream->meshes.empty())
-      return {Status::kFeature, 16, 0, "the stream begins with a file that continues another one"};
     stream->has_table = true;
     info.file_bytes = file.file_size();
+    if (file.is_continuation() && stream->begin == 0)
+      return {Status::kFeature, 16, 0, "the file continues another one, which has its meshes"};
+    if (file.is_continuation())
+      file.add_meshes(stream->meshes, stream->bytes);
   }
   const Chunk* chunk = file.find("LIMI");
   if (chunk && !file.has(*chunk))
     return {};
   Limits limits;
-  if (Failure failure = read_stream_limits(*stream, &limits); !failure.ok())
+  const OpenOptions options = open_options(stream->options, file.file_size());
+  if (Failure failure = read_limits(file, options, &limits); !failure.ok())
     return failure;
   stream->has_limits = true;
   const size_t segments = limits.segments.size(), chunks = file.chunks().size();
@@ -141,33 +133,23 @@ Failure take_chunks(anic_stream* stream) {
   return {};
 }
 
-/// Bytes behind the end of the file at hand, as far as they are there, begin another one.
-Failure check_next(const anic_stream& stream) {
-  const uint64_t end = stream.info.file_bytes;
-  for (uint64_t i = end; i < std::min<uint64_t>(stream.bytes.size(), end + sizeof kMagic); ++i) {
-    if (stream.bytes[static_cast<size_t>(i)] != kMagic[i - end])
-      return {Status::kTrailingBytes, end, 0, "bytes follow the end of the file"};
-  }
-  return {};
-}
-
 /// Looks at all bytes that are there of the file at hand.
 Failure read_bytes(anic_stream* stream) {
   anic_stream_info& info = stream->info;
-  info.received_bytes = stream->bytes.size();
+  const ByteView there = {stream->bytes.data() + stream->begin, stream->bytes.size() - stream->begin};
+  info.received_bytes = there.size;
   if (stream->has_table)
-    stream->file.extend(stream->bytes);
+    stream->file.extend(bytes_at_hand(*stream));
   if (!stream->has_limits) {
     if (Failure failure = read_head(stream); !failure.ok())
       return failure;
   }
-  if (!stream->has_table)
-    return {};
-  if (info.received_bytes > info.file_bytes) {
-    info.waiting_bytes = info.received_bytes - info.file_bytes;
-    info.received_bytes = info.file_bytes;
-    if (Failure failure = check_next(*stream); !failure.ok())
-      return failure;
+  if (stream->has_table && there.size > info.file_bytes) {
+    const auto end = static_cast<size_t>(info.file_bytes), more = there.size - end;
+    info.received_bytes = end;
+    info.waiting_bytes = more;
+    if (!std::equal(kMagic, kMagic + std::min(more, sizeof kMagic), there.data + end))
+      return {Status::kTrailingBytes, end, 0, "bytes follow the end of the file"};
   }
   if (!stream->has_limits)
     return {};
@@ -179,22 +161,21 @@ Failure read_bytes(anic_stream* stream) {
 
 Failure push(anic_stream* stream, const void* bytes, size_t size) {
   const MemoryScope scope(&memory_of_object(stream));
-  append(bytes, size, stream->info.file_bytes, &stream->bytes);
+  append(bytes, size, stream->begin + stream->info.file_bytes, &stream->bytes);
   return read_bytes(stream);
 }
 
 /// Makes the next file of a live stream the one at hand.
 Failure advance(anic_stream* stream) {
   const MemoryScope scope(&memory_of_object(stream));
-  if (!stream->file.is_continuation()) {
-    Bytes meshes = only_meshes(stream->file);
-    std::swap(stream->meshes, meshes);
-    if (Failure failure = stream->meshes_reader.open(stream->meshes); !failure.ok())
-      return failure;
+  const auto size = static_cast<size_t>(stream->info.file_bytes);
+  const bool keeps = !stream->file.is_continuation();  // its meshes, instead of those before
+  const auto gone = stream->bytes.begin() + static_cast<ptrdiff_t>(keeps ? 0 : stream->begin);
+  stream->bytes.erase(gone, gone + static_cast<ptrdiff_t>(keeps ? stream->begin : size));
+  if (keeps) {
+    stream->meshes = stream->file;
+    stream->begin = size;
   }
-  const auto next = stream->bytes.begin() + static_cast<ptrdiff_t>(stream->info.file_bytes);
-  Bytes waiting(next, stream->bytes.end());
-  std::swap(stream->bytes, waiting);
   stream->file = ContainerReader();
   stream->has_table = stream->has_limits = false;
   stream->arrived = 0;
@@ -203,7 +184,7 @@ Failure advance(anic_stream* stream) {
   const uint32_t number = stream->info.file_number + 1;
   stream->info = ANIC_INIT(anic_stream_info);
   stream->info.file_number = number;
-  return stream->bytes.empty() ? Failure{} : read_bytes(stream);
+  return stream->bytes.size() == stream->begin ? Failure{} : read_bytes(stream);
 }
 
 /// Reads a whole file into `to`: its head first, so that limits are checked before the rest.
@@ -268,7 +249,7 @@ anic_status anic_open_asset_from_reader(const anic_reader* reader, uint64_t file
     Bytes bytes;
     if (Failure f = read_file(*reader, file_size, wanted, &bytes); !f.ok())
       return f;
-    return open_asset(bytes, wanted, false, out);
+    return open_asset(bytes, wanted, out);
   };
   return report(guarded(open), failure);
 }
@@ -334,12 +315,8 @@ anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
     return report(stream->failure, failure);
   if (!stream->info.playable)
     return report({Status::kState, stream->bytes.size(), 0, "nothing can be played yet"}, failure);
-  Failure what = guarded([&] {
-    const MemoryScope scope(&memory_of_object(stream));
-    Bytes spliced;
-    return open_asset(playable_bytes(*stream, &spliced), stream->options, !stream->info.complete,
-                      out);
-  });
+  const size_t size = bytes_at_hand(*stream).size - static_cast<size_t>(stream->info.waiting_bytes);
+  Failure what = guarded([&] { return open_asset(stream->file, size, stream->options, out); });
   // A prefix may be too short for what the whole file is allowed.
   if (what.status == Status::kLimit && !stream->info.complete)
     what = {Status::kState, stream->bytes.size(), what.chunk, "too little has arrived"};

@@ -216,10 +216,16 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
 }
 
 Failure Clip::open(ByteView bytes, const OpenOptions& options) {
-  *this = Clip();
   ContainerReader file;
-  if (Failure failure = options.prefix ? file.open_prefix(bytes) : file.open(bytes); !failure.ok())
+  if (Failure failure = options.prefix ? file.open_prefix(bytes) : file.open(bytes); !failure.ok()) {
+    *this = Clip();
     return failure;
+  }
+  return open(file, options);
+}
+
+Failure Clip::open(const ContainerReader& file, const OpenOptions& options) {
+  *this = Clip();
   if (Failure failure = read_limits(file, options, &limits_); !failure.ok())
     return failure;
   const Chunk* chunk;

@@ -102,6 +102,9 @@ class Clip {
   /// all coefficients once; afterwards every frame costs the same.
   Failure open(ByteView file, const OpenOptions& options = {});
 
+  /// The same for a file whose header and table have been read.
+  Failure open(const ContainerReader& file, const OpenOptions& options);
+
   /// Makes the clip at hand the only one: frames are numbered from its first one on, and those of
   /// others are given back. For programs that work on one clip of a file. O(what is resident).
   void take_clip(uint32_t clip);
