@@ -37,8 +37,10 @@ error stand the bytes of mean, components and weights as float32. --csv prints
 space,k,kg,numbers,bytes,residual_percent: numbers of one component, and the per cent of the
 variance in the space itself that the components leave.
 
-With -o, or --json, more is measured, which takes a minute or so: sizes at several errors, also with
-key-frames alone and with other codecs, where bytes and errors are, and pictures. The page needs
+With -o, or --json, the clip is encoded at two errors instead, which takes about as long as encode
+with the same --effort: sizes, where bytes and errors are, pictures, and the clip in a player. --full
+measures more, for some minutes: sizes at several errors, also with key-frames alone and with other
+codecs, key-frames and shape spaces. The page needs
 nothing but a browser; --json prints its numbers: name, vertices, faces, frames, frame_rate,
 diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), missing (other codecs that are
 not installed), shown_kg, shown_bytes, shares, frame_errors (rmse, max_error), basis_errors (method,
@@ -56,6 +58,7 @@ massaged), hausdorff_mean_percent, hausdorff_rms_percent, hausdorff_percent, bef
 Examples:
   anicodec analyze dance.obj dance.pc2
   anicodec analyze dance.obj dance.pc2 -o report.html
+  anicodec analyze dance.obj dance.pc2 --full -o rates.svg
   anicodec analyze 'frames/*.obj' --counts 5,10,20,45 --csv > errors.csv
   anicodec analyze dance.obj dance.pc2 --spaces)";
 
@@ -63,8 +66,8 @@ struct AnalyzeCommand {
   std::vector<std::string> inputs;
   std::string mesh, clip, rate, output;
   std::string counts = "1,2,5,10,15,20,30,45,60,80,100";
-  bool csv = false, spaces = false, massage = false;
-  int effort = 3;
+  bool csv = false, spaces = false, massage = false, full = false;
+  int effort = 0;  // the default
 };
 
 void print_csv(const std::vector<BasisError>& rows) {
@@ -143,10 +146,12 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
   if (!command.rate.empty())
     options.rate = parse_frame_rate(command.rate);
   MeshSequence sequence = load_sequence(command.inputs, options);
+  const bool several = command.full || command.massage;
+  const int effort = command.effort > 0 ? command.effort : several ? 3 : 1;
   std::optional<MassageStudy> massage;
   if (command.massage) {
     try {
-      massage = study_massage(sequence, counts, command.effort, options.progress);
+      massage = study_massage(sequence, counts, effort, options.progress);
     } catch (const Error& e) {
       throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
     }
@@ -160,7 +165,7 @@ void run(const AnalyzeCommand& command, const CommonOptions& common) {
     return;
   }
   if (output || common.json) {
-    Report report = make_report(sequence, {command.effort, counts, options.progress});
+    Report report = make_report(sequence, {effort, command.full, counts, options.progress});
     report.massage = std::move(massage);
     if (output) {
       output->write(std::filesystem::path(command.output).extension() == ".svg"
@@ -219,7 +224,8 @@ void add_analyze(Commands& commands, CommonOptions& common) {
   options.option("-o,--output", c->output, "REPORT.html|x.svg",
                  "Write a report with charts and pictures");
   options.number("--effort", c->effort, "N", {1, 9},
-                 "Of the report's encodings, 1 to 9 (default 3)");
+                 "Of the report's encodings, 1 to 9 (default 1; in full 3)");
+  options.flag("--full", c->full, "Report other codecs, key-frames and shape spaces, too");
   options.flag("--spaces", c->spaces, "Principal components of three shape spaces instead");
   options.flag("--massage-study", c->massage, "Measure what Mesh Massage does to the clip instead");
   options.flag("--csv", c->csv, "Print comma-separated values");

@@ -25,6 +25,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <span>
 
 #include <fmt/format.h>
 #include <tbb/task_group.h>
@@ -33,6 +34,7 @@ namespace anicodec::tools {
 namespace {
 
 // KG errors in per cent, from coarse to fine.
+constexpr double kQuickTargets[] = {1, 0.1};
 constexpr double kLinearTargets[] = {1, 0.3, 0.1, 0.03};
 constexpr double kKeyframeTargets[] = {3, 1, 0.3};
 constexpr double kPeerTargets[] = {1, 0.1, 0.03};
@@ -54,8 +56,31 @@ class ReportMaker {
     report_.rate = sequence_.rate;
     report_.diagonal = diagonal(sequence_);
     tbb::task_group stages;
-    for (double kg : kLinearTargets)
+    for (double kg : options_.full ? std::span<const double>(kLinearTargets) : kQuickTargets)
       stages.run([=, this] { add_encoding("anicodec", BasisChoice::kAuto, kg); });
+    if (options_.full)
+      measure_others(stages);
+    stages.wait();
+    // Curves want their points in order.
+    std::ranges::stable_sort(report_.rates, [](const RatePoint& a, const RatePoint& b) {
+      const bool own = is_own(a.codec);
+      return own != is_own(b.codec) ? own
+             : a.codec != b.codec   ? a.codec < b.codec
+                                    : a.bytes < b.bytes;
+    });
+    if (options_.full) {
+      begin("key-frames");
+      KeyframeFitter fitter{FrameView(sequence_)};
+      report_.basis_errors = basis_errors(fitter, options_.counts);
+      draw_keyframes(fitter);
+      begin("shape spaces");
+      report_.shape_spaces = shape_space_errors(sequence_, options_.counts);
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void measure_others(tbb::task_group& stages) {
     for (double kg : kKeyframeTargets)
       stages.run([=, this] { add_encoding("anicodec, key-frames", BasisChoice::kKeyframes, kg); });
     for (double kg : kPeerTargets)
@@ -69,30 +94,15 @@ class ReportMaker {
       });
     }
     stages.run([this] { add_raw_cache(); });
-    stages.wait();
-    // Curves want their points in order.
-    std::ranges::stable_sort(report_.rates, [](const RatePoint& a, const RatePoint& b) {
-      const bool own = is_own(a.codec);
-      return own != is_own(b.codec) ? own
-             : a.codec != b.codec   ? a.codec < b.codec
-                                    : a.bytes < b.bytes;
-    });
-    begin("key-frames");
-    KeyframeFitter fitter{FrameView(sequence_)};
-    report_.basis_errors = basis_errors(fitter, options_.counts);
-    draw_keyframes(fitter);
-    begin("shape spaces");
-    report_.shape_spaces = shape_space_errors(sequence_, options_.counts);
-    return std::move(report_);
   }
 
- private:
   void begin(const char* stage) {
-    constexpr double kStages =
+    constexpr double kAll =
         std::size(kLinearTargets) + std::size(kKeyframeTargets) + 2 * std::size(kPeerTargets) + 3;
+    const double stages = options_.full ? kAll : double{std::size(kQuickTargets)};
     const std::lock_guard<std::mutex> lock(mutex_);
     if (options_.progress)
-      options_.progress(stage, stage_ / kStages);
+      options_.progress(stage, stage_ / stages);
     ++stage_;
   }
 

@@ -128,6 +128,34 @@ bool starts_with(const std::string& text, const char* prefix) {
   return text.rfind(prefix, 0) == 0;
 }
 
+std::string keyframe_section(const Report& report) {
+  std::string out =
+      "<h2>Key-frames and components</h2><p>The clip expressed by so many exact key-frames, chosen "
+      "by Neural Gas (gas), pivoting (pivot) or evenly (uniform), or by principal components "
+      "(pca, dashed). Nothing is quantised.</p><div class=\"charts\">";
+  constexpr std::pair<const char*, const char*> kWeights[] = {
+      {"linear", "Any weights"},
+      {"sum-to-one", "Weights that sum to one, so that a clip far from the origin costs nothing"},
+      {"rigid", "A rigid motion for each frame, then weights of what it leaves"}};
+  for (const auto& [weights, title] : kWeights) {
+    const bool rigid = std::string(weights) == "rigid";
+    Chart chart = basis_chart(report, [&](const std::string& method) {
+      return method.find(std::string("-") + weights) != std::string::npos ||
+             (!rigid && starts_with(method, "pca") && method != "pca-mean-rigid");
+    });
+    chart.title = title;
+    out += svg_of(chart);
+  }
+  out += "</div>";
+  if (!report.keyframes.empty()) {
+    out += "<p>Key-frames that pivoting takes first.</p><div class=\"sheet\">";
+    for (const ReportPicture& p : report.keyframes)
+      out += figure_of(p.caption, p.image);
+    out += "</div>";
+  }
+  return out;
+}
+
 Chart kg_chart(const Report& report) {
   return rate_chart(report, "KG error in %", [](const RatePoint& p) { return p.kg; });
 }
@@ -189,29 +217,10 @@ std::string report_page(const Report& report) {
       out += "</div>";
     }
   }
-  out +=
-      "<h2>Key-frames and components</h2><p>The clip expressed by so many exact key-frames, chosen "
-      "by Neural Gas (gas), pivoting (pivot) or evenly (uniform), or by principal components "
-      "(pca, dashed). Nothing is quantised.</p><div class=\"charts\">";
-  constexpr std::pair<const char*, const char*> kWeights[] = {
-      {"linear", "Any weights"},
-      {"sum-to-one", "Weights that sum to one, so that a clip far from the origin costs nothing"},
-      {"rigid", "A rigid motion for each frame, then weights of what it leaves"}};
-  for (const auto& [weights, title] : kWeights) {
-    const bool rigid = std::string(weights) == "rigid";
-    Chart chart = basis_chart(report, [&](const std::string& method) {
-      return method.find(std::string("-") + weights) != std::string::npos ||
-             (!rigid && starts_with(method, "pca") && method != "pca-mean-rigid");
-    });
-    chart.title = title;
-    out += svg_of(chart);
-  }
-  out += "</div>";
-  if (!report.keyframes.empty()) {
-    out += "<p>Key-frames that pivoting takes first.</p><div class=\"sheet\">";
-    for (const ReportPicture& p : report.keyframes)
-      out += figure_of(p.caption, p.image);
-    out += "</div>";
+  if (report.basis_errors.empty()) {
+    out += "<p>Other codecs, key-frames and shape spaces: <code>anicodec analyze --full</code>.</p>";
+  } else {
+    out += keyframe_section(report);
   }
   if (!report.shape_spaces.empty()) {
     out +=

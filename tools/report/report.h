@@ -68,12 +68,13 @@ struct Report {
 };
 
 struct ReportOptions {
-  int effort = 3;
+  int effort = 1;
+  bool full = false;  ///< other codecs, key-frames and shape spaces, too
   std::vector<size_t> counts;  ///< of key-frames and components
   Progress progress;
 };
 
-/// Measures everything. Cost: some ten encodings and comparisons with STED.
+/// Measures everything. Cost: two encodings and comparisons with STED; in full some ten, and those of other codecs.
 Report make_report(const MeshSequence& sequence, const ReportOptions& options);
 
 /// The numbers of a report, without its pictures.

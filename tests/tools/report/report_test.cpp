@@ -23,7 +23,7 @@ TEST(Report, NeedsNothingButABrowser) {
   TemporaryFolder folder;
   write_sequence(folder / "limb.pc2", corpus::make_clip("limb"));
   Outcome outcome = anicodec({"analyze", folder / "limb.obj", folder / "limb.pc2", "--counts",
-                              "2,8", "--effort", "1", "-o", folder / "r.html", "--json"});
+                              "2,8", "--effort", "1", "--full", "-o", folder / "r.html", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome;
   std::string page = folder.read("r.html");
   if (const size_t player = page.find("<iframe"); player != std::string::npos)
@@ -59,12 +59,22 @@ TEST(Report, NeedsNothingButABrowser) {
   EXPECT_GT(before, 0);
 }
 
+TEST(Report, IsQuickUnlessInFull) {
+  ReportOptions options;
+  const Report report = make_report(corpus::make_clip("limb"), options);
+  EXPECT_EQ(report.rates.size(), 2U);
+  const std::string page = report_page(report);
+  EXPECT_THAT(page, HasSubstr("--full"));
+  EXPECT_THAT(page, HasSubstr("Where the bytes went"));
+  EXPECT_THAT(page, Not(HasSubstr("Shape spaces")));
+}
+
 TEST(Report, TakesClipsWithoutFacesOrMotion) {
   for (const char* name : {"points", "one_frame", "one_vertex"}) {
     MeshSequence clip = corpus::make_clip(name);
     clip.name = "<b>";
     ReportOptions options;
-    options.effort = 1;
+    options.full = true;
     options.counts = {1};
     const std::string page = report_page(make_report(clip, options));
     EXPECT_THAT(page, HasSubstr("&lt;b&gt;")) << name;
