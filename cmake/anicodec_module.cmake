@@ -32,13 +32,21 @@ function(anicodec_module name standard)
   anicodec_group_rooms(${sources})
 endfunction()
 
-# With CMAKE_UNITY_BUILD the sources of a room are compiled as one, so that headers are parsed once. Names in their
-# unnamed namespaces must differ.
+# With CMAKE_UNITY_BUILD the sources of a room are compiled as one, so that headers are parsed once; those of several
+# rooms where `compiled_together` lists them, as "inputs+report". Names in their unnamed namespaces must differ.
 function(anicodec_group_rooms)
   foreach(source IN LISTS ARGN)
-    cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE room)
-    cmake_path(GET room PARENT_PATH room)
-    string(REPLACE "/" "_" room "${room}")
+    cmake_path(GET source PARENT_PATH room)
+    cmake_path(RELATIVE_PATH room BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" OUTPUT_VARIABLE room)
+    foreach(rooms IN LISTS compiled_together)
+      if("+${rooms}+" MATCHES "[+]${room}[+]")
+        set(room "${rooms}")
+      endif()
+    endforeach()
+    if(room STREQUAL ".")
+      set(room top)
+    endif()
+    string(REGEX REPLACE "[/+]" "_" room "${room}")
     set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${room}")
   endforeach()
 endfunction()

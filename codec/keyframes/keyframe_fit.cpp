@@ -37,7 +37,7 @@ std::vector<float> to_floats(const Matrix3Xd& points) {
 /// finer key-frames: without them corpus clip waves at --kg 1 takes 20 % more bytes.
 constexpr double kMostGain = 1000;
 /// Squared rounding error of a key-frame, in parts of the mean squared error of the frames.
-constexpr double kNoise = 0.2;
+constexpr double kFitNoise = 0.2;
 
 /// A fit for exact key-frames or, if that enlarges their rounding, for rounded ones.
 template <class Fit>
@@ -45,7 +45,7 @@ KeyframeFit robust(const Fit& fit) {
   KeyframeFit exact = fit(0.0);
   if (exact.noise_gain() <= kMostGain)
     return exact;
-  return fit(kNoise * exact.squared_error() / static_cast<double>(exact.squared_errors.size()));
+  return fit(kFitNoise * exact.squared_error() / static_cast<double>(exact.squared_errors.size()));
 }
 
 KeyframeFit better(KeyframeFit a, KeyframeFit b) {

@@ -35,7 +35,7 @@ constexpr double kNearRepeat = 1e-3;
 
 constexpr size_t kGasStarts = 3;
 
-constexpr int kMaxPasses = 6;
+constexpr int kMostExchanges = 6;
 constexpr double kWorthwhilePass = 0.99;  // of the squared error before
 
 // The residual of every frame after the key-frames, and the gain of each key-frame alone.
@@ -166,14 +166,14 @@ void exchange_keyframes(const MatrixXd& gram, std::vector<uint32_t>& keyframes) 
   }
   double error = std::numeric_limits<double>::max();
   std::vector<uint32_t> before = keyframes;
-  for (int pass = 0; pass <= kMaxPasses; pass++) {
+  for (int pass = 0; pass <= kMostExchanges; pass++) {
     Projection projection(gram, keyframes);
     const double now = projection.residual.trace();
     if (!(now < error)) {  // rounding has the upper hand
       keyframes = before;
       return;
     }
-    if (pass == kMaxPasses || now > error * kWorthwhilePass) {
+    if (pass == kMostExchanges || now > error * kWorthwhilePass) {
       return;
     }
     error = now;

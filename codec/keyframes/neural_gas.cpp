@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kTile = 32;
+constexpr Index kGasTile = 32;
 
 // Weights below this part of the nearest prototype's are taken as zero.
 constexpr double kNegligible = 1e-12;
@@ -49,11 +49,11 @@ std::vector<size_t> start_frames(size_t frames, size_t count, uint64_t seed) {
 
 void measure_distances(const MatrixXd& gram, const MatrixXd& prototypes, MatrixXd& distances) {
   const Index count = prototypes.rows();
-  const Index tiles = (gram.cols() + kTile - 1) / kTile;
+  const Index tiles = (gram.cols() + kGasTile - 1) / kGasTile;
   MatrixXd& products = distances;
   tbb::parallel_for(Index{0}, tiles, [&](Index t) {
-    const Index first = t * kTile;
-    const Index width = std::min(kTile, gram.cols() - first);
+    const Index first = t * kGasTile;
+    const Index width = std::min(kGasTile, gram.cols() - first);
     products.middleCols(first, width).noalias() = prototypes * gram.middleCols(first, width);
   });
   VectorXd norms(count);

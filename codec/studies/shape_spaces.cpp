@@ -33,7 +33,7 @@ constexpr size_t kMostPositions = 1'600'000;
 /// Frames that errors are measured on.
 constexpr size_t kMeasured = 16;
 
-constexpr uint32_t kLeafFaces = 8;
+constexpr uint32_t kStudyLeafFaces = 8;
 
 /// The frames as a space reproduces them.
 struct ShapeSpace {
@@ -102,7 +102,7 @@ std::shared_ptr<Interpolation> interpolation_of(const AlignedFrames& frames,
                                                 InterpolationMethod method) {
   InterpolationOptions options;
   options.method = method;
-  options.leaf_faces = kLeafFaces;
+  options.leaf_faces = kStudyLeafFaces;
   return make_interpolation(frames.triangles, frames.vertex_count, frames.inputs, options);
 }
 
