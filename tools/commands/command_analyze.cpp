@@ -38,9 +38,9 @@ space,k,kg,numbers,bytes,residual_percent: numbers of one component, and the per
 variance in the space itself that the components leave.
 
 With -o, or --json, the clip is encoded at two errors instead, which takes about as long as encode
-with the same --effort: sizes, where bytes and errors are, pictures, and the clip in a player. --full
-measures more, for some minutes: sizes at several errors, also with key-frames alone and with other
-codecs, key-frames and shape spaces. The page needs
+with the same --effort: sizes, where bytes and errors are, pictures, and the clip in a player.
+--full measures more, for some minutes: sizes at several errors, also with key-frames alone and with
+other codecs, key-frames and shape spaces. The page needs
 nothing but a browser; --json prints its numbers: name, vertices, faces, frames, frame_rate,
 diagonal, rates (codec, bytes, bpfv, kg, max_error_percent, sted), missing (other codecs that are
 not installed), shown_kg, shown_bytes, shares, frame_errors (rmse, max_error), basis_errors (method,
