@@ -9,8 +9,12 @@
 namespace anicodec::tools {
 
 std::string html_text(std::string_view text) {
+  return escaped_markup(printable(text));
+}
+
+std::string escaped_markup(std::string_view text) {
   std::string out;
-  for (char c : printable(text)) {
+  for (char c : text) {
     switch (c) {
       case '<':
         out += "&lt;";

@@ -12,6 +12,9 @@ namespace anicodec::tools {
 /// are escaped.
 std::string html_text(std::string_view text);
 
+/// Text whose markup alone is escaped, such as a page inside an attribute.
+std::string escaped_markup(std::string_view text);
+
 /// Bytes in base64, as data in a page is written.
 std::string base64(std::string_view bytes);
 

@@ -187,7 +187,7 @@ std::string report_page(const Report& report) {
   }
   if (!report.player.empty())
     out += "<iframe loading=\"lazy\" title=\"The clip, playing\" srcdoc=\"" +
-           html_text(report.player) + "\"></iframe>";
+           escaped_markup(report.player) + "\"></iframe>";
   out +=
       "<h2>Size against error</h2><p>Whole files, of positions and faces. Lower and further left "
       "is better. Other codecs "

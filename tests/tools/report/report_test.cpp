@@ -69,6 +69,12 @@ TEST(Report, IsQuickUnlessInFull) {
   EXPECT_THAT(page, Not(HasSubstr("Shape spaces")));
 }
 
+TEST(Report, HasThePlayerAsItIs) {
+  Report report = make_report(corpus::make_clip("one_frame"), {});
+  report.player = "<p title='a'>\n&amp;\t</p>";
+  EXPECT_THAT(report_page(report), HasSubstr("srcdoc=\"&lt;p title=&#39;a&#39;&gt;\n&amp;amp;\t&lt;/p&gt;\""));
+}
+
 TEST(Report, TakesClipsWithoutFacesOrMotion) {
   for (const char* name : {"points", "one_frame", "one_vertex"}) {
     MeshSequence clip = corpus::make_clip(name);
