@@ -136,6 +136,11 @@ inline Eigen::MatrixXd trajectories(const std::vector<float>& x, size_t frames,
   return out;
 }
 
+inline Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, uint32_t seed) {
+  Noise noise(seed);
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return noise.next(); });
+}
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_TESTS_CODEC_MOVING_POINTS_H_

@@ -27,7 +27,6 @@ THROUGH = {
     "sdk/prediction": ("tests/sdk/prediction_reference_test.cpp",
                        "kernels for different machines that must give the integers of plain code"),
     "sdk/segment": ("tests/api/stream_test.cpp", "a segment becomes resident while a file arrives"),
-    "codec/algebra": ("tests/codec/algebra", "steps of the decomposition"),
     "codec/api": ("tests/api/encoder_test.cpp", "the C interface of the encoder, from outside"),
     "codec/check_file": ("tests/codec/encode_test.cpp", "every encode checks its file"),
     "codec/connectivity": ("tests/codec/connectivity/mesh_layout_test.cpp", "steps of laying out a mesh"),

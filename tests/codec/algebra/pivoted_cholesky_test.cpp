@@ -13,11 +13,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, uint32_t seed) {
-  Noise noise(seed);
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return noise.next(); });
-}
-
 TEST(PivotedCholesky, SolvesDefiniteSystems) {
   const MatrixXd half = random_matrix(20, 12, 1);
   const MatrixXd matrix = half.transpose() * half;
