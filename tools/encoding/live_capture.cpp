@@ -36,21 +36,20 @@ struct FileCloser {
   }
 };
 
-/// An output that grows: each file of the stream is there as soon as it is written.
+/// An output that grows: each file of the stream is there as soon as it is written. What was there before stays until
+/// the first one.
 class GrowingOutput {
  public:
   GrowingOutput(const std::string& path, bool overwrite) : path_(path) {
-    if (path == "-") {
-      file_.reset(stdout);
-      return;
-    }
-    check_output(path, overwrite);
-    file_.reset(std::fopen(path.c_str(), "wb"));
-    if (!file_)
-      throw Error(ErrorKind::kUsage, fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+    if (path != "-")
+      check_output(path, overwrite);
   }
 
   void write(const Bytes& bytes) {
+    if (!file_)
+      file_.reset(path_ == "-" ? stdout : std::fopen(path_.c_str(), "wb"));
+    if (!file_)
+      throw Error(ErrorKind::kUsage, fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
         std::fflush(file_.get()) != 0)
       throw Error(ErrorKind::kInternal, fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));

@@ -72,6 +72,9 @@ TEST_F(LiveCapture, RefusesWhatItCannotDo) {
   EXPECT_EQ(encode("cat frames").status, 0);
   EXPECT_EQ(encode("cat frames").status, 1);  // the output is there
   EXPECT_EQ(encode("true", "-o none.anic").status, 2);
+  const std::string before = folder_.read("live.anic");
+  EXPECT_EQ(encode("true", "-o live.anic -f").status, 2);
+  EXPECT_EQ(folder_.read("live.anic"), before);
   EXPECT_EQ(encode("cat frames", "-o full.anic --size 5k").status, 1);
   EXPECT_EQ(encode("cat frames", "-o loop.anic --loop").status, 1);
   EXPECT_NE(encode("cat frames", "-o /dev/full -f").status, 0);
