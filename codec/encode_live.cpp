@@ -47,9 +47,10 @@ void LiveEncoder::begin(const MeshSequence& sequence) {
   auto layout = std::make_shared<MeshLayout>(lay_out_mesh(sequence, no_weld(sequence.vertex_count)));
   encode_attributes(sequence, options_.attributes, layout.get());
   options_.layout = std::move(layout);
-  options_.target = in_scene_units(options_.target, diagonal(sequence));
+  const double size = diagonal(sequence);
+  options_.target = in_scene_units(options_.target, size);
   if (options_.cap)
-    options_.cap = in_scene_units(*options_.cap, diagonal(sequence));
+    options_.cap = in_scene_units(*options_.cap, size);
   // Its pose is one that all that follows can lean on.
   options_.part = FrameRun{0, sequence.frame_count};
 }

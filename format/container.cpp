@@ -6,6 +6,7 @@
 #include "format/sort.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -80,7 +81,7 @@ Bytes container_head(const Vector<Chunk>& chunks, uint64_t features) {
 }
 
 Bytes ContainerWriter::finish() const {
-  Bytes file = container_head(chunks_, features_);
+  Bytes file = container_head(chunks_, 0);
   for (const Bytes& payload : payloads_)
     file.insert(file.end(), payload.begin(), payload.end());
   return file;
@@ -186,23 +187,13 @@ void ContainerReader::sort_by_key() {
 }
 
 void ContainerReader::add_meshes(const ContainerReader& before, ByteView bytes) {
-  Vector<Chunk> all;
-  bool added = false;
-  const auto add = [&] {
-    for (const Chunk& chunk : before.chunks_) {
-      if (is_of_mesh(chunk) && !added)
-        all.push_back(chunk);
-    }
-    added = true;
-  };
-  for (Chunk& chunk : chunks_) {
-    if (chunk.segment != kNoSegment)
-      add();
+  for (Chunk& chunk : chunks_)
     chunk.offset += before.file_size_;
-    all.push_back(chunk);
-  }
-  add();
-  std::swap(chunks_, all);
+  Vector<Chunk> meshes;
+  std::copy_if(before.chunks_.begin(), before.chunks_.end(), std::back_inserter(meshes), is_of_mesh);
+  const auto at = std::find_if(chunks_.begin(), chunks_.end(),
+                               [](const Chunk& chunk) { return chunk.segment != kNoSegment; });
+  chunks_.insert(at, meshes.begin(), meshes.end());
   file_size_ += before.file_size_;
   file_ = bytes;
   sort_by_key();

@@ -65,15 +65,12 @@ Bytes container_head(const Vector<Chunk>& chunks, uint64_t features);
 /// Collects chunks in file order and lays out the file.
 class ContainerWriter {
  public:
-  explicit ContainerWriter(uint64_t features = 0) : features_(features) {}
-
   void add(const char (&type)[5], bool required, uint16_t mesh, uint32_t segment, Bytes payload);
 
   /// The whole file. Deterministic.
   Bytes finish() const;
 
  private:
-  uint64_t features_;
   Vector<Chunk> chunks_;
   Vector<Bytes> payloads_;
 };
@@ -127,7 +124,6 @@ class ContainerReader {
   uint16_t version_major() const { return kVersionMajor; }
 
   uint16_t version_minor() const { return kVersionMinor; }
-
 
   /// The fields of the header.
   uint64_t file_size() const { return file_size_; }

@@ -83,9 +83,10 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
   for (BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
     BasisChoice choice = kind == BasisKind::kEigenshapes ? BasisChoice::kEigenshapes
                                                          : BasisChoice::kEigentrajectories;
-    const bool quickest = options_.effort == 0 && kind == BasisKind::kEigentrajectories;
-    if ((options_.basis == BasisChoice::kAuto && (options_.effort > 0 || quickest)) ||
-        options_.basis == choice)
+    const bool wanted = options_.basis == BasisChoice::kAuto
+                            ? options_.effort > 0 || kind == BasisKind::kEigentrajectories
+                            : options_.basis == choice;
+    if (wanted)
       coders.push_back(std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort,
                                                      kLayers, options_.opening));
   }

@@ -88,7 +88,8 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   // usual ratio of maximum to mean error in the direction that pays. Horse, dance, flag and a
   // captured face do best with 2.5 to 3.8.
   constexpr double kUsual = 3.3, kFactor = 1.3;
-  constexpr double kOfPieces = 2.3;  // a second of dance, flag or horse: 2 to 2.6
+  // Dance by the second, `encode --live --effort 1`: 102.6 kB with it, 127.6 kB with kUsual, 102.2 kB by a search.
+  constexpr double kOfPieces = 2.3;
   constexpr double kFarBehind = 1.15, kLeastGain = 0.003;
   std::optional<Solution> best;
   std::map<double, double> prices;  // by the ratio

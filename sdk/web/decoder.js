@@ -162,8 +162,8 @@ export class Decoder {
     if (status !== 0)
       throw this.failure(status);
     this.call('stream_info');
-    const [received, size, playable, complete, waiting] = this.numbers(5);
-    return { received, size, playable: playable !== 0, complete: complete !== 0, waiting };
+    const [received, size, playable, complete] = this.numbers(4);
+    return { received, size, playable: playable !== 0, complete: complete !== 0 };
   }
 
   /** Opens what has arrived. */

@@ -152,7 +152,6 @@ EXPORT(stream_info) int web_stream_info(void) {
   numbers[1] = (double)info.file_bytes;
   numbers[2] = info.playable;
   numbers[3] = info.complete;
-  numbers[4] = (double)info.waiting_bytes;
   return status;
 }
 
