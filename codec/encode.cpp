@@ -151,7 +151,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   for (size_t c = 0; c < closed.size(); ++c)
     record.clips[c].closed = closed[c];
   EncodedRoot root;
-  std::vector<float> whole;
+  FrameArray whole;
   if (options.root_motion) {
     if (options.part)
       throw Error(ErrorKind::kUsage, "the motion of the whole is of a clip, not of a part");

@@ -55,7 +55,7 @@ void LiveEncoder::begin(const MeshSequence& sequence) {
   options_.part = FrameRun{0, sequence.frame_count};
 }
 
-EncodeResult LiveEncoder::encode(std::vector<float> positions) {
+EncodeResult LiveEncoder::encode(FrameArray positions) {
   MeshSequence sequence = mesh_;
   sequence.frame_count = static_cast<uint32_t>(positions.size() / 3 / mesh_.vertex_count);
   sequence.positions = std::move(positions);

@@ -24,7 +24,7 @@ class LiveEncoder {
 
   /// The next file of the stream: of frames x vertices x 3 floats, one frame at least. Errors as of encode().
   /// Time and memory do not grow with the stream.
-  EncodeResult encode(std::vector<float> positions);
+  EncodeResult encode(FrameArray positions);
 
  private:
   void begin(const MeshSequence& sequence);

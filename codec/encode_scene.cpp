@@ -20,7 +20,7 @@ namespace {
 double diagonal_of(const Scene& scene) {
   MeshSequence corners;  // two vertices: of the box around each
   for (const SceneMesh& mesh : scene.meshes) {
-    const std::vector<float>& positions = mesh.sequence.positions;
+    const FrameArray& positions = mesh.sequence.positions;
     std::array<float, 3> low{positions[0], positions[1], positions[2]}, high = low;
     for (size_t i = 0; i < positions.size(); ++i) {
       low[i % 3] = std::min(low[i % 3], positions[i]);

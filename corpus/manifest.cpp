@@ -13,7 +13,7 @@
 namespace anicodec::corpus {
 namespace {
 
-uint64_t hash(const std::vector<float>& positions) {
+uint64_t hash(const FrameArray& positions) {
   std::vector<uint8_t> bytes;
   bytes.reserve(positions.size() * 4);
   for (float x : positions) {

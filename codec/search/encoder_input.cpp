@@ -61,7 +61,7 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
     kg_reference = 1;
 }
 
-EncoderInput::EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories)
+EncoderInput::EncoderInput(const EncoderInput& mesh, FrameArray trajectories)
     : layout(mesh.layout),
       coded(std::move(trajectories)),
       clips(mesh.clips),
@@ -80,7 +80,7 @@ EncoderInput::EncoderInput(const EncoderInput& mesh, std::vector<float> trajecto
     kg_reference = 1;
 }
 
-void EncoderInput::keep_whole(const std::vector<float>& positions) {
+void EncoderInput::keep_whole(const FrameArray& positions) {
   whole.reserve(coded.size());
   for (size_t f = 0; f < sequence.frame_count; ++f) {
     for (uint32_t v : layout.coded_source) {

@@ -37,7 +37,7 @@ struct EncoderInput {
                         const MeshLayout* laid_out = nullptr);
 
   /// Other trajectories over the same mesh: as many frames, frames x coded vertices x 3.
-  EncoderInput(const EncoderInput& mesh, std::vector<float> trajectories);
+  EncoderInput(const EncoderInput& mesh, FrameArray trajectories);
 
   FrameView frames(size_t first, size_t count) const { return frames().frames(first, count); }
 
@@ -56,7 +56,7 @@ struct EncoderInput {
 
   /// Keeps the positions of the source, frames x vertices x 3, which `coded` has without the motion
   /// of the whole.
-  void keep_whole(const std::vector<float>& positions);
+  void keep_whole(const FrameArray& positions);
 
   double rmse(double squared) const { return rmse(squared, sequence.frame_count); }
 
@@ -84,9 +84,9 @@ struct EncoderInput {
 
   MeshSequence sequence;  ///< the source without its positions
   MeshLayout layout;
-  std::vector<float> coded;       ///< frames x coded vertices x 3
+  FrameArray coded;  ///< frames x coded vertices x 3
   /// Where the motion of the whole was taken out: the same with it. Else empty.
-  std::vector<float> whole;
+  FrameArray whole;
   std::vector<InputClip> clips;   ///< one at least, in the order of their frames
   std::vector<uint32_t> copies;   ///< source vertices of each coded one
   double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0

@@ -29,7 +29,7 @@ std::shared_ptr<const EncodedPose> own_pose(const EncoderInput& input) {
 
 /// How three components of an attribute differ from those of frame 0 as stored.
 struct Offsets {
-  std::vector<float> frames;  ///< frames x coded vertices x 3
+  FrameArray frames;  ///< frames x coded vertices x 3
   double spread = 0;          ///< largest distance of a copy from the mean of its vertex
   double largest = 0;         ///< of the means
 };
@@ -99,7 +99,7 @@ class OffsetReader {
   const uint32_t first_frame_;
 };
 
-std::vector<CodedPart> encode_offsets(const EncoderInput& input, std::vector<float> frames,
+std::vector<CodedPart> encode_offsets(const EncoderInput& input, FrameArray frames,
                                       double bound, const EncodeOptions& options,
                                       const std::shared_ptr<const EncodedPose>& pose) {
   EncoderInput trajectories(input, std::move(frames));

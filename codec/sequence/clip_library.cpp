@@ -60,7 +60,7 @@ MeshSequence clip_library(std::vector<MeshSequence> clips) {
   }
   if (frames >= 1U << 24)
     throw Error(ErrorKind::kInput, "the clips have more than 2^24 - 1 frames together");
-  std::vector<float> positions = std::move(clips[0].positions);
+  FrameArray positions = std::move(clips[0].positions);
   MeshSequence library = clips[0];
   library.frame_count = static_cast<uint32_t>(frames);
   library.times.clear();

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_SEQUENCE_MESH_SEQUENCE_H_
 #define ANICODEC_CODEC_SEQUENCE_MESH_SEQUENCE_H_
 
+#include "codec/sequence/frame_array.h"
 #include "format/attribute_record.h"
 
 #include <cstddef>
@@ -50,7 +51,7 @@ struct Attribute {
   bool per_corner = false;
   uint32_t components = 2;    ///< 2 for UV, 3 for normals, 4 for tangents, 3 or 4 for colours
   uint32_t frames = 1;        ///< 1: static, or as in the first frame; else as many as the sequence
-  std::vector<float> values;  ///< frames x elements x components, row-major
+  FrameArray values;  ///< frames x elements x components, row-major
 };
 
 inline constexpr uint32_t kNoLabel = UINT32_MAX;
@@ -100,7 +101,7 @@ struct MeshSequence : MeshDetails {
   Polygons polygons;
   uint32_t vertex_count = 0;
   uint32_t frame_count = 0;
-  std::vector<float> positions;  ///< frame_count x vertex_count x 3, row-major
+  FrameArray positions;  ///< frame_count x vertex_count x 3, row-major
   FrameRate rate;
   double start_time = 0;  ///< seconds
   std::vector<double>

@@ -12,7 +12,7 @@ namespace anicodec {
 /// A mesh by itself.
 struct SurfaceFrame {
   Polygons polygons;
-  std::vector<float> positions;  ///< vertices x 3
+  FrameArray positions;  ///< vertices x 3
 };
 
 /// The mesh as a sequence of one frame. Throws as check().

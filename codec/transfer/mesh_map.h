@@ -27,7 +27,7 @@ struct MeshPoint {
 };
 
 struct MeshMap {
-  std::vector<float> positions;  ///< of the mesh's vertices on the surface, vertices x 3
+  FrameArray positions;  ///< of the mesh's vertices on the surface, vertices x 3
   std::vector<MeshPoint> points;  ///< the same as points of the surface, one for each vertex
   /// Of each corner of the mesh's polygons: on the triangle of the surface that lies below the polygon at this
   /// corner, so that what the surface has on either side of a seam stays apart. Weights below zero lie

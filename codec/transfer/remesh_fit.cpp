@@ -26,7 +26,7 @@ struct FittedPair {
     target.build_index();
   }
 
-  HausdorffDistance distance(const std::vector<float>& positions) const {
+  HausdorffDistance distance(std::span<const float> positions) const {
     return hausdorff(mesh.polygons, positions, surface.polygons, surface.positions);
   }
 
@@ -65,7 +65,7 @@ RemeshFit fit_remesh(const SurfaceFrame& mesh, const SurfaceFrame& surface) {
   fit.opening = check_openings(pair.moving.topology, pair.start, pair.target);
   Positions v = pair.start;
   fit.convergence = fit_closely(pair.moving.topology, pair.target, &v);
-  std::vector<float> positions = mesh.positions;
+  FrameArray positions = mesh.positions;
   pair.moving.store(v, positions);
   const HausdorffDistance after = pair.distance(positions);
   fit.improved = after.mean() < fit.before.mean() && after.max() <= fit.before.max();

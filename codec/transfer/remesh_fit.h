@@ -17,7 +17,7 @@
 namespace anicodec {
 
 struct RemeshFit {
-  std::vector<float> positions;  ///< of the mesh, vertices x 3
+  FrameArray positions;  ///< of the mesh, vertices x 3
   HausdorffDistance before, after;
   double diagonal = 0;  ///< of the box around the surface
   RadiusRatio ratio_before, ratio_after;

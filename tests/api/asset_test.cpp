@@ -145,7 +145,7 @@ TEST(AnicAsset, GivesTheAttributesOfTheSource) {
   ASSERT_EQ(anic_get_attribute(asset.get(), 0, 1, &a), ANIC_OK);
   EXPECT_EQ(a.domain, ANIC_DOMAIN_VERTICES);
   EXPECT_STREQ(a.name, "paint");
-  EXPECT_EQ(std::vector<float>(a.values, a.values + size_t{3} * a.count),
+  EXPECT_EQ(FrameArray(a.values, a.values + size_t{3} * a.count),
             source.attributes[1].values);
   ASSERT_EQ(anic_get_attribute(asset.get(), 0, 3, &a), ANIC_OK);
   ASSERT_EQ(a.label_count, 2U);

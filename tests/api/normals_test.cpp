@@ -63,7 +63,7 @@ MeshSequence cube(bool apart) {
     clip.polygons.add(corners);
   }
   clip.frame_count = 2;
-  const std::vector<float> once = clip.positions;
+  const FrameArray once = clip.positions;
   clip.positions.insert(clip.positions.end(), once.begin(), once.end());
   return clip;
 }

@@ -26,7 +26,7 @@ EncodeOptions options_of(double max_error_percent) {
   return options;
 }
 
-std::vector<float> frames_of(const MeshSequence& clip, uint32_t first, uint32_t count) {
+FrameArray frames_of(const MeshSequence& clip, uint32_t first, uint32_t count) {
   const auto begin = clip.positions.begin() + ptrdiff_t{3} * clip.vertex_count * first;
   return {begin, begin + ptrdiff_t{3} * clip.vertex_count * count};
 }
@@ -143,7 +143,7 @@ TEST(LiveEncoder, RefusesWhatNeedsAllFrames) {
   EXPECT_THROW(LiveEncoder(clip, options), Error);
   LiveEncoder encoder(clip, options_of(0.1));
   EXPECT_THROW(encoder.encode({}), Error);
-  std::vector<float> bad = frames_of(clip, 0, 2);
+  FrameArray bad = frames_of(clip, 0, 2);
   bad[7] = NAN;
   EXPECT_THROW(encoder.encode(bad), Error);
   EXPECT_GT(encoder.encode(frames_of(clip, 0, 2)).file.size(), 0U);

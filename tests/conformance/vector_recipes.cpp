@@ -217,7 +217,7 @@ MeshSequence cliques() {
 MeshSequence turned_pair(uint32_t vertices, uint32_t frames) {
   MeshSequence clip = corpus::make_scaled("limb", vertices, frames);
   const uint32_t n = clip.vertex_count;
-  std::vector<float> both;
+  FrameArray both;
   for (uint32_t f = 0; f < frames; ++f) {
     const auto one = clip.frame(f);
     both.insert(both.end(), one.begin(), one.end());

@@ -9,9 +9,9 @@
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace anicodec::tools {
 
@@ -20,7 +20,7 @@ inline void require(bool condition) {
     std::abort();
 }
 
-inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+inline bool same_bits(std::span<const float> a, std::span<const float> b) {
   bool same = a.size() == b.size();
   for (size_t i = 0; same && i < a.size(); ++i)
     same = std::bit_cast<uint32_t>(a[i]) == std::bit_cast<uint32_t>(b[i]);

@@ -98,7 +98,7 @@ TEST_F(AttributesOfFiles, ComeBackAsGlb) {
   std::set<std::pair<float, float>> here, there;
   for (size_t i = 0; i < uv->values.size(); i += 2)
     here.insert({uv->values[i], uv->values[i + 1]});
-  const std::vector<float>& source = source_.attributes[0].values;
+  const FrameArray& source = source_.attributes[0].values;
   for (size_t i = 0; i < source.size(); i += 2)
     there.insert({source[i], source[i + 1]});
   EXPECT_EQ(here, there);
@@ -205,7 +205,7 @@ TEST_F(AttributesThatMove, ComeBackAsPlyAsciiAndBinary) {
     ASSERT_EQ(back.attributes.size(), 3U);
     EXPECT_EQ(find_attribute(back, AttributeKind::kColour)->values,
               source_.attributes[1].values);  // bytes
-    const std::vector<float>& heat = find_attribute(back, AttributeKind::kCustom)->values;
+    const FrameArray& heat = find_attribute(back, AttributeKind::kCustom)->values;
     for (size_t i = 0; i < heat.size(); ++i)
       ASSERT_NEAR(heat[i], source_.attributes[2].values[i], 0.46);
   }
@@ -219,7 +219,7 @@ TEST_F(AttributesThatMove, ComeBackAsObjAndGlb) {
   EXPECT_EQ(colour->frames, source_.frame_count);
   ASSERT_EQ(anicodec({"decode", folder_ / "a.anic", "-o", folder_ / "b.glb"}).status, 0);
   const MeshSequence glb = load_file(folder_ / "b.glb");
-  const std::vector<float>& source = source_.attributes[1].values;
+  const FrameArray& source = source_.attributes[1].values;
   ASSERT_EQ(glb.frame_count, source_.frame_count);
   for (const MeshSequence* back : {&obj, &glb}) {
     const Attribute* rgb = find_attribute(*back, AttributeKind::kColour);

@@ -227,7 +227,7 @@ StillSurface split_surface(MeshSequence& sequence) {
   still.positions.assign(sequence.frame(0).begin(), sequence.frame(0).end());
   for (const Attribute& attribute : sequence.attributes) {
     if (attribute.kind == AttributeKind::kNormal && !attribute.per_corner)
-      still.normals = attribute.values;
+      still.normals.assign(attribute.values.begin(), attribute.values.end());
   }
   std::erase_if(sequence.attributes, [](const Attribute& attribute) {
     const bool moves = attribute.frames > 1;
@@ -279,6 +279,8 @@ std::function<void(const std::string&)> notes_above(ProgressLine& line, bool qui
 }
 
 void run(EncodeArguments command, const CommonOptions& common) {
+  if (!command.memory.empty())
+    set_memory_for_frames(parse_size(command.memory, "--memory"));
   if (command.live)
     return encode_live(command, common);
   if (!command.batch.empty())

@@ -37,8 +37,8 @@ namespace fs = std::filesystem;
 /// Hashes values one after the other.
 class ContentHash {
  public:
-  template <typename T>
-  void add(const std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void add(const std::vector<T, Allocator>& values) {
     add(values.data(), values.size() * sizeof(T));
   }
 

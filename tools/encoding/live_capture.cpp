@@ -61,7 +61,7 @@ class GrowingOutput {
 };
 
 /// Up to `frames` frames of the standard input; fewer at its end. Throws Error(kInput) for part of a frame.
-std::vector<float> read_frames(size_t frames, size_t vertices) {
+FrameArray read_frames(size_t frames, size_t vertices) {
   const size_t frame_bytes = 12 * vertices;
   std::string bytes(frames * frame_bytes, '\0');
   const size_t size = std::fread(bytes.data(), 1, bytes.size(), stdin);
@@ -72,7 +72,7 @@ std::vector<float> read_frames(size_t frames, size_t vertices) {
                 fmt::format("the standard input ends inside a frame: {} of {} bytes ({} vertices of three "
                             "float32)",
                             size % frame_bytes, frame_bytes, vertices));
-  std::vector<float> positions(size / 4);
+  FrameArray positions(size / 4);
   for (size_t i = 0; i < positions.size(); ++i)
     positions[i] = load<float>(bytes.data() + 4 * i, std::endian::little);
   return positions;
@@ -125,9 +125,9 @@ void encode_live(const EncodeArguments& command, const CommonOptions& common) {
   GrowingOutput output(command.output, common.overwrite);
   // Frames are read while those before them are encoded.
   const auto read = [&] { return std::async(std::launch::async, read_frames, frames, vertices); };
-  std::future<std::vector<float>> next = read();
+  std::future<FrameArray> next = read();
   uint64_t first = 0;
-  for (std::vector<float> positions; !(positions = next.get()).empty();) {
+  for (FrameArray positions; !(positions = next.get()).empty();) {
     next = read();
     const auto begin = std::chrono::steady_clock::now();
     EncodeResult result;

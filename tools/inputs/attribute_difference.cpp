@@ -32,7 +32,7 @@ std::vector<AttributeDifference> attribute_differences(const AttributeSource& a,
       result.push_back({of_a[i].kind, of_a[i].name});
     }
     for (size_t p = 0; p < pairs.size(); ++p) {
-      const std::vector<float>&x = of_a[pairs[p].first].values, &y = of_b[pairs[p].second].values;
+      const FrameArray &x = of_a[pairs[p].first].values, &y = of_b[pairs[p].second].values;
       for (size_t i = 0; i < x.size(); ++i) {
         const double d = std::abs(static_cast<double>(x[i]) - static_cast<double>(y[i]));
         result[p].max = std::max(result[p].max, d);

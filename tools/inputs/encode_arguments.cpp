@@ -270,8 +270,8 @@ void add_arguments(Options& options, EncodeArguments& a) {
                  "Encode all clips in a folder, or in a list with a clip per line");
   options.option(
       "--memory", a.memory, "BYTES",
-      "For what scenes and archives make of few bytes; of --batch, for clips side by side "
-      "(default: half of the machine)");
+      "For all of a run (default: half of the machine): frames beyond a third of it lie in files in TMPDIR or "
+      "/var/tmp; what scenes and archives make of few bytes is refused");
   options.flag("--allow-outside", a.allow_outside,
                "Let a scene name files outside its folder: those of strangers then choose what is "
                "read");

@@ -57,8 +57,8 @@ SurfaceFrame surface_of(const MeshSequence& mesh) {
   return {mesh.polygons, mesh.positions};
 }
 
-MeshSequence with_positions(MeshSequence mesh, std::vector<float> positions) {
-  mesh.positions = std::move(positions);
+MeshSequence with_positions(MeshSequence mesh, std::span<const float> positions) {
+  mesh.positions.assign(positions.begin(), positions.end());
   std::erase_if(mesh.attributes, goes_with_shape);
   return mesh;
 }

@@ -8,8 +8,8 @@
 #include "codec/surface/surface_frame.h"
 #include "codec/transfer/mesh_map.h"
 
+#include <span>
 #include <string>
-#include <vector>
 
 namespace anicodec::tools {
 
@@ -21,7 +21,7 @@ MeshSequence load_mesh(const std::string& path, const Progress& progress);
 SurfaceFrame surface_of(const MeshSequence& mesh);
 
 /// The mesh with other positions: normals and tangents, which were those of the shape, go.
-MeshSequence with_positions(MeshSequence mesh, std::vector<float> positions);
+MeshSequence with_positions(MeshSequence mesh, std::span<const float> positions);
 
 /// Gives a mesh what `surface` has at its corners: texture coordinates, colours and other numbers for each corner,
 /// and materials. A face takes the material below most of its corners.

@@ -169,6 +169,8 @@ void reserve(MeshSequence& sequence, size_t frames, const std::string& path) {
   sequence.frame_count = static_cast<uint32_t>(frames);
   try {
     sequence.positions.reserve(size_t{sequence.vertex_count} * 3 * frames);
+  } catch (const Error& error) {
+    throw Error(error.kind(), path + ": " + error.what());
   } catch (const std::exception&) {
     fail_input(path, "not enough memory for " + std::to_string(sequence.vertex_count) +
                          " vertices x " + std::to_string(frames) + " frames");
@@ -275,7 +277,7 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
                "an STL has no order of vertices and cannot be the mesh of a vertex cache");
   ByteSource source = file_source(cache_path);
   VertexCache cache = kind_of(cache_path) == FileKind::kPc2 ? open_pc2(source) : open_mdd(source);
-  std::vector<float> surface;
+  FrameArray surface;
   {
     MeshReader reader;
     const Mesh& mesh = reader.read(mesh_path, &sequence);

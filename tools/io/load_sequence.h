@@ -6,7 +6,7 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
 #include "codec/sequence/scene.h"
-#include "tools/io/base/machine_memory.h"
+#include "codec/sequence/machine_memory.h"
 #include "tools/io/gltf/gltf_material.h"
 #include "tools/io/gltf/moving_glb.h"
 

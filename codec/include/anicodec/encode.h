@@ -26,7 +26,8 @@
  *   anic_encode() starts threads unless anic_encode_options say 1. The bytes of the
  *   file do not depend on their number.
  * - Memory: malloc(). While anic_encode() runs it holds all positions as float32, and about twice
- *   as much again.
+ *   as much again. Positions beyond a sixth of the machine's memory lie in a file without a name, in
+ *   TMPDIR or /var/tmp.
  * - Errors: nothing is thrown at the host. anic_get_encoder_text() tells in a line of English what
  *   was wrong and where. After a failure the encoder stays usable.
  * - Callbacks must return. They run on the thread that called anic_encode().

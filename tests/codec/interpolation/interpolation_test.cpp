@@ -46,7 +46,7 @@ struct Poses {
 
 MeshSequence frames_of_clip(const char* name, uint32_t a, uint32_t b) {
   MeshSequence clip = corpus::make_clip(name);
-  std::vector<float> positions;
+  FrameArray positions;
   for (uint32_t f : {a, b})
     positions.insert(positions.end(), clip.frame(f).begin(), clip.frame(f).end());
   clip.positions = positions;

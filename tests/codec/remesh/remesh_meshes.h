@@ -35,7 +35,7 @@ inline SurfaceFrame frame_of(const TestMesh& mesh,
   return frame;
 }
 
-inline SurfaceFrame mesh_of(std::vector<float> positions,
+inline SurfaceFrame mesh_of(FrameArray positions,
                             std::initializer_list<std::vector<uint32_t>> faces) {
   SurfaceFrame frame;
   frame.positions = std::move(positions);

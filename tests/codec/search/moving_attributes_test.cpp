@@ -152,7 +152,7 @@ TEST(MovingAttributes, ThatDifferAtASeamStayAsInTheFirstFrame) {
 TEST(MovingAttributes, OfCornersStayAsInTheFirstFrame) {
   MeshSequence clip = corpus::make_clip("painted_box");
   Attribute& uv = clip.attributes[0];
-  const std::vector<float> first = uv.values;
+  const FrameArray first = uv.values;
   for (uint32_t f = 1; f < clip.frame_count; ++f) {
     for (float x : first)
       uv.values.push_back(x + 0.01F * static_cast<float>(f));

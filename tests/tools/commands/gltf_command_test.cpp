@@ -178,7 +178,7 @@ TEST(GltfValidator, FindsNothingWrong) {
     clip.attributes.push_back({.kind = AttributeKind::kUv,
                                .name = "uv",
                                .components = 2,
-                               .values = std::vector<float>(size_t{2} * clip.vertex_count, 0.5F)});
+                               .values = FrameArray(size_t{2} * clip.vertex_count, 0.5F)});
     write_sequence(base + "_one.glb", clip);
     const Outcome moving =
         anicodec({"encode", base + ".glb", "-o", base + "_moving.glb", "--effort", "1"});

@@ -271,7 +271,7 @@ class RealDataLoadSequence : public testing::Test {
   std::filesystem::path data_;
 };
 
-double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+double largest_difference(std::span<const float> a, std::span<const float> b) {
   double largest = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < a.size() && i < b.size(); ++i)
     largest = std::max(largest, static_cast<double>(std::abs(a[i] - b[i])));

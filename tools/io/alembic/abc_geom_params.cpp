@@ -115,7 +115,7 @@ void AbcGeomParams::add_arbitrary(const AbcProperty& property, const AbcNote& no
 AbcValues AbcGeomParams::values_at(const AbcGeomParam& param, double time, const Polygons& polygons,
                                    uint32_t vertices) const {
   AbcValues out;
-  std::vector<float> values = param.values.floats(archive_.sample_at(param.values, time));
+  const std::vector<float> values = param.values.floats(archive_.sample_at(param.values, time));
   const size_t n = param.components();
   if (param.indices) {
     const std::vector<int32_t> indices =
@@ -136,7 +136,7 @@ AbcValues AbcGeomParams::values_at(const AbcGeomParam& param, double time, const
   }
   out.domain = domain_of(param, values.size() / n, polygons, vertices);
   if (out.domain != AbcDomain::kNone)
-    out.values = std::move(values);
+    out.values.assign(values.begin(), values.end());
   return out;
 }
 

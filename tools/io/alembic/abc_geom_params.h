@@ -33,7 +33,7 @@ enum class AbcDomain : uint8_t { kNone, kMesh, kFace, kVertex, kCorner };
 /// Values of a param at one time, an element for each vertex, corner ...
 struct AbcValues {
   AbcDomain domain = AbcDomain::kNone;  ///< kNone: no values, or of an unknown number
-  std::vector<float> values;            ///< elements x components
+  FrameArray values;                    ///< elements x components
 };
 
 /// The texture coordinates, normals, colours and further numbers of a mesh.

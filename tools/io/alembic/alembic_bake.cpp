@@ -41,8 +41,8 @@ std::string count_text(const std::vector<AbcNode>& nodes) {
 }
 
 /// Values of corners in another order.
-void reorder(const std::vector<uint32_t>& order, size_t components, std::vector<float>& values) {
-  std::vector<float> out;
+void reorder(const std::vector<uint32_t>& order, size_t components, FrameArray& values) {
+  FrameArray out;
   out.reserve(values.size());
   for (uint32_t c : order)
     out.insert(out.end(), &values[c * components], &values[c * components] + components);
@@ -56,7 +56,7 @@ Eigen::Matrix3d normal_matrix(const AbcTransform& m) {
   return m.leftCols<3>().determinant() < 0 ? Eigen::Matrix3d(-out) : out;
 }
 
-void turn_normals(const AbcTransform& world, std::vector<float>& values) {
+void turn_normals(const AbcTransform& world, FrameArray& values) {
   const Eigen::Matrix3d turn = normal_matrix(world);
   for (size_t i = 0; i < values.size(); i += 3) {
     Eigen::Map<Eigen::Vector3f> normal(&values[i]);

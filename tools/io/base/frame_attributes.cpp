@@ -29,8 +29,8 @@ void add_frame(const std::vector<Attribute>& from, uint32_t frame,
       return b.kind == a.kind && b.name == a.name && b.components == a.components &&
              !b.per_corner && b.frames == 1 && b.values.size() == row;
     });
-    const std::vector<float> last(row_of(a, a.frames - 1, row), row_of(a, a.frames - 1, row) + row);
-    const std::vector<float>& next = found == from.end() ? last : found->values;
+    const FrameArray last(row_of(a, a.frames - 1, row), row_of(a, a.frames - 1, row) + row);
+    const FrameArray& next = found == from.end() ? last : found->values;
     if (a.frames == 1) {
       if (next == last)
         continue;

@@ -17,7 +17,7 @@ namespace anicodec::tools {
 /// reuses its memory.
 struct Mesh {
   Polygons polygons;
-  std::vector<float> positions;  ///< vertices x 3, row-major
+  FrameArray positions;  ///< vertices x 3, row-major
 
   size_t vertex_count() const { return positions.size() / 3; }
 

@@ -35,7 +35,7 @@ constexpr std::string_view kNoName = "(null)";
 struct Pool {
   const char* what;
   uint32_t components;
-  std::vector<float> values = {};     ///< as listed
+  FrameArray values = {};     ///< as listed
   std::vector<int64_t> corners = {};  ///< number of each corner, or -1
 
   int64_t size() const { return static_cast<int64_t>(values.size() / components); }
@@ -120,7 +120,7 @@ class DetailsParser {
 
  public:
   Pool uv{"uv", 2}, normals{"normal", 3};
-  std::vector<float> colours;
+  FrameArray colours;
   std::vector<std::string> libraries;
   NamedPolygons materials, objects;
 };

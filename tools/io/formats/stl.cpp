@@ -234,7 +234,7 @@ Polygons StlWeld::polygons() const {
 }
 
 void StlWeld::append_vertices(std::span<const float> soup, std::string_view name,
-                              std::vector<float>& positions) const {
+                              FrameArray& positions) const {
   if (soup.size() != vertex_of_corner_.size() * 3)
     fail_input(name, std::to_string(soup.size() / 9) + " triangles, but " + first_name_ + " has " +
                          std::to_string(vertex_of_corner_.size() / 3));

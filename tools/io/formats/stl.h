@@ -37,7 +37,7 @@ class StlWeld {
   /// Appends the vertices of a frame, vertex_count() x 3. Throws Error(kInput) when the number of
   /// triangles differs or corners that are one vertex lie apart.
   void append_vertices(std::span<const float> soup, std::string_view name,
-                       std::vector<float>& positions) const;
+                       FrameArray& positions) const;
 
  private:
   std::string first_name_;

@@ -448,7 +448,7 @@ void GltfBake::move_attributes(uint32_t frames, const std::function<GltfPose(uin
                                      " frames takes more than the " +
                                      std::to_string(options_.memory_limit) +
                                      " bytes of memory that are allowed");
-    const std::vector<float> base = attribute.values;
+    const FrameArray base = attribute.values;
     attribute.values.resize(row * frames);
     attribute.frames = frames;
     for (uint32_t f = 0; f < frames; ++f) {

@@ -103,7 +103,7 @@ TEST(AlembicOutput, StoresEqualSamplesOnce) {
   MeshSequence still = painted_strip(1);
   still.attributes.clear();
   const size_t one = archive_of_scene(scene_of(still)).size();
-  const std::vector<float> frame = still.positions;
+  const FrameArray frame = still.positions;
   still.frame_count = 50;
   still.positions.clear();
   for (int f = 0; f < 50; ++f)

@@ -31,13 +31,13 @@ TEST(PlyAttributes, TakeColoursCoordinatesNormalsAndNumbersByTheirNames) {
   const MeshSequence clip = load_file(folder / "a.ply");
   ASSERT_EQ(clip.attributes.size(), 4U);  // what is not finite is left out
   EXPECT_EQ(find_attribute(clip, AttributeKind::kColour)->values,
-            (std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.2F}));
+            (FrameArray{1, 0, 0, 0, 1, 0, 0, 0, 0.2F}));
   EXPECT_EQ(find_attribute(clip, AttributeKind::kUv)->values,
-            (std::vector<float>{0.25F, 0.5F, 0.5F, 0.5F, 0.75F, 0.5F}));
+            (FrameArray{0.25F, 0.5F, 0.5F, 0.5F, 0.75F, 0.5F}));
   EXPECT_EQ(find_attribute(clip, AttributeKind::kNormal)->components, 3U);
   EXPECT_EQ(find_attribute(clip, AttributeKind::kCustom)->name, "quality");
   EXPECT_EQ(find_attribute(clip, AttributeKind::kCustom)->values,
-            (std::vector<float>{7.5F, -1, 3}));
+            (FrameArray{7.5F, -1, 3}));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ std::string ply_fault(std::string_view bytes) {
   return fault([&] { parse_ply_text(bytes); });
 }
 
-void expect_same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+void expect_same_bits(std::span<const float> a, std::span<const float> b) {
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i)
     EXPECT_EQ(std::bit_cast<uint32_t>(a[i]), std::bit_cast<uint32_t>(b[i]));

@@ -42,7 +42,7 @@ TEST(Stl, RoundTripsTrianglesExactly) {
     append_stl(clip.polygons, clip.positions, ascii, bytes);
     std::vector<float> soup = parse_stl_bytes(bytes);
     StlWeld weld(soup, "a.stl", true);
-    std::vector<float> positions;
+    FrameArray positions;
     weld.append_vertices(soup, "a.stl", positions);
     EXPECT_EQ(weld.polygons(), clip.polygons);
     EXPECT_EQ(positions, clip.positions);
@@ -78,7 +78,7 @@ TEST(Stl, RejectsFramesThatBreakTheWeld) {
   append_stl(clip.polygons, clip.positions, false, bytes);
   std::vector<float> soup = parse_stl_bytes(bytes);
   StlWeld weld(soup, "0.stl", true);
-  std::vector<float> positions;
+  FrameArray positions;
   soup[9] += 1;  // corner 0 of triangle 1
   EXPECT_EQ(
       fault([&] { weld.append_vertices(soup, "1.stl", positions); }),

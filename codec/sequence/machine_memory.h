@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_TOOLS_IO_BASE_MACHINE_MEMORY_H_
-#define ANICODEC_TOOLS_IO_BASE_MACHINE_MEMORY_H_
+#ifndef ANICODEC_CODEC_SEQUENCE_MACHINE_MEMORY_H_
+#define ANICODEC_CODEC_SEQUENCE_MACHINE_MEMORY_H_
 
 #include <cstdint>
 
 #include <unistd.h>
 
-namespace anicodec::tools {
+namespace anicodec {
 
 /// Half of the memory that the machine has, in bytes: what a run may take unless told otherwise.
 inline uint64_t half_of_machine() {
@@ -15,6 +15,6 @@ inline uint64_t half_of_machine() {
   return static_cast<uint64_t>(pages) * static_cast<uint64_t>(size) / 2;
 }
 
-}  // namespace anicodec::tools
+}  // namespace anicodec
 
-#endif  // ANICODEC_TOOLS_IO_BASE_MACHINE_MEMORY_H_
+#endif  // ANICODEC_CODEC_SEQUENCE_MACHINE_MEMORY_H_
