@@ -18,7 +18,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 constexpr double kFromMesh = 0.5;        // weight of a distance, against those from the surface
 constexpr double kRest = 0.05;           // weight of the height itself
-constexpr double kSolveTolerance = 1e-3;
+constexpr double kFitTolerance = 1e-3;
 
 /// The equations of one round.
 class HeightEquations {
@@ -52,7 +52,7 @@ class HeightEquations {
     Matrix matrix(right_.size(), right_.size());
     matrix.setFromTriplets(entries_.begin(), entries_.end());
     Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver;
-    solver.setTolerance(kSolveTolerance);
+    solver.setTolerance(kFitTolerance);
     solver.compute(matrix);
     return solver.solve(right_);
   }

@@ -17,11 +17,11 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kDamping = 1e-3;  // of the diagonal
+constexpr double kTangentDamping = 1e-3;  // of the diagonal
 // Relative to the right side. The rest is smooth: it hardly matters for shapes, costs most iterations,
 // and would carry vertices far along the surface.
 constexpr double kSlideTolerance = 0.1;
-constexpr int kMostIterations = 300;
+constexpr int kMostConjugateSteps = 300;
 const double kCornerCosine = -std::cos(std::acos(-1.0) / 6);
 
 /// The place of a vertex on the surface, and the directions in which it may move.
@@ -115,7 +115,7 @@ class SlidingFrame {
   /// conjugate gradients with a diagonal preconditioner.
   Positions solve() const {
     const Index count = v_.rows();
-    Eigen::VectorXd diagonal = (1 + kDamping) * shape_.total_weight();
+    Eigen::VectorXd diagonal = (1 + kTangentDamping) * shape_.total_weight();
     diagonal = (diagonal.array() > 0).select(diagonal, 1.0);
     Positions residual = -shape_.half_gradient(v_, rotations_);
     restrict_to_tangents(&residual);
@@ -124,9 +124,9 @@ class SlidingFrame {
     Positions direction = scaled;
     double product = residual.cwiseProduct(scaled).sum();
     const double goal = product * kSlideTolerance * kSlideTolerance;
-    for (int k = 0; k < kMostIterations && product > goal && product > 0; ++k) {
+    for (int k = 0; k < kMostConjugateSteps && product > goal && product > 0; ++k) {
       shape_.apply_laplacian(direction, &image);
-      image += kDamping * (shape_.total_weight().asDiagonal() * direction);
+      image += kTangentDamping * (shape_.total_weight().asDiagonal() * direction);
       restrict_to_tangents(&image);
       const double curvature = direction.cwiseProduct(image).sum();
       if (!(curvature > 0))

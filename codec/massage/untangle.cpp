@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 constexpr int kUntanglePasses = 60;
 constexpr int kPassesAlone = 40;  // before what is around is evened out
 constexpr int kEvenedEvery = 5;   // passes
-constexpr int kMostAttempts = 4;
+constexpr int kMostUntanglings = 4;
 constexpr double kHeight = 0.002;     // that a triangle is left with, about, in its sides
 constexpr double kLongestMove = 0.5;  // mean edges
 
@@ -147,7 +147,7 @@ uint32_t untangle(const Surface& surface, Positions* v) {
 uint32_t untangle(const SurfaceTopology& mesh, const Surface& surface, Positions* v) {
   to_floats(v);
   uint32_t count = 0;
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kMostUntanglings; ++attempt) {
     const std::vector<uint32_t> turned = turned_triangles(mesh, *v, surface);
     if (turned.empty())
       break;

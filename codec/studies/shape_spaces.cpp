@@ -3,6 +3,7 @@
 #include "codec/studies/shape_spaces.h"
 
 #include "codec/algebra/gram.h"
+#include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/rigid_motion.h"
 #include "codec/connectivity/weld.h"
 #include "codec/interpolation/deformation_gradients.h"
@@ -17,8 +18,6 @@
 #include <memory>
 #include <optional>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
 
 namespace anicodec {
 namespace {
@@ -181,16 +180,17 @@ void add_errors(const ShapeSpace& space, const AlignedFrames& frames,
                 std::span<const size_t> counts, size_t all_frames,
                 std::vector<ShapeSpaceError>& rows) {
   const size_t count = frames.count(), measured = std::min(count, kMeasured);
-  // Ascending; the mean is in the kernel of the products.
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(space.gram);
-  const double variance = solver.eigenvalues().cwiseMax(0).sum();
+  // The mean is in the kernel of the products.
+  const Eigenpairs pairs = leading_eigenpairs(space.gram, space.gram.rows(), 0, space.gram.rows());
+  const double variance = pairs.values.sum();
   double reference = 0;
   for (size_t i = 0; i < measured; ++i)
     reference += frames.points[i * count / measured].squaredNorm();
   for (size_t k : counts) {
     if (k < 1 || k >= count)
       continue;
-    const auto leading = solver.eigenvectors().rightCols(static_cast<Index>(k));
+    const Index kept = std::min(static_cast<Index>(k), pairs.values.size());
+    const auto leading = pairs.vectors.leftCols(kept);
     double squared = 0;
     for (size_t i = 0; i < measured; ++i) {
       const size_t f = i * count / measured;
@@ -205,10 +205,7 @@ void add_errors(const ShapeSpace& space, const AlignedFrames& frames,
     row.numbers = space.numbers;
     row.bytes = 4 * ((k + 1) * space.numbers + k * all_frames);
     row.residual_percent =
-        variance > 0
-            ? 100 * solver.eigenvalues().head(static_cast<Index>(count - k)).cwiseMax(0).sum() /
-                  variance
-            : 0;
+        variance > 0 ? 100 * pairs.values.tail(pairs.values.size() - kept).sum() / variance : 0;
     rows.push_back(std::move(row));
   }
 }

@@ -12,10 +12,10 @@ if(LAUNCHER)
 endif()
 run(_ "${CMAKE_COMMAND}" -G Ninja -S "${SOURCE_DIR}" -B "${build}" ${launcher}
   "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}" -DCMAKE_BUILD_TYPE=Debug
-  -DANICODEC_WITH_DRACO=OFF -DANICODEC_LANES=1
+  -DANICODEC_WITH_DRACO=OFF -DANICODEC_LANES=1 -DCMAKE_UNITY_BUILD=ON
   -DCMAKE_DISABLE_FIND_PACKAGE_draco=ON -DANICODEC_BUILD_ENCODER=OFF -DANICODEC_BUILD_TOOLS=OFF
   -DANICODEC_BUILD_TESTS=OFF)
-run(_ "${CMAKE_COMMAND}" --build "${build}")
+run(_ "${CMAKE_COMMAND}" --build "${build}" --target anicodec_sdk_shared example_frame_to_obj_c)
 file(GLOB_RECURSE library "${build}/sdk/*libanicodec.so")
 needed_libraries("${library}" needed)
 if("libdraco" IN_LIST needed)

@@ -7,7 +7,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { Anicodec } from '../../sdk/web/index.js';
 import { bytesOf, clipWithLooks, files, movingGlb, sceneWithMovingTexture } from './files.mjs';
-import { CHROMIUM, serve, withPage } from './serve.mjs';
+import { CHROMIUM, launch, serve, withPage } from './serve.mjs';
 
 const IMPORTS = JSON.stringify({ imports: {
   anicodec: '/sdk/web/index.js', 'anicodec/three': '/sdk/web/three.js',
@@ -18,12 +18,16 @@ const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap
 const looks = clipWithLooks(), texture = sceneWithMovingTexture();
 const skip = CHROMIUM ? false : 'there is no Chromium';
 const VIEWER = new URL('../../sdk/web/dist/viewer.html', import.meta.url);
-let server;
+let server, browser;
 before(async () => {
+  browser = skip ? undefined : await launch();
   const bytes = bytesOf('clips.anic'), clip = await Anicodec.open(bytes);
   server = await serve({ ...(looks ? { '/looks.anic': looks, '/texture.glb': texture } : {}), '/page': PAGE, '/moving.glb': movingGlb(bytes, clip), '/beside.glb': movingGlb(bytes, clip, { uri: 'tests/conformance/clips.anic' }) });
 });
-after(() => server.close());
+after(() => {
+  server.close();
+  return browser?.close();
+});
 
 /** Runs a function in a page that can import the package; nothing may be said on the console. */
 async function inPage(body, argument) {
@@ -32,7 +36,7 @@ async function inPage(body, argument) {
     const result = await page.evaluate(body, argument);
     assert.deepEqual(messages, []);
     return { result, picture: await page.screenshot() };
-  });
+  }, { browser });
 }
 
 test('opens in a worker what opens in the page, bit for bit, and reports damage', { skip }, async () => {

@@ -30,16 +30,22 @@ export async function serve(pages = {}) {
   return { url: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
 }
 
-/** Runs body(page, messages) in a new page; messages are what the console and the page's errors say. */
-export async function withPage(body, { webgpu = false, ...options } = {}) {
+/** Starts a browser, which the caller closes. */
+export async function launch({ webgpu = false } = {}) {
   const { chromium } = await import('playwright-core');
-  const browser = await chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(webgpu ? WEBGPU : [])] });
+  return chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(webgpu ? WEBGPU : [])] });
+}
+
+/** Runs body(page, messages) in a new page, of `browser` or of one of its own; messages are what the console and the page's errors say. */
+export async function withPage(body, { browser, webgpu = false, ...options } = {}) {
+  const used = browser ?? await launch({ webgpu });
+  const context = await used.newContext({ viewport: { width: 320, height: 240 }, ...options }), messages = [];
   try {
-    const page = await browser.newPage({ viewport: { width: 320, height: 240 }, ...options }), messages = [];
+    const page = await context.newPage();
     page.on('console', (message) => messages.push(`${message.type()}: ${message.text()}`));
     page.on('pageerror', (error) => messages.push(String(error)));
     return await body(page, messages);
   } finally {
-    await browser.close();
+    await (browser ? context : used).close();
   }
 }

@@ -6,6 +6,7 @@
 #include "tools/io/base/byte_order.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_attributes.h"
+#include "tools/io/base/mesh.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/files/name_pattern.h"
 #include "tools/io/files/output_folder.h"
@@ -26,10 +27,6 @@
 
 namespace anicodec::tools {
 namespace {
-
-[[noreturn]] void fail_usage(const std::string& path, const std::string& text) {
-  throw Error(ErrorKind::kUsage, path + ": " + text);
-}
 
 void append_mesh(FileKind kind, const Polygons& polygons, std::span<const float> positions,
                  bool ascii, const ObjDetails* details, const PlyProperties* properties,

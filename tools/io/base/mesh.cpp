@@ -10,6 +10,10 @@ void fail_input(std::string_view name, const std::string& text) {
   throw Error(ErrorKind::kInput, std::string(name) + ": " + text);
 }
 
+void fail_usage(std::string_view name, const std::string& text) {
+  throw Error(ErrorKind::kUsage, std::string(name) + ": " + text);
+}
+
 void check_size(const Mesh& mesh, std::string_view name) {
   if (mesh.positions.empty())
     fail_input(name, "the mesh has no vertex");

@@ -36,6 +36,9 @@ inline constexpr uint64_t kMaxCorners = (uint64_t{1} << 32) - 1;
 /// Throws Error(kInput) "name: text".
 [[noreturn]] void fail_input(std::string_view name, const std::string& text);
 
+/// Throws Error(kUsage) "name: text".
+[[noreturn]] void fail_usage(std::string_view name, const std::string& text);
+
 /// Throws Error(kInput) unless the mesh has a vertex and its counts are within the limits.
 void check_size(const Mesh& mesh, std::string_view name);
 

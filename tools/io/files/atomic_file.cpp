@@ -3,6 +3,7 @@
 #include "tools/io/files/atomic_file.h"
 
 #include "codec/sequence/error.h"
+#include "tools/io/base/mesh.h"
 #include "tools/io/files/commit_record.h"
 
 #include <cerrno>
@@ -22,10 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t kBufferSize = size_t{1} << 18;
-
-[[noreturn]] void fail_usage(const std::string& path, const std::string& text) {
-  throw Error(ErrorKind::kUsage, path + ": " + text);
-}
 
 /// Renames only if nothing has the name yet; false if something has.
 bool rename_new(const std::string& from, const std::string& to) {
