@@ -31,19 +31,29 @@ if $packages_wanted; then
     timeout 120 npm ci --prefix tests/gltf --no-audit --no-fund || say "No glTF validator: its test is skipped"
   fi
 fi
-if command -v npm >/dev/null; then
-  if $packages_wanted; then
-    install_optional emscripten chromium || say "No emscripten or Chromium: tests of the npm package are skipped"
-    for folder in sdk/web tests/web tests/web/babylon tests/web/vite; do
-      [[ -d $folder/node_modules ]] || timeout 120 npm ci --prefix "$folder" --no-audit --no-fund ||
-        say "$folder lacks packages of npm: its tests are skipped"
-    done
-  fi
-  if command -v emcc >/dev/null && [[ -d sdk/web/node_modules/zstd-napi ]]; then
-    build wasm
-    build wasm-scalar
-  fi
+# What the web's tests need, which no other build waits for.
+install_web_packages() {
+  install_optional emscripten chromium || say "No emscripten or Chromium: tests of the npm package are skipped"
+  local folder
+  for folder in sdk/web tests/web tests/web/babylon tests/web/vite; do
+    [[ -d $folder/node_modules ]] || timeout 120 npm ci --prefix "$folder" --no-audit --no-fund ||
+      say "$folder lacks packages of npm: its tests are skipped"
+  done
+}
+
+if command -v npm >/dev/null && $packages_wanted; then
+  mkdir -p build
+  install_web_packages >build/web_packages.log 2>&1 &
 fi
 build test
+wait
+if [[ -f build/web_packages.log ]]; then
+  cat build/web_packages.log
+  rm build/web_packages.log
+fi
+if command -v emcc >/dev/null && [[ -d sdk/web/node_modules/zstd-napi ]]; then
+  build wasm
+  build wasm-scalar
+fi
 say "Running the tests"
 ctest --preset test -j "$(nproc)" "${ctest_options[@]}"

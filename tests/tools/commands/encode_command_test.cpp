@@ -322,6 +322,24 @@ TEST_F(EncodeCommand, NamesAFrameThatDoesNotFit) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "f.anic"));
 }
 
+TEST_F(EncodeCommand, KeepsFramesInFilesWhereTheMemoryIsSmall) {
+  write_sequence(folder_ / "big.pc2", corpus::make_wave_grid(2000, 60, 8));
+  const auto arguments = [&](const std::string& output) {
+    return std::vector<std::string>{"encode", folder_ / "big.pc2", "--effort", "1", "-o", folder_ / output};
+  };
+  std::vector<std::string> small = arguments("files.anic");
+  small.insert(small.end(), {"--memory", "1k"});
+  std::vector<std::string> without_room{"env", "TMPDIR=/no/such/folder", ANICODEC_COMMAND};
+  without_room.insert(without_room.end(), small.begin(), small.end());
+  const Outcome failed = run_program(without_room);
+  EXPECT_EQ(failed.status, 5) << failed;
+  EXPECT_THAT(failed.err, AllOf(HasSubstr("big.pc2: /no/such/folder: "), HasSubstr("No such file")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "files.anic"));
+  EXPECT_EQ(anicodec(small).status, 0);
+  EXPECT_EQ(anicodec(arguments("memory.anic")).status, 0);
+  EXPECT_EQ(folder_.read("files.anic"), folder_.read("memory.anic"));
+}
+
 TEST_F(EncodeCommand, LeavesNothingBehindWhenInterrupted) {
   write_sequence(folder_ / "big.pc2", corpus::make_wave_grid(20000, 80, 40));
   // The output waits in a folder of its own before the search begins, which takes seconds.
