@@ -84,7 +84,7 @@ struct EncoderInput {
 
   MeshSequence sequence;  ///< the source without its positions
   MeshLayout layout;
-  FrameArray coded;  ///< frames x coded vertices x 3
+  FrameArray coded;               ///< frames x coded vertices x 3
   /// Where the motion of the whole was taken out: the same with it. Else empty.
   FrameArray whole;
   std::vector<InputClip> clips;   ///< one at least, in the order of their frames

@@ -29,7 +29,7 @@ std::shared_ptr<const EncodedPose> own_pose(const EncoderInput& input) {
 
 /// How three components of an attribute differ from those of frame 0 as stored.
 struct Offsets {
-  FrameArray frames;  ///< frames x coded vertices x 3
+  FrameArray frames;          ///< frames x coded vertices x 3
   double spread = 0;          ///< largest distance of a copy from the mean of its vertex
   double largest = 0;         ///< of the means
 };

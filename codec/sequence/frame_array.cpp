@@ -2,17 +2,18 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/frame_array.h"
 
+#include <atomic>
+#include <new>
+
+#ifdef __linux__
 #include "codec/sequence/error.h"
 #include "codec/sequence/machine_memory.h"
 
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
-#include <new>
 #include <string>
 #include <system_error>
 
-#ifdef __linux__
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>

@@ -270,8 +270,8 @@ void add_arguments(Options& options, EncodeArguments& a) {
                  "Encode all clips in a folder, or in a list with a clip per line");
   options.option(
       "--memory", a.memory, "BYTES",
-      "For all of a run (default: half of the machine): frames beyond a third of it lie in files in TMPDIR or "
-      "/var/tmp; what scenes and archives make of few bytes is refused");
+      "For a run, or all clips of --batch (default: half of the machine): frames beyond a third of it lie in files in "
+      "TMPDIR or /var/tmp; scenes and archives that make more of few bytes are refused");
   options.flag("--allow-outside", a.allow_outside,
                "Let a scene name files outside its folder: those of strangers then choose what is "
                "read");

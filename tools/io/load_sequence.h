@@ -3,10 +3,10 @@
 #ifndef ANICODEC_TOOLS_IO_LOAD_SEQUENCE_H_
 #define ANICODEC_TOOLS_IO_LOAD_SEQUENCE_H_
 
+#include "codec/sequence/machine_memory.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "codec/sequence/progress.h"
 #include "codec/sequence/scene.h"
-#include "codec/sequence/machine_memory.h"
 #include "tools/io/gltf/gltf_material.h"
 #include "tools/io/gltf/moving_glb.h"
 

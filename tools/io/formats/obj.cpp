@@ -35,7 +35,7 @@ constexpr std::string_view kNoName = "(null)";
 struct Pool {
   const char* what;
   uint32_t components;
-  FrameArray values = {};     ///< as listed
+  FrameArray values = {};             ///< as listed
   std::vector<int64_t> corners = {};  ///< number of each corner, or -1
 
   int64_t size() const { return static_cast<int64_t>(values.size() / components); }
