@@ -71,7 +71,7 @@ nb::dict hausdorff_of(const Array<float>& a, const Array<uint32_t>& a_offsets,
 Numpy32 massaged(const Array<float>& positions, const Array<uint32_t>& offsets,
                  const Array<uint32_t>& corners, uint32_t reference, double strength,
                  double tolerance, bool remove_noise) {
-  std::vector<float> moved;
+  FrameArray moved;
   {
     const nb::gil_scoped_release release;
     MassageOptions options;
