@@ -32,6 +32,47 @@ int64_t cosine(int64_t m, int64_t n) {
   return sum;
 }
 
+/// Sums of v_f cos((f + 1/2) k angle) over `count` values, for k = first, first + 2, ... below `end`, into
+/// sums[k stride], by the recurrence b_f = v_f + 2 cos(a) b_(f+1) - b_(f+2) (Clenshaw 1955), some angles side by side.
+void clenshaw_sums(const double* values, uint32_t count, double angle, uint32_t first, uint32_t end,
+                   double* sums, size_t stride) {
+  constexpr uint32_t kAngles = 8;
+  for (uint32_t k = first; k < end; k += 2 * kAngles) {
+    double twice[kAngles], last[kAngles] = {}, before[kAngles] = {};
+    for (uint32_t i = 0; i < kAngles; ++i)
+      twice[i] = 2 * std::cos((k + 2 * i) * angle);
+    for (uint32_t f = count; f-- > 0;) {
+      for (uint32_t i = 0; i < kAngles; ++i) {
+        const double next = values[f] + twice[i] * last[i] - before[i];
+        before[i] = last[i];
+        last[i] = next;
+      }
+    }
+    for (uint32_t i = 0; i < kAngles && k + 2 * i < end; ++i)
+      sums[(k + 2 * i) * stride] = std::cos((k + 2 * i) * angle / 2) * (last[i] - before[i]);
+  }
+}
+
+/// Sums of v_f cos((f + 1/2) k pi / length) for all k below the length into sums[k stride]. Even functions are the
+/// same from both ends, and their sums a transform of half the length; odd ones change sign. Overwrites the values.
+void cosine_sums(double* values, uint32_t length, double* sums, size_t stride) {
+  const uint32_t half = length / 2;
+  const double angle = 3.14159265358979323846 / length;
+  Vector<double> odd(half);
+  for (uint32_t f = 0; f < half; ++f) {
+    odd[f] = values[f] - values[length - 1 - f];
+    values[f] += values[length - 1 - f];
+  }
+  clenshaw_sums(odd.data(), half, angle, 1, length, sums, stride);
+  if (length % 2 == 0) {
+    cosine_sums(values, half, sums, 2 * stride);
+    return;
+  }
+  clenshaw_sums(values, half, angle, 0, length, sums, stride);
+  for (uint32_t k = 0; k < length; k += 2)
+    sums[k * stride] += k % 4 == 0 ? values[half] : -values[half];
+}
+
 }  // namespace
 
 CosineTransform::CosineTransform(uint32_t length) : length_(length) {
@@ -53,54 +94,60 @@ CosineTransform::CosineTransform(uint32_t length) : length_(length) {
 }
 
 void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) const {
-  // |coefficient| <= 2^22, |entry| < 2^29, 2^10 terms: the sums stay below 2^63. Even functions are
-  // the same from both ends, odd ones change sign: half of the values, of each kind apart.
-  const uint32_t half = (length_ + 1) / 2, period = 4 * length_;
-  Vector<int64_t> sums(size_t{2} * half, 0);
-  std::fill_n(sums.begin(), half, int64_t{coefficients[0]} * constant_);
-  for (uint32_t k = 1; k < length_; ++k) {
+  Vector<int64_t> sums(length_), odd((length_ + 1) / 2);
+  inverse_sums(coefficients, 1, sums.data(), odd.data());
+  const int down = shift_ - kFractionBits;
+  for (uint32_t f = 0; f < length_; ++f)
+    values[f] = static_cast<int32_t>(std::clamp<int64_t>(
+        (sums[f] + (int64_t{1} << (down - 1))) >> down, -kValueLimit, kValueLimit));
+}
+
+/// Sums of the coefficients 0, step, 2 step, ..., which are those of a transform of length / step values. Even
+/// functions are the same from both ends, so that half of the values, of half the length, have them all; odd ones change
+/// sign. `odd`: room for half of the values. |coefficient| <= 2^22, |entry| < 2^29, 2^10 terms: the sums stay below 2^63.
+void CosineTransform::inverse_sums(const int32_t* coefficients, uint32_t step, int64_t* sums,
+                                   int64_t* odd) const {
+  const uint32_t length = length_ / step, half = (length + 1) / 2;
+  if (length % 2 == 0) {
+    inverse_sums(coefficients, 2 * step, sums, odd);
+  } else {
+    std::fill_n(sums, half, int64_t{coefficients[0]} * constant_);
+    add_products(coefficients, 2 * step, step, sums);
+  }
+  std::fill_n(odd, half, int64_t{0});
+  add_products(coefficients, step, step, odd);
+  for (uint32_t f = 0; f < half; ++f) {
+    const int64_t even = sums[f];
+    sums[f] = even + odd[f];
+    sums[length - 1 - f] = even - odd[f];
+  }
+}
+
+/// Adds every second coefficient from `first` on, at distances of 2 steps, to the first half of the values.
+void CosineTransform::add_products(const int32_t* coefficients, uint32_t first, uint32_t step,
+                                   int64_t* sums) const {
+  const uint32_t half = (length_ / step + 1) / 2, period = 4 * length_;
+  for (uint32_t k = first; k < length_; k += 2 * step) {
     const int64_t y = coefficients[k];
     if (y == 0)
       continue;
-    int64_t* sum = sums.data() + (k % 2) * half;
     uint32_t m = k;
     for (uint32_t f = 0; f < half; ++f) {
-      sum[f] += y * table_[m];
+      sums[f] += y * table_[m];
       m += 2 * k;
       if (m >= period)
         m -= period;
     }
   }
-  const int down = shift_ - kFractionBits;
-  const auto rounded = [&](int64_t sum) {
-    return static_cast<int32_t>(
-        std::clamp<int64_t>((sum + (int64_t{1} << (down - 1))) >> down, -kValueLimit, kValueLimit));
-  };
-  for (uint32_t f = 0; f < half; ++f) {
-    values[f] = rounded(sums[f] + sums[half + f]);
-    values[length_ - 1 - f] = rounded(sums[f] - sums[half + f]);
-  }
 }
 
 void CosineTransform::forward(const double* values, double* coefficients) const {
-  // Sum of v_f cos((f + 1/2) a) by the recurrence b_f = v_f + 2 cos(a) b_(f+1) - b_(f+2) (Clenshaw 1955), some
-  // angles side by side.
-  constexpr uint32_t kAngles = 8;
-  const double angle = 3.14159265358979323846 / length_, scale = std::sqrt(2.0 / length_);
-  for (uint32_t first = 0; first < length_; first += kAngles) {
-    double twice[kAngles], last[kAngles] = {}, before[kAngles] = {};
-    for (uint32_t i = 0; i < kAngles; ++i)
-      twice[i] = 2 * std::cos((first + i) * angle);
-    for (uint32_t f = length_; f-- > 0;) {
-      for (uint32_t i = 0; i < kAngles; ++i) {
-        const double next = values[f] + twice[i] * last[i] - before[i];
-        before[i] = last[i];
-        last[i] = next;
-      }
-    }
-    for (uint32_t i = 0; i < kAngles && first + i < length_; ++i)
-      coefficients[first + i] = scale * std::cos((first + i) * angle / 2) * (last[i] - before[i]);
-  }
+  Vector<double> folded(length_);
+  std::copy_n(values, length_, folded.begin());
+  cosine_sums(folded.data(), length_, coefficients, 1);
+  const double scale = std::sqrt(2.0 / length_);
+  for (uint32_t k = 0; k < length_; ++k)
+    coefficients[k] *= scale;
   coefficients[0] *= std::sqrt(0.5);
 }
 

@@ -29,10 +29,14 @@ class CosineTransform {
   /// Values in 1/16 from integer coefficients within +-kLimit. O(length x non-zero coefficients).
   void inverse(const int32_t* coefficients, int32_t* values) const;
 
-  /// Coefficients of real values, for encoders: not bit-exact. O(length^2).
+  /// Coefficients of real values, for encoders: not bit-exact. O(length^2): a third of the
+  /// products of the definition where the length is a power of two, half of them where it is odd.
   void forward(const double* values, double* coefficients) const;
 
  private:
+  void inverse_sums(const int32_t* coefficients, uint32_t step, int64_t* sums, int64_t* odd) const;
+  void add_products(const int32_t* coefficients, uint32_t first, uint32_t step, int64_t* sums) const;
+
   uint32_t length_;
   int shift_;              ///< table entries are scaled by 2^shift_
   int32_t constant_;       ///< of coefficient 0
