@@ -24,6 +24,44 @@ float bits(const ResidualCosts& costs, int32_t q) {
 
 }  // namespace
 
+/// A sum of sparse rows, which costs what they have.
+class JointRounding::SparseSum {
+ public:
+  explicit SparseSum(size_t columns) : values_(columns, 0.0F), unmet_(columns, 1), met_(columns + 1) {}
+
+  /// Adds entries times a factor.
+  void add(const Entry* entry, const Entry* end, float factor) {
+    float* const values = values_.data();
+    uint32_t* const unmet = unmet_.data();
+    uint32_t* met = met_.data() + count_;
+    for (; entry < end; ++entry) {
+      const uint32_t r = entry->rank;
+      *met = r;  // without a branch, which would be guessed wrong
+      met += unmet[r];
+      unmet[r] = 0;
+      values[r] += factor * entry->value;
+    }
+    count_ = static_cast<size_t>(met - met_.data());
+  }
+
+  /// Calls f(rank, value) for what has been added to, and begins anew.
+  template <class F>
+  void take(const F& f) {
+    for (size_t k = 0; k < count_; ++k) {
+      const uint32_t r = met_[k];
+      unmet_[r] = 1;
+      f(r, values_[r]);
+      values_[r] = 0;
+    }
+    count_ = 0;
+  }
+
+ private:
+  std::vector<float> values_;
+  std::vector<uint32_t> unmet_, met_;  ///< 1 or 0; ranks, and room for one more
+  size_t count_ = 0;
+};
+
 void JointRounding::set_weights(std::vector<float> weights) {
   weights_ = std::move(weights);
   const auto m = static_cast<size_t>(order_.neighbour_count);
@@ -32,35 +70,22 @@ void JointRounding::set_weights(std::vector<float> weights) {
   std::vector<size_t> row_start{0};
   std::vector<Entry> rows;
   row_start.reserve(n + 1);
-  std::vector<float> sum(n, 0.0F);
-  std::vector<uint8_t> met(n, 0);
-  std::vector<uint32_t> ranks;
+  SparseSum sum(n);
   std::vector<size_t> count(n + 1, 0);
   for (size_t i = 0; i < n; ++i) {
-    ranks.clear();
     for (size_t a = 0; a < m; ++a) {
       const int32_t b = order_.neighbours[i * m + a];
       if (b < 0)
         break;
-      const float w = weights_[i * m + a];
-      for (size_t e = row_start[static_cast<size_t>(b)]; e < row_start[static_cast<size_t>(b) + 1];
-           ++e) {
-        const Entry& entry = rows[e];
-        if (!met[entry.rank]) {
-          met[entry.rank] = 1;
-          sum[entry.rank] = 0;
-          ranks.push_back(entry.rank);
-        }
-        sum[entry.rank] += w * entry.value;
-      }
+      sum.add(rows.data() + row_start[static_cast<size_t>(b)],
+              rows.data() + row_start[static_cast<size_t>(b) + 1], weights_[i * m + a]);
     }
-    for (const uint32_t r : ranks) {
-      met[r] = 0;
-      if (std::abs(sum[r]) > kNegligible) {
-        rows.push_back({r, sum[r]});
-        ++count[r + 1];
+    sum.take([&](uint32_t rank, float value) {
+      if (std::abs(value) > kNegligible) {
+        rows.push_back({rank, value});
+        ++count[rank + 1];
       }
-    }
+    });
     rows.push_back({static_cast<uint32_t>(i), 1.0F});
     ++count[i + 1];
     row_start.push_back(rows.size());

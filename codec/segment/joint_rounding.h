@@ -39,6 +39,8 @@ class JointRounding {
     float value;
   };
 
+  class SparseSum;
+
   const VertexOrder& order_;
   std::vector<float> weights_;
   // Columns of (I - W)^-1: what a residual of 1 does to all vertices.

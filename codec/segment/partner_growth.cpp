@@ -8,10 +8,20 @@
 namespace anicodec {
 
 bool PartnerGrowth::grow(const Triple& from, const Triple& to, const Rules& rules) {
+  constexpr size_t kMostWasted = 32, kFreeWaste = 4096;  // steps for each vertex, and in all
+  clear();
+  if (wasted_ > kMostWasted * map_.size() + kFreeWaste)
+    return false;
+  rules_ = rules;
+  steps_ = 0;
+  const bool worth = grow_from(from, to);
+  wasted_ += worth ? 0 : steps_;
+  return worth;
+}
+
+bool PartnerGrowth::grow_from(const Triple& from, const Triple& to) {
   constexpr uint32_t kTrial = 24;
   constexpr double kLeastGain = 3, kWorth = 40;  // bits, a vertex and in all
-  clear();
-  rules_ = rules;
   for (size_t i = 0; i < 3; ++i) {
     if (map_[from[i]] == to[i])
       continue;
@@ -88,6 +98,7 @@ void PartnerGrowth::push_gates(uint32_t v) {
 
 /// Looks for the image of the vertex beyond the edge that faces a corner.
 void PartnerGrowth::push(uint32_t corner) {
+  ++steps_;
   constexpr double kSlack = 0.1;  // of an edge: how far from where it is expected a partner may be
   const CornerTable& table = surface_.table;
   const uint32_t beyond = table.opposite(corner);

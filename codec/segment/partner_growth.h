@@ -13,7 +13,9 @@
 namespace anicodec {
 
 /// A correspondence that grows over a surface from a triangle and its image, best fits first, as long
-/// as each vertex is within a tenth of an edge of where its neighbours' images expect it.
+/// as each vertex is within a tenth of an edge of where its neighbours' images expect it. Growths that
+/// come to nothing are given up once they have taken a number of steps in proportion to the vertices:
+/// over a regular sheet each triangle is like every other.
 class PartnerGrowth {
  public:
   explicit PartnerGrowth(const PartnerSurface& surface)
@@ -27,7 +29,8 @@ class PartnerGrowth {
     uint32_t part_of_images = 0;
   };
 
-  /// Grows from three vertices at a triangle and their images. False if it saves too few bits.
+  /// Grows from three vertices at a triangle and their images. False if it saves too few bits, or if
+  /// too many growths did before.
   bool grow(const Triple& from, const Triple& to, const Rules& rules);
 
   /// Sources of what has grown.
@@ -48,6 +51,7 @@ class PartnerGrowth {
     }
   };
 
+  bool grow_from(const Triple& from, const Triple& to);
   void clear();
   bool free(uint32_t v, uint32_t image) const;
   void put(uint32_t v, uint32_t image);
@@ -56,6 +60,7 @@ class PartnerGrowth {
 
   const PartnerSurface& surface_;
   Rules rules_;
+  size_t steps_ = 0, wasted_ = 0;  ///< of the last growth, and of those that came to nothing
   std::vector<uint32_t> map_, inverse_, sources_;
   std::priority_queue<Step> queue_;
 };
