@@ -57,12 +57,8 @@ CodedClip ClipSearch::run(const ClipsRecord& record) {
   double positions_bytes = allowed.value_or(0);
   CodedClip coded;
   for (int round = 0; round < kRateRounds; ++round) {
-    if (round == 0) {
-      coded.positions = control_.solve();
-    } else {
-      const Target remaining{ErrorMetric::kSize, std::max(positions_bytes, 1.0), false};
-      coded.positions = RateControl(input_, options_, remaining, diagonal_).solve();
-    }
+    coded.positions =
+        round == 0 ? control_.solve() : control_.solve_within(std::max(positions_bytes, 1.0));
     coded.attributes = encode_moving_attributes(input_, stored_, options_,
                                                 coded.positions.parts[0].encoded.reference);
     if (!allowed || coded.attributes.parts.empty())

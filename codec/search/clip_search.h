@@ -37,7 +37,6 @@ class ClipSearch {
         stored_(stored),
         options_(options),
         target_(target),
-        diagonal_(diagonal),
         control_(input, options, target, diagonal) {}
 
   /// `record`: for the size of the file. Throws Error(kUsage) when the target cannot be reached.
@@ -56,7 +55,6 @@ class ClipSearch {
   const std::vector<StoredAttribute>& stored_;
   const EncodeOptions& options_;
   Target target_;
-  double diagonal_;
   RateControl control_;
 };
 

@@ -3,6 +3,7 @@
 #include "codec/search/linear_coder.h"
 
 #include "codec/search/opening_time.h"
+#include "codec/search/step_search.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
@@ -34,14 +35,16 @@ constexpr size_t kFewestVertices = 200;  // of a region, on average
 // that missed the error.
 constexpr double kWorthTrying = 1.05, kFarFromBest = 1.15;
 
-/// How near to the error asked for is near enough, and where to aim, as parts of it.
+/// How near to the error asked for is near enough, at first and after a few trials, and where to aim,
+/// as parts of it.
 struct Nearness {
-  double close, aim;
+  double close, enough, aim;
 };
 
-constexpr Nearness kFirst{0.93, 0.97};  // of no effort
-constexpr Nearness kPlain{0.997, 0.9985};
-constexpr Nearness kThorough{0.994, 0.997};  // errors vary by some thousandths
+constexpr Nearness kFirst{0.93, 0.93, 0.97};  // of no effort
+constexpr Nearness kPlain{0.997, 0.994, 0.9985};
+constexpr Nearness kThorough{0.994, 0.99, 0.997};  // errors vary by some thousandths
+constexpr int kPatience = 3;
 
 size_t most_components(const LinearSettings& settings) {
   return settings.components.empty() ? 0 : std::ranges::max(settings.components);
@@ -393,25 +396,32 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   // The settings of less effort, if they will be wanted, are tried at the same time where a thread has nothing to do.
   const bool thorough = thorough_;
   std::optional<CodedPart> best, ahead;
+  LinearChoice choice_ahead;
   const bool looks_ahead = !earlier_.empty() && tbb::this_task_arena::max_concurrency() > 1;
   tbb::parallel_invoke([&] { best = reached(choice_, rmse); },
                        [&] {
-                         if (looks_ahead)
-                           ahead = reached(earlier_.back().choice, rmse);
+                         if (!looks_ahead)
+                           return;
+                         choice_ahead = earlier_.back().choice;
+                         ahead = reached(choice_ahead, rmse);
                        });
   if (thorough_ && best && least_ > 0 && bytes(*best) > least_)
     turn_down(rmse, *best);
   const double all_means = best && least_ > 0 ? std::min(bytes(*best) / least_, 1.0) : 1;
   // One trial tells a size but roughly: what a search of less effort ends with may be smaller yet.
-  for (const Candidate& earlier : std::views::reverse(earlier_)) {
+  for (Candidate& earlier : std::views::reverse(earlier_)) {
     if (best && earlier.bytes * all_means * (1 - kDoubt) > bytes(*best))
       continue;
-    const bool is_there = looks_ahead && &earlier == &earlier_.back() && thorough == thorough_;
-    std::optional<CodedPart> part =
-        is_there ? std::move(ahead) : reached(earlier.choice, rmse);
+    std::optional<CodedPart> part;
+    if (looks_ahead && &earlier == &earlier_.back() && thorough == thorough_) {
+      part = std::move(ahead);
+      earlier.choice = std::move(choice_ahead);
+    } else {
+      part = reached(earlier.choice, rmse);
+    }
     if (part && (!best || bytes(*part) < bytes(*best))) {
       best = std::move(part);
-      choice_ = earlier.choice;
+      choice_ = std::move(earlier.choice);
     }
   }
   earlier_.clear();
@@ -419,52 +429,67 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   return best;
 }
 
+std::optional<CodedPart> LinearCoder::near_rmse(double rmse) {
+  if (!(rmse > 0))
+    return std::nullopt;
+  Measured trial = measured(started(choice_, rmse), rmse);
+  if (std::isinf(trial.rmse))
+    return std::nullopt;
+  return std::move(trial.part);
+}
+
 /// Does without the means that take longer where that is smaller.
 void LinearCoder::turn_down(double rmse, CodedPart& best) {
   thorough_ = false;
-  std::optional<CodedPart> plain = reached(choice_, rmse);
+  LinearChoice choice = choice_;
+  choice.step_factor = 1;
+  std::optional<CodedPart> plain = reached(choice, rmse);
   thorough_ = !plain || bytes(*plain) >= bytes(best);
-  if (!thorough_)
-    best = std::move(*plain);
+  if (thorough_)
+    return;
+  best = std::move(*plain);
+  choice_ = std::move(choice);
 }
 
-std::optional<CodedPart> LinearCoder::reached(LinearChoice choice, double rmse) {
-  choice = started(choice, rmse);
+/// Meets an error. The choice keeps what helps to meet the next one sooner.
+std::optional<CodedPart> LinearCoder::reached(LinearChoice& choice, double rmse) {
+  LinearChoice tried = started(choice, rmse);
+  const double estimated = tried.settings.step;
+  tried.settings.step *= choice.step_factor;
   const Nearness& near = thorough_ ? kThorough : effort_ > 0 ? kPlain : kFirst;
+  StepSearch search(near.aim, choice.slope);
   std::optional<Measured> best;
-  double inside = 0, outside = std::numeric_limits<double>::infinity();  // steps known to be so
+  double closest = 0;  // ratio of those that keep to the error
   for (int round = 0; round < kStepRounds; ++round) {
-    LinearChoice tried = choice;
     if (thorough_) {
-      tried.settings.joint_lambda = input_.allows(kJointRoundingMean) ? choice.price : 0;
+      tried.settings.joint_lambda = input_.allows(kJointRoundingMean) ? tried.price : 0;
       tried.settings.refit_weights = input_.allows(kRefittedWeightsMean);
     }
     Measured trial = measured(tried, rmse);
     if (std::isinf(trial.rmse))
       break;
-    if (choice.price == 0)
-      learn(trial, rmse, choice);
+    if (tried.price == 0)
+      learn(trial, rmse, tried);
     else if (round < kStepRounds / 2)
-      even_out(trial, choice);
-    const double ratio = trial.rmse / rmse, step = choice.settings.step;
-    const bool fits = ratio <= 1;
-    (fits ? inside : outside) = step;
-    if (fits && (!best || bytes(trial.part) < bytes(best->part)))
+      even_out(trial, tried);
+    const double ratio = std::max(trial.rmse / rmse, 1e-9), step = tried.settings.step;
+    if (ratio <= 1 && (!best || bytes(trial.part) < bytes(best->part))) {
       best = std::move(trial);
-    if (fits && ratio >= near.close)
-      break;
-    if (outside < inside || round == 3) {
-      // The components left out alone take most of the error: more of them.
-      for (size_t& k : choice.settings.components)
-        k += k / 16 + (best ? 0 : 1);
-      outside = std::numeric_limits<double>::infinity();
+      choice.step_factor = step / estimated;
     }
-    // Aim just below the target: what counts is to end there from below.
-    double next = step * std::clamp(near.aim / std::max(ratio, 1e-9), 0.25, 4.0);
-    if (next >= outside || next <= inside)
-      next = std::isinf(outside) ? next : std::sqrt(std::max(inside, 0.5 * outside) * outside);
-    choice.settings.step = next;
+    if (ratio <= 1)
+      closest = std::max(closest, ratio);
+    if (closest >= (round < kPatience ? near.close : near.enough))
+      break;
+    if (round >= kPatience && !best) {
+      // The components left out alone take most of the error: more of them.
+      for (size_t& k : tried.settings.components)
+        k += k / 16 + 1;
+      search = StepSearch(near.aim, choice.slope);
+    }
+    tried.settings.step = search.next(step, ratio);
   }
+  choice.slope = search.slope();
   if (!best)
     return std::nullopt;
   best->part.asked = rmse;

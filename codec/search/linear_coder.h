@@ -32,6 +32,7 @@ class LinearCoder : public SegmentCoder {
               uint32_t layers, OpeningChoice opening, uint32_t first_frame = 0);
 
   std::optional<CodedPart> at_rmse(double rmse) override;
+  std::optional<CodedPart> near_rmse(double rmse) override;
 
   BasisKind kind() const { return kind_; }
 
@@ -110,7 +111,7 @@ class LinearCoder : public SegmentCoder {
   bool try_steps(std::span<const LinearStep> steps, double rmse, double* least);
   void choose_settings(double rmse);
   void turn_down(double rmse, CodedPart& best);
-  std::optional<CodedPart> reached(LinearChoice choice, double rmse);
+  std::optional<CodedPart> reached(LinearChoice& choice, double rmse);
   double bytes(const CodedPart& part) const;
 
   const EncoderInput& input_;

@@ -24,23 +24,37 @@ Solution RateControl::solve() {
   if (options_.basis == BasisChoice::kKeyframes || options_.keyframes) {
     best = by_keyframes_alone();
   } else {
-    const LinearAnalysis analysis(input_.frames());
-    best = by_linear_bases(analysis);
-    if (options_.basis == BasisChoice::kAuto && !input_.pose &&
-        !(best && beats_keyframes(analysis, *best))) {
-      KeyframeCoder keyframes(input_, options_.select, options_.keyframes,
-                              options_.keyframe_poses.value_or(KeyframePoses::kNative),
-                              Reconstruction::kLinear);
-      offer(keyframes, &best);
+    best = by_linear_bases();
+    if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
+      if (keyframe_coders_.empty())
+        add_keyframe_coder(KeyframePoses::kNative, Reconstruction::kLinear);
+      offer(*keyframe_coders_[0], &best);
     }
   }
   if (!best)
     fail();
+  if (!is_size(target_)) {  // nobody asks again
+    linear_coders_.clear();
+    keyframe_coders_.clear();
+    analysis_.reset();
+  }
   for (CodedPart& part : best->parts) {
     if (!part.encoded.corrections.empty())  // added after it was opened: its hash covers them
       part.opened = open_encoded(part.encoded, input_.layout);
   }
   return std::move(*best);
+}
+
+Solution RateControl::solve_within(double bytes) {
+  target_ = {ErrorMetric::kSize, bytes, false};
+  search_.ask_size(bytes);
+  return solve();
+}
+
+void RateControl::add_keyframe_coder(KeyframePoses poses, Reconstruction reconstruction) {
+  keyframe_coders_.push_back(std::make_unique<KeyframeCoder>(
+      input_, options_.select, options_.keyframes, options_.keyframe_poses.value_or(poses),
+      reconstruction));
 }
 
 void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
@@ -50,18 +64,13 @@ void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
 }
 
 std::optional<Solution> RateControl::by_keyframes_alone() {
-  std::vector<std::unique_ptr<KeyframeCoder>> coders;
-  const auto add = [&](Reconstruction reconstruction) {
-    coders.push_back(std::make_unique<KeyframeCoder>(
-        input_, options_.select, options_.keyframes,
-        options_.keyframe_poses.value_or(KeyframePoses::kDraco), reconstruction));
-  };
-  if (options_.interpolation != InterpolationChoice::kMsgi)
-    add(Reconstruction::kLinear);
-  if (options_.interpolation != InterpolationChoice::kLinear)
-    add(Reconstruction::kMsgi);
+  const bool is_first = keyframe_coders_.empty();
+  if (is_first && options_.interpolation != InterpolationChoice::kMsgi)
+    add_keyframe_coder(KeyframePoses::kDraco, Reconstruction::kLinear);
+  if (is_first && options_.interpolation != InterpolationChoice::kLinear)
+    add_keyframe_coder(KeyframePoses::kDraco, Reconstruction::kMsgi);
   std::optional<Solution> best;
-  for (std::unique_ptr<KeyframeCoder>& coder : coders) {
+  for (std::unique_ptr<KeyframeCoder>& coder : keyframe_coders_) {
     if (target_.metric != ErrorMetric::kNone) {
       offer(*coder, &best);
       continue;
@@ -74,7 +83,7 @@ std::optional<Solution> RateControl::by_keyframes_alone() {
       best = std::move(solution);
   }
   if (!best)
-    fail(*coders[0]);
+    fail(*keyframe_coders_[0]);
   return best;
 }
 
@@ -95,27 +104,32 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
       coder->share_pose(input_.pose);
   }
   if (coders.size() == 2) {
-    // A kind that one trial shows to be far behind is not searched.
-    double rmse = search_.typical_rmse();
+    // The smaller kind comes first. One that a trial shows to be far behind is not searched.
+    double rmse = search_.typical_rmse(*coders[0]);
     double bytes[2];
     tbb::parallel_for(size_t{0}, size_t{2}, [&](size_t i) { bytes[i] = coders[i]->probe(rmse); },
                       tbb::simple_partitioner());
+    if (bytes[1] < bytes[0])
+      std::swap(coders[0], coders[1]);
     if (std::max(bytes[0], bytes[1]) > kFarBehind * std::min(bytes[0], bytes[1]))
-      coders.erase(coders.begin() + (bytes[0] < bytes[1] ? 1 : 0));
+      coders.pop_back();
   }
   return coders;
 }
 
-std::optional<Solution> RateControl::by_linear_bases(const LinearAnalysis& analysis) {
-  LinearCoders coders = linear_coders(analysis);
+std::optional<Solution> RateControl::by_linear_bases() {
+  if (!analysis_) {
+    analysis_.emplace(input_.frames());
+    linear_coders_ = linear_coders(*analysis_);
+  }
   std::optional<Solution> best;
-  for (std::unique_ptr<LinearCoder>& coder : coders)
+  for (std::unique_ptr<LinearCoder>& coder : linear_coders_)
     offer(*coder, &best);
   if (!best || options_.effort == 0)
     return best;
   const BasisKind kind = best->parts[0].encoded.sizes.kind;
   const auto used =
-      std::ranges::find_if(coders, [&](const auto& coder) { return coder->kind() == kind; });
+      std::ranges::find_if(linear_coders_, [&](const auto& coder) { return coder->kind() == kind; });
   std::optional<Solution> cut = cut_in_time(*best, **used);
   return cut && search_.better(*cut, *best) && search_.keeps_motion(*cut) ? std::move(cut) : std::move(best);
 }
@@ -137,11 +151,11 @@ std::optional<Solution> RateControl::cut_in_time(const Solution& whole, const Li
   return search_.files().put_together(std::move(parts));
 }
 
-bool RateControl::beats_keyframes(const LinearAnalysis& analysis, const Solution& solution) const {
+bool RateControl::beats_keyframes(const Solution& solution) const {
   // No fewer key-frames than principal components can do, each at a bit per coordinate and a quarter
   // of a bit per frame at least.
   constexpr double kBits = 1, kBitsOfWeight = 0.25;
-  const auto k = static_cast<double>(analysis.fewest_fields(solution.squared_error()));
+  const auto k = static_cast<double>(analysis_->fewest_fields(solution.squared_error()));
   return k * (kBits * 3 * input_.layout.sizes.coded_vertices + kBitsOfWeight * input_.sequence.frame_count) / 8 >
          static_cast<double>(solution.bytes);
 }

@@ -32,6 +32,9 @@ class RateControl {
   /// Throws Error(kUsage) when the target cannot be reached; the text says what can.
   Solution solve();
 
+  /// The same for another size of the file, with the settings that were chosen before.
+  Solution solve_within(double bytes);
+
   /// About how many trials of the coders solve() makes.
   double expected_trials() const { return search_.expected_trials(); }
 
@@ -41,11 +44,12 @@ class RateControl {
   using LinearCoders = std::vector<std::unique_ptr<LinearCoder>>;
 
   std::optional<Solution> by_keyframes_alone();
-  std::optional<Solution> by_linear_bases(const LinearAnalysis& analysis);
+  std::optional<Solution> by_linear_bases();
   LinearCoders linear_coders(const LinearAnalysis& analysis);
+  void add_keyframe_coder(KeyframePoses poses, Reconstruction reconstruction);
   void offer(SegmentCoder& coder, std::optional<Solution>* best);
   std::optional<Solution> cut_in_time(const Solution& whole, const LinearCoder& coder);
-  bool beats_keyframes(const LinearAnalysis& analysis, const Solution& solution) const;
+  bool beats_keyframes(const Solution& solution) const;
   [[noreturn]] void fail() const;
   [[noreturn]] void fail(KeyframeCoder& keyframes) const;
 
@@ -53,6 +57,9 @@ class RateControl {
   const EncodeOptions& options_;
   Target target_;
   TargetSearch search_;
+  std::optional<LinearAnalysis> analysis_;
+  LinearCoders linear_coders_;  ///< of the analysis
+  std::vector<std::unique_ptr<KeyframeCoder>> keyframe_coders_;
 };
 
 }  // namespace anicodec

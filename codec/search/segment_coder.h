@@ -17,6 +17,10 @@ class SegmentCoder {
   /// Codes with an error of at most `rmse` (scene units, over the source's vertices), close to it.
   /// Nothing when it cannot be reached.
   virtual std::optional<CodedPart> at_rmse(double rmse) = 0;
+
+  /// Codes with about that error, by one quick trial that chooses no settings; nothing if there is
+  /// no quicker way than at_rmse().
+  virtual std::optional<CodedPart> near_rmse(double /*rmse*/) { return std::nullopt; }
 };
 
 }  // namespace anicodec

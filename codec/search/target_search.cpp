@@ -90,7 +90,8 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   constexpr double kUsual = 3.3, kFactor = 1.3;
   // Dance by the second, `encode --live --effort 1`: 102.6 kB with it, 127.6 kB with kUsual, 102.2 kB by a search.
   constexpr double kOfPieces = 2.3;
-  constexpr double kFarBehind = 1.15, kLeastGain = 0.003;
+  // Compared at the ratio that is best for the rival.
+  constexpr double kFarBehind = 1.06, kLeastGain = 0.003;
   std::optional<Solution> best;
   std::map<double, double> prices;  // by the ratio
   const auto trial_is_better = [&](double ratio) {
@@ -104,14 +105,16 @@ std::optional<Solution> TargetSearch::at_max_error(SegmentCoder& coder, double b
   };
   if (effort_ == 0 && trial_is_better(kOfPieces))
     return best;
-  trial_is_better(kUsual);
+  const double asked_of_rival = rival ? rival->parts[0].asked : 0;
+  const double first = asked_of_rival > 0 ? bound / asked_of_rival : kUsual;
+  trial_is_better(first);
   if (best && rival && best->price() > kFarBehind * rival->price())
     return best;
-  double ratio = kUsual / kFactor, factor = 1 / kFactor;
+  double ratio = first / kFactor, factor = 1 / kFactor;
   bool better = trial_is_better(ratio);
   if (!better) {
     factor = kFactor;
-    better = trial_is_better(ratio = kUsual * kFactor);
+    better = trial_is_better(ratio = first * kFactor);
   }
   for (int round = 0; round < 3 && better; ++round)
     better = trial_is_better(ratio *= factor);
@@ -126,7 +129,7 @@ std::optional<Solution> TargetSearch::at_motion_error(SegmentCoder& coder, doubl
   constexpr int kRounds = 8;
   constexpr double kClose = 0.97, kAim = 0.985, kMostGrowth = 16;
   std::optional<Solution> best;
-  double rmse = typical_rmse();
+  double rmse = typical_rmse(coder);
   for (int round = 0; round < kRounds && rmse >= input_.smallest_bound() / 2; ++round) {
     std::optional<Solution> trial = at_rmse(coder, rmse);
     if (!trial)
@@ -147,17 +150,77 @@ bool TargetSearch::keeps_motion(const Solution& solution) const {
          motion_error(target_.metric, solution.parts, input_) <= target_.value;
 }
 
-std::optional<Solution> TargetSearch::at_bytes(SegmentCoder& coder, size_t bytes) {
-  // The size falls as the error grows: bisection on its logarithm.
+double TargetSearch::bytes_asked() const {
+  return *allowed_bytes(target_, input_.sequence.vertex_count, input_.sequence.frame_count);
+}
+
+/// Quick trials, which take somewhat more bytes than what at_rmse() ends with.
+double TargetSearch::rmse_of_size(SegmentCoder& coder) {
+  constexpr int kRounds = 5;
+  constexpr double kNear = 0.2;  // of the size
+  const double bytes = bytes_asked();
+  const double low = input_.smallest_bound(), high = std::max(input_.rmse_of_kg(100), 2 * low);
+  double rmse = std::clamp(input_.rmse_of_kg(0.1), low, high);
+  SizeCurve curve;
+  for (int round = 0; round < kRounds; ++round) {
+    std::optional<CodedPart> part = coder.near_rmse(rmse);
+    if (!part || !(part->error.squared > 0))
+      break;
+    std::vector<CodedPart> parts;
+    parts.push_back(std::move(*part));
+    const Solution trial = files_.unlisted(std::move(parts));
+    const auto size = static_cast<double>(trial.bytes);
+    curve.add(input_.rmse(trial.squared_error()), size);
+    rmse = std::clamp(curve.rmse_of(bytes), low, high);
+    if (std::abs(size / bytes - 1) < kNear)
+      break;
+  }
+  return rmse;
+}
+
+std::optional<Solution> TargetSearch::at_bytes(SegmentCoder& coder, const Solution* rival) {
+  constexpr int kRounds = 12;
+  constexpr double kClose = 0.995, kAim = 0.9975, kFarBehind = 1.15, kNarrow = 1.005;
+  constexpr int kFinerTrials = 2;
+  constexpr double kFiner = 0.008;
+  const double bytes = bytes_asked();
+  // Between these errors, files of that size begin.
   double low = input_.smallest_bound(), high = std::max(input_.rmse_of_kg(100), 2 * low);
+  SizeCurve& curve = curves_[&coder];
+  double rmse = !curve.empty() ? curve.rmse_of(kAim * bytes)
+                : rival        ? input_.rmse(rival->squared_error())
+                               : typical_rmse(coder);
   std::optional<Solution> best;
-  for (int round = 0; round < 12 && high / low > 1.01; ++round) {
-    double middle = std::sqrt(low * high);
-    std::optional<Solution> trial = at_rmse(coder, middle);
-    bool fits = trial && trial->bytes <= bytes;
+  int fitted = 0, missed = 0;  // in a row
+  for (int round = 0; round < kRounds && high / low > kNarrow; ++round) {
+    // A line that leads from one side only does not close in.
+    if (rmse >= high && !best)
+      rmse = high;  // if nothing fits, this tells
+    else if (!(rmse > low && rmse < high) || (round > 2 && std::max(fitted, missed) > 2))
+      rmse = std::sqrt(low * high);
+    std::optional<Solution> trial = at_rmse(coder, rmse);
+    if (rival && round == 0 && (!trial || static_cast<double>(trial->bytes) > kFarBehind * bytes))
+      return std::nullopt;
+    const bool fits = trial && static_cast<double>(trial->bytes) <= bytes;
+    (fits ? high : low) = rmse;
+    fitted = fits ? fitted + 1 : 0;
+    missed = fits ? 0 : missed + 1;
+    if (trial)
+      curve.add(rmse, static_cast<double>(trial->bytes));
     if (fits && (!best || trial->squared_error() < best->squared_error()))
       best = std::move(trial);
-    (fits ? high : low) = middle;
+    if (fits && best && static_cast<double>(best->bytes) >= kClose * bytes)
+      break;
+    rmse = curve.empty() ? 0 : curve.rmse_of(kAim * bytes);
+  }
+  // Sizes vary by some thousandths from one error to the next: somewhat finer ones may fit, too.
+  for (int failed = 0; best && failed < kFinerTrials;) {
+    std::optional<Solution> trial =
+        at_rmse(coder, (1 - (failed + 1) * kFiner) * input_.rmse(best->squared_error()));
+    const bool fits = trial && static_cast<double>(trial->bytes) <= bytes;
+    failed = fits ? 0 : failed + 1;
+    if (fits)
+      best = std::move(trial);
   }
   return best;
 }
@@ -175,9 +238,7 @@ std::optional<Solution> TargetSearch::reach(SegmentCoder& coder, const Solution*
       return at_motion_error(coder, target_.value);
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
-      return at_bytes(coder,
-                      static_cast<size_t>(*allowed_bytes(target_, input_.sequence.vertex_count,
-                                                         input_.sequence.frame_count)));
+      return at_bytes(coder, rival);
     case ErrorMetric::kNone:
       break;
   }
@@ -190,7 +251,7 @@ bool TargetSearch::better(const Solution& a, const Solution& b) const {
   return a.price() < b.price();
 }
 
-double TargetSearch::typical_rmse() const {
+double TargetSearch::typical_rmse(SegmentCoder& coder) {
   switch (target_.metric) {
     case ErrorMetric::kKg:
       return input_.rmse_of_kg(target_.value);
@@ -202,6 +263,9 @@ double TargetSearch::typical_rmse() const {
       return target_.value / 8;
     case ErrorMetric::kSted:
       return input_.rmse_of_kg(5 * target_.value);  // that of characters, about
+    case ErrorMetric::kSize:
+    case ErrorMetric::kBpfv:
+      return rmse_of_size(coder);
     default:
       return input_.rmse_of_kg(0.1);
   }
@@ -220,7 +284,7 @@ double TargetSearch::expected_trials() const {
       return std::max(settings, 0.0) + 4 * kOfOneError;
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
-      return std::max(settings, 0.0) + 11 * kOfOneError;
+      return std::max(settings, 0.0) + 5 * kOfOneError;
     default:
       return std::max(settings, 0.0) + kOfOneError;
   }

@@ -6,18 +6,18 @@
 #include "codec/file/encode_options.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/segment_coder.h"
+#include "codec/search/size_curve.h"
 #include "codec/search/solution.h"
 #include "codec/search/trial_files.h"
 
-#include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
 namespace anicodec {
 
 /// Finds what one coder does for a target: an error is met directly, a maximum error with
-/// corrections of outliers, a size by bisection, an error of the motion by the mean error that
-/// leads to it.
+/// corrections of outliers, a size and an error of the motion by the mean error that leads to it.
 class TargetSearch {
  public:
   /// Throws Error(kUsage) for a maximum error that float32 cannot keep.
@@ -35,8 +35,12 @@ class TargetSearch {
   /// other targets.
   bool keeps_motion(const Solution& solution) const;
 
-  /// About the root mean square error of a file that keeps to the target.
-  double typical_rmse() const;
+  /// About the root mean square error of a file that keeps to the target; for a size, as quick
+  /// trials of the coder tell.
+  double typical_rmse(SegmentCoder& coder);
+
+  /// Asks for another size. What was learnt of the coders goes on to count.
+  void ask_size(double bytes) { target_ = {ErrorMetric::kSize, bytes, false}; }
 
   /// About how many trials of coders a search takes.
   double expected_trials() const;
@@ -49,12 +53,15 @@ class TargetSearch {
   std::optional<Solution> at_rmse(SegmentCoder& coder, double rmse);
   std::optional<Solution> at_max_error(SegmentCoder& coder, double bound, const Solution* rival);
   std::optional<Solution> at_motion_error(SegmentCoder& coder, double bound);
-  std::optional<Solution> at_bytes(SegmentCoder& coder, size_t bytes);
+  std::optional<Solution> at_bytes(SegmentCoder& coder, const Solution* rival);
+  double rmse_of_size(SegmentCoder& coder);
+  double bytes_asked() const;
 
   const EncoderInput& input_;
   Target target_;
   int effort_;
   TrialFiles files_;
+  std::map<const SegmentCoder*, SizeCurve> curves_;  ///< of files that kept to an error
 };
 
 }  // namespace anicodec

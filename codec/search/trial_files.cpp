@@ -10,10 +10,9 @@
 
 namespace anicodec {
 
-Solution TrialFiles::put_together(std::vector<CodedPart> parts) {
+Solution TrialFiles::unlisted(std::vector<CodedPart> parts) const {
   Solution solution;
   solution.parts = std::move(parts);
-  std::string what;
   for (CodedPart& part : solution.parts) {
     const Limits::Segment& sizes = part.encoded.sizes;
     FrameView frames = input_.frames(sizes.first_frame, sizes.frames);
@@ -21,11 +20,18 @@ Solution TrialFiles::put_together(std::vector<CodedPart> parts) {
       correct(frames, input_.copies, *cap_, part.opened, part.encoded);
       part.error = measure(part.opened, frames, input_.copies);
     }
-    what += (what.empty() ? "" : " + ") + part.what;
   }
   const std::vector<double> diagonals(input_.clips.size());
   const ClipsRecord record = clips_record(input_.sequence, options_, {}, diagonals);
   solution.bytes = clip_file(record, input_.layout, solution.segments()).size();
+  return solution;
+}
+
+Solution TrialFiles::put_together(std::vector<CodedPart> parts) {
+  Solution solution = unlisted(std::move(parts));
+  std::string what;
+  for (const CodedPart& part : solution.parts)
+    what += (what.empty() ? "" : " + ") + part.what;
   trials_.push_back(
       {what, solution.bytes, input_.rmse(solution.squared_error()), solution.max_error()});
   return solution;

@@ -22,6 +22,9 @@ class TrialFiles {
 
   Solution put_together(std::vector<CodedPart> parts);
 
+  /// The same, for trials that only show the way: the list does not have them.
+  Solution unlisted(std::vector<CodedPart> parts) const;
+
   const std::vector<Trial>& trials() const { return trials_; }
 
  private:
