@@ -94,50 +94,32 @@ CosineTransform::CosineTransform(uint32_t length) : length_(length) {
 }
 
 void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) const {
-  Vector<int64_t> sums(length_), odd((length_ + 1) / 2);
-  inverse_sums(coefficients, 1, sums.data(), odd.data());
-  const int down = shift_ - kFractionBits;
-  for (uint32_t f = 0; f < length_; ++f)
-    values[f] = static_cast<int32_t>(std::clamp<int64_t>(
-        (sums[f] + (int64_t{1} << (down - 1))) >> down, -kValueLimit, kValueLimit));
-}
-
-/// Sums of the coefficients 0, step, 2 step, ..., which are those of a transform of length / step values. Even
-/// functions are the same from both ends, so that half of the values, of half the length, have them all; odd ones change
-/// sign. `odd`: room for half of the values. |coefficient| <= 2^22, |entry| < 2^29, 2^10 terms: the sums stay below 2^63.
-void CosineTransform::inverse_sums(const int32_t* coefficients, uint32_t step, int64_t* sums,
-                                   int64_t* odd) const {
-  const uint32_t length = length_ / step, half = (length + 1) / 2;
-  if (length % 2 == 0) {
-    inverse_sums(coefficients, 2 * step, sums, odd);
-  } else {
-    std::fill_n(sums, half, int64_t{coefficients[0]} * constant_);
-    add_products(coefficients, 2 * step, step, sums);
-  }
-  std::fill_n(odd, half, int64_t{0});
-  add_products(coefficients, step, step, odd);
-  for (uint32_t f = 0; f < half; ++f) {
-    const int64_t even = sums[f];
-    sums[f] = even + odd[f];
-    sums[length - 1 - f] = even - odd[f];
-  }
-}
-
-/// Adds every second coefficient from `first` on, at distances of 2 steps, to the first half of the values.
-void CosineTransform::add_products(const int32_t* coefficients, uint32_t first, uint32_t step,
-                                   int64_t* sums) const {
-  const uint32_t half = (length_ / step + 1) / 2, period = 4 * length_;
-  for (uint32_t k = first; k < length_; k += 2 * step) {
+  // |coefficient| <= 2^22, |entry| < 2^29, 2^10 terms: the sums stay below 2^63. Even functions are
+  // the same from both ends, odd ones change sign: half of the values, of each kind apart.
+  const uint32_t half = (length_ + 1) / 2, period = 4 * length_;
+  Vector<int64_t> sums(size_t{2} * half, 0);
+  std::fill_n(sums.begin(), half, int64_t{coefficients[0]} * constant_);
+  for (uint32_t k = 1; k < length_; ++k) {
     const int64_t y = coefficients[k];
     if (y == 0)
       continue;
+    int64_t* sum = sums.data() + (k % 2) * half;
     uint32_t m = k;
     for (uint32_t f = 0; f < half; ++f) {
-      sums[f] += y * table_[m];
+      sum[f] += y * table_[m];
       m += 2 * k;
       if (m >= period)
         m -= period;
     }
+  }
+  const int down = shift_ - kFractionBits;
+  const auto rounded = [&](int64_t sum) {
+    return static_cast<int32_t>(
+        std::clamp<int64_t>((sum + (int64_t{1} << (down - 1))) >> down, -kValueLimit, kValueLimit));
+  };
+  for (uint32_t f = 0; f < half; ++f) {
+    values[f] = rounded(sums[f] + sums[half + f]);
+    values[length_ - 1 - f] = rounded(sums[f] - sums[half + f]);
   }
 }
 

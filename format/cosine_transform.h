@@ -34,9 +34,6 @@ class CosineTransform {
   void forward(const double* values, double* coefficients) const;
 
  private:
-  void inverse_sums(const int32_t* coefficients, uint32_t step, int64_t* sums, int64_t* odd) const;
-  void add_products(const int32_t* coefficients, uint32_t first, uint32_t step, int64_t* sums) const;
-
   uint32_t length_;
   int shift_;              ///< table entries are scaled by 2^shift_
   int32_t constant_;       ///< of coefficient 0
