@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/linear_coder.h"
 
+#include "codec/search/bound_search.h"
 #include "codec/search/opening_time.h"
-#include "codec/search/step_search.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
@@ -44,7 +44,10 @@ struct Nearness {
 constexpr Nearness kFirst{0.93, 0.93, 0.97};  // of no effort
 constexpr Nearness kPlain{0.997, 0.994, 0.9985};
 constexpr Nearness kThorough{0.994, 0.99, 0.997};  // errors vary by some thousandths
+// Trials until `enough` is enough. On horse, face, chicken, dance and Fox, `encode` at its default, two trials took 0.84
+// of the time of three for 0.5 % more bytes.
 constexpr int kPatience = 3;
+constexpr double kLeastExponent = 0.35, kMostExponent = 1.5;  // of errors over steps
 
 size_t most_components(const LinearSettings& settings) {
   return settings.components.empty() ? 0 : std::ranges::max(settings.components);
@@ -457,7 +460,8 @@ std::optional<CodedPart> LinearCoder::reached(LinearChoice& choice, double rmse)
   const double estimated = tried.settings.step;
   tried.settings.step *= choice.step_factor;
   const Nearness& near = thorough_ ? kThorough : effort_ > 0 ? kPlain : kFirst;
-  StepSearch search(near.aim, choice.slope);
+  const BoundSearch::Exponent exponent{choice.exponent, kLeastExponent, kMostExponent};
+  BoundSearch search(exponent);
   std::optional<Measured> best;
   double closest = 0;  // ratio of those that keep to the error
   for (int round = 0; round < kStepRounds; ++round) {
@@ -485,11 +489,12 @@ std::optional<CodedPart> LinearCoder::reached(LinearChoice& choice, double rmse)
       // The components left out alone take most of the error: more of them.
       for (size_t& k : tried.settings.components)
         k += k / 16 + 1;
-      search = StepSearch(near.aim, choice.slope);
+      search = BoundSearch(exponent);
     }
-    tried.settings.step = search.next(step, ratio);
+    search.add(step, ratio);
+    tried.settings.step = search.next(near.aim, 1);
   }
-  choice.slope = search.slope();
+  choice.exponent = search.exponent();
   if (!best)
     return std::nullopt;
   best->part.asked = rmse;

@@ -4,9 +4,9 @@
 #define ANICODEC_CODEC_SEARCH_TARGET_SEARCH_H_
 
 #include "codec/file/encode_options.h"
+#include "codec/search/bound_search.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/segment_coder.h"
-#include "codec/search/size_curve.h"
 #include "codec/search/solution.h"
 #include "codec/search/trial_files.h"
 
@@ -54,14 +54,16 @@ class TargetSearch {
   std::optional<Solution> at_max_error(SegmentCoder& coder, double bound, const Solution* rival);
   std::optional<Solution> at_motion_error(SegmentCoder& coder, double bound);
   std::optional<Solution> at_bytes(SegmentCoder& coder, const Solution* rival);
+  std::optional<Solution> finer(SegmentCoder& coder, Solution best);
   double rmse_of_size(SegmentCoder& coder);
+  double coarsest_rmse() const;
   double bytes_asked() const;
 
   const EncoderInput& input_;
   Target target_;
   int effort_;
   TrialFiles files_;
-  std::map<const SegmentCoder*, SizeCurve> curves_;  ///< of files that kept to an error
+  std::map<const SegmentCoder*, BoundSearch> searches_;  ///< of sizes, by 1 / RMSE
 };
 
 }  // namespace anicodec
