@@ -20,9 +20,10 @@ namespace anicodec {
 /// turn go less far: after some rounds only while nothing is further off than 0.6 of the largest, as
 /// folds of a surface hold them for ever. The result is the round, of every tenth and with no more turned
 /// triangles than at the start, whose larger part of mean and maximum is below 0.6, with the fewest turned triangles, and
-/// of these the least part; if none is below the start in both, it is the start. The surface has an index. On all threads; the
-/// result does not depend on their number. Cost: up to 150 rounds, each of 12 queries a vertex of
-/// either side and up to 100 passes over the edges, sometimes several times.
+/// of these the least part; if none is below the start in both, it is the start. While it is above 0.6 the descent is made
+/// again, up to four times, in turns from what is best and from where the last one ended, its triangles turned back. The surface
+/// has an index. On all threads; the result does not depend on their number. Cost: up to 150 rounds a descent, each of 12
+/// queries a vertex of either side and up to 100 passes over the edges, sometimes several times.
 Convergence fit_closely(const SurfaceTopology& mesh, const Surface& surface, Positions* v);
 
 }  // namespace anicodec
