@@ -23,7 +23,8 @@ using Eigen::Index;
 constexpr double kUnposedStiffness = 10, kPosedStiffness = 0.5;
 constexpr double kStiffFit = 0.1, kSoftFit = 0.003;
 constexpr int kFitRounds = 14;  // these halve the largest distance at best
-constexpr int kMostAttempts = 4;
+constexpr int kMostAttempts = 7;
+constexpr int kFewestRounds = 2, kKindsOfRounds = 3;  // of geodesic_landmarks(): attempts differ in them
 constexpr double kReversed = 50;  // per cent of the correspondences that disagree
 // Limits for a vertex that counts as carried well.
 constexpr double kSlow = 1.5;        // of the median move
@@ -87,8 +88,12 @@ class CarriedMesh {
     registration.first_stiffness = landmarks.empty() ? kUnposedStiffness : kPosedStiffness;
     registration.rounds = options.rounds;
     registration.trust_near = false;
-    if (!landmarks.empty())
+    if (!landmarks.empty()) {
       registration_.pose(landmarks, &v);
+      // Landmarks are right to some per cent of the diagonal: what they distort is undone from close by.
+      registration_.run(surface, registration, &v);
+      registration.first_stiffness = kUnposedStiffness;
+    }
     dropped = 100 * registration_.run(surface, registration, &v).residuals.dropped_share;
     fit(surface, kStiffFit, kStiffFit, &v);
     attempt.fitted = v;
@@ -115,7 +120,7 @@ class CarriedMesh {
   /// Anchors are those parts that moved no faster than most, lie on the surface and have kept their
   /// lengths. Landmarks that lie well and about where the anchors say stay at the
   /// place that they have, which is known better.
-  std::vector<Landmark> landmarks(const Surface& surface, const Positions& v) const {
+  std::vector<Landmark> landmarks(const Surface& surface, const Positions& v, int rounds) const {
     const Positions normals = vertex_normals(topology_, v);
     const Eigen::VectorXd moved = (v - last_).rowwise().norm();
     std::vector<double> sorted(moved.data(), moved.data() + moved.size());
@@ -135,7 +140,7 @@ class CarriedMesh {
     }
     std::vector<Landmark> result =
         geodesic_landmarks(GeodesicGraph(topology_, first_), anchors,
-                           GeodesicGraph(surface.topology(), surface.positions()), surface);
+                           GeodesicGraph(surface.topology(), surface.positions()), surface, rounds);
     const double unsure = kSamePlace * diagonal_of(surface.positions());
     for (Landmark& landmark : result) {
       if ((landmark.position - row(v, landmark.vertex)).norm() > unsure)
@@ -284,13 +289,19 @@ TransferResult transfer_connectivity(const SurfaceSource& source, uint32_t frame
     if (carried) {
       attempt = carried->try_surface(frame, surface, options, {});
       report.attempts = 1;
-      while (report.alarms && report.attempts < kMostAttempts) {
-        const std::vector<Landmark> landmarks = carried->landmarks(surface, attempt.fitted);
+      // From the attempt that has distorted least, so that one that went astray does not lead others there.
+      for (int k = 1, failed = 0; report.alarms && k < kMostAttempts && failed < kKindsOfRounds; ++k) {
+        const int rounds = kFewestRounds + (k - 1) % kKindsOfRounds;
+        const std::vector<Landmark> landmarks = carried->landmarks(surface, attempt.fitted, rounds);
         if (landmarks.empty())
           break;
-        const int attempts = report.attempts + 1;
-        attempt = carried->try_surface(frame, surface, options, landmarks);
-        report.attempts = attempts;
+        Attempt next = carried->try_surface(frame, surface, options, landmarks);
+        ++failed;
+        if (!next.report.alarms || next.report.conformal < attempt.report.conformal) {
+          attempt = std::move(next);
+          failed = 0;
+        }
+        report.attempts = k + 1;
       }
     }
     if (!carried || report.alarms) {

@@ -44,9 +44,9 @@ struct TransferOptions {
 struct TransferredFrame {
   bool first = false;        ///< of a segment: the mesh as given, or made by first_mesh
   int attempts = 0;          ///< 0 for the first of a segment
-  uint8_t alarms = 0;        ///< of the last attempt, bits of TransferAlarm
+  uint8_t alarms = 0;        ///< of the best attempt, bits of TransferAlarm
   double mean = 0, max = 0;  ///< symmetric Hausdorff distance, scene units
-  double tried_mean = 0;     ///< of the last attempt, whether it was accepted or not
+  double tried_mean = 0;     ///< of the best attempt, whether it was accepted or not
   double turned = 0;         ///< per cent of the triangles
   double conformal = 1;
   double dropped = 0;  ///< per cent
@@ -68,8 +68,8 @@ struct TransferResult {
 /// before, or from where its last move leads on, by Registration with the segment's first frame as
 /// rigid shape, and brought close by fit_distance(), softly where that raises no alarm; the next
 /// frame starts from before the soft fit, so that shapes lost to it do not add up. A frame that
-/// raises an alarm is tried again, up to three times: what moved slowly and fits is taken for
-/// right, and tells by distances over the surface where the rest belongs (geodesic_landmarks());
+/// raises an alarm is tried again, up to six times: what moved slowly and fits in the attempt that has distorted
+/// least is taken for right, and tells by distances over the surface where the rest belongs (geodesic_landmarks());
 /// there the mesh is brought without regard to the surface (Registration::pose()) before it is
 /// registered, so that a leg finds itself however far it went. If it still raises one, it starts a
 /// new segment with its own connectivity, or with what first_mesh makes of it. Memory: the result

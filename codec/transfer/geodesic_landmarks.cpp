@@ -21,7 +21,8 @@ constexpr size_t kMostAnchors = 40, kFewestAnchors = 4, kMostLandmarks = 120;
 constexpr double kUnsure = 0.05;      // of a distance: how well the two graphs agree
 constexpr double kMostCost = 3;       // of one anchor
 constexpr double kOtherPlace = 0.08;  // of the diagonal from the best place
-constexpr double kClearer = 1.25;     // cost of the best other place in that of the best
+constexpr double kClearer = 1.05;     // cost of the best other place in that of the best
+constexpr double kMostDisagreement = 1.2;  // of a place with the others, on average
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The length of the diagonal from p to q of the flattened pair of triangles (p, a, b), (q, b, a);
@@ -118,23 +119,115 @@ std::vector<double> GeodesicGraph::distances(uint32_t from) const {
   return result;
 }
 
+namespace {
+
+/// How badly a length over the mesh and one over the surface agree.
+double disagreement(double on_mesh, double on_surface, double edge) {
+  if (!(on_mesh < kInfinity) || !(on_surface < kInfinity))
+    return on_mesh < kInfinity || on_surface < kInfinity ? kMostCost : 0;
+  return std::min(kMostCost, std::abs(on_surface - on_mesh) / (kUnsure * on_mesh + edge));
+}
+
+/// Drops, one after the other, whichever disagrees most with those that are left, until none does
+/// by more than kMostDisagreement on average. `pairs`: disagreements, symmetric.
+std::vector<bool> agreeing(const std::vector<std::vector<double>>& pairs) {
+  const size_t n = pairs.size();
+  std::vector<bool> kept(n, true);
+  std::vector<double> sums(n, 0);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = 0; j < n; ++j)
+      sums[i] += pairs[i][j];
+  for (size_t left = n; left > kFewestAnchors; --left) {
+    size_t worst = n;
+    for (size_t i = 0; i < n; ++i) {
+      if (kept[i] && (worst == n || sums[i] > sums[worst]))
+        worst = i;
+    }
+    if (sums[worst] <= kMostDisagreement * static_cast<double>(left - 1))
+      break;
+    kept[worst] = false;
+    for (size_t j = 0; j < n; ++j)
+      sums[j] -= pairs[worst][j];
+  }
+  return kept;
+}
+
+using Lengths = std::vector<double>;
+
+/// Places that are known or supposed, with the distances from them over the mesh and over the surface.
+struct Places {
+  std::vector<Anchor> anchors;
+  std::vector<Lengths> on_mesh, on_surface;
+
+  size_t size() const { return anchors.size(); }
+
+  void add(Anchor anchor, Lengths mesh, Lengths surface) {
+    anchors.push_back(anchor);
+    on_mesh.push_back(std::move(mesh));
+    on_surface.push_back(std::move(surface));
+  }
+};
+
+/// Those that agree with each other.
+Places consistent(Places places, double edge) {
+  const size_t n = places.size();
+  std::vector<std::vector<double>> pairs(n, std::vector<double>(n, 0));
+  for (size_t a = 0; a < n; ++a) {
+    for (size_t b = 0; b < n; ++b) {
+      const double d = disagreement(places.on_mesh[a][places.anchors[b].vertex],
+                                    places.on_surface[a][places.anchors[b].on_surface], edge);
+      pairs[a][b] += d / 2;
+      pairs[b][a] += d / 2;
+    }
+  }
+  const std::vector<bool> kept = agreeing(pairs);
+  Places result;
+  for (size_t k = 0; k < n; ++k) {
+    if (kept[k])
+      result.add(places.anchors[k], std::move(places.on_mesh[k]), std::move(places.on_surface[k]));
+  }
+  return result;
+}
+
+/// The vertex of the surface that is as far from all places as one of the mesh is; none if two are.
+uint32_t find_place(uint32_t vertex, const Places& places, const Positions& v, double edge, double apart) {
+  std::vector<double> cost(static_cast<size_t>(v.rows()), 0);
+  for (size_t a = 0; a < places.size(); ++a) {
+    const double length = places.on_mesh[a][vertex];
+    if (places.anchors[a].vertex == vertex || !(length < kInfinity))
+      continue;
+    for (size_t j = 0; j < cost.size(); ++j)
+      cost[j] += disagreement(length, places.on_surface[a][j], edge);
+  }
+  const auto best = static_cast<uint32_t>(std::ranges::min_element(cost) - cost.begin());
+  for (uint32_t j = 0; j < cost.size(); ++j) {
+    if (cost[j] < kClearer * cost[best] && (row(v, j) - row(v, best)).norm() > apart)
+      return SurfaceTopology::kNone;
+  }
+  return best;
+}
+
+}  // namespace
+
 std::vector<Landmark> geodesic_landmarks(const GeodesicGraph& mesh,
                                          const std::vector<Anchor>& anchors,
                                          const GeodesicGraph& surface_graph,
-                                         const Surface& surface) {
+                                         const Surface& surface, int rounds) {
   if (anchors.size() < kFewestAnchors)
     return {};
-  // Anchors far from each other, with the distances from them over both.
-  std::vector<std::vector<double>> on_mesh, on_surface;
-  std::vector<double> least;
+  const Positions& v = surface.positions();
+  const double edge = mean_edge(surface.topology(), v);
+  const double apart = kOtherPlace * (v.colwise().maxCoeff() - v.colwise().minCoeff()).norm();
+  // Anchors far from each other, then vertices far from them and each other.
+  Places places;
+  Lengths least(surface.topology().vertex_count, 0);
   Anchor anchor = anchors[0];
   for (;;) {
-    on_mesh.push_back(mesh.distances(anchor.vertex));
-    on_surface.push_back(surface_graph.distances(anchor.on_surface));
-    if (least.empty())
-      least = on_mesh[0];
-    lower(&least, on_mesh.back());
-    if (on_mesh.size() == kMostAnchors)
+    places.add(anchor, mesh.distances(anchor.vertex), surface_graph.distances(anchor.on_surface));
+    if (places.size() == 1)
+      least = places.on_mesh[0];
+    lower(&least, places.on_mesh.back());
+    if (places.size() == kMostAnchors)
       break;
     double most = 0;
     for (const Anchor& other : anchors) {
@@ -147,41 +240,31 @@ std::vector<Landmark> geodesic_landmarks(const GeodesicGraph& mesh,
       break;
   }
   std::vector<uint32_t> vertices;
+  std::vector<Lengths> from_vertices;
   while (vertices.size() < kMostLandmarks) {
     const uint32_t i = farthest(least);
     if (i == SurfaceTopology::kNone)
       break;
     vertices.push_back(i);
-    lower(&least, mesh.distances(i));
+    from_vertices.push_back(mesh.distances(i));
+    lower(&least, from_vertices.back());
   }
-  const Positions& places = surface.positions();
-  const double edge = mean_edge(surface.topology(), places);
-  const double apart =
-      kOtherPlace * (places.colwise().maxCoeff() - places.colwise().minCoeff()).norm();
-  std::vector<uint32_t> match(vertices.size(), SurfaceTopology::kNone);
-  tbb::parallel_for(size_t{0}, vertices.size(), [&](size_t k) {
-    std::vector<double> cost(surface.topology().vertex_count, 0);
-    for (size_t a = 0; a < on_mesh.size(); ++a) {
-      const double length = on_mesh[a][vertices[k]];
-      if (!(length < kInfinity))
-        continue;
-      for (size_t j = 0; j < cost.size(); ++j)
-        cost[j] +=
-            std::min(kMostCost, std::abs(on_surface[a][j] - length) / (kUnsure * length + edge));
+  places = consistent(std::move(places), edge);
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<uint32_t> found(vertices.size());
+    tbb::parallel_for(size_t{0}, vertices.size(), [&](size_t k) {
+      found[k] = find_place(vertices[k], places, v, edge, apart);
+    });
+    places = {};
+    for (size_t k = 0; k < vertices.size(); ++k) {
+      if (found[k] != SurfaceTopology::kNone)
+        places.add({vertices[k], found[k]}, from_vertices[k], surface_graph.distances(found[k]));
     }
-    const auto best =
-        static_cast<uint32_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
-    for (uint32_t j = 0; j < cost.size(); ++j) {
-      if (cost[j] < kClearer * cost[best] && (row(places, j) - row(places, best)).norm() > apart)
-        return;
-    }
-    match[k] = best;
-  });
+    places = consistent(std::move(places), edge);
+  }
   std::vector<Landmark> landmarks;
-  for (size_t k = 0; k < vertices.size(); ++k) {
-    if (match[k] != SurfaceTopology::kNone)
-      landmarks.push_back({vertices[k], row(places, match[k])});
-  }
+  for (const Anchor& place : places.anchors)
+    landmarks.push_back({place.vertex, row(v, place.on_surface)});
   return landmarks;
 }
 

@@ -38,13 +38,14 @@ struct Anchor {
 /// The places of a mesh's vertices on a surface that shows it in another pose, told by how far it
 /// is over the surface to them from anchors, places where the two are known to agree: motion hardly
 /// changes that, however far it goes. At most 40 of the anchors and 120 vertices, each as far from
-/// the ones before as can be; vertices that two places suit about as well are left out. Both graphs
+/// the ones before as can be; vertices that two places suit equally are left out, and anchors and places that disagree
+/// with most of the others. In each round after the first the places that were found serve as anchors. Both graphs
 /// may show any pose. Empty for fewer than four anchors. Cost: about 200 times that of
-/// GeodesicGraph::distances(), and 5000 operations a vertex of the surface.
+/// GeodesicGraph::distances(), and a round 120 times that and 15 000 operations a vertex of the surface.
 std::vector<Landmark> geodesic_landmarks(const GeodesicGraph& mesh,
                                          const std::vector<Anchor>& anchors,
                                          const GeodesicGraph& surface_graph,
-                                         const Surface& surface);
+                                         const Surface& surface, int rounds);
 
 }  // namespace anicodec
 

@@ -69,7 +69,7 @@ TEST(GeodesicLandmarks, FindAFoldedPartAgain) {
   }
   const std::vector<Landmark> landmarks =
       geodesic_landmarks(GeodesicGraph(flat.topology, flat.positions), anchors,
-                         GeodesicGraph(bent.topology, bent.positions), surface);
+                         GeodesicGraph(bent.topology, bent.positions), surface, 3);
   const TestMesh truth = strip(21, 0.5, 1.8);
   size_t swung = 0;
   for (const Landmark& l : landmarks) {
@@ -79,11 +79,25 @@ TEST(GeodesicLandmarks, FindAFoldedPartAgain) {
   EXPECT_GT(swung, 5U);
 }
 
+TEST(GeodesicLandmarks, LeaveOutAnchorsThatDisagree) {
+  const TestMesh mesh = strip(21, 0.5, 0);
+  Surface surface(mesh.topology, mesh.positions);
+  surface.build_index();
+  const GeodesicGraph graph(mesh.topology, mesh.positions);
+  std::vector<Anchor> anchors;
+  for (uint32_t i = 0; i < mesh.topology.vertex_count; i += 3)
+    anchors.push_back({i, i % 30 == 0 ? mesh.topology.vertex_count - 1 - i : i});  // a tenth: at the other end
+  const std::vector<Landmark> landmarks = geodesic_landmarks(graph, anchors, graph, surface, 1);
+  EXPECT_GT(landmarks.size(), 60U);
+  for (const Landmark& l : landmarks)
+    EXPECT_LT((l.position - row(mesh.positions, l.vertex)).norm(), 1) << l.vertex;
+}
+
 TEST(GeodesicLandmarks, NeedAnchors) {
   const TestMesh sheet = flat_sheet(5);
   const Surface surface(sheet.topology, sheet.positions);
   const GeodesicGraph graph(sheet.topology, sheet.positions);
-  EXPECT_TRUE(geodesic_landmarks(graph, {{0, 0}, {1, 1}}, graph, surface).empty());
+  EXPECT_TRUE(geodesic_landmarks(graph, {{0, 0}, {1, 1}}, graph, surface, 1).empty());
 }
 
 }  // namespace
