@@ -56,4 +56,5 @@ if command -v emcc >/dev/null && [[ -d sdk/web/node_modules/zstd-napi ]]; then
   build wasm-scalar
 fi
 say "Running the tests"
-ctest --preset test -j "$(nproc)" "${ctest_options[@]}"
+# One more than there are processors: browsers, Blender and killed runs wait more than they work.
+ctest --preset test -j "$(($(nproc) + 1))" "${ctest_options[@]}"
