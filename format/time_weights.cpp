@@ -13,6 +13,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -55,39 +56,59 @@ uint32_t selector(uint32_t x) {
   return magnitude_class<0>(x >> 3, kSelect);
 }
 
-/// Codes and counts, but writes nothing: for trying a predictor out.
-class DryEncoder {
+/// Codes and counts, and keeps what it would write: for trying a predictor out.
+class TrialEncoder {
  public:
   static constexpr bool kAdapts = true;
   static constexpr bool kDecodes = false;
 
-  /// `most`: bits from which on the predictor cannot be the best.
-  explicit DryEncoder(double most) : most_(most) {}
+  /// `most`: cost from which on the predictor cannot be the best.
+  void start(double most) {
+    most_ = most * (1 + 1e-9);  // sums in another order
+    error_ = 0;
+    counter_ = BitCounter();
+    decisions_.clear();
+  }
 
-  bool bit(uint32_t p, bool value) { return counter_.bit(p, value); }
+  bool bit(uint32_t p, bool value) {
+    decisions_.push_back(p << 1 | (value ? 1U : 0U));
+    return counter_.bit(p, value);
+  }
 
   bool bit(AdaptiveBit& model, bool value) {
-    counter_.bit(model, value);
+    bit(model.probability(), value);
     model.update(value);
     return value;
   }
 
-  uint32_t raw(int count, uint32_t value) { return counter_.raw(count, value); }
+  uint32_t raw(int count, uint32_t value) {
+    for (int i = count - 1; i >= 0; --i)
+      bit(kProbabilityOne / 2, (value >> i & 1) != 0);
+    return value;
+  }
+
+  void add_error(double squared) { error_ += squared; }
 
   double bits() const { return static_cast<double>(counter_.total()) / kBitCostOne; }
 
-  bool ok() const { return bits() <= most_; }
+  bool ok() const { return error_ + kBitWorth * bits() <= most_; }
+
+  void write(BinaryEncoder& encoder) const {
+    for (const uint32_t decision : decisions_)
+      encoder.bit(decision >> 1, (decision & 1) != 0);
+  }
 
  private:
-  double most_;
+  double most_ = 0, error_ = 0;
   BitCounter counter_;
+  Vector<uint32_t> decisions_;  ///< probability and bit
 };
 
 /// True once a decoder's stream has run out, or a trial costs too much: what follows is not worth the
 /// time.
 template <class Coder>
 bool exhausted(const Coder& coder) {
-  if constexpr (Coder::kDecodes || std::is_same_v<Coder, DryEncoder>)
+  if constexpr (Coder::kDecodes || std::is_same_v<Coder, TrialEncoder>)
     return !coder.ok();
   return false;
 }
@@ -158,6 +179,9 @@ struct TimeWeightModel::State {
   Trace trace_;              ///< of the component at hand
   Trace before_[2];          ///< of the last one coded over frames; over frequencies
   uint32_t slow_[3];
+
+ public:
+  WeightPredictor chosen = WeightPredictor::kLine;  ///< by an encoder for the last component
 };
 
 TimeWeightModel::State::State(const Vector<uint32_t>& runs)
@@ -340,6 +364,10 @@ void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const
       const double x = source ? source->x[at(c, f)] - prediction * (1.0 / kStep) : 0;
       const int32_t q = code_value(coder, forward_, x, source ? source->lambda : 0);
       *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
+      if constexpr (std::is_same_v<Coder, TrialEncoder>) {
+        const double miss = *v * (1.0 / kStep) - source->x[at(c, f)];
+        coder.add_error(miss * miss);
+      }
       learn(f, c, q, 5);
       for (size_t k = 0; k < kForward; ++k) {
         const auto miss = static_cast<uint32_t>(std::abs(*v - p[k]));
@@ -483,27 +511,43 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
   if (frames_ == 0)
     return best;
   double least = std::numeric_limits<double>::max();
-  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+  std::optional<State> winner;
+  Vector<int32_t> best_values;
+  TrialEncoder trial, written;
+  // What was best last is likely to be so again, and cuts the others short.
+  const auto last = static_cast<uint32_t>(state_->chosen);
+  for (uint32_t k = 0; k < kWeightPredictors; ++k) {
+    const uint32_t p = k == 0 ? last : k - (k <= last ? 1 : 0);
     auto predictor = static_cast<WeightPredictor>(p);
     if (!(allowed >> p & 1))
       continue;
-    State trial = *state_;
-    DryEncoder dry(least / kBitWorth);
-    trial.code(dry, channels, &source, predictor, values);
-    if (!dry.ok())
+    State state = *state_;
+    trial.start(least);
+    state.code(trial, channels, &source, predictor, values);
+    if (!trial.ok())
       continue;
     double error = 0;
     for (size_t i = 0; i < size_t{channels} * frames_; ++i) {
       const double d = values[i] * (1.0 / kStep) - x[i];
       error += d * d;
     }
-    const double cost = error + kBitWorth * dry.bits();
-    if (cost < least) {
+    const double cost = error + kBitWorth * trial.bits();
+    if (cost < least || (cost == least && predictor < best.predictor)) {
       least = cost;
-      best = {predictor, error, dry.bits()};
+      best = {predictor, error, trial.bits()};
+      best_values.assign(values, values + size_t{channels} * frames_);
+      winner.emplace(std::move(state));
+      std::swap(trial, written);
     }
   }
-  state_->code(encoder, channels, &source, best.predictor, values);
+  if (winner) {
+    written.write(encoder);
+    std::copy(best_values.begin(), best_values.end(), values);
+    *state_ = std::move(*winner);
+  } else {
+    state_->code(encoder, channels, &source, best.predictor, values);
+  }
+  state_->chosen = best.predictor;
   return best;
 }
 
