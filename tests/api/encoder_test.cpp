@@ -127,6 +127,7 @@ TEST_F(AnicEncoder, ReportsAndStops) {
     int calls = 0, stop_at = 1 << 30;
   } seen;
 
+  options_.threads = 1;  // trials on other threads are not reported
   options_.progress.user = &seen;
   options_.progress.report = [](void* user, const char* stage, double done) {
     auto* s = static_cast<Seen*>(user);
