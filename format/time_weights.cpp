@@ -128,6 +128,8 @@ struct TimeWeightModel::State {
   void code(Coder& coder, uint32_t channels, const Source* source, WeightPredictor& predictor,
             int32_t* values);
 
+  WeightPredictor chosen = WeightPredictor::kLine;  ///< by an encoder for the last component
+
  private:
   using Filter = RecursiveLeastSquares<6, 990>;
 
@@ -179,9 +181,6 @@ struct TimeWeightModel::State {
   Trace trace_;              ///< of the component at hand
   Trace before_[2];          ///< of the last one coded over frames; over frequencies
   uint32_t slow_[3];
-
- public:
-  WeightPredictor chosen = WeightPredictor::kLine;  ///< by an encoder for the last component
 };
 
 TimeWeightModel::State::State(const Vector<uint32_t>& runs)

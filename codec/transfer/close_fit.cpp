@@ -23,8 +23,8 @@ using Eigen::Vector3d;
 // (`anicodec massage fit`): least parts of the mean that are left while the maximum falls below 0.6.
 constexpr int kRounds = 150;      // of a descent
 constexpr int kMostDescents = 5;  // while more than kEnough is left
-constexpr double kBound = 0.57;  // see close_fit.h
-constexpr double kGoal = 0.58;   // of the largest, that the weight is for
+constexpr double kBound = 0.57;   // see close_fit.h
+constexpr double kGoal = 0.58;    // of the largest, that the weight is for
 constexpr double kEnough =
     0.6;  // of mean and largest: from here on fewer turned triangles are better
 constexpr int kHeldRounds = 20;  // in which no triangle may turn, however far off it is

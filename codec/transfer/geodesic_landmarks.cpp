@@ -21,6 +21,8 @@ constexpr size_t kMostAnchors = 40, kFewestAnchors = 4, kMostLandmarks = 120;
 constexpr double kUnsure = 0.05;      // of a distance: how well the two graphs agree
 constexpr double kMostCost = 3;       // of one anchor
 constexpr double kOtherPlace = 0.08;  // of the diagonal from the best place
+// By `anicodec massage transfer` of three poses of a horse, decimated to 50, 35 and 25 % by three programs: below a
+// disagreement of 1, or where a place had to be clearer, whole legs were left without landmarks.
 constexpr double kClearer = 1.05;     // cost of the best other place in that of the best
 constexpr double kMostDisagreement = 1.2;  // of a place with the others, on average
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -220,7 +222,7 @@ std::vector<Landmark> geodesic_landmarks(const GeodesicGraph& mesh,
   const double apart = kOtherPlace * (v.colwise().maxCoeff() - v.colwise().minCoeff()).norm();
   // Anchors far from each other, then vertices far from them and each other.
   Places places;
-  Lengths least(surface.topology().vertex_count, 0);
+  Lengths least;
   Anchor anchor = anchors[0];
   for (;;) {
     places.add(anchor, mesh.distances(anchor.vertex), surface_graph.distances(anchor.on_surface));
