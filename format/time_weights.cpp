@@ -59,8 +59,7 @@ uint32_t selector(uint32_t x) {
 /// Codes and counts, and keeps what it would write: for trying a predictor out.
 class TrialEncoder {
  public:
-  static constexpr bool kAdapts = true;
-  static constexpr bool kDecodes = false;
+  [[maybe_unused]] static constexpr bool kAdapts = true, kDecodes = false;
 
   /// `most`: cost from which on the predictor cannot be the best.
   void start(double most) {
@@ -128,7 +127,13 @@ struct TimeWeightModel::State {
   void code(Coder& coder, uint32_t channels, const Source* source, WeightPredictor& predictor,
             int32_t* values);
 
-  WeightPredictor chosen = WeightPredictor::kLine;  ///< by an encoder for the last component
+  /// The predictor that takes the fewest bits to name, for the last components had it.
+  uint32_t likeliest() const {
+    uint32_t p = 0;
+    while (p + 1 < kWeightPredictors && predictor_[p].probability() > kProbabilityOne / 2)
+      ++p;
+    return p;
+  }
 
  private:
   using Filter = RecursiveLeastSquares<6, 990>;
@@ -502,6 +507,7 @@ Status TimeWeightModel::decode(BinaryDecoder& decoder, uint32_t channels, int32_
   return decoder.ok() ? Status::kOk : Status::kEntropy;
 }
 
+#if !defined(ANICODEC_DECODER_ONLY)
 TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t channels,
                                                 const double* x, double lambda, int32_t* values,
                                                 uint32_t allowed) {
@@ -513,10 +519,10 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
   std::optional<State> winner;
   Vector<int32_t> best_values;
   TrialEncoder trial, written;
-  // What was best last is likely to be so again, and cuts the others short.
-  const auto last = static_cast<uint32_t>(state_->chosen);
+  // The likeliest first: it cuts the others short.
+  const uint32_t first = state_->likeliest();
   for (uint32_t k = 0; k < kWeightPredictors; ++k) {
-    const uint32_t p = k == 0 ? last : k - (k <= last ? 1 : 0);
+    const uint32_t p = k == 0 ? first : k - (k <= first ? 1 : 0);
     auto predictor = static_cast<WeightPredictor>(p);
     if (!(allowed >> p & 1))
       continue;
@@ -546,8 +552,8 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
   } else {
     state_->code(encoder, channels, &source, best.predictor, values);
   }
-  state_->chosen = best.predictor;
   return best;
 }
+#endif
 
 }  // namespace anicodec
