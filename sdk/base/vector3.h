@@ -32,6 +32,11 @@ struct Vector3 {
   friend Vector3 operator*(double s, const Vector3& a) { return {{s * a[0], s * a[1], s * a[2]}}; }
 };
 
+template <class Number>
+Vector3 vector_at(const Number* p) {
+  return {{double{p[0]}, double{p[1]}, double{p[2]}}};
+}
+
 inline double dot(const Vector3& a, const Vector3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

@@ -13,14 +13,6 @@ namespace {
 constexpr size_t kPatchGrain = 256;
 constexpr size_t kVertexGrain = 4096;
 
-Vector3 vector_at(const float* p) {
-  return {{double{p[0]}, double{p[1]}, double{p[2]}}};
-}
-
-Vector3 vector_at(const double* p) {
-  return {{p[0], p[1], p[2]}};
-}
-
 /// Takes arrays from a block of memory one after the other; counts only when there is none.
 class Block {
  public:

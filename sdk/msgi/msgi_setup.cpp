@@ -14,10 +14,6 @@ namespace {
 /// Edges shorter than this share of the mean length count as that long.
 constexpr double kShortestEdge = 1e-3;
 
-Vector3 vector_at(const float* p) {
-  return {{double{p[0]}, double{p[1]}, double{p[2]}}};
-}
-
 double square(double x) {
   return x * x;
 }

@@ -11,6 +11,6 @@ endif()
 run(_ "${CMAKE_COMMAND}" --preset asan -S "${SOURCE_DIR}" -B "${WORK_DIR}" ${launcher}
   "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
   -DANICODEC_LANES=8  # one source of kernels instead of four: they differ in lanes alone
-  "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG" -DCMAKE_UNITY_BUILD=ON -DANICODEC_BUILD_EXAMPLES=OFF -DANICODEC_INSTALL=OFF)
+  "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DNDEBUG" -DCMAKE_UNITY_BUILD=ON -DANICODEC_BUILD_EXAMPLES=OFF -DANICODEC_INSTALL=OFF)
 run(_ "${CMAKE_COMMAND}" --build "${WORK_DIR}" --target fuzz_tests)
 run(_ "${CMAKE_CTEST_COMMAND}" --test-dir "${WORK_DIR}" -L "^fuzz$" -LE slow --no-tests=error --output-on-failure)
