@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/keyframes/msgi_weights.h"
 
+#include "codec/algebra/symmetric_solve.h"
 #include "codec/interpolation/interpolation.h"
 #include "codec/sequence/error.h"
 #include "sdk/msgi/msgi.h"
@@ -15,7 +16,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
 
 namespace anicodec {
@@ -129,7 +129,7 @@ double improve(FrameFit& frame, const VectorXd& others, VectorXd& weights, Rigid
           (left - frame.residual(mixed(weights, along[k], kDifference))) / kDifference;
     MatrixXd normal = derivatives.transpose() * derivatives;
     normal.diagonal().array() += kRidge * normal.trace() + 1e-300;
-    VectorXd move = normal.ldlt().solve(derivatives.transpose() * left);
+    VectorXd move = solve_symmetric(normal, VectorXd(derivatives.transpose() * left));
     if (!move.allFinite())
       break;
     bool better = false;

@@ -3,13 +3,12 @@
 #include "codec/segment/basis_fit.h"
 
 #include "codec/algebra/blocked_product.h"
+#include "codec/algebra/symmetric_solve.h"
 #include "codec/algebra/trajectory_gram.h"
 #include "sdk/segment/affine_functions.h"
 
 #include <algorithm>
 #include <utility>
-
-#include <Eigen/Cholesky>
 
 namespace anicodec {
 namespace {
@@ -39,7 +38,7 @@ MatrixXd solved(const MatrixXd& fields, const MatrixXd& products) {
   add_self_products(fields, gram);
   mirror_upper(gram);
   gram.diagonal().array() += 1e-12 * gram.trace();
-  return gram.ldlt().solve(products.transpose()).transpose();
+  return solve_symmetric(gram, MatrixXd(products.transpose())).transpose();
 }
 
 }  // namespace
@@ -71,7 +70,8 @@ Coefficients BasisFit::targets(double step) const {
     return Coefficients(static_cast<Index>(clip_.vertex_count), 0);
   MatrixXd normal = u.transpose() * u;
   normal.diagonal().array() += 1e-9 * std::max(normal.trace() / static_cast<double>(k), 1e-30);
-  MatrixXd solved = normal.ldlt().solve(u.transpose()).transpose();  // rows of the clip x k
+  const MatrixXd solved =  // rows of the clip x k
+      solve_symmetric(normal, MatrixXd(u.transpose())).transpose();
   bool shapes = basis_.kind == BasisKind::kEigenshapes;
   Index channels = shapes ? 3 : 1;
   Coefficients y(static_cast<Index>(clip_.vertex_count), k * channels);

@@ -4,6 +4,7 @@
 
 #include "codec/algebra/blocked_product.h"
 #include "codec/algebra/leading_eigenpairs.h"
+#include "codec/algebra/symmetric_solve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include <queue>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
 
 namespace anicodec {
@@ -75,7 +75,7 @@ class RegionModel {
     add_products(base, base, gram);
     add_products(base, motion, products_of_base);
     gram.diagonal() *= 1 + 1e-9;
-    affine_ = gram.ldlt().solve(products_of_base);
+    affine_ = solve_symmetric(gram, products_of_base);
     motion -= base * affine_;
     MatrixXd products = MatrixXd::Zero(motion.cols(), motion.cols());
     add_self_products(motion, products);

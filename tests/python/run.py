@@ -23,7 +23,7 @@ def skip(reason):
 
 def install_requirements(python, lock):
     """What the lock file names, and no byte else."""
-    pip = [python, "-m", "pip", "--disable-pip-version-check", "-q", "install"]
+    pip = [python, "-m", "pip", "--disable-pip-version-check", "-q", "install", "--no-compile"]
     result = subprocess.run([*pip, "--require-hashes", "--only-binary", ":all:", "-r", lock], text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if result.returncode != 0:
