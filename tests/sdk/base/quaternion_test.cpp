@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -11,8 +12,6 @@
 
 namespace anicodec {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Vector3 random_vector(std::mt19937& random, double size) {
   std::uniform_real_distribution<double> uniform(-size, size);
@@ -31,13 +30,13 @@ TEST(Quaternion, LogarithmUndoesExponential) {
     Vector3 v = random_vector(random, size);
     EXPECT_LE(length(log_rotation(exp_rotation(v)) - v), 1e-14 + 1e-14 * size) << size;
   }
-  Vector3 half{{0, kPi, 0}};
-  EXPECT_NEAR(length(log_rotation(exp_rotation(half))), kPi, 1e-12);
+  Vector3 half{{0, std::numbers::pi, 0}};
+  EXPECT_NEAR(length(log_rotation(exp_rotation(half))), std::numbers::pi, 1e-12);
 }
 
 TEST(Quaternion, FindsTheRotationBetweenPoints) {
   std::mt19937 random(2);
-  for (double angle : {0.0, 0.3, kPi / 2, 3.0, kPi}) {
+  for (double angle : {0.0, 0.3, std::numbers::pi / 2, 3.0, std::numbers::pi}) {
     for (double flat : {1.0, 1e-3, 0.0}) {
       Vector3 axis = random_vector(random, 1);
       UnitQuaternion q = exp_rotation((angle / length(axis)) * axis);

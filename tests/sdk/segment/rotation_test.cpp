@@ -3,14 +3,13 @@
 #include "sdk/segment/rotation.h"
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
 namespace anicodec {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Radians between two rotations.
 double angle(const UnitQuaternion& a, const UnitQuaternion& b) {
@@ -20,7 +19,7 @@ double angle(const UnitQuaternion& a, const UnitQuaternion& b) {
 UnitQuaternion random_rotation(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   Vector3 axis{{uniform(random), uniform(random), uniform(random)}};
-  return exp_rotation((kPi * std::fabs(uniform(random)) / length(axis)) * axis);
+  return exp_rotation((std::numbers::pi * std::fabs(uniform(random)) / length(axis)) * axis);
 }
 
 TEST(Rotation, ComesBackFromItsMotion) {
@@ -35,7 +34,7 @@ TEST(Rotation, ComesBackFromItsMotion) {
   }
   for (size_t axis = 0; axis < 3; ++axis) {  // half turns
     Vector3 half;
-    half[axis] = kPi;
+    half[axis] = std::numbers::pi;
     EXPECT_LE(angle(rotation_of(motion_of(exp_rotation(half), {0, 0, 0})), exp_rotation(half)),
               1e-6);
   }
