@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
@@ -61,13 +62,8 @@ class TrialEncoder {
  public:
   [[maybe_unused]] static constexpr bool kAdapts = true, kDecodes = false;
 
-  /// `most`: cost from which on the predictor cannot be the best.
-  void start(double most) {
-    most_ = most * (1 + 1e-9);  // sums in another order
-    error_ = 0;
-    counter_ = BitCounter();
-    decisions_.clear();
-  }
+  /// `least`: cost of the best predictor so far.
+  explicit TrialEncoder(const std::atomic<double>& least) : least_(least) {}
 
   bool bit(uint32_t p, bool value) {
     decisions_.push_back(p << 1 | (value ? 1U : 0U));
@@ -90,7 +86,10 @@ class TrialEncoder {
 
   double bits() const { return static_cast<double>(counter_.total()) / kBitCostOne; }
 
-  bool ok() const { return error_ + kBitWorth * bits() <= most_; }
+  /// Whether the predictor can still be the best. Its cost is summed in another order at the end.
+  bool ok() const {
+    return error_ + kBitWorth * bits() <= least_.load(std::memory_order_relaxed) * (1 + 1e-9);
+  }
 
   void write(BinaryEncoder& encoder) const {
     for (const uint32_t decision : decisions_)
@@ -98,7 +97,8 @@ class TrialEncoder {
   }
 
  private:
-  double most_ = 0, error_ = 0;
+  const std::atomic<double>& least_;
+  double error_ = 0;
   BitCounter counter_;
   Vector<uint32_t> decisions_;  ///< probability and bit
 };
@@ -510,49 +510,60 @@ Status TimeWeightModel::decode(BinaryDecoder& decoder, uint32_t channels, int32_
 #if !defined(ANICODEC_DECODER_ONLY)
 TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t channels,
                                                 const double* x, double lambda, int32_t* values,
-                                                uint32_t allowed) {
+                                                uint32_t allowed, const RunTasks& run) {
+  struct Trial {
+    Trial(const State& before, const std::atomic<double>& least, size_t size)
+        : state(before), coder(least), values(size) {}
+
+    State state;
+    TrialEncoder coder;
+    Vector<int32_t> values;
+    Choice choice{WeightPredictor::kLine, 0, 0};
+    double cost = std::numeric_limits<double>::infinity();
+  };
+
   const Source source{x, lambda};
   Choice best{WeightPredictor::kLine, 0, 0};
   if (frames_ == 0)
     return best;
-  double least = std::numeric_limits<double>::max();
-  std::optional<State> winner;
-  Vector<int32_t> best_values;
-  TrialEncoder trial, written;
+  const size_t size = size_t{channels} * frames_;
+  std::atomic<double> least{std::numeric_limits<double>::max()};
+  std::array<std::optional<Trial>, kWeightPredictors> trials;
   // The likeliest first: it cuts the others short.
   const uint32_t first = state_->likeliest();
-  for (uint32_t k = 0; k < kWeightPredictors; ++k) {
-    const uint32_t p = k == 0 ? first : k - (k <= first ? 1 : 0);
-    auto predictor = static_cast<WeightPredictor>(p);
+  run(kWeightPredictors, [&](size_t k) {
+    const auto p = static_cast<uint32_t>(k == 0 ? first : k - (k <= first ? 1 : 0));
     if (!(allowed >> p & 1))
-      continue;
-    State state = *state_;
-    trial.start(least);
-    state.code(trial, channels, &source, predictor, values);
-    if (!trial.ok())
-      continue;
-    double error = 0;
-    for (size_t i = 0; i < size_t{channels} * frames_; ++i) {
-      const double d = values[i] * (1.0 / kStep) - x[i];
-      error += d * d;
+      return;
+    Trial& trial = trials[p].emplace(*state_, least, size);
+    trial.choice.predictor = static_cast<WeightPredictor>(p);
+    trial.state.code(trial.coder, channels, &source, trial.choice.predictor, trial.values.data());
+    if (!trial.coder.ok())
+      return;
+    for (size_t i = 0; i < size; ++i) {
+      const double d = trial.values[i] * (1.0 / kStep) - x[i];
+      trial.choice.squared_error += d * d;
     }
-    const double cost = error + kBitWorth * trial.bits();
-    if (cost < least || (cost == least && predictor < best.predictor)) {
-      least = cost;
-      best = {predictor, error, trial.bits()};
-      best_values.assign(values, values + size_t{channels} * frames_);
-      winner.emplace(std::move(state));
-      std::swap(trial, written);
+    trial.choice.bits = trial.coder.bits();
+    trial.cost = trial.choice.squared_error + kBitWorth * trial.choice.bits;
+    for (double known = least; trial.cost < known;) {
+      if (least.compare_exchange_weak(known, trial.cost))
+        break;
     }
+  });
+  Trial* winner = nullptr;
+  for (std::optional<Trial>& trial : trials) {
+    if (trial && trial->cost < (winner ? winner->cost : std::numeric_limits<double>::infinity()))
+      winner = &*trial;
   }
-  if (winner) {
-    written.write(encoder);
-    std::copy(best_values.begin(), best_values.end(), values);
-    *state_ = std::move(*winner);
-  } else {
+  if (!winner) {
     state_->code(encoder, channels, &source, best.predictor, values);
+    return best;
   }
-  return best;
+  winner->coder.write(encoder);
+  std::copy(winner->values.begin(), winner->values.end(), values);
+  *state_ = std::move(winner->state);
+  return winner->choice;
 }
 #endif
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 namespace anicodec {
@@ -31,6 +32,14 @@ constexpr int kWeightFractionBits = 4;
 
 /// In steps: a decoded weight is within +-kWeightLimit, one to encode within half of that.
 constexpr int32_t kWeightLimit = 1 << 22;
+
+/// Calls task(0) to task(count - 1), in any order and at the same time if it can.
+using RunTasks = std::function<void(size_t count, const std::function<void(size_t)>& task)>;
+
+inline void run_in_turn(size_t count, const std::function<void(size_t)>& task) {
+  for (size_t i = 0; i < count; ++i)
+    task(i);
+}
 
 /// Codes the time weights of the components of one segment, one component after the other:
 /// `channels` (1 or 3) rows of `frames` values each. The frames are runs, one for each clip that the
@@ -63,9 +72,11 @@ class TimeWeightModel {
   /// Codes real weights `x` (channels x frames, in steps, |x| <= kWeightLimit / 2) by the predictor
   /// with the smallest squared error + 0.14 bits, quantising each with squared error + lambda bits
   /// in mind (0.08 to 0.12 is good; 0 rounds to the nearest). `values` receives what a decoder
-  /// gets. `allowed`: bit p for predictor p.
+  /// gets. `allowed`: bit p for predictor p. `run` tries the predictors; the stream is the same
+  /// whatever it does at the same time.
   Choice encode(BinaryEncoder& encoder, uint32_t channels, const double* x, double lambda,
-                int32_t* values, uint32_t allowed = (1u << kWeightPredictors) - 1);
+                int32_t* values, uint32_t allowed = (1u << kWeightPredictors) - 1,
+                const RunTasks& run = run_in_turn);
 
  private:
   struct State;

@@ -102,7 +102,7 @@ void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
   chosen_ = true;
 }
 
-const LinearBasis& LinearCoder::basis(const LinearChoice& choice, size_t wanted) {
+LinearCoder::MadeBasis& LinearCoder::made_basis(const LinearChoice& choice, size_t wanted) {
   // Never more than what was asked for before, for what a basis is must not depend on that.
   size_t most = kFirstComponents;
   while (most < std::min(wanted, kMostComponents))
@@ -112,13 +112,24 @@ const LinearBasis& LinearCoder::basis(const LinearChoice& choice, size_t wanted)
       bases_->made.try_emplace({choice.pose, choice.base, choice.regions, most});
   if (fresh) {
     // A thread that waits for others here must not take a task that waits for the lock.
-    tbb::this_task_arena::isolate([&, &basis = found->second] {
+    tbb::this_task_arena::isolate([&, &basis = found->second.basis] {
       basis = choice.regions == 1
                   ? analysis_.basis(kind_, choice.pose, choice.base, most, 0, given())
                   : analysis_of(choice.regions).basis(analysis_, choice.pose, most, given());
     });
   }
   return found->second;
+}
+
+/// The pose that the file has, or that of a basis with the step of the settings.
+std::shared_ptr<const EncodedPose> LinearCoder::coded_pose(MadeBasis& made,
+                                                           const LinearSettings& settings) {
+  if (pose_)
+    return pose_;
+  std::call_once(made.first_use, [&] {
+    made.pose.emplace(made.basis.pose, made.basis.origin, input_.layout);
+  });
+  return made.pose->at_step(pose_step(settings, analysis_.clip().frame_count));
 }
 
 const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
@@ -193,9 +204,10 @@ std::vector<LinearCoder::Measured> LinearCoder::measured(const std::vector<Linea
 
 LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse) {
   Measured m;
+  MadeBasis& made = made_basis(choice, most_components(choice.settings));
   std::optional<EncodedSegment> encoded =
-      encode_linear(analysis_.clip(), basis(choice, most_components(choice.settings)),
-                    choice.settings, input_.layout, pose_, runs_);
+      encode_linear(analysis_.clip(), made.basis, choice.settings, input_.layout,
+                    coded_pose(made, choice.settings), runs_);
   if (!encoded) {
     m.rmse = m.bytes = std::numeric_limits<double>::infinity();
     return m;

@@ -10,6 +10,7 @@
 #include "codec/search/segment_coder.h"
 #include "codec/segment/linear_basis.h"
 #include "codec/segment/linear_segment_encode.h"
+#include "codec/segment/reference_pose_encode.h"
 
 #include <map>
 #include <memory>
@@ -86,14 +87,25 @@ class LinearCoder : public SegmentCoder {
     std::unique_ptr<RegionAnalysis> analysis;  ///< made when needed
   };
 
+  struct MadeBasis {
+    LinearBasis basis;
+    std::once_flag first_use;
+    std::optional<ReferencePoseEncoder> pose;  ///< made when it is first used
+  };
+
   /// By pose, base, regions and the most components that one of them has.
   struct Bases {
     std::mutex mutex;
-    std::map<std::tuple<ReferencePose, Base, uint32_t, size_t>, LinearBasis> made;
+    std::map<std::tuple<ReferencePose, Base, uint32_t, size_t>, MadeBasis> made;
   };
 
   /// A basis with `wanted` components in each region, or as many as there are.
-  const LinearBasis& basis(const LinearChoice& choice, size_t wanted);
+  const LinearBasis& basis(const LinearChoice& choice, size_t wanted) {
+    return made_basis(choice, wanted).basis;
+  }
+
+  MadeBasis& made_basis(const LinearChoice& choice, size_t wanted);
+  std::shared_ptr<const EncodedPose> coded_pose(MadeBasis& made, const LinearSettings& settings);
   const RegionAnalysis& analysis_of(uint32_t regions);
   void try_regions(double rmse);
   double expected_bytes(const LinearChoice& choice);

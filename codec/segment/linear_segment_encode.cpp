@@ -4,7 +4,6 @@
 
 #include "codec/segment/basis_fit.h"
 #include "codec/segment/coefficient_encoder.h"
-#include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
 #include "format/time_weights.h"
 #include "sdk/segment/basis_layer.h"
@@ -12,7 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace anicodec {
 namespace {
@@ -20,6 +23,12 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+/// On the threads of the caller's arena; a thread that waits takes no other task meanwhile, which could be long.
+void run_together(size_t count, const std::function<void(size_t)>& task) {
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for(size_t{0}, count, task, tbb::simple_partitioner()); });
+}
 
 /// Codes the columns of `weights` as time components of `channels` channels (row channels * f + c)
 /// in units of `unit`, each column by its own, and replaces them by what a decoder gets.
@@ -49,7 +58,8 @@ class WeightCoder {
         x[c * frames_ + f] = value;
       }
     }
-    model_.encode(encoder_, channels, x.data(), lambda_, values.data(), predictors_);
+    model_.encode(encoder_, channels, x.data(), lambda_, values.data(), predictors_,
+                  run_together);
     for (size_t f = 0; f < frames_; ++f) {
       for (size_t c = 0; c < channels; ++c)
         column[static_cast<Index>(channels * f + c)] =
@@ -115,8 +125,8 @@ class LinearEncoder {
     encoded_.sizes.regions = parameters_.regions();
   }
 
-  std::optional<EncodedSegment> run(std::shared_ptr<const EncodedPose> shared) {
-    set_pose(std::move(shared));
+  std::optional<EncodedSegment> run(std::shared_ptr<const EncodedPose> coded_pose) {
+    set_pose(std::move(coded_pose));
     set_sigma();
     set_layers();
     code_regions();
@@ -152,11 +162,8 @@ class LinearEncoder {
     return basis_.regions.empty() ? basis_ : basis_.regions[region];
   }
 
-  void set_pose(std::shared_ptr<const EncodedPose> shared) {
-    const double step =
-        settings_.pose_factor * settings_.step / std::sqrt(static_cast<double>(clip_.frame_count));
-    encoded_.reference = shared ? std::move(shared)
-                                : encode_reference_pose(basis_.pose, basis_.origin, step, layout_);
+  void set_pose(std::shared_ptr<const EncodedPose> coded_pose) {
+    encoded_.reference = std::move(coded_pose);
     const PoseGrid& grid = encoded_.reference->grid;
     for (size_t r = 0; r < fits_.size(); ++r) {
       Vector<int32_t> points;
@@ -328,12 +335,16 @@ std::vector<size_t> component_counts(const LinearBasis& basis, const LinearSetti
   return counts;
 }
 
+double pose_step(const LinearSettings& settings, size_t frames) {
+  return settings.pose_factor * settings.step / std::sqrt(static_cast<double>(frames));
+}
+
 std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearBasis& basis,
                                             const LinearSettings& settings,
                                             const MeshLayout& layout,
-                                            std::shared_ptr<const EncodedPose> shared,
+                                            std::shared_ptr<const EncodedPose> pose,
                                             const Vector<uint32_t>& runs) {
-  return LinearEncoder(clip, basis, settings, layout, runs).run(std::move(shared));
+  return LinearEncoder(clip, basis, settings, layout, runs).run(std::move(pose));
 }
 
 }  // namespace anicodec

@@ -20,16 +20,19 @@ namespace anicodec {
 std::vector<size_t> component_counts(const LinearBasis& basis, const LinearSettings& settings,
                                      size_t vertices, size_t frames);
 
-/// Quantises and codes a basis as a segment: pose, time weights, the basis refitted to the decoded
+/// The step that the pose of a basis is best coded with.
+double pose_step(const LinearSettings& settings, size_t frames);
+
+/// Quantises and codes a basis as a segment: time weights, the basis refitted to the decoded
 /// weights (closed loop), its coefficients predicted and rounded with their cost in mind.
 /// `runs`: how many frames each clip has that the frames are of; empty: they are of one.
-/// `shared`: a pose that the file has already, from which the basis was made; null: the basis' own.
+/// `pose`: that of the basis, coded with pose_step() or as the file has it already.
 /// Nothing if the format cannot hold a number: the step is too fine for the clip.
 /// Cost: O(vertices x components x neighbours^2), two passes over the clip.
 std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearBasis& basis,
                                             const LinearSettings& settings,
                                             const MeshLayout& layout,
-                                            std::shared_ptr<const EncodedPose> shared = nullptr,
+                                            std::shared_ptr<const EncodedPose> pose,
                                             const Vector<uint32_t>& runs = {});
 
 }  // namespace anicodec

@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
 namespace anicodec {
 namespace {
 
@@ -108,27 +111,45 @@ std::shared_ptr<const EncodedPose> encode_pose_as(PoseCoding coding, const Matri
   return encoded;
 }
 
-std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
-                                                         const Eigen::Vector3d& origin, double step,
-                                                         const MeshLayout& layout) {
-  const PoseSurface surface(layout.topology);
-  const PosePartners partners = find_partners(pose, surface);
-  const PosePartners* by = partners.partner.empty() ? nullptr : &partners;
+ReferencePoseEncoder::ReferencePoseEncoder(const MatrixXd& pose, const Eigen::Vector3d& origin,
+                                           const MeshLayout& layout)
+    : pose_(pose),
+      origin_(origin),
+      surface_(layout.topology),
+      partners_(find_partners(pose, surface_)) {}
+
+std::shared_ptr<const EncodedPose> ReferencePoseEncoder::at_step(double step) const {
+  const PosePartners* by = partners_.partner.empty() ? nullptr : &partners_;
   const auto coded = [&](PoseCoding coding, const PosePartners* those) {
-    return encode_pose_as(coding, pose, origin, step, surface, those);
+    return encode_pose_as(coding, pose_, origin_, step, surface_, those);
   };
-  std::shared_ptr<const EncodedPose> best = coded(PoseCoding::kDependent, by);
+  std::shared_ptr<const EncodedPose> best, alone, exact;
+  const auto code_exact = [&] { exact = coded(PoseCoding::kExact, by); };
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_invoke([&] { best = coded(PoseCoding::kDependent, by); },
+                         [&] {
+                           if (by)
+                             alone = coded(PoseCoding::kDependent, nullptr);
+                           else
+                             code_exact();
+                         });
+  });
   if (by) {
-    auto alone = coded(PoseCoding::kDependent, nullptr);
     if (alone->stream.size() <= best->stream.size()) {
       best = std::move(alone);
       by = nullptr;
     }
+    code_exact();
   }
-  auto exact = coded(PoseCoding::kExact, by);
   if (exact->stream.size() < best->stream.size())
     best = std::move(exact);
   return best;
+}
+
+std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
+                                                         const Eigen::Vector3d& origin, double step,
+                                                         const MeshLayout& layout) {
+  return ReferencePoseEncoder(pose, origin, layout).at_step(step);
 }
 
 }  // namespace anicodec

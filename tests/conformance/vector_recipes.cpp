@@ -9,6 +9,7 @@
 #include "codec/search/encoder_input.h"
 #include "codec/segment/coefficient_slices.h"
 #include "codec/segment/linear_segment_encode.h"
+#include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "format/batch_coefficient_coder.h"
@@ -60,7 +61,10 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
             : analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
                              shapes ? Base::kPose : Base::kAffine, 1000, 0);
     std::optional<EncodedSegment> coded = encode_linear(
-        frames, basis, recipe.settings, input.layout, nullptr, input.runs(first, recipe.frames));
+        frames, basis, recipe.settings, input.layout,
+        encode_reference_pose(basis.pose, basis.origin, pose_step(recipe.settings, recipe.frames),
+                              input.layout),
+        input.runs(first, recipe.frames));
     if (!coded)
       throw Error(ErrorKind::kInternal, "the step is too fine");
     EncodedSegment& segment = segments.emplace_back(std::move(*coded));

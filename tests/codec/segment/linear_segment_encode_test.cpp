@@ -4,6 +4,7 @@
 
 #include "codec/connectivity/mesh_layout.h"
 #include "codec/segment/encoded_segment.h"
+#include "codec/segment/reference_pose_encode.h"
 #include "codec/segment/surface_regions.h"
 #include "sdk/play/play.h"
 #include "sdk/segment/keep_frames.h"
@@ -64,8 +65,10 @@ class Sheet {
 
   EncodedSegment encode(const LinearBasis& basis, const LinearSettings& settings,
                         const Vector<uint32_t>& runs = {}) const {
-    std::optional<EncodedSegment> coded =
-        encode_linear(view(), basis, settings, layout, nullptr, runs);
+    std::optional<EncodedSegment> coded = encode_linear(
+        view(), basis, settings, layout,
+        encode_reference_pose(basis.pose, basis.origin, pose_step(settings, kWaveFrames), layout),
+        runs);
     EXPECT_TRUE(coded.has_value());
     return std::move(*coded);
   }
