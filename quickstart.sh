@@ -39,5 +39,5 @@ say "How far the decoded clip is from the original"
 run $anicodec compare out/limb.pc2 out/decoded.pc2
 
 say "Sizes"
-wc -c out/limb.pc2 out/limb.anic | head -n 2
+wc -c out/limb.pc2 out/limb.anic | sed '$d'  # without the sum
 echo "Next: $anicodec --help, or cmake --install build/release"
