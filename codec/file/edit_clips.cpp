@@ -4,7 +4,7 @@
 
 #include "codec/file/part_chunks.h"
 #include "codec/sequence/error.h"
-#include "format/binary_coder.h"
+#include "format/coding/binary_coder.h"
 #include "format/container.h"
 #include "format/root_record.h"
 #include "sdk/clip/clip.h"

@@ -3,7 +3,7 @@
 #include "codec/file/root_motion_encode.h"
 
 #include "codec/sequence/error.h"
-#include "format/binary_coder.h"
+#include "format/coding/binary_coder.h"
 #include "format/root_record.h"
 #include "sdk/clip/root_coding.h"
 #include "sdk/clip/root_motion.h"

@@ -4,7 +4,7 @@
 #define ANICODEC_CODEC_SEARCH_LINEAR_STEPS_H_
 
 #include "codec/search/linear_choice.h"
-#include "format/time_weights.h"
+#include "format/coding/time_weights.h"
 
 #include <string>
 #include <vector>

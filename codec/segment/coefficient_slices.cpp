@@ -3,8 +3,8 @@
 #include "codec/segment/coefficient_slices.h"
 
 #include "codec/sequence/error.h"
-#include "format/binary_coder.h"
-#include "format/coefficient_coder.h"
+#include "format/coding/binary_coder.h"
+#include "format/coding/coefficient_coder.h"
 #include "sdk/segment/region_coding.h"
 #include "sdk/segment/residual_reader.h"
 

@@ -5,7 +5,7 @@
 #include "codec/segment/basis_fit.h"
 #include "codec/segment/coefficient_encoder.h"
 #include "codec/sequence/error.h"
-#include "format/time_weights.h"
+#include "format/coding/time_weights.h"
 #include "sdk/segment/basis_layer.h"
 #include "sdk/segment/region_coding.h"
 
@@ -24,7 +24,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// On the threads of the caller's arena; a thread that waits takes no other task meanwhile, which could be long.
+// Isolated: a thread that waits here must not begin another trial meanwhile, which takes long.
 void run_together(size_t count, const std::function<void(size_t)>& task) {
   tbb::this_task_arena::isolate(
       [&] { tbb::parallel_for(size_t{0}, count, task, tbb::simple_partitioner()); });

@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_SEGMENT_LINEAR_SETTINGS_H_
 #define ANICODEC_CODEC_SEGMENT_LINEAR_SETTINGS_H_
 
-#include "format/time_weights.h"
+#include "format/coding/time_weights.h"
 #include "sdk/prediction/predictor.h"
 #include "sdk/segment/linear_segment.h"
 

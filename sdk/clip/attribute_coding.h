@@ -8,9 +8,9 @@
 #define ANICODEC_SDK_CLIP_ATTRIBUTE_CODING_H_
 
 #include "format/attribute_record.h"
+#include "format/coding/symbol_model.h"
 #include "format/memory.h"
 #include "format/status.h"
-#include "format/symbol_model.h"
 #include "sdk/mesh/half_edges.h"
 #include "sdk/mesh/topology.h"
 

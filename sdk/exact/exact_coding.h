@@ -6,11 +6,11 @@
 #ifndef ANICODEC_SDK_EXACT_EXACT_CODING_H_
 #define ANICODEC_SDK_EXACT_EXACT_CODING_H_
 
-#include "format/binary_coder.h"
+#include "format/coding/binary_coder.h"
+#include "format/coding/recursive_least_squares.h"
+#include "format/coding/symbol_model.h"
 #include "format/exact_record.h"
 #include "format/memory.h"
-#include "format/recursive_least_squares.h"
-#include "format/symbol_model.h"
 #include "sdk/exact/earlier_neighbours.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #ifndef ANICODEC_SDK_MESH_COPY_CODING_H_
 #define ANICODEC_SDK_MESH_COPY_CODING_H_
 
-#include "format/mixing.h"
+#include "format/coding/mixing.h"
 #include "sdk/mesh/gate_walk.h"
 
 #include <algorithm>

@@ -7,8 +7,8 @@
 #ifndef ANICODEC_SDK_MESH_FACES_CODING_H_
 #define ANICODEC_SDK_MESH_FACES_CODING_H_
 
+#include "format/coding/symbol_model.h"
 #include "format/records.h"
-#include "format/symbol_model.h"
 #include "sdk/mesh/copy_coding.h"
 #include "sdk/mesh/gate_walk.h"
 #include "sdk/mesh/topology.h"

@@ -5,7 +5,7 @@
 #ifndef ANICODEC_SDK_MESH_GATE_MODELS_H_
 #define ANICODEC_SDK_MESH_GATE_MODELS_H_
 
-#include "format/mixing.h"
+#include "format/coding/mixing.h"
 
 #include <algorithm>
 #include <cstdint>

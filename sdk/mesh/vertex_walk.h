@@ -6,7 +6,7 @@
 #ifndef ANICODEC_SDK_MESH_VERTEX_WALK_H_
 #define ANICODEC_SDK_MESH_VERTEX_WALK_H_
 
-#include "format/mixing.h"
+#include "format/coding/mixing.h"
 #include "sdk/mesh/map_coding.h"
 #include "sdk/mesh/topology.h"
 

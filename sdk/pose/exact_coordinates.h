@@ -3,7 +3,7 @@
 #ifndef ANICODEC_SDK_POSE_EXACT_COORDINATES_H_
 #define ANICODEC_SDK_POSE_EXACT_COORDINATES_H_
 
-#include "format/binary_coder.h"
+#include "format/coding/binary_coder.h"
 #include "format/memory.h"
 #include "sdk/pose/pose_prediction.h"
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/pose/pose_coding.h"
 
-#include "format/binary_coder.h"
+#include "format/coding/binary_coder.h"
 #include "sdk/base/float_control.h"
 #include "sdk/pose/dependent_steps.h"
 #include "sdk/pose/exact_coordinates.h"

@@ -3,9 +3,9 @@
 #ifndef ANICODEC_SDK_POSE_POSE_MODELS_H_
 #define ANICODEC_SDK_POSE_POSE_MODELS_H_
 
-#include "format/binary_coder.h"
-#include "format/magnitude_class.h"
-#include "format/mixing.h"
+#include "format/coding/binary_coder.h"
+#include "format/coding/magnitude_class.h"
+#include "format/coding/mixing.h"
 #include "sdk/pose/pose_prediction.h"
 
 #include <algorithm>

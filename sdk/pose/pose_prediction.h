@@ -5,8 +5,8 @@
 #ifndef ANICODEC_SDK_POSE_POSE_PREDICTION_H_
 #define ANICODEC_SDK_POSE_POSE_PREDICTION_H_
 
+#include "format/coding/recursive_least_squares.h"
 #include "format/memory.h"
-#include "format/recursive_least_squares.h"
 #include "sdk/base/vector3.h"
 #include "sdk/pose/pose_turn.h"
 #include "sdk/pose/surface_growth.h"

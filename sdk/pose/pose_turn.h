@@ -3,7 +3,7 @@
 #ifndef ANICODEC_SDK_POSE_POSE_TURN_H_
 #define ANICODEC_SDK_POSE_POSE_TURN_H_
 
-#include "format/recursive_least_squares.h"
+#include "format/coding/recursive_least_squares.h"
 #include "sdk/base/vector3.h"
 
 #include <array>

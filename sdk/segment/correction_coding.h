@@ -6,9 +6,9 @@
 #ifndef ANICODEC_SDK_SEGMENT_CORRECTION_CODING_H_
 #define ANICODEC_SDK_SEGMENT_CORRECTION_CODING_H_
 
-#include "format/binary_coder.h"
+#include "format/coding/binary_coder.h"
+#include "format/coding/symbol_model.h"
 #include "format/memory.h"
-#include "format/symbol_model.h"
 #include "sdk/segment/segment.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/segment/linear_segment.h"
 
-#include "format/symbol_model.h"
-#include "format/time_weights.h"
+#include "format/coding/symbol_model.h"
+#include "format/coding/time_weights.h"
 #include "sdk/base/bounded_float.h"
 #include "sdk/segment/affine_functions.h"
 #include "sdk/segment/basis_layer.h"

@@ -5,7 +5,7 @@
 #ifndef ANICODEC_SDK_SEGMENT_REGION_CODING_H_
 #define ANICODEC_SDK_SEGMENT_REGION_CODING_H_
 
-#include "format/binary_coder.h"
+#include "format/coding/binary_coder.h"
 #include "format/memory.h"
 #include "format/records.h"
 #include "sdk/prediction/mesh_graph.h"

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/segment/residual_reader.h"
 
-#include "format/batch_coefficient_coder.h"
-#include "format/coefficient_coder.h"
-#include "format/rans_coder.h"
+#include "format/coding/batch_coefficient_coder.h"
+#include "format/coding/coefficient_coder.h"
+#include "format/coding/rans_coder.h"
 #include "sdk/base/wavefront.h"
 
 #include <algorithm>

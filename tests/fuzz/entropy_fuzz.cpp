@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 // Any bytes through the entropy decoders. The first byte picks the model, the second its size. What
 // a decoder accepts, the encoder writes again, byte for byte.
-#include "format/batch_coefficient_coder.h"
-#include "format/binary_coder.h"
-#include "format/coefficient_coder.h"
-#include "format/rans_coder.h"
-#include "format/symbol_model.h"
-#include "format/time_weights.h"
+#include "format/coding/batch_coefficient_coder.h"
+#include "format/coding/binary_coder.h"
+#include "format/coding/coefficient_coder.h"
+#include "format/coding/rans_coder.h"
+#include "format/coding/symbol_model.h"
+#include "format/coding/time_weights.h"
 
 #include <cstdlib>
 #include <vector>

@@ -37,6 +37,8 @@ ALLOWED = {
 # Rooms, each with the rooms of its module that it may include: only rooms that stand above it, so that all
 # arrows point one way. A folder with sources is a room and has a README.md.
 ROOMS = {
+    "format": [],
+    "format/coding": ["format"],
     "sdk/base": [],
     "sdk/mesh": ["sdk/base"],
     "sdk/msgi": ["sdk/base", "sdk/mesh"],

@@ -14,7 +14,7 @@ MODULES = ("format", "sdk", "codec", "corpus", "tools")
 # A unit, or a folder of units: the tests that run it, and the reason that they stand elsewhere.
 THROUGH = {
     "format/attribute_record": ("tests/api/attribute_values_test.cpp", "a record is read where a file is opened"),
-    "format/mixing": ("tests/format/binary_coder_test.cpp", "tables of the coders that use it"),
+    "format/coding/mixing": ("tests/format/coding/binary_coder_test.cpp", "tables of the coders that use it"),
     "format/status": ("tests/api/asset_test.cpp", "texts that the C interface returns"),
     "format/zstd_block": ("tests/format/container_test.cpp", "one way to store a chunk"),
     "sdk/api": ("tests/api", "the C interface is tested from outside, as hosts call it"),

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// Adaptive distributions of eight symbols, two of them averaged for each symbol
+// (spec/08-entropy.md, section 7).
+#ifndef ANICODEC_FORMAT_CODING_SYMBOL_ROW_H_
+#define ANICODEC_FORMAT_CODING_SYMBOL_ROW_H_
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#endif
+
+#include "format/coding/binary_coder.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace anicodec {
+
+constexpr int kSymbolBits = 15;
+constexpr uint32_t kSymbolScale = uint32_t{1} << kSymbolBits;  ///< a probability of 1
+constexpr size_t kRowSymbols = 8;
+/// The last symbol of a row stands for all larger numbers.
+constexpr uint32_t kRowEscape = kRowSymbols - 1;
+
+/// Counts of a context: element i < 7 is the probability of a symbol of at most i, in 1/32768;
+/// element 7 how many symbols it has seen, up to kLimit.
+struct alignas(16) SymbolRow {
+  static constexpr uint16_t kLimit = 30;  ///< best of 22, 30, 40 on five clips of research
+
+  uint16_t v[kRowSymbols] = {4096, 8192, 12288, 16384, 20480, 24576, 28672, 1};
+
+  /// Starts as the distribution of a geometric sequence: symbol i + 1 is a / (a + b) times as likely
+  /// to be passed as symbol i. @pre a + b < 2^16
+  void start(uint32_t a, uint32_t b) {
+    constexpr uint16_t kTrust = 3;
+    uint32_t rest = kSymbolScale;
+    for (uint32_t i = 0; i < kRowEscape; ++i) {
+      rest = rest * a / (a + b);
+      const uint32_t least = 8 * (kRowEscape - i);
+      v[i] = static_cast<uint16_t>(kSymbolScale - (rest < least ? least : rest));
+    }
+    v[kRowEscape] = kTrust;
+  }
+};
+
+/// The arithmetic of rows, symbol after symbol.
+struct PlainRows {
+  /// The start of each symbol in the average of two rows, 0 .. 32768; none is less likely than
+  /// 8 / 32768.
+  static void mix(const SymbolRow& a, const SymbolRow& b, uint16_t* to) {
+    for (uint32_t i = 0; i < kRowEscape; ++i) {
+      const uint32_t mean = (uint32_t{a.v[i]} + b.v[i] + 1) >> 1;
+      to[i] = static_cast<uint16_t>(mean - (mean >> 9) + 8 * (i + 1));
+    }
+    to[kRowEscape] = static_cast<uint16_t>(kSymbolScale);
+  }
+
+  /// How many of seven starts are at most x.
+  static uint32_t find(const uint16_t* starts, uint32_t x) {
+    uint32_t s = 0;
+    for (uint32_t i = 0; i < kRowEscape; ++i)
+      s += starts[i] <= x;
+    return s;
+  }
+
+  static void learn(SymbolRow& row, uint32_t s) {
+    const uint16_t seen = row.v[kRowEscape];
+    for (uint32_t i = 0; i < kRowEscape; ++i) {
+      const int32_t error = (s <= i ? 32767 : 0) - int32_t{row.v[i]};
+      row.v[i] = static_cast<uint16_t>(row.v[i] + ((error * kAdaptationRates.value[seen]) >> 15));
+    }
+    row.v[kRowEscape] = static_cast<uint16_t>(seen + (seen < SymbolRow::kLimit));
+  }
+};
+
+#if defined(__SSE2__)
+/// The same by vectors of 16 bytes.
+struct VectorRows {
+  static void mix(const SymbolRow& a, const SymbolRow& b, uint16_t* to) {
+    const __m128i mean = _mm_avg_epu16(load(a.v), load(b.v));
+    const __m128i floor = _mm_set_epi16(0, 56, 48, 40, 32, 24, 16, 8);
+    __m128i starts = _mm_add_epi16(_mm_sub_epi16(mean, _mm_srli_epi16(mean, 9)), floor);
+    starts = _mm_insert_epi16(starts, -32768, 7);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), starts);
+  }
+
+  static uint32_t find(const uint16_t* starts, uint32_t x) {
+    const __m128i above = _mm_cmpgt_epi16(load(starts), _mm_set1_epi16(static_cast<short>(x)));
+    const auto mask = static_cast<uint32_t>(_mm_movemask_epi8(above)) | 1U << 14;
+    return static_cast<uint32_t>(__builtin_ctz(mask)) / 2;
+  }
+
+  static void learn(SymbolRow& row, uint32_t s) {
+    const __m128i old = load(row.v);
+    const int seen = _mm_extract_epi16(old, 7);
+    const __m128i index = _mm_set_epi16(-1, 6, 5, 4, 3, 2, 1, 0);
+    const __m128i below = _mm_cmpgt_epi16(_mm_set1_epi16(static_cast<short>(s)), index);
+    const __m128i target = _mm_andnot_si128(below, _mm_set1_epi16(32767));
+    const __m128i rate = _mm_insert_epi16(
+        _mm_set1_epi16(static_cast<short>(2 * kAdaptationRates.value[seen])), 0, 7);
+    __m128i now = _mm_add_epi16(old, _mm_mulhi_epi16(_mm_sub_epi16(target, old), rate));
+    now = _mm_sub_epi16(now, _mm_cmpgt_epi16(count_limit(), now));
+    _mm_store_si128(reinterpret_cast<__m128i*>(row.v), now);
+  }
+
+ private:
+  static __m128i load(const uint16_t* v) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(v));
+  }
+
+  /// Greater than the count as long as it grows, and than nothing else.
+  static __m128i count_limit() {
+    return _mm_set_epi16(SymbolRow::kLimit, -1, -1, -1, -1, -1, -1, -1);
+  }
+};
+#elif defined(__wasm_simd128__)
+/// The same by vectors of 16 bytes.
+struct VectorRows {
+  static void mix(const SymbolRow& a, const SymbolRow& b, uint16_t* to) {
+    const v128_t mean = wasm_u16x8_avgr(wasm_v128_load(a.v), wasm_v128_load(b.v));
+    const v128_t floor = wasm_i16x8_make(8, 16, 24, 32, 40, 48, 56, 0);
+    const v128_t starts = wasm_i16x8_add(wasm_i16x8_sub(mean, wasm_u16x8_shr(mean, 9)), floor);
+    wasm_v128_store(to, wasm_i16x8_replace_lane(starts, 7, -32768));
+  }
+
+  static uint32_t find(const uint16_t* starts, uint32_t x) {
+    const v128_t above =
+        wasm_i16x8_gt(wasm_v128_load(starts), wasm_i16x8_splat(static_cast<int16_t>(x)));
+    return static_cast<uint32_t>(__builtin_ctz(wasm_i16x8_bitmask(above) | 1U << 7));
+  }
+
+  static void learn(SymbolRow& row, uint32_t s) {
+    const v128_t old = wasm_v128_load(row.v);
+    const uint32_t seen = wasm_u16x8_extract_lane(old, 7);
+    const v128_t index = wasm_i16x8_make(0, 1, 2, 3, 4, 5, 6, -1);
+    const v128_t below = wasm_i16x8_gt(wasm_i16x8_splat(static_cast<int16_t>(s)), index);
+    const v128_t error = wasm_i16x8_sub(wasm_v128_andnot(wasm_i16x8_splat(32767), below), old);
+    const v128_t rate = wasm_i16x8_replace_lane(
+        wasm_i16x8_splat(static_cast<int16_t>(kAdaptationRates.value[seen])), 7, 0);
+    const v128_t low = wasm_i32x4_shr(wasm_i32x4_extmul_low_i16x8(error, rate), 15);
+    const v128_t high = wasm_i32x4_shr(wasm_i32x4_extmul_high_i16x8(error, rate), 15);
+    v128_t now = wasm_i16x8_add(old, wasm_i16x8_narrow_i32x4(low, high));
+    const v128_t limit = wasm_i16x8_make(-1, -1, -1, -1, -1, -1, -1, SymbolRow::kLimit);
+    now = wasm_i16x8_sub(now, wasm_i16x8_gt(limit, now));
+    wasm_v128_store(row.v, now);
+  }
+};
+#else
+using VectorRows = PlainRows;
+#endif
+
+/// The distribution that codes the next symbol.
+class SymbolDistribution {
+ public:
+  SymbolDistribution(const SymbolRow& a, const SymbolRow& b) {
+    starts_[0] = 0;
+    VectorRows::mix(a, b, starts_ + 1);
+  }
+
+  /// The start of symbol s, in 1/32768; 32768 for s = 8.
+  uint32_t start(uint32_t s) const { return starts_[s]; }
+
+  /// The symbol that has x, below 32768.
+  uint32_t at(uint32_t x) const { return VectorRows::find(starts_ + 1, x); }
+
+ private:
+  uint16_t starts_[kRowSymbols + 1];
+};
+
+/// Codes a symbol by the average of two rows, both of which learn from it. Inlined, so that the
+/// coder stays in registers from symbol to symbol.
+template <class Coder>
+inline __attribute__((always_inline)) uint32_t code_row_symbol(Coder& coder, SymbolRow& a,
+                                                               SymbolRow& b, uint32_t s) {
+  s = coder.symbol(SymbolDistribution(a, b), s);
+  VectorRows::learn(a, s);
+  VectorRows::learn(b, s);
+  return s;
+}
+
+}  // namespace anicodec
+
+#endif  // ANICODEC_FORMAT_CODING_SYMBOL_ROW_H_
