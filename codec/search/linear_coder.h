@@ -89,8 +89,8 @@ class LinearCoder : public SegmentCoder {
 
   struct MadeBasis {
     LinearBasis basis;
-    std::once_flag first_use;
-    std::optional<ReferencePoseEncoder> pose;  ///< made when it is first used
+    std::once_flag first_use;                  ///< of what follows
+    std::optional<ReferencePoseEncoder> pose;  ///< of the basis
   };
 
   /// By pose, base, regions and the most components that one of them has.

@@ -119,31 +119,26 @@ ReferencePoseEncoder::ReferencePoseEncoder(const MatrixXd& pose, const Eigen::Ve
       partners_(find_partners(pose, surface_)) {}
 
 std::shared_ptr<const EncodedPose> ReferencePoseEncoder::at_step(double step) const {
-  const PosePartners* by = partners_.partner.empty() ? nullptr : &partners_;
+  const bool repeats = !partners_.partner.empty();
+  const PosePartners* by = repeats ? &partners_ : nullptr;
   const auto coded = [&](PoseCoding coding, const PosePartners* those) {
     return encode_pose_as(coding, pose_, origin_, step, surface_, those);
   };
-  std::shared_ptr<const EncodedPose> best, alone, exact;
-  const auto code_exact = [&] { exact = coded(PoseCoding::kExact, by); };
+  std::shared_ptr<const EncodedPose> best, other;
+  // Isolated: a thread that waits here must not begin another trial meanwhile, which takes long.
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_invoke([&] { best = coded(PoseCoding::kDependent, by); },
-                         [&] {
-                           if (by)
-                             alone = coded(PoseCoding::kDependent, nullptr);
-                           else
-                             code_exact();
-                         });
+    tbb::parallel_invoke(
+        [&] { best = coded(PoseCoding::kDependent, by); },
+        [&] { other = coded(repeats ? PoseCoding::kDependent : PoseCoding::kExact, nullptr); });
   });
-  if (by) {
-    if (alone->stream.size() <= best->stream.size()) {
-      best = std::move(alone);
+  if (repeats) {
+    if (other->stream.size() <= best->stream.size()) {
+      best = std::move(other);
       by = nullptr;
     }
-    code_exact();
+    other = coded(PoseCoding::kExact, by);
   }
-  if (exact->stream.size() < best->stream.size())
-    best = std::move(exact);
-  return best;
+  return other->stream.size() < best->stream.size() ? other : best;
 }
 
 std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,

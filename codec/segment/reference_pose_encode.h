@@ -20,13 +20,13 @@ namespace anicodec {
 /// is made once.
 class ReferencePoseEncoder {
  public:
-  /// Pose and layout must outlive the object. About 10 microseconds a vertex at most.
+  /// Pose and layout must outlive the object. Cost: that of find_partners().
   ReferencePoseEncoder(const Eigen::MatrixXd& pose, const Eigen::Vector3d& origin,
                        const MeshLayout& layout);
 
   /// The pose, ready for the file, with the error of rounding to a grid of this step or, where
   /// coordinates would be too large, a coarser one: coded with dependent steps or exact coordinates,
-  /// by partners or without, whichever is smallest. About 5 microseconds a vertex.
+  /// by partners or without, whichever is smallest. O(vertices).
   std::shared_ptr<const EncodedPose> at_step(double step) const;
 
  private:
@@ -36,7 +36,7 @@ class ReferencePoseEncoder {
   PosePartners partners_;
 };
 
-/// The same for one step.
+/// The same for one step. `anicodec_bench pose` prints what its parts take.
 std::shared_ptr<const EncodedPose> encode_reference_pose(const Eigen::MatrixXd& pose,
                                                          const Eigen::Vector3d& origin, double step,
                                                          const MeshLayout& layout);
