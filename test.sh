@@ -34,6 +34,8 @@ fi
 # What the web's tests need, which no other build waits for.
 install_web_packages() {
   install_optional emscripten chromium || say "No emscripten or Chromium: tests of the npm package are skipped"
+  # With the clang that emscripten needs.
+  install_optional libclang-rt-14-dev || say "No sanitizers of clang: GCC compiles the sanitized readers"
   local folder
   for folder in sdk/web tests/web tests/web/babylon tests/web/vite; do
     [[ -d $folder/node_modules ]] || timeout 120 npm ci --prefix "$folder" --no-audit --no-fund ||

@@ -1,9 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 #
-# The fuzz tests once more, under the address and undefined-behaviour sanitizers.
+# The fuzz tests once more, under the address and undefined-behaviour sanitizers: by clang where it has them,
+# as it takes half of the time that GCC takes to compile such code.
 cmake_policy(VERSION 3.25)
 include("${SOURCE_DIR}/tests/package/run.cmake")
+find_program(clang NAMES clang++ clang++-14)
+if(clang)
+  file(WRITE "${WORK_DIR}/empty.cpp" "int main() {}\n")
+  execute_process(COMMAND "${clang}" -fsanitize=address,undefined "${WORK_DIR}/empty.cpp" -o "${WORK_DIR}/empty"
+                  RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+  if(result EQUAL 0)
+    set(CXX_COMPILER "${clang}")
+    string(REPLACE "clang++" "clang" C_COMPILER "${clang}")
+  endif()
+endif()
+message("compiled by ${CXX_COMPILER}")
 set(launcher "")
 if(LAUNCHER)
   set(launcher "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
