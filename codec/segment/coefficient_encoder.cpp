@@ -116,6 +116,17 @@ Bytes CoefficientEncoder::finish_layer() {
   return bytes;
 }
 
+DecodedCoefficients CoefficientEncoder::take_decoded() && {
+  const auto samples = static_cast<size_t>(decoded_.cols());
+  const size_t stride = coefficient_stride(samples);
+  DecodedCoefficients result;
+  result.rows.resize(coefficient_buffer_size(ranks(), samples));
+  for (size_t i = 0; i < ranks(); ++i)
+    std::copy_n(decoded_.row(order_.order[i]).data(), samples, result.rows.data() + i * stride);
+  result.order = std::move(order_.order);
+  return result;
+}
+
 template <class Coder, class Choose>
 bool CoefficientEncoder::pass(CoefficientModel& model, Coder& coder, const Choose& choose) {
   model.begin_component();

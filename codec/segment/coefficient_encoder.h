@@ -13,6 +13,7 @@
 #include "format/coding/rans_coder.h"
 #include "sdk/prediction/encoder_predictor.h"
 #include "sdk/prediction/vertex_order.h"
+#include "sdk/segment/segment.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -50,6 +51,9 @@ class CoefficientEncoder {
 
   /// The coefficients of the components coded so far, as a decoder gets them.
   const Coefficients& decoded() const { return decoded_; }
+
+  /// The same in the form of a decoder, which ends the object's use.
+  DecodedCoefficients take_decoded() &&;
 
  private:
   CoefficientModel fresh_model() const;

@@ -116,8 +116,10 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   context.layers.assign(encoded.layers.begin(), encoded.layers.end());
   context.corrections = encoded.corrections;
   context.runs = encoded.runs;
+  context.decoded = encoded.decoded ? &*encoded.decoded : nullptr;
   Segment segment;
   Status status = open_segment(record, context, &segment);
+  encoded.decoded.reset();
   if (status == Status::kNonFinite)
     throw Error(ErrorKind::kUsage, "the coordinates are too large");
   if (status != Status::kOk)

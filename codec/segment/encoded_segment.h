@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct EncodedSegment {
   Bytes corrections;                             ///< chunk CORR
   Bytes exact;                                   ///< chunk DIFF
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
+  /// What the layers decode to, if they were just encoded: opened once without decoding them.
+  std::optional<DecodedCoefficients> decoded;
   uint64_t hash = 0;
 
   /// Bytes in the file but for what the reference pose takes.
@@ -45,7 +48,8 @@ struct SegmentError {
   std::vector<double> squared_by_frame;
 };
 
-/// Opens a segment as a decoder does, from streams in memory, and stores its hash in `encoded`.
+/// Opens a segment as a decoder does, from streams in memory, and stores its hash in `encoded`. Uses up
+/// the coefficients that `encoded` has.
 Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout);
 
 /// Plays every frame of a segment against `source` (coded vertices, the segment's frames). A coded

@@ -142,6 +142,7 @@ class LinearEncoder {
         return std::nullopt;
       if (settings_.refit_weights)
         refit_time(coefficients.decoded());
+      encoded_.decoded = std::move(coefficients).take_decoded();
     }
     encoded_.parameters = parameters_.write();
     for (size_t l = 0; l < layers_.size(); ++l) {

@@ -175,16 +175,70 @@ void show_residuals(const ResidualRoom& room, size_t of_component, uint32_t comp
   trace->step("residuals", all.data(), all.size());
 }
 
+/// Decodes the coefficients of the components of `out`, whose arrays have their sizes.
+Status decode_coefficients(const SegmentContext& context, const LinearParameters& parameters,
+                           const Vector<BasisLayer>& layers, MeshGraph graph,
+                           const Vector<uint8_t>& regions, const DecodedIntegers& integers,
+                           Segment* out, DecodedCoefficients* coefficients) {
+  const int32_t* pose = context.pose->points.data();
+  VertexOrder order;
+  if (Status s = make_vertex_order(std::move(graph), pose, parameters.neighbours,
+                                   parameters.colours, &order,
+                                   regions.empty() ? nullptr : regions.data(), context.threads);
+      s != Status::kOk)
+    return s;
+  show(context.trace, "vertex of each rank", order.order);
+  show(context.trace, "first rank of each level", order.level_start);
+  integers.show("neighbours", order.neighbours.data(), order.neighbours.size());
+  // Residuals lie where the coefficients will: a segment has at least as many vertices as are coded.
+  const size_t n = order.vertex_count();
+  const uint32_t channels = out->channels();
+  const ResidualRoom room = {out->wide_components, out->wide.data(), out->narrow.data()};
+  if (Status s = read_residuals(context, parameters, order, channels, layers, out->components, room);
+      s != Status::kOk)
+    return s;
+  if (context.trace)
+    show_residuals(room, n * channels, out->components, context.trace);
+
+  PredictionParameters prediction;
+  prediction.channels = static_cast<int>(channels);
+  prediction.radius = parameters.radius;
+  prediction.schedule = parameters.schedule;
+  prediction.alike = parameters.alike;
+  PredictionResiduals input;
+  input.components = out->components;
+  input.wide_components = room.wide_components;
+  input.wide = room.wide;
+  input.narrow = room.narrow;
+  input.omega = parameters.omega.data();
+  const size_t samples = size_t{out->components} * channels;
+  coefficients->rows.resize(coefficient_buffer_size(n, samples));
+  CoefficientReconstruction reconstruction;
+  if (Status s = reconstruction.init(order, pose, prediction, input, coefficients->rows.data());
+      s != Status::kOk)
+    return s;
+  for (size_t l = 0; l < order.level_count(); ++l) {
+    const size_t first = order.level_start[l], last = order.level_start[l + 1];
+    for_ranges(context.threads, last - first, kSharedRanks,
+               [&](size_t begin, size_t end) { reconstruction.run(first + begin, first + end); });
+    if (!context.advance(samples * (last - first)))
+      return Status::kCancelled;
+  }
+  coefficients->order = std::move(order.order);
+  return Status::kOk;
+}
+
 /// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample. The hash
 /// takes hashes of blocks, which do not wait for one another.
-Vector<float> hash_coefficients(const Vector<float>& y, size_t stride, size_t ranks, size_t samples,
+Vector<float> hash_coefficients(const DecodedCoefficients& coefficients, size_t samples,
                                 DecodedIntegers& integers) {
+  const size_t ranks = coefficients.order.size(), stride = coefficient_stride(samples);
   Vector<int32_t> exact(samples);
   Vector<float> largest(samples, 0.F);
   for (size_t first = 0; first < ranks; first += kHashedRanks) {
     IntegerHash block;
     for (size_t i = first; i < std::min(ranks, first + kHashedRanks); ++i) {
-      const float* row = y.data() + i * stride;
+      const float* row = coefficients.rows.data() + i * stride;
       for (size_t s = 0; s < samples; ++s) {
         exact[s] = static_cast<int32_t>(row[s] * (1 << kFractionBits));
         largest[s] = std::max(largest[s], std::fabs(row[s]));
@@ -220,10 +274,9 @@ bool set_weights(const Vector<int32_t>& weights, const LinearParameters& paramet
 
 /// Puts the coefficients into the resident blocks, each component with as many fraction bits as
 /// fit, and scales its weights accordingly. `largest`: magnitudes by sample.
-Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t stride,
-                     const Vector<float>& largest, const LinearParameters& parameters,
-                     const Vector<int32_t>& weights, const Vector<double>& factors,
-                     ResidentWriter& writer, Segment* out) {
+Status make_resident(const DecodedCoefficients& coefficients, const Vector<float>& largest,
+                     const LinearParameters& parameters, const Vector<int32_t>& weights,
+                     const Vector<double>& factors, ResidentWriter& writer, Segment* out) {
   uint32_t channels = out->channels(), weight_channels = out->weight_channels();
   Vector<float> scale(size_t{out->components} * channels);
   out->weights.resize(size_t{out->frames} * out->regions * out->components * weight_channels);
@@ -244,10 +297,10 @@ Status make_resident(const VertexOrder& order, const Vector<float>& y, size_t st
         return Status::kNonFinite;
     }
   }
-  Vector<uint32_t> rank(order.order.size());
+  Vector<uint32_t> rank(coefficients.order.size());
   for (uint32_t i = 0; i < rank.size(); ++i)
-    rank[order.order[i]] = i;
-  writer.samples(rank, y.data(), stride, scale.data());
+    rank[coefficients.order[i]] = i;
+  writer.samples(rank, coefficients.rows.data(), coefficient_stride(scale.size()), scale.data());
   return Status::kOk;
 }
 
@@ -398,9 +451,11 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   const PoseGrid& pose = *context.pose;
   integers.add("pose", pose.points.data(), pose.points.size());
   MeshGraph own;
-  const MeshGraph* graph = nullptr;
-  if (Status s = graph_of(context, &own, &graph); s != Status::kOk)
-    return s;
+  const MeshGraph* graph = &own;
+  if (!context.decoded || context.sizes->regions > 1) {
+    if (Status s = graph_of(context, &own, &graph); s != Status::kOk)
+      return s;
+  }
   Vector<uint8_t> regions;
   if (Status s = read_regions(record.pose, *graph, context.sizes->regions, &regions);
       s != Status::kOk)
@@ -428,60 +483,25 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   out->wide_components = std::min(out->wide_components, wanted);
   if (wanted == 0 && components > 0)
     return Status::kSegment;
-  VertexOrder order;
-  if (wanted > 0) {
-    if (Status s = make_vertex_order(context.graph ? *graph : std::move(own), pose.points.data(),
-                                     parameters.neighbours, parameters.colours, &order,
-                                     regions.empty() ? nullptr : regions.data(), context.threads);
-        s != Status::kOk)
-      return s;
-  }
   ResidentWriter writer(context.vertex_coded, out);
   writer.pose(pose.points.data());
   if (!regions.empty())
     writer.regions(regions);
   if (wanted == 0)
     return Status::kOk;
-  show(context.trace, "vertex of each rank", order.order);
-  show(context.trace, "first rank of each level", order.level_start);
-  integers.show("neighbours", order.neighbours.data(), order.neighbours.size());
-  // Residuals lie where the coefficients will: a segment has at least as many vertices as are coded.
-  uint32_t channels = out->channels();
-  const ResidualRoom room = {out->wide_components, out->wide.data(), out->narrow.data()};
-  if (Status s = read_residuals(context, parameters, order, channels, layers, wanted, room);
-      s != Status::kOk)
-    return s;
-  if (context.trace)
-    show_residuals(room, n * channels, wanted, context.trace);
-
-  PredictionParameters prediction;
-  prediction.channels = static_cast<int>(channels);
-  prediction.radius = parameters.radius;
-  prediction.schedule = parameters.schedule;
-  prediction.alike = parameters.alike;
-  PredictionResiduals input;
-  input.components = wanted;
-  input.wide_components = room.wide_components;
-  input.wide = room.wide;
-  input.narrow = room.narrow;
-  input.omega = parameters.omega.data();
-  size_t samples = size_t{wanted} * channels;
-  Vector<float> y(coefficient_buffer_size(n, samples));
-  CoefficientReconstruction reconstruction;
-  if (Status s = reconstruction.init(order, pose.points.data(), prediction, input, y.data());
-      s != Status::kOk)
-    return s;
-  for (size_t l = 0; l < order.level_count(); ++l) {
-    const size_t first = order.level_start[l], last = order.level_start[l + 1];
-    for_ranges(context.threads, last - first, kSharedRanks,
-               [&](size_t begin, size_t end) { reconstruction.run(first + begin, first + end); });
-    if (!context.advance(samples * (last - first)))
-      return Status::kCancelled;
+  DecodedCoefficients own_coefficients;
+  if (!context.decoded) {
+    if (Status s = decode_coefficients(context, parameters, layers,
+                                       context.graph ? *context.graph : std::move(own), regions,
+                                       integers, out, &own_coefficients);
+        s != Status::kOk)
+      return s;
   }
-
-  size_t stride = coefficient_stride(samples);
-  const Vector<float> largest = hash_coefficients(y, stride, n, samples, integers);
-  return make_resident(order, y, stride, largest, parameters, weights, factors, writer, out);
+  const DecodedCoefficients& coefficients =
+      context.decoded ? *context.decoded : own_coefficients;
+  const Vector<float> largest =
+      hash_coefficients(coefficients, size_t{wanted} * out->channels(), integers);
+  return make_resident(coefficients, largest, parameters, weights, factors, writer, out);
 }
 
 }  // namespace anicodec

@@ -112,6 +112,12 @@ struct Segment {
   size_t resident_bytes() const;
 };
 
+/// The coefficients of a linear segment as decoded, in steps.
+struct DecodedCoefficients {
+  Vector<uint32_t> order;  ///< coded vertex of each rank
+  Vector<float> rows;      ///< by rank, coefficient_stride() apart: channels of each component
+};
+
 /// The surroundings that opening a segment needs besides its own record.
 struct SegmentContext {
   const Limits::Segment* sizes = nullptr;
@@ -122,6 +128,8 @@ struct SegmentContext {
   const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
   const PoseSurface* surface = nullptr;  ///< of the topology; null: made when needed
+  /// What the layers decode to, where an encoder knows it; null: they are decoded.
+  const DecodedCoefficients* decoded = nullptr;
   Vector<ByteView> layers;               ///< chunks BASI in file order
   ByteView corrections;                  ///< chunk CORR, empty when there is none
   /// The segment's frames cut where a clip ends (Limits::runs()); empty: they are one run.
