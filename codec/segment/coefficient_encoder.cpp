@@ -116,15 +116,13 @@ Bytes CoefficientEncoder::finish_layer() {
   return bytes;
 }
 
-DecodedCoefficients CoefficientEncoder::take_decoded() && {
+void CoefficientEncoder::take_decoded(DecodedBasis* to) && {
   const auto samples = static_cast<size_t>(decoded_.cols());
   const size_t stride = coefficient_stride(samples);
-  DecodedCoefficients result;
-  result.rows.resize(coefficient_buffer_size(ranks(), samples));
+  to->coefficients.resize(coefficient_buffer_size(ranks(), samples));
   for (size_t i = 0; i < ranks(); ++i)
-    std::copy_n(decoded_.row(order_.order[i]).data(), samples, result.rows.data() + i * stride);
-  result.order = std::move(order_.order);
-  return result;
+    std::copy_n(decoded_.row(order_.order[i]).data(), samples, to->coefficients.data() + i * stride);
+  to->order = std::move(order_.order);
 }
 
 template <class Coder, class Choose>

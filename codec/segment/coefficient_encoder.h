@@ -52,8 +52,8 @@ class CoefficientEncoder {
   /// The coefficients of the components coded so far, as a decoder gets them.
   const Coefficients& decoded() const { return decoded_; }
 
-  /// The same in the form of a decoder, which ends the object's use.
-  DecodedCoefficients take_decoded() &&;
+  /// The same with their order in the form of a decoder. Ends the use of the object.
+  void take_decoded(DecodedBasis* to) &&;
 
  private:
   CoefficientModel fresh_model() const;

@@ -33,8 +33,8 @@ struct EncodedSegment {
   Bytes corrections;                             ///< chunk CORR
   Bytes exact;                                   ///< chunk DIFF
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
-  /// What the layers decode to, if they were just encoded: opened once without decoding them.
-  std::optional<DecodedCoefficients> decoded;
+  /// What weights and layers decode to, if they were just encoded: opened once without decoding them.
+  std::optional<DecodedBasis> decoded;
   uint64_t hash = 0;
 
   /// Bytes in the file but for what the reference pose takes.
@@ -49,7 +49,7 @@ struct SegmentError {
 };
 
 /// Opens a segment as a decoder does, from streams in memory, and stores its hash in `encoded`. Uses up
-/// the coefficients that `encoded` has.
+/// encoded.decoded.
 Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout);
 
 /// Plays every frame of a segment against `source` (coded vertices, the segment's frames). A coded

@@ -46,10 +46,9 @@ class WeightCoder {
     factors_.resize(frames, 1);
   }
 
-  /// False if a weight is too large in its unit.
-  bool code(uint32_t channels, double unit, Eigen::Ref<VectorXd> column) {
+  /// False if a weight is too large in its unit. `values`: receives channels x frames integers.
+  bool code(uint32_t channels, double unit, Eigen::Ref<VectorXd> column, int32_t* values) {
     std::vector<double> x(channels * frames_);
-    Vector<int32_t> values(x.size());
     for (size_t f = 0; f < frames_; ++f) {
       for (size_t c = 0; c < channels; ++c) {
         double value = column[static_cast<Index>(channels * f + c)] / (unit * factors_[f]);
@@ -58,8 +57,7 @@ class WeightCoder {
         x[c * frames_ + f] = value;
       }
     }
-    model_.encode(encoder_, channels, x.data(), lambda_, values.data(), predictors_,
-                  run_together);
+    model_.encode(encoder_, channels, x.data(), lambda_, values, predictors_, run_together);
     for (size_t f = 0; f < frames_; ++f) {
       for (size_t c = 0; c < channels; ++c)
         column[static_cast<Index>(channels * f + c)] =
@@ -142,7 +140,7 @@ class LinearEncoder {
         return std::nullopt;
       if (settings_.refit_weights)
         refit_time(coefficients.decoded());
-      encoded_.decoded = std::move(coefficients).take_decoded();
+      std::move(coefficients).take_decoded(&decoded_);
     }
     encoded_.parameters = parameters_.write();
     for (size_t l = 0; l < layers_.size(); ++l) {
@@ -152,12 +150,15 @@ class LinearEncoder {
       encoded_.coefficient_bytes += coefficient_streams_[l].size();
       encoded_.layers.push_back(layer.write(1));
     }
+    encoded_.decoded = std::move(decoded_);
     return std::move(encoded_);
   }
 
  private:
   /// Null: all vertices are of one region.
   const uint8_t* regions() const { return basis_.clips ? basis_.clips->regions().data() : nullptr; }
+
+  uint32_t weight_channels() const { return shapes_ ? 1 : 3; }
 
   const LinearBasis& basis_of(size_t region) const {
     return basis_.regions.empty() ? basis_ : basis_.regions[region];
@@ -207,9 +208,14 @@ class LinearEncoder {
   /// too large in its unit: then nothing has changed.
   bool code_time(std::vector<TimeWeights> weights) {
     WeightCoder coder(clip_.frame_count, encoded_.runs, settings_);
-    for (Index b = 0; b < weights[0].base.cols(); ++b) {
-      for (TimeWeights& of_region : weights) {
-        if (!coder.code(3, parameters_.weight_step, of_region.base.col(b)))
+    const auto functions = static_cast<size_t>(weights[0].base.cols());
+    const size_t of_function = 3 * clip_.frame_count, regions = weights.size();
+    Vector<int32_t> affine(regions * functions * of_function);
+    Vector<int32_t> integers(count_ * regions * weight_channels() * clip_.frame_count);
+    for (size_t b = 0; b < functions; ++b) {
+      for (size_t r = 0; r < regions; ++r) {
+        if (!coder.code(3, parameters_.weight_step, weights[r].base.col(static_cast<Index>(b)),
+                        affine.data() + (r * functions + b) * of_function))
           return false;
       }
     }
@@ -219,26 +225,31 @@ class LinearEncoder {
       if (parameters_.layers_anew && layer.first > 0)
         coder.begin_anew();
       for (size_t j = layer.first; j < layer.first + layer.count; ++j) {
-        if (!code_component(coder, j, weights))
+        if (!code_component(coder, j, weights, integers))
           return false;
       }
       streams.push_back(coder.finish());
     }
     encoded_.weights = std::move(of_base);
     time_streams_ = std::move(streams);
+    decoded_.affine_weights = std::move(affine);
+    decoded_.weights = std::move(integers);
     for (size_t r = 0; r < weights.size(); ++r)
       fits_[r].set_decoded(std::move(weights[r]));
     return true;
   }
 
   /// The weights of a component, by region.
-  bool code_component(WeightCoder& coder, size_t j, std::vector<TimeWeights>& weights) const {
+  bool code_component(WeightCoder& coder, size_t j, std::vector<TimeWeights>& weights,
+                      Vector<int32_t>& integers) const {
+    const size_t rows = weight_channels() * clip_.frame_count;
     for (size_t r = 0; r < weights.size(); ++r) {
       if (j >= fits_[r].components())
         continue;
       const int32_t sigma = parameters_.sigma[j * weights.size() + r];
       const double unit = parameters_.weight_step / LinearParameters::sigma_value(sigma);
-      if (!coder.code(shapes_ ? 1 : 3, unit, weights[r].components.col(static_cast<Index>(j))))
+      if (!coder.code(weight_channels(), unit, weights[r].components.col(static_cast<Index>(j)),
+                      integers.data() + (j * weights.size() + r) * rows))
         return false;
     }
     return true;
@@ -309,6 +320,7 @@ class LinearEncoder {
   std::vector<BasisFit> fits_;  ///< of the regions, or of the whole
   LinearParameters parameters_;
   EncodedSegment encoded_;
+  DecodedBasis decoded_;            ///< what a decoder gets
   std::vector<BasisLayer> layers_;  ///< their streams are below
   std::vector<Bytes> time_streams_, coefficient_streams_;
 };

@@ -44,79 +44,117 @@ Status graph_of(const SegmentContext& context, MeshGraph* own, const MeshGraph**
   return own->init(triangles.data(), triangles.size() / 3, context.topology->coded_vertices);
 }
 
-/// Reads time weights: those of the affine bases become maps of the pose, the others stay integers.
+/// Reads the time weights of a segment.
 class WeightReader {
  public:
   WeightReader(const LinearParameters& parameters, const Vector<uint32_t>& runs,
-               DecodedIntegers* integers)
-      : parameters_(parameters), runs_(runs), model_(runs), integers_(*integers) {}
+               const Segment& segment)
+      : parameters_(parameters), runs_(runs), segment_(segment), model_(runs) {}
 
-  /// Block `weights` of a segment. `factors`: of the weight step, for each frame.
-  Status read_bases(ByteView bytes, const Vector<double>& factors, const PoseGrid& pose,
-                    const Vector<uint8_t>& regions, Segment* out) {
+  /// Block `weights` of a segment: DecodedBasis::affine_weights.
+  Status read_bases(ByteView bytes, Vector<int32_t>* values) {
     BinaryDecoder decoder(bytes.data, bytes.size);
-    out->pose_maps.resize(size_t{out->frames} * out->regions);
-    if (!parameters_.affine)
-      return decoder.finish() ? keep_still(pose, out) : Status::kEntropy;
-    const size_t of_function = size_t{3} * out->frames;
-    Vector<int32_t> values(out->regions * kAffineFunctions * of_function);  // by region
-    for (size_t b = 0; b < kAffineFunctions; ++b) {
-      for (size_t r = 0; r < out->regions; ++r) {
-        int32_t* v = values.data() + (r * kAffineFunctions + b) * of_function;
-        if (Status s = model_.decode(decoder, 3, v); s != Status::kOk)
+    const size_t of_function = size_t{3} * segment_.frames;
+    if (parameters_.affine)
+      values->resize(segment_.regions * kAffineFunctions * of_function);
+    for (size_t b = 0; parameters_.affine && b < kAffineFunctions; ++b) {
+      for (size_t r = 0; r < segment_.regions; ++r) {
+        int32_t* to = values->data() + (r * kAffineFunctions + b) * of_function;
+        if (Status s = model_.decode(decoder, 3, to); s != Status::kOk)
           return s;
-        integers_.add("affine weights", v, of_function);
       }
-    }
-    for (uint32_t r = 0; r < out->regions; ++r) {
-      const int32_t* v = values.data() + r * kAffineFunctions * of_function;
-      const AffineFunctions functions =
-          AffineFunctions::of(pose.points.data(), pose.points.size() / 3,
-                              regions.empty() ? nullptr : regions.data(), r);
-      if (Status s = set_maps(functions, v, factors, pose, r, out); s != Status::kOk)
-        return s;
     }
     return decoder.finish() ? Status::kOk : Status::kEntropy;
   }
 
   /// The first `count` components of a layer: components x regions x weight channels x frames, 0 where
   /// a region has none.
-  Status read_layer(const BasisLayer& layer, uint32_t count, const Segment& segment, int32_t* to) {
+  Status read_layer(const BasisLayer& layer, uint32_t count, int32_t* to) {
     if (layer.count == 0)
       return Status::kOk;
     if (parameters_.layers_anew && layer.first > 0)
       model_ = TimeWeightModel(runs_);
     BinaryDecoder decoder(layer.weights.data, layer.weights.size);
-    const size_t rows = size_t{segment.frames} * segment.weight_channels();
+    const uint32_t channels = segment_.weight_channels();
     for (uint32_t j = layer.first; j < layer.first + count; ++j) {
-      for (uint32_t r = 0; r < segment.regions; ++r, to += rows) {
+      for (uint32_t r = 0; r < segment_.regions; ++r, to += size_t{segment_.frames} * channels) {
         if (!parameters_.has_weights(r, j))
           continue;
-        if (Status s = model_.decode(decoder, segment.weight_channels(), to); s != Status::kOk)
+        if (Status s = model_.decode(decoder, channels, to); s != Status::kOk)
           return s;
-        integers_.add("weights", to, rows);
       }
     }
     return count < layer.count || decoder.finish() ? Status::kOk : Status::kEntropy;
   }
 
  private:
-  static Status keep_still(const PoseGrid& pose, Segment* out) {
-    Affine still;
-    for (size_t i = 0; i < 12; ++i) {
-      if (!to_float(i % 4 == 3 ? pose.origin[i / 4] : i % 5 == 0 ? pose.step : 0.0, &still.m[i]))
-        return Status::kNonFinite;
-    }
-    out->pose_maps.assign(out->pose_maps.size(), still);
-    return Status::kOk;
-  }
+  const LinearParameters& parameters_;
+  const Vector<uint32_t>& runs_;
+  const Segment& segment_;
+  TimeWeightModel model_;
+};
 
-  /// The maps of one region in all frames. `values`: kAffineFunctions x 3 x frames.
-  Status set_maps(const AffineFunctions& functions, const int32_t* values,
-                  const Vector<double>& factors, const PoseGrid& pose, uint32_t region,
-                  Segment* out) const {
-    const double unit = parameters_.weight_step / (1 << kWeightFractionBits);
-    const size_t frames = out->frames;
+/// The weights of the bases, and those of the first `wanted` components.
+Status read_weights(ByteView of_bases, const Vector<BasisLayer>& layers, uint32_t wanted,
+                    const LinearParameters& parameters, const Vector<uint32_t>& runs,
+                    const Segment& segment, DecodedBasis* decoded) {
+  WeightReader reader(parameters, runs, segment);
+  if (Status s = reader.read_bases(of_bases, &decoded->affine_weights); s != Status::kOk)
+    return s;
+  const size_t of_component = size_t{segment.regions} * segment.frames * segment.weight_channels();
+  decoded->weights.resize(of_component * wanted);
+  for (const BasisLayer& layer : layers) {
+    const uint32_t count = std::min(layer.count, wanted - layer.first);
+    int32_t* to = decoded->weights.data() + of_component * layer.first;
+    if (Status s = reader.read_layer(layer, count, to); s != Status::kOk)
+      return s;
+  }
+  return Status::kOk;
+}
+
+/// Hashes weights in the order in which they are read.
+void add_weights(const DecodedBasis& decoded, uint32_t wanted, const LinearParameters& parameters,
+                 const Segment& segment, DecodedIntegers& integers) {
+  const size_t of_function = size_t{3} * segment.frames;
+  for (size_t b = 0; parameters.affine && b < kAffineFunctions; ++b) {
+    for (size_t r = 0; r < segment.regions; ++r)
+      integers.add("affine weights",
+                   decoded.affine_weights.data() + (r * kAffineFunctions + b) * of_function,
+                   of_function);
+  }
+  const size_t rows = size_t{segment.frames} * segment.weight_channels();
+  for (uint32_t j = 0; j < wanted; ++j) {
+    for (uint32_t r = 0; r < segment.regions; ++r) {
+      if (parameters.has_weights(r, j))
+        integers.add("weights", decoded.weights.data() + (size_t{j} * segment.regions + r) * rows, rows);
+    }
+  }
+}
+
+Status keep_still(const PoseGrid& pose, Segment* out) {
+  Affine still;
+  for (size_t i = 0; i < 12; ++i) {
+    if (!to_float(i % 4 == 3 ? pose.origin[i / 4] : i % 5 == 0 ? pose.step : 0.0, &still.m[i]))
+      return Status::kNonFinite;
+  }
+  out->pose_maps.assign(out->pose_maps.size(), still);
+  return Status::kOk;
+}
+
+/// The maps of the pose in all frames and regions. `factors`: of the weight step, for each frame.
+Status set_maps(const LinearParameters& parameters, const Vector<int32_t>& weights,
+                const Vector<double>& factors, const PoseGrid& pose,
+                const Vector<uint8_t>& regions, Segment* out) {
+  const size_t frames = out->frames;
+  out->pose_maps.resize(frames * out->regions);
+  if (!parameters.affine)
+    return keep_still(pose, out);
+  const double unit = parameters.weight_step / (1 << kWeightFractionBits);
+  for (uint32_t r = 0; r < out->regions; ++r) {
+    const int32_t* values = weights.data() + size_t{r} * kAffineFunctions * 3 * frames;
+    const AffineFunctions functions =
+        AffineFunctions::of(pose.points.data(), pose.points.size() / 3,
+                            regions.empty() ? nullptr : regions.data(), r);
     for (size_t f = 0; f < frames; ++f) {
       double w[3][kAffineFunctions], map[12];
       for (size_t axis = 0; axis < 3; ++axis) {
@@ -124,37 +162,12 @@ class WeightReader {
           w[axis][b] = unit * factors[f] * values[(3 * b + axis) * frames + f];
       }
       functions.map(w, map);
-      float* m = out->pose_maps[f * out->regions + region].m;
+      float* m = out->pose_maps[f * out->regions + r].m;
       for (size_t i = 0; i < 12; ++i) {
         if (!to_float(i % 4 == 3 ? map[i] + pose.origin[i / 4] : map[i], &m[i]))
           return Status::kNonFinite;
       }
     }
-    return Status::kOk;
-  }
-
-  const LinearParameters& parameters_;
-  const Vector<uint32_t>& runs_;
-  TimeWeightModel model_;
-  DecodedIntegers& integers_;
-};
-
-/// The weights of the bases, and those of the first `wanted` components.
-Status read_weights(ByteView of_bases, const Vector<BasisLayer>& layers, uint32_t wanted,
-                    const LinearParameters& parameters, const Vector<uint32_t>& runs,
-                    const Vector<double>& factors, const PoseGrid& pose,
-                    const Vector<uint8_t>& regions, DecodedIntegers* integers, Segment* out,
-                    Vector<int32_t>* weights) {
-  WeightReader reader(parameters, runs, integers);
-  if (Status s = reader.read_bases(of_bases, factors, pose, regions, out); s != Status::kOk)
-    return s;
-  const size_t of_component = size_t{out->regions} * out->frames * out->weight_channels();
-  weights->resize(of_component * wanted);
-  for (const BasisLayer& layer : layers) {
-    const uint32_t count = std::min(layer.count, wanted - layer.first);
-    int32_t* to = weights->data() + of_component * layer.first;
-    if (Status s = reader.read_layer(layer, count, *out, to); s != Status::kOk)
-      return s;
   }
   return Status::kOk;
 }
@@ -175,11 +188,11 @@ void show_residuals(const ResidualRoom& room, size_t of_component, uint32_t comp
   trace->step("residuals", all.data(), all.size());
 }
 
-/// Decodes the coefficients of the components of `out`, whose arrays have their sizes.
+/// Decodes the order and the coefficients of the components of `out`, whose arrays have their sizes.
 Status decode_coefficients(const SegmentContext& context, const LinearParameters& parameters,
                            const Vector<BasisLayer>& layers, MeshGraph graph,
                            const Vector<uint8_t>& regions, const DecodedIntegers& integers,
-                           Segment* out, DecodedCoefficients* coefficients) {
+                           Segment* out, DecodedBasis* decoded) {
   const int32_t* pose = context.pose->points.data();
   VertexOrder order;
   if (Status s = make_vertex_order(std::move(graph), pose, parameters.neighbours,
@@ -212,9 +225,9 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
   input.narrow = room.narrow;
   input.omega = parameters.omega.data();
   const size_t samples = size_t{out->components} * channels;
-  coefficients->rows.resize(coefficient_buffer_size(n, samples));
+  decoded->coefficients.resize(coefficient_buffer_size(n, samples));
   CoefficientReconstruction reconstruction;
-  if (Status s = reconstruction.init(order, pose, prediction, input, coefficients->rows.data());
+  if (Status s = reconstruction.init(order, pose, prediction, input, decoded->coefficients.data());
       s != Status::kOk)
     return s;
   for (size_t l = 0; l < order.level_count(); ++l) {
@@ -224,21 +237,21 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
     if (!context.advance(samples * (last - first)))
       return Status::kCancelled;
   }
-  coefficients->order = std::move(order.order);
+  decoded->order = std::move(order.order);
   return Status::kOk;
 }
 
 /// Hashes the coefficients exactly, by rank, and finds the largest magnitude of each sample. The hash
 /// takes hashes of blocks, which do not wait for one another.
-Vector<float> hash_coefficients(const DecodedCoefficients& coefficients, size_t samples,
+Vector<float> hash_coefficients(const DecodedBasis& decoded, size_t samples,
                                 DecodedIntegers& integers) {
-  const size_t ranks = coefficients.order.size(), stride = coefficient_stride(samples);
+  const size_t ranks = decoded.order.size(), stride = coefficient_stride(samples);
   Vector<int32_t> exact(samples);
   Vector<float> largest(samples, 0.F);
   for (size_t first = 0; first < ranks; first += kHashedRanks) {
     IntegerHash block;
     for (size_t i = first; i < std::min(ranks, first + kHashedRanks); ++i) {
-      const float* row = coefficients.rows.data() + i * stride;
+      const float* row = decoded.coefficients.data() + i * stride;
       for (size_t s = 0; s < samples; ++s) {
         exact[s] = static_cast<int32_t>(row[s] * (1 << kFractionBits));
         largest[s] = std::max(largest[s], std::fabs(row[s]));
@@ -274,9 +287,9 @@ bool set_weights(const Vector<int32_t>& weights, const LinearParameters& paramet
 
 /// Puts the coefficients into the resident blocks, each component with as many fraction bits as
 /// fit, and scales its weights accordingly. `largest`: magnitudes by sample.
-Status make_resident(const DecodedCoefficients& coefficients, const Vector<float>& largest,
-                     const LinearParameters& parameters, const Vector<int32_t>& weights,
-                     const Vector<double>& factors, ResidentWriter& writer, Segment* out) {
+Status make_resident(const DecodedBasis& decoded, const Vector<float>& largest,
+                     const LinearParameters& parameters, const Vector<double>& factors,
+                     ResidentWriter& writer, Segment* out) {
   uint32_t channels = out->channels(), weight_channels = out->weight_channels();
   Vector<float> scale(size_t{out->components} * channels);
   out->weights.resize(size_t{out->frames} * out->regions * out->components * weight_channels);
@@ -293,14 +306,14 @@ Status make_resident(const DecodedCoefficients& coefficients, const Vector<float
     for (uint32_t c = 0; c < channels; ++c)
       scale[size_t{j} * channels + c] = static_cast<float>(1 << bits);
     for (uint32_t r = 0; r < out->regions; ++r) {
-      if (!set_weights(weights, parameters, factors, r, j, bits, out))
+      if (!set_weights(decoded.weights, parameters, factors, r, j, bits, out))
         return Status::kNonFinite;
     }
   }
-  Vector<uint32_t> rank(coefficients.order.size());
+  Vector<uint32_t> rank(decoded.order.size());
   for (uint32_t i = 0; i < rank.size(); ++i)
-    rank[coefficients.order[i]] = i;
-  writer.samples(rank, coefficients.rows.data(), coefficient_stride(scale.size()), scale.data());
+    rank[decoded.order[i]] = i;
+  writer.samples(rank, decoded.coefficients.data(), coefficient_stride(scale.size()), scale.data());
   return Status::kOk;
 }
 
@@ -473,10 +486,16 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   if (Status s = read_layers(context.layers, parameters.slices, components, wanted, &layers);
       s != Status::kOk)
     return s;
-  Vector<int32_t> weights;
+  DecodedBasis own_decoded;
+  if (!context.decoded) {
+    if (Status s = read_weights(record.weights, layers, wanted, parameters, runs, *out, &own_decoded);
+        s != Status::kOk)
+      return s;
+  }
+  const DecodedBasis& decoded = context.decoded ? *context.decoded : own_decoded;
+  add_weights(decoded, wanted, parameters, *out, integers);
   const Vector<double> factors = step_factors(parameters, runs);
-  if (Status s = read_weights(record.weights, layers, wanted, parameters, runs, factors, pose,
-                              regions, &integers, out, &weights);
+  if (Status s = set_maps(parameters, decoded.affine_weights, factors, pose, regions, out);
       s != Status::kOk)
     return s;
   out->components = wanted;
@@ -489,19 +508,16 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     writer.regions(regions);
   if (wanted == 0)
     return Status::kOk;
-  DecodedCoefficients own_coefficients;
   if (!context.decoded) {
     if (Status s = decode_coefficients(context, parameters, layers,
                                        context.graph ? *context.graph : std::move(own), regions,
-                                       integers, out, &own_coefficients);
+                                       integers, out, &own_decoded);
         s != Status::kOk)
       return s;
   }
-  const DecodedCoefficients& coefficients =
-      context.decoded ? *context.decoded : own_coefficients;
   const Vector<float> largest =
-      hash_coefficients(coefficients, size_t{wanted} * out->channels(), integers);
-  return make_resident(coefficients, largest, parameters, weights, factors, writer, out);
+      hash_coefficients(decoded, size_t{wanted} * out->channels(), integers);
+  return make_resident(decoded, largest, parameters, factors, writer, out);
 }
 
 }  // namespace anicodec

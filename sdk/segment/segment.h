@@ -112,10 +112,12 @@ struct Segment {
   size_t resident_bytes() const;
 };
 
-/// The coefficients of a linear segment as decoded, in steps.
-struct DecodedCoefficients {
-  Vector<uint32_t> order;  ///< coded vertex of each rank
-  Vector<float> rows;      ///< by rank, coefficient_stride() apart: channels of each component
+/// What the streams of a linear segment decode to.
+struct DecodedBasis {
+  Vector<int32_t> affine_weights;  ///< regions x functions x 3 x frames; empty: the base keeps still
+  Vector<int32_t> weights;         ///< components x regions x weight channels x frames
+  Vector<uint32_t> order;          ///< coded vertex of each rank
+  Vector<float> coefficients;      ///< in steps, by rank: rows of coefficient_stride()
 };
 
 /// The surroundings that opening a segment needs besides its own record.
@@ -128,8 +130,8 @@ struct SegmentContext {
   const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
   const PoseSurface* surface = nullptr;  ///< of the topology; null: made when needed
-  /// What the layers decode to, where an encoder knows it; null: they are decoded.
-  const DecodedCoefficients* decoded = nullptr;
+  /// What an encoder knows that weights and layers decode to; null: they are decoded.
+  const DecodedBasis* decoded = nullptr;
   Vector<ByteView> layers;               ///< chunks BASI in file order
   ByteView corrections;                  ///< chunk CORR, empty when there is none
   /// The segment's frames cut where a clip ends (Limits::runs()); empty: they are one run.

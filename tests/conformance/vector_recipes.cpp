@@ -69,6 +69,7 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
       throw Error(ErrorKind::kInternal, "the step is too fine");
     EncodedSegment& segment = segments.emplace_back(std::move(*coded));
     segment.sizes.first_frame = first;
+    segment.decoded.reset();  // changes are to be decoded, too
     if (recipe.change)
       recipe.change(segment, input);
     open_encoded(segment, input.layout);

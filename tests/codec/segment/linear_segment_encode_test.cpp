@@ -10,6 +10,7 @@
 #include "sdk/segment/keep_frames.h"
 #include "tests/sdk/position_tolerance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -130,6 +131,33 @@ TEST(LinearSegmentEncode, RegionsGoWithEveryCoderLayerAndRun) {
       std::vector<float> x(size_t{3} * opened.vertices);
       play(frame_state(opened, f), 0, opened.vertices, x.data());
       EXPECT_LE(tolerance_used(opened, f, x), 1);
+    }
+  }
+}
+
+TEST(LinearSegmentEncode, KnowsWhatItsStreamsDecodeTo) {
+  const Sheet sheet;
+  for (uint32_t regions : {1U, 3U}) {
+    for (CoefficientCoder coder : {CoefficientCoder::kMixing, CoefficientCoder::kBatches}) {
+      LinearSettings settings = fine();
+      settings.coder = coder;
+      settings.layers = 2;
+      settings.refit_weights = regions == 1;
+      settings.run_steps = {0, 4};
+      EncodedSegment coded = sheet.encode(sheet.basis(regions), settings, {10, 8});
+      EncodedSegment unknown = coded;
+      unknown.decoded.reset();
+      const Segment known = open_encoded(coded, sheet.layout),
+                    decoded = open_encoded(unknown, sheet.layout);
+      EXPECT_FALSE(coded.decoded.has_value());
+      EXPECT_EQ(coded.hash, unknown.hash);
+      EXPECT_EQ(known.wide, decoded.wide);
+      EXPECT_EQ(known.narrow, decoded.narrow);
+      EXPECT_EQ(known.weights, decoded.weights);
+      EXPECT_EQ(known.vertex_region, decoded.vertex_region);
+      ASSERT_EQ(known.pose_maps.size(), decoded.pose_maps.size());
+      for (size_t i = 0; i < known.pose_maps.size(); ++i)
+        EXPECT_TRUE(std::equal(known.pose_maps[i].m, known.pose_maps[i].m + 12, decoded.pose_maps[i].m));
     }
   }
 }
