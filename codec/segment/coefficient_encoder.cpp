@@ -53,8 +53,10 @@ int32_t rounded(CoefficientModel& model, uint32_t v, uint32_t c, double residual
   return sign * best;
 }
 
-VertexOrder order_of(const LinearSettings& settings, const MeshLayout& layout,
-                     const Vector<int32_t>& pose, const uint8_t* regions) {
+}  // namespace
+
+VertexOrder coefficient_order(const LinearSettings& settings, const MeshLayout& layout,
+                              const Vector<int32_t>& pose, const uint8_t* regions) {
   VertexOrder order;
   MeshGraph graph;
   const Vector<uint32_t>& triangles = layout.topology.triangles;
@@ -65,17 +67,15 @@ VertexOrder order_of(const LinearSettings& settings, const MeshLayout& layout,
   return order;
 }
 
-}  // namespace
-
-CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, const MeshLayout& layout,
+CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, VertexOrder order,
                                        const Vector<int32_t>& pose, Coefficients target,
-                                       uint32_t channels, const uint8_t* regions)
+                                       uint32_t channels)
     : lambda_(settings.lambda),
       joint_lambda_(settings.joint_lambda),
       target_(std::move(target)),
       decoded_(target_.rows(), target_.cols()),
       channels_(channels),
-      order_(order_of(settings, layout, pose, regions)),
+      order_(std::move(order)),
       model_(fresh_model()),
       joint_(order_),
       layers_anew_(settings.layers_anew),

@@ -27,15 +27,18 @@ namespace anicodec {
 /// Coefficients in steps, a row per vertex: channels of component 0, of component 1, ...
 using Coefficients = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// The order of the coefficients. `pose`: vertices x 3 on its grid; `regions`: of each vertex, or null.
+/// Cost: O(vertices), some microseconds each.
+VertexOrder coefficient_order(const LinearSettings& settings, const MeshLayout& layout,
+                              const Vector<int32_t>& pose, const uint8_t* regions);
+
 /// Predicts, rounds and codes the coefficients of a basis, component by component. What residuals
 /// cost is what the mixing coder takes for them, whichever writes them.
 class CoefficientEncoder {
  public:
-  /// `pose`: vertices x 3 on its grid; `target`: what the coefficients would best be; `regions`: of
-  /// each vertex, or null. The layout must outlive the object.
-  CoefficientEncoder(const LinearSettings& settings, const MeshLayout& layout,
-                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels,
-                     const uint8_t* regions = nullptr);
+  /// `order`: coefficient_order(); `target`: what the coefficients would best be.
+  CoefficientEncoder(const LinearSettings& settings, VertexOrder order,
+                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels);
 
   struct Component {
     uint8_t omega = 0;  ///< for the next component

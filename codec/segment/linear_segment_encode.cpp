@@ -131,11 +131,23 @@ class LinearEncoder {
     std::vector<TimeWeights> weights;
     for (const BasisFit& fit : fits_)
       weights.push_back(fit.exact_weights());
-    if (!code_time(std::move(weights)))
+    bool is_coded = false;
+    Coefficients target;
+    VertexOrder order;
+    run_together(count_ > 0 ? 2 : 1, [&](size_t task) {
+      if (task > 0) {
+        order = coefficient_order(settings_, layout_, pose(), regions());
+        return;
+      }
+      is_coded = code_time(std::move(weights));
+      if (is_coded && count_ > 0)
+        target = targets();
+    });
+    if (!is_coded)
       return std::nullopt;
     if (count_ > 0) {
-      CoefficientEncoder coefficients(settings_, layout_, pose(), targets(), shapes_ ? 3 : 1,
-                                      regions());
+      CoefficientEncoder coefficients(settings_, std::move(order), pose(), std::move(target),
+                                      shapes_ ? 3 : 1);
       if (!code_layers(coefficients))
         return std::nullopt;
       if (settings_.refit_weights)
