@@ -9,6 +9,8 @@
 #include <utility>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 
 namespace anicodec {
 namespace {
@@ -165,32 +167,43 @@ auto CoefficientEncoder::chosen() const {
 /// model.
 bool CoefficientEncoder::round_together() {
   constexpr int kRounds = 2;
+  std::vector<float> weights;
   if (new_weights_) {
-    std::vector<float> weights(order_.neighbours.size());
+    weights.resize(order_.neighbours.size());
     predictor_.weights(weights.data());
-    joint_.set_weights(std::move(weights));
   }
   std::vector<ResidualCosts> costs(residuals_.size());
   Rehearsal rehearsal;
   CoefficientModel model = model_;
-  for (int round = 0; round < kRounds; ++round) {
-    const auto note_costs = [&](const auto& choose) {
-      return pass(model, rehearsal, [&](uint32_t i, uint32_t c, float prediction) {
-        costs[size_t{c} * ranks() + i] = model.costs(i, c);
-        return choose(i, c, prediction);
-      });
-    };
-    if (round > 0)
-      model = model_;
-    if (!(round == 0 ? note_costs(nearest(model, component_)) : note_costs(chosen())))
-      return false;
+  const auto note_costs = [&](const auto& choose) {
+    return pass(model, rehearsal, [&](uint32_t i, uint32_t c, float prediction) {
+      costs[size_t{c} * ranks() + i] = model.costs(i, c);
+      return choose(i, c, prediction);
+    });
+  };
+  // The first rehearsal does not need what the weights become. Isolated, so that a thread that waits
+  // does not begin another trial.
+  bool is_coded = false;
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_invoke(
+        [&] { is_coded = note_costs(nearest(model, component_)); },
+        [&] {
+          if (new_weights_)
+            joint_.set_weights(std::move(weights));
+        });
+  });
+  for (int round = 0; is_coded; ++round) {
     tbb::parallel_for(uint32_t{0}, channels_, [&](uint32_t c) {
       const size_t first = size_t{c} * ranks();
       joint_.improve(component_.data() + first, costs.data() + first, joint_lambda_,
                      residuals_.data() + first);
     });
+    if (round + 1 == kRounds)
+      return true;
+    model = model_;
+    is_coded = note_costs(chosen());
   }
-  return true;
+  return false;
 }
 
 std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) {
