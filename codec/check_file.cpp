@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/check_file.h"
 
+#include "codec/algebra/task_threads.h"
 #include "codec/sequence/error.h"
 #include "sdk/clip/clip.h"
 
@@ -17,7 +18,9 @@ namespace {
 
 Clip opened(const Bytes& file) {
   Clip clip;
-  if (Failure failure = clip.open(file); !failure.ok())
+  OpenOptions options;
+  options.threads = task_threads();
+  if (Failure failure = clip.open(file, options); !failure.ok())
     throw Error(ErrorKind::kInternal,
                 std::string("the encoded file cannot be opened: ") + status_string(failure.status));
   if (Failure failure = clip.check_hashes(); !failure.ok())

@@ -3,6 +3,7 @@
 #include "codec/interpolation/interpolation.h"
 
 #include "codec/algebra/rigid_motion.h"
+#include "codec/algebra/task_threads.h"
 #include "codec/interpolation/deformation_gradients.h"
 #include "codec/interpolation/edge_refinement.h"
 #include "codec/interpolation/resting_parts.h"
@@ -14,8 +15,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -37,14 +36,6 @@ void check_weights(std::span<const double> weights, size_t inputs) {
                                        std::to_string(inputs) + " meshes");
   if (!(std::abs(sum - 1) <= kSumTolerance))
     throw Error(ErrorKind::kUsage, "the weights sum to " + std::to_string(sum) + ", not to 1");
-}
-
-HostThreads task_threads() {
-  HostThreads threads;
-  threads.run = [](void*, size_t count, void (*body)(void*, size_t), void* context) {
-    tbb::parallel_for(size_t{0}, count, [=](size_t i) { body(context, i); });
-  };
-  return threads;
 }
 
 std::vector<Points> all_points(std::span<const std::span<const float>> inputs) {

@@ -9,7 +9,12 @@
 #include "sdk/segment/residual_reader.h"
 
 #include <algorithm>
+#include <atomic>
+#include <iterator>
 #include <optional>
+#include <utility>
+
+#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -98,12 +103,25 @@ EncodedSegment CoefficientSlices::in(uint32_t slices) const {
 }
 
 EncodedSegment CoefficientSlices::within(double growth) const {
-  for (uint32_t slices = kMostSlices; slices > 1; slices /= 2) {
-    EncodedSegment sliced = in(slices);
-    if (static_cast<double>(sliced.bytes()) <= static_cast<double>(segment_.bytes()) + growth)
-      return sliced;
-  }
-  return segment_;
+  constexpr uint32_t kCounts[] = {8, 4, 2};
+  static_assert(kCounts[0] == kMostSlices);
+  std::optional<EncodedSegment> found[std::size(kCounts)];
+  std::atomic<size_t> best = std::size(kCounts);
+  tbb::parallel_for(
+      size_t{0}, std::size(kCounts),
+      [&](size_t i) {
+        if (best < i)
+          return;
+        EncodedSegment sliced = in(kCounts[i]);
+        if (static_cast<double>(sliced.bytes()) > static_cast<double>(segment_.bytes()) + growth)
+          return;
+        found[i] = std::move(sliced);
+        size_t before = best;
+        while (i < before && !best.compare_exchange_weak(before, i)) {
+        }
+      },
+      tbb::simple_partitioner());
+  return best < std::size(kCounts) ? std::move(*found[best]) : segment_;
 }
 
 }  // namespace anicodec
