@@ -17,12 +17,13 @@ constexpr Index kTile = 64, kStrip = 16;
 
 using Tiles = std::vector<std::pair<Index, Index>>;
 
-/// Sums over a depth: sums(i, j) += a(d, i) b(d, j). a lies in strips of kStrip columns, rows of which follow one another,
-/// b in columns.
+/// Sums over a depth: sums(i, j) += a(d, i) b(d, j). a lies in strips of kStrip numbers i for each d, b in columns.
 struct TileProduct {
   const double* a;
   const double* b;
   double* sums;
+  size_t a_stride;        ///< from a depth to the next
+  size_t strip_stride;    ///< from a strip to the next
   size_t b_stride, sums_stride, depth, rows, columns;
 };
 
@@ -33,9 +34,9 @@ template <size_t Width, size_t Groups, size_t Columns>
   typedef double Lanes __attribute__((vector_size(sizeof(double) * Width), aligned(8), may_alias));
   Lanes sums[Groups][Columns] = {};
   const double* b = p.b + column * p.b_stride;
-  const double* strip = p.a + (row / kStrip * kStrip) * size_t{kProductDepth} + row % kStrip;
+  const double* strip = p.a + row / kStrip * p.strip_stride + row % kStrip;
   for (size_t d = 0; d < p.depth; ++d) {
-    const double* a = strip + d * size_t{kStrip};
+    const double* a = strip + d * p.a_stride;
 #pragma GCC unroll 4  // sums stay in registers
     for (size_t j = 0; j < Columns; ++j) {
       const double factor = b[d + j * p.b_stride];
@@ -91,38 +92,50 @@ Multiply widest() {
   return multiply_by_2;
 }
 
-void add_tiles(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Tiles& tiles,
-               Eigen::MatrixXd& sums) {
-  static const Multiply run = widest();
-  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t t) {
-    const auto [row, column] = tiles[t];
-    const Index rows = std::min(kTile, a.cols() - row);
-    TileProduct p;
-    p.rows = static_cast<size_t>(rows);
-    p.columns = static_cast<size_t>(std::min(kTile, b.cols() - column));
-    p.sums = &sums(row, column);
-    p.sums_stride = static_cast<size_t>(sums.rows());
-    p.b_stride = static_cast<size_t>(b.rows());
-    alignas(64) double strips[kProductDepth * kTile];
-    p.a = strips;
-    if (rows < kTile)
-      std::fill(std::begin(strips), std::end(strips), 0.0);
-    for (Index d = 0; d < a.rows(); d += kProductDepth) {
-      const Index depth = std::min(kProductDepth, a.rows() - d);
-      for (Index i = 0; i < rows; i += kStrip) {
-        const double* from = &a(d, row + i);
-        double* to = strips + i * kProductDepth;
-        const Index columns = std::min(kStrip, rows - i);
-        for (Index k = 0; k < depth; ++k) {
-          for (Index c = 0; c < columns; ++c)
-            to[k * kStrip + c] = from[c * a.rows() + k];
-        }
-      }
-      p.depth = static_cast<size_t>(depth);
-      p.b = &b(d, column);
-      run(p);
+void run(const TileProduct& product) {
+  static const Multiply multiply = widest();
+  multiply(product);
+}
+
+/// Rows first .. first + depth - 1 of a in strips, zeros beyond the last column.
+void pack(const Eigen::MatrixXd& a, Index first, Index depth, std::vector<double>& strips) {
+  const Index count = (a.cols() + kStrip - 1) / kStrip;
+  strips.resize(static_cast<size_t>(count * kStrip * depth));
+  tbb::parallel_for(Index{0}, count, [&](Index s) {
+    double* to = strips.data() + s * kStrip * depth;
+    const Index columns = std::min(kStrip, a.cols() - s * kStrip);
+    if (columns < kStrip)
+      std::fill_n(to, kStrip * depth, 0.0);
+    const double* from = &a(first, s * kStrip);
+    for (Index k = 0; k < depth; ++k) {
+      for (Index c = 0; c < columns; ++c)
+        to[k * kStrip + c] = from[c * a.rows() + k];
     }
   });
+}
+
+void add_tiles(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Tiles& tiles,
+               Eigen::MatrixXd& sums) {
+  std::vector<double> strips;
+  for (Index d = 0; d < a.rows(); d += kProductDepth) {
+    const Index depth = std::min(kProductDepth, a.rows() - d);
+    pack(a, d, depth, strips);
+    tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t t) {
+      const auto [row, column] = tiles[t];
+      TileProduct p;
+      p.a = strips.data() + row * depth;
+      p.b = &b(d, column);
+      p.sums = &sums(row, column);
+      p.a_stride = size_t{kStrip};
+      p.strip_stride = static_cast<size_t>(kStrip * depth);
+      p.b_stride = static_cast<size_t>(b.rows());
+      p.sums_stride = static_cast<size_t>(sums.rows());
+      p.depth = static_cast<size_t>(depth);
+      p.rows = static_cast<size_t>(std::min(kTile, a.cols() - row));
+      p.columns = static_cast<size_t>(std::min(kTile, b.cols() - column));
+      run(p);
+    });
+  }
 }
 
 }  // namespace
@@ -149,6 +162,39 @@ void add_self_products(const Eigen::MatrixXd& a, Eigen::MatrixXd& sums) {
     }
   }
   add_tiles(a, a, tiles, sums);
+}
+
+void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& sums) {
+  const Index whole = a.rows() / kStrip * kStrip, rest = a.rows() - whole;
+  std::vector<double> last;  // rows that do not fill a strip
+  if (rest > 0) {
+    last.assign(static_cast<size_t>(a.cols() * kStrip), 0.0);
+    for (Index d = 0; d < a.cols(); ++d)
+      std::copy_n(a.col(d).data() + whole, rest, last.data() + d * kStrip);
+  }
+  for (Index d = 0; d < a.cols(); d += kProductDepth) {
+    TileProduct p;
+    p.strip_stride = size_t{kStrip};
+    p.b = b.data() + d;
+    p.b_stride = static_cast<size_t>(b.rows());
+    p.sums_stride = static_cast<size_t>(sums.rows());
+    p.depth = static_cast<size_t>(std::min(kProductDepth, a.cols() - d));
+    p.columns = static_cast<size_t>(b.cols());
+    if (whole > 0) {
+      p.a = a.col(d).data();
+      p.a_stride = static_cast<size_t>(a.rows());
+      p.rows = static_cast<size_t>(whole);
+      p.sums = sums.data();
+      run(p);
+    }
+    if (rest > 0) {
+      p.a = last.data() + d * kStrip;
+      p.a_stride = size_t{kStrip};
+      p.rows = static_cast<size_t>(rest);
+      p.sums = sums.data() + whole;
+      run(p);
+    }
+  }
 }
 
 void mirror_upper(Eigen::MatrixXd& sums) {

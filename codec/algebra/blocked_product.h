@@ -23,6 +23,10 @@ void add_products(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::Mat
 void add_self_products(const Eigen::MatrixXd& a, Eigen::MatrixXd& sums);
 void mirror_upper(Eigen::MatrixXd& sums);
 
+/// sums += a b, by one thread. Every entry is summed in the order of the columns of a, kProductDepth of
+/// them at a time.
+void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& sums);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_ALGEBRA_BLOCKED_PRODUCT_H_

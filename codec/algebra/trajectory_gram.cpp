@@ -17,12 +17,15 @@ using Eigen::Vector3d;
 void trajectory_panel(const FrameView& clip, const Vector3d& origin, size_t first, size_t count,
                       MatrixXd* panel) {
   panel->resize(static_cast<Index>(count), static_cast<Index>(3 * clip.frame_count));
+  const double x = origin[0], y = origin[1], z = origin[2];
   for (size_t f = 0; f < clip.frame_count; ++f) {
     const float* p = clip.frame(f) + 3 * first;
     double* to = panel->col(static_cast<Index>(3 * f)).data();
-    for (size_t i = 0; i < count; ++i)
-      for (size_t c = 0; c < 3; ++c)
-        to[c * count + i] = double{p[3 * i + c]} - origin[static_cast<Index>(c)];
+    for (size_t i = 0; i < count; ++i) {
+      to[i] = double{p[3 * i]} - x;
+      to[count + i] = double{p[3 * i + 1]} - y;
+      to[2 * count + i] = double{p[3 * i + 2]} - z;
+    }
   }
 }
 
@@ -83,10 +86,7 @@ void combine_rows(const FrameView& clip, const Vector3d& origin, const MatrixXd&
     else
       trajectory_panel(clip, origin, first, count, &panel);
     MatrixXd block = MatrixXd::Zero(panel.rows(), weights.cols());
-    for (Index d = 0; d < weights.rows(); d += kProductDepth) {
-      const Index depth = std::min(kProductDepth, weights.rows() - d);
-      block.noalias() += panel.middleCols(d, depth) * weights.middleRows(d, depth);
-    }
+    add_product(panel, weights, block);
     take(first, block);
   });
 }

@@ -37,6 +37,9 @@ TEST(BlockedProduct, HasTheBitsOfAPlainLoop) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rows, columns);
     add_products(a, b, sums);
     EXPECT_EQ(sums, plain_product(a, b)) << depth << " " << rows << " " << columns;
+    sums.setZero();
+    add_product(a.transpose(), b, sums);
+    EXPECT_EQ(sums, plain_product(a, b)) << depth << " " << rows << " " << columns;
     Eigen::MatrixXd self = Eigen::MatrixXd::Zero(rows, rows);
     add_self_products(a, self);
     mirror_upper(self);
