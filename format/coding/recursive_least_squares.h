@@ -36,22 +36,27 @@ class RecursiveLeastSquares {
     return sum;
   }
 
-  /// Learns that z went with `value`, whose noise has this variance.
+  /// Learns that z went with `value`, whose noise has this variance. One division.
   void learn(const Vector& z, double value, double noise) {
     const double error = value - predict(z);
-    Vector gain{};
-    double denominator = kForget * noise;
-    for (size_t i = 0; i < size_; ++i) {
-      for (size_t j = 0; j < size_; ++j)
-        gain[i] += p_[i][j] * z[j];
-      denominator += z[i] * gain[i];
+    // The matrix is symmetric: row j holds what regressor j adds to the gains.
+    Row gain{};
+    for (size_t j = 0; j < size_; ++j) {
+#pragma GCC unroll 16  // gains stay in registers
+      for (size_t i = 0; i < kRow; ++i)
+        gain[i] += p_[j][i] * z[j];
     }
+    double denominator = kForget * noise;
     for (size_t i = 0; i < size_; ++i)
-      w_[i] += gain[i] / denominator * error;
+      denominator += z[i] * gain[i];
+    const double scale = 1 / denominator;
+    for (size_t i = 0; i < size_; ++i)
+      w_[i] += gain[i] * scale * error;
     double trace = 0;
     for (size_t i = 0; i < size_; ++i) {
-      for (size_t j = 0; j <= i; ++j)
-        p_[i][j] = p_[j][i] = (p_[i][j] - gain[i] * gain[j] / denominator) / kForget;
+#pragma GCC unroll 16
+      for (size_t j = 0; j < kRow; ++j)
+        p_[i][j] = (p_[i][j] - gain[i] * gain[j] * scale) * kRemember;
       trace += p_[i][i];
     }
     if (!(trace < 1e12))
@@ -59,7 +64,9 @@ class RecursiveLeastSquares {
   }
 
  private:
-  static constexpr double kForget = kForgetPerMille / 1000.0;
+  static constexpr double kForget = kForgetPerMille / 1000.0, kRemember = 1 / kForget;
+  static constexpr size_t kRow = (kSize + 1) / 2 * 2;  ///< whole registers of two
+  using Row = std::array<double, kRow>;
 
   void reset_covariance() {
     p_ = {};
@@ -69,7 +76,7 @@ class RecursiveLeastSquares {
 
   size_t size_ = 0;
   Vector w_{}, start_{};
-  std::array<Vector, kSize> p_{};
+  std::array<Row, kSize> p_{};  ///< zeros from size_ on
 };
 
 }  // namespace anicodec
