@@ -3,6 +3,7 @@
 #include "codec/algebra/blocked_product.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -98,7 +99,7 @@ void run(const TileProduct& product) {
 }
 
 /// Rows first .. first + depth - 1 of a in strips, zeros beyond the last column.
-void pack(const Eigen::MatrixXd& a, Index first, Index depth, std::vector<double>& strips) {
+void pack(const Columns& a, Index first, Index depth, std::vector<double>& strips) {
   const Index count = (a.cols() + kStrip - 1) / kStrip;
   strips.resize(static_cast<size_t>(count * kStrip * depth));
   tbb::parallel_for(Index{0}, count, [&](Index s) {
@@ -106,16 +107,15 @@ void pack(const Eigen::MatrixXd& a, Index first, Index depth, std::vector<double
     const Index columns = std::min(kStrip, a.cols() - s * kStrip);
     if (columns < kStrip)
       std::fill_n(to, kStrip * depth, 0.0);
-    const double* from = &a(first, s * kStrip);
+    const double* from = a.col(s * kStrip).data() + first;
     for (Index k = 0; k < depth; ++k) {
       for (Index c = 0; c < columns; ++c)
-        to[k * kStrip + c] = from[c * a.rows() + k];
+        to[k * kStrip + c] = from[c * a.outerStride() + k];
     }
   });
 }
 
-void add_tiles(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Tiles& tiles,
-               Eigen::MatrixXd& sums) {
+void add_tiles(const Columns& a, const Columns& b, const Tiles& tiles, Eigen::MatrixXd& sums) {
   std::vector<double> strips;
   for (Index d = 0; d < a.rows(); d += kProductDepth) {
     const Index depth = std::min(kProductDepth, a.rows() - d);
@@ -124,11 +124,11 @@ void add_tiles(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Tiles& 
       const auto [row, column] = tiles[t];
       TileProduct p;
       p.a = strips.data() + row * depth;
-      p.b = &b(d, column);
+      p.b = b.col(column).data() + d;
       p.sums = &sums(row, column);
       p.a_stride = size_t{kStrip};
       p.strip_stride = static_cast<size_t>(kStrip * depth);
-      p.b_stride = static_cast<size_t>(b.rows());
+      p.b_stride = static_cast<size_t>(b.outerStride());
       p.sums_stride = static_cast<size_t>(sums.rows());
       p.depth = static_cast<size_t>(depth);
       p.rows = static_cast<size_t>(std::min(kTile, a.cols() - row));
@@ -144,7 +144,7 @@ Index panel_depth(Index columns) {
   return kProductDepth * std::clamp<Index>(2000 / std::max<Index>(columns, 1), 1, 8);
 }
 
-void add_products(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& sums) {
+void add_products(const Columns& a, const Columns& b, Eigen::MatrixXd& sums) {
   Tiles tiles;
   for (Index column = 0; column < b.cols(); column += kTile) {
     for (Index row = 0; row < a.cols(); row += kTile) {
@@ -154,7 +154,7 @@ void add_products(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::Mat
   add_tiles(a, b, tiles, sums);
 }
 
-void add_self_products(const Eigen::MatrixXd& a, Eigen::MatrixXd& sums) {
+void add_self_products(const Columns& a, Eigen::MatrixXd& sums) {
   Tiles tiles;
   for (Index column = 0; column < a.cols(); column += kTile) {
     for (Index row = 0; row <= column; row += kTile) {
@@ -164,37 +164,50 @@ void add_self_products(const Eigen::MatrixXd& a, Eigen::MatrixXd& sums) {
   add_tiles(a, a, tiles, sums);
 }
 
-void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& sums) {
-  const Index whole = a.rows() / kStrip * kStrip, rest = a.rows() - whole;
-  std::vector<double> last;  // rows that do not fill a strip
-  if (rest > 0) {
-    last.assign(static_cast<size_t>(a.cols() * kStrip), 0.0);
-    for (Index d = 0; d < a.cols(); ++d)
-      std::copy_n(a.col(d).data() + whole, rest, last.data() + d * kStrip);
-  }
-  for (Index d = 0; d < a.cols(); d += kProductDepth) {
-    TileProduct p;
-    p.strip_stride = size_t{kStrip};
-    p.b = b.data() + d;
-    p.b_stride = static_cast<size_t>(b.rows());
-    p.sums_stride = static_cast<size_t>(sums.rows());
-    p.depth = static_cast<size_t>(std::min(kProductDepth, a.cols() - d));
-    p.columns = static_cast<size_t>(b.cols());
-    if (whole > 0) {
-      p.a = a.col(d).data();
-      p.a_stride = static_cast<size_t>(a.rows());
+void add_product(const Columns& a, const Columns& b, Eigen::MatrixXd& sums) {
+  constexpr Index kRows = 32 * kStrip;
+  tbb::parallel_for(Index{0}, (a.rows() + kRows - 1) / kRows, [&](Index t) {
+    const Index first = t * kRows, rows = std::min(kRows, a.rows() - first);
+    const Index whole = rows / kStrip * kStrip, rest = rows - whole;
+    double last[kProductDepth * kStrip];  // rows that do not fill a strip
+    if (rest > 0)
+      std::fill(std::begin(last), std::end(last), 0.0);
+    for (Index d = 0; d < a.cols(); d += kProductDepth) {
+      TileProduct p;
+      p.a = a.col(d).data() + first;
+      p.b = b.col(0).data() + d;
+      p.sums = sums.data() + first;
+      p.a_stride = static_cast<size_t>(a.outerStride());
+      p.strip_stride = size_t{kStrip};
+      p.b_stride = static_cast<size_t>(b.outerStride());
+      p.sums_stride = static_cast<size_t>(sums.rows());
+      p.depth = static_cast<size_t>(std::min(kProductDepth, a.cols() - d));
       p.rows = static_cast<size_t>(whole);
-      p.sums = sums.data();
+      p.columns = static_cast<size_t>(b.cols());
       run(p);
-    }
-    if (rest > 0) {
-      p.a = last.data() + d * kStrip;
+      if (rest == 0)
+        continue;
+      for (size_t k = 0; k < p.depth; ++k)
+        std::copy_n(p.a + k * p.a_stride + p.rows, rest, last + k * size_t{kStrip});
+      p.a = last;
       p.a_stride = size_t{kStrip};
+      p.sums += whole;
       p.rows = static_cast<size_t>(rest);
-      p.sums = sums.data() + whole;
       run(p);
     }
-  }
+  });
+}
+
+Eigen::MatrixXd product(const Columns& a, const Columns& b) {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+  add_product(a, b, sums);
+  return sums;
+}
+
+Eigen::MatrixXd inner_products(const Columns& a, const Columns& b) {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(a.cols(), b.cols());
+  add_products(a, b, sums);
+  return sums;
 }
 
 void mirror_upper(Eigen::MatrixXd& sums) {

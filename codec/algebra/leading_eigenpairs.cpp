@@ -19,9 +19,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kWidth = 16;
-// Rows from which threads share a product. The sums of smaller ones are Eigen's: files of dance, chicken and flag differ
-// by up to half a per cent, to either side, with sums in another order.
-constexpr Index kShared = 2000;
 constexpr double kResidual = 0.02, kNoise = 1e-12;  // of a value, and of the largest one
 
 // Descending; only as many as are wanted.
@@ -40,9 +37,10 @@ Eigenpairs diagonalise(const MatrixXd& symmetric, Index max_count, double smalle
 }
 
 // Orthonormal columns that span those of w without what q spans.
-MatrixXd orthonormal(MatrixXd w, const Eigen::Ref<const MatrixXd>& q) {
+MatrixXd orthonormal(MatrixXd w, const Columns& q) {
   for (int pass = 0; pass < 2; ++pass) {  // twice is enough
-    w -= q * (q.transpose() * w).eval();
+    if (q.cols() > 0)
+      w -= product(q, inner_products(q, w));
     const Eigen::HouseholderQR<MatrixXd> qr(w);
     w = qr.householderQ() * MatrixXd::Identity(w.rows(), w.cols());
   }
@@ -66,25 +64,19 @@ Eigenpairs leading_eigenpairs(const MatrixXd& symmetric, Index max_count, double
   Index size = 0, check = 4 * kWidth;
   while (size < limit) {
     space.middleCols(size, kWidth) = next;
-    if (n < kShared) {
-      image.middleCols(size, kWidth).noalias() = symmetric * next;
-    } else {
-      MatrixXd products = MatrixXd::Zero(n, kWidth);
-      add_products(symmetric, next, products);
-      image.middleCols(size, kWidth) = products;
-    }
+    image.middleCols(size, kWidth) = product(symmetric, next);
     size += kWidth;
     if (size >= check || size == limit) {
-      const MatrixXd projected = space.leftCols(size).transpose() * image.leftCols(size);
+      const MatrixXd projected = inner_products(space.leftCols(size), image.leftCols(size));
       const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(projected);
       const Eigenpairs small =
           select(solver.eigenvalues(), solver.eigenvectors(), max_count, smallest);
       const Index count = small.values.size();
       // All of the space above the threshold: there may be more of them.
       if (count < size) {
-        const MatrixXd vectors = space.leftCols(size) * small.vectors;
-        const MatrixXd residual =
-            image.leftCols(size) * small.vectors - vectors * small.values.asDiagonal();
+        const MatrixXd vectors = product(space.leftCols(size), small.vectors);
+        const MatrixXd residual = product(image.leftCols(size), small.vectors) -
+                                  vectors * small.values.asDiagonal();
         bool converged = true;
         for (Index j = 0; j < count && converged; ++j)
           converged = residual.col(j).norm() <=

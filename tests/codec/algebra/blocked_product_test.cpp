@@ -37,14 +37,20 @@ TEST(BlockedProduct, HasTheBitsOfAPlainLoop) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rows, columns);
     add_products(a, b, sums);
     EXPECT_EQ(sums, plain_product(a, b)) << depth << " " << rows << " " << columns;
-    sums.setZero();
-    add_product(a.transpose(), b, sums);
-    EXPECT_EQ(sums, plain_product(a, b)) << depth << " " << rows << " " << columns;
+    EXPECT_EQ(inner_products(a, b), sums);
+    EXPECT_EQ(product(a.transpose(), b), sums);
     Eigen::MatrixXd self = Eigen::MatrixXd::Zero(rows, rows);
     add_self_products(a, self);
     mirror_upper(self);
     EXPECT_EQ(self, plain_product(a, a)) << depth << " " << rows;
   }
+}
+
+TEST(BlockedProduct, TakesColumnsOfALargerMatrix) {
+  const Eigen::MatrixXd all = random_matrix(530, 90, 3);
+  const Eigen::MatrixXd a = all.middleCols(5, 37), b = all.rightCols(20), c = all.topRows(37);
+  EXPECT_EQ(inner_products(all.middleCols(5, 37), all.rightCols(20)), plain_product(a, b));
+  EXPECT_EQ(product(all.middleCols(5, 37), c), plain_product(a.transpose(), c));
 }
 
 }  // namespace
