@@ -75,7 +75,7 @@ MatrixXd project_on_fields(const FrameView& clip, const Vector3d& origin, const 
 
 void combine_rows(const FrameView& clip, const Vector3d& origin, const MatrixXd& weights,
                   const std::function<void(size_t first, const MatrixXd& block)>& take) {
-  constexpr size_t kVertices = 192;
+  constexpr size_t kVertices = 96;
   const bool frames = weights.rows() == static_cast<Index>(clip.frame_count);
   const size_t blocks = (clip.vertex_count + kVertices - 1) / kVertices;
   tbb::parallel_for(size_t{0}, blocks, [&](size_t b) {
