@@ -27,29 +27,30 @@ float bits(const ResidualCosts& costs, int32_t q) {
 /// A sum of sparse rows, which costs what they have.
 class JointRounding::SparseSum {
  public:
-  explicit SparseSum(size_t columns) : values_(columns, 0.0F), unmet_(columns, 1), met_(columns + 1) {}
+  explicit SparseSum(size_t columns) : values_(columns, 0.0F) {}
 
   /// Adds entries times a factor.
   void add(const Entry* entry, const Entry* end, float factor) {
+    const size_t most = count_ + static_cast<size_t>(end - entry) + 1;
+    if (met_.size() < most)
+      met_.resize(2 * most);
     float* const values = values_.data();
-    uint32_t* const unmet = unmet_.data();
     uint32_t* met = met_.data() + count_;
     for (; entry < end; ++entry) {
       const uint32_t r = entry->rank;
       *met = r;  // without a branch, which would be guessed wrong
-      met += unmet[r];
-      unmet[r] = 0;
+      met += values[r] == 0;
       values[r] += factor * entry->value;
     }
     count_ = static_cast<size_t>(met - met_.data());
   }
 
-  /// Calls f(rank, value) for what has been added to, and begins anew.
+  /// Calls f(rank, value) for what has been added to, and begins anew. Where sums came to 0 on the way,
+  /// also f(rank, 0).
   template <class F>
   void take(const F& f) {
     for (size_t k = 0; k < count_; ++k) {
       const uint32_t r = met_[k];
-      unmet_[r] = 1;
       f(r, values_[r]);
       values_[r] = 0;
     }
@@ -58,7 +59,7 @@ class JointRounding::SparseSum {
 
  private:
   std::vector<float> values_;
-  std::vector<uint32_t> unmet_, met_;  ///< 1 or 0; ranks, and room for one more
+  std::vector<uint32_t> met_;  ///< ranks, and room for one more
   size_t count_ = 0;
 };
 
