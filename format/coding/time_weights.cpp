@@ -512,10 +512,8 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
                                                 const double* x, double lambda, int32_t* values,
                                                 uint32_t allowed, const RunTasks& run) {
   struct Trial {
-    Trial(const State& before, const std::atomic<double>& least, size_t size)
-        : state(before), coder(least), values(size) {}
+    Trial(const std::atomic<double>& least, size_t size) : coder(least), values(size) {}
 
-    State state;
     TrialEncoder coder;
     Vector<int32_t> values;
     Choice choice{WeightPredictor::kLine, 0, 0};
@@ -535,9 +533,13 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
     const auto p = static_cast<uint32_t>(k == 0 ? first : k - (k <= first ? 1 : 0));
     if (!(allowed >> p & 1))
       return;
-    Trial& trial = trials[p].emplace(*state_, least, size);
+    if (tried_[p])
+      *tried_[p] = *state_;
+    else
+      tried_[p] = make_state(*state_);
+    Trial& trial = trials[p].emplace(least, size);
     trial.choice.predictor = static_cast<WeightPredictor>(p);
-    trial.state.code(trial.coder, channels, &source, trial.choice.predictor, trial.values.data());
+    tried_[p]->code(trial.coder, channels, &source, trial.choice.predictor, trial.values.data());
     if (!trial.coder.ok())
       return;
     for (size_t i = 0; i < size; ++i) {
@@ -551,19 +553,22 @@ TimeWeightModel::Choice TimeWeightModel::encode(BinaryEncoder& encoder, uint32_t
         break;
     }
   });
-  Trial* winner = nullptr;
-  for (std::optional<Trial>& trial : trials) {
-    if (trial && trial->cost < (winner ? winner->cost : std::numeric_limits<double>::infinity()))
-      winner = &*trial;
+  size_t winner = kWeightPredictors;
+  double cost = std::numeric_limits<double>::infinity();
+  for (size_t p = 0; p < kWeightPredictors; ++p) {
+    if (trials[p] && trials[p]->cost < cost) {
+      cost = trials[p]->cost;
+      winner = p;
+    }
   }
-  if (!winner) {
+  if (winner == kWeightPredictors) {
     state_->code(encoder, channels, &source, best.predictor, values);
     return best;
   }
-  winner->coder.write(encoder);
-  std::copy(winner->values.begin(), winner->values.end(), values);
-  *state_ = std::move(winner->state);
-  return winner->choice;
+  trials[winner]->coder.write(encoder);
+  std::copy(trials[winner]->values.begin(), trials[winner]->values.end(), values);
+  std::swap(state_, tried_[winner]);
+  return trials[winner]->choice;
 }
 #endif
 

@@ -94,6 +94,7 @@ class TimeWeightModel {
 
   uint32_t frames_;  ///< of all runs
   StatePointer state_;
+  std::array<StatePointer, kWeightPredictors> tried_;  ///< room of the encoder's trials
 };
 
 }  // namespace anicodec
