@@ -138,11 +138,14 @@ SegmentError measure(const Segment& segment, const FrameView& source,
   std::vector<double> squared(segment.frames), largest(segment.frames);
   for_each_frame(segment, [&](uint32_t f, const float* decoded) {
     const float* original = source.frame(f);
+    double sum = 0, most = 0;
     for (size_t v = 0; v < segment.vertices; ++v) {
-      double d = squared_distance(decoded + 3 * v, original + 3 * v);
-      squared[f] += copies[v] * d;
-      largest[f] = std::max(largest[f], d);
+      const double d = squared_distance(decoded + 3 * v, original + 3 * v);
+      sum += copies[v] * d;
+      most = std::max(most, d);
     }
+    squared[f] = sum;
+    largest[f] = most;
   });
   const double sum = std::accumulate(squared.begin(), squared.end(), 0.0);
   return {sum, std::sqrt(*std::max_element(largest.begin(), largest.end())), std::move(squared)};
