@@ -23,8 +23,8 @@ struct TileProduct {
   const double* a;
   const double* b;
   double* sums;
-  size_t a_stride;        ///< from a depth to the next
-  size_t strip_stride;    ///< from a strip to the next
+  size_t a_stride;      ///< from a depth to the next
+  size_t strip_stride;  ///< from a strip to the next
   size_t b_stride, sums_stride, depth, rows, columns;
 };
 
@@ -99,7 +99,7 @@ void run(const TileProduct& product) {
 }
 
 /// Rows first .. first + depth - 1 of a in strips, zeros beyond the last column.
-void pack(const Columns& a, Index first, Index depth, std::vector<double>& strips) {
+void pack(const MatrixView& a, Index first, Index depth, std::vector<double>& strips) {
   const Index count = (a.cols() + kStrip - 1) / kStrip;
   strips.resize(static_cast<size_t>(count * kStrip * depth));
   tbb::parallel_for(Index{0}, count, [&](Index s) {
@@ -115,7 +115,7 @@ void pack(const Columns& a, Index first, Index depth, std::vector<double>& strip
   });
 }
 
-void add_tiles(const Columns& a, const Columns& b, const Tiles& tiles, Eigen::MatrixXd& sums) {
+void add_tiles(const MatrixView& a, const MatrixView& b, const Tiles& tiles, Eigen::MatrixXd& sums) {
   std::vector<double> strips;
   for (Index d = 0; d < a.rows(); d += kProductDepth) {
     const Index depth = std::min(kProductDepth, a.rows() - d);
@@ -144,7 +144,7 @@ Index panel_depth(Index columns) {
   return kProductDepth * std::clamp<Index>(2000 / std::max<Index>(columns, 1), 1, 8);
 }
 
-void add_products(const Columns& a, const Columns& b, Eigen::MatrixXd& sums) {
+void add_products(const MatrixView& a, const MatrixView& b, Eigen::MatrixXd& sums) {
   Tiles tiles;
   for (Index column = 0; column < b.cols(); column += kTile) {
     for (Index row = 0; row < a.cols(); row += kTile) {
@@ -154,7 +154,7 @@ void add_products(const Columns& a, const Columns& b, Eigen::MatrixXd& sums) {
   add_tiles(a, b, tiles, sums);
 }
 
-void add_self_products(const Columns& a, Eigen::MatrixXd& sums) {
+void add_self_products(const MatrixView& a, Eigen::MatrixXd& sums) {
   Tiles tiles;
   for (Index column = 0; column < a.cols(); column += kTile) {
     for (Index row = 0; row <= column; row += kTile) {
@@ -164,7 +164,8 @@ void add_self_products(const Columns& a, Eigen::MatrixXd& sums) {
   add_tiles(a, a, tiles, sums);
 }
 
-void add_product(const Columns& a, const Columns& b, Eigen::MatrixXd& sums) {
+Eigen::MatrixXd product(const MatrixView& a, const MatrixView& b) {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(a.rows(), b.cols());
   constexpr Index kRows = 32 * kStrip;
   tbb::parallel_for(Index{0}, (a.rows() + kRows - 1) / kRows, [&](Index t) {
     const Index first = t * kRows, rows = std::min(kRows, a.rows() - first);
@@ -196,15 +197,10 @@ void add_product(const Columns& a, const Columns& b, Eigen::MatrixXd& sums) {
       run(p);
     }
   });
-}
-
-Eigen::MatrixXd product(const Columns& a, const Columns& b) {
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(a.rows(), b.cols());
-  add_product(a, b, sums);
   return sums;
 }
 
-Eigen::MatrixXd inner_products(const Columns& a, const Columns& b) {
+Eigen::MatrixXd inner_products(const MatrixView& a, const MatrixView& b) {
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   add_products(a, b, sums);
   return sums;

@@ -8,7 +8,7 @@
 namespace anicodec {
 
 /// A matrix, or some columns of one.
-using Columns = Eigen::Ref<const Eigen::MatrixXd>;
+using MatrixView = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// Depth of one product, in rows of a panel. Eigen splits a deeper one by the size of the first
 /// cache, which would make the sums depend on the machine.
@@ -20,19 +20,16 @@ Eigen::Index panel_depth(Eigen::Index columns);
 
 /// sums += a^T b for panels of equally many rows. Parallel over tiles of the result; every entry is
 /// summed in the order of the rows, so the result has the same bits for any number of threads.
-void add_products(const Columns& a, const Columns& b, Eigen::MatrixXd& sums);
+void add_products(const MatrixView& a, const MatrixView& b, Eigen::MatrixXd& sums);
 
 /// The same for b = a, upper triangle only; mirror_upper() completes it after the last panel.
-void add_self_products(const Columns& a, Eigen::MatrixXd& sums);
+void add_self_products(const MatrixView& a, Eigen::MatrixXd& sums);
 void mirror_upper(Eigen::MatrixXd& sums);
 
-/// sums += a b. Parallel over rows; every entry is summed in the order of the columns of a, kProductDepth
-/// of them at a time, so the result has the same bits for any number of threads.
-void add_product(const Columns& a, const Columns& b, Eigen::MatrixXd& sums);
-
-/// a b and a^T b, summed like this.
-Eigen::MatrixXd product(const Columns& a, const Columns& b);
-Eigen::MatrixXd inner_products(const Columns& a, const Columns& b);
+/// a b and a^T b. Parallel; every entry is summed in order, kProductDepth numbers at a time, so the
+/// result has the same bits for any number of threads.
+Eigen::MatrixXd product(const MatrixView& a, const MatrixView& b);
+Eigen::MatrixXd inner_products(const MatrixView& a, const MatrixView& b);
 
 }  // namespace anicodec
 

@@ -37,7 +37,7 @@ Eigenpairs diagonalise(const MatrixXd& symmetric, Index max_count, double smalle
 }
 
 // Orthonormal columns that span those of w without what q spans.
-MatrixXd orthonormal(MatrixXd w, const Columns& q) {
+MatrixXd orthonormal(MatrixXd w, const MatrixView& q) {
   for (int pass = 0; pass < 2; ++pass) {  // twice is enough
     if (q.cols() > 0)
       w -= product(q, inner_products(q, w));

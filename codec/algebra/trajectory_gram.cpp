@@ -85,9 +85,7 @@ void combine_rows(const FrameView& clip, const Vector3d& origin, const MatrixXd&
       frame_panel(clip, origin, first, count, &panel);
     else
       trajectory_panel(clip, origin, first, count, &panel);
-    MatrixXd block = MatrixXd::Zero(panel.rows(), weights.cols());
-    add_product(panel, weights, block);
-    take(first, block);
+    take(first, product(panel, weights));
   });
 }
 

@@ -121,8 +121,10 @@ Bytes CoefficientEncoder::finish_layer() {
 void CoefficientEncoder::take_decoded(DecodedBasis* to) && {
   const auto samples = static_cast<size_t>(decoded_.cols());
   const size_t stride = coefficient_stride(samples);
-  to->coefficients.resize(coefficient_buffer_size(ranks(), samples));
-  for (size_t i = 0; i < ranks(); ++i)
+  target_.resize(0, 0);  // what follows takes as much memory
+  predictor_ = EncoderPredictor();
+  to->coefficients.resize(coefficient_buffer_size(order_.vertex_count(), samples));
+  for (size_t i = 0; i < order_.vertex_count(); ++i)
     std::copy_n(decoded_.row(order_.order[i]).data(), samples, to->coefficients.data() + i * stride);
   to->order = std::move(order_.order);
 }
