@@ -260,18 +260,28 @@ void LinearCoder::learn(const Measured& trial, double rmse, LinearChoice& choice
   even_out(trial, choice);
 }
 
+double LinearCoder::probe_once(double rmse) {
+  choice_ = started(choice_, rmse);
+  const Measured trial = measured(choice_, rmse);
+  probed_ = probed(trial, rmse);
+  learn(trial, rmse, choice_);
+  return probed_.bytes;
+}
+
 double LinearCoder::probe(double rmse) {
   constexpr int kMostTrials = 3;
-  for (int round = 0; round < kMostTrials && !(probed_.rmse == rmse && probed_.is_near); ++round) {
-    choice_ = started(choice_, rmse);
-    const Measured trial = measured(choice_, rmse);
-    probed_ = probed(trial, rmse);
-    learn(trial, rmse, choice_);
-  }
-  if (!pose_ && effort_ >= kRegionsEffort && kind_ == BasisKind::kEigentrajectories &&
-      input_.allows(kRegionsMean))
+  if (probed_.rmse != rmse)
+    probe_once(rmse);
+  for (int round = 1; round < kMostTrials && !probed_.is_near; ++round)
+    probe_once(rmse);
+  if (tries_regions())
     try_regions(rmse);
   return probed_.bytes;
+}
+
+bool LinearCoder::tries_regions() const {
+  return !pose_ && effort_ >= kRegionsEffort && kind_ == BasisKind::kEigentrajectories &&
+         input_.allows(kRegionsMean);
 }
 
 LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {

@@ -57,8 +57,14 @@ class LinearCoder : public SegmentCoder {
     thorough_ = other.thorough_;
   }
 
-  /// About the bytes that an error costs, from as few trials as come close to it, three at most.
+  /// About the bytes that an error costs, from one trial.
+  double probe_once(double rmse);
+
+  /// The same from as few trials as come close to the error, three at most, and with regions.
   double probe(double rmse);
+
+  /// Whether regions may take off some of what one trial costs.
+  bool tries_regions() const;
 
  private:
   struct Measured {
