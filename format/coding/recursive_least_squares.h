@@ -54,7 +54,6 @@ class RecursiveLeastSquares {
       w_[i] += gain[i] * scale * error;
     double trace = 0;
     for (size_t i = 0; i < size_; ++i) {
-#pragma GCC unroll 16
       for (size_t j = 0; j < kRow; ++j)
         p_[i][j] = (p_[i][j] - gain[i] * gain[j] * scale) * kRemember;
       trace += p_[i][i];

@@ -67,8 +67,22 @@ class WeightReader {
     return decoder.finish() ? Status::kOk : Status::kEntropy;
   }
 
-  /// The first `count` components of a layer: components x regions x weight channels x frames, 0 where
-  /// a region has none.
+  /// The first `wanted` components: DecodedBasis::weights, 0 where a region has none.
+  Status read_components(const Vector<BasisLayer>& layers, uint32_t wanted,
+                         Vector<int32_t>* weights) {
+    const size_t of_component =
+        size_t{segment_.regions} * segment_.frames * segment_.weight_channels();
+    weights->resize(of_component * wanted);
+    for (const BasisLayer& layer : layers) {
+      const uint32_t count = std::min(layer.count, wanted - layer.first);
+      if (Status s = read_layer(layer, count, weights->data() + of_component * layer.first);
+          s != Status::kOk)
+        return s;
+    }
+    return Status::kOk;
+  }
+
+ private:
   Status read_layer(const BasisLayer& layer, uint32_t count, int32_t* to) {
     if (layer.count == 0)
       return Status::kOk;
@@ -87,46 +101,21 @@ class WeightReader {
     return count < layer.count || decoder.finish() ? Status::kOk : Status::kEntropy;
   }
 
- private:
   const LinearParameters& parameters_;
   const Vector<uint32_t>& runs_;
   const Segment& segment_;
   TimeWeightModel model_;
 };
 
-/// The weights of the bases, and those of the first `wanted` components.
-Status read_weights(ByteView of_bases, const Vector<BasisLayer>& layers, uint32_t wanted,
-                    const LinearParameters& parameters, const Vector<uint32_t>& runs,
-                    const Segment& segment, DecodedBasis* decoded) {
-  WeightReader reader(parameters, runs, segment);
-  if (Status s = reader.read_bases(of_bases, &decoded->affine_weights); s != Status::kOk)
-    return s;
-  const size_t of_component = size_t{segment.regions} * segment.frames * segment.weight_channels();
-  decoded->weights.resize(of_component * wanted);
-  for (const BasisLayer& layer : layers) {
-    const uint32_t count = std::min(layer.count, wanted - layer.first);
-    int32_t* to = decoded->weights.data() + of_component * layer.first;
-    if (Status s = reader.read_layer(layer, count, to); s != Status::kOk)
-      return s;
-  }
-  return Status::kOk;
-}
-
-/// Hashes weights in the order in which they are read.
-void add_weights(const DecodedBasis& decoded, uint32_t wanted, const LinearParameters& parameters,
-                 const Segment& segment, DecodedIntegers& integers) {
-  const size_t of_function = size_t{3} * segment.frames;
-  for (size_t b = 0; parameters.affine && b < kAffineFunctions; ++b) {
-    for (size_t r = 0; r < segment.regions; ++r)
-      integers.add("affine weights",
-                   decoded.affine_weights.data() + (r * kAffineFunctions + b) * of_function,
-                   of_function);
-  }
+/// Hashes the weights of components in the order in which they are read.
+void add_weights(const Vector<int32_t>& weights, uint32_t wanted,
+                 const LinearParameters& parameters, const Segment& segment,
+                 DecodedIntegers& integers) {
   const size_t rows = size_t{segment.frames} * segment.weight_channels();
   for (uint32_t j = 0; j < wanted; ++j) {
     for (uint32_t r = 0; r < segment.regions; ++r) {
       if (parameters.has_weights(r, j))
-        integers.add("weights", decoded.weights.data() + (size_t{j} * segment.regions + r) * rows, rows);
+        integers.add("weights", weights.data() + (size_t{j} * segment.regions + r) * rows, rows);
     }
   }
 }
@@ -141,14 +130,20 @@ Status keep_still(const PoseGrid& pose, Segment* out) {
   return Status::kOk;
 }
 
-/// The maps of the pose in all frames and regions. `factors`: of the weight step, for each frame.
+/// Hashes the weights of the bases, as they are read, and makes the maps of the pose in all frames and
+/// regions from them. `factors`: of the weight step, for each frame.
 Status set_maps(const LinearParameters& parameters, const Vector<int32_t>& weights,
                 const Vector<double>& factors, const PoseGrid& pose,
-                const Vector<uint8_t>& regions, Segment* out) {
+                const Vector<uint8_t>& regions, DecodedIntegers& integers, Segment* out) {
   const size_t frames = out->frames;
   out->pose_maps.resize(frames * out->regions);
   if (!parameters.affine)
     return keep_still(pose, out);
+  for (size_t b = 0; b < kAffineFunctions; ++b) {
+    for (size_t r = 0; r < out->regions; ++r)
+      integers.add("affine weights", weights.data() + (r * kAffineFunctions + b) * 3 * frames,
+                   3 * frames);
+  }
   const double unit = parameters.weight_step / (1 << kWeightFractionBits);
   for (uint32_t r = 0; r < out->regions; ++r) {
     const int32_t* values = weights.data() + size_t{r} * kAffineFunctions * 3 * frames;
@@ -486,18 +481,27 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   if (Status s = read_layers(context.layers, parameters.slices, components, wanted, &layers);
       s != Status::kOk)
     return s;
-  DecodedBasis own_decoded;
-  if (!context.decoded) {
-    if (Status s = read_weights(record.weights, layers, wanted, parameters, runs, *out, &own_decoded);
-        s != Status::kOk)
-      return s;
-  }
-  const DecodedBasis& decoded = context.decoded ? *context.decoded : own_decoded;
-  add_weights(decoded, wanted, parameters, *out, integers);
   const Vector<double> factors = step_factors(parameters, runs);
-  if (Status s = set_maps(parameters, decoded.affine_weights, factors, pose, regions, out);
-      s != Status::kOk)
-    return s;
+  const auto use_bases = [&](const Vector<int32_t>& affine_weights) {
+    return set_maps(parameters, affine_weights, factors, pose, regions, integers, out);
+  };
+  DecodedBasis own_decoded;
+  Status status = Status::kOk;
+  if (context.decoded) {
+    status = use_bases(context.decoded->affine_weights);
+  } else {
+    WeightReader reader(parameters, runs, *out);
+    status = reader.read_bases(record.weights, &own_decoded.affine_weights);
+    if (status == Status::kOk)
+      status = use_bases(own_decoded.affine_weights);
+    own_decoded.affine_weights = Vector<int32_t>();  // before others take memory
+    if (status == Status::kOk)
+      status = reader.read_components(layers, wanted, &own_decoded.weights);
+  }
+  if (status != Status::kOk)
+    return status;
+  const DecodedBasis& decoded = context.decoded ? *context.decoded : own_decoded;
+  add_weights(decoded.weights, wanted, parameters, *out, integers);
   out->components = wanted;
   out->wide_components = std::min(out->wide_components, wanted);
   if (wanted == 0 && components > 0)
