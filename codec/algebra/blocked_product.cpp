@@ -176,7 +176,7 @@ Eigen::MatrixXd product(const MatrixView& a, const MatrixView& b) {
     for (Index d = 0; d < a.cols(); d += kProductDepth) {
       TileProduct p;
       p.a = a.col(d).data() + first;
-      p.b = b.col(0).data() + d;
+      p.b = b.data() + d;
       p.sums = sums.data() + first;
       p.a_stride = static_cast<size_t>(a.outerStride());
       p.strip_stride = size_t{kStrip};

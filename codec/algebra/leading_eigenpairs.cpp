@@ -39,8 +39,7 @@ Eigenpairs diagonalise(const MatrixXd& symmetric, Index max_count, double smalle
 // Orthonormal columns that span those of w without what q spans.
 MatrixXd orthonormal(MatrixXd w, const MatrixView& q) {
   for (int pass = 0; pass < 2; ++pass) {  // twice is enough
-    if (q.cols() > 0)
-      w -= product(q, inner_products(q, w));
+    w -= product(q, inner_products(q, w));
     const Eigen::HouseholderQR<MatrixXd> qr(w);
     w = qr.householderQ() * MatrixXd::Identity(w.rows(), w.cols());
   }

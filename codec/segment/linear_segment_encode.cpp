@@ -131,6 +131,7 @@ class LinearEncoder {
     std::vector<TimeWeights> weights;
     for (const BasisFit& fit : fits_)
       weights.push_back(fit.exact_weights());
+    // The order needs the pose alone.
     bool is_coded = false;
     Coefficients target;
     VertexOrder order;
