@@ -6,6 +6,7 @@
 #include "codec/file/clip_record.h"
 #include "codec/file/root_motion_encode.h"
 #include "codec/search/clip_search.h"
+#include "codec/search/opening_time.h"
 #include "codec/search/search_progress.h"
 #include "codec/segment/exact_encode.h"
 #include "codec/segment/reference_pose_encode.h"
@@ -106,7 +107,7 @@ Target below_rounding(Target target, double bound) {
 
 /// Frame 0 of the whole clip, the same in all parts: on a grid as fine as the error asked for.
 std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, const Target& target,
-                                                 double clip_diagonal) {
+                                                 double clip_diagonal, OpeningChoice opening) {
   constexpr double kTypical = 1e-4;  // of the diagonal
   double step = kTypical * clip_diagonal;
   if (target.metric == ErrorMetric::kMaxError)
@@ -115,7 +116,7 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
     step = target.value;
   Eigen::Vector3d origin;
   const Eigen::MatrixXd pose = input.centred_first_pose(&origin);
-  return encode_reference_pose(pose, origin, step, input.layout);
+  return encode_reference_pose(pose, origin, step, input.layout, bytes_per_nanosecond(opening));
 }
 
 }  // namespace
@@ -178,7 +179,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   if (!options.layout)
     stored = encode_attributes(input.sequence, options.attributes, &input.layout);
   if (options.part)
-    input.pose = pose_of_parts(input, searched, clip_diagonal);
+    input.pose = pose_of_parts(input, searched, clip_diagonal, options.opening);
   if (options.pose) {
     if (options.pose->grid.points.size() != size_t{3} * input.layout.sizes.coded_vertices)
       throw Error(ErrorKind::kInput, "the reference pose is of another mesh");

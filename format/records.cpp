@@ -417,7 +417,7 @@ Status PoseRecord::read(ByteView view, PoseRecord* out) {
   out->stream = r.raw(r.remaining());
   if (!r.ok())
     return Status::kRecord;
-  if (id > static_cast<uint8_t>(PoseCoding::kDependent))
+  if (id > static_cast<uint8_t>(PoseCoding::kDependentRows))
     return Status::kCoder;
   out->coding = static_cast<PoseCoding>(id);
   return finite && out->step > 0 ? Status::kOk : Status::kQuantizer;

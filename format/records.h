@@ -32,8 +32,13 @@ enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentraject
 enum class CoderId : uint8_t { kNative = 0, kDraco = 1 };
 
 /// How the coordinates of a pose are told: how far each is from what is expected of it, or first
-/// whether it is exactly that of a neighbour or a parallelogram, or as entries of DependentSteps.
-enum class PoseCoding : uint8_t { kRounded = 0, kExact = 1, kDependent = 2 };
+/// whether it is exactly that of a neighbour or a parallelogram, or as entries of DependentSteps; in
+/// mixed contexts or, faster, in rows of symbols.
+enum class PoseCoding : uint8_t { kRounded = 0, kExact = 1, kDependent = 2, kDependentRows = 3 };
+
+constexpr bool has_dependent_steps(PoseCoding coding) {
+  return coding == PoseCoding::kDependent || coding == PoseCoding::kDependentRows;
+}
 
 /// How a frame is made from key-frames: on straight lines, or by multi-scale geometry
 /// interpolation.

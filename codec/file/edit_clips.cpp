@@ -205,7 +205,7 @@ ClipHome clip_home(const ClipPart& part) {
   file.check(decode_faces(mesh.faces, file.limits.meshes[0], &topology));
   file.check(PoseRecord::read(stored, &record));
   auto pose = std::make_shared<EncodedPose>();
-  file.check(open_pose(record, PoseSurface(topology), &pose->grid));
+  file.check(open_pose(record, CornerTable(topology), &pose->grid));
   pose->coding = record.coding;
   pose->stream = copy(record.stream);
   home.pose = std::move(pose);

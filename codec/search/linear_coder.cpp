@@ -127,7 +127,8 @@ std::shared_ptr<const EncodedPose> LinearCoder::coded_pose(MadeBasis& made,
   if (pose_)
     return pose_;
   std::call_once(made.first_use, [&] {
-    made.pose.emplace(made.basis.pose, made.basis.origin, input_.layout);
+    made.pose.emplace(made.basis.pose, made.basis.origin, input_.layout,
+                      bytes_per_nanosecond(opening_));
   });
   return made.pose->at_step(pose_step(settings, analysis_.clip().frame_count));
 }

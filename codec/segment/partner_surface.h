@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_SEGMENT_PARTNER_SURFACE_H_
 #define ANICODEC_CODEC_SEGMENT_PARTNER_SURFACE_H_
 
-#include "sdk/pose/surface_growth.h"
+#include "sdk/pose/corner_table.h"
 
 #include <algorithm>
 #include <array>

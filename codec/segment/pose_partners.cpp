@@ -50,8 +50,8 @@ class NearestVertex {
 
 class PartnerSearch {
  public:
-  PartnerSearch(const Eigen::MatrixXd& pose, const PoseSurface& surface)
-      : surface_(pose, surface.table), order_(surface.order), growth_(surface_) {
+  PartnerSearch(const Eigen::MatrixXd& pose, const CornerTable& table)
+      : surface_(pose, table), growth_(surface_) {
     found_.partner.assign(surface_.vertices(), kNone);
     found_.flips.assign(surface_.vertices(), 0);
     taken_.assign(surface_.vertices(), kNone);
@@ -123,7 +123,7 @@ class PartnerSearch {
     }
     std::vector<uint32_t> part_of(n, kNone), number(n, kNone);
     std::vector<Part> parts;
-    for (const uint32_t v : order_) {
+    for (uint32_t v = 0; v < n; ++v) {
       const uint32_t root = sets.find(v);
       if (number[root] == kNone) {
         number[root] = static_cast<uint32_t>(parts.size());
@@ -280,7 +280,6 @@ class PartnerSearch {
   static constexpr size_t kSamples = 200;
 
   PartnerSurface surface_;
-  const Vector<uint32_t>& order_;
   PartnerGrowth growth_;
   PosePartners found_;
   std::vector<uint32_t> taken_;  ///< by source, its image
@@ -289,8 +288,8 @@ class PartnerSearch {
 
 }  // namespace
 
-PosePartners find_partners(const Eigen::MatrixXd& pose, const PoseSurface& surface) {
-  return PartnerSearch(pose, surface).run();
+PosePartners find_partners(const Eigen::MatrixXd& pose, const CornerTable& table) {
+  return PartnerSearch(pose, table).run();
 }
 
 }  // namespace anicodec

@@ -11,11 +11,11 @@
 namespace anicodec {
 
 /// Finds parts of a pose (vertices x 3, any unit) that repeat or mirror one another: components
-/// against earlier ones in the order of the surface, then the surface against its own mirror image.
+/// against earlier ones, then the surface against its own mirror image.
 /// Both grow from a triangle over the surface as long as each vertex is where its partner says,
 /// whatever the diagonals of quads are. Empty if nothing is alike. Bounded: about 10 microseconds
 /// per vertex.
-PosePartners find_partners(const Eigen::MatrixXd& pose, const PoseSurface& surface);
+PosePartners find_partners(const Eigen::MatrixXd& pose, const CornerTable& table);
 
 }  // namespace anicodec
 

@@ -36,14 +36,23 @@ Vector<int32_t> rounded_integers(const MatrixXd& values) {
   return integers;
 }
 
+/// About the nanoseconds of one thread that a decoder takes for a pose. Lines through dance, horse,
+/// face, flag and chicken at --kg 0.1: `anicodec_bench pose`.
+double pose_nanoseconds(const EncodedPose& pose, double vertices, bool has_partners) {
+  const auto bytes = static_cast<double>(pose.stream.size());
+  const double coding = pose.coding == PoseCoding::kDependentRows
+                            ? 500 * vertices + 25 * bytes
+                            : 720 * vertices + 220 * bytes;
+  return coding + (has_partners ? 300 * vertices : 0);
+}
+
 /// The lower of the two halves that are tried for a value in some state.
 int32_t lower_half(double value, size_t state) {
   return static_cast<int32_t>(std::floor((value - DependentSteps::parity(state)) / 2));
 }
 
 /// The shortest path through the trellis along one axis.
-void code_axis(const MatrixXd& values, Index axis, const Vector<uint32_t>& order,
-               Vector<int32_t>& integers) {
+void code_axis(const MatrixXd& values, Index axis, Vector<int32_t>& integers) {
   constexpr size_t kStates = DependentSteps::kStates;
   constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -51,12 +60,13 @@ void code_axis(const MatrixXd& values, Index axis, const Vector<uint32_t>& order
     uint8_t from = 0, upper = 0;  ///< the state before, and which of its two halves
   };
 
-  std::vector<std::array<Step, kStates>> steps(order.size());
+  const Index n = values.rows();
+  std::vector<std::array<Step, kStates>> steps(static_cast<size_t>(n));
   std::array<double, kStates> cost;
   cost.fill(kNever);
   cost[0] = 0;
-  for (size_t i = 0; i < order.size(); ++i) {
-    const double value = values(order[i], axis);
+  for (Index v = 0; v < n; ++v) {
+    const double value = values(v, axis);
     std::array<double, kStates> least;
     least.fill(kNever);
     for (uint8_t s = 0; s < kStates; ++s) {
@@ -67,17 +77,17 @@ void code_axis(const MatrixXd& values, Index axis, const Vector<uint32_t>& order
         const size_t to = DependentSteps::next(s, half);
         if (cost[s] + off * off < least[to]) {
           least[to] = cost[s] + off * off;
-          steps[i][to] = {s, upper};
+          steps[static_cast<size_t>(v)][to] = {s, upper};
         }
       }
     }
     cost = least;
   }
   auto state = static_cast<size_t>(std::ranges::min_element(cost) - cost.begin());
-  for (size_t i = order.size(); i-- > 0;) {
-    const Step step = steps[i][state];
-    const int32_t half = lower_half(values(order[i], axis), step.from) + step.upper;
-    integers[size_t{3} * order[i] + static_cast<size_t>(axis)] =
+  for (Index v = n; v-- > 0;) {
+    const Step step = steps[static_cast<size_t>(v)][state];
+    const int32_t half = lower_half(values(v, axis), step.from) + step.upper;
+    integers[static_cast<size_t>(3 * v + axis)] =
         2 * half + DependentSteps::parity(step.from);
     state = step.from;
   }
@@ -85,44 +95,45 @@ void code_axis(const MatrixXd& values, Index axis, const Vector<uint32_t>& order
 
 }  // namespace
 
-Vector<int32_t> dependent_integers(const MatrixXd& values, const Vector<uint32_t>& order) {
+Vector<int32_t> dependent_integers(const MatrixXd& values) {
   Vector<int32_t> integers(static_cast<size_t>(values.size()));
   for (Index axis = 0; axis < 3; ++axis)
-    code_axis(values, axis, order, integers);
+    code_axis(values, axis, integers);
   return integers;
 }
 
 std::shared_ptr<const EncodedPose> encode_pose_as(PoseCoding coding, const MatrixXd& pose,
                                                   const Eigen::Vector3d& origin, double step,
-                                                  const PoseSurface& surface,
+                                                  const CornerTable& table,
                                                   const PosePartners* partners) {
   auto encoded = std::make_shared<EncodedPose>();
   encoded->coding = coding;
   PoseGrid& grid = encoded->grid;
-  const bool dependent = coding == PoseCoding::kDependent;
+  const bool dependent = has_dependent_steps(coding);
   const double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
   // Room for a dependent integer, which is up to two steps off.
   grid.step = std::max(
       {dependent ? kDependentStep * step : step, largest / (kMaxReferenceCoordinate - 4), 1e-37});
   std::copy_n(origin.data(), 3, grid.origin);
   const MatrixXd values = pose / grid.step;
-  grid.points = dependent ? dependent_integers(values, surface.order) : rounded_integers(values);
-  encoded->stream = encode_pose(surface, coding, grid.points, partners);
+  grid.points = dependent ? dependent_integers(values) : rounded_integers(values);
+  encoded->stream = encode_pose(table, coding, grid.points, partners);
   return encoded;
 }
 
 ReferencePoseEncoder::ReferencePoseEncoder(const MatrixXd& pose, const Eigen::Vector3d& origin,
-                                           const MeshLayout& layout)
+                                           const MeshLayout& layout, double bytes_per_nanosecond)
     : pose_(pose),
       origin_(origin),
-      surface_(layout.topology),
-      partners_(find_partners(pose, surface_)) {}
+      bytes_per_nanosecond_(bytes_per_nanosecond),
+      table_(layout.topology),
+      partners_(find_partners(pose, table_)) {}
 
 std::shared_ptr<const EncodedPose> ReferencePoseEncoder::at_step(double step) const {
   const bool repeats = !partners_.partner.empty();
   const PosePartners* by = repeats ? &partners_ : nullptr;
   const auto coded = [&](PoseCoding coding, const PosePartners* those) {
-    return encode_pose_as(coding, pose_, origin_, step, surface_, those);
+    return encode_pose_as(coding, pose_, origin_, step, table_, those);
   };
   std::shared_ptr<const EncodedPose> best, other;
   // Isolated: a thread that waits here must not begin another trial meanwhile, which takes long.
@@ -132,19 +143,33 @@ std::shared_ptr<const EncodedPose> ReferencePoseEncoder::at_step(double step) co
         [&] { other = coded(repeats ? PoseCoding::kDependent : PoseCoding::kExact, nullptr); });
   });
   if (repeats) {
-    if (other->stream.size() <= best->stream.size()) {
+    if (cost(*other, false) <= cost(*best, true)) {
       best = std::move(other);
       by = nullptr;
     }
     other = coded(PoseCoding::kExact, by);
   }
-  return other->stream.size() < best->stream.size() ? other : best;
+  if (cost(*other, by) < cost(*best, by))
+    best = std::move(other);
+  if (bytes_per_nanosecond_ > 0) {
+    other = coded(PoseCoding::kDependentRows, by);
+    if (cost(*other, by) < cost(*best, by))
+      best = std::move(other);
+  }
+  return best;
+}
+
+double ReferencePoseEncoder::cost(const EncodedPose& pose, bool has_partners) const {
+  return static_cast<double>(pose.stream.size()) +
+         bytes_per_nanosecond_ *
+             pose_nanoseconds(pose, static_cast<double>(pose_.rows()), has_partners);
 }
 
 std::shared_ptr<const EncodedPose> encode_reference_pose(const MatrixXd& pose,
                                                          const Eigen::Vector3d& origin, double step,
-                                                         const MeshLayout& layout) {
-  return ReferencePoseEncoder(pose, origin, layout).at_step(step);
+                                                         const MeshLayout& layout,
+                                                         double bytes_per_nanosecond) {
+  return ReferencePoseEncoder(pose, origin, layout, bytes_per_nanosecond).at_step(step);
 }
 
 }  // namespace anicodec

@@ -21,35 +21,40 @@ namespace anicodec {
 class ReferencePoseEncoder {
  public:
   /// Pose and layout must outlive the object. Cost: that of find_partners().
+  ///   bytes_per_nanosecond   what a nanosecond of opening is worth
   ReferencePoseEncoder(const Eigen::MatrixXd& pose, const Eigen::Vector3d& origin,
-                       const MeshLayout& layout);
+                       const MeshLayout& layout, double bytes_per_nanosecond);
 
   /// The pose, ready for the file, with the error of rounding to a grid of this step or, where
   /// coordinates would be too large, a coarser one: coded with dependent steps or exact coordinates,
-  /// by partners or without, whichever is smallest. O(vertices).
+  /// by partners or without, whichever is smallest, or in rows where that is worth the time. O(vertices).
   std::shared_ptr<const EncodedPose> at_step(double step) const;
 
  private:
+  double cost(const EncodedPose& pose, bool has_partners) const;
+
   const Eigen::MatrixXd& pose_;
   Eigen::Vector3d origin_;
-  PoseSurface surface_;
+  double bytes_per_nanosecond_;
+  CornerTable table_;
   PosePartners partners_;
 };
 
 /// The same for one step. `anicodec_bench pose` prints what its parts take.
 std::shared_ptr<const EncodedPose> encode_reference_pose(const Eigen::MatrixXd& pose,
                                                          const Eigen::Vector3d& origin, double step,
-                                                         const MeshLayout& layout);
+                                                         const MeshLayout& layout,
+                                                         double bytes_per_nanosecond = 0);
 
-/// The same in one way of coding, by these partners if any. The surface is that of the mesh.
+/// The same in one way of coding, by these partners if any. The table is that of the mesh.
 std::shared_ptr<const EncodedPose> encode_pose_as(PoseCoding coding, const Eigen::MatrixXd& pose,
                                                   const Eigen::Vector3d& origin, double step,
-                                                  const PoseSurface& surface,
+                                                  const CornerTable& table,
                                                   const PosePartners* partners = nullptr);
 
 /// The integers nearest to `values` (vertices x 3, in steps) that DependentSteps allows along each
-/// axis, taking vertices in this order: the least sum of squared distances. O(vertices).
-Vector<int32_t> dependent_integers(const Eigen::MatrixXd& values, const Vector<uint32_t>& order);
+/// axis: the least sum of squared distances. O(vertices).
+Vector<int32_t> dependent_integers(const Eigen::MatrixXd& values);
 
 }  // namespace anicodec
 

@@ -168,8 +168,7 @@ class BatchCoefficientModel {
   /// the bits below it.
   template <class Coder>
   uint32_t code_excess(Coder& coder, const Vertex& vertex, uint32_t excess) {
-    constexpr uint32_t kFirst = 4, kLast = 48, kFar = 16;
-    constexpr int kMostExponent = 20;
+    constexpr uint32_t kFirst = 4, kLast = 48;
     const uint32_t x = excess + kFirst;
     uint32_t s = x >= kLast ? kRowEscape : magnitude_class<1>(x) - kFirst;
     s = code_row_symbol(coder, near_excess_[vertex.near], past_excess_[vertex.past], s);
@@ -178,25 +177,10 @@ class BatchCoefficientModel {
       const uint32_t low = (s % 2 + 2) << bits;
       return low + coder.raw(bits, x - low) - kFirst;
     }
-    const uint32_t far = x - kLast + kFar;
-    int exponent = 0;
-    const int given = floor_log2(far) - 4;
-    for (SymbolRow& row : far_[vertex.past / kComponents]) {
-      const auto left = static_cast<uint32_t>(std::max(given - exponent, 0));
-      const uint32_t part = code_row_symbol(coder, row, row, std::min(left, kRowEscape));
-      exponent += static_cast<int>(part);
-      if (part < kRowEscape)
-        break;
-    }
-    if (exponent >= kMostExponent) {
-      coder.fail();
-      return 0;
-    }
-    const int bits = exponent + 4, high = std::max(bits - 12, 0);
-    const uint32_t given_low = far - (1U << bits);
-    const uint32_t upper = coder.raw(high, given_low >> 12);
-    const uint32_t low = upper << 12 | coder.raw(bits - high, given_low & 4095);
-    const uint32_t result = (1U << bits) + low - kFar + kLast - kFirst;
+    constexpr int kFar = 4;
+    const uint32_t far =
+        code_row_number<kFar>(coder, far_[vertex.past / kComponents], x - kLast + (1U << kFar));
+    const uint32_t result = far - (1U << kFar) + kLast - kFirst;
     if (result + kRowEscape >= static_cast<uint32_t>(kCoefficientLimit)) {
       coder.fail();
       return 0;
@@ -248,7 +232,7 @@ class BatchCoefficientModel {
 
   Vector<SymbolRow> near_rows_, past_rows_;      ///< magnitudes up to 7
   Vector<SymbolRow> near_excess_, past_excess_;  ///< and beyond
-  std::array<SymbolRow, 3> far_[kClasses];
+  RowNumber far_[kClasses];
   AdaptiveBit any_[kTotals][4];  ///< is anything of a batch not zero?
   AdaptiveBit signs_[41];
 

@@ -25,6 +25,20 @@ constexpr size_t kRansStates = 4;
 /// The state before the first decision of an encoder, and after the last one of a decoder.
 constexpr uint32_t kRansStart = uint32_t{1} << 16;
 
+/// Codes the lowest `count` bits of a value, count <= 32, as decisions of at most 12 bits, the highest
+/// first: `raw(bits, value)` codes one and returns it.
+template <class Raw>
+inline uint32_t code_raw_bits(int count, uint32_t value, Raw&& raw) {
+  constexpr int kMost = 12;
+  uint32_t coded = 0;
+  for (int left = count; left > 0;) {
+    const int bits = (left - 1) % kMost + 1;
+    left -= bits;
+    coded = coded << bits | raw(bits, value >> left & ((1U << bits) - 1));
+  }
+  return coded;
+}
+
 /// Takes decisions in the order of a decoder and writes them, last first, in finish(). The object is
 /// then spent. Memory: 4 bytes for each decision.
 class RansEncoder {
@@ -43,10 +57,12 @@ class RansEncoder {
     return value;
   }
 
-  /// The lowest `count` bits of value, count <= 12.
+  /// The lowest `count` bits of value, count <= 32, highest first.
   uint32_t raw(int count, uint32_t value) {
-    add(value << (kSymbolBits - count), kSymbolScale >> count);
-    return value;
+    return code_raw_bits(count, value, [this](int bits, uint32_t x) {
+      add(x << (kSymbolBits - bits), kSymbolScale >> bits);
+      return x;
+    });
   }
 
   bool ok() const { return true; }
@@ -87,11 +103,13 @@ class RansDecoder {
   }
 
   uint32_t raw(int count, uint32_t = 0) {
-    uint32_t& state = next();
-    const int unused = kSymbolBits - count;
-    const uint32_t value = state % kSymbolScale >> unused;
-    advance(state, value << unused, kSymbolScale >> count);
-    return value;
+    return code_raw_bits(count, 0, [this](int bits, uint32_t) {
+      uint32_t& state = next();
+      const int unused = kSymbolBits - bits;
+      const uint32_t value = state % kSymbolScale >> unused;
+      advance(state, value << unused, kSymbolScale >> bits);
+      return value;
+    });
   }
 
   /// False once the stream has run out.

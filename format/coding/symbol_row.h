@@ -13,7 +13,9 @@
 #endif
 
 #include "format/coding/binary_coder.h"
+#include "format/coding/symbol_model.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -180,6 +182,32 @@ inline __attribute__((always_inline)) uint32_t code_row_symbol(Coder& coder, Sym
   VectorRows::learn(a, s);
   VectorRows::learn(b, s);
   return s;
+}
+
+/// The rows of the length of a number, which may take a symbol after the other.
+using RowNumber = std::array<SymbolRow, 3>;
+
+/// Codes a number from 2^kLowest to 2^24 - 1, its length by rows, then the bits below the highest. A
+/// decoder that reads a longer one fails and gets 2^kLowest.
+template <int kLowest, class Coder>
+uint32_t code_row_number(Coder& coder, RowNumber& rows, uint32_t x) {
+  constexpr int kMostBits = 24;
+  const int given = floor_log2(x) - kLowest;
+  int exponent = 0;
+  for (SymbolRow& row : rows) {
+    const auto left = static_cast<uint32_t>(given > exponent ? given - exponent : 0);
+    const uint32_t part =
+        code_row_symbol(coder, row, row, left < kRowEscape ? left : kRowEscape);
+    exponent += static_cast<int>(part);
+    if (part < kRowEscape)
+      break;
+  }
+  const int bits = exponent + kLowest;
+  if (bits >= kMostBits) {
+    coder.fail();
+    return uint32_t{1} << kLowest;
+  }
+  return uint32_t{1} << bits | coder.raw(bits, x);
 }
 
 }  // namespace anicodec

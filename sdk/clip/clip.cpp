@@ -147,7 +147,7 @@ Failure read_pose(const ContainerReader& file, const Chunk& chunk, const Topolog
   PoseRecord record;
   Status s = PoseRecord::read(payload, &record);
   if (s == Status::kOk)
-    s = open_pose(record, work.pose_surface(topology), out);
+    s = open_pose(record, work.corner_table(topology), out);
   work.end_pose();
   return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
 }
@@ -552,7 +552,7 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   if (record.kind != BasisKind::kKeyframes)
     s = work.shared_graph(*context.topology, &context.graph);
   else if (is_predicted(sizes) && work.is_shared())
-    context.surface = &work.pose_surface(*context.topology);
+    context.corners = &work.corner_table(*context.topology);
   if (s == Status::kOk)
     s = anicodec::open_segment(record, context, &segments_[number]);
   if (s == Status::kOk && sizes.exact && options.opens_exact()) {

@@ -44,7 +44,7 @@ uint64_t held(const Limits::Mesh& m) {
   return uint64_t{12} * m.triangles + uint64_t{12} * m.coded_vertices;
 }
 
-/// Bytes that several segments share until they are open: the surface that poses are predicted on, and
+/// Bytes that several segments share until they are open: the corners that poses are predicted over, and
 /// the edges that their orders are made from.
 uint64_t shared(const Limits::Mesh& m) {
   return uint64_t{36} * m.triangles + uint64_t{80} * m.coded_vertices;
@@ -116,9 +116,9 @@ uint64_t draco(const Limits::Segment& s, const Limits::Mesh& m) {
          12 * points * components + uint64_t{160} * m.triangles + 80 * points;
 }
 
-/// The surface that a pose is predicted on, what is known of its vertices, and their partners.
+/// The corners that a pose is predicted over, what is known of its vertices, and their partners.
 uint64_t predicting(const Limits::Mesh& m) {
-  return uint64_t{92} * m.coded_vertices + uint64_t{96} * m.triangles + kPoseModels;
+  return uint64_t{48} * m.coded_vertices + uint64_t{52} * m.triangles + kPoseModels;
 }
 
 uint64_t opening(const Limits::Mesh& m) {

@@ -18,22 +18,22 @@ namespace anicodec {
 /// is made once, so that no segment costs O(triangles); a lone segment keeps nothing of it.
 struct MeshWork {
   uint32_t predicted_segments = 0;     ///< of the limits
-  std::optional<PoseSurface> surface;  ///< of the poses
+  std::optional<CornerTable> corners;  ///< for the poses
   std::optional<MeshGraph> graph;      ///< of the orders of vertices
 
   bool is_shared() const { return predicted_segments > 1; }
 
-  /// After a pose: the surface goes when no other can need it.
+  /// After a pose: the corners go when no other can need them.
   void end_pose() {
     if (!is_shared())
-      surface.reset();
+      corners.reset();
   }
 
-  /// The surface of the poses, made with the first of them. The topology must outlive it.
-  const PoseSurface& pose_surface(const Topology& topology) {
-    if (!surface)
-      surface.emplace(topology);
-    return *surface;
+  /// The corners, made for the first pose. The topology must outlive them.
+  const CornerTable& corner_table(const Topology& topology) {
+    if (!corners)
+      corners.emplace(topology);
+    return *corners;
   }
 
   /// The graph, made now if it is shared; null if not.

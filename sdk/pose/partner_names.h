@@ -7,7 +7,7 @@
 #include "format/memory.h"
 #include "sdk/pose/partners.h"
 #include "sdk/pose/pose_turn.h"
-#include "sdk/pose/surface_growth.h"
+#include "sdk/pose/corner_table.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace anicodec {
 
-/// Which known vertex each vertex is like (spec/09b-reference-pose.md, section 9). Partners come in
+/// Which earlier vertex each vertex is like (spec/09b-reference-pose.md, section 9). Partners come in
 /// strands: along the surface the partner of a vertex is as a rule beside those of its neighbours.
 /// Bounded work for each vertex. Memory: 9 bytes a vertex, and 90 kB.
 class PartnerNames {
@@ -31,17 +31,16 @@ class PartnerNames {
         back_(table.vertex_count(), kNone),
         strand_(table.vertex_count(), 0) {}
 
-  /// Codes the partner of v: none, v itself, or a vertex that is known. An encoder that wants
-  /// another one gets none. False if the stream names a vertex that is not known.
-  template <class Coder, class Neighbours, class IsKnown>
-  bool code(Coder& coder, uint32_t v, const Neighbours& neighbours, const IsKnown& is_known,
-            const PosePartners* wanted) {
-    look_around(v, neighbours, is_known);
+  /// Codes the partner of v: none, v itself, or an earlier vertex. An encoder that wants another one
+  /// gets none. False if the stream names a later vertex.
+  template <class Coder, class Neighbours>
+  bool code(Coder& coder, uint32_t v, const Neighbours& neighbours, const PosePartners* wanted) {
+    look_around(v, neighbours);
     uint32_t partner = kNone, flips = 0;
     if constexpr (!Coder::kDecodes) {
       partner = wanted->partner[v];
       flips = wanted->flips[v];
-      if (partner != kNone && partner != v && !is_known(partner))
+      if (partner > v)
         partner = kNone;
     }
     const uint32_t best = count_ > 0 ? std::min<uint32_t>(candidates_[0].score, kScores - 1) : 0;
@@ -70,7 +69,7 @@ class PartnerNames {
     while (uint64_t{1} << bits < table_.vertex_count())
       ++bits;
     partner = coder.raw(bits, partner);
-    if (partner >= table_.vertex_count() || !is_known(partner))
+    if (partner >= v)
       return false;
     link(v, partner, start(coder, flips));
     return true;
@@ -118,8 +117,8 @@ class PartnerNames {
   }
 
   /// Neighbours with partners, and the candidates beside those, the likeliest first.
-  template <class Neighbours, class IsKnown>
-  void look_around(uint32_t v, const Neighbours& neighbours, const IsKnown& is_known) {
+  template <class Neighbours>
+  void look_around(uint32_t v, const Neighbours& neighbours) {
     linked_ = selves_ = 0;
     nearest_ = kNone;
     count_ = 0;
@@ -138,7 +137,7 @@ class PartnerNames {
         const uint32_t c = table_.corner(image, k);
         for (const uint32_t d : {CornerTable::next(c), CornerTable::previous(c)}) {
           const uint32_t x = table_.vertex(d);
-          if (is_known(x) && x != w && this->image(x, strand) == kNone)
+          if (x < v && x != w && this->image(x, strand) == kNone)
             add(v, x, strand);
         }
       }

@@ -3,6 +3,7 @@
 #include "sdk/pose/pose_coding.h"
 
 #include "format/coding/binary_coder.h"
+#include "format/coding/rans_coder.h"
 #include "sdk/base/float_control.h"
 #include "sdk/pose/dependent_steps.h"
 #include "sdk/pose/exact_coordinates.h"
@@ -22,8 +23,11 @@ namespace {
 template <class Coder>
 class PosesCoder {
  public:
-  PosesCoder(Coder& coder, const PoseSurface& surface, PoseCoding coding)
-      : coder_(coder), surface_(surface), coding_(coding), prediction_(surface.table) {}
+  PosesCoder(Coder& coder, const CornerTable& table, PoseCoding coding)
+      : coder_(coder),
+        table_(table),
+        coding_(coding),
+        prediction_(table, coding == PoseCoding::kDependentRows) {}
 
   /// False when the stream is no such pose. `parent`: an earlier pose, or null.
   bool code(Vector<int32_t>& pose, const Vector<int32_t>* parent, const PosePartners* partners) {
@@ -31,12 +35,12 @@ class PosesCoder {
     std::fill_n(state_, 3, size_t{0});
     std::optional<ExactCoordinates> exact;
     if (coding_ == PoseCoding::kExact)
-      exact.emplace(surface_.table.vertex_count());
+      exact.emplace(table_.vertex_count());
     std::optional<PartnerNames> names;
     PoseTurn time;  // from the parent on
-    if (!parent && coder_.bit(kProbabilityOne / 2, partners != nullptr))
-      names.emplace(surface_.table);
-    for (const uint32_t v : surface_.order) {
+    if (!parent && coder_.raw(1, partners != nullptr))
+      names.emplace(table_);
+    for (uint32_t v = 0; v < table_.vertex_count(); ++v) {
       if constexpr (Coder::kDecodes) {
         if (!coder_.ok())
           return false;
@@ -46,9 +50,7 @@ class PosesCoder {
         prediction_.follow(
             time, [](uint32_t w) { return w; }, parent->data());
       } else if (names) {
-        if (!names->code(
-                coder_, v, prediction_.neighbours(),
-                [&](uint32_t w) { return prediction_.is_known(w); }, partners))
+        if (!names->code(coder_, v, prediction_.neighbours(), partners))
           return false;
         if (names->has(v)) {
           const uint32_t strand = names->strand(v);
@@ -75,7 +77,7 @@ class PosesCoder {
     const PosePrediction::Expectation expected = prediction_.expect(step);
     if (exact && exact->code(coder_, prediction_, expected.mean, pose.data(), v, axis, &x)) {
       // One of the candidates.
-    } else if (coding_ == PoseCoding::kDependent) {
+    } else if (has_dependent_steps(coding_)) {
       const int32_t parity = DependentSteps::parity(state_[axis]);
       const int32_t half = models_.code(coder_, prediction_.kind(), follows, step,
                                         halved(expected, parity), (x - parity) / 2);
@@ -88,19 +90,19 @@ class PosesCoder {
   }
 
   Coder& coder_;
-  const PoseSurface& surface_;
+  const CornerTable& table_;
   PoseCoding coding_;
   PosePrediction prediction_;
-  PoseModels models_;
+  typename PoseModelsOf<Coder>::Type models_;
   size_t state_[3] = {0, 0, 0};
 };
 
 template <class Coder>
-bool code_poses(Coder& coder, const PoseSurface& surface, PoseCoding coding,
+bool code_poses(Coder& coder, const CornerTable& table, PoseCoding coding,
                 const Vector<uint32_t>& parents, const PosePartners* partners,
                 Vector<Vector<int32_t>>& poses) {
   const FloatControl control;
-  PosesCoder<Coder> poses_coder(coder, surface, coding);
+  PosesCoder<Coder> poses_coder(coder, table, coding);
   for (size_t j = 0; j < poses.size(); ++j) {
     if (!poses_coder.code(poses[j], parents[j] > 0 ? &poses[parents[j] - 1] : nullptr, partners))
       return false;
@@ -110,32 +112,37 @@ bool code_poses(Coder& coder, const PoseSurface& surface, PoseCoding coding,
 
 }  // namespace
 
-Bytes encode_poses(const PoseSurface& surface, PoseCoding coding,
+Bytes encode_poses(const CornerTable& table, PoseCoding coding,
                    const Vector<Vector<int32_t>>& poses, const Vector<uint32_t>& parents,
                    const PosePartners* partners) {
   Vector<Vector<int32_t>> copy = poses;
-  BinaryEncoder encoder;
-  code_poses(encoder, surface, coding, parents, partners, copy);
-  return encoder.finish();
+  const auto encode = [&](auto encoder) {
+    code_poses(encoder, table, coding, parents, partners, copy);
+    return encoder.finish();
+  };
+  return coding == PoseCoding::kDependentRows ? encode(RansEncoder()) : encode(BinaryEncoder());
 }
 
-Status decode_poses(ByteView stream, const PoseSurface& surface, PoseCoding coding,
+Status decode_poses(ByteView stream, const CornerTable& table, PoseCoding coding,
                     const Vector<uint32_t>& parents, Vector<Vector<int32_t>>* poses) {
-  poses->assign(parents.size(), Vector<int32_t>(size_t{3} * surface.table.vertex_count(), 0));
-  BinaryDecoder decoder(stream.data, stream.size);
-  const bool coded = code_poses(decoder, surface, coding, parents, nullptr, *poses);
-  return coded && decoder.finish() ? Status::kOk : Status::kEntropy;
+  poses->assign(parents.size(), Vector<int32_t>(size_t{3} * table.vertex_count(), 0));
+  const auto decode = [&](auto decoder) {
+    const bool coded = code_poses(decoder, table, coding, parents, nullptr, *poses);
+    return coded && decoder.finish() ? Status::kOk : Status::kEntropy;
+  };
+  return coding == PoseCoding::kDependentRows ? decode(RansDecoder(stream))
+                                              : decode(BinaryDecoder(stream.data, stream.size));
 }
 
-Bytes encode_pose(const PoseSurface& surface, PoseCoding coding, const Vector<int32_t>& pose,
+Bytes encode_pose(const CornerTable& table, PoseCoding coding, const Vector<int32_t>& pose,
                   const PosePartners* partners) {
-  return encode_poses(surface, coding, {pose}, {0}, partners);
+  return encode_poses(table, coding, {pose}, {0}, partners);
 }
 
-Status decode_pose(ByteView stream, const PoseSurface& surface, PoseCoding coding,
+Status decode_pose(ByteView stream, const CornerTable& table, PoseCoding coding,
                    Vector<int32_t>* pose) {
   Vector<Vector<int32_t>> poses;
-  const Status status = decode_poses(stream, surface, coding, {0}, &poses);
+  const Status status = decode_poses(stream, table, coding, {0}, &poses);
   *pose = std::move(poses[0]);
   return status;
 }

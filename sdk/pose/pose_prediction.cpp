@@ -14,8 +14,8 @@ constexpr double kLeast = 1e-3;  // of a usual error
 
 }  // namespace
 
-PosePrediction::PosePrediction(const CornerTable& table)
-    : table_(table), known_(table.vertex_count()) {
+PosePrediction::PosePrediction(const CornerTable& table, bool sparse)
+    : table_(table), sparse_(sparse), known_(table.vertex_count()) {
   std::array<double, kVectors> vector_start{}, vector_variance{};
   std::array<double, kHeights> height_start{}, height_variance{};
   std::array<double, kSizes> size_start{}, size_variance{};
@@ -43,7 +43,6 @@ PosePrediction::PosePrediction(const CornerTable& table)
 
 void PosePrediction::restart() {
   std::fill(known_.begin(), known_.end(), Known());
-  any_ = false;
 }
 
 Vector3 PosePrediction::place(const int32_t* places, uint32_t v) {
@@ -87,6 +86,7 @@ void PosePrediction::follow_frames(const Frame& here, const Frame& there, const 
 void PosePrediction::begin(uint32_t v, const int32_t* positions) {
   positions_ = positions;
   vertex_ = v;
+  learns_ = !sparse_ || v < kAllLearnt || v % 2 != 0;
   turn_ = nullptr;
   gather();
   if (!gates_.empty()) {
@@ -94,7 +94,7 @@ void PosePrediction::begin(uint32_t v, const int32_t* positions) {
     return;
   }
   kind_ = neighbours_.empty() ? kAlone : kBeside;
-  base_ = kind_ == kBeside ? mean_ : any_ ? position(last_) : Vector3{};
+  base_ = kind_ == kBeside ? mean_ : vertex_ > 0 ? position(vertex_ - 1) : Vector3{};
   for (size_t i = 0; i < 3; ++i)
     axis_[i] = i;
 }
@@ -115,8 +115,8 @@ void PosePrediction::gather() {
     const uint32_t vb = table_.vertex(CornerTable::previous(c));
     note_neighbour(va);
     note_neighbour(vb);
-    if (!known_[va].known || !known_[vb].known || o == CornerTable::kNone ||
-        !known_[table_.vertex(o)].known || gates_.size() == kMostGates)
+    if (va >= vertex_ || vb >= vertex_ || o == CornerTable::kNone || table_.vertex(o) >= vertex_ ||
+        gates_.size() == kMostGates)
       continue;
     const Vector3 a = position(va), b = position(vb), apex = position(table_.vertex(o));
     const Vector3 gate = a + b - apex;
@@ -138,14 +138,11 @@ void PosePrediction::gather() {
 }
 
 void PosePrediction::note_neighbour(uint32_t w) {
-  Known& k = known_[w];
-  if (w == vertex_ || k.stamp == vertex_ + 1)
+  if (w >= vertex_ || known_[w].stamp == vertex_ + 1)
     return;
-  k.stamp = vertex_ + 1;
-  if (k.known) {
-    neighbours_.push_back(w);
-    mean_ += position(w);
-  }
+  known_[w].stamp = vertex_ + 1;
+  neighbours_.push_back(w);
+  mean_ += position(w);
 }
 
 /// The axis nearest the normal is last, the one farthest from it first.
@@ -281,13 +278,8 @@ void PosePrediction::expect_height() {
 
 void PosePrediction::learn(int step, int32_t value) {
   gates_.empty() ? learn_far(step, value) : learn_near(step, value);
-  if (step == 2) {
-    known_[vertex_].known = true;
-    if (follows())
-      turn_->learn(there_, position(vertex_) - anchor_);
-    last_ = vertex_;
-    any_ = true;
-  }
+  if (step == 2 && follows() && learns_)
+    turn_->learn(there_, position(vertex_) - anchor_);
 }
 
 void PosePrediction::learn_far(int step, int32_t value) {
@@ -311,14 +303,17 @@ void PosePrediction::learn_near(int step, int32_t value) {
   const int role = step == 2;
   if (role == 0) {
     residual_[d] = value - base_[d] - regressed_;
-    offset_[follows()][kind_].learn(z_, value - base_[d], noise);
+    if (learns_)
+      offset_[follows()][kind_].learn(z_, value - base_[d], noise);
     known.error[0] += static_cast<float>(0.5 * magnitude);
   } else {
-    height_[follows()][kind_].learn(h_, value - ground_, noise);
+    if (learns_)
+      height_[follows()][kind_].learn(h_, value - ground_, noise);
     known.error[1] = static_cast<float>(magnitude + kLeast);
   }
   known.offset[d] = static_cast<float>(value - base_[d]);
-  size_of_[follows()][role][kind_].learn(s_, magnitude, 0.1 + size_ * size_);
+  if (learns_)
+    size_of_[follows()][role][kind_].learn(s_, magnitude, 0.1 + size_ * size_);
   usual_[follows()][role] += 0.01 * (magnitude - usual_[follows()][role]);
 }
 

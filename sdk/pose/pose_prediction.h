@@ -9,7 +9,7 @@
 #include "format/memory.h"
 #include "sdk/base/vector3.h"
 #include "sdk/pose/pose_turn.h"
-#include "sdk/pose/surface_growth.h"
+#include "sdk/pose/corner_table.h"
 
 #include <array>
 #include <cstddef>
@@ -23,7 +23,7 @@ namespace anicodec {
 ///
 /// IEEE binary64, round to nearest, every sum in the order written, nothing but + - * / and square
 /// root: a decoder repeats it exactly. Time per vertex is bounded whatever the triangles are, about
-/// 0.6 microseconds as a rule. Memory: 28 bytes per vertex.
+/// 0.6 microseconds as a rule. Memory: 24 bytes per vertex.
 class PosePrediction {
  public:
   /// How a vertex is surrounded: by nothing, by known vertices, by this many parallelograms of
@@ -33,7 +33,8 @@ class PosePrediction {
   static constexpr uint32_t kKinds = 5;
 
   /// The table must outlive it. O(vertices).
-  explicit PosePrediction(const CornerTable& table);
+  ///   sparse   learn of every other vertex only, once it knows kAllLearnt: less time
+  PosePrediction(const CornerTable& table, bool sparse);
 
   /// Another pose begins: nothing is known of it. What was learnt of poses stays.
   void restart();
@@ -53,8 +54,6 @@ class PosePrediction {
 
   /// Whether there is another place to predict from.
   bool follows() const { return turn_ != nullptr; }
-
-  bool is_known(uint32_t v) const { return known_[v].known; }
 
   /// The vertex as that place has it. @pre follows()
   const Vector3& likely() const { return likely_; }
@@ -83,6 +82,7 @@ class PosePrediction {
   const auto& neighbours() const { return neighbours_; }
 
  private:
+  static constexpr uint32_t kAllLearnt = 512;  ///< vertices that a sparse prediction learns of
   static constexpr uint32_t kMostCorners = 32;  ///< of a vertex that are looked at
   static constexpr size_t kMostGates = 16;
   static constexpr size_t kVectors = 9, kHeights = 5, kSizes = 6;
@@ -119,7 +119,6 @@ class PosePrediction {
     float offset[3] = {0, 0, 0};  ///< from the mean parallelogram
     float error[2] = {0, 0};      ///< magnitudes, tangential and along the normal
     uint32_t stamp = 0;           ///< one more than the vertex that noted it last
-    bool known = false;
   };
 
   struct Gate {
@@ -153,6 +152,7 @@ class PosePrediction {
   void learn_near(int step, int32_t value);
 
   const CornerTable& table_;
+  bool sparse_;
   const int32_t* positions_ = nullptr;
   Vector<Known> known_;
 
@@ -165,8 +165,8 @@ class PosePrediction {
   double far_usual_[2][2] = {{1e4, 300}, {100, 30}};  ///< the same for kAlone and kBeside
 
   // The vertex at hand.
-  uint32_t vertex_ = 0, last_ = 0;
-  bool any_ = false;
+  uint32_t vertex_ = 0;
+  bool learns_ = true;  ///< the regressions, of this vertex
   Kind kind_ = kAlone;
   List<uint32_t, size_t{2} * kMostCorners> neighbours_;
   List<Vector3, kMostGates> gates_;
@@ -209,8 +209,8 @@ void PosePrediction::follow(PoseTurn& turn, const Image& image, const int32_t* p
   };
   for (const uint32_t w : neighbours_)
     add(w);
-  if (kind_ == kAlone && any_)
-    add(last_);
+  if (kind_ == kAlone && vertex_ > 0)
+    add(vertex_ - 1);
   if (count == 0)
     return;
   turn_ = &turn;

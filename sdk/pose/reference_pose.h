@@ -20,7 +20,7 @@ struct PoseGrid {
 };
 
 /// Decodes a reference pose (spec/09b-reference-pose.md). O(coded vertices).
-Status open_pose(const PoseRecord& record, const PoseSurface& surface, PoseGrid* out);
+Status open_pose(const PoseRecord& record, const CornerTable& table, PoseGrid* out);
 
 }  // namespace anicodec
 

@@ -46,7 +46,7 @@ Status MeshGraph::init(const uint32_t* triangles, size_t triangle_count, size_t 
   start_[n] = size;
   is_dense_ = anicodec::is_dense(size, used);
   adjacent_.resize(is_dense_ ? 0 : size);
-  adjacent_.shrink_to_fit();
+  Vector<uint32_t>(adjacent_).swap(adjacent_);  // shrink_to_fit() hides that there is no memory
   return Status::kOk;
 }
 

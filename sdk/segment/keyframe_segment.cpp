@@ -69,9 +69,9 @@ Status read_poses(const SegmentRecord& record, const SegmentContext& context,
   if (draco != (sizes.draco_bytes > 0) || sizes.draco_bytes > record.pose.size)
     return Status::kSegment;
   if (!draco) {
-    if (context.surface)
-      return decode_poses(record.pose, *context.surface, PoseCoding::kRounded, parents, poses);
-    return decode_poses(record.pose, PoseSurface(*context.topology), PoseCoding::kRounded, parents,
+    if (context.corners)
+      return decode_poses(record.pose, *context.corners, PoseCoding::kRounded, parents, poses);
+    return decode_poses(record.pose, CornerTable(*context.topology), PoseCoding::kRounded, parents,
                         poses);
   }
   if (Status s = read_draco_poses(record, context, poses); s != Status::kOk)

@@ -129,7 +129,7 @@ struct SegmentContext {
   const Vector<uint32_t>* vertex_coded = nullptr;
   const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
-  const PoseSurface* surface = nullptr;  ///< of the topology; null: made when needed
+  const CornerTable* corners = nullptr;  ///< of the topology; null: made when needed
   /// What an encoder knows that weights and layers decode to; null: they are decoded.
   const DecodedBasis* decoded = nullptr;
   Vector<ByteView> layers;               ///< chunks BASI in file order

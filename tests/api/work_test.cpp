@@ -121,7 +121,7 @@ class CraftedFile {
   }
 
   Bytes pose(PoseCoding coding) const {
-    const Bytes stream = encode_pose(PoseSurface(topology_), coding, pose_);
+    const Bytes stream = encode_pose(CornerTable(topology_), coding, pose_);
     PoseRecord record;
     record.coding = coding;
     record.stream = stream;

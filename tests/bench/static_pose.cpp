@@ -27,14 +27,17 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
                {"rounded", "rounded", ""},
                {"exact", "exact", ""},
                {"dependent", "dependent steps", ""},
+               {"rows", "in rows", ""},
                {"partners", "vertices with partners", ""},
                {"exact_partners", "exact by partners", ""},
                {"dependent_partners", "dependent by partners", ""},
+               {"rows_partners", "in rows by partners", ""},
                {"search_us", "search us", "{:.2f}"},
                {"partners_us", "by partners us", "{:.2f}"},
                {"draco", "Draco pose", ""},
-               {"surface_us", "surface us", "{:.2f}"},
+               {"corners_us", "corners us", "{:.2f}"},
                {"pose_us", "pose us", "{:.2f}"},
+               {"rows_us", "in rows us", "{:.2f}"},
                {"draco_us", "Draco pose us", "{:.2f}"},
                {"static_us", "faces and pose us", "{:.2f}"},
                {"draco_mesh_us", "Draco mesh us", "{:.2f}"},
@@ -48,20 +51,21 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
     // A fifth of the squared error is that of the pose, as files have it that the encoder makes.
     const double step = 2 * std::sqrt(0.2) * input.rmse_of_kg(kg);
     const double n = layout.sizes.coded_vertices;
-    const PoseSurface surface(layout.topology);
+    const CornerTable corners(layout.topology);
     nlohmann::ordered_json row{{"clip", name}, {"vertices", layout.sizes.coded_vertices}};
     const std::pair<const char*, PoseCoding> codings[] = {{"rounded", PoseCoding::kRounded},
                                                           {"exact", PoseCoding::kExact},
-                                                          {"dependent", PoseCoding::kDependent}};
+                                                          {"dependent", PoseCoding::kDependent},
+                                                          {"rows", PoseCoding::kDependentRows}};
     for (const auto& [key, coding] : codings) {
-      const auto encoded = encode_pose_as(coding, pose, origin, step, surface);
+      const auto encoded = encode_pose_as(coding, pose, origin, step, corners);
       row[key] = encoded->stream.size();
       Vector<int32_t> decoded;
       const double seconds = median_thread_seconds(
-          runs, [&] { (void)decode_pose(encoded->stream, surface, coding, &decoded); });
+          runs, [&] { (void)decode_pose(encoded->stream, corners, coding, &decoded); });
       if (decoded != encoded->grid.points)
         throw Error(ErrorKind::kInternal, "the pose does not come back");
-      row["pose_us"] = 1e6 * seconds / n;
+      row[coding == PoseCoding::kDependentRows ? "rows_us" : "pose_us"] = 1e6 * seconds / n;
       if (coding != PoseCoding::kRounded)
         continue;
       const DracoPoses draco = encode_draco_poses(layout.topology, {&encoded->grid.points, 1});
@@ -74,30 +78,30 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
     }
     PosePartners partners;
     row["search_us"] =
-        1e6 / n * median_thread_seconds(runs, [&] { partners = find_partners(pose, surface); });
+        1e6 / n * median_thread_seconds(runs, [&] { partners = find_partners(pose, corners); });
     row["partners"] = partners.partner.size() - static_cast<size_t>(std::ranges::count(
                                                     partners.partner, PosePartners::kNone));
     if (!partners.partner.empty()) {
       for (const auto& [key, coding] : codings) {
-        const auto encoded = encode_pose_as(coding, pose, origin, step, surface, &partners);
+        const auto encoded = encode_pose_as(coding, pose, origin, step, corners, &partners);
         row[std::string(key) + "_partners"] = encoded->stream.size();
         Vector<int32_t> decoded;
         row["partners_us"] = 1e6 / n * median_thread_seconds(runs, [&] {
-                               (void)decode_pose(encoded->stream, surface, coding, &decoded);
+                               (void)decode_pose(encoded->stream, corners, coding, &decoded);
                              });
         if (decoded != encoded->grid.points)
           throw Error(ErrorKind::kInternal, "the pose does not come back");
       }
     }
-    row["surface_us"] =
-        1e6 / n * median_thread_seconds(runs, [&] { PoseSurface{layout.topology}; });
+    row["corners_us"] =
+        1e6 / n * median_thread_seconds(runs, [&] { CornerTable{layout.topology}; });
     // All that a file of free order opens before its motion, as the encoder makes it.
     const auto best = encode_reference_pose(pose, origin, step, layout);
     const double opening = median_thread_seconds(runs, [&] {
       Topology topology;
       Vector<int32_t> decoded;
       if (decode_faces(layout.faces, layout.sizes, &topology) != Status::kOk ||
-          decode_pose(best->stream, PoseSurface(topology), best->coding, &decoded) != Status::kOk)
+          decode_pose(best->stream, CornerTable(topology), best->coding, &decoded) != Status::kOk)
         throw Error(ErrorKind::kInternal, "the mesh cannot be decoded");
     });
     const double extent = (pose.colwise().maxCoeff() - pose.colwise().minCoeff()).maxCoeff();

@@ -104,6 +104,7 @@ class RandomVector {
     if (one_in(2))
       settings.alike = static_cast<uint8_t>(1 + numbers_.below(255));
     settings.layers_anew = one_in(2);
+    r.pose_in_rows = one_in(3);
     settings.pose_factor = any({0.02, 0.5, 2.0, 8.0});
     settings.weight_factor = any({0.5, 2.4, 10.0});
     if (one_in(2))

@@ -108,7 +108,7 @@ Bytes cliques_of_vertices() {
 }
 
 Bytes partners() {
-  const MeshSequence clip = corpus::make_scaled("limb", 700, 9);
+  const MeshSequence clip = corpus::make_scaled("limb", 700, 12);
   const double step = 0.004 * diagonal(clip);
   std::vector<Recipe> recipes;
   for (const auto& coding : {std::optional<PoseCoding>(), std::optional(PoseCoding::kExact),
@@ -117,6 +117,8 @@ Bytes partners() {
         recipe(3, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse));
     recipes.back().change = with_partners(coding);
   }
+  recipes.push_back(recipes.front());
+  recipes.back().pose_in_rows = true;
   return file_of(clip, recipes);
 }
 

@@ -63,7 +63,7 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
     std::optional<EncodedSegment> coded = encode_linear(
         frames, basis, recipe.settings, input.layout,
         encode_reference_pose(basis.pose, basis.origin, pose_step(recipe.settings, recipe.frames),
-                              input.layout),
+                              input.layout, recipe.pose_in_rows ? 1 : 0),
         input.runs(first, recipe.frames));
     if (!coded)
       throw Error(ErrorKind::kInternal, "the step is too fine");
@@ -249,7 +249,7 @@ void round_pose(EncodedSegment& segment, const EncoderInput& input) {
   auto pose = std::make_shared<EncodedPose>(*segment.reference);
   pose->coding = PoseCoding::kRounded;
   pose->stream =
-      encode_pose(PoseSurface(input.layout.topology), PoseCoding::kRounded, pose->grid.points);
+      encode_pose(CornerTable(input.layout.topology), PoseCoding::kRounded, pose->grid.points);
   segment.reference = std::move(pose);
 }
 
@@ -269,7 +269,7 @@ StreamChange with_partners(std::optional<PoseCoding> coding) {
       partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
     }
     pose->stream =
-        encode_pose(PoseSurface(input.layout.topology), pose->coding, pose->grid.points, &partners);
+        encode_pose(CornerTable(input.layout.topology), pose->coding, pose->grid.points, &partners);
     segment.reference = std::move(pose);
   };
 }
@@ -285,7 +285,7 @@ StreamChange with_turned_partners(bool many_strands) {
       partners.flips.push_back(static_cast<uint8_t>(many_strands ? numbers.below(8) : 3));
     }
     pose->stream =
-        encode_pose(PoseSurface(input.layout.topology), pose->coding, pose->grid.points, &partners);
+        encode_pose(CornerTable(input.layout.topology), pose->coding, pose->grid.points, &partners);
     segment.reference = std::move(pose);
   };
 }

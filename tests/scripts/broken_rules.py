@@ -277,7 +277,7 @@ def mesh_rules(files):
     yield 41, "faces_zero", triangle.end("MESH", b"\0"), "a zero byte after the faces, which no encoder writes"
     yield 41, "vmap_more", corrected.end("VMAP", b"\1"), "bytes after the order of the vertices"
     yield 41, "fmap_more", polygons.end("FMAP", b"\1"), "bytes after the order of the polygons"
-    yield 13, "pose_coding", corrected.put("POSE coding", b"\3"), "a way of coding that does not exist"
+    yield 13, "pose_coding", corrected.put("POSE coding", b"\4"), "a way of coding that does not exist"
     for name, label, value in (("origin", "origin y", NAN), ("step", "step", f64(0)), ("step_below", "step", f64(-1)),
                                ("step_infinite", "step", INFINITE)):
         yield 45, f"pose_{name}", corrected.put(f"POSE {label}", value), f"POSE {label} that is out of range"

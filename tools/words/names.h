@@ -31,7 +31,8 @@ inline constexpr Word<CoefficientCoder> kCoefficientCoders[] = {
 
 inline constexpr Word<PoseCoding> kPoseCodings[] = {{PoseCoding::kRounded, "rounded"},
                                                     {PoseCoding::kExact, "exact"},
-                                                    {PoseCoding::kDependent, "dependent steps"}};
+                                                    {PoseCoding::kDependent, "dependent steps"},
+                                                    {PoseCoding::kDependentRows, "dependent steps in rows"}};
 
 inline constexpr Word<Reconstruction> kReconstructions[] = {{Reconstruction::kLinear, "linear"},
                                                             {Reconstruction::kMsgi, "msgi"}};

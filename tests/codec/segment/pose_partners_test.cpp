@@ -70,8 +70,8 @@ size_t with_partners(const PosePartners& partners) {
 TEST(PosePartners, AreTheMirrorImagesWhateverTheDiagonals) {
   const int n = 12, side = 2 * n + 1;
   const Shape s = crumpled_sheet(n, 1);
-  const PoseSurface surface(s.topology);
-  const PosePartners partners = find_partners(s.pose, surface);
+  const CornerTable table(s.topology);
+  const PosePartners partners = find_partners(s.pose, table);
   ASSERT_EQ(partners.partner.size(), static_cast<size_t>(side * side));
   size_t right = 0;
   for (int v = 0; v < side * side; ++v)
@@ -96,7 +96,7 @@ TEST(PosePartners, OfACopyAreTheVerticesOfWhatItCopies) {
   turned.pose = (s.pose * turn.transpose()).rowwise() + Vector3d(50, 3, 1).transpose();
   s.add(turned);
   const uint32_t n = original.topology.coded_vertices;
-  const PosePartners partners = find_partners(s.pose, PoseSurface(s.topology));
+  const PosePartners partners = find_partners(s.pose, CornerTable(s.topology));
   ASSERT_EQ(partners.partner.size(), 2 * n);
   // Either is the copy, by the order in which they are coded.
   size_t right = 0;
@@ -108,27 +108,27 @@ TEST(PosePartners, OfACopyAreTheVerticesOfWhatItCopies) {
 TEST(PosePartners, AreNotSeenInNoise) {
   Shape s = crumpled_sheet(15, 3);
   s.pose += MatrixXd::Random(s.pose.rows(), 3);
-  EXPECT_LT(with_partners(find_partners(s.pose, PoseSurface(s.topology))),
+  EXPECT_LT(with_partners(find_partners(s.pose, CornerTable(s.topology))),
             static_cast<size_t>(s.pose.rows()) / 10);
 }
 
 TEST(PosePartners, OfOddMeshesAreFoundWithoutHarm) {
   Shape s;
-  EXPECT_TRUE(find_partners(MatrixXd(0, 3), PoseSurface(s.topology)).partner.empty());
+  EXPECT_TRUE(find_partners(MatrixXd(0, 3), CornerTable(s.topology)).partner.empty());
   s.topology.coded_vertices = 4;
   s.topology.triangles = {0, 0, 0, 1, 2, 1, 0, 1, 2, 2, 1, 0};
   s.pose = MatrixXd::Zero(4, 3);
-  find_partners(s.pose, PoseSurface(s.topology));
+  find_partners(s.pose, CornerTable(s.topology));
   s.pose.row(1) = Vector3d(1e30, 0, 0);
-  find_partners(s.pose, PoseSurface(s.topology));
+  find_partners(s.pose, CornerTable(s.topology));
   // All vertices at one point, and at one fan.
   s = crumpled_sheet(8, 4);
   s.pose.setZero();
-  find_partners(s.pose, PoseSurface(s.topology));
+  find_partners(s.pose, CornerTable(s.topology));
   for (uint32_t v = 0; v + 2 < s.topology.coded_vertices; ++v)
     s.topology.triangles.insert(s.topology.triangles.end(), {0, v + 1, v + 2});
   s.pose = MatrixXd::Random(s.pose.rows(), 3);
-  find_partners(s.pose, PoseSurface(s.topology));
+  find_partners(s.pose, CornerTable(s.topology));
 }
 
 }  // namespace

@@ -22,27 +22,25 @@ TEST(ReferencePoseOfCorpus, EveryClipsFirstFrameComesBackWithTheErrorOfItsStep) 
     Eigen::Vector3d origin;
     const MatrixXd pose = input.centred_first_pose(&origin);
     const double step = std::max(pose.cwiseAbs().maxCoeff(), 1e-3) / 4096;
-    const PoseSurface surface(input.layout.topology);
-    for (PoseCoding coding : {PoseCoding::kRounded, PoseCoding::kExact, PoseCoding::kDependent}) {
-      const auto encoded = encode_pose_as(coding, pose, origin, step, surface);
+    const CornerTable table(input.layout.topology);
+    for (PoseCoding coding : {PoseCoding::kRounded, PoseCoding::kExact, PoseCoding::kDependent,
+                              PoseCoding::kDependentRows}) {
+      const auto encoded = encode_pose_as(coding, pose, origin, step, table);
       Vector<int32_t> decoded;
-      ASSERT_EQ(decode_pose(encoded->stream, surface, coding, &decoded), Status::kOk);
+      ASSERT_EQ(decode_pose(encoded->stream, table, coding, &decoded), Status::kOk);
       EXPECT_EQ(decoded, encoded->grid.points);
       double largest = 0;
       for (Eigen::Index i = 0; i < pose.size(); ++i)
         largest = std::max(largest, std::abs(decoded[static_cast<size_t>(i)] * encoded->grid.step -
                                              pose(i / 3, i % 3)));
-      EXPECT_LE(largest, (coding == PoseCoding::kDependent ? 1.2 : 0.501) * step);
+      EXPECT_LE(largest, (has_dependent_steps(coding) ? 1.2 : 0.501) * step);
     }
   }
 }
 
 TEST(DependentIntegers, TheirMeanErrorIsThatOfRoundingToTheStepTheyStandFor) {
   const MatrixXd values = 1000 * MatrixXd::Random(4000, 3);
-  Vector<uint32_t> order;
-  for (uint32_t v = 0; v < 4000; ++v)
-    order.push_back(v * 7 % 4000);
-  const Vector<int32_t> integers = dependent_integers(values, order);
+  const Vector<int32_t> integers = dependent_integers(values);
   double squared = 0;
   for (Eigen::Index i = 0; i < values.size(); ++i)
     squared += std::pow(integers[static_cast<size_t>(i)] - values(i / 3, i % 3), 2);
@@ -55,10 +53,21 @@ TEST(ReferencePoseOfCorpus, IsCodedByPartnersIfThatIsSmaller) {
   Eigen::Vector3d origin;
   const MatrixXd pose = input.centred_first_pose(&origin);
   const double step = pose.cwiseAbs().maxCoeff() / 4096;
-  const PoseSurface surface(input.layout.topology);
+  const CornerTable table(input.layout.topology);
   const size_t best = encode_reference_pose(pose, origin, step, input.layout)->stream.size();
   for (PoseCoding coding : {PoseCoding::kExact, PoseCoding::kDependent})
-    EXPECT_LE(best, encode_pose_as(coding, pose, origin, step, surface)->stream.size());
+    EXPECT_LE(best, encode_pose_as(coding, pose, origin, step, table)->stream.size());
+}
+
+TEST(ReferencePoseOfCorpus, IsCodedInRowsWhereOpeningCounts) {
+  const EncoderInput input(corpus::make_clip("waves"));
+  Eigen::Vector3d origin;
+  const MatrixXd pose = input.centred_first_pose(&origin);
+  const auto coding = [&](double bytes_per_nanosecond) {
+    return encode_reference_pose(pose, origin, 1e-3, input.layout, bytes_per_nanosecond)->coding;
+  };
+  EXPECT_NE(coding(0), PoseCoding::kDependentRows);
+  EXPECT_EQ(coding(1e-2), PoseCoding::kDependentRows);
 }
 
 }  // namespace

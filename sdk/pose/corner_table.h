@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-//
-// An order in which the vertices of a triangle mesh are surrounded by earlier ones, found from the
-// connectivity alone (spec/09b-reference-pose.md, section 2).
-#ifndef ANICODEC_SDK_POSE_SURFACE_GROWTH_H_
-#define ANICODEC_SDK_POSE_SURFACE_GROWTH_H_
+#ifndef ANICODEC_SDK_POSE_CORNER_TABLE_H_
+#define ANICODEC_SDK_POSE_CORNER_TABLE_H_
 
 #include "format/memory.h"
+#include "sdk/mesh/topology.h"
 
 #include <cstddef>
 #include <cstdint>
 
 namespace anicodec {
 
-/// The corners of a triangle list by vertex, and pairs of corners that face each other across an
-/// edge. Any triangles do: an edge of many triangles joins them two by two in their order.
+/// The corners of a triangle list by vertex, and pairs of corners that face each other across an edge
+/// (spec/09b-reference-pose.md, section 1): what poses are predicted over. Any triangles do: an edge
+/// of many triangles joins them two by two in their order. Cost: O(vertices + triangles). Memory: 24
+/// bytes a triangle and 4 a vertex, 24 and 12 more while it is made.
 class CornerTable {
  public:
   static constexpr uint32_t kNone = UINT32_MAX;
 
   /// `triangles`: three vertices below vertex_count each; must outlive the table.
   CornerTable(uint32_t vertex_count, const Vector<uint32_t>& triangles);
+
+  /// The topology must outlive the table.
+  explicit CornerTable(const Topology& topology)
+      : CornerTable(topology.coded_vertices, topology.triangles) {}
 
   static uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
@@ -48,10 +52,6 @@ class CornerTable {
   Vector<uint32_t> start_, corners_, opposite_;
 };
 
-/// All vertices, each as often as possible with several parallelograms of earlier vertices at hand.
-/// Cost: O(vertices + triangles).
-Vector<uint32_t> growth_order(const CornerTable& table);
-
 }  // namespace anicodec
 
-#endif  // ANICODEC_SDK_POSE_SURFACE_GROWTH_H_
+#endif  // ANICODEC_SDK_POSE_CORNER_TABLE_H_
