@@ -88,7 +88,7 @@ void PartnerGrowth::push_gates(uint32_t v) {
   const CornerTable& table = surface_.table;
   const uint32_t corners = std::min(table.valence(v), PartnerSurface::kMostTriangles);
   for (uint32_t i = 0; i < corners; ++i) {
-    const uint32_t c = table.corner(v, i), n = CornerTable::next(c), p = CornerTable::previous(c);
+    const uint32_t c = table.corner(v, i), n = next_corner(c), p = previous_corner(c);
     if (map_[table.vertex(n)] == kNone || map_[table.vertex(p)] == kNone)
       continue;
     push(c);
@@ -108,8 +108,8 @@ void PartnerGrowth::push(uint32_t corner) {
   const uint32_t v = table.vertex(beyond);
   if (map_[v] != kNone || (*rules_.taken)[v] != kNone)
     return;
-  const uint32_t a = table.vertex(CornerTable::next(corner)),
-                 b = table.vertex(CornerTable::previous(corner)), o = table.vertex(corner);
+  const uint32_t a = table.vertex(next_corner(corner)),
+                 b = table.vertex(previous_corner(corner)), o = table.vertex(corner);
   const uint32_t x = map_[a], y = map_[b], z = map_[o];
   Eigen::Vector3d off;
   if (!turned_offset(surface_, {a, b, o}, v, {x, y, z}, rules_.mirrored, &off))

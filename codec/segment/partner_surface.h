@@ -37,8 +37,8 @@ struct PartnerSurface {
     const uint32_t corners = std::min(table.valence(v), kMostTriangles);
     for (uint32_t i = 0; i < corners; ++i) {
       const uint32_t c = table.corner(v, i);
-      visit(table.vertex(CornerTable::next(c)));
-      visit(table.vertex(CornerTable::previous(c)));
+      visit(table.vertex(next_corner(c)));
+      visit(table.vertex(previous_corner(c)));
     }
   }
 

@@ -241,7 +241,7 @@ class PartnerSearch {
       if (across == CornerTable::kNone)
         continue;
       const uint32_t v = table.vertex(across);
-      const Triple gate{table.vertex(CornerTable::next(c)), table.vertex(CornerTable::previous(c)),
+      const Triple gate{table.vertex(next_corner(c)), table.vertex(previous_corner(c)),
                         table.vertex(c)};
       Triple images;
       for (size_t i = 0; i < 3; ++i)

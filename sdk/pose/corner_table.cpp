@@ -27,7 +27,7 @@ CornerTable::CornerTable(uint32_t vertex_count, const Vector<uint32_t>& triangle
 void CornerTable::pair_corners(uint32_t vertex_count) {
   const auto count = corner_count();
   const auto ends = [&](uint32_t corner) {
-    const uint32_t a = triangles_[next(corner)], b = triangles_[previous(corner)];
+    const uint32_t a = triangles_[next_corner(corner)], b = triangles_[previous_corner(corner)];
     return a < b ? std::pair(a, b) : std::pair(b, a);
   };
 

@@ -4,6 +4,7 @@
 #define ANICODEC_SDK_POSE_CORNER_TABLE_H_
 
 #include "format/memory.h"
+#include "sdk/mesh/half_edges.h"
 #include "sdk/mesh/topology.h"
 
 #include <cstddef>
@@ -25,10 +26,6 @@ class CornerTable {
   /// The topology must outlive the table.
   explicit CornerTable(const Topology& topology)
       : CornerTable(topology.coded_vertices, topology.triangles) {}
-
-  static uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-
-  static uint32_t previous(uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
   uint32_t vertex_count() const { return static_cast<uint32_t>(start_.size() - 1); }
 

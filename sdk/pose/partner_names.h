@@ -5,9 +5,9 @@
 
 #include "format/coding/binary_coder.h"
 #include "format/memory.h"
+#include "sdk/pose/corner_table.h"
 #include "sdk/pose/partners.h"
 #include "sdk/pose/pose_turn.h"
-#include "sdk/pose/corner_table.h"
 
 #include <algorithm>
 #include <array>
@@ -135,7 +135,7 @@ class PartnerNames {
       const uint32_t corners = std::min(table_.valence(image), kMostCorners);
       for (uint32_t k = 0; k < corners; ++k) {
         const uint32_t c = table_.corner(image, k);
-        for (const uint32_t d : {CornerTable::next(c), CornerTable::previous(c)}) {
+        for (const uint32_t d : {next_corner(c), previous_corner(c)}) {
           const uint32_t x = table_.vertex(d);
           if (x < v && x != w && this->image(x, strand) == kNone)
             add(v, x, strand);

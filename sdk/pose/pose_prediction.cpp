@@ -111,8 +111,8 @@ void PosePrediction::gather() {
   const uint32_t corners = std::min(table_.valence(vertex_), kMostCorners);
   for (uint32_t i = 0; i < corners; ++i) {
     const uint32_t c = table_.corner(vertex_, i), o = table_.opposite(c);
-    const uint32_t va = table_.vertex(CornerTable::next(c));
-    const uint32_t vb = table_.vertex(CornerTable::previous(c));
+    const uint32_t va = table_.vertex(next_corner(c));
+    const uint32_t vb = table_.vertex(previous_corner(c));
     note_neighbour(va);
     note_neighbour(vb);
     if (va >= vertex_ || vb >= vertex_ || o == CornerTable::kNone || table_.vertex(o) >= vertex_ ||

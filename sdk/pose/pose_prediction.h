@@ -8,8 +8,8 @@
 #include "format/coding/recursive_least_squares.h"
 #include "format/memory.h"
 #include "sdk/base/vector3.h"
-#include "sdk/pose/pose_turn.h"
 #include "sdk/pose/corner_table.h"
+#include "sdk/pose/pose_turn.h"
 
 #include <array>
 #include <cstddef>

@@ -49,7 +49,7 @@ struct Recipe {
   /// The region of each of so many vertices, and how many regions there are; none: there is one.
   std::function<Vector<uint8_t>(uint32_t)> region_of = {};
   uint32_t regions = 1;
-  bool pose_in_rows = false;
+  bool pose_in_rows = false;  ///< the reference pose, whatever it takes
 };
 
 /// A file of one mesh, one segment after the other, each over a reference pose that is in the file

@@ -31,7 +31,7 @@ TEST(CornerTable, EdgesOfManyTrianglesJoinThemTwoByTwo) {
 Vector<uint32_t> opposites(const Vector<uint32_t>& triangles) {
   const auto count = static_cast<uint32_t>(triangles.size());
   const auto edge = [&](uint32_t c) {
-    return std::minmax(triangles[CornerTable::next(c)], triangles[CornerTable::previous(c)]);
+    return std::minmax(triangles[next_corner(c)], triangles[previous_corner(c)]);
   };
   Vector<uint32_t> opposite(count, CornerTable::kNone);
   for (uint32_t c = 0; c < count; ++c) {
