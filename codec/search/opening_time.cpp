@@ -4,17 +4,16 @@
 
 #include "sdk/prediction/predictor.h"
 
-
 namespace anicodec {
 namespace {
 
-/// Nanoseconds of a coder for a coefficient, and for each of its bits.
+/// Nanoseconds of a coder for a time weight, for a coefficient, and for each bit of that.
 struct CoderTime {
-  double coefficient, bit;
+  double weight, coefficient, bit;
 };
 
 // Lines through dance, flag, face, chicken and horse at --kg 0.1: `anicodec_bench open`.
-constexpr CoderTime kMixing{28, 75}, kBatches{1, 18};
+constexpr CoderTime kMixing{220, 28, 75}, kBatches{80, 1, 18};
 
 }  // namespace
 
@@ -24,7 +23,9 @@ double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment&
   const double components = encoded.sizes.components, n = static_cast<double>(vertices);
   const double bits = 8.0 * static_cast<double>(encoded.coefficient_bytes);
   const CoderTime& coder = settings.coder == CoefficientCoder::kBatches ? kBatches : kMixing;
-  const double reading = coder.coefficient * n * components * channels + coder.bit * bits;
+  const auto weights = static_cast<double>(encoded.time_weights);
+  const double reading =
+      coder.weight * weights + coder.coefficient * n * components * channels + coder.bit * bits;
 
   PredictionParameters prediction;
   prediction.schedule = settings.schedule;

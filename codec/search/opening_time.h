@@ -11,9 +11,9 @@
 
 namespace anicodec {
 
-/// About the nanoseconds of one thread that a decoder spends on the coefficients of a linear segment,
-/// the part of opening that settings change: reading them, by how many there are and what they take,
-/// and predicting them, by neighbours and refits. Made for ratios; machines differ.
+/// About the nanoseconds of one thread that a decoder spends on the time weights and coefficients of a
+/// linear segment, the part of opening that settings change: reading both, by how many there are and what
+/// coefficients take, and predicting these, by neighbours and refits. Made for ratios; machines differ.
 double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment& encoded,
                            size_t vertices);
 

@@ -30,6 +30,7 @@ struct EncodedSegment {
   Vector<uint32_t> runs;                         ///< frames of each clip; empty: of one
   std::vector<Bytes> layers;                     ///< chunks BASI
   size_t coefficient_bytes = 0;                  ///< of the layers, without weights
+  size_t time_weights = 0;                       ///< how many values they are, of bases and components
   Bytes corrections;                             ///< chunk CORR
   Bytes exact;                                   ///< chunk DIFF
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it

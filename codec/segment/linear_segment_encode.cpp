@@ -32,14 +32,16 @@ void run_together(size_t count, const std::function<void(size_t)>& task) {
 
 /// Codes the columns of `weights` as time components of `channels` channels (row channels * f + c)
 /// in units of `unit`, each column by its own, and replaces them by what a decoder gets.
-class WeightCoder {
+class WeightEncoder {
  public:
-  WeightCoder(size_t frames, const Vector<uint32_t>& runs, const LinearSettings& settings)
+  WeightEncoder(size_t frames, const Vector<uint32_t>& runs, const LinearSettings& settings,
+                WeightCoder coder)
       : frames_(frames),
         lambda_(settings.weight_lambda),
         predictors_(settings.weight_predictors),
         runs_(runs.empty() ? Vector<uint32_t>(1, static_cast<uint32_t>(frames)) : runs),
-        model_(runs_) {
+        coder_(coder),
+        model_(runs_, coder) {
     for (size_t r = 0; r < settings.run_steps.size(); ++r)
       factors_.insert(factors_.end(), runs[r],
                       LinearParameters::sigma_value(settings.run_steps[r]));
@@ -73,7 +75,7 @@ class WeightCoder {
     return bytes;
   }
 
-  void begin_anew() { model_ = TimeWeightModel(runs_); }
+  void begin_anew() { model_ = TimeWeightModel(runs_, coder_); }
 
  private:
   size_t frames_;
@@ -81,6 +83,7 @@ class WeightCoder {
   uint32_t predictors_;
   std::vector<double> factors_;  ///< of the unit, for each frame
   Vector<uint32_t> runs_;
+  WeightCoder coder_;
   TimeWeightModel model_;
   BinaryEncoder encoder_;
 };
@@ -220,7 +223,7 @@ class LinearEncoder {
   /// Codes the time weights of bases and components, and keeps what a decoder gets. False if one is
   /// too large in its unit: then nothing has changed.
   bool code_time(std::vector<TimeWeights> weights) {
-    WeightCoder coder(clip_.frame_count, encoded_.runs, settings_);
+    WeightEncoder coder(clip_.frame_count, encoded_.runs, settings_, parameters_.weight_coder());
     const auto functions = static_cast<size_t>(weights[0].base.cols());
     const size_t of_function = 3 * clip_.frame_count, regions = weights.size();
     Vector<int32_t> affine(regions * functions * of_function);
@@ -243,6 +246,9 @@ class LinearEncoder {
       }
       streams.push_back(coder.finish());
     }
+    encoded_.time_weights = affine.size();
+    for (const BasisFit& fit : fits_)
+      encoded_.time_weights += fit.components() * weight_channels() * clip_.frame_count;
     encoded_.weights = std::move(of_base);
     time_streams_ = std::move(streams);
     decoded_.affine_weights = std::move(affine);
@@ -253,7 +259,7 @@ class LinearEncoder {
   }
 
   /// The weights of a component, by region.
-  bool code_component(WeightCoder& coder, size_t j, std::vector<TimeWeights>& weights,
+  bool code_component(WeightEncoder& coder, size_t j, std::vector<TimeWeights>& weights,
                       Vector<int32_t>& integers) const {
     const size_t rows = weight_channels() * clip_.frame_count;
     for (size_t r = 0; r < weights.size(); ++r) {

@@ -179,7 +179,7 @@ class BatchCoefficientModel {
     }
     constexpr int kFar = 4;
     const uint32_t far =
-        code_row_number<kFar>(coder, far_[vertex.past / kComponents], x - kLast + (1U << kFar));
+        code_row_number(coder, far_[vertex.past / kComponents], kFar, x - kLast + (1U << kFar));
     const uint32_t result = far - (1U << kFar) + kLast - kFirst;
     if (result + kRowEscape >= static_cast<uint32_t>(kCoefficientLimit)) {
       coder.fail();

@@ -24,6 +24,9 @@ namespace anicodec {
 constexpr uint32_t kProbabilityOne = 65536;
 constexpr uint32_t kMinProbability = 16;
 
+constexpr int kSymbolBits = 15;
+constexpr uint32_t kSymbolScale = uint32_t{1} << kSymbolBits;  ///< a symbol's probability of 1
+
 /// Adaptation rate of a probability that has seen n bits, 1 / (n + 1.5), in 1/32768.
 struct AdaptationRates {
   static constexpr int kCount = 256;
@@ -95,12 +98,30 @@ class BinaryEncoder {
     return value;
   }
 
+  /// Codes the part of a scale of kSymbolScale from `start` to `end`. @pre start < end
+  void part(uint32_t start, uint32_t end) {
+    const uint64_t unit = range_ >> kSymbolBits;
+    add(unit * start);
+    range_ = end < kSymbolScale ? unit * (end - start) : range_ - unit * start;
+    if (range_ < (uint64_t{1} << 32))
+      shift();
+  }
+
+  /// Codes symbol s of a distribution.
+  template <class Distribution>
+  uint32_t symbol(const Distribution& distribution, uint32_t s) {
+    part(distribution.start(s), distribution.start(s + 1));
+    return s;
+  }
+
   /// The lowest `count` bits of value, highest first, count <= 32, each at one bit.
   uint32_t raw(int count, uint32_t value) {
     for (int i = count - 1; i >= 0; --i)
       bit(kProbabilityOne / 2, (value >> i) & 1);
     return value;
   }
+
+  void fail() {}
 
   /// Ends the stream with as few bytes as identify it (0 to 8) and hands it over.
   Vector<uint8_t> finish();
@@ -153,6 +174,19 @@ class BinaryDecoder {
     return value;
   }
 
+  template <class Distribution>
+  uint32_t symbol(const Distribution& distribution, uint32_t = 0) {
+    const uint64_t unit = range_ >> kSymbolBits, x = code_ / unit;
+    const uint32_t s =
+        distribution.at(x < kSymbolScale ? static_cast<uint32_t>(x) : kSymbolScale - 1);
+    const uint32_t start = distribution.start(s), end = distribution.start(s + 1);
+    code_ -= unit * start;
+    range_ = end < kSymbolScale ? unit * (end - start) : range_ - unit * start;
+    if (range_ < (uint64_t{1} << 32))
+      shift();
+    return s;
+  }
+
   uint32_t raw(int count, uint32_t = 0) {
     uint32_t value = 0;
     for (int i = 0; i < count; ++i)
@@ -163,6 +197,9 @@ class BinaryDecoder {
   /// False once more was read than any encoder leaves out at the end. Poll it wherever a decoder
   /// would otherwise go on for long.
   bool ok() const { return !failed_; }
+
+  /// What no encoder writes was read.
+  void fail() { failed_ = true; }
 
   /// True if the stream is exactly what an encoder writes for what was decoded: nothing missing,
   /// nothing left over.
@@ -192,10 +229,19 @@ class BitCounter {
 
   bool bit(const AdaptiveBit& model, bool value) { return bit(model.probability(), value); }
 
+  template <class Distribution>
+  uint32_t symbol(const Distribution& distribution, uint32_t s) {
+    constexpr uint32_t kUnit = kProbabilityOne / kSymbolScale;
+    total_ += bit_cost(kUnit * (distribution.start(s + 1) - distribution.start(s)));
+    return s;
+  }
+
   uint32_t raw(int count, uint32_t value) {
     total_ += static_cast<uint64_t>(count) * kBitCostOne;
     return value;
   }
+
+  void fail() {}
 
   uint64_t total() const { return total_; }
 

@@ -99,17 +99,32 @@ void CosineTransform::inverse(const int32_t* coefficients, int32_t* values) cons
   const uint32_t half = (length_ + 1) / 2, period = 4 * length_;
   Vector<int64_t> sums(size_t{2} * half, 0);
   std::fill_n(sums.begin(), half, int64_t{coefficients[0]} * constant_);
-  for (uint32_t k = 1; k < length_; ++k) {
-    const int64_t y = coefficients[k];
-    if (y == 0)
-      continue;
-    int64_t* sum = sums.data() + (k % 2) * half;
-    uint32_t m = k;
-    for (uint32_t f = 0; f < half; ++f) {
-      sum[f] += y * table_[m];
-      m += 2 * k;
-      if (m >= period)
-        m -= period;
+  constexpr size_t kAtOnce = 4;  // frequencies: a place in the table waits for the one before
+  for (uint32_t first = 1; first <= 2; ++first) {
+    int64_t* sum = sums.data() + (first % 2) * half;
+    int64_t y[kAtOnce];
+    uint32_t step[kAtOnce], m[kAtOnce];
+    size_t count = 0;
+    for (uint32_t k = first; k < length_ || count > 0; k += 2) {
+      const bool ends = k >= length_;
+      if (!ends && coefficients[k] == 0)
+        continue;
+      y[count] = ends ? 0 : coefficients[k];
+      step[count] = ends ? 0 : 2 * k;
+      m[count] = ends ? 0 : k;
+      if (++count < kAtOnce)
+        continue;
+      count = 0;
+      for (uint32_t f = 0; f < half; ++f) {
+        int64_t s = sum[f];
+#pragma GCC unroll 4
+        for (size_t i = 0; i < kAtOnce; ++i) {
+          s += y[i] * table_[m[i]];
+          m[i] += step[i];
+          m[i] = std::min(m[i], m[i] - period);  // wraps below the period
+        }
+        sum[f] = s;
+      }
     }
   }
   const int down = shift_ - kFractionBits;

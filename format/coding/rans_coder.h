@@ -43,6 +43,7 @@ inline uint32_t code_raw_bits(int count, uint32_t value, Raw&& raw) {
 /// then spent. Memory: 4 bytes for each decision.
 class RansEncoder {
  public:
+  static constexpr bool kAdapts = true;
   static constexpr bool kDecodes = false;
 
   uint32_t symbol(const SymbolDistribution& distribution, uint32_t s) {
@@ -81,6 +82,7 @@ class RansEncoder {
 /// and ok() turns false; every call takes bounded time.
 class RansDecoder {
  public:
+  static constexpr bool kAdapts = true;
   static constexpr bool kDecodes = true;
 
   /// The bytes must outlive the object.

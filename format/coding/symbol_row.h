@@ -22,8 +22,6 @@
 
 namespace anicodec {
 
-constexpr int kSymbolBits = 15;
-constexpr uint32_t kSymbolScale = uint32_t{1} << kSymbolBits;  ///< a probability of 1
 constexpr size_t kRowSymbols = 8;
 /// The last symbol of a row stands for all larger numbers.
 constexpr uint32_t kRowEscape = kRowSymbols - 1;
@@ -179,20 +177,22 @@ template <class Coder>
 inline __attribute__((always_inline)) uint32_t code_row_symbol(Coder& coder, SymbolRow& a,
                                                                SymbolRow& b, uint32_t s) {
   s = coder.symbol(SymbolDistribution(a, b), s);
-  VectorRows::learn(a, s);
-  VectorRows::learn(b, s);
+  if constexpr (Coder::kAdapts) {
+    VectorRows::learn(a, s);
+    VectorRows::learn(b, s);
+  }
   return s;
 }
 
-/// The rows of the length of a number, which may take a symbol after the other.
-using RowNumber = std::array<SymbolRow, 3>;
+/// The rows of the length of a number, which may take a symbol after the other: up to 28 bits.
+using RowNumber = std::array<SymbolRow, 4>;
 
-/// Codes a number from 2^kLowest to 2^24 - 1, its length by rows, then the bits below the highest. A
-/// decoder that reads a longer one fails and gets 2^kLowest.
-template <int kLowest, class Coder>
-uint32_t code_row_number(Coder& coder, RowNumber& rows, uint32_t x) {
+/// Codes a number from 2^lowest to 2^24 - 1, its length by rows, then the bits below the highest. A
+/// decoder that reads a longer one fails and gets 2^lowest.
+template <class Coder>
+uint32_t code_row_number(Coder& coder, RowNumber& rows, int lowest, uint32_t x) {
   constexpr int kMostBits = 24;
-  const int given = floor_log2(x) - kLowest;
+  const int given = floor_log2(x) - lowest;
   int exponent = 0;
   for (SymbolRow& row : rows) {
     const auto left = static_cast<uint32_t>(given > exponent ? given - exponent : 0);
@@ -202,12 +202,29 @@ uint32_t code_row_number(Coder& coder, RowNumber& rows, uint32_t x) {
     if (part < kRowEscape)
       break;
   }
-  const int bits = exponent + kLowest;
+  const int bits = exponent + lowest;
   if (bits >= kMostBits) {
     coder.fail();
-    return uint32_t{1} << kLowest;
+    return uint32_t{1} << lowest;
   }
   return uint32_t{1} << bits | coder.raw(bits, x);
+}
+
+/// Codes a magnitude below 2^24 by two rows, `far` for what is beyond them, and its `low` lowest bits,
+/// which are as good as random. A decoder that reads a larger one fails and gets 0.
+template <class Coder>
+uint32_t code_row_magnitude(Coder& coder, SymbolRow& a, SymbolRow& b, RowNumber& far, int low,
+                            uint32_t magnitude) {
+  constexpr int kBits = 24;
+  const uint32_t given = magnitude >> low;
+  uint32_t high = code_row_symbol(coder, a, b, given < kRowEscape ? given : kRowEscape);
+  if (high == kRowEscape)
+    high += code_row_number(coder, far, 0, given - kRowEscape + 1) - 1;
+  if (high >> (kBits - low) != 0) {
+    coder.fail();
+    return 0;
+  }
+  return high << low | coder.raw(low, magnitude & ((1U << low) - 1));
 }
 
 }  // namespace anicodec

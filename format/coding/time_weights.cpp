@@ -4,8 +4,8 @@
 
 #include "format/coding/cosine_transform.h"
 #include "format/coding/magnitude_class.h"
-#include "format/coding/mixing.h"
 #include "format/coding/recursive_least_squares.h"
+#include "format/coding/weight_models.h"
 
 #include <algorithm>
 #include <array>
@@ -23,38 +23,17 @@ namespace {
 
 constexpr int32_t kStep = 1 << kWeightFractionBits;
 constexpr int32_t kValueLimit = kWeightLimit * kStep;
-constexpr uint32_t kFine = 28;    ///< classes of magnitudes, two per octave
-constexpr uint32_t kMedium = 20;  ///< the same, fewer
-constexpr uint32_t kCoarse = 14;  ///< one per octave
-constexpr uint32_t kSelect = 8;
 constexpr uint32_t kMaxChannels = 3;
-constexpr uint32_t kSignGroups = 9;
 constexpr double kBitWorth =
     0.14;                       ///< squared steps that a bit is worth when predictors are compared
-constexpr uint32_t kUnit = 64;  ///< magnitudes are kept in 1/64
-
 constexpr uint32_t kMostError = 1U << 28;  ///< of a prediction, in 1/16 step
 constexpr size_t kForward = 3;  ///< predictors that go from frame to frame: the first ones
+constexpr auto kLine = static_cast<size_t>(WeightPredictor::kLine);
 constexpr auto kHold = static_cast<size_t>(WeightPredictor::kHold);
-
-uint32_t fine(uint32_t x) {
-  return magnitude_class<1>(x, kFine);
-}
-
-uint32_t medium(uint32_t x) {
-  return magnitude_class<1>(x, kMedium);
-}
-
-uint32_t coarse(uint32_t x) {
-  return magnitude_class<0>(x >> 2, kCoarse);
-}
+constexpr auto kRegression = static_cast<size_t>(WeightPredictor::kRegression);
 
 int32_t sign(int32_t x) {
   return (x > 0) - (x < 0);
-}
-
-uint32_t selector(uint32_t x) {
-  return magnitude_class<0>(x >> 3, kSelect);
 }
 
 /// Codes and counts, and keeps what it would write: for trying a predictor out.
@@ -76,11 +55,18 @@ class TrialEncoder {
     return value;
   }
 
+  uint32_t symbol(const SymbolDistribution& distribution, uint32_t s) {
+    decisions_.push_back(kPart | distribution.start(s) << kSymbolBits | (distribution.start(s + 1) - 1));
+    return counter_.symbol(distribution, s);
+  }
+
   uint32_t raw(int count, uint32_t value) {
     for (int i = count - 1; i >= 0; --i)
       bit(kProbabilityOne / 2, (value >> i & 1) != 0);
     return value;
   }
+
+  void fail() {}
 
   void add_error(double squared) { error_ += squared; }
 
@@ -92,15 +78,21 @@ class TrialEncoder {
   }
 
   void write(BinaryEncoder& encoder) const {
-    for (const uint32_t decision : decisions_)
-      encoder.bit(decision >> 1, (decision & 1) != 0);
+    for (const uint32_t decision : decisions_) {
+      if (decision & kPart)
+        encoder.part(decision >> kSymbolBits & kEnd, (decision & kEnd) + 1);
+      else
+        encoder.bit(decision >> 1, (decision & 1) != 0);
+    }
   }
 
  private:
+  static constexpr uint32_t kPart = 1U << 31, kEnd = kSymbolScale - 1;
+
   const std::atomic<double>& least_;
   double error_ = 0;
   BitCounter counter_;
-  Vector<uint32_t> decisions_;  ///< probability and bit
+  Vector<uint32_t> decisions_;  ///< probability and bit; with kPart, start and last of a part
 };
 
 /// True once a decoder's stream has run out, or a trial costs too much: what follows is not worth the
@@ -121,7 +113,7 @@ struct Source {
 }  // namespace
 
 struct TimeWeightModel::State {
-  explicit State(const Vector<uint32_t>& runs);
+  State(const Vector<uint32_t>& runs, WeightCoder coder);
 
   template <class Coder>
   void code(Coder& coder, uint32_t channels, const Source* source, WeightPredictor& predictor,
@@ -138,7 +130,7 @@ struct TimeWeightModel::State {
  private:
   using Filter = RecursiveLeastSquares<6, 990>;
 
-  /// Magnitudes of a component's coded integers, in kUnit.
+  /// Magnitudes of a component's coded integers, in kWeightUnit.
   struct Trace {
     uint32_t channels = 0;       ///< 0: no component yet
     Vector<uint32_t> magnitude;  ///< channels x frames
@@ -158,15 +150,15 @@ struct TimeWeightModel::State {
   template <class Coder>
   void code_cosine(Coder& coder, uint32_t channels, const Source* source, int32_t* values);
 
-  template <class Coder, class Model>
-  int32_t code_value(Coder& coder, Model& model, double x, double lambda);
-  void prepare_sign(uint32_t group, size_t index, uint32_t c, int32_t a, int32_t b, int32_t d);
+  template <class Coder, class Code>
+  static int32_t code_value(Coder& coder, double x, double lambda, const Code& code);
+  int32_t evidence(size_t index, uint32_t c) const;
   void learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate);
   uint32_t previous(const Trace& trace, int64_t f, int reach) const;
+  WeightSurroundings surroundings(uint32_t channels, uint32_t c, uint32_t index, uint32_t before,
+                                  uint32_t first) const;
   Filter& filter_of(uint32_t channels, uint32_t c);
   Filter::Vector regressors(const int32_t* v, uint32_t f, uint32_t c) const;
-  static Predictions predict(const Filter& filter, const Filter::Vector& z, const int32_t* v,
-                             uint32_t f);
   static int32_t rounded_prediction(double predicted);
 
   /// Place of frame f of the run at hand in a component's arrays, which hold all runs.
@@ -176,37 +168,32 @@ struct TimeWeightModel::State {
   uint32_t all_frames_ = 0;
   uint32_t begin_ = 0, frames_ = 0;  ///< of the run at hand
   AdaptiveBit predictor_[kWeightPredictors - 1];
-  MixedSymbolModel<6> forward_;
-  MixedSymbolModel<5> cosine_;
-  Filter filters_[2][3];         ///< per number of channels (1, 3) and channel
-  uint32_t errors_[3][kForward]; ///< of predictions in the last eight frames or so, in 1/16 step
-  MixedModel<4> signs_;
-  int32_t agreement_[3][3];  ///< of the signs of two channels, in this component
-  Vector<int32_t> coded_;    ///< of this component, channels x frames
-  Trace trace_;              ///< of the component at hand
-  Trace before_[2];          ///< of the last one coded over frames; over frequencies
+  std::optional<MixedWeightModel> mixed_;  ///< of the two, the one that codes
+  std::optional<RowWeightModel> rows_;
+  Filter filters_[2][3];          ///< per number of channels (1, 3) and channel
+  uint32_t errors_[3][kForward];  ///< of predictions in the last eight frames or so, in 1/16 step
+  int32_t agreement_[3][3];       ///< of the signs of two channels, in this component
+  Vector<int32_t> coded_;         ///< of this component, channels x frames
+  Trace trace_;                   ///< of the component at hand
+  Trace before_[2];               ///< of the last one coded over frames; over frequencies
+  std::optional<CosineTransform> transform_;  ///< the last one used
   uint32_t slow_[3];
 };
 
-TimeWeightModel::State::State(const Vector<uint32_t>& runs)
-    : runs_(runs),
-      forward_({kFine * 3, kMedium * kMedium, kFine * 3, kCoarse * kCoarse, kFine,
-                kMedium * kMedium},
-               {kSelect, 3}),
-      cosine_({kFine * 3, kMedium * 26, kMedium * kMedium, kCoarse * kCoarse, kMedium * 26},
-              {kSelect, 26}),
-      signs_({27 * kSignGroups, 49 * kSignGroups, 33 * 2, 21 * kSignGroups}, {kSignGroups, 17}, 1) {
+TimeWeightModel::State::State(const Vector<uint32_t>& runs, WeightCoder coder) : runs_(runs) {
   for (uint32_t run : runs_)
     all_frames_ += run;
+  if (coder == WeightCoder::kMixing)
+    mixed_.emplace();
+  else
+    rows_.emplace();
 }
 
-/// Codes the integer nearest to x, or one nearer to zero if that is worth the bits. x is ignored by
-/// a decoder.
-template <class Coder, class Model>
-int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x, double lambda) {
-  const auto sign = [&](auto& c) {
-    return [&](bool negative) { return signs_.code(c, 0, negative); };
-  };
+/// Codes the integer nearest to x, or one nearer to zero if that is worth the bits: code(coder, q). x
+/// is ignored by a decoder.
+template <class Coder, class Code>
+int32_t TimeWeightModel::State::code_value(Coder& coder, double x, double lambda,
+                                           const Code& code) {
   int32_t q = 0;
   if constexpr (!Coder::kDecodes) {
     const double size = std::min(x < 0 ? -x : x, 1e8);
@@ -218,7 +205,7 @@ int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x,
         if (candidate < nearest - 1 && !(candidate == 0 && nearest == 2))
           break;
         BitCounter counter;
-        model.code(counter, x < 0 ? -candidate : candidate, sign(counter));
+        code(counter, x < 0 ? -candidate : candidate);
         const double cost = (size - candidate) * (size - candidate) +
                             lambda * static_cast<double>(counter.total()) / kBitCostOne;
         if (cost < least) {
@@ -229,36 +216,23 @@ int32_t TimeWeightModel::State::code_value(Coder& coder, Model& model, double x,
     }
     q = x < 0 ? -best : best;
   }
-  return model.code(coder, q, sign(coder));
+  return code(coder, q);
 }
 
-/// Contexts of the sign of the value at `index`: signs and sizes of three values near it, and of
-/// the channels before. group: 0 of a frame, 1 to 8 of a frequency.
-void TimeWeightModel::State::prepare_sign(uint32_t group, size_t index, uint32_t c, int32_t a,
-                                          int32_t b, int32_t d) {
-  const auto ternary = [](int32_t x) { return static_cast<uint32_t>(sign(x) + 1); };
-  const auto level = [](int32_t x) {
-    return static_cast<uint32_t>(3 + sign(x) * static_cast<int32_t>(magnitude_class<0>(
-                                                   static_cast<uint32_t>(x < 0 ? -x : x), 4)));
-  };
-  int32_t evidence = 0;
+/// What the signs of the channels before tell of that of the value at `index`.
+int32_t TimeWeightModel::State::evidence(size_t index, uint32_t c) const {
+  int32_t sum = 0;
   for (uint32_t e = 0; e < c; ++e)
-    evidence += agreement_[c][e] * sign(coded_[at(e, index)]);
-  const auto strength =
-      magnitude_class<1>(static_cast<uint32_t>(evidence < 0 ? -evidence : evidence) >> 2, 16);
-  const auto s = static_cast<uint32_t>(16 + sign(evidence) * static_cast<int32_t>(strength));
-  signs_.select({((ternary(a) * 3 + ternary(b)) * 3 + ternary(d)) * kSignGroups + group,
-                 (level(a) * 7 + level(b)) * kSignGroups + group, s * 2 + (group > 0),
-                 (level(d) * 3 + ternary(a)) * kSignGroups + group},
-                group, s / 2);
+    sum += agreement_[c][e] * sign(coded_[at(e, index)]);
+  return sum;
 }
 
 /// rate: of the channel's running mean, in 1/32.
 void TimeWeightModel::State::learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate) {
-  const uint32_t m = static_cast<uint32_t>(std::min(q < 0 ? -q : q, 65535)) * kUnit;
+  const uint32_t m = static_cast<uint32_t>(std::min(q < 0 ? -q : q, 65535)) * kWeightUnit;
   trace_.magnitude[at(c, index)] = m;
   coded_[at(c, index)] = q;
-  if (q != 0)
+  if (mixed_ && q != 0)
     for (uint32_t e = 0; e < c; ++e) {
       int32_t& agreement = agreement_[c][e];
       agreement += 32 * sign(q) * sign(coded_[at(e, index)]) - agreement / 8;
@@ -270,7 +244,7 @@ void TimeWeightModel::State::learn(uint32_t index, uint32_t c, int32_t q, uint32
 /// equal (reach 2).
 uint32_t TimeWeightModel::State::previous(const Trace& trace, int64_t f, int reach) const {
   if (trace.channels == 0)
-    return 8 * kUnit;
+    return 8 * kWeightUnit;
   uint64_t sum = 0, weight = 0;
   for (uint32_t c = 0; c < trace.channels; ++c)
     for (int64_t d = -reach; d <= reach; ++d) {
@@ -282,6 +256,26 @@ uint32_t TimeWeightModel::State::previous(const Trace& trace, int64_t f, int rea
       weight += w;
     }
   return static_cast<uint32_t>(sum / weight);
+}
+
+/// What is known around the value at `index`, but for what is expected from it. first: what stands for
+/// magnitudes before index 0.
+WeightSurroundings TimeWeightModel::State::surroundings(uint32_t channels, uint32_t c,
+                                                        uint32_t index, uint32_t before,
+                                                        uint32_t first) const {
+  const uint32_t* m = &trace_.magnitude[at(c, index)];
+  WeightSurroundings s{};
+  s.recent = index == 0 ? 2 * first : index == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
+  s.slow = slow_[c];
+  for (uint32_t e = 0; e < channels; ++e) {
+    if (e != c)
+      s.beside += e < c ? trace_.magnitude[at(e, index)]
+                  : index > 0 ? trace_.magnitude[at(e, index) - 1]
+                              : first;
+  }
+  s.beside >>= channels == kMaxChannels;  // mean of the two others
+  s.before = before;
+  return s;
 }
 
 /// The regression of channel c, started if it is new: a straight line.
@@ -321,64 +315,59 @@ int32_t TimeWeightModel::State::rounded_prediction(double predicted) {
           : 0);
 }
 
-TimeWeightModel::State::Predictions TimeWeightModel::State::predict(const Filter& filter,
-                                                                    const Filter::Vector& z,
-                                                                    const int32_t* v, uint32_t f) {
-  const int32_t held = f > 0 ? v[-1] : 0;
-  return {f > 1 ? 2 * v[-1] - v[-2] : held, held, rounded_prediction(filter.predict(z))};
-}
-
 template <class Coder>
 void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const Source* source,
                                           size_t predictor, int32_t* values) {
   std::fill_n(slow_, 3, 0);
   for (auto& row : errors_)
     std::fill(std::begin(row), std::end(row), 0);
+  // Contexts that are mixed know what the regression expects.
+  const bool regresses = mixed_ || predictor == kRegression;
   for (uint32_t f = 0; f < frames_ && !exhausted(coder); ++f) {
-    const uint32_t m4 = previous(before_[0], f, 1);
+    const uint32_t before = previous(before_[0], f, 1);
     for (uint32_t c = 0; c < channels; ++c) {
       int32_t* v = values + at(c, f);
       Filter& filter = filter_of(channels, c);
-      const Filter::Vector z = regressors(v, f, c);
-      const Predictions p = predict(filter, z, v, f);
+      Filter::Vector z{};
+      const int32_t held = f > 0 ? v[-1] : 0;
+      Predictions p = {f > 1 ? 2 * v[-1] - v[-2] : held, held, 0};
+      if (regresses) {
+        z = regressors(v, f, c);
+        p[kRegression] = rounded_prediction(filter.predict(z));
+      }
       const int32_t prediction = p[predictor];
-      const uint32_t* m = &trace_.magnitude[at(c, f)];
-      const uint32_t m1 = f == 0 ? 0 : f == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
-      uint32_t m3 = 0;
-      for (uint32_t e = 0; e < channels; ++e)
-        if (e != c && (e < c || f > 0))
-          m3 += trace_.magnitude[at(e, f) - (e < c ? 0 : 1)];
-      m3 /= std::max(channels - 1, 1u);
-      const uint32_t slow = slow_[c], expected = (2 * m1 + 2 * slow + m3 + m4) / 6;
-      const auto [least, most] = std::minmax_element(p.begin(), p.end());
-      const auto spread = static_cast<uint32_t>(std::min(*most - *least, 1 << 28)) * (kUnit / kStep);
-      const uint32_t error = errors_[c][predictor] >> 1;
-      forward_.select(
-          {fine((5 * m1 + 3 * slow) >> 3) * 3 + c, medium(m1) * kMedium + medium(m3),
-           fine(m4) * 3 + std::min(f, 2u), coarse(slow) * kCoarse + coarse(m4), fine(spread),
-           medium(error) * kMedium + medium(spread)},
-          f == 0 ? kSelect - 1 : selector(expected), c);
-      // Where two other predictions are; of the predictor at hand that is held.
-      const auto beside = [&](WeightPredictor other) {
-        const auto k = static_cast<size_t>(other);
-        return (p[k == predictor ? kHold : k] - prediction) >> 3;
-      };
-      prepare_sign(0, f, c, beside(WeightPredictor::kRegression),
-                   f > 0 ? coded_[at(c, f) - 1] : 0, beside(WeightPredictor::kLine));
+      WeightSurroundings s = surroundings(channels, c, f, before, 0);
+      s.expected = (2 * s.recent + 2 * s.slow + s.beside + s.before) / 6;
+      const int32_t last = f > 0 ? coded_[at(c, f) - 1] : 0;
+      if (mixed_) {
+        const auto [least, most] = std::minmax_element(p.begin(), p.end());
+        const auto spread = static_cast<uint32_t>(std::min(*most - *least, 1 << 28));
+        mixed_->select_frame(s, f, c, errors_[c][predictor] >> 1, spread * (kWeightUnit / kStep));
+        // Where two other predictions are; of the predictor at hand that is held.
+        const auto other = [&](size_t k) {
+          return (p[k == predictor ? kHold : k] - prediction) >> 3;
+        };
+        mixed_->select_sign(0, other(kRegression), last, other(kLine), evidence(f, c));
+      }
       const double x = source ? source->x[at(c, f)] - prediction * (1.0 / kStep) : 0;
-      const int32_t q = code_value(coder, forward_, x, source ? source->lambda : 0);
+      const int32_t q =
+          code_value(coder, x, source ? source->lambda : 0, [&](auto& to, int32_t given) {
+            return mixed_ ? mixed_->code(to, false, given) : rows_->code_frame(to, s, last, given);
+          });
       *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
       if constexpr (std::is_same_v<Coder, TrialEncoder>) {
         const double miss = *v * (1.0 / kStep) - source->x[at(c, f)];
         coder.add_error(miss * miss);
       }
       learn(f, c, q, 5);
-      for (size_t k = 0; k < kForward; ++k) {
+      for (size_t k = 0; mixed_ && k < kForward; ++k) {
         const auto miss = static_cast<uint32_t>(std::abs(*v - p[k]));
         errors_[c][k] += std::min(miss, kMostError) - (errors_[c][k] >> 3);
       }
-      const double noise = slow_[c] * (1.0 / kUnit);
-      filter.learn(z, *v * (1.0 / kStep), 1.0 / 12 + noise * noise);
+      if (regresses) {
+        const double noise = slow_[c] * (1.0 / kWeightUnit);
+        filter.learn(z, *v * (1.0 / kStep), 1.0 / 12 + noise * noise);
+      }
     }
   }
 }
@@ -386,35 +375,30 @@ void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const
 template <class Coder>
 void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const Source* source,
                                          int32_t* values) {
-  const CosineTransform transform(frames_);
+  if (!transform_ || transform_->length() != frames_)
+    transform_.emplace(frames_);
+  const CosineTransform& transform = *transform_;
   Vector<double> target(source ? size_t{channels} * frames_ : 0);
   if (source)
     for (uint32_t c = 0; c < channels; ++c)
       transform.forward(source->x + at(c, 0), &target[size_t{c} * frames_]);
-  std::fill_n(slow_, 3, 4 * kUnit);
+  std::fill_n(slow_, 3, 4 * kWeightUnit);
   for (uint32_t k = 0; k < frames_ && !exhausted(coder); ++k) {
-    const uint32_t m4 = before_[1].channels ? previous(before_[1], k, 2) : 0;
-    // Half octaves of the frequency.
-    const uint32_t band = magnitude_class<1>(k, 26);
+    const uint32_t before = before_[1].channels ? previous(before_[1], k, 2) : 0;
+    const uint32_t band = magnitude_class<1>(k, kWeightBands);
     for (uint32_t c = 0; c < channels; ++c) {
-      const uint32_t* m = &trace_.magnitude[at(c, k)];
-      const uint32_t m1 = k == 0 ? 20 * kUnit : k == 1 ? m[-1] : (5 * m[-1] + 3 * m[-2]) >> 3;
-      uint32_t m3 = 0;
-      for (uint32_t e = 0; e < channels; ++e)
-        if (e != c)
-          m3 += e > c && k == 0 ? 10 * kUnit : trace_.magnitude[at(e, k) - (e < c ? 0 : 1)];
-      m3 /= std::max(channels - 1, 1u);
-      const uint32_t slow = slow_[c], expected = (m1 + 2 * slow + m3 + 2 * m4) / 6;
-      cosine_.select(
-          {fine(expected) * 3 + c, medium(m1) * 26 + band, medium(m4) * kMedium + medium(slow),
-           coarse(slow) * kCoarse + coarse(m3), medium(m4) * 26 + band},
-          selector(expected), band);
-      const size_t index = size_t{c} * frames_ + k;
-      const int32_t* q0 = &coded_[at(c, k)];
-      prepare_sign(1 + std::min(band, 7u), k, c, k > 0 ? q0[-1] : 0, k > 1 ? q0[-2] : 0,
-                   k > 2 ? q0[-3] : 0);
-      int32_t q =
-          code_value(coder, cosine_, source ? target[index] : 0, source ? source->lambda : 0);
+      WeightSurroundings s = surroundings(channels, c, k, before, 10 * kWeightUnit);
+      s.expected = (s.recent + 2 * s.slow + s.beside + 2 * s.before) / 6;
+      if (mixed_) {
+        mixed_->select_frequency(s, band, c);
+        const int32_t* q0 = &coded_[at(c, k)];
+        mixed_->select_sign(1 + std::min(band, 7u), k > 0 ? q0[-1] : 0, k > 1 ? q0[-2] : 0,
+                            k > 2 ? q0[-3] : 0, evidence(k, c));
+      }
+      const double x = source ? target[size_t{c} * frames_ + k] : 0;
+      int32_t q = code_value(coder, x, source ? source->lambda : 0, [&](auto& to, int32_t given) {
+        return mixed_ ? mixed_->code(to, true, given) : rows_->code_frequency(to, s, k, given);
+      });
       q = std::clamp(q, -CosineTransform::kLimit, CosineTransform::kLimit);
       learn(k, c, q, 8);
     }
@@ -464,8 +448,8 @@ void TimeWeightModel::Release::operator()(State* state) const {
     ::operator delete(state);
 }
 
-template <class Source>
-TimeWeightModel::StatePointer TimeWeightModel::make_state(const Source& source) {
+template <class... Arguments>
+TimeWeightModel::StatePointer TimeWeightModel::make_state(const Arguments&... arguments) {
   struct Room {
     HostAllocator<State> allocator;
     State* state = allocator.allocate(1);
@@ -477,25 +461,19 @@ TimeWeightModel::StatePointer TimeWeightModel::make_state(const Source& source) 
   };
 
   Room room;
-  StatePointer made(new (room.state) State(source), Release{room.allocator.memory()});
+  StatePointer made(new (room.state) State(arguments...), Release{room.allocator.memory()});
   room.state = nullptr;
   return made;
 }
 
-TimeWeightModel::TimeWeightModel(const Vector<uint32_t>& runs)
+TimeWeightModel::TimeWeightModel(const Vector<uint32_t>& runs, WeightCoder coder)
     : frames_(std::accumulate(runs.begin(), runs.end(), 0U)),
-      state_(make_state(runs)) {}
+      state_(make_state(runs, coder)) {}
 
 TimeWeightModel::~TimeWeightModel() = default;
 
-TimeWeightModel::TimeWeightModel(const TimeWeightModel& other)
-    : frames_(other.frames_), state_(make_state(*other.state_)) {}
-
-TimeWeightModel& TimeWeightModel::operator=(const TimeWeightModel& other) {
-  frames_ = other.frames_;
-  *state_ = *other.state_;
-  return *this;
-}
+TimeWeightModel::TimeWeightModel(TimeWeightModel&&) noexcept = default;
+TimeWeightModel& TimeWeightModel::operator=(TimeWeightModel&&) noexcept = default;
 
 Status TimeWeightModel::decode(BinaryDecoder& decoder, uint32_t channels, int32_t* values) {
   if (channels != 1 && channels != kMaxChannels)

@@ -241,7 +241,7 @@ Failure Clip::open(const ContainerReader& file, const OpenOptions& options) {
   if (Failure f = open_root(file); !f.ok())
     return f;
   in_place_ = options.in_place;
-  if (options.trace)
+  if (kTraces && options.trace)
     root_.each_series([&](const int32_t* values, size_t count) {
       options.trace->step("root motion", values, count);
     });

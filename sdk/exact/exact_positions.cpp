@@ -20,7 +20,7 @@ void hash_frame(const float* frame, size_t count, DecodingTrace* trace, IntegerH
     const size_t n = std::min<size_t>(kShown, count - begin);
     std::memcpy(bits, frame + begin, n * sizeof(float));
     hash->add(bits, n);
-    if (trace)
+    if (kTraces && trace)
       trace->step("exact positions", bits, n);
   }
 }

@@ -94,17 +94,10 @@ class RowPoseModels {
     const int low = std::clamp(floor_log2(scale) - 4, 0, kMostLow);
     const auto class_of = [&](double x) { return magnitude_class<0>(eighths(x) >> low, kNear); };
     const int32_t distance = value - expected.centre;
-    const auto given = static_cast<uint32_t>(distance < 0 ? -distance : distance);
-    uint32_t high = code_row_symbol(coder, scale_[magnitude_class<2>(scale, kScales)][last],
-                                    near_[class_of(e.before)][class_of(e.near)][last],
-                                    std::min(given >> low, kRowEscape));
-    if (high == kRowEscape)
-      high += code_row_number<0>(coder, far_, (given >> low) - kRowEscape + 1) - 1;
-    if (high >> (kBits - low) != 0) {
-      coder.fail();
-      return 0;
-    }
-    const auto magnitude = static_cast<int32_t>(high << low | coder.raw(low, given));
+    const auto magnitude = static_cast<int32_t>(code_row_magnitude(
+        coder, scale_[magnitude_class<2>(scale, kScales)][last],
+        near_[class_of(e.before)][class_of(e.near)][last], far_, low,
+        static_cast<uint32_t>(distance < 0 ? -distance : distance)));
     if (magnitude == 0)
       return expected.centre;
     const bool negative = coder.bit(sign_[last][expected.quarter], distance < 0);
@@ -113,7 +106,7 @@ class RowPoseModels {
 
  private:
   static constexpr uint32_t kScales = 64, kNear = 16;
-  static constexpr int kMostLow = 12, kBits = 24;
+  static constexpr int kMostLow = 12;
 
   SymbolRow scale_[kScales][2], near_[kNear][kNear][2];
   RowNumber far_;

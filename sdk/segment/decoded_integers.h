@@ -14,6 +14,13 @@
 
 namespace anicodec {
 
+/// Nobody looks at a decoder that is to be small.
+#if defined(ANICODEC_SMALL)
+constexpr bool kTraces = false;
+#else
+constexpr bool kTraces = true;
+#endif
+
 /// Receives the integers of each step of decoding, in the order of the specification.
 class DecodingTrace {
  public:
@@ -25,7 +32,7 @@ class DecodingTrace {
 
 /// Shows unsigned integers, which are below 2^31.
 inline void show(DecodingTrace* trace, const char* name, const Vector<uint32_t>& values) {
-  if (!trace)
+  if (!kTraces || !trace)
     return;
   const Vector<int32_t> copy(values.begin(), values.end());
   trace->step(name, copy.data(), copy.size());
@@ -51,7 +58,7 @@ class DecodedIntegers {
 
   /// Integers that the hash does not contain.
   void show(const char* name, const int32_t* values, size_t count) const {
-    if (trace_)
+    if (kTraces && trace_)
       trace_->step(name, values, count);
   }
 

@@ -49,7 +49,10 @@ class WeightReader {
  public:
   WeightReader(const LinearParameters& parameters, const Vector<uint32_t>& runs,
                const Segment& segment)
-      : parameters_(parameters), runs_(runs), segment_(segment), model_(runs) {}
+      : parameters_(parameters),
+        runs_(runs),
+        segment_(segment),
+        model_(runs, parameters.weight_coder()) {}
 
   /// Block `weights` of a segment: DecodedBasis::affine_weights.
   Status read_bases(ByteView bytes, Vector<int32_t>* values) {
@@ -87,7 +90,7 @@ class WeightReader {
     if (layer.count == 0)
       return Status::kOk;
     if (parameters_.layers_anew && layer.first > 0)
-      model_ = TimeWeightModel(runs_);
+      model_ = TimeWeightModel(runs_, parameters_.weight_coder());
     BinaryDecoder decoder(layer.weights.data, layer.weights.size);
     const uint32_t channels = segment_.weight_channels();
     for (uint32_t j = layer.first; j < layer.first + count; ++j) {
@@ -205,7 +208,7 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
   if (Status s = read_residuals(context, parameters, order, channels, layers, out->components, room);
       s != Status::kOk)
     return s;
-  if (context.trace)
+  if (kTraces && context.trace)
     show_residuals(room, n * channels, out->components, context.trace);
 
   PredictionParameters prediction;

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_SDK_SEGMENT_LINEAR_SEGMENT_H_
 #define ANICODEC_SDK_SEGMENT_LINEAR_SEGMENT_H_
 
+#include "format/coding/time_weights.h"
 #include "format/memory.h"
 #include "sdk/prediction/predictor.h"
 #include "sdk/segment/segment.h"
@@ -45,6 +46,10 @@ struct LinearParameters {
   /// Whether a region has weights of a component.
   bool has_weights(uint32_t region, size_t component) const {
     return region_components.empty() || component < region_components[region];
+  }
+
+  WeightCoder weight_coder() const {
+    return coder == CoefficientCoder::kBatches ? WeightCoder::kRows : WeightCoder::kMixing;
   }
 
   /// Per component, in the order of the file.

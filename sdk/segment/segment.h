@@ -26,10 +26,10 @@ inline uint32_t block_count(uint32_t vertices) {
   return (vertices + kBlock - 1) / kBlock;
 }
 
-/// How the coefficients of eigenshapes and eigentrajectories are coded.
+/// How the coefficients of eigenshapes and eigentrajectories are coded, and their time weights.
 enum class CoefficientCoder : uint8_t {
-  kMixing = 0,   ///< CoefficientModel: smallest files
-  kBatches = 1,  ///< BatchCoefficientModel: opens faster
+  kMixing = 0,   ///< CoefficientModel, WeightCoder::kMixing: smallest files
+  kBatches = 1,  ///< BatchCoefficientModel, WeightCoder::kRows: opens faster
 };
 constexpr uint8_t kCoefficientCoderCount = 2;
 

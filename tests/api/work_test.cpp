@@ -146,7 +146,7 @@ class CraftedFile {
 
   static Bytes weights(const Limits::Segment& s) {
     BinaryEncoder encoder;
-    TimeWeightModel model(s.frames);
+    TimeWeightModel model(s.frames, WeightCoder::kMixing);
     const std::vector<double> still(s.frames, 0.0);
     std::vector<int32_t> decoded(s.frames);
     for (uint32_t j = 0; j < s.components; ++j)

@@ -66,22 +66,25 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
           encode_timed(sequence, {ErrorMetric::kKg, kg, false}, options.basis, options.effort,
                        options.verbose, OrderMode::kFree, choice);
       std::vector<float> positions;
-      const double whole = median_thread_seconds(runs, [&] {
-        Clip clip;
-        open(timed.result.file, clip);
-        play(clip, positions);
-      });
-      const double others = median_thread_seconds(runs, [&] {
-        for (const auto& frame : draco.frames)
-          decode_draco(frame);
-      });
-      Clip clip;
-      const double opening = median_thread_seconds(runs, [&] {
-        Clip again;
-        open(timed.result.file, again);
-      });
-      open(timed.result.file, clip);
-      const double playing = median_thread_seconds(runs, [&] { play(clip, positions); });
+      Clip opened;
+      open(timed.result.file, opened);
+      enum : size_t { kWhole, kDraco, kOpening, kPlaying };
+      const Turns turns(
+          runs,
+          [&] {
+            Clip clip;
+            open(timed.result.file, clip);
+            play(clip, positions);
+          },
+          [&] {
+            for (const auto& frame : draco.frames)
+              decode_draco(frame);
+          },
+          [&] {
+            Clip clip;
+            open(timed.result.file, clip);
+          },
+          [&] { play(opened, positions); });
       table.add({{"clip", name},
                  {"vertices", sequence.vertex_count},
                  {"frames", sequence.frame_count},
@@ -89,13 +92,13 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
                  {"basis", tools::name_of(timed.result.kind)},
                  {"components", timed.result.components},
                  {"bytes", timed.result.file.size()},
-                 {"open_ms", 1e3 * opening},
-                 {"play_ms", 1e3 * playing},
-                 {"decode_ms", 1e3 * whole},
+                 {"open_ms", 1e3 * turns.seconds(kOpening)},
+                 {"play_ms", 1e3 * turns.seconds(kPlaying)},
+                 {"decode_ms", 1e3 * turns.seconds(kWhole)},
                  {"draco_bits", draco.bits},
                  {"draco_bytes", draco.bytes()},
-                 {"draco_ms", 1e3 * others},
-                 {"ratio", others / whole}});
+                 {"draco_ms", 1e3 * turns.seconds(kDraco)},
+                 {"ratio", turns.ratio(kDraco, kWhole)}});
     }
   }
   return table;

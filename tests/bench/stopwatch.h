@@ -51,6 +51,31 @@ double median_thread_seconds(int runs, Work work) {
   return median(std::move(seconds));
 }
 
+/// Processor time of several works that take turns `runs` times: for each, the median; and the median ratio of
+/// one to another, which a machine that changes its speed from one second to the next disturbs least.
+class Turns {
+ public:
+  template <class... Work>
+  explicit Turns(int runs, Work... works) : seconds_(sizeof...(works)) {
+    for (int i = 0; i < runs; ++i) {
+      size_t k = 0;
+      (seconds_[k++].push_back(median_thread_seconds(1, works)), ...);
+    }
+  }
+
+  double seconds(size_t work) const { return median(seconds_[work]); }
+
+  double ratio(size_t a, size_t b) const {
+    std::vector<double> ratios;
+    for (size_t i = 0; i < seconds_[a].size(); ++i)
+      ratios.push_back(seconds_[a][i] / seconds_[b][i]);
+    return median(std::move(ratios));
+  }
+
+ private:
+  std::vector<std::vector<double>> seconds_;  ///< works x runs
+};
+
 /// Largest resident memory of the process so far, in bytes.
 inline uint64_t peak_memory() {
   rusage usage{};

@@ -140,6 +140,7 @@ Bytes weights_in_time() {
       recipe(170, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kSparse);
   Recipe short_one =
       recipe(130, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kNone);
+  short_one.settings.coder = CoefficientCoder::kBatches;
   for (Recipe* r : {&shapes, &short_one}) {
     r->settings.components = {9};
     r->change = scramble_weights;
@@ -165,6 +166,7 @@ Bytes clips() {
   Recipe shared =
       recipe(150, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kSparse);
   Recipe next = recipe(150, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kNone);
+  next.settings.coder = CoefficientCoder::kBatches;
   shared.settings.run_steps = {0, 7, 64, 16, 3};  // the last of these clips goes on in the next
   for (Recipe* r : {&shared, &next}) {
     r->settings.components = {9};

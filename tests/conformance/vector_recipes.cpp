@@ -339,7 +339,7 @@ void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
   const anicodec::Vector<uint32_t> runs =
       segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames) : segment.runs;
   Numbers numbers;
-  TimeWeightModel model(runs);
+  TimeWeightModel model(runs, parameters.weight_coder());
   std::vector<int32_t> decoded(size_t{3} * frames);
   const auto code = [&](BinaryEncoder& encoder, uint32_t j) {
     const uint32_t channels = j < base ? 3 : rows;
@@ -356,7 +356,7 @@ void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
   std::vector<Bytes> streams;
   for (const BasisLayer& layer : layers_of(segment.layers, parameters)) {
     if (parameters.layers_anew && layer.first > 0)
-      model = TimeWeightModel(runs);
+      model = TimeWeightModel(runs, parameters.weight_coder());
     BinaryEncoder encoder;
     for (uint32_t j = layer.first; j < layer.first + layer.count; ++j)
       code(encoder, base + j);

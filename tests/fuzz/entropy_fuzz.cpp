@@ -96,10 +96,10 @@ void fuzz_batches(uint32_t channels, uint32_t vertices, const uint8_t* data, siz
     require(same(encoder.finish(), data, size));
 }
 
-void fuzz_weights(uint32_t frames, const uint8_t* data, size_t size) {
+void fuzz_weights(WeightCoder coder, uint32_t frames, const uint8_t* data, size_t size) {
   constexpr int64_t kLimit = int64_t{kWeightLimit} << kWeightFractionBits;
   BinaryDecoder decoder(data, size);
-  TimeWeightModel model(frames);
+  TimeWeightModel model(frames, coder);
   std::vector<int32_t> values(size_t{3} * frames);
   for (const uint32_t channels : {3u, 1u, 3u, 1u}) {
     if (model.decode(decoder, channels, values.data()) != Status::kOk)
@@ -138,7 +138,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       fuzz_coefficients(3, 4, count, data + 2, size - 2);
       break;
     default:
-      fuzz_weights(count, data + 2, size - 2);
+      fuzz_weights(data[0] / 8 % 2 ? WeightCoder::kRows : WeightCoder::kMixing, count, data + 2,
+                   size - 2);
       break;
   }
   return 0;

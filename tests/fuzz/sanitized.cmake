@@ -20,8 +20,14 @@ set(launcher "")
 if(LAUNCHER)
   set(launcher "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
 endif()
+# A third of the time to link.
+set(linker "")
+find_program(gold ld.gold)
+if(gold)
+  set(linker -DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=gold)
+endif()
 run(_ "${CMAKE_COMMAND}" --preset asan -S "${SOURCE_DIR}" -B "${WORK_DIR}" ${launcher}
-  "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
+  "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}" ${linker}
   -DANICODEC_LANES=8  # one source of kernels instead of four: they differ in lanes alone
   "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DNDEBUG" -DCMAKE_UNITY_BUILD=ON -DANICODEC_BUILD_EXAMPLES=OFF -DANICODEC_INSTALL=OFF)
 run(_ "${CMAKE_COMMAND}" --build "${WORK_DIR}" --target fuzz_tests)

@@ -15,7 +15,7 @@ run(_ "${CMAKE_COMMAND}" -G Ninja -S "${SOURCE_DIR}" -B "${build}" ${launcher}
   -DANICODEC_WITH_DRACO=OFF -DANICODEC_LANES=1 -DCMAKE_UNITY_BUILD=ON
   -DCMAKE_DISABLE_FIND_PACKAGE_draco=ON -DANICODEC_BUILD_ENCODER=OFF -DANICODEC_BUILD_TOOLS=OFF
   -DANICODEC_BUILD_TESTS=OFF)
-run(_ "${CMAKE_COMMAND}" --build "${build}")
+run(_ "${CMAKE_COMMAND}" --build "${build}" --target anicodec_sdk_shared example_frame_to_obj_c)
 file(GLOB_RECURSE library "${build}/sdk/*libanicodec.so")
 needed_libraries("${library}" needed)
 if("libdraco" IN_LIST needed)

@@ -96,17 +96,19 @@ TEST(SpecifiedStreams, HoldTheCoefficientsOfTheText) {
 TEST(SpecifiedStreams, HoldTheTimeWeightsOfTheText) {
   constexpr uint32_t kFrames = 12;
   const std::string text = specification();
-  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
+  for (uint32_t i = 0; i < 2 * kWeightPredictors; ++i) {
+    const uint32_t p = i % kWeightPredictors;
+    const WeightCoder coder = i == p ? WeightCoder::kMixing : WeightCoder::kRows;
     std::vector<double> x;
     for (uint32_t row = 0; row < 3; ++row) {
       for (uint32_t f = 0; f < kFrames; ++f)
         x.push_back((3 * f * f + 11 * row * f) % 41 + 4 * ((5 * f + row) % 7) - 30.0);
     }
-    TimeWeightModel model(kFrames);
+    TimeWeightModel model(kFrames, coder);
     BinaryEncoder encoder;
     std::vector<int32_t> values(x.size());
     model.encode(encoder, 3, x.data(), 0, values.data(), 1u << p);
-    std::string line = "| " + std::to_string(p) + " | `" + hex(encoder.finish()) + "` |";
+    std::string line = "| " + std::string(i == p ? "mixing" : "rows") + " | " + std::to_string(p) + " | `" + hex(encoder.finish()) + "` |";
     for (uint32_t row = 0; row < 3; ++row) {
       for (uint32_t f = 0; f < kFrames; ++f)
         line += (f == 0 ? " " : ", ") + std::to_string(values[row * kFrames + f]);

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/coding/symbol_row.h"
 
+#include "format/coding/binary_coder.h"
+#include "format/memory.h"
 #include "tests/random.h"
 
 #include <algorithm>
@@ -64,6 +66,58 @@ TEST(SymbolRow, StartsAsAGeometricSequence) {
   EXPECT_EQ(row.v[0], 16384);
   EXPECT_EQ(row.v[1], 24576);
   EXPECT_EQ(row.v[6], 32512);
+}
+
+// The binary range coder takes symbols among its bits.
+TEST(SymbolRow, IsCodedAmongBits) {
+  constexpr int kCount = 20000;
+  const auto value_of = [](Random& random) { return random() % (random() % 50 ? 4 : 1U << 24); };
+  const auto low_of = [](int i) { return i % 7 == 0 ? 3 : 0; };
+  struct Rows {
+    SymbolRow a, b;
+    RowNumber far;
+    AdaptiveBit bit;
+  };
+  Random random(5);
+  Rows written;
+  BinaryEncoder encoder;
+  uint64_t counted = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const uint32_t value = value_of(random);
+    BitCounter counter;
+    code_row_magnitude(counter, written.a, written.b, written.far, low_of(i), value);
+    counter.bit(written.bit, value % 2 != 0);
+    counted += counter.total();
+    code_row_magnitude(encoder, written.a, written.b, written.far, low_of(i), value);
+    encoder.bit(written.bit, value % 2 != 0);
+  }
+  const Vector<uint8_t> bytes = encoder.finish();
+  EXPECT_NEAR(static_cast<double>(counted) / kBitCostOne / 8, static_cast<double>(bytes.size()), 20);
+  Random again(5);
+  Rows read;
+  BinaryDecoder decoder(bytes.data(), bytes.size());
+  for (int i = 0; i < kCount; ++i) {
+    const uint32_t value = value_of(again);
+    ASSERT_EQ(code_row_magnitude(decoder, read.a, read.b, read.far, low_of(i), 0), value) << i;
+    ASSERT_EQ(decoder.bit(read.bit), value % 2 != 0) << i;
+  }
+  EXPECT_TRUE(decoder.finish());
+}
+
+TEST(SymbolRow, SurvivesAnyBytesOfTheBinaryCoder) {
+  Random random(6);
+  for (int round = 0; round < 2000; ++round) {
+    Vector<uint8_t> bytes(random() % 40);
+    const uint32_t kind = random() % 3;
+    for (uint8_t& b : bytes)
+      b = static_cast<uint8_t>(kind == 0 ? 255 : kind == 1 ? random() : 255 * (random() % 2));
+    BinaryDecoder decoder(bytes.data(), bytes.size());
+    SymbolRow a, b;
+    RowNumber far;
+    for (int i = 0; i < 500; ++i)
+      ASSERT_LT(code_row_magnitude(decoder, a, b, far, i % 14, 0), 1U << 24);
+    EXPECT_FALSE(decoder.finish() && bytes.empty());
+  }
 }
 
 }  // namespace
