@@ -12,7 +12,8 @@ struct CoderTime {
   double weight, coefficient, bit;
 };
 
-// Lines through dance, flag, face, chicken and horse at --kg 0.1: `anicodec_bench open`.
+// Of coefficients, lines through dance, flag, face, chicken and horse at --kg 0.1: `anicodec_bench open`.
+// Of weights, about what a profile of the same shows.
 constexpr CoderTime kMixing{220, 28, 75}, kBatches{80, 1, 18};
 
 }  // namespace

@@ -56,7 +56,8 @@ class TrialEncoder {
   }
 
   uint32_t symbol(const SymbolDistribution& distribution, uint32_t s) {
-    decisions_.push_back(kPart | distribution.start(s) << kSymbolBits | (distribution.start(s + 1) - 1));
+    const uint32_t start = distribution.start(s), last = distribution.start(s + 1) - 1;
+    decisions_.push_back(kPart | start << kSymbolBits | last);
     return counter_.symbol(distribution, s);
   }
 
@@ -80,14 +81,14 @@ class TrialEncoder {
   void write(BinaryEncoder& encoder) const {
     for (const uint32_t decision : decisions_) {
       if (decision & kPart)
-        encoder.part(decision >> kSymbolBits & kEnd, (decision & kEnd) + 1);
+        encoder.part(decision >> kSymbolBits & kMask, (decision & kMask) + 1);
       else
         encoder.bit(decision >> 1, (decision & 1) != 0);
     }
   }
 
  private:
-  static constexpr uint32_t kPart = 1U << 31, kEnd = kSymbolScale - 1;
+  static constexpr uint32_t kPart = 1U << 31, kMask = kSymbolScale - 1;
 
   const std::atomic<double>& least_;
   double error_ = 0;
@@ -327,13 +328,13 @@ void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const
     const uint32_t before = previous(before_[0], f, 1);
     for (uint32_t c = 0; c < channels; ++c) {
       int32_t* v = values + at(c, f);
-      Filter& filter = filter_of(channels, c);
+      Filter* const filter = regresses ? &filter_of(channels, c) : nullptr;
       Filter::Vector z{};
       const int32_t held = f > 0 ? v[-1] : 0;
       Predictions p = {f > 1 ? 2 * v[-1] - v[-2] : held, held, 0};
-      if (regresses) {
+      if (filter) {
         z = regressors(v, f, c);
-        p[kRegression] = rounded_prediction(filter.predict(z));
+        p[kRegression] = rounded_prediction(filter->predict(z));
       }
       const int32_t prediction = p[predictor];
       WeightSurroundings s = surroundings(channels, c, f, before, 0);
@@ -364,9 +365,9 @@ void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const
         const auto miss = static_cast<uint32_t>(std::abs(*v - p[k]));
         errors_[c][k] += std::min(miss, kMostError) - (errors_[c][k] >> 3);
       }
-      if (regresses) {
+      if (filter) {
         const double noise = slow_[c] * (1.0 / kWeightUnit);
-        filter.learn(z, *v * (1.0 / kStep), 1.0 / 12 + noise * noise);
+        filter->learn(z, *v * (1.0 / kStep), 1.0 / 12 + noise * noise);
       }
     }
   }

@@ -30,7 +30,7 @@ constexpr uint32_t kWeightPredictors = 4;
 /// How what a prediction leaves is coded.
 enum class WeightCoder : uint8_t {
   kMixing,  ///< by contexts that are mixed
-  kRows,    ///< by rows of symbols: several times as fast, and a twentieth larger
+  kRows,    ///< by rows of symbols: faster, and some hundredths larger
 };
 
 /// Decoded weights are in 1/16 of the weight step.

@@ -113,21 +113,23 @@ class MixedWeightModel {
   MixedModel<4> signs_;
 };
 
-/// Averages two rows of symbols: faster, and a twentieth larger.
+/// Averages two rows of symbols: faster, and some hundredths larger.
 class RowWeightModel {
  public:
   /// Codes a value of a frame, after one that was coded as `last`; 0 at the start of a run.
   /// @pre |q| < 2^24
   template <class Coder>
   int32_t code_frame(Coder& coder, const WeightSurroundings& s, int32_t last, int32_t q) {
+    const int low = low_bits(s);
     const uint32_t after = last < 0 ? 0 : last == 0 ? 1 : 2;
-    return code(coder, frames_, s, class_of(s.slow, s), signs_[after], q);
+    return code(coder, frames_, s, low, class_of(s.slow, low), signs_[after], q);
   }
 
   /// Codes a frequency below 2^16. @pre |q| < 2^24
   template <class Coder>
   int32_t code_frequency(Coder& coder, const WeightSurroundings& s, uint32_t frequency, int32_t q) {
-    return code(coder, frequencies_, s, static_cast<uint32_t>(floor_log2(frequency)), signs_[3], q);
+    return code(coder, frequencies_, s, low_bits(s),
+                static_cast<uint32_t>(floor_log2(frequency)), signs_[3], q);
   }
 
  private:
@@ -143,16 +145,15 @@ class RowWeightModel {
     return std::max(floor_log2(s.expected >> kWeightUnitBits) - 2, 0);
   }
 
-  static uint32_t class_of(uint32_t magnitude, const WeightSurroundings& s) {
-    return magnitude_class<0>(magnitude >> (low_bits(s) + 2), kRecent);
+  static uint32_t class_of(uint32_t magnitude, int low) {
+    return magnitude_class<0>(magnitude >> (low + 2), kRecent);
   }
 
   template <class Coder>
-  static int32_t code(Coder& coder, Rows& rows, const WeightSurroundings& s, uint32_t second,
-                      AdaptiveBit& sign, int32_t q) {
-    const int low = low_bits(s);
+  static int32_t code(Coder& coder, Rows& rows, const WeightSurroundings& s, int low,
+                      uint32_t second, AdaptiveBit& sign, int32_t q) {
     SymbolRow& expected = rows.expected[magnitude_class<1>(s.expected >> low)];
-    SymbolRow& recent = rows.recent[class_of(s.recent, s)][second];
+    SymbolRow& recent = rows.recent[class_of(s.recent, low)][second];
     const auto magnitude = static_cast<int32_t>(code_row_magnitude(
         coder, expected, recent, rows.far, low, static_cast<uint32_t>(q < 0 ? -q : q)));
     return magnitude == 0 ? 0 : coder.bit(sign, q < 0) ? -magnitude : magnitude;

@@ -171,15 +171,19 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
           encode_timed(load_clip(name), {ErrorMetric::kKg, kg, false}, options.basis,
                        options.effort, options.verbose, OrderMode::kFree, choice);
       const Bytes& file = timed.result.file;
-      const double opening = median_thread_seconds(runs, [&] {
-        Clip clip;
-        open(file, clip);
-      });
       const ByteView prefix = up_to_the_first_layer(file);
-      const double first = median_thread_seconds(runs, [&] {
-        Clip clip;
-        open(prefix, clip, nullptr, true);
-      });
+      enum : size_t { kOpening, kFirst };
+      const Turns turns(
+          runs,
+          [&] {
+            Clip clip;
+            open(file, clip);
+          },
+          [&] {
+            Clip clip;
+            open(prefix, clip, nullptr, true);
+          });
+      const double opening = turns.seconds(kOpening);
       const MemoryUse memory = memory_use(file, runs);
       std::vector<Steps> all(static_cast<size_t>(runs));
       Clip clip;
@@ -207,8 +211,8 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
                  {"open_ms", 1e3 * opening},
                  {"gain", seconds / opening},
                  {"mapped_ms", 1e3 * memory.mapped_seconds},
-                 {"first_ms", 1e3 * first},
-                 {"first_share", first / opening},
+                 {"first_ms", 1e3 * turns.seconds(kFirst)},
+                 {"first_share", turns.ratio(kFirst, kOpening)},
                  {"faults", memory.faults},
                  {"faults_mapped", memory.faults_mapped},
                  {"peak", memory.per_coefficient},

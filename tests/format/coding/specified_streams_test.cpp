@@ -108,7 +108,8 @@ TEST(SpecifiedStreams, HoldTheTimeWeightsOfTheText) {
     BinaryEncoder encoder;
     std::vector<int32_t> values(x.size());
     model.encode(encoder, 3, x.data(), 0, values.data(), 1u << p);
-    std::string line = "| " + std::string(i == p ? "mixing" : "rows") + " | " + std::to_string(p) + " | `" + hex(encoder.finish()) + "` |";
+    std::string line = std::string(i == p ? "| mixing" : "| rows") + " | " + std::to_string(p) +
+                       " | `" + hex(encoder.finish()) + "` |";
     for (uint32_t row = 0; row < 3; ++row) {
       for (uint32_t f = 0; f < kFrames; ++f)
         line += (f == 0 ? " " : ", ") + std::to_string(values[row * kFrames + f]);
