@@ -129,6 +129,8 @@ std::optional<CodedPart> KeyframeCoder::at_rmse(double rmse) {
       std::optional<CodedPart> part = coded(exact, rounding);
       if (!part)
         return best;
+      if (static_cast<double>(part->encoded.bytes()) > most_bytes_)
+        return best;
       double measured = input_.rmse(part->error.squared);
       if (measured <= rmse) {
         const size_t bytes = part->encoded.bytes();

@@ -9,6 +9,7 @@
 #include "codec/segment/keyframe_poses.h"
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -27,6 +28,9 @@ class KeyframeCoder : public SegmentCoder {
 
   std::optional<CodedPart> at_rmse(double rmse) override;
 
+  /// Ends searches at a trial that takes more.
+  void give_up_above(double bytes) { most_bytes_ = bytes; }
+
   /// The given number of key-frames, rounded so that the error of exact ones grows by at most a
   /// tenth, or by a millionth of the largest coordinate where that is more.
   CodedPart at_count();
@@ -44,6 +48,7 @@ class KeyframeCoder : public SegmentCoder {
   std::optional<uint32_t> count_;
   KeyframePoses poses_;
   Reconstruction reconstruction_;
+  double most_bytes_ = std::numeric_limits<double>::infinity();
   KeyframeWeights weights_ = KeyframeWeights::kLinear;
   MsgiFit fit_;                             ///< the last one by straight lines, leaf_faces 0
   std::map<size_t, MsgiFit> interpolated_;  ///< by number of key-frames: they take long

@@ -31,6 +31,8 @@ Solution RateControl::solve() {
     if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
       if (keyframe_coders_.empty())
         add_keyframe_coder(KeyframePoses::kNative, Reconstruction::kLinear);
+      if (best && search_.rmse_asked())
+        keyframe_coders_[0]->give_up_above(kHopeless * static_cast<double>(best->bytes));
       offer(*keyframe_coders_[0], &best);
     }
   }
@@ -134,9 +136,10 @@ std::optional<Solution> RateControl::by_linear_bases() {
     analysis_.emplace(input_.frames());
     linear_coders_ = linear_coders(*analysis_);
   }
-  std::optional<Solution> best;
-  for (std::unique_ptr<LinearCoder>& coder : linear_coders_)
-    offer(*coder, &best);
+  std::vector<SegmentCoder*> coders;
+  for (const std::unique_ptr<LinearCoder>& coder : linear_coders_)
+    coders.push_back(coder.get());
+  std::optional<Solution> best = search_.best_of(coders);
   if (!best || options_.effort == 0)
     return best;
   const BasisKind kind = best->parts[0].encoded.sizes.kind;

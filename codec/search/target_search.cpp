@@ -13,6 +13,8 @@
 #include <map>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 namespace anicodec {
 namespace {
 
@@ -75,7 +77,10 @@ TargetSearch::TargetSearch(const EncoderInput& input, const EncodeOptions& optio
 }
 
 std::optional<Solution> TargetSearch::at_rmse(SegmentCoder& coder, double rmse) {
-  std::optional<CodedPart> part = within_bounds(coder, input_, 0, rmse);
+  return listed(within_bounds(coder, input_, 0, rmse));
+}
+
+std::optional<Solution> TargetSearch::listed(std::optional<CodedPart> part) {
   if (!part)
     return std::nullopt;
   std::vector<CodedPart> parts;
@@ -236,11 +241,9 @@ std::optional<Solution> TargetSearch::finer(SegmentCoder& coder, Solution best) 
 }
 
 std::optional<Solution> TargetSearch::reach(SegmentCoder& coder, const Solution* rival) {
+  if (const std::optional<double> rmse = rmse_asked())
+    return at_rmse(coder, *rmse);
   switch (target_.metric) {
-    case ErrorMetric::kKg:
-      return at_rmse(coder, input_.rmse_of_kg(target_.value));
-    case ErrorMetric::kRmse:
-      return at_rmse(coder, target_.value);
     case ErrorMetric::kMaxError:
       return at_max_error(coder, target_.value, rival);
     case ErrorMetric::kDisplacement:
@@ -249,10 +252,38 @@ std::optional<Solution> TargetSearch::reach(SegmentCoder& coder, const Solution*
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
       return at_bytes(coder, rival);
-    case ErrorMetric::kNone:
-      break;
+    default:
+      return std::nullopt;
   }
-  return std::nullopt;
+}
+
+std::optional<Solution> TargetSearch::best_of(std::span<SegmentCoder* const> coders) {
+  const std::optional<double> rmse = rmse_asked();
+  std::vector<std::optional<CodedPart>> parts(coders.size());
+  if (rmse)
+    tbb::parallel_for(
+        size_t{0}, coders.size(),
+        [&](size_t i) { parts[i] = within_bounds(*coders[i], input_, 0, *rmse); },
+        tbb::simple_partitioner());
+  std::optional<Solution> best;
+  for (size_t i = 0; i < coders.size(); ++i) {
+    std::optional<Solution> solution =
+        rmse ? listed(std::move(parts[i])) : reach(*coders[i], best ? &*best : nullptr);
+    if (solution && (!best || better(*solution, *best)))
+      best = std::move(solution);
+  }
+  return best;
+}
+
+std::optional<double> TargetSearch::rmse_asked() const {
+  switch (target_.metric) {
+    case ErrorMetric::kKg:
+      return input_.rmse_of_kg(target_.value);
+    case ErrorMetric::kRmse:
+      return target_.value;
+    default:
+      return std::nullopt;
+  }
 }
 
 bool TargetSearch::better(const Solution& a, const Solution& b) const {
@@ -262,11 +293,9 @@ bool TargetSearch::better(const Solution& a, const Solution& b) const {
 }
 
 double TargetSearch::typical_rmse(SegmentCoder& coder) {
+  if (const std::optional<double> rmse = rmse_asked())
+    return *rmse;
   switch (target_.metric) {
-    case ErrorMetric::kKg:
-      return input_.rmse_of_kg(target_.value);
-    case ErrorMetric::kRmse:
-      return target_.value;
     case ErrorMetric::kMaxError:
       return std::max(target_.value, input_.smallest_bound()) / 4;
     case ErrorMetric::kDisplacement:

@@ -12,6 +12,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace anicodec {
@@ -27,6 +28,12 @@ class TargetSearch {
   /// The best file of a coder that keeps to the target; nothing when there is none. It need not be the
   /// best if it is far behind `rival`, which another coder made: null for none.
   std::optional<Solution> reach(SegmentCoder& coder, const Solution* rival = nullptr);
+
+  /// The best of some coders. Where they meet an error directly they do so at the same time.
+  std::optional<Solution> best_of(std::span<SegmentCoder* const> coders);
+
+  /// The root mean square error that the target is; nothing for a target that only leads to one.
+  std::optional<double> rmse_asked() const;
 
   /// Whether a is the better of two files that keep to the target.
   bool better(const Solution& a, const Solution& b) const;
@@ -51,6 +58,7 @@ class TargetSearch {
 
  private:
   std::optional<Solution> at_rmse(SegmentCoder& coder, double rmse);
+  std::optional<Solution> listed(std::optional<CodedPart> part);
   std::optional<Solution> at_max_error(SegmentCoder& coder, double bound, const Solution* rival);
   std::optional<Solution> at_motion_error(SegmentCoder& coder, double bound);
   std::optional<Solution> at_bytes(SegmentCoder& coder, const Solution* rival);

@@ -107,6 +107,7 @@ void CoefficientEncoder::begin_batches() {
 
 /// Ends the stream of the coder in use, and begins the next one.
 Bytes CoefficientEncoder::finish_layer() {
+  write_chosen();
   Bytes bytes = batches_ ? batch_encoder_.finish() : encoder_.finish();
   encoder_ = BinaryEncoder();
   batch_encoder_ = RansEncoder();
@@ -129,6 +130,7 @@ void CoefficientEncoder::take_decoded(DecodedBasis* to) && {
   to->order = std::move(order_.order);
 }
 
+/// Predicts, chooses and codes residual by residual.
 template <class Coder, class Choose>
 bool CoefficientEncoder::pass(CoefficientModel& model, Coder& coder, const Choose& choose) {
   model.begin_component();
@@ -136,7 +138,7 @@ bool CoefficientEncoder::pass(CoefficientModel& model, Coder& coder, const Choos
     for (uint32_t c = 0; c < channels_; ++c) {
       const float prediction = predictor_.predict(i, static_cast<int>(c));
       const std::optional<int32_t> q = choose(i, c, prediction);
-      if (!q || std::abs(*q) >= kCoefficientLimit)
+      if (!q)
         return false;
       model.code(coder, i, c, *q);
       predictor_.commit(i, static_cast<int>(c), prediction, *q);
@@ -147,28 +149,19 @@ bool CoefficientEncoder::pass(CoefficientModel& model, Coder& coder, const Choos
   return true;
 }
 
-/// Rounds each residual by itself, on the way to the prediction of the next.
-auto CoefficientEncoder::nearest(CoefficientModel& model, const std::vector<float>& target) const {
-  return [&](uint32_t i, uint32_t c, float prediction) -> std::optional<int32_t> {
-    const double residual =
-        static_cast<double>(target[size_t{c} * ranks() + i]) - static_cast<double>(prediction);
-    if (std::abs(residual) >= kCoefficientLimit - 1)
-      return std::nullopt;
-    return rounded(model, i, c, residual, lambda_);
-  };
-}
-
-/// The residuals as they are.
-auto CoefficientEncoder::chosen() const {
-  return [&](uint32_t i, uint32_t c, float) -> std::optional<int32_t> {
-    return residuals_[size_t{c} * ranks() + i];
-  };
+/// The residual that is best by itself; nothing if it is too large.
+std::optional<int32_t> CoefficientEncoder::nearest(CoefficientModel& model, uint32_t i, uint32_t c,
+                                                   float prediction) const {
+  const double residual = static_cast<double>(component_[size_t{c} * ranks() + i]) -
+                          static_cast<double>(prediction);
+  if (std::abs(residual) >= kCoefficientLimit - 1)
+    return std::nullopt;
+  return rounded(model, i, c, residual, lambda_);
 }
 
 /// Chooses the residuals of a component as a whole, what they cost by rehearsals with copies of the
-/// model.
+/// model. Writes the component before on the way.
 bool CoefficientEncoder::round_together() {
-  constexpr int kRounds = 2;
   std::vector<float> weights;
   if (new_weights_) {
     weights.resize(order_.neighbours.size());
@@ -176,36 +169,84 @@ bool CoefficientEncoder::round_together() {
   }
   std::vector<ResidualCosts> costs(residuals_.size());
   Rehearsal rehearsal;
-  CoefficientModel model = model_;
-  const auto note_costs = [&](const auto& choose) {
-    return pass(model, rehearsal, [&](uint32_t i, uint32_t c, float prediction) {
-      costs[size_t{c} * ranks() + i] = model.costs(i, c);
-      return choose(i, c, prediction);
-    });
-  };
+  bool is_coded = false;
   // The first rehearsal does not need what the weights become. Isolated, so that a thread that waits
   // does not begin another trial.
-  bool is_coded = false;
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_invoke(
-        [&] { is_coded = note_costs(nearest(model, component_)); },
+        [&] {
+          write_chosen();
+          rehearsed_ = model_;
+          is_coded = pass(*rehearsed_, rehearsal, [&](uint32_t i, uint32_t c, float prediction) {
+            costs[size_t{c} * ranks() + i] = rehearsed_->costs(i, c);
+            return nearest(*rehearsed_, i, c, prediction);
+          });
+        },
         [&] {
           if (new_weights_)
             joint_.set_weights(std::move(weights));
         });
   });
-  for (int round = 0; is_coded; ++round) {
-    tbb::parallel_for(uint32_t{0}, channels_, [&](uint32_t c) {
-      const size_t first = size_t{c} * ranks();
-      joint_.improve(component_.data() + first, costs.data() + first, joint_lambda_,
-                     residuals_.data() + first);
-    });
-    if (round + 1 == kRounds)
-      return true;
-    model = model_;
-    is_coded = note_costs(chosen());
+  if (!is_coded)
+    return false;
+  const auto improve = [&] {
+    joint_.improve(channels_, component_.data(), costs.data(), joint_lambda_, residuals_.data());
+  };
+  improve();
+  rehearsed_ = model_;
+  rehearsed_->begin_component();
+  for (uint32_t i = 0; i < ranks(); ++i) {
+    for (uint32_t c = 0; c < channels_; ++c) {
+      costs[size_t{c} * ranks() + i] = rehearsed_->costs(i, c);
+      rehearsed_->code(rehearsal, i, c, residuals_[size_t{c} * ranks() + i]);
+    }
   }
-  return false;
+  rehearsed_->end_component();
+  improve();
+  return true;
+}
+
+/// What a decoder makes of the residuals.
+bool CoefficientEncoder::commit_chosen() {
+  for (uint32_t i = 0; i < ranks(); ++i) {
+    for (uint32_t c = 0; c < channels_; ++c) {
+      const auto channel = static_cast<int>(c);
+      const int32_t q = residuals_[size_t{c} * ranks() + i];
+      if (std::abs(q) >= kCoefficientLimit)
+        return false;
+      predictor_.commit(i, channel, predictor_.predict(i, channel), q);
+    }
+  }
+  return true;
+}
+
+/// Writes the component that waits for it, if one does.
+void CoefficientEncoder::write_chosen() {
+  if (chosen_.empty())
+    return;
+  Rehearsal rehearsal;
+  if (batches_) {
+    model_.code_component(rehearsal, chosen_.data());
+    batches_->code_component(batch_encoder_, chosen_.data());
+  } else {
+    model_.code_component(encoder_, chosen_.data());
+  }
+  chosen_.clear();
+}
+
+/// Rounds and writes a component residual by residual.
+bool CoefficientEncoder::round_each() {
+  const auto write = [&](auto& coder) {
+    return pass(model_, coder, [&](uint32_t i, uint32_t c, float prediction) {
+      return nearest(model_, i, c, prediction);
+    });
+  };
+  Rehearsal rehearsal;
+  if (!(batches_ ? write(rehearsal) : write(encoder_)))
+    return false;
+  if (batches_)
+    batches_->code_component(batch_encoder_, residuals_.data());
+  return true;
 }
 
 std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) {
@@ -214,16 +255,9 @@ std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) 
   for (uint32_t c = 0; c < channels_; ++c)
     for (uint32_t i = 0; i < n; ++i)
       component_[size_t{c} * n + i] = target_(order_.order[i], column(c));
-  if (joint_lambda_ > 0 && !round_together())
+  const bool together = joint_lambda_ > 0;
+  if (together ? !round_together() || !commit_chosen() : !round_each())
     return std::nullopt;
-  Rehearsal rehearsal;
-  const auto write = [&](const auto& choose) {
-    return batches_ ? pass(model_, rehearsal, choose) : pass(model_, encoder_, choose);
-  };
-  if (joint_lambda_ > 0 ? !write(chosen()) : !write(nearest(model_, component_)))
-    return std::nullopt;
-  if (batches_)
-    batches_->code_component(batch_encoder_, residuals_.data());
   double energy = 0, largest = 0, largest_residual = 0;
   for (uint32_t c = 0; c < channels_; ++c) {
     const float* y = predictor_.coefficients(static_cast<int>(c));
@@ -243,6 +277,8 @@ std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) 
                     [&](size_t b) { predictor_.update(b, b + 1, component.omega); });
   new_weights_ = predictor_.refits();
   predictor_.next_component();
+  if (together)
+    chosen_ = residuals_;
   return component;
 }
 

@@ -66,15 +66,19 @@ class CoefficientEncoder {
 
   template <class Coder, class Choose>
   bool pass(CoefficientModel& model, Coder& coder, const Choose& choose);
-  auto nearest(CoefficientModel& model, const std::vector<float>& target) const;
-  auto chosen() const;
+  std::optional<int32_t> nearest(CoefficientModel& model, uint32_t i, uint32_t c,
+                                 float prediction) const;
+  bool round_each();
   bool round_together();
+  bool commit_chosen();
+  void write_chosen();
 
   double lambda_, joint_lambda_;
   Coefficients target_, decoded_;
   uint32_t channels_;
   VertexOrder order_;
   CoefficientModel model_;
+  std::optional<CoefficientModel> rehearsed_;  ///< a copy that learns what will not be written
   BinaryEncoder encoder_;
   std::optional<BatchCoefficientModel> batches_;  ///< if that is the coder
   RansEncoder batch_encoder_;
@@ -84,6 +88,7 @@ class CoefficientEncoder {
   // The component at hand, channels x ranks.
   std::vector<float> component_;
   std::vector<int32_t> residuals_;
+  std::vector<int32_t> chosen_;  ///< of the component before, until they are written
 };
 
 }  // namespace anicodec

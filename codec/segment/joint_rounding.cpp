@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
+
+#include <Eigen/Core>
 
 namespace anicodec {
 namespace {
 
-constexpr float kNegligible = 0.02F;  // entries of a column that are left out
+// Entries of a column that are left out. `encode --kg 0.1%` of 17 clips: half the time of 0.02, and sizes that scatter
+// around the same mean.
+constexpr float kNegligible = 0.08F;
 constexpr int kSweeps = 4;            // over all vertices, in turns from either end
 
 /// The bits that a residual of any magnitude would take.
@@ -20,6 +25,45 @@ float bits(const ResidualCosts& costs, int32_t q) {
   const float sign = q == 0 ? 0 : q > 0 ? costs.positive : costs.negative;
   return sign + costs.magnitude[std::min(magnitude, kKnown)] +
          kFurther * static_cast<float>(std::max(magnitude - kKnown, 0));
+}
+
+/// What to add to a residual q: 0, a step either way, or what makes it 0, whichever lowers the error
+/// and `lambda` times its bits most. `slope`: the product of its column and the error; `energy`: that
+/// of the column and itself.
+int32_t best_change(int32_t q, float slope, float energy, const ResidualCosts& costs,
+                    float lambda) {
+  // Nothing below moves a zero: half a step would have to be won.
+  if (q == 0 && std::abs(slope) < 0.35F * energy)
+    return 0;
+  const float now = bits(costs, q);
+  float least = -1e-6F;
+  int32_t best = 0;
+  for (const int32_t change : {-1, 1, -q}) {
+    const auto d = static_cast<float>(change);
+    const float gain = d * (d * energy - 2 * slope) + lambda * (bits(costs, q + change) - now);
+    if (change != 0 && gain < least) {
+      least = gain;
+      best = change;
+    }
+  }
+  return best;
+}
+
+/// The product of a sparse column and a vector.
+template <class Entry, class Value>
+Value product(std::span<const Entry> column, const std::vector<Value>& vector) {
+  const auto term = [&](size_t e) -> Value { return column[e].value * vector[column[e].rank]; };
+  Value sum0 = Value::Zero(), sum1 = Value::Zero(), sum2 = Value::Zero(), sum3 = Value::Zero();
+  size_t e = 0;
+  for (; e + 4 <= column.size(); e += 4) {  // additions that do not wait for one another
+    sum0 += term(e);
+    sum1 += term(e + 1);
+    sum2 += term(e + 2);
+    sum3 += term(e + 3);
+  }
+  for (; e < column.size(); ++e)
+    sum0 += term(e);
+  return (sum0 + sum1) + (sum2 + sum3);
 }
 
 }  // namespace
@@ -103,51 +147,51 @@ void JointRounding::set_weights(std::vector<float> weights) {
     }
 }
 
+void JointRounding::improve(uint32_t channels, const float* target, const ResidualCosts* costs,
+                            double price, int32_t* q) const {
+  if (channels == 1)
+    improve<1>(target, costs, price, q);
+  else
+    improve<3>(target, costs, price, q);
+}
+
+template <Eigen::Index kChannels>
 void JointRounding::improve(const float* target, const ResidualCosts* costs, double price,
                             int32_t* q) const {
+  // The channels of a rank are beside one another, so that a column is read once for all.
+  using Channels = Eigen::Array<float, kChannels == 1 ? 1 : 4, 1>;
   const size_t n = order_.vertex_count();
   const auto m = static_cast<size_t>(order_.neighbour_count);
-  std::vector<float> y(n), error(n);
+  const auto at = [n](Eigen::Index c, size_t i) { return static_cast<size_t>(c) * n + i; };
+  std::vector<Channels> y(n, Channels::Zero()), error(n, Channels::Zero());
   for (size_t i = 0; i < n; ++i) {
-    float p = 0;
     for (size_t a = 0; a < m && order_.neighbours[i * m + a] >= 0; ++a)
-      p += weights_[i * m + a] * y[static_cast<size_t>(order_.neighbours[i * m + a])];
-    y[i] = p + static_cast<float>(q[i]);
-    error[i] = target[i] - y[i];
+      y[i] += weights_[i * m + a] * y[static_cast<size_t>(order_.neighbours[i * m + a])];
+    for (Eigen::Index c = 0; c < kChannels; ++c) {
+      y[i](c) += static_cast<float>(q[at(c, i)]);
+      error[i](c) = target[at(c, i)] - y[i](c);
+    }
   }
   const auto lambda = static_cast<float>(price);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    size_t changes = 0;
+    bool changes = false;
     for (size_t k = 0; k < n; ++k) {
       const size_t i = sweep % 2 == 0 ? n - 1 - k : k;
-      float slope = 0;
-      for (size_t e = start_[i]; e < start_[i + 1]; ++e)
-        slope += column_[e].value * error[column_[e].rank];
-      // Nothing below moves a zero: half a step would have to be won.
-      if (q[i] == 0 && std::abs(slope) < 0.35F * energy_[i])
-        continue;
-      const ResidualCosts& cost = costs[i];
-      const float now = bits(cost, q[i]);
-      float least = -1e-6F;
-      int32_t best = q[i];
-      for (const int32_t candidate : {q[i] - 1, q[i] + 1, 0}) {
-        const auto d = static_cast<float>(candidate - q[i]);
-        const float change =
-            d * (d * energy_[i] - 2 * slope) + lambda * (bits(cost, candidate) - now);
-        if (candidate != q[i] && change < least) {
-          least = change;
-          best = candidate;
-        }
+      const std::span<const Entry> column(column_.data() + start_[i], start_[i + 1] - start_[i]);
+      const Channels slope = product(column, error);
+      Channels step = Channels::Zero();
+      for (Eigen::Index c = 0; c < kChannels; ++c) {
+        int32_t& residual = q[at(c, i)];
+        step(c) = static_cast<float>(best_change(residual, slope(c), energy_[i], costs[at(c, i)], lambda));
+        residual += static_cast<int32_t>(step(c));
       }
-      if (best == q[i])
+      if ((step == 0).all())
         continue;
-      const auto d = static_cast<float>(best - q[i]);
-      for (size_t e = start_[i]; e < start_[i + 1]; ++e)
-        error[column_[e].rank] -= d * column_[e].value;
-      q[i] = best;
-      ++changes;
+      for (const Entry& entry : column)
+        error[entry.rank] -= step * entry.value;
+      changes = true;
     }
-    if (changes == 0)
+    if (!changes)
       break;
   }
 }

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace anicodec {
 
 /// Rounds the residuals of a component together. While the weights W of the prediction stay as they
@@ -17,21 +19,22 @@ namespace anicodec {
 /// all vertices that are predicted from its own, directly or not. What one vertex alone would round
 /// to zero may be worth its bits there, and more often the other way round.
 ///
-/// Everything is by rank; coefficients and residuals are in steps. Memory: about a kilobyte per
-/// vertex.
+/// Everything is by rank; coefficients and residuals are in steps. Memory: about half a
+/// kilobyte per vertex.
 class JointRounding {
  public:
   /// The order must outlive the object.
   explicit JointRounding(const VertexOrder& order) : order_(order) {}
 
   /// Weights of the prediction: rank x order.neighbour_count.
-  /// Cost: some thousand operations per vertex.
+  /// Cost: some hundred operations per vertex.
   void set_weights(std::vector<float> weights);
 
-  /// Changes residuals of one channel one by one while that lowers |target - y|^2 + `price` times
-  /// the bits. `costs`: what each would take. Cost: some hundred operations per vertex
-  /// and sweep.
-  void improve(const float* target, const ResidualCosts* costs, double price, int32_t* q) const;
+  /// Changes residuals one by one while that lowers |target - y|^2 + `price` times the bits. `costs`:
+  /// what each would take; all of them channels x rank, of 1 or 3 channels. Cost: some tens of
+  /// operations per vertex and sweep, for three channels little more than for one.
+  void improve(uint32_t channels, const float* target, const ResidualCosts* costs, double price,
+               int32_t* q) const;
 
  private:
   struct Entry {
@@ -40,6 +43,9 @@ class JointRounding {
   };
 
   class SparseSum;
+
+  template <Eigen::Index kChannels>
+  void improve(const float* target, const ResidualCosts* costs, double price, int32_t* q) const;
 
   const VertexOrder& order_;
   std::vector<float> weights_;

@@ -36,7 +36,7 @@ TEST(OpeningTime, IsWorthBytesToSearchesThatAskForIt) {
 }
 
 TEST(OpeningTime, PaysInBytes) {
-  const MeshSequence clip = corpus::make_scaled("limb", 1500, 30);
+  const MeshSequence clip = corpus::make_scaled("limb", 3000, 30);
   const auto bytes = [&](OpeningChoice opening) {
     EncodeOptions options;
     options.target = {ErrorMetric::kKg, 0.2, false};

@@ -126,7 +126,7 @@ TEST(JointRounding, LowersErrorPlusBits) {
   const std::vector<int32_t> start = grid.rounded(t);
   for (const double price : {0.02, 0.1, 0.5}) {
     std::vector<int32_t> q = start;
-    joint.improve(t.data(), costs.data(), price, q.data());
+    joint.improve(1, t.data(), costs.data(), price, q.data());
     const double before = grid.squared_error(t, start) + price * bits(start);
     const double after = grid.squared_error(t, q) + price * bits(q);
     EXPECT_LT(after, (price < 0.1 ? 0.995 : 0.97) * before) << price;
@@ -142,7 +142,7 @@ TEST(JointRounding, TakesFewerBitsTheDearerTheyAre) {
   double last_bits = 1e9, last_error = 0;
   for (const double price : {0.02, 0.2, 1.0}) {
     std::vector<int32_t> q = grid.rounded(t);
-    joint.improve(t.data(), costs.data(), price, q.data());
+    joint.improve(1, t.data(), costs.data(), price, q.data());
     EXPECT_LT(bits(q), last_bits);
     EXPECT_GT(grid.squared_error(t, q), last_error);
     last_bits = bits(q);
@@ -162,8 +162,29 @@ TEST(JointRounding, LeavesAnExactTargetAlone) {
   JointRounding joint(grid.order);
   joint.set_weights(grid.weights);
   std::vector<int32_t> improved = q;
-  joint.improve(t.data(), costs.data(), 0.0, improved.data());
+  joint.improve(1, t.data(), costs.data(), 0.0, improved.data());
   EXPECT_EQ(improved, q);
+}
+
+TEST(JointRounding, TreatsEachOfThreeChannelsAsItWouldAlone) {
+  const Grid grid;
+  std::vector<float> all;
+  std::vector<int32_t> together, alone;
+  const std::vector<ResidualCosts> costs(3 * kCount, usual_costs());
+  JointRounding joint(grid.order);
+  joint.set_weights(grid.weights);
+  for (const float factor : {1.0F, -0.4F, 2.5F}) {
+    std::vector<float> t = target(grid);
+    for (float& x : t)
+      x *= factor;
+    std::vector<int32_t> q = grid.rounded(t);
+    all.insert(all.end(), t.begin(), t.end());
+    together.insert(together.end(), q.begin(), q.end());
+    joint.improve(1, t.data(), costs.data(), 0.1, q.data());
+    alone.insert(alone.end(), q.begin(), q.end());
+  }
+  joint.improve(3, all.data(), costs.data(), 0.1, together.data());
+  EXPECT_EQ(together, alone);
 }
 
 }  // namespace
