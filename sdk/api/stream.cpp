@@ -24,7 +24,6 @@ struct anic_stream {
   uint32_t ready_positions = 0;  ///< of those, the ones of positions
   anicodec::Vector<uint8_t> of_positions;
   anicodec::Vector<uint32_t> missing;
-  anicodec::Vector<uint8_t> layered;  ///< whether the first layer of a segment has been counted
   anicodec::Failure failure;
   anic_stream_info info = ANIC_INIT(anic_stream_info);
 };
@@ -44,8 +43,7 @@ void append(const void* bytes, size_t size, uint64_t file_bytes, Bytes* to) {
 }
 
 /// Calls visit(chunk, owner) for chunks begin .. end - 1 of the table that are needed to play
-/// anything: owner is the segment's counter of missing chunks, or that of all. Call it in the order
-/// of the table: of the layers of a segment, the first one is needed.
+/// anything: owner is the segment's counter of missing chunks, or that of all.
 template <class Visit>
 void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
   for (size_t i = begin; i < end; ++i) {
@@ -53,12 +51,9 @@ void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
     if (chunk.segment == kNoSegment) {
       if (chunk.required)
         visit(&stream->common_missing);
-    } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("CORR") &&
-               chunk.type != chunk_type("DIFF")) {
-      const bool layer = chunk.type == chunk_type("BASI");
-      if (!layer || !stream->layered[chunk.segment])
-        visit(&stream->missing[chunk.segment]);
-      stream->layered[chunk.segment] |= layer;
+    } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("BASI") &&
+               chunk.type != chunk_type("CORR") && chunk.type != chunk_type("DIFF")) {
+      visit(&stream->missing[chunk.segment]);
     }
   }
 }
@@ -96,12 +91,10 @@ Failure read_head(anic_stream* stream) {
   stream->has_limits = true;
   const size_t segments = limits.segments.size(), chunks = file.chunks().size();
   stream->missing.assign(segments, 0);
-  stream->layered.assign(segments, 0);
   stream->of_positions.reserve(segments);
   for (const Limits::Segment& s : limits.segments)
     stream->of_positions.push_back(s.attribute == kPositions);
   each_needed(stream, 0, chunks, [](uint32_t* missing) { ++*missing; });
-  stream->layered.assign(segments, 0);
   info.segment_count = static_cast<uint32_t>(segments);
   for (const Chunk& c : file.chunks())
     info.layers += c.type == chunk_type("BASI");

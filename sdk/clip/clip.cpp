@@ -152,16 +152,13 @@ Failure read_pose(const ContainerReader& file, const Chunk& chunk, const Topolog
   return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
 }
 
-/// Whether what a segment cannot do without is there: its record, its pose, and a layer if it has
-/// any.
-bool has_arrived(const ContainerReader& file, const Limits::Segment& sizes, uint32_t number,
-                 const Vector<const Chunk*>& layers) {
+/// Whether what a segment cannot do without is there: its record and its pose.
+bool has_arrived(const ContainerReader& file, const Limits::Segment& sizes, uint32_t number) {
   const Chunk* record = file.find("SEGM", sizes.mesh, number);
   const Chunk* pose = file.find("POSE", sizes.mesh, number);
   if (!pose)
     pose = file.find("POSE", sizes.mesh);
-  return !(record && !file.has(*record)) && !(pose && !file.has(*pose)) &&
-         !(!layers.empty() && !file.has(*layers[0]));
+  return !(record && !file.has(*record)) && !(pose && !file.has(*pose));
 }
 
 }  // namespace
@@ -479,7 +476,7 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
   for (uint32_t i = 0; i < segments_.size(); ++i) {
     if (wanted_frames(record_, wanted_, limits_.segments[i]).count == 0)
       continue;
-    if (options.prefix && !has_arrived(file, limits_.segments[i], i, layers[i])) {
+    if (options.prefix && !has_arrived(file, limits_.segments[i], i)) {
       partial_ = true;
       continue;
     }

@@ -461,9 +461,12 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   size_t n = topology.coded_vertices;
   const PoseGrid& pose = *context.pose;
   integers.add("pose", pose.points.data(), pose.points.size());
+  uint32_t wanted = wanted_components(context.quality, components);
+  if (context.partial)
+    wanted = std::min(wanted, components_in(context.layers, components));
   MeshGraph own;
   const MeshGraph* graph = &own;
-  if (!context.decoded || context.sizes->regions > 1) {
+  if ((wanted > 0 && !context.decoded) || context.sizes->regions > 1) {
     if (Status s = graph_of(context, &own, &graph); s != Status::kOk)
       return s;
   }
@@ -477,9 +480,6 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     integers.add("regions", hashed.data(), n);
   }
 
-  uint32_t wanted = wanted_components(context.quality, components);
-  if (context.partial)
-    wanted = std::min(wanted, components_in(context.layers, components));
   Vector<BasisLayer> layers;
   if (Status s = read_layers(context.layers, parameters.slices, components, wanted, &layers);
       s != Status::kOk)
@@ -507,7 +507,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   add_weights(decoded.weights, wanted, parameters, *out, integers);
   out->components = wanted;
   out->wide_components = std::min(out->wide_components, wanted);
-  if (wanted == 0 && components > 0)
+  if (wanted == 0 && components > 0 && !context.partial)
     return Status::kSegment;
   ResidentWriter writer(context.vertex_coded, out);
   writer.pose(pose.points.data());

@@ -78,6 +78,23 @@ TEST(AnicStream, PlaysEachLayerThatArrives) {
   EXPECT_GE(coarser, 1U);  // played before its end
 }
 
+TEST(AnicStream, PlaysByTheBaseBeforeAnyLayer) {
+  for (const auto& [name, basis] : cases()) {
+    SCOPED_TRACE(name);
+    const Bytes& file = encoded_clip(name, basis);
+    ContainerReader reader;
+    ASSERT_TRUE(reader.open(file).ok());
+    const Chunk* record = reader.find("SEGM", 0, 0);
+    ASSERT_NE(record, nullptr);
+    const Stream stream = new_stream();
+    ASSERT_EQ(anic_push_bytes(stream.get(), file.data(), record->offset + record->size), ANIC_OK);
+    EXPECT_EQ(info_of(stream).arrived_layers, 0U);
+    ASSERT_TRUE(info_of(stream).playable);
+    const Asset base = open(stream), whole = open(file);
+    EXPECT_LT(largest_difference(frame(base, 0), frame(whole, 0)), info_of(whole).diagonal);
+  }
+}
+
 TEST(AnicStream, GivesWhatAWholeFileGives) {
   for (const auto& [name, basis] : cases()) {
     SCOPED_TRACE(name);

@@ -1401,7 +1401,7 @@ typedef struct anic_stream_info {
   uint32_t layers;            /**< of all segments: chunks with components of their bases */
   uint32_t arrived_layers;
   uint8_t playable; /**< anic_open_asset_from_stream() gives an asset that plays at least one
-                       segment of positions */
+                       segment of positions, by its base while arrived_layers is 0 */
   uint8_t complete;
   uint32_t file_number;   /**< in a live stream, from 0 on */
   uint64_t waiting_bytes; /**< that follow the file: they are of the next ones of a live stream */
@@ -1440,8 +1440,8 @@ ANIC_API anic_status anic_get_stream_info(const anic_stream* stream, anic_stream
 ANIC_API anic_status anic_get_stream_failure(const anic_stream* stream, anic_failure* out);
 
 /**
- * Opens what has arrived: the segments whose first layer can be decoded, with all layers that
- * follow without a gap. info.partial tells whether anything is missing. The asset of a complete
+ * Opens what has arrived: the segments whose base can be decoded, with all layers that follow
+ * without a gap. info.partial tells whether anything is missing. The asset of a complete
  * stream is the same, bit for bit, as that of the whole file. Assets that were made before stay as
  * they are: replace them when their contexts can be replaced.
  *

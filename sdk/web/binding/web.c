@@ -150,7 +150,8 @@ EXPORT(stream_info) int web_stream_info(void) {
   const anic_status status = anic_get_stream_info(stream, &info);
   numbers[0] = (double)info.received_bytes;
   numbers[1] = (double)info.file_bytes;
-  numbers[2] = info.playable;
+  /* A page opens once before the end: with a layer, where there are any. */
+  numbers[2] = info.playable && (info.arrived_layers > 0 || info.layers == 0);
   numbers[3] = info.complete;
   return status;
 }
