@@ -42,8 +42,8 @@ void append(const void* bytes, size_t size, uint64_t file_bytes, Bytes* to) {
   to->insert(to->end(), from, from + size);
 }
 
-/// Calls visit(chunk, owner) for chunks begin .. end - 1 of the table that are needed to play
-/// anything: owner is the segment's counter of missing chunks, or that of all.
+/// Calls visit(owner) for chunks begin .. end - 1 of the table that are needed to play anything:
+/// owner is the segment's counter of missing chunks, or that of all. Layers make a segment finer.
 template <class Visit>
 void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
   for (size_t i = begin; i < end; ++i) {
