@@ -63,9 +63,7 @@ void RateControl::add_keyframe_coder(KeyframePoses poses, Reconstruction reconst
 }
 
 void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
-  std::optional<Solution> solution = search_.reach(coder, best->has_value() ? &**best : nullptr);
-  if (solution && (!*best || search_.better(*solution, **best)))
-    *best = std::move(solution);
+  search_.keep_better(search_.reach(coder, best->has_value() ? &**best : nullptr), best);
 }
 
 std::optional<Solution> RateControl::by_keyframes_alone() {

@@ -267,10 +267,8 @@ std::optional<Solution> TargetSearch::best_of(std::span<SegmentCoder* const> cod
         tbb::simple_partitioner());
   std::optional<Solution> best;
   for (size_t i = 0; i < coders.size(); ++i) {
-    std::optional<Solution> solution =
-        rmse ? listed(std::move(parts[i])) : reach(*coders[i], best ? &*best : nullptr);
-    if (solution && (!best || better(*solution, *best)))
-      best = std::move(solution);
+    keep_better(rmse ? listed(std::move(parts[i])) : reach(*coders[i], best ? &*best : nullptr),
+                &best);
   }
   return best;
 }
@@ -290,6 +288,12 @@ bool TargetSearch::better(const Solution& a, const Solution& b) const {
   if (is_size(target_))
     return a.squared_error() < b.squared_error();
   return a.price() < b.price();
+}
+
+void TargetSearch::keep_better(std::optional<Solution> solution,
+                               std::optional<Solution>* best) const {
+  if (solution && (!*best || better(*solution, **best)))
+    *best = std::move(solution);
 }
 
 double TargetSearch::typical_rmse(SegmentCoder& coder) {

@@ -38,6 +38,9 @@ class TargetSearch {
   /// Whether a is the better of two files that keep to the target.
   bool better(const Solution& a, const Solution& b) const;
 
+  /// Replaces the best file by a better one.
+  void keep_better(std::optional<Solution> solution, std::optional<Solution>* best) const;
+
   /// Whether a file that was put together otherwise keeps to a target that is about motion; true for
   /// other targets.
   bool keeps_motion(const Solution& solution) const;

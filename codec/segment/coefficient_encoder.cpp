@@ -142,7 +142,7 @@ bool CoefficientEncoder::pass(CoefficientModel& model, Coder& coder, const Choos
         return false;
       model.code(coder, i, c, *q);
       predictor_.commit(i, static_cast<int>(c), prediction, *q);
-      residuals_[size_t{c} * ranks() + i] = *q;
+      residuals_[place(i, c)] = *q;
     }
   }
   model.end_component();
@@ -152,7 +152,7 @@ bool CoefficientEncoder::pass(CoefficientModel& model, Coder& coder, const Choos
 /// The residual that is best by itself; nothing if it is too large.
 std::optional<int32_t> CoefficientEncoder::nearest(CoefficientModel& model, uint32_t i, uint32_t c,
                                                    float prediction) const {
-  const double residual = static_cast<double>(component_[size_t{c} * ranks() + i]) -
+  const double residual = static_cast<double>(component_[place(i, c)]) -
                           static_cast<double>(prediction);
   if (std::abs(residual) >= kCoefficientLimit - 1)
     return std::nullopt;
@@ -178,7 +178,7 @@ bool CoefficientEncoder::round_together() {
           write_chosen();
           rehearsed_ = model_;
           is_coded = pass(*rehearsed_, rehearsal, [&](uint32_t i, uint32_t c, float prediction) {
-            costs[size_t{c} * ranks() + i] = rehearsed_->costs(i, c);
+            costs[place(i, c)] = rehearsed_->costs(i, c);
             return nearest(*rehearsed_, i, c, prediction);
           });
         },
@@ -197,8 +197,8 @@ bool CoefficientEncoder::round_together() {
   rehearsed_->begin_component();
   for (uint32_t i = 0; i < ranks(); ++i) {
     for (uint32_t c = 0; c < channels_; ++c) {
-      costs[size_t{c} * ranks() + i] = rehearsed_->costs(i, c);
-      rehearsed_->code(rehearsal, i, c, residuals_[size_t{c} * ranks() + i]);
+      costs[place(i, c)] = rehearsed_->costs(i, c);
+      rehearsed_->code(rehearsal, i, c, residuals_[place(i, c)]);
     }
   }
   rehearsed_->end_component();
@@ -211,7 +211,7 @@ bool CoefficientEncoder::commit_chosen() {
   for (uint32_t i = 0; i < ranks(); ++i) {
     for (uint32_t c = 0; c < channels_; ++c) {
       const auto channel = static_cast<int>(c);
-      const int32_t q = residuals_[size_t{c} * ranks() + i];
+      const int32_t q = residuals_[place(i, c)];
       if (std::abs(q) >= kCoefficientLimit)
         return false;
       predictor_.commit(i, channel, predictor_.predict(i, channel), q);
@@ -254,7 +254,7 @@ std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) 
   const auto column = [&](uint32_t c) { return static_cast<Index>(j * channels_ + c); };
   for (uint32_t c = 0; c < channels_; ++c)
     for (uint32_t i = 0; i < n; ++i)
-      component_[size_t{c} * n + i] = target_(order_.order[i], column(c));
+      component_[place(i, c)] = target_(order_.order[i], column(c));
   const bool together = joint_lambda_ > 0;
   if (together ? !round_together() || !commit_chosen() : !round_each())
     return std::nullopt;
@@ -262,7 +262,7 @@ std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) 
   for (uint32_t c = 0; c < channels_; ++c) {
     const float* y = predictor_.coefficients(static_cast<int>(c));
     for (uint32_t i = 0; i < n; ++i) {
-      const auto q = static_cast<double>(residuals_[size_t{c} * n + i]);
+      const auto q = static_cast<double>(residuals_[place(i, c)]);
       energy += q * q;
       largest_residual = std::max(largest_residual, std::abs(q));
       largest = std::max(largest, std::abs(static_cast<double>(y[i])));

@@ -64,6 +64,8 @@ class CoefficientEncoder {
 
   uint32_t ranks() const { return static_cast<uint32_t>(target_.rows()); }
 
+  size_t place(uint32_t rank, uint32_t channel) const { return size_t{channel} * ranks() + rank; }
+
   template <class Coder, class Choose>
   bool pass(CoefficientModel& model, Coder& coder, const Choose& choose);
   std::optional<int32_t> nearest(CoefficientModel& model, uint32_t i, uint32_t c,

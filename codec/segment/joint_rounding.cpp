@@ -12,8 +12,7 @@
 namespace anicodec {
 namespace {
 
-// Entries of a column that are left out. `encode --kg 0.1%` of 17 clips: half the time of 0.02, and sizes that scatter
-// around the same mean.
+// Entries of a column that are left out: docs/research/rate.md.
 constexpr float kNegligible = 0.08F;
 constexpr int kSweeps = 4;  // over all vertices, in turns from either end
 
