@@ -19,7 +19,7 @@ bool read_looks(ByteReader& r, uint64_t most_bytes, AttributeHeader* out) {
     return true;
   if (out->labels.empty() || out->labels.size() > most_bytes / kLookBytes)
     return false;
-  out->looks.resize(out->labels.size());
+  out->looks = Vector<MaterialLook>(out->labels.size());
   return std::all_of(out->looks.begin(), out->looks.end(),
                      [&](MaterialLook& look) { return look.read(r); });
 }
@@ -102,7 +102,7 @@ Status AttributeRecord::read(ByteView view, uint64_t most_bytes, AttributeRecord
       const uint64_t labels = r.varint();
       if (!r.ok() || labels > std::min<uint64_t>(r.remaining(), most_bytes / kTextBytes))
         return Status::kRecord;
-      a.labels.resize(static_cast<size_t>(labels));
+      a.labels = Vector<String>(static_cast<size_t>(labels));
       for (String& label : a.labels)
         label = r.text();
       if (a.kind == AttributeKind::kMaterial && !read_looks(r, most_bytes, &a))
@@ -112,7 +112,7 @@ Status AttributeRecord::read(ByteView view, uint64_t most_bytes, AttributeRecord
     const uint32_t components = r.varint32(kMaxAttributeComponents);
     if (!r.ok() || (components == 0 && a.domain != AttributeDomain::kCorner))
       return Status::kRecord;
-    a.grids.resize(components);
+    a.grids = Vector<AttributeHeader::Grid>(components);
     for (AttributeHeader::Grid& grid : a.grids) {
       grid.origin = r.f64();
       grid.scale = r.f64();

@@ -41,6 +41,12 @@ bool has_attributes(const Vector<Limits::Mesh>& meshes) {
 
 }  // namespace
 
+bool Limits::Mesh::operator==(const Mesh& other) const {
+  return source_vertices == other.source_vertices && coded_vertices == other.coded_vertices &&
+         triangles == other.triangles && polygons == other.polygons && corners == other.corners &&
+         attribute_bytes == other.attribute_bytes;
+}
+
 Bytes Limits::write() const {
   ByteWriter w;
   w.varint(clip_frames.empty() ? 1 : clip_frames.size());

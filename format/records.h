@@ -53,6 +53,8 @@ struct Limits {
     uint32_t polygons = 0;         ///< what the user gets back
     uint32_t corners = 0;          ///< of those polygons
     uint64_t attribute_bytes = 0;  ///< that static attributes keep in memory
+
+    bool operator==(const Mesh& other) const;
   };
 
   struct Segment {

@@ -3,6 +3,7 @@
 //
 // The C interface: files that are read through a callback, or arrive piece by piece, one after the other.
 #include "sdk/api/objects.h"
+#include "sdk/clip/kept_meshes.h"
 
 #include <algorithm>
 
@@ -15,6 +16,8 @@ struct anic_stream {
   anicodec::ContainerReader meshes;  ///< of that file, which has `begin` bytes; 0: there is none
   size_t begin = 0;
   anicodec::ContainerReader file;  ///< the one at hand, with its meshes
+  anicodec::KeptMeshes kept;       ///< of the assets that were opened
+  bool adds_to_meshes = false;     ///< the file at hand is a continuation with chunks of meshes of its own
   bool has_table = false;          ///< header and table are there
   bool has_limits = false;
   size_t arrived = 0;  ///< chunks, from the front of the table
@@ -40,6 +43,14 @@ void append(const void* bytes, size_t size, uint64_t file_bytes, Bytes* to) {
   }
   const auto* from = static_cast<const uint8_t*>(bytes);
   to->insert(to->end(), from, from + size);
+}
+
+/// The meshes that the stream keeps, if it opens more than one asset of them: for layers that will arrive, or of a live
+/// stream.
+KeptMeshes* kept_of(anic_stream* stream) {
+  const anic_stream_info& info = stream->info;
+  const bool ends = info.complete && info.waiting_bytes == 0 && !stream->file.is_continuation();
+  return stream->adds_to_meshes || (ends && stream->kept.empty()) ? nullptr : &stream->kept;
 }
 
 /// Calls visit(owner) for chunks begin .. end - 1 of the table that are needed to play anything:
@@ -78,8 +89,15 @@ Failure read_head(anic_stream* stream) {
     info.file_bytes = file.file_size();
     if (file.is_continuation() && stream->begin == 0)
       return {Status::kFeature, 16, 0, "the file continues another one, which has its meshes"};
-    if (file.is_continuation())
+    stream->adds_to_meshes = false;
+    if (file.is_continuation()) {
+      stream->adds_to_meshes =
+          std::any_of(file.chunks().begin(), file.chunks().end(),
+                      [](const Chunk& chunk) { return is_of_mesh(chunk); });
       file.add_meshes(stream->meshes, stream->bytes);
+    } else {
+      stream->kept.clear();
+    }
   }
   const Chunk* chunk = file.find("LIMI");
   if (chunk && !file.has(*chunk))
@@ -309,7 +327,8 @@ anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
   if (!stream->info.playable)
     return report({Status::kState, stream->bytes.size(), 0, "nothing can be played yet"}, failure);
   const size_t size = bytes_at_hand(*stream).size - static_cast<size_t>(stream->info.waiting_bytes);
-  Failure what = guarded([&] { return open_asset(stream->file, size, stream->options, out); });
+  Failure what =
+      guarded([&] { return open_asset(stream->file, size, stream->options, kept_of(stream), out); });
   // A prefix may be too short for what the whole file is allowed.
   if (what.status == Status::kLimit && !stream->info.complete)
     what = {Status::kState, stream->bytes.size(), what.chunk, "too little has arrived"};

@@ -86,12 +86,11 @@ Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& size
     return Status::kLimit;
   const CornerGraph graph(topology);
   BinaryDecoder decoder(record.stream.data, record.stream.size);
-  out->clear();
-  out->reserve(record.attributes.size());
-  for (const AttributeHeader& header : record.attributes) {
-    out->emplace_back();
-    out->back().header = header;
-    if (Status s = decode_values(decoder, graph, &out->back()); s != Status::kOk)
+  *out = Vector<MeshAttribute>(record.attributes.size());
+  for (size_t i = 0; i < out->size(); ++i) {
+    MeshAttribute& attribute = (*out)[i];
+    attribute.header = record.attributes[i];
+    if (Status s = decode_values(decoder, graph, &attribute); s != Status::kOk)
       return s;
   }
   return decoder.finish() ? Status::kOk : Status::kEntropy;

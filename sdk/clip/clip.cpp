@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/clip.h"
 
+#include "sdk/clip/kept_meshes.h"
 #include "sdk/clip/memory_estimate.h"
 #include "sdk/exact/exact_positions.h"
 #include "sdk/play/attribute_values.h"
@@ -152,6 +153,13 @@ Failure read_pose(const ContainerReader& file, const Chunk& chunk, const Topolog
   return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
 }
 
+/// Whether memory allows to keep meshes beside the opening.
+bool has_room_for_kept(const Limits& limits, const OpenOptions& options) {
+  const MemoryEstimate estimate = estimate_memory(limits, options.quality, options.opens_exact());
+  const uint64_t allowed = options.limits.resident_bytes;
+  return estimate.opening <= allowed && estimate.meshes <= allowed - estimate.opening;
+}
+
 /// Whether what a segment cannot do without is there: its record and its pose.
 bool has_arrived(const ContainerReader& file, const Limits::Segment& sizes, uint32_t number) {
   const Chunk* record = file.find("SEGM", sizes.mesh, number);
@@ -221,10 +229,15 @@ Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   return open(file, options);
 }
 
-Failure Clip::open(const ContainerReader& file, const OpenOptions& options) {
+Failure Clip::open(const ContainerReader& file, const OpenOptions& wanted) {
   *this = Clip();
+  OpenOptions options = wanted;
   if (Failure failure = read_limits(file, options, &limits_); !failure.ok())
     return failure;
+  if (options.kept && !has_room_for_kept(limits_, options)) {
+    options.kept->clear();
+    options.kept = nullptr;
+  }
   const Chunk* chunk;
   ByteView payload;
   if (Failure f = required(file, "CLIP", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
@@ -250,23 +263,19 @@ Failure Clip::open(const ContainerReader& file, const OpenOptions& options) {
       return stopped();
   }
 
-  meshes_.resize(limits_.meshes.size());
-  work_.resize(limits_.meshes.size());
+  work_ = Vector<MeshWork>(limits_.meshes.size());
   const Vector<uint32_t> predicted = predicted_segments(limits_);
   for (size_t m = 0; m < work_.size(); ++m)
     work_[m].predicted_segments = predicted[m];
-  Failure failure;
-  for (size_t m = 0; m < meshes_.size() && failure.ok(); ++m) {
-    failure = open_mesh(file, static_cast<uint16_t>(m), options);
-    if (failure.ok() && options.progress &&
-        !options.progress->advance(mesh_work(limits_.meshes[m])))
-      failure = stopped();
-  }
+  Failure failure = open_meshes(file, options);
   if (failure.ok())
     failure = open_segments(file, options);
   if (failure.ok() && has_root())
     turn_corrections();
+  if (failure.ok() && options.kept && has_attributes())
+    options.kept->keep(limits_.meshes, record_.order, meshes_, poses_);
   work_ = Vector<MeshWork>();
+  poses_ = Vector<MeshPose>();
   for (Mesh& mesh : meshes_) {
     mesh.topology.triangles = Vector<uint32_t>();
   }
@@ -371,6 +380,23 @@ uint32_t Clip::clip_at(uint32_t frame) const {
   return static_cast<uint32_t>(after - clips().begin()) - 1;
 }
 
+Failure Clip::open_meshes(const ContainerReader& file, const OpenOptions& options) {
+  const size_t count = limits_.meshes.size();
+  const bool kept =
+      options.kept && options.kept->take(limits_.meshes, record_.order, &meshes_, &poses_);
+  if (!kept) {
+    meshes_ = Vector<Mesh>(count);
+    poses_ = Vector<MeshPose>(count);
+  }
+  for (size_t m = 0; m < count; ++m) {
+    if (Failure f = kept ? Failure{} : open_mesh(file, static_cast<uint16_t>(m), options); !f.ok())
+      return f;
+    if (options.progress && !options.progress->advance(mesh_work(limits_.meshes[m])))
+      return stopped();
+  }
+  return {};
+}
+
 Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOptions& options) {
   const Limits::Mesh& sizes = limits_.meshes[mesh];
   const Chunk* chunk;
@@ -432,8 +458,17 @@ Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
   return s == Status::kOk ? Failure{} : at(*chunk, s, "the attributes are damaged");
 }
 
+/// Whether the attributes of all meshes are there.
+bool Clip::has_attributes() const {
+  for (size_t m = 0; m < meshes_.size(); ++m) {
+    if (limits_.meshes[m].attribute_bytes > 0 && meshes_[m].attributes.empty())
+      return false;
+  }
+  return true;
+}
+
 void Clip::list_tracks() {
-  segments_.resize(limits_.segments.size());
+  segments_ = Vector<Segment>(limits_.segments.size());
   for (uint32_t i = 0; i < segments_.size(); ++i) {
     const Limits::Segment& sizes = limits_.segments[i];
     segments_[i].mesh = sizes.mesh;
@@ -465,12 +500,12 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
     if (chunk.type == chunk_type("BASI") && chunk.segment < layers.size())
       layers[chunk.segment].push_back(&chunk);
   }
-  Vector<PoseGrid> poses(meshes_.size());
   for (size_t m = 0; m < meshes_.size(); ++m) {
     const Chunk* chunk = file.find("POSE", static_cast<uint16_t>(m));
-    if (!chunk || (options.prefix && !file.has(*chunk)))
+    PoseGrid& pose = poses_[m].grid;
+    if (!chunk || (options.prefix && !file.has(*chunk)) || !pose.points.empty())
       continue;
-    if (Failure f = read_pose(file, *chunk, meshes_[m].topology, work_[m], &poses[m]); !f.ok())
+    if (Failure f = read_pose(file, *chunk, meshes_[m].topology, work_[m], &pose); !f.ok())
       return f;
   }
   for (uint32_t i = 0; i < segments_.size(); ++i) {
@@ -480,15 +515,14 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
       partial_ = true;
       continue;
     }
-    if (Failure f = open_segment(file, i, layers[i], poses, options); !f.ok())
+    if (Failure f = open_segment(file, i, layers[i], options); !f.ok())
       return f;
   }
   return {};
 }
 
 Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
-                           const Vector<const Chunk*>& layers, const Vector<PoseGrid>& poses,
-                           const OpenOptions& options) {
+                           const Vector<const Chunk*>& layers, const OpenOptions& options) {
   const Limits::Segment& sizes = limits_.segments[number];
   const Chunk* chunk;
   ByteView payload;
@@ -515,11 +549,15 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   context.vertex_coded = &context.topology->vertex_coded;
   MeshWork& work = work_[sizes.mesh];
   PoseGrid segment_pose;
-  context.pose = &poses[sizes.mesh];
+  MeshPose& mesh_pose = poses_[sizes.mesh];
+  context.pose = &mesh_pose.grid;
+  if (work.is_shared() || options.kept)
+    context.order = &mesh_pose.order;
   if (const Chunk* of_pose = file.find("POSE", sizes.mesh, number)) {
     if (Failure f = read_pose(file, *of_pose, *context.topology, work, &segment_pose); !f.ok())
       return f;
     context.pose = &segment_pose;
+    context.order = nullptr;
   }
   if (context.pose->points.empty())
     context.pose = nullptr;

@@ -35,6 +35,8 @@ struct HostLimits {
   uint64_t resident_bytes = uint64_t{16} << 30;  ///< while opening, see estimate_memory()
 };
 
+class KeptMeshes;
+
 /// Whether each clip of a file is among those named; all are where none is. Errors: kAbsent.
 Failure wanted_clips(const ClipsRecord& record, const ClipNames& names, Vector<uint8_t>* out);
 
@@ -64,6 +66,8 @@ struct OpenOptions {
   HostProgress* progress = nullptr;
   /// Sees the integers of every step of decoding, for tests. Null: nobody.
   DecodingTrace* trace = nullptr;
+  /// Meshes and poses from an earlier opening, and for the next one as far as memory allows. Null: none.
+  KeptMeshes* kept = nullptr;
   double progress_end = 1;  ///< share of the host's call that is done once the clip is open
 };
 
@@ -187,16 +191,17 @@ class Clip {
 
  private:
   Failure open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
+  Failure open_meshes(const ContainerReader& file, const OpenOptions& options);
   Failure open_root(const ContainerReader& file);
   void turn_corrections();
+  bool has_attributes() const;
   void list_tracks();
   Failure open_attributes(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
   Failure open_segments(const ContainerReader& file, const OpenOptions& options);
   Failure open_exact(const ContainerReader& file, uint32_t number, const SegmentContext& context,
                      const OpenOptions& options);
   Failure open_segment(const ContainerReader& file, uint32_t number,
-                       const Vector<const Chunk*>& layers, const Vector<PoseGrid>& poses,
-                       const OpenOptions& options);
+                       const Vector<const Chunk*>& layers, const OpenOptions& options);
 
   Limits limits_;
   ClipsRecord record_;
@@ -204,7 +209,8 @@ class Clip {
   RootMotion root_;
   bool in_place_ = false;
   Vector<Mesh> meshes_;
-  Vector<MeshWork> work_;  ///< while opening
+  Vector<MeshWork> work_;   ///< while opening
+  Vector<MeshPose> poses_;  ///< while opening, by mesh
   Vector<Segment> segments_;
   bool partial_ = false;
   Vector<Track> tracks_;

@@ -44,10 +44,15 @@ uint64_t held(const Limits::Mesh& m) {
   return uint64_t{12} * m.triangles + uint64_t{12} * m.coded_vertices;
 }
 
-/// Bytes that several segments share until they are open: the corners that poses are predicted over, and
-/// the edges that their orders are made from.
+/// An order of the vertices.
+uint64_t order(const Limits::Mesh& m) {
+  return (4 * kNeighbours + 4) * m.coded_vertices;
+}
+
+/// Bytes that several segments share until they are open: the corners that poses are predicted over, the
+/// edges that their orders are made from, and the last order.
 uint64_t shared(const Limits::Mesh& m) {
-  return uint64_t{36} * m.triangles + uint64_t{80} * m.coded_vertices;
+  return uint64_t{36} * m.triangles + uint64_t{80} * m.coded_vertices + order(m);
 }
 
 /// Exact positions: 24 and 31 bits, and a factor of 12.
@@ -159,7 +164,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
 
 MemoryEstimate estimate_memory(const Limits& limits, double quality, bool exact) {
   MemoryEstimate estimate;
-  CheckedSum open, until_open;
+  CheckedSum open, until_open, kept;
   uint64_t largest = 0;
   const Vector<uint32_t> predicted = predicted_segments(limits);
   open.add(kClip * limits.clip_frames.size());
@@ -169,6 +174,7 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality, bool exact)
     const Limits::Mesh& m = limits.meshes[i];
     open.add(resident(m));
     until_open.add(held(m));
+    kept.add(resident(m) + held(m) + 2 * order(m));  // one in use
     until_open.add(predicted[i] > 1 ? shared(m) : 0);
     largest = std::max(largest, opening(m));
   }
@@ -183,6 +189,7 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality, bool exact)
   open.add(until_open.total());
   open.add(largest);
   estimate.opening = open.total();
+  estimate.meshes = kept.total();
   return estimate;
 }
 

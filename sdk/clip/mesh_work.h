@@ -6,13 +6,19 @@
 #include "format/records.h"
 #include "format/status.h"
 #include "sdk/mesh/topology.h"
-#include "sdk/pose/pose_coding.h"
+#include "sdk/pose/reference_pose.h"
 #include "sdk/prediction/vertex_order.h"
 
 #include <cstdint>
 #include <optional>
 
 namespace anicodec {
+
+/// The pose of a mesh that segments share, and the last order of its vertices by it (SegmentContext::order).
+struct MeshPose {
+  PoseGrid grid;
+  VertexOrder order;
+};
 
 /// Data of a mesh that its segments use while they open. All that follows from the connectivity alone
 /// is made once, so that no segment costs O(triangles); a lone segment keeps nothing of it.

@@ -186,18 +186,30 @@ void show_residuals(const ResidualRoom& room, size_t of_component, uint32_t comp
   trace->step("residuals", all.data(), all.size());
 }
 
+/// Whether the order is there that a segment shares with others.
+bool has_shared_order(const SegmentContext& context, const LinearParameters& parameters) {
+  return context.order && context.sizes->regions == 1 &&
+         context.order->is_of(parameters.neighbours, parameters.colours);
+}
+
 /// Decodes the order and the coefficients of the components of `out`, whose arrays have their sizes.
+/// `graph`: for an order that is not there.
 Status decode_coefficients(const SegmentContext& context, const LinearParameters& parameters,
                            const Vector<BasisLayer>& layers, MeshGraph graph,
                            const Vector<uint8_t>& regions, const DecodedIntegers& integers,
                            Segment* out, DecodedBasis* decoded) {
   const int32_t* pose = context.pose->points.data();
-  VertexOrder order;
-  if (Status s = make_vertex_order(std::move(graph), pose, parameters.neighbours,
-                                   parameters.colours, &order,
-                                   regions.empty() ? nullptr : regions.data(), context.threads);
-      s != Status::kOk)
-    return s;
+  const bool shares = context.order && regions.empty();
+  VertexOrder own;
+  VertexOrder& order = shares ? *context.order : own;
+  if (!has_shared_order(context, parameters)) {
+    order = VertexOrder();
+    if (Status s = make_vertex_order(std::move(graph), pose, parameters.neighbours,
+                                     parameters.colours, &order,
+                                     regions.empty() ? nullptr : regions.data(), context.threads);
+        s != Status::kOk)
+      return s;
+  }
   show(context.trace, "vertex of each rank", order.order);
   show(context.trace, "first rank of each level", order.level_start);
   integers.show("neighbours", order.neighbours.data(), order.neighbours.size());
@@ -235,7 +247,7 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
     if (!context.advance(samples * (last - first)))
       return Status::kCancelled;
   }
-  decoded->order = std::move(order.order);
+  decoded->order = shares ? order.order : std::move(order.order);
   return Status::kOk;
 }
 
@@ -466,7 +478,8 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     wanted = std::min(wanted, components_in(context.layers, components));
   MeshGraph own;
   const MeshGraph* graph = &own;
-  if ((wanted > 0 && !context.decoded) || context.sizes->regions > 1) {
+  const bool orders = wanted > 0 && !context.decoded && !has_shared_order(context, parameters);
+  if (orders || context.sizes->regions > 1) {
     if (Status s = graph_of(context, &own, &graph); s != Status::kOk)
       return s;
   }
@@ -516,8 +529,8 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   if (wanted == 0)
     return Status::kOk;
   if (!context.decoded) {
-    if (Status s = decode_coefficients(context, parameters, layers,
-                                       context.graph ? *context.graph : std::move(own), regions,
+    MeshGraph edges = orders && context.graph ? *context.graph : std::move(own);
+    if (Status s = decode_coefficients(context, parameters, layers, std::move(edges), regions,
                                        integers, out, &own_decoded);
         s != Status::kOk)
       return s;

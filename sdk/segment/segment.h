@@ -130,6 +130,8 @@ struct SegmentContext {
   const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
   const CornerTable* corners = nullptr;  ///< of the topology; null: made when needed
+  /// The order of the vertices that segments of the pose without regions share, the last one that was made; null: none.
+  VertexOrder* order = nullptr;
   /// What an encoder knows that weights and layers decode to; null: they are decoded.
   const DecodedBasis* decoded = nullptr;
   Vector<ByteView> layers;               ///< chunks BASI in file order

@@ -95,7 +95,10 @@ async function inWorker(source, options, signal, onProgress, onBytes, onDecoder)
 }
 
 async function here(source, options, signal, onProgress, onBytes, onDecoder) {
-  const opening = new Opening({ ...options, onProgress, onDecoder, isCancelled: () => signal?.aborted });
+  const opening = new Opening({
+    ...options, onProgress, isCancelled: () => signal?.aborted,
+    onDecoder: async (decoder, complete) => onDecoder(complete ? decoder : await Decoder.from(decoder.snapshot()), complete),
+  });
   try {
     for await (const bytes of pieces(source, signal, onBytes))
       await opening.push(bytes);

@@ -6,13 +6,17 @@ import { Decoder } from './decoder.js';
 import { AnicError } from './status.js';
 import { loadModule } from './module.js';
 
-/** The file as it arrives: push() bytes, then end(). onDecoder(decoder, complete) gets what plays. */
+/**
+ * The file as it arrives: push() bytes, then end(). onDecoder(decoder, complete) gets what plays; a decoder that is not
+ * complete goes on, so whoever plays by it takes a copy before the promise it returns resolves.
+ */
 export class Opening {
   constructor({ quality, bounds, maxBytes, clips, inPlace, inexact, progressive = false, kind = 'small', onProgress, isCancelled, onDecoder }) {
     this.options = { quality, bounds, maxBytes, clips, inPlace, inexact };
     Object.assign(this, { progressive, kind, onProgress, isCancelled, onDecoder });
     this.pieces = [];
     this.played = false;
+    this.complete = false;
   }
 
   async decoder() {
@@ -24,18 +28,16 @@ export class Opening {
 
   async push(bytes) {
     this.pieces.push(bytes);
-    if (!this.progressive || this.played)
+    if (!this.progressive)
       return;
     this.stream ??= await this.startStream();
     const { playable, complete } = await this.pushToStream(bytes);
-    if (playable && !complete) {
+    this.complete = complete;
+    if (playable && !complete && !this.played) {
       this.played = true;
       await this.withFullModule(async () => {
-        const coarse = this.stream;
-        coarse.openStream();
-        coarse.endStream();
-        this.stream = undefined;
-        await this.onDecoder(coarse, false);
+        this.stream.openStream();
+        await this.onDecoder(this.stream, false);
       });
     }
   }
@@ -81,6 +83,8 @@ export class Opening {
   }
 
   async end() {
+    if (this.played && this.complete)
+      return this.refine();
     this.stream = undefined;
     const size = this.pieces.reduce((sum, piece) => sum + piece.byteLength, 0);
     let bytes = this.pieces[0] ?? new Uint8Array(0);
@@ -97,6 +101,15 @@ export class Opening {
       const decoder = await this.decoder();
       decoder.open(bytes, this.options);
       await this.onDecoder(decoder, true);
+    });
+  }
+
+  /** Opens the rest of what was opened coarsely: the stream has kept its meshes. */
+  async refine() {
+    await this.withFullModule(async () => {
+      this.stream.openStream();
+      this.stream.endStream();
+      await this.onDecoder(this.stream, true);
     });
   }
 }

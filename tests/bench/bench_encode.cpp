@@ -6,6 +6,7 @@
 #include "format/container.h"
 #include "format/records.h"
 #include "tests/bench/stopwatch.h"
+#include "tools/inputs/clip_input.h"
 #include "tools/words/version.h"
 
 #include <algorithm>
@@ -52,6 +53,22 @@ ByteShares byte_shares(ByteView file) {
   shares.rest =
       file.size - shares.mesh - shares.pose - shares.weights - shares.basis - shares.corrections;
   return shares;
+}
+
+void open_encoded(ByteView file, Clip& clip, const OpenOptions& options) {
+  if (Failure failure = clip.open(file, options); !failure.ok())
+    tools::fail_clip("the encoded clip", failure);
+}
+
+ByteView up_to_the_first(const char (&type)[5], ByteView file) {
+  ContainerReader container;
+  if (!container.open(file).ok())
+    return file;
+  for (const Chunk& chunk : container.chunks()) {
+    if (chunk.type == chunk_type(type))
+      return {file.data, static_cast<size_t>(chunk.offset + chunk.size)};
+  }
+  return file;
 }
 
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,

@@ -4,6 +4,7 @@
 #define ANICODEC_TESTS_BENCH_BENCH_ENCODE_H_
 
 #include "codec/encode.h"
+#include "sdk/clip/clip.h"
 
 #include <cstdint>
 #include <string>
@@ -23,6 +24,12 @@ struct ByteShares {
 };
 
 ByteShares byte_shares(ByteView file);
+
+/// Opens what was encoded, or ends the program.
+void open_encoded(ByteView file, Clip& clip, const OpenOptions& options = {});
+
+/// What a host has of a file once the first chunk of a type is there.
+ByteView up_to_the_first(const char (&type)[5], ByteView file);
 
 /// An encoding with what it took.
 struct TimedEncode {

@@ -56,6 +56,10 @@ Table run_decode(const BenchOptions& options, double kg, int runs);
 /// Bytes, opening time and its steps with each choice of `encode --open`; one thread.
 Table run_open(const BenchOptions& options, double kg, int runs);
 
+/// Clips as live streams of so many frames a file: time to encode a file, and to open one as a stream does, which keeps the
+/// meshes, or with its meshes.
+Table run_live(const BenchOptions& options, double kg, uint32_t frames, int runs);
+
 /// Bytes and opening time per vertex of frame 0 as a reference pose, each way of coding it, against
 /// Draco on the same grid.
 Table run_static_pose(const BenchOptions& options, double kg, int runs);

@@ -9,7 +9,6 @@
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/stopwatch.h"
-#include "tools/inputs/clip_input.h"
 #include "tools/peers/draco_frames.h"
 #include "tools/words/names.h"
 
@@ -17,11 +16,6 @@
 
 namespace anicodec::bench {
 namespace {
-
-void open(const Bytes& file, Clip& clip) {
-  if (Failure failure = clip.open(file); !failure.ok())
-    tools::fail_clip("the encoded clip", failure);
-}
 
 /// All frames, four in a pass as a player does that decodes ahead.
 void play(const Clip& clip, std::vector<float>& positions) {
@@ -67,13 +61,13 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
                        options.verbose, OrderMode::kFree, choice);
       std::vector<float> positions;
       Clip opened;
-      open(timed.result.file, opened);
+      open_encoded(timed.result.file, opened);
       enum : size_t { kWhole, kDraco, kOpening, kPlaying };
       const Turns turns(
           runs,
           [&] {
             Clip clip;
-            open(timed.result.file, clip);
+            open_encoded(timed.result.file, clip);
             play(clip, positions);
           },
           [&] {
@@ -82,7 +76,7 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
           },
           [&] {
             Clip clip;
-            open(timed.result.file, clip);
+            open_encoded(timed.result.file, clip);
           },
           [&] { play(opened, positions); });
       table.add({{"clip", name},
@@ -116,6 +110,8 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
                {"peak_bytes", "peak memory", ""},
                {"peak_ratio", "ratio", "{:.2f}"},
                {"open_ms", "open ms", "{:.0f}"},
+               {"base_share", "base of open", "{:.2f}"},
+               {"layer_share", "first layer of open", "{:.2f}"},
                {"draco_ms", "one Draco mesh ms", "{:.1f}"},
                {"open_ratio", "ours : Draco", "{:.1f}"},
                {"frame_ms", "frame ms", "{:.2f}"}});
@@ -127,13 +123,28 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
   TimedEncode timed = encode_timed(std::move(sequence), {ErrorMetric::kKg, kKg, false},
                                    BasisChoice::kEigenshapes, options.effort, options.verbose);
   uint64_t peak = peak_memory();
-  double opening = median_thread_seconds(runs, [&] {
-    Clip clip;
-    open(timed.result.file, clip);
-  });
-  double mesh = median_thread_seconds(runs, [&] { decode_draco(draco); });
+  const Bytes& file = timed.result.file;
+  const ByteView base = up_to_the_first("SEGM", file), layer = up_to_the_first("BASI", file);
+  OpenOptions prefix;
+  prefix.prefix = true;
+  enum : size_t { kOpening, kBase, kLayer, kDraco };
+  const Turns turns(
+      runs,
+      [&] {
+        Clip clip;
+        open_encoded(file, clip);
+      },
+      [&] {
+        Clip clip;
+        open_encoded(base, clip, prefix);
+      },
+      [&] {
+        Clip clip;
+        open_encoded(layer, clip, prefix);
+      },
+      [&] { decode_draco(draco); });
   Clip clip;
-  open(timed.result.file, clip);
+  open_encoded(file, clip);
   std::vector<float> positions;
   double playing = median_thread_seconds(runs, [&] { play(clip, positions); });
   table.add({{"clip", "wave grid of " + std::to_string(vertices)},
@@ -141,7 +152,7 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
              {"frames", frames},
              {"shapes", shapes},
              {"components", timed.result.components},
-             {"bytes", timed.result.file.size()},
+             {"bytes", file.size()},
              {"kg", timed.result.kg},
              {"encode_seconds", timed.wall_seconds},
              {"encode_cpu_seconds", timed.cpu_seconds},
@@ -149,10 +160,12 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
              {"float32_bytes", raw},
              {"peak_bytes", peak},
              {"peak_ratio", static_cast<double>(peak) / static_cast<double>(raw)},
-             {"open_ms", 1e3 * opening},
+             {"open_ms", 1e3 * turns.seconds(kOpening)},
+             {"base_share", turns.ratio(kBase, kOpening)},
+             {"layer_share", turns.ratio(kLayer, kOpening)},
              {"draco_bits", kBits},
-             {"draco_ms", 1e3 * mesh},
-             {"open_ratio", opening / mesh},
+             {"draco_ms", 1e3 * turns.seconds(kDraco)},
+             {"open_ratio", turns.ratio(kOpening, kDraco)},
              {"frame_ms", 1e3 * playing / frames}});
   return table;
 }

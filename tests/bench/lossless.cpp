@@ -45,8 +45,7 @@ Table run_lossless(const BenchOptions& options) {
     const Bytes& file = timed.result.file;
     const double seconds = median_thread_seconds(1, [&] {
       Clip clip;
-      if (Failure failure = clip.open(file); !failure.ok())
-        tools::fail_clip("the encoded clip", failure);
+      open_encoded(file, clip);
     });
     table.add({{"clip", name},
                {"vertices", sequence.vertex_count},

@@ -36,6 +36,7 @@ struct Arguments {
   bool normals = false;
   int runs = 5;
   uint32_t vertices = 210000, frame_count = 100, shapes = 30;
+  uint32_t live_frames = 30;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
   std::vector<uint32_t> blend_vertices = {7000, 42000};
   std::vector<uint32_t> encode_vertices{1000, 10000}, encode_frames{50, 200};
@@ -219,6 +220,20 @@ void add_open(Bench& bench) {
   add_basis(options, a);
 }
 
+void add_live(Bench& bench) {
+  Arguments& a = bench.arguments;
+  tools::Options& options =
+      add(bench, "live", "Time to encode and to open the files of live streams", [](Arguments& args) {
+        args.bench.clips = clip_words(args.inputs, args.clips);
+        return std::vector{
+            run_live(args.bench, args.one_kg, args.live_frames, args.runs)};
+      });
+  options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
+  options.number("--frames", a.live_frames, "N", {1, 100000}, "Frames of a file (default 30)");
+  options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
+  add_basis(options, a);
+}
+
 void add_play(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options = add(
@@ -359,7 +374,7 @@ void add_massage(Bench& bench) {
 void declare(tools::Commands& commands, tools::CommonOptions& common, Arguments& arguments) {
   Bench bench{commands, common, arguments};
   for (auto add_bench :
-       {add_rate, add_gltf, add_near, add_lossless, add_ablate, add_encode, add_decode, add_open, add_play,
+       {add_rate, add_gltf, add_near, add_lossless, add_ablate, add_encode, add_decode, add_open, add_live, add_play,
         add_blend, add_auto, add_poses, add_between, add_keyframes, add_mesh, add_pose, add_msgi, add_massage})
     add_bench(bench);
 }

@@ -2,13 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
 #include "format/container.h"
-#include "sdk/clip/clip.h"
+#include "sdk/clip/kept_meshes.h"
 #include "sdk/clip/memory_estimate.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/bench_encode.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/stopwatch.h"
-#include "tools/inputs/clip_input.h"
 #include "tools/words/names.h"
 
 #include <algorithm>
@@ -22,14 +21,6 @@
 
 namespace anicodec::bench {
 namespace {
-
-void open(ByteView file, Clip& clip, DecodingTrace* trace = nullptr, bool prefix = false) {
-  OpenOptions options;
-  options.trace = trace;
-  options.prefix = prefix;
-  if (Failure failure = clip.open(file, options); !failure.ok())
-    tools::fail_clip("the encoded clip", failure);
-}
 
 /// When the steps of opening end.
 class Steps : public DecodingTrace {
@@ -54,18 +45,6 @@ class Steps : public DecodingTrace {
   double last_ = 0;
   bool predicted_ = false;
 };
-
-/// What a host has of a file once the first chunk of a type is there.
-ByteView up_to_the_first(const char (&type)[5], const Bytes& file) {
-  ContainerReader container;
-  if (!container.open(file).ok())
-    return file;
-  for (const Chunk& chunk : container.chunks()) {
-    if (chunk.type == chunk_type(type))
-      return {file.data(), static_cast<size_t>(chunk.offset + chunk.size)};
-  }
-  return file;
-}
 
 /// Memory that is mapped before anything is opened in it, as a host that keeps a block has it.
 class MappedMemory {
@@ -120,7 +99,7 @@ MemoryUse memory_use(ByteView file, int runs) {
   int64_t before = minor_faults();
   {
     Clip clip;
-    open(file, clip);
+    open_encoded(file, clip);
     use.faults = minor_faults() - before;
   }
   Limits limits;
@@ -133,7 +112,7 @@ MemoryUse memory_use(ByteView file, int runs) {
   use.mapped_seconds = median_thread_seconds(runs, [&] {
     before = minor_faults();
     Clip clip;
-    open(file, clip);
+    open_encoded(file, clip);
     use.faults_mapped = minor_faults() - before;
     use.per_coefficient = static_cast<double>(mapped.memory()->peak) / coefficients(clip);
   });
@@ -155,6 +134,8 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
                {"base_share", "of open", "{:.2f}"},
                {"layer_ms", "first layer ms", "{:.1f}"},
                {"layer_share", "of open", "{:.2f}"},
+               {"stream_ms", "both and all of a stream ms", "{:.1f}"},
+               {"stream_share", "of open", "{:.2f}"},
                {"faults", "faults", ""},
                {"faults_mapped", "in a block", ""},
                {"peak", "bytes/coefficient", "{:.1f}"},
@@ -166,6 +147,8 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
   constexpr std::pair<OpeningChoice, const char*> kChoices[] = {{OpeningChoice::kSmall, "small"},
                                                                 {OpeningChoice::kAuto, "auto"},
                                                                 {OpeningChoice::kFast, "fast"}};
+  OpenOptions prefix;
+  prefix.prefix = true;
   for (const std::string& name : options.clips) {
     double bytes = 0, seconds = 0;  // of the smallest file
     for (const auto& [choice, word] : kChoices) {
@@ -174,30 +157,41 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
                        options.effort, options.verbose, OrderMode::kFree, choice);
       const Bytes& file = timed.result.file;
       const ByteView base = up_to_the_first("SEGM", file), layer = up_to_the_first("BASI", file);
-      enum : size_t { kOpening, kBase, kLayer };
+      enum : size_t { kOpening, kBase, kLayer, kStream };
       const Turns turns(
           runs,
           [&] {
             Clip clip;
-            open(file, clip);
+            open_encoded(file, clip);
           },
           [&] {
             Clip clip;
-            open(base, clip, nullptr, true);
+            open_encoded(base, clip, prefix);
           },
           [&] {
             Clip clip;
-            open(layer, clip, nullptr, true);
+            open_encoded(layer, clip, prefix);
+          },
+          [&] {
+            KeptMeshes kept;
+            OpenOptions more = prefix;
+            more.kept = &kept;
+            for (const ByteView arrived : {base, layer, ByteView(file)}) {
+              Clip clip;
+              open_encoded(arrived, clip, more);
+            }
           });
       const double opening = turns.seconds(kOpening);
       const MemoryUse memory = memory_use(file, runs);
       std::vector<Steps> all(static_cast<size_t>(runs));
       Clip clip;
       for (Steps& steps : all) {
+        OpenOptions traced;
+        traced.trace = &steps;
         Clip again;
-        open(file, again, &steps);
+        open_encoded(file, again, traced);
       }
-      open(file, clip);
+      open_encoded(file, clip);
       const auto median = [&](double Steps::*of) {
         std::ranges::sort(all, {}, of);
         return all[all.size() / 2].*of;
@@ -221,6 +215,8 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
                  {"base_share", turns.ratio(kBase, kOpening)},
                  {"layer_ms", 1e3 * turns.seconds(kLayer)},
                  {"layer_share", turns.ratio(kLayer, kOpening)},
+                 {"stream_ms", 1e3 * turns.seconds(kStream)},
+                 {"stream_share", turns.ratio(kStream, kOpening)},
                  {"faults", memory.faults},
                  {"faults_mapped", memory.faults_mapped},
                  {"peak", memory.per_coefficient},

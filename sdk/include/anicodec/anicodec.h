@@ -1414,7 +1414,7 @@ typedef struct anic_stream_info {
  *
  * - Errors: those of anic_open_asset() that concern header, table, limits and checksums;
  *   ANIC_E_TRAILING_BYTES: what follows the file begins no other one
- * - Memory: file_bytes, once the head is there, and waiting_bytes
+ * - Memory: file_bytes, once the head is there, and waiting_bytes; more once an asset was opened
  * - Cost: O(size), checksums included
  */
 ANIC_API anic_status anic_push_bytes(anic_stream* stream, const void* bytes, size_t size);
@@ -1445,9 +1445,14 @@ ANIC_API anic_status anic_get_stream_failure(const anic_stream* stream, anic_fai
  * stream is the same, bit for bit, as that of the whole file. Assets that were made before stay as
  * they are: replace them when their contexts can be replaced.
  *
+ * A stream that is not complete, or live, keeps the faces, attributes, poses and orders of vertices of the meshes that
+ * it opened, where max_bytes allows it, so that the next asset of them opens sooner.
+ *
  * - Errors: ANIC_E_STATE: nothing is playable yet; others as anic_open_asset()
- * - Cost: that of opening what is there, from the beginning: do it when it is worth it, not at
- *   every push
+ * - Memory: that of the asset; until the stream goes, what the asset keeps of its meshes, 12 bytes more for each
+ *   triangle, and 112 for each vertex
+ * - Cost: that of opening what is there, all layers from the first one on, the meshes once: do it when it is worth it,
+ *   not at every push
  */
 ANIC_API anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
                                                  anic_failure* failure);

@@ -166,15 +166,10 @@ EXPORT(stream_advance) int web_stream_advance(void) {
 
 /* Opens what has arrived, in place of what was open. */
 EXPORT(stream_open) int web_stream_open(void) {
-  anic_asset* finer = NULL;
-  anic_status status;
   failure = ANIC_INIT(anic_failure);
-  status = anic_open_asset_from_stream(stream, &finer, &failure);
-  if (status == ANIC_OK) {
-    anic_close_asset(asset);
-    asset = finer;
-  }
-  return status;
+  anic_close_asset(asset); /* first, for its memory */
+  asset = NULL;
+  return anic_open_asset_from_stream(stream, &asset, &failure);
 }
 
 EXPORT(stream_end) void web_stream_end(void) {

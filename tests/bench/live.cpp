@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/encode_live.h"
+#include "codec/file/live_stream.h"
+#include "sdk/clip/kept_meshes.h"
+#include "tests/bench/bench_clips.h"
+#include "tests/bench/bench_encode.h"
+#include "tests/bench/benches.h"
+#include "tests/bench/stopwatch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace anicodec::bench {
+namespace {
+
+/// The files of a live stream, each of so many frames.
+std::vector<Bytes> live_files(MeshSequence sequence, size_t frames, const EncodeOptions& options) {
+  const FrameArray positions = std::move(sequence.positions);
+  sequence.positions = {};
+  const size_t frame = size_t{3} * sequence.vertex_count;
+  LiveEncoder encoder(std::move(sequence), options);
+  std::vector<Bytes> files;
+  for (size_t at = 0; at < positions.size(); at += frames * frame) {
+    const auto begin = positions.begin() + static_cast<ptrdiff_t>(at);
+    const size_t size = std::min(frames * frame, positions.size() - at);
+    files.push_back(encoder.encode({begin, begin + static_cast<ptrdiff_t>(size)}).file);
+  }
+  return files;
+}
+
+}  // namespace
+
+Table run_live(const BenchOptions& options, double kg, uint32_t frames, int runs) {
+  Table table({{"clip", "clip", ""},
+               {"vertices", "vertices", ""},
+               {"frames", "frames a file", ""},
+               {"files", "files", ""},
+               {"bytes", "bytes", ""},
+               {"encode_seconds", "encode s a file", "{:.2f}"},
+               {"first_ms", "open first ms", "{:.1f}"},
+               {"next_ms", "open next ms", "{:.1f}"},
+               {"whole_ms", "with its meshes ms", "{:.1f}"},
+               {"ratio", "next : with meshes", "{:.2f}"}});
+  for (const std::string& name : options.clips) {
+    EncodeOptions encoding;
+    encoding.target = {ErrorMetric::kKg, kg, false};
+    encoding.basis = options.basis;
+    encoding.effort = options.effort;
+    MeshSequence sequence = load_clip(name);
+    const uint32_t vertices = sequence.vertex_count;
+    const Stopwatch watch(CLOCK_MONOTONIC);
+    const std::vector<Bytes> files = live_files(std::move(sequence), frames, encoding);
+    const double encode_seconds = watch.seconds() / static_cast<double>(files.size());
+    Bytes stream;
+    for (const Bytes& file : files)
+      stream.insert(stream.end(), file.begin(), file.end());
+    const std::vector<Bytes> whole = read_live_stream({name, stream}).files;
+    enum : size_t { kFirst, kNext, kWhole };
+    const auto rest = static_cast<double>(std::max<size_t>(files.size(), 2) - 1);
+    KeptMeshes kept;
+    OpenOptions keeping;
+    keeping.kept = &kept;
+    const Turns turns(
+        runs,
+        [&] {
+          kept.clear();
+          Clip clip;
+          open_encoded(whole[0], clip, keeping);
+        },
+        [&] {
+          for (size_t i = 1; i < whole.size(); ++i) {
+            Clip clip;
+            open_encoded(whole[i], clip, keeping);
+          }
+        },
+        [&] {
+          for (size_t i = 1; i < whole.size(); ++i) {
+            Clip clip;
+            open_encoded(whole[i], clip);
+          }
+        });
+    table.add({{"clip", name},
+               {"vertices", vertices},
+               {"frames", frames},
+               {"files", files.size()},
+               {"bytes", stream.size()},
+               {"encode_seconds", encode_seconds},
+               {"first_ms", 1e3 * turns.seconds(kFirst)},
+               {"next_ms", 1e3 * turns.seconds(kNext) / rest},
+               {"whole_ms", 1e3 * turns.seconds(kWhole) / rest},
+               {"ratio", files.size() > 1 ? turns.ratio(kNext, kWhole) : 0}});
+  }
+  return table;
+}
+
+}  // namespace anicodec::bench
