@@ -44,9 +44,9 @@ uint64_t held(const Limits::Mesh& m) {
   return uint64_t{12} * m.triangles + uint64_t{12} * m.coded_vertices;
 }
 
-/// An order of the vertices.
+/// An order of the vertices, and their regions.
 uint64_t order(const Limits::Mesh& m) {
-  return (4 * kNeighbours + 4) * m.coded_vertices;
+  return (4 * kNeighbours + 5) * m.coded_vertices;
 }
 
 /// Bytes that several segments share until they are open: the corners that poses are predicted over, the

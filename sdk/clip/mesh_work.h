@@ -7,17 +7,17 @@
 #include "format/status.h"
 #include "sdk/mesh/topology.h"
 #include "sdk/pose/reference_pose.h"
-#include "sdk/prediction/vertex_order.h"
+#include "sdk/segment/segment.h"
 
 #include <cstdint>
 #include <optional>
 
 namespace anicodec {
 
-/// The pose of a mesh that segments share, and the last order of its vertices by it (SegmentContext::order).
+/// The pose of a mesh, and the last order of its vertices by it.
 struct MeshPose {
   PoseGrid grid;
-  VertexOrder order;
+  SharedOrder order;
 };
 
 /// Data of a mesh that its segments use while they open. All that follows from the connectivity alone

@@ -477,7 +477,6 @@ void Contraction::run() {
 void Contraction::write(VertexOrder* out) {
   const size_t n = nodes_.size();
   out->neighbour_count = m_;
-  out->colours = colours_;
   out->order.clear();
   out->order.reserve(n);
   out->level_start.assign(1, 0);

@@ -32,7 +32,6 @@ constexpr int32_t kMaxReferenceCoordinate = 1 << 21;
 /// so a level can be decoded in any order, in batches or in parallel.
 struct VertexOrder {
   int neighbour_count = 0;       ///< m
-  int colours = 0;               ///< that a level was split into
   Vector<uint32_t> order;        ///< n: vertex of each rank
   Vector<uint32_t> level_start;  ///< levels + 1: first rank of each level, then n
   Vector<int32_t> neighbours;    ///< n x m: ranks, nearest first; -1 from where there are no more
@@ -40,11 +39,6 @@ struct VertexOrder {
   size_t vertex_count() const { return order.size(); }
 
   size_t level_count() const { return level_start.empty() ? 0 : level_start.size() - 1; }
-
-  /// Whether it was made for so many neighbours and colours.
-  bool is_of(int neighbours_wanted, int colours_wanted) const {
-    return neighbour_count == neighbours_wanted && colours == colours_wanted;
-  }
 };
 
 /// Builds the order from the mesh and its reference positions by repeated contraction of

@@ -186,30 +186,42 @@ void show_residuals(const ResidualRoom& room, size_t of_component, uint32_t comp
   trace->step("residuals", all.data(), all.size());
 }
 
-/// Whether the order is there that a segment shares with others.
-bool has_shared_order(const SegmentContext& context, const LinearParameters& parameters) {
-  return context.order && context.sizes->regions == 1 &&
-         context.order->is_of(parameters.neighbours, parameters.colours);
+/// Makes the order of the vertices, unless another segment has made it. `graph`: the edges, where they are known.
+Status order_vertices(const SegmentContext& context, const LinearParameters& parameters,
+                      MeshGraph graph, const Vector<uint8_t>& regions, SharedOrder* out) {
+  if (out->is_of(parameters.neighbours, parameters.colours, regions))
+    return Status::kOk;
+  *out = SharedOrder();  // before another one takes memory
+  if (graph.vertex_count() == 0) {
+    const MeshGraph* edges = &graph;
+    if (Status s = graph_of(context, &graph, &edges); s != Status::kOk)
+      return s;
+    if (edges != &graph)
+      graph = *edges;
+  }
+  if (Status s = make_vertex_order(std::move(graph), context.pose->points.data(),
+                                   parameters.neighbours, parameters.colours, &out->order,
+                                   regions.empty() ? nullptr : regions.data(), context.threads);
+      s != Status::kOk)
+    return s;
+  out->colours = parameters.colours;
+  out->regions = regions;
+  return Status::kOk;
 }
 
 /// Decodes the order and the coefficients of the components of `out`, whose arrays have their sizes.
-/// `graph`: for an order that is not there.
+/// `graph`: see order_vertices().
 Status decode_coefficients(const SegmentContext& context, const LinearParameters& parameters,
                            const Vector<BasisLayer>& layers, MeshGraph graph,
                            const Vector<uint8_t>& regions, const DecodedIntegers& integers,
                            Segment* out, DecodedBasis* decoded) {
   const int32_t* pose = context.pose->points.data();
-  const bool shares = context.order && regions.empty();
-  VertexOrder own;
-  VertexOrder& order = shares ? *context.order : own;
-  if (!has_shared_order(context, parameters)) {
-    order = VertexOrder();
-    if (Status s = make_vertex_order(std::move(graph), pose, parameters.neighbours,
-                                     parameters.colours, &order,
-                                     regions.empty() ? nullptr : regions.data(), context.threads);
-        s != Status::kOk)
-      return s;
-  }
+  SharedOrder own;
+  SharedOrder& shared = context.order ? *context.order : own;
+  if (Status s = order_vertices(context, parameters, std::move(graph), regions, &shared);
+      s != Status::kOk)
+    return s;
+  VertexOrder& order = shared.order;
   show(context.trace, "vertex of each rank", order.order);
   show(context.trace, "first rank of each level", order.level_start);
   integers.show("neighbours", order.neighbours.data(), order.neighbours.size());
@@ -247,7 +259,7 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
     if (!context.advance(samples * (last - first)))
       return Status::kCancelled;
   }
-  decoded->order = shares ? order.order : std::move(order.order);
+  decoded->order = context.order ? order.order : std::move(order.order);
   return Status::kOk;
 }
 
@@ -478,8 +490,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     wanted = std::min(wanted, components_in(context.layers, components));
   MeshGraph own;
   const MeshGraph* graph = &own;
-  const bool orders = wanted > 0 && !context.decoded && !has_shared_order(context, parameters);
-  if (orders || context.sizes->regions > 1) {
+  if (context.sizes->regions > 1) {
     if (Status s = graph_of(context, &own, &graph); s != Status::kOk)
       return s;
   }
@@ -529,8 +540,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   if (wanted == 0)
     return Status::kOk;
   if (!context.decoded) {
-    MeshGraph edges = orders && context.graph ? *context.graph : std::move(own);
-    if (Status s = decode_coefficients(context, parameters, layers, std::move(edges), regions,
+    if (Status s = decode_coefficients(context, parameters, layers, std::move(own), regions,
                                        integers, out, &own_decoded);
         s != Status::kOk)
       return s;

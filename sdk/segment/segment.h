@@ -120,6 +120,17 @@ struct DecodedBasis {
   Vector<float> coefficients;      ///< in steps, by rank: rows of coefficient_stride()
 };
 
+/// The last order of vertices that a segment made by a pose, for others that are alike.
+struct SharedOrder {
+  VertexOrder order;
+  int colours = 0;          ///< that a level was split into
+  Vector<uint8_t> regions;  ///< of the vertices; empty: one
+
+  bool is_of(int neighbours, int wanted_colours, const Vector<uint8_t>& wanted_regions) const {
+    return order.neighbour_count == neighbours && colours == wanted_colours && regions == wanted_regions;
+  }
+};
+
 /// The surroundings that opening a segment needs besides its own record.
 struct SegmentContext {
   const Limits::Segment* sizes = nullptr;
@@ -130,8 +141,7 @@ struct SegmentContext {
   const PoseGrid* pose = nullptr;    ///< null when the file has none for the segment
   const MeshGraph* graph = nullptr;  ///< edges of the topology's triangles; null: made when needed
   const CornerTable* corners = nullptr;  ///< of the topology; null: made when needed
-  /// The order of the vertices that segments of the pose without regions share, the last one that was made; null: none.
-  VertexOrder* order = nullptr;
+  SharedOrder* order = nullptr;  ///< of the segments with this pose; null: the segment has its own
   /// What an encoder knows that weights and layers decode to; null: they are decoded.
   const DecodedBasis* decoded = nullptr;
   Vector<ByteView> layers;               ///< chunks BASI in file order

@@ -1450,7 +1450,7 @@ ANIC_API anic_status anic_get_stream_failure(const anic_stream* stream, anic_fai
  *
  * - Errors: ANIC_E_STATE: nothing is playable yet; others as anic_open_asset()
  * - Memory: that of the asset; until the stream goes, what the asset keeps of its meshes, 12 bytes more for each
- *   triangle, and 112 for each vertex
+ *   triangle, and 113 for each vertex
  * - Cost: that of opening what is there, all layers from the first one on, the meshes once: do it when it is worth it,
  *   not at every push
  */
