@@ -15,6 +15,8 @@ namespace anicodec {
 /// was current when the object was made.
 class KeptMeshes {
  public:
+  KeptMeshes() : KeptMeshes(MemoryScope::current()) {}
+
   /// Copies the meshes and their poses, if they are kept for these sizes and this order.
   bool take(const Vector<Limits::Mesh>& sizes, OrderMode order, Vector<Mesh>* meshes,
             Vector<MeshPose>* poses) const;
@@ -26,8 +28,6 @@ class KeptMeshes {
   bool empty() const { return sizes_.empty(); }
 
   void clear() { *this = KeptMeshes(memory_); }
-
-  KeptMeshes() : KeptMeshes(MemoryScope::current()) {}
 
  private:
   explicit KeptMeshes(Memory* memory) : memory_(memory) {}
