@@ -4,6 +4,7 @@
 // The C interface: statuses, memory, and opening.
 #include "sdk/api/bounds.h"
 #include "sdk/api/objects.h"
+#include "sdk/clip/file_checks.h"
 #include "sdk/clip/memory_estimate.h"
 #include "sdk/clip/sample_size.h"
 

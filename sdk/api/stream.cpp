@@ -3,6 +3,7 @@
 //
 // The C interface: files that are read through a callback, or arrive piece by piece, one after the other.
 #include "sdk/api/objects.h"
+#include "sdk/clip/file_checks.h"
 #include "sdk/clip/kept_meshes.h"
 
 #include <algorithm>
@@ -89,15 +90,13 @@ Failure read_head(anic_stream* stream) {
     info.file_bytes = file.file_size();
     if (file.is_continuation() && stream->begin == 0)
       return {Status::kFeature, 16, 0, "the file continues another one, which has its meshes"};
-    stream->adds_to_meshes = false;
-    if (file.is_continuation()) {
-      stream->adds_to_meshes =
-          std::any_of(file.chunks().begin(), file.chunks().end(),
-                      [](const Chunk& chunk) { return is_of_mesh(chunk); });
+    stream->adds_to_meshes = file.is_continuation() &&
+                             std::any_of(file.chunks().begin(), file.chunks().end(),
+                                         [](const Chunk& chunk) { return is_of_mesh(chunk); });
+    if (file.is_continuation())
       file.add_meshes(stream->meshes, stream->bytes);
-    } else {
+    else
       stream->kept.clear();
-    }
   }
   const Chunk* chunk = file.find("LIMI");
   if (chunk && !file.has(*chunk))

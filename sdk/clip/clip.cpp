@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/clip.h"
 
+#include "sdk/clip/file_checks.h"
 #include "sdk/clip/kept_meshes.h"
 #include "sdk/clip/memory_estimate.h"
 #include "sdk/exact/exact_positions.h"
@@ -14,81 +15,6 @@
 
 namespace anicodec {
 namespace {
-
-Failure at(const Chunk& chunk, Status status, const char* detail) {
-  return {status, chunk.offset, chunk.type, detail};
-}
-
-/// Which meshes and segments the chunks of a type may belong to.
-enum class Owner : uint8_t { kClip, kMesh, kSegment, kEither };
-
-struct KnownChunk {
-  uint32_t type;
-  Owner owner;
-  bool required = true;  ///< must be marked so
-};
-
-constexpr KnownChunk kKnownChunks[] = {
-    {chunk_type("LIMI"), Owner::kClip},    {chunk_type("CLIP"), Owner::kClip},
-    {chunk_type("MESH"), Owner::kMesh},    {chunk_type("VMAP"), Owner::kMesh},
-    {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
-    {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
-    {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false},
-    {chunk_type("ROOT"), Owner::kClip},    {chunk_type("DIFF"), Owner::kSegment}};
-
-const KnownChunk* known(const Chunk& chunk) {
-  const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
-                                         [&](const KnownChunk& k) { return k.type == chunk.type; });
-  return found == std::end(kKnownChunks) ? nullptr : found;
-}
-
-/// Unknown chunks are skipped, unless required; only layers of a basis may occur twice.
-Failure check_chunks(const ContainerReader& file) {
-  for (const Chunk& chunk : file.chunks()) {
-    if (chunk.required && !known(chunk))
-      return at(chunk, Status::kChunkUnknown, "the file needs a chunk this reader does not know");
-  }
-  for (size_t i = 1; i < file.by_key().size(); ++i) {
-    const Chunk &a = file.chunks()[file.by_key()[i - 1]], &b = file.chunks()[file.by_key()[i]];
-    if (chunk_key(a) == chunk_key(b) && b.type != chunk_type("BASI") && known(b))
-      return at(b, Status::kChunkDuplicate, "a chunk occurs twice");
-  }
-  return {};
-}
-
-/// Known chunks are where the limits and the order of the vertices want them, and nowhere else.
-Failure check_places(const ContainerReader& file, const Limits& limits, OrderMode order) {
-  auto fits = [&](const Chunk& chunk, Owner owner) {
-    const bool of_segment = chunk.segment != kNoSegment;
-    if (owner == Owner::kClip)
-      return chunk.mesh == kNoMesh && !of_segment &&
-             (chunk.type != chunk_type("ROOT") || limits.root_frames > 0);
-    if (chunk.mesh >= limits.meshes.size() || (owner == Owner::kMesh && of_segment) ||
-        (owner == Owner::kSegment && !of_segment))
-      return false;
-    if (chunk.type == chunk_type("ATTR"))
-      return limits.meshes[chunk.mesh].attribute_bytes > 0;
-    if (!of_segment)
-      return (chunk.type != chunk_type("VMAP") || order != OrderMode::kFree) &&
-             (chunk.type != chunk_type("FMAP") || order == OrderMode::kAll);
-    if (chunk.segment >= limits.segments.size())
-      return false;
-    const Limits::Segment& segment = limits.segments[chunk.segment];
-    if (segment.mesh != chunk.mesh)
-      return false;
-    if (chunk.type == chunk_type("CORR"))
-      return segment.corrections > 0;
-    if (chunk.type == chunk_type("DIFF"))
-      return segment.exact;
-    return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
-  };
-  for (const Chunk& chunk : file.chunks()) {
-    const KnownChunk* k = known(chunk);
-    if (k && !(chunk.required == k->required && fits(chunk, k->owner)))
-      return at(chunk, Status::kIndexRange, "a chunk belongs to nothing in the file");
-  }
-  return {};
-}
 
 double mesh_work(const Limits::Mesh& mesh) {
   return static_cast<double>(uint64_t{mesh.source_vertices} + mesh.corners);
@@ -131,15 +57,6 @@ Failure stopped() {
   return {Status::kCancelled, 0, 0, "the host stopped the opening"};
 }
 
-/// The payload of a chunk that must be there.
-Failure required(const ContainerReader& file, const char (&type)[5], uint16_t mesh,
-                 uint32_t segment, const Chunk** chunk, ByteView* out) {
-  *chunk = file.find(type, mesh, segment);
-  if (!*chunk)
-    return {Status::kChunkMissing, 0, chunk_type(type), "a required chunk is missing"};
-  return file.payload(**chunk, out);
-}
-
 Failure read_pose(const ContainerReader& file, const Chunk& chunk, const Topology& topology,
                   MeshWork& work, PoseGrid* out) {
   ByteView payload;
@@ -150,14 +67,14 @@ Failure read_pose(const ContainerReader& file, const Chunk& chunk, const Topolog
   if (s == Status::kOk)
     s = open_pose(record, work.corner_table(topology), out);
   work.end_pose();
-  return s == Status::kOk ? Failure{} : at(chunk, s, "the reference pose is damaged");
+  return s == Status::kOk ? Failure{} : failure_in(chunk, s, "the reference pose is damaged");
 }
 
 /// Whether memory allows to keep meshes beside the opening.
 bool has_room_for_kept(const Limits& limits, const OpenOptions& options) {
   const MemoryEstimate estimate = estimate_memory(limits, options.quality, options.opens_exact());
   const uint64_t allowed = options.limits.resident_bytes;
-  return estimate.opening <= allowed && estimate.meshes <= allowed - estimate.opening;
+  return estimate.opening <= allowed && estimate.kept <= allowed - estimate.opening;
 }
 
 /// Whether what a segment cannot do without is there: its record and its pose.
@@ -170,55 +87,6 @@ bool has_arrived(const ContainerReader& file, const Limits::Segment& sizes, uint
 }
 
 }  // namespace
-
-Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out) {
-  if (Failure failure = check_chunks(file); !failure.ok())
-    return failure;
-
-  const Chunk* chunk;
-  ByteView payload;
-  if (Failure f = required(file, "LIMI", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
-    return f;
-  if (Status s = Limits::read(payload, out); s != Status::kOk)
-    return at(*chunk, s, "the limits are malformed");
-  // Even a mesh that is all alike takes some thousandth of a bit per vertex.
-  const uint64_t plausible = std::min(file.file_size(), UINT64_MAX >> 22) << 16;
-  for (const auto& mesh : out->meshes) {
-    if (mesh.source_vertices > options.limits.vertices)
-      return at(*chunk, Status::kLimit, "more vertices than allowed");
-    if (mesh.source_vertices > plausible || mesh.corners > plausible ||
-        mesh.triangles > plausible || mesh.polygons > plausible)
-      return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
-  }
-  if (out->frames > options.limits.frames)
-    return at(*chunk, Status::kLimit, "more frames than allowed");
-  // Decisions over the frames that have corrections, against what else there is to decode.
-  uint64_t decisions = 0, allowed = uint64_t{1} << 20;
-  for (const auto& s : out->segments) {
-    if (s.components > options.limits.components)
-      return at(*chunk, Status::kLimit, "more components than allowed");
-    uint64_t channels = s.kind == BasisKind::kEigentrajectories ? 1 : 3;
-    uint64_t coefficients = channels * s.components * out->meshes[s.mesh].coded_vertices;
-    uint64_t weights =
-        uint64_t{4} * s.regions * s.frames * s.components * (channels == 1 ? 3 : 1);
-    if (coefficients > plausible * 64 || weights > plausible * 64)
-      return at(*chunk, Status::kLimit, "counts that no file of this size can hold");
-    if (s.draco_bytes > file.file_size() || s.draco_points / 3 > out->meshes[s.mesh].triangles)
-      return at(*chunk, Status::kLimit, "more of Draco than the mesh or the file can hold");
-    if (s.reconstruction == Reconstruction::kMsgi && s.msgi_bytes < out->meshes[s.mesh].triangles)
-      return at(*chunk, Status::kLimit, "more triangles than what is kept of them can be of");
-    if (s.exact && uint64_t{s.frames} * out->meshes[s.mesh].coded_vertices > plausible)
-      return at(*chunk, Status::kLimit, "more exact positions than a file of this size can hold");
-    decisions += uint64_t{std::min(s.frames, s.corrections)} *
-                 block_count(out->meshes[s.mesh].coded_vertices);
-    allowed += coefficients + weights / 4;
-  }
-  if (decisions / 16 > allowed + std::min(file.file_size(), UINT64_MAX >> 8) * 16)
-    return at(*chunk, Status::kLimit, "more frames with corrections than so few numbers can need");
-  if (estimate_memory(*out, options.quality, options.opens_exact()).opening > options.limits.resident_bytes)
-    return at(*chunk, Status::kLimit, "more memory than allowed");
-  return {};
-}
 
 Failure Clip::open(ByteView bytes, const OpenOptions& options) {
   ContainerReader file;
@@ -240,10 +108,10 @@ Failure Clip::open(const ContainerReader& file, const OpenOptions& wanted) {
   }
   const Chunk* chunk;
   ByteView payload;
-  if (Failure f = required(file, "CLIP", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
+  if (Failure f = required_payload(file, "CLIP", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
   if (Status s = ClipsRecord::read(payload, limits_, &record_); s != Status::kOk)
-    return at(*chunk, s, "the record of the clips is malformed");
+    return failure_in(*chunk, s, "the record of the clips is malformed");
   if (Failure f = wanted_clips(record_, options.clips, &wanted_); !f.ok())
     return f;
   if (Failure f = check_places(file, limits_, record_.order); !f.ok())
@@ -300,10 +168,10 @@ Failure Clip::open_root(const ContainerReader& file) {
     return {};
   const Chunk* chunk;
   ByteView payload;
-  if (Failure f = required(file, "ROOT", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
+  if (Failure f = required_payload(file, "ROOT", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
   const Status s = root_.open(payload, limits_, record_.up, wanted_);
-  return s == Status::kOk ? Failure{} : at(*chunk, s, "the motion of the whole is damaged");
+  return s == Status::kOk ? Failure{} : failure_in(*chunk, s, "the motion of the whole is damaged");
 }
 
 /// Corrections come last: the motion of the whole turns them along.
@@ -401,15 +269,15 @@ Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOp
   const Limits::Mesh& sizes = limits_.meshes[mesh];
   const Chunk* chunk;
   ByteView payload;
-  if (Failure f = required(file, "MESH", mesh, kNoSegment, &chunk, &payload); !f.ok())
+  if (Failure f = required_payload(file, "MESH", mesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
   MeshRecord record;
   if (Status s = MeshRecord::read(payload, &record); s != Status::kOk)
-    return at(*chunk, s, "the mesh record is malformed");
+    return failure_in(*chunk, s, "the mesh record is malformed");
   Mesh& out = meshes_[mesh];
   out.name = record.name;
   if (Status s = decode_faces(record.faces, sizes, &out.topology); s != Status::kOk)
-    return at(*chunk, s, "the faces are damaged");
+    return failure_in(*chunk, s, "the faces are damaged");
   show(options.trace, "polygon offsets", out.topology.polygon_offsets);
   show(options.trace, "polygon corners", out.topology.polygon_corners);
   show(options.trace, "coded vertex of each vertex", out.topology.vertex_coded);
@@ -417,18 +285,18 @@ Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOp
     return f;
   if (record_.order == OrderMode::kFree)
     return {};
-  if (Failure f = required(file, "VMAP", mesh, kNoSegment, &chunk, &payload); !f.ok())
+  if (Failure f = required_payload(file, "VMAP", mesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
   Vector<uint32_t> map;
   if (Status s = decode_vertex_map(payload, out.topology, &map); s != Status::kOk)
-    return at(*chunk, s, "the vertex map is damaged");
+    return failure_in(*chunk, s, "the vertex map is damaged");
   show(options.trace, "vertex map", map);
   if (record_.order == OrderMode::kAll) {
-    if (Failure f = required(file, "FMAP", mesh, kNoSegment, &chunk, &payload); !f.ok())
+    if (Failure f = required_payload(file, "FMAP", mesh, kNoSegment, &chunk, &payload); !f.ok())
       return f;
     Vector<uint32_t> place, first;
     if (Status s = decode_face_map(payload, out.topology, &place, &first); s != Status::kOk)
-      return at(*chunk, s, "the face map is damaged");
+      return failure_in(*chunk, s, "the face map is damaged");
     show(options.trace, "face map", place);
     apply_face_map(place, first, out.topology, &out.attributes);
     apply_face_map(place, first, &out.topology);
@@ -448,14 +316,14 @@ Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
     return {};
   }
   ByteView payload;
-  if (Failure f = required(file, "ATTR", mesh, kNoSegment, &chunk, &payload); !f.ok())
+  if (Failure f = required_payload(file, "ATTR", mesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
   AttributeRecord record;
   Status s = AttributeRecord::read(payload, limits_.meshes[mesh].attribute_bytes, &record);
   if (s == Status::kOk)
     s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology,
                           &meshes_[mesh].attributes);
-  return s == Status::kOk ? Failure{} : at(*chunk, s, "the attributes are damaged");
+  return s == Status::kOk ? Failure{} : failure_in(*chunk, s, "the attributes are damaged");
 }
 
 /// Whether the attributes of all meshes are there.
@@ -526,21 +394,21 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   const Limits::Segment& sizes = limits_.segments[number];
   const Chunk* chunk;
   ByteView payload;
-  if (Failure f = required(file, "SEGM", sizes.mesh, number, &chunk, &payload); !f.ok())
+  if (Failure f = required_payload(file, "SEGM", sizes.mesh, number, &chunk, &payload); !f.ok())
     return f;
   SegmentRecord record;
   Status s = SegmentRecord::read(payload, &record);
   if (s == Status::kOk && record.kind != sizes.kind)
     s = Status::kSegment;
   if (s != Status::kOk)
-    return at(*chunk, s, "the segment record is malformed");
+    return failure_in(*chunk, s, "the segment record is malformed");
   if (sizes.attribute != kPositions) {
     const Vector<MeshAttribute>& attributes = meshes_[sizes.mesh].attributes;
     const bool unknown = attributes.empty() && options.prefix;  // not there yet
     if (!unknown && !(sizes.attribute < attributes.size() &&
                       attributes[sizes.attribute].header.domain == AttributeDomain::kVertex &&
                       sizes.first_component < attributes[sizes.attribute].header.components()))
-      return at(*chunk, Status::kIndexRange, "the segment is of no attribute of the vertices");
+      return failure_in(*chunk, Status::kIndexRange, "the segment is of no attribute of the vertices");
   }
   SegmentContext context;
   context.sizes = &sizes;
@@ -600,8 +468,8 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   if (s == Status::kCancelled)
     return stopped();
   if (s == Status::kCoder && sizes.draco_bytes > 0)
-    return at(*chunk, s, "Draco coded the key-frames, and this build is without Draco");
-  return s == Status::kOk ? Failure{} : at(*chunk, s, "the segment cannot be opened");
+    return failure_in(*chunk, s, "Draco coded the key-frames, and this build is without Draco");
+  return s == Status::kOk ? Failure{} : failure_in(*chunk, s, "the segment cannot be opened");
 }
 
 Failure Clip::open_exact(const ContainerReader& file, uint32_t number,
@@ -613,14 +481,14 @@ Failure Clip::open_exact(const ContainerReader& file, uint32_t number,
     return {};
   }
   ByteView payload;
-  if (Failure f = required(file, "DIFF", mesh, number, &chunk, &payload); !f.ok())
+  if (Failure f = required_payload(file, "DIFF", mesh, number, &chunk, &payload); !f.ok())
     return f;
   const Status s = open_exact_positions(payload, context, &segments_[number]);
   if (s == Status::kCancelled)
     return stopped();
   if (s == Status::kFeature)
-    return at(*chunk, s, "the positions are exact, and this build is without");
-  return s == Status::kOk ? Failure{} : at(*chunk, s, "the exact positions are damaged");
+    return failure_in(*chunk, s, "the positions are exact, and this build is without");
+  return s == Status::kOk ? Failure{} : failure_in(*chunk, s, "the exact positions are damaged");
 }
 
 std::pair<uint32_t, uint32_t> Clip::attribute_tracks(uint32_t mesh, uint32_t attribute) const {

@@ -71,11 +71,6 @@ struct OpenOptions {
   double progress_end = 1;  ///< share of the host's call that is done once the clip is open
 };
 
-/// Checks the chunks of a file, reads its limits and checks them against the host's and against
-/// what a file of its size can hold. The first step of opening it. Cost: O(chunks + meshes +
-/// segments).
-Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out);
-
 /// Moves what a state shows, its corrections excepted, which follow.
 void move_whole(const Affine& root, FrameState* state);
 

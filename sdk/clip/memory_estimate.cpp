@@ -189,7 +189,7 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality, bool exact)
   open.add(until_open.total());
   open.add(largest);
   estimate.opening = open.total();
-  estimate.meshes = kept.total();
+  estimate.kept = kept.total();
   return estimate;
 }
 

@@ -15,7 +15,7 @@ struct MemoryEstimate {
   uint64_t resident = 0;  ///< bytes while a clip is open
   uint64_t opening = 0;   ///< bytes at most while it opens, the resident ones included
   uint64_t draco = 0;     ///< of those, at most, what Draco takes by itself
-  uint64_t meshes = 0;    ///< bytes more, at most, of an opening with KeptMeshes, these included
+  uint64_t kept = 0;      ///< bytes more, at most, of an opening with KeptMeshes, these included
 };
 
 /// `quality` as in OpenOptions; `exact`: whether exact positions are opened. O(meshes + segments).

@@ -28,6 +28,21 @@ ByteShares byte_shares(ByteView file);
 /// Opens what was encoded, or ends the program.
 void open_encoded(ByteView file, Clip& clip, const OpenOptions& options = {});
 
+/// The work of opening it, to be timed.
+inline auto opening_of(ByteView file, const OpenOptions& options = {}) {
+  return [=] {
+    Clip clip;
+    open_encoded(file, clip, options);
+  };
+}
+
+/// The same of the first bytes of a file.
+inline auto opening_of_prefix(ByteView bytes) {
+  OpenOptions options;
+  options.prefix = true;
+  return opening_of(bytes, options);
+}
+
 /// What a host has of a file once the first chunk of a type is there.
 ByteView up_to_the_first(const char (&type)[5], ByteView file);
 

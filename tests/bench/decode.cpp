@@ -74,11 +74,7 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
             for (const auto& frame : draco.frames)
               decode_draco(frame);
           },
-          [&] {
-            Clip clip;
-            open_encoded(timed.result.file, clip);
-          },
-          [&] { play(opened, positions); });
+          opening_of(timed.result.file), [&] { play(opened, positions); });
       table.add({{"clip", name},
                  {"vertices", sequence.vertex_count},
                  {"frames", sequence.frame_count},
@@ -125,24 +121,9 @@ Table run_large(const BenchOptions& options, uint32_t vertices, uint32_t frames,
   uint64_t peak = peak_memory();
   const Bytes& file = timed.result.file;
   const ByteView base = up_to_the_first("SEGM", file), layer = up_to_the_first("BASI", file);
-  OpenOptions prefix;
-  prefix.prefix = true;
   enum : size_t { kOpening, kBase, kLayer, kDraco };
-  const Turns turns(
-      runs,
-      [&] {
-        Clip clip;
-        open_encoded(file, clip);
-      },
-      [&] {
-        Clip clip;
-        open_encoded(base, clip, prefix);
-      },
-      [&] {
-        Clip clip;
-        open_encoded(layer, clip, prefix);
-      },
-      [&] { decode_draco(draco); });
+  const Turns turns(runs, opening_of(file), opening_of_prefix(base), opening_of_prefix(layer),
+                    [&] { decode_draco(draco); });
   Clip clip;
   open_encoded(file, clip);
   std::vector<float> positions;

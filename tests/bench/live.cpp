@@ -65,20 +65,15 @@ Table run_live(const BenchOptions& options, double kg, uint32_t frames, int runs
         runs,
         [&] {
           kept.clear();
-          Clip clip;
-          open_encoded(whole[0], clip, keeping);
+          opening_of(whole[0], keeping)();
         },
         [&] {
-          for (size_t i = 1; i < whole.size(); ++i) {
-            Clip clip;
-            open_encoded(whole[i], clip, keeping);
-          }
+          for (size_t i = 1; i < whole.size(); ++i)
+            opening_of(whole[i], keeping)();
         },
         [&] {
-          for (size_t i = 1; i < whole.size(); ++i) {
-            Clip clip;
-            open_encoded(whole[i], clip);
-          }
+          for (size_t i = 1; i < whole.size(); ++i)
+            opening_of(whole[i])();
         });
     table.add({{"clip", name},
                {"vertices", vertices},

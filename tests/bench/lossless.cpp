@@ -43,10 +43,7 @@ Table run_lossless(const BenchOptions& options) {
     const TimedEncode timed = encode_timed(sequence, {ErrorMetric::kMaxError, 0, false}, options.basis,
                                            options.effort, options.verbose, OrderMode::kVertices);
     const Bytes& file = timed.result.file;
-    const double seconds = median_thread_seconds(1, [&] {
-      Clip clip;
-      open_encoded(file, clip);
-    });
+    const double seconds = median_thread_seconds(1, opening_of(file));
     table.add({{"clip", name},
                {"vertices", sequence.vertex_count},
                {"frames", sequence.frame_count},

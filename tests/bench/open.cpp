@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
 #include "format/container.h"
+#include "sdk/clip/file_checks.h"
 #include "sdk/clip/kept_meshes.h"
 #include "sdk/clip/memory_estimate.h"
 #include "tests/bench/bench_clips.h"
@@ -147,8 +148,6 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
   constexpr std::pair<OpeningChoice, const char*> kChoices[] = {{OpeningChoice::kSmall, "small"},
                                                                 {OpeningChoice::kAuto, "auto"},
                                                                 {OpeningChoice::kFast, "fast"}};
-  OpenOptions prefix;
-  prefix.prefix = true;
   for (const std::string& name : options.clips) {
     double bytes = 0, seconds = 0;  // of the smallest file
     for (const auto& [choice, word] : kChoices) {
@@ -159,27 +158,13 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
       const ByteView base = up_to_the_first("SEGM", file), layer = up_to_the_first("BASI", file);
       enum : size_t { kOpening, kBase, kLayer, kStream };
       const Turns turns(
-          runs,
-          [&] {
-            Clip clip;
-            open_encoded(file, clip);
-          },
-          [&] {
-            Clip clip;
-            open_encoded(base, clip, prefix);
-          },
-          [&] {
-            Clip clip;
-            open_encoded(layer, clip, prefix);
-          },
-          [&] {
+          runs, opening_of(file), opening_of_prefix(base), opening_of_prefix(layer), [&] {
             KeptMeshes kept;
-            OpenOptions more = prefix;
+            OpenOptions more;
+            more.prefix = true;
             more.kept = &kept;
-            for (const ByteView arrived : {base, layer, ByteView(file)}) {
-              Clip clip;
-              open_encoded(arrived, clip, more);
-            }
+            for (const ByteView arrived : {base, layer, ByteView(file)})
+              opening_of(arrived, more)();
           });
       const double opening = turns.seconds(kOpening);
       const MemoryUse memory = memory_use(file, runs);

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "sdk/clip/file_checks.h"
+
+#include "sdk/clip/clip.h"
+#include "sdk/clip/memory_estimate.h"
+
+#include <algorithm>
+
+namespace anicodec {
+namespace {
+
+/// Which meshes and segments the chunks of a type may belong to.
+enum class Owner : uint8_t { kClip, kMesh, kSegment, kEither };
+
+struct KnownChunk {
+  uint32_t type;
+  Owner owner;
+  bool required = true;  ///< must be marked so
+};
+
+constexpr KnownChunk kKnownChunks[] = {
+    {chunk_type("LIMI"), Owner::kClip},    {chunk_type("CLIP"), Owner::kClip},
+    {chunk_type("MESH"), Owner::kMesh},    {chunk_type("VMAP"), Owner::kMesh},
+    {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
+    {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
+    {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false},
+    {chunk_type("ROOT"), Owner::kClip},    {chunk_type("DIFF"), Owner::kSegment}};
+
+const KnownChunk* known(const Chunk& chunk) {
+  const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
+                                         [&](const KnownChunk& k) { return k.type == chunk.type; });
+  return found == std::end(kKnownChunks) ? nullptr : found;
+}
+
+/// Unknown chunks are skipped, unless required; only layers of a basis may occur twice.
+Failure check_chunks(const ContainerReader& file) {
+  for (const Chunk& chunk : file.chunks()) {
+    if (chunk.required && !known(chunk))
+      return failure_in(chunk, Status::kChunkUnknown, "the file needs a chunk this reader does not know");
+  }
+  for (size_t i = 1; i < file.by_key().size(); ++i) {
+    const Chunk &a = file.chunks()[file.by_key()[i - 1]], &b = file.chunks()[file.by_key()[i]];
+    if (chunk_key(a) == chunk_key(b) && b.type != chunk_type("BASI") && known(b))
+      return failure_in(b, Status::kChunkDuplicate, "a chunk occurs twice");
+  }
+  return {};
+}
+
+}  // namespace
+
+Failure failure_in(const Chunk& chunk, Status status, const char* detail) {
+  return {status, chunk.offset, chunk.type, detail};
+}
+
+Failure check_places(const ContainerReader& file, const Limits& limits, OrderMode order) {
+  auto fits = [&](const Chunk& chunk, Owner owner) {
+    const bool of_segment = chunk.segment != kNoSegment;
+    if (owner == Owner::kClip)
+      return chunk.mesh == kNoMesh && !of_segment &&
+             (chunk.type != chunk_type("ROOT") || limits.root_frames > 0);
+    if (chunk.mesh >= limits.meshes.size() || (owner == Owner::kMesh && of_segment) ||
+        (owner == Owner::kSegment && !of_segment))
+      return false;
+    if (chunk.type == chunk_type("ATTR"))
+      return limits.meshes[chunk.mesh].attribute_bytes > 0;
+    if (!of_segment)
+      return (chunk.type != chunk_type("VMAP") || order != OrderMode::kFree) &&
+             (chunk.type != chunk_type("FMAP") || order == OrderMode::kAll);
+    if (chunk.segment >= limits.segments.size())
+      return false;
+    const Limits::Segment& segment = limits.segments[chunk.segment];
+    if (segment.mesh != chunk.mesh)
+      return false;
+    if (chunk.type == chunk_type("CORR"))
+      return segment.corrections > 0;
+    if (chunk.type == chunk_type("DIFF"))
+      return segment.exact;
+    return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
+  };
+  for (const Chunk& chunk : file.chunks()) {
+    const KnownChunk* k = known(chunk);
+    if (k && !(chunk.required == k->required && fits(chunk, k->owner)))
+      return failure_in(chunk, Status::kIndexRange, "a chunk belongs to nothing in the file");
+  }
+  return {};
+}
+
+Failure required_payload(const ContainerReader& file, const char (&type)[5], uint16_t mesh,
+                 uint32_t segment, const Chunk** chunk, ByteView* out) {
+  *chunk = file.find(type, mesh, segment);
+  if (!*chunk)
+    return {Status::kChunkMissing, 0, chunk_type(type), "a required chunk is missing"};
+  return file.payload(**chunk, out);
+}
+
+Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out) {
+  if (Failure failure = check_chunks(file); !failure.ok())
+    return failure;
+
+  const Chunk* chunk;
+  ByteView payload;
+  if (Failure f = required_payload(file, "LIMI", kNoMesh, kNoSegment, &chunk, &payload); !f.ok())
+    return f;
+  if (Status s = Limits::read(payload, out); s != Status::kOk)
+    return failure_in(*chunk, s, "the limits are malformed");
+  // Even a mesh that is all alike takes some thousandth of a bit per vertex.
+  const uint64_t plausible = std::min(file.file_size(), UINT64_MAX >> 22) << 16;
+  for (const auto& mesh : out->meshes) {
+    if (mesh.source_vertices > options.limits.vertices)
+      return failure_in(*chunk, Status::kLimit, "more vertices than allowed");
+    if (mesh.source_vertices > plausible || mesh.corners > plausible ||
+        mesh.triangles > plausible || mesh.polygons > plausible)
+      return failure_in(*chunk, Status::kLimit, "counts that no file of this size can hold");
+  }
+  if (out->frames > options.limits.frames)
+    return failure_in(*chunk, Status::kLimit, "more frames than allowed");
+  // Decisions over the frames that have corrections, against what else there is to decode.
+  uint64_t decisions = 0, allowed = uint64_t{1} << 20;
+  for (const auto& s : out->segments) {
+    if (s.components > options.limits.components)
+      return failure_in(*chunk, Status::kLimit, "more components than allowed");
+    uint64_t channels = s.kind == BasisKind::kEigentrajectories ? 1 : 3;
+    uint64_t coefficients = channels * s.components * out->meshes[s.mesh].coded_vertices;
+    uint64_t weights =
+        uint64_t{4} * s.regions * s.frames * s.components * (channels == 1 ? 3 : 1);
+    if (coefficients > plausible * 64 || weights > plausible * 64)
+      return failure_in(*chunk, Status::kLimit, "counts that no file of this size can hold");
+    if (s.draco_bytes > file.file_size() || s.draco_points / 3 > out->meshes[s.mesh].triangles)
+      return failure_in(*chunk, Status::kLimit, "more of Draco than the mesh or the file can hold");
+    if (s.reconstruction == Reconstruction::kMsgi && s.msgi_bytes < out->meshes[s.mesh].triangles)
+      return failure_in(*chunk, Status::kLimit, "more triangles than what is kept of them can be of");
+    if (s.exact && uint64_t{s.frames} * out->meshes[s.mesh].coded_vertices > plausible)
+      return failure_in(*chunk, Status::kLimit, "more exact positions than a file of this size can hold");
+    decisions += uint64_t{std::min(s.frames, s.corrections)} *
+                 block_count(out->meshes[s.mesh].coded_vertices);
+    allowed += coefficients + weights / 4;
+  }
+  if (decisions / 16 > allowed + std::min(file.file_size(), UINT64_MAX >> 8) * 16)
+    return failure_in(*chunk, Status::kLimit, "more frames with corrections than so few numbers can need");
+  if (estimate_memory(*out, options.quality, options.opens_exact()).opening > options.limits.resident_bytes)
+    return failure_in(*chunk, Status::kLimit, "more memory than allowed");
+  return {};
+}
+
+}  // namespace anicodec
