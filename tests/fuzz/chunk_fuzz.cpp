@@ -3,51 +3,15 @@
 // Any bytes as the payload of one chunk in a file that is otherwise good: the first byte picks a
 // file of tests/conformance, the second one of its chunks.
 #include "tests/fuzz/fuzz_asset.h"
-
-#include <array>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include "tests/fuzz/fuzz_files.h"
 
 using namespace anicodec;
-
-namespace {
-
-struct Part {
-  Chunk chunk;
-  Bytes payload;
-};
-
-/// A file for each kind of chunk and coder.
-const std::vector<std::vector<Part>>& files() {
-  static const std::vector<std::vector<Part>> all = [] {
-    std::vector<std::vector<Part>> result;
-    for (const char* name :
-         {"triangle", "nonmanifold_keyframes", "polygons_all", "quad_box_corrected", "soup",
-          "limb_small", "far_rigid", "uneven_times", "painted_box", "heated", "walk",
-          "exact", "alike", "regions"}) {
-      std::ifstream in(std::string(ANICODEC_CONFORMANCE) + "/" + name + ".anic", std::ios::binary);
-      const Bytes file(std::istreambuf_iterator<char>(in), {});
-      ContainerReader reader;
-      require(reader.open(file).ok());
-      std::vector<Part>& parts = result.emplace_back();
-      for (const Chunk& chunk : reader.chunks()) {
-        ByteView view;
-        require(reader.payload(chunk, &view).ok());
-        parts.push_back({chunk, {view.data, view.data + view.size}});
-      }
-    }
-    return result;
-  }();
-  return all;
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2)
     return 0;
-  const std::vector<Part>& parts = files()[data[0] % files().size()];
+  static const std::vector<FuzzFile> files = fuzz_files();
+  const std::vector<FuzzFile::Part>& parts = files[data[0] % files.size()].parts;
   ContainerWriter writer;
   for (size_t i = 0; i < parts.size(); ++i) {
     const Chunk& chunk = parts[i].chunk;

@@ -8,6 +8,7 @@
 #include "format/coding/rans_coder.h"
 #include "format/coding/symbol_model.h"
 #include "format/coding/time_weights.h"
+#include "tests/fuzz/fuzz_neighbours.h"
 
 #include <cstdlib>
 #include <vector>
@@ -36,13 +37,9 @@ void fuzz_integers(size_t count, const uint8_t* data, size_t size) {
 
 void fuzz_coefficients(uint32_t channels, uint32_t slices, uint32_t vertices, const uint8_t* data,
                        size_t size) {
-  constexpr uint32_t kStride = 8, kComponents = 4;
+  constexpr uint32_t kStride = FuzzNeighbours::kStride, kComponents = 4;
   constexpr uint8_t kNothing = 0;
-  std::vector<int32_t> neighbours;
-  for (uint32_t v = 0; v < vertices; ++v) {
-    for (uint32_t a = 0; a < kStride; ++a)
-      neighbours.push_back(a < v ? static_cast<int32_t>((v * 7 + a * 5) % v) : -1);
-  }
+  const FuzzNeighbours neighbours(vertices);
   // The first slices have the same number of bytes.
   const size_t part = size / slices;
   std::vector<BinaryDecoder> decoders;
@@ -50,8 +47,8 @@ void fuzz_coefficients(uint32_t channels, uint32_t slices, uint32_t vertices, co
     decoders.emplace_back(size == 0 ? &kNothing : data + s * part,
                           s + 1 < slices ? part : size - s * part);
   std::vector<BinaryEncoder> encoders(slices);
-  CoefficientModel read(vertices, channels, neighbours.data(), kStride, slices);
-  CoefficientModel write(vertices, channels, neighbours.data(), kStride, slices);
+  CoefficientModel read(vertices, channels, neighbours.ranks.data(), kStride, slices);
+  CoefficientModel write(vertices, channels, neighbours.ranks.data(), kStride, slices);
   std::vector<int32_t> q(size_t{vertices} * channels);
   for (uint32_t j = 0; j < kComponents; ++j) {
     const bool good = read.code_component(decoders[read.slice()], q.data());
@@ -68,21 +65,12 @@ void fuzz_coefficients(uint32_t channels, uint32_t slices, uint32_t vertices, co
 }
 
 void fuzz_batches(uint32_t channels, uint32_t vertices, const uint8_t* data, size_t size) {
-  constexpr uint32_t kStride = 8, kComponents = 4, kLevel = 24;
-  std::vector<int32_t> neighbours;
-  Vector<uint32_t> levels;
-  for (uint32_t v = 0; v < vertices; ++v) {
-    const uint32_t first = v / kLevel * kLevel;
-    if (v == first)
-      levels.push_back(v);
-    for (uint32_t a = 0; a < kStride; ++a)
-      neighbours.push_back(a < first ? static_cast<int32_t>((v * 7 + a * 5) % first) : -1);
-  }
-  levels.push_back(vertices);
+  constexpr uint32_t kStride = FuzzNeighbours::kStride, kComponents = 4;
+  const FuzzNeighbours neighbours(vertices, FuzzNeighbours::kLevel);
   RansDecoder decoder({data, size});
   RansEncoder encoder;
-  BatchCoefficientModel read(channels, neighbours.data(), kStride, levels);
-  BatchCoefficientModel write(channels, neighbours.data(), kStride, levels);
+  BatchCoefficientModel read(channels, neighbours.ranks.data(), kStride, neighbours.levels);
+  BatchCoefficientModel write(channels, neighbours.ranks.data(), kStride, neighbours.levels);
   std::vector<int32_t> q(size_t{vertices} * channels);
   for (uint32_t j = 0; j < kComponents; ++j) {
     read.code_component(decoder, q.data());

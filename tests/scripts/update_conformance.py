@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Makes tests/conformance/, seeds of tests/fuzz/ and the listing of spec/A-examples.md anew, after the format has changed.
+"""Makes tests/conformance/ and the listing of spec/A-examples.md anew, after the format has changed.
 
 usage: update_conformance.py BUILD
   a folder that all has been built in, as build/dev
@@ -50,10 +50,6 @@ TIMED = ["uneven"]
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 # Codes that a file can cause, with the names of spec/12-errors.md.
 CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
-# Files whose chunks tests/fuzz/chunk_fuzz.cpp changes, in its order: one for each kind of chunk, quickly decoded.
-FUZZED = ["triangle.anic", "nonmanifold_keyframes.anic", "polygons_all.anic", "quad_box_corrected.anic",
-          "soup.anic", "limb_small.anic", "far_rigid.anic", "uneven_times.anic", "painted_box.anic", "heated.anic",
-          "walk.anic", "exact.anic", "alike.anic", "regions.anic"]
 
 
 # A live stream: clip, frames in a second, which are a file, and options.
@@ -223,32 +219,6 @@ def greedy_files(data):
     limits.payload = good
 
 
-def write_seeds(folder):
-    """Inputs to start the fuzz targets from: each chunk by itself, files with bytes that decide what is done."""
-    for name in ("chunk", "faces", "api", "stream"):
-        (folder / name).mkdir(exist_ok=True)
-        for old in (folder / name).glob("seed_*"):
-            old.unlink()
-    for number, file in enumerate(FUZZED):
-        data = (FOLDER / file).read_bytes()
-        for i, chunk in enumerate(anic_file.read_chunks(data)):
-            path = folder / "chunk" / f"seed_{pathlib.Path(file).stem}_{i}_{chunk.type.lower()}"
-            path.write_bytes(bytes([number, i]) + chunk.payload)
-            if chunk.type == "LIMI":
-                vertices, coded, _, polygons, corners = read_varints(chunk.payload, 0, 9)[0][4:]
-            if chunk.type == "MESH":  # no name is longer than a byte tells
-                eights = min((coded - 1) // 8, 255)
-                times = next((n for n in range(1, 10) if polygons % n == 0 and polygons // n < 256), 1)
-                counts = (coded - 1 - 8 * eights, eights, vertices - coded, polygons // times, times - 1,
-                          corners - 3 * polygons)
-                if all(0 <= x < 256 for x in counts) and counts[-1] < 64:
-                    (folder / "faces" / f"seed_{pathlib.Path(file).stem}").write_bytes(
-                        bytes(counts) + chunk.payload[1 + chunk.payload[0]:])
-        script = hashlib.sha256(data).digest()[:24]
-        for name, mode in (("api", number), ("stream", 0)):
-            (folder / name / f"seed_{file}").write_bytes(data + bytes([mode]) + script[1:])
-
-
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -338,7 +308,6 @@ def main():
     (FOLDER / "MANIFEST").write_text("\n".join(lines) + "\n")
     traces.write(build / "tests" / "trace_decoder")
 
-    write_seeds(ROOT / "tests" / "fuzz" / "seeds")
     page = ROOT / "spec" / "A-examples.md"
     text = page.read_text()
     begin = text.index("```\n0000  ") + 4
