@@ -90,6 +90,47 @@ def test_export_keeps_the_promise():
     assert kinds["uv"].name == "UVMap" and kinds["material"].labels == ("skin", "cloth")
 
 
+def volume(clip, frame):
+    """The signed volume of all meshes that are there: positive where faces point outwards."""
+    total = 0.0
+    for mesh in clip.meshes:
+        if mesh.shown_in(frame):
+            a, b, c = np.moveaxis(mesh[frame].astype(np.float64)[mesh.triangles], 1, 0)
+            total += np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+    return total
+
+
+def test_mirrored_objects_turn_their_faces():
+    scene = empty_scene()
+    scene.frame_end = 4
+    bpy.ops.mesh.primitive_cube_add(size=1, calc_uvs=True)
+    item = bpy.context.object
+    path = WORK / "mirrored.anic"
+    item.scale = (-1, 1, 1)
+    bpy.context.view_layer.update()
+    assert export(path) == {"FINISHED"}
+    clip = anicodec.open(path)
+    assert abs(volume(clip, 0) - 1) < 0.01 and len(clip.meshes) == 1
+    layer = item.data.uv_layers[0].data  # eighths
+    expected = set()
+    for loop in item.data.loops:
+        x, y, z = np.sign(item.data.vertices[loop.vertex_index].co)
+        expected.add((-x, y, z, *np.round(8 * np.array(layer[loop.index].uv))))
+    uv = next(attribute for attribute in clip.attributes if attribute.kind == "uv")
+    corners = clip.polygons[1]
+    assert uv.domain == "corners"
+    found = {(*np.sign(place), *np.round(8 * value)) for place, value in zip(clip[0][corners], uv.values)}
+    assert expected == found, (expected, found)
+    assert export(path, space="OBJECT") == {"FINISHED"}
+    assert abs(volume(anicodec.open(path), 0) - 1) < 0.01, "as it is in its own space"
+    for frame, x in ((1, 1), (2, -1), (3, -1), (4, 1)):
+        item.scale = (x, 1, 1)
+        item.keyframe_insert("scale", frame=frame)
+    assert export(path) == {"FINISHED"}
+    clip = anicodec.open(path)
+    assert len(clip.meshes) == 2 and all(abs(volume(clip, frame) - 1) < 0.01 for frame in range(4))
+
+
 def test_import_follows_the_timeline():
     _, expected, path = round_trip()
     empty_scene()

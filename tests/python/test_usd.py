@@ -87,6 +87,55 @@ def test_left_handed_faces_are_turned(wave, stage):
     assert np.allclose(uv.values, wave[0][0][clip.faces.ravel(), :2], atol=2**-11)
 
 
+def signed_volumes(clip):
+    """Of all meshes together, frame by frame: positive where faces point outwards. Meshes that are absent have none."""
+    volumes = np.zeros(clip.frame_count)
+    for mesh in clip.meshes:
+        for frame in (frame for frame in range(clip.frame_count) if mesh.shown_in(frame)):
+            a, b, c = np.moveaxis(mesh[frame].astype(np.float64)[mesh.faces], 1, 0)
+            volumes[frame] += np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+    return volumes
+
+
+def test_transforms_that_mirror_turn_faces():
+    stage = Usd.Stage.CreateInMemory()
+    stage.SetStartTimeCode(1)
+    stage.SetEndTimeCode(4)
+    parent = UsdGeom.Xform.Define(stage, "/parent")
+    mesh = UsdGeom.Mesh.Define(stage, "/parent/tetrahedron")
+    mesh.CreatePointsAttr([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    mesh.CreateFaceVertexCountsAttr([3] * 4)
+    mesh.CreateFaceVertexIndicesAttr([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3])
+    uv = UsdGeom.PrimvarsAPI(mesh).CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.faceVarying)
+    corners = np.array(mesh.GetFaceVertexIndicesAttr().Get())
+    uv.Set([(float(corner), 0.0) for corner in corners])
+    scale = parent.AddScaleOp()
+    for factors, meshes in (((1, 1, 1), 1), ((-1, 1, 1), 1), ((-1, -1, 1), 1)):
+        scale.Set(Gf.Vec3f(*factors))
+        clip = anicodec.open(usd.encode(stage, max_error=1e-5))
+        assert np.allclose(signed_volumes(clip), 1 / 6, atol=1e-3) and len(clip.meshes) == meshes, factors
+        values = next(attribute for attribute in clip.attributes if attribute.kind == "uv").values
+        place = clip[0] * factors  # vertex 1 is at x, 2 at y, 3 at z
+        assert np.allclose(values[:, 0], (place @ [1, 2, 3])[clip.faces.ravel()], atol=1e-3), factors
+    for code, x in ((1, 1), (2, -1), (3, -1), (4, 1)):
+        scale.Set(Gf.Vec3f(x, 1, 1), code)
+    clip = anicodec.open(usd.encode(stage, max_error=1e-5))
+    assert len(clip.meshes) == 2 and np.allclose(signed_volumes(clip), 1 / 6, atol=1e-3)
+    mesh.CreateOrientationAttr("leftHanded")
+    assert np.allclose(signed_volumes(anicodec.open(usd.encode(stage, max_error=1e-5))), -1 / 6, atol=1e-3)
+
+
+def test_faces_that_are_holes_are_left_out(wave, stage):
+    mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/group/sheet"))
+    mesh.CreateHoleIndicesAttr([1, 7])
+    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="faces", effort=1))
+    kept = np.delete(np.arange(121), [1, 7])
+    assert np.array_equal(clip.polygons[1].reshape(-1, 4), wave[1][kept])
+    kinds = {attribute.kind: attribute for attribute in clip.attributes}
+    assert np.allclose(kinds["uv"].values, wave[0][0][clip.polygons[1], :2], atol=2**-11)
+    assert (kinds["material"].values[:3] == [1, 1, 0]).all()
+
+
 def add_skin(stage):
     """A strip whose upper half turns about the x axis."""
     root = UsdSkel.Root.Define(stage, "/skin")

@@ -125,37 +125,47 @@ class _MeshReader:
             points = self._mesh.GetPointsAttr().Get(code)
             if not points:
                 continue
-            counts, corners = self._faces(code)
+            faces = self._faces(code)
             cache.SetTime(code)
             matrix = np.array(cache.GetLocalToWorldTransform(self._prim))
             positions = np.array(points, np.float64).reshape(-1, 3) @ matrix[:3, :3] + matrix[3, :3]
-            last = runs[-1] if runs else None
-            same = last is not None and len(last["positions"][0]) == len(positions) and \
-                np.array_equal(last["counts"], counts) and np.array_equal(last["corners"], corners)
-            if not same:
-                if runs and not keep_changes:
-                    raise InputError(f"{self._prim.GetPath()}: the faces change at time code {code:g}; "
-                                     "topology_changes='keep' stores each run of equal ones")
-                runs.append({"counts": counts, "corners": corners, "positions": [], "frames": []})
-            runs[-1]["positions"].append(positions.astype(np.float32))
-            runs[-1]["frames"].append(frame)
+            same = [run for run in runs[-2:] if len(run["positions"][0]) == len(positions) and
+                    all(np.array_equal(a, b) for a, b in zip(run["faces"], faces))]
+            if same and same[-1] is not runs[-1]:
+                same = []
+            if runs and not same and not keep_changes:
+                raise InputError(f"{self._prim.GetPath()}: the faces change at time code {code:g}; "
+                                 "topology_changes='keep' stores each run of equal ones")
+            # A transform that mirrors turns the faces, at the codes at which it does.
+            mirrored = bool(np.linalg.det(matrix[:3, :3]) < 0)
+            run = next((run for run in same if run["mirrored"] == mirrored), None)
+            if run is None:
+                run = {"faces": faces, "mirrored": mirrored, "positions": [], "frames": []}
+                runs.append(run)
+            run["positions"].append(positions.astype(np.float32))
+            run["frames"].append(frame)
         return [self._source(run) for run in runs]
 
-    def _faces(self, code: float) -> Tuple[np.ndarray, np.ndarray]:
+    def _faces(self, code: float) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Corners of each face, vertices of the corners, and the faces that are holes."""
         counts = np.array(self._mesh.GetFaceVertexCountsAttr().Get(code) or [], np.int64)
         corners = np.array(self._mesh.GetFaceVertexIndicesAttr().Get(code) or [], np.int64)
         if counts.sum() != len(corners) or (counts < 0).any():
             raise InputError(f"{self._prim.GetPath()}: faceVertexCounts do not fit faceVertexIndices")
-        return counts, corners
+        holes = np.array(self._mesh.GetHoleIndicesAttr().Get(code) or [], np.int64)
+        return counts, corners, holes[(holes >= 0) & (holes < len(counts))]
 
     def _source(self, run: Dict[str, Any]) -> SourceMesh:
-        counts, corners = run["counts"], run["corners"]
+        counts, corners, holes = run["faces"]
         self._order = np.arange(len(corners))
-        if self._mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
+        if (self._mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded) != run["mirrored"]:
             starts = np.repeat(np.cumsum(counts) - counts, counts)
             self._order = 2 * starts + np.repeat(counts, counts) - 1 - np.arange(len(corners))
+        self._kept = np.ones(len(counts), bool)
+        self._kept[holes] = False
+        self._order = self._order[np.repeat(self._kept, counts)]
         frames = run["frames"]
-        offsets = np.concatenate([[0], np.cumsum(counts)])
+        offsets = np.concatenate([[0], np.cumsum(counts[self._kept])])
         mesh = SourceMesh(np.stack(run["positions"]), (offsets, corners[self._order]), name=self._name,
                           runs=_runs(frames, len(self._codes)), uv={}, colours={}, normals={}, custom={},
                           materials=self._materials(len(counts)))
@@ -195,14 +205,15 @@ class _MeshReader:
         if not primvar.GetTypeName().isArray:
             values = values[None]
         values = values.reshape(len(values), -1).astype(np.float32)
-        vertices, corners = len(run["positions"][0]), len(run["corners"])
+        counts = run["faces"][0]
+        vertices, corners = len(run["positions"][0]), counts.sum()
         interpolation = primvar.GetInterpolation()
         if interpolation in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying):
             return values if len(values) == vertices else None
         if interpolation == UsdGeom.Tokens.faceVarying:
             return values[self._order] if len(values) == corners else None
         if interpolation == UsdGeom.Tokens.uniform:
-            return np.repeat(values, run["counts"], axis=0) if len(values) == len(run["counts"]) else None
+            return np.repeat(values[self._kept], counts[self._kept], axis=0) if len(values) == len(counts) else None
         return np.repeat(values[:1], vertices, axis=0)
 
     def _add_normals(self, mesh: SourceMesh, run: Dict[str, Any], code: float) -> None:
@@ -211,7 +222,7 @@ class _MeshReader:
             values, interpolation = primvar.ComputeFlattened(code), primvar.GetInterpolation()
         else:
             values, interpolation = self._mesh.GetNormalsAttr().Get(code), self._mesh.GetNormalsInterpolation()
-        if not values or interpolation != UsdGeom.Tokens.faceVarying or len(values) != len(run["corners"]):
+        if not values or interpolation != UsdGeom.Tokens.faceVarying or len(values) != run["faces"][0].sum():
             return  # normals of vertices follow from positions
         mesh.normals["normals"] = np.array(values, np.float32).reshape(-1, 3)[self._order]
 
@@ -231,7 +242,7 @@ class _MeshReader:
             if len(members) and (members.min() < 0 or members.max() >= polygons):
                 raise InputError(f"{subset.GetPrim().GetPath()}: a face is not of {polygons}")
             numbers[members] = names.index(name)
-        return (names, numbers) if names else None
+        return (names, numbers[self._kept]) if names else None
 
 
 def _runs(frames: List[int], count: int) -> List[Tuple[int, int]]:

@@ -40,25 +40,36 @@ class Baker:
     def _add(self, item, runs, evaluated, mesh, scene_frame):
         faces = (meshes.polygon_starts(mesh), meshes.corners_of(mesh).astype(np.uint32))
         positions = meshes.positions_of(mesh)
+        mirrored = False
         if self._world:
             matrix = np.array(evaluated.matrix_world, np.float64)
             positions = (positions @ matrix[:3, :3].T + matrix[:3, 3]).astype(np.float32)
-        same = runs and len(runs[-1]["positions"][0]) == len(positions) and \
-            all(np.array_equal(a, b) for a, b in zip(runs[-1]["faces"], faces))
-        if not same:
-            if runs and not self._segments:
-                raise ValueError(f"{item.name}: the faces change in frame {scene_frame}; 'Changing Faces' exports "
-                                 "each run of equal ones")
-            runs.append({"faces": faces, "positions": [], "frames": [], "attributes": meshes.attributes_of(mesh)})
-        runs[-1]["positions"].append(positions)
-        runs[-1]["frames"].append(self.frames)
+            mirrored = bool(np.linalg.det(matrix[:3, :3]) < 0)
+        same = [run for run in runs[-2:] if len(run["positions"][0]) == len(positions) and
+                all(np.array_equal(a, b) for a, b in zip(run["faces"], faces))]
+        if same and same[-1] is not runs[-1]:
+            same = []
+        if runs and not same and not self._segments:
+            raise ValueError(f"{item.name}: the faces change in frame {scene_frame}; 'Changing Faces' exports "
+                             "each run of equal ones")
+        # An object that is mirrored turns its faces, in the frames in which it is.
+        run = next((run for run in same if run["mirrored"] == mirrored), None)
+        if run is None:
+            run = {"faces": faces, "mirrored": mirrored, "positions": [], "frames": [],
+                   "attributes": meshes.attributes_of(mesh, mirrored)}
+            runs.append(run)
+        run["positions"].append(positions)
+        run["frames"].append(self.frames)
 
     def meshes(self):
         """The meshes as encoding takes them."""
         result = []
         for item, runs in self._runs.items():
             for run in runs:
-                result.append(anicodec.SourceMesh(np.stack(run["positions"]), run["faces"], name=item.name,
+                starts, corners = run["faces"]
+                if run["mirrored"]:
+                    corners = corners[meshes.turned_order(starts)]
+                result.append(anicodec.SourceMesh(np.stack(run["positions"]), (starts, corners), name=item.name,
                                                   runs=self._present_in(run["frames"]), **run["attributes"]))
         return result
 

@@ -112,19 +112,29 @@ def positions_of(mesh):
     return positions.reshape(-1, 3)
 
 
-def attributes_of(mesh):
-    """What encoding takes beside positions: arguments of SourceMesh."""
+def turned_order(starts):
+    """The corners of polygons in the order that turns each over, about its first corner."""
+    order = np.arange(starts[-1], dtype=np.int64)
+    counts = np.diff(starts.astype(np.int64))
+    begins = np.repeat(starts[:-1].astype(np.int64), counts)
+    return np.where(order == begins, order, 2 * begins + np.repeat(counts, counts) - order)
+
+
+def attributes_of(mesh, turned=False):
+    """What encoding takes beside positions: arguments of SourceMesh. turned: of polygons that are turned over."""
+    order = turned_order(polygon_starts(mesh)) if turned else slice(None)
     result = {"uv": {}, "colours": {}}
     for layer in mesh.uv_layers:
         values = np.empty(2 * len(layer.data), np.float32)
         layer.data.foreach_get("uv", values)
-        result["uv"][layer.name] = values.reshape(-1, 2)
+        result["uv"][layer.name] = values.reshape(-1, 2)[order]
     for layer in mesh.color_attributes:
         values = np.empty(4 * len(layer.data), np.float32)
         layer.data.foreach_get("color", values)
-        result["colours"][layer.name] = np.clip(values.reshape(-1, 4), 0, 1)
+        of_corners = layer.domain == "CORNER"
+        result["colours"][layer.name] = np.clip(values.reshape(-1, 4), 0, 1)[order if of_corners else slice(None)]
     if len(mesh.loops) > 0:
-        result["normals"] = _corner_normals(mesh)
+        result["normals"] = _corner_normals(mesh)[order]
     names = [material.name if material else "" for material in mesh.materials]
     if names and len(mesh.polygons) > 0:
         numbers = np.empty(len(mesh.polygons), np.int32)

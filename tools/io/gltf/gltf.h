@@ -40,7 +40,8 @@ struct GltfOptions {
 };
 
 /// Bakes a .gltf or .glb: all triangles of the scene's meshes become one mesh in world space (Y up,
-/// metres), moved by skins (linear blending), morph targets and nodes. Frames stand at multiples of
+/// metres), moved by skins (linear blending), morph targets and nodes. Faces turn where a node mirrors; of one
+/// that does so at some times there are two surfaces, each shown in its turn. Instances are baked. Frames stand at multiples of
 /// 1/rate from the first key of the animation to the last. Vertices stay as they are, seams
 /// included, primitives with the same accessors share theirs; points and lines are passed over.
 /// UV sets and colours are kept, normals and tangents as in the first frame, names of materials,

@@ -6,13 +6,16 @@
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/gltf/gltf_accessor.h"
+#include "tools/io/gltf/gltf_facing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <tbb/parallel_for.h>
 
 namespace anicodec::tools {
@@ -37,23 +40,28 @@ Transform after(const Transform& outer, const Transform& inner) {
   return out;
 }
 
-Transform local_transform(const GltfNode& node, const GltfPose& pose, uint32_t n) {
-  if (node.matrix)
-    return affine(node.matrix->data());
-  Eigen::Quaterniond rotation(Eigen::Map<const Eigen::Quaterniond>(pose.rotations[n].data()));
+Transform transform_of(const std::array<double, 3>& translation,
+                       const std::array<double, 4>& rotation, const std::array<double, 3>& scale) {
+  const Eigen::Quaterniond turn(Eigen::Map<const Eigen::Quaterniond>(rotation.data()));
   Transform out;
-  out.leftCols<3>() = rotation.normalized().toRotationMatrix() *
-                      Eigen::Map<const Eigen::Vector3d>(pose.scales[n].data()).asDiagonal();
-  out.col(3) = Eigen::Map<const Eigen::Vector3d>(pose.translations[n].data());
+  out.leftCols<3>() = turn.normalized().toRotationMatrix() *
+                      Eigen::Map<const Eigen::Vector3d>(scale.data()).asDiagonal();
+  out.col(3) = Eigen::Map<const Eigen::Vector3d>(translation.data());
   return out;
 }
 
-/// The matrix for normals: the cofactors, which keep them upright in mirrored and
-/// flattened parts.
-Eigen::Matrix3d normal_matrix(const Transform& m) {
+Transform local_transform(const GltfNode& node, const GltfPose& pose, uint32_t n) {
+  if (node.matrix)
+    return affine(node.matrix->data());
+  return transform_of(pose.translations[n], pose.rotations[n], pose.scales[n]);
+}
+
+/// The matrix for normals in the direction of the inverse transpose, from the cofactors, which
+/// flattened parts have too.
+Eigen::Matrix3d normal_matrix(const Transform& m, bool mirrors) {
   Eigen::Matrix3d out;
   out << m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)), m.col(0).cross(m.col(1));
-  return out;
+  return mirrors ? Eigen::Matrix3d(-out) : out;
 }
 
 /// Nodes that are hidden whatever is played.
@@ -68,6 +76,40 @@ std::vector<bool> never_shown(const GltfDocument& document) {
     }
   }
   return hidden;
+}
+
+/// A place of a mesh in the space of its node.
+struct Placement {
+  std::optional<Transform> transform;
+  bool mirrors = false;
+};
+
+/// The instances of a node.
+std::vector<Placement> placements_of(const GltfDocument& document, uint32_t n) {
+  const GltfInstances& instances = *document.nodes[n].instances;
+  const auto read = [&](uint32_t accessor, const char* name) {
+    return accessor == kGltfNone
+               ? std::vector<float>()
+               : read_floats(document, accessor,
+                             "/nodes/" + std::to_string(n) + "/extensions/" + kInstancingExtension +
+                                 "/attributes/" + name);
+  };
+  const std::vector<float> translations = read(instances.translations, "TRANSLATION"),
+                           rotations = read(instances.rotations, "ROTATION"),
+                           scales = read(instances.scales, "SCALE");
+  const auto take = [](const std::vector<float>& values, uint32_t i, auto otherwise) {
+    for (size_t k = 0; k < otherwise.size() && !values.empty(); ++k)
+      otherwise[k] = static_cast<double>(values[otherwise.size() * i + k]);
+    return otherwise;
+  };
+  std::vector<Placement> out;
+  for (uint32_t i = 0; i < instances.count; ++i) {
+    const auto scale = take(scales, i, std::array<double, 3>{1, 1, 1});
+    out.push_back({transform_of(take(translations, i, std::array<double, 3>{0, 0, 0}),
+                                take(rotations, i, std::array<double, 4>{0, 0, 0, 1}), scale),
+                   mirrors(scale)});
+  }
+  return out;
 }
 
 /// Bytes of a primitive in a clip, but for its frames.
@@ -88,12 +130,22 @@ struct GltfBake::Piece {
   std::shared_ptr<const GltfGeometry> geometry;
   uint32_t first_vertex = 0;
   bool owns_vertices = true;  ///< false: those of an earlier primitive of the node
+  std::optional<Transform> placed;  ///< in the space of the node: an instance
+  bool turned = false;              ///< the faces are turned over
+  /// Shown while the node mirrors, or while it does not, so that the two of them show it at all times.
+  bool in_turn = false, shown_while_mirrored = false;
 };
 
 struct GltfBake::Worlds {
   std::vector<Transform> nodes;
   std::vector<bool> visible;                   ///< of each node
+  std::vector<bool> mirrored;                  ///< the same
   std::vector<std::vector<Transform>> joints;  ///< of each skin in use: world x inverse bind
+
+  /// The transform of a piece that is not skinned.
+  Transform of(const Piece& piece) const {
+    return piece.placed ? after(nodes[piece.node], *piece.placed) : nodes[piece.node];
+  }
 };
 
 GltfBake::~GltfBake() = default;
@@ -194,8 +246,41 @@ std::shared_ptr<const GltfGeometry> GltfBake::geometry_of(uint32_t mesh, size_t 
 void GltfBake::add_node(uint32_t n) {
   const GltfNode& node = document_.nodes[n];
   const GltfMesh& mesh = document_.meshes[node.mesh];
-  size_t polygons = 0;
-  const size_t first_piece = pieces_.size();
+  std::vector<Placement> places(1);
+  if (node.instances && node.skin == kGltfNone)
+    places = placements_of(document_, n);
+  const std::string& name = node.name.empty() ? mesh.name : node.name;
+  const auto add = [&](bool in_turn, bool mirrored, const std::string& suffix) {
+    uint64_t polygons = 0;
+    for (const Placement& place : places) {
+      Piece piece;
+      piece.node = n;
+      piece.mesh = node.mesh;
+      piece.placed = place.transform;
+      piece.turned = place.mirrors != mirrored;
+      piece.in_turn = in_turn;
+      piece.shown_while_mirrored = mirrored;
+      polygons += add_pieces(piece);
+    }
+    if (polygons == 0)
+      return;
+    const auto label = static_cast<uint32_t>(parts_.names.size());
+    parts_.of_polygon.insert(parts_.of_polygon.end(), polygons, name.empty() ? kNoLabel : label);
+    if (!name.empty())
+      parts_.names.push_back(name + suffix);
+  };
+  if (node.facing == GltfFacing::kChanging) {
+    add(true, false, "");
+    add(true, true, " mirrored");
+  } else {
+    add(false, node.facing == GltfFacing::kTurned, "");
+  }
+}
+
+/// Adds the primitives of a mesh at one place; returns how many polygons they have.
+uint64_t GltfBake::add_pieces(const Piece& like) {
+  const GltfMesh& mesh = document_.meshes[like.mesh];
+  uint64_t polygons = 0;
   // Primitives with the same accessors share their vertices.
   using Accessors = std::map<std::string, uint32_t>;
   std::map<std::pair<Accessors, std::vector<Accessors>>, uint32_t> vertices_of;
@@ -203,8 +288,9 @@ void GltfBake::add_node(uint32_t n) {
     const GltfPrimitive& primitive = mesh.primitives[p];
     if (primitive.mode < kFirstTriangleMode || !primitive.attributes.contains("POSITION"))
       continue;
-    Piece piece{
-        .node = n, .mesh = node.mesh, .primitive = p, .geometry = geometry_of(node.mesh, p)};
+    Piece piece = like;
+    piece.primitive = p;
+    piece.geometry = geometry_of(like.mesh, p);
     piece.first_vertex = static_cast<uint32_t>(vertex_count_);
     if (!primitive.draco) {
       const auto [same, is_new] =
@@ -214,17 +300,12 @@ void GltfBake::add_node(uint32_t n) {
     }
     if (piece.owns_vertices)
       vertex_count_ += piece.geometry->vertices.count;
-    take_memory(bytes_of(*piece.geometry, piece.owns_vertices), primitive_path(node.mesh, p));
+    take_memory(sizeof(Piece) + bytes_of(*piece.geometry, piece.owns_vertices),
+                primitive_path(like.mesh, p));
     polygons += piece.geometry->triangles.size() / 3;
     pieces_.push_back(std::move(piece));
   }
-  if (pieces_.size() == first_piece)
-    return;
-  const std::string& name = node.name.empty() ? mesh.name : node.name;
-  const auto label = static_cast<uint32_t>(parts_.names.size());
-  parts_.of_polygon.insert(parts_.of_polygon.end(), polygons, name.empty() ? kNoLabel : label);
-  if (!name.empty())
-    parts_.names.push_back(name);
+  return polygons;
 }
 
 bool GltfBake::is_skinned(const Piece& piece) const {
@@ -235,7 +316,7 @@ std::vector<GltfBaked> GltfBake::primitives() const {
   std::vector<GltfBaked> out;
   for (const Piece& piece : pieces_)
     out.push_back({piece.node, piece.mesh, piece.primitive, piece.geometry.get(),
-                   piece.first_vertex, piece.owns_vertices});
+                   piece.first_vertex, piece.turned, piece.owns_vertices});
   return out;
 }
 
@@ -276,9 +357,11 @@ MeshSequence GltfBake::still() const {
     const GltfVertices& vertices = piece.geometry->vertices;
     const std::vector<uint32_t>& triangles = piece.geometry->triangles;
     for (size_t i = 0; i < triangles.size(); i += 3) {
-      const uint32_t corners[] = {triangles[i] + piece.first_vertex,
-                                  triangles[i + 1] + piece.first_vertex,
-                                  triangles[i + 2] + piece.first_vertex};
+      uint32_t corners[] = {triangles[i] + piece.first_vertex,
+                            triangles[i + 1] + piece.first_vertex,
+                            triangles[i + 2] + piece.first_vertex};
+      if (piece.turned)
+        std::swap(corners[1], corners[2]);
       out.polygons.add(corners);
     }
     static_assert(kNoLabel == kGltfNone);
@@ -318,12 +401,15 @@ GltfBake::Worlds GltfBake::worlds_of(const GltfPose& pose) const {
   Worlds worlds;
   worlds.nodes.resize(document_.nodes.size());
   worlds.visible.resize(document_.nodes.size());
+  worlds.mirrored.resize(document_.nodes.size());
   for (uint32_t n : order_) {
     const GltfNode& node = document_.nodes[n];
     const Transform local = local_transform(node, pose, n);
     const bool is_root = node.parent == kGltfNone;
     worlds.nodes[n] = is_root ? local : after(worlds.nodes[node.parent], local);
     worlds.visible[n] = pose.visible[n] != 0 && (is_root || worlds.visible[node.parent]);
+    const bool mirrored = node.matrix ? mirrors(*node.matrix) : mirrors(pose.scales[n]);
+    worlds.mirrored[n] = mirrored != (!is_root && worlds.mirrored[node.parent]);
   }
   worlds.joints.resize(document_.skins.size());
   for (const Piece& piece : pieces_) {
@@ -375,7 +461,8 @@ Transform blended(const GltfVertices& vertices, const std::vector<Transform>& jo
 void GltfBake::move(const Piece& piece, const GltfPose& pose, const Worlds& worlds,
                     float* positions) const {
   const GltfVertices& vertices = piece.geometry->vertices;
-  if (!worlds.visible[piece.node]) {
+  if (!worlds.visible[piece.node] ||
+      (piece.in_turn && worlds.mirrored[piece.node] != piece.shown_while_mirrored)) {
     Eigen::Map<Eigen::Matrix3Xf>(positions, 3, vertices.count).colwise() =
         worlds.nodes[piece.node].col(3).cast<float>();
     return;
@@ -383,10 +470,10 @@ void GltfBake::move(const Piece& piece, const GltfPose& pose, const Worlds& worl
   const std::vector<double> base =
       morphed(vertices, pose.weights[piece.node], &GltfVectors::positions);
   const bool skinned = is_skinned(piece);
+  const Transform world = worlds.of(piece);
   for (size_t v = 0; v < vertices.count; ++v) {
-    const Transform m = skinned
-                            ? blended(vertices, worlds.joints[document_.nodes[piece.node].skin], v)
-                            : worlds.nodes[piece.node];
+    const Transform m =
+        skinned ? blended(vertices, worlds.joints[document_.nodes[piece.node].skin], v) : world;
     const Eigen::Vector3d p =
         m.leftCols<3>() * Eigen::Map<const Eigen::Vector3d>(base.data() + 3 * v) + m.col(3);
     Eigen::Map<Eigen::Vector3f>(positions + 3 * v) = p.cast<float>();
@@ -407,13 +494,15 @@ void GltfBake::add_normals(const GltfPose& pose, const Worlds& worlds, MeshSeque
       tangents.values.resize(size_t{out.vertex_count} * 4);
     const std::vector<double> base =
         morphed(vertices, pose.weights[piece.node], &GltfVectors::normals);
+    const bool skinned = is_skinned(piece);
+    const Transform world = worlds.of(piece);
     for (size_t v = 0; v < vertices.count; ++v) {
       const Transform m =
-          is_skinned(piece) ? blended(vertices, worlds.joints[document_.nodes[piece.node].skin], v)
-                            : worlds.nodes[piece.node];
+          skinned ? blended(vertices, worlds.joints[document_.nodes[piece.node].skin], v) : world;
+      const bool mirrored = skinned ? m.leftCols<3>().determinant() < 0 : piece.turned;
       const size_t to = piece.first_vertex + v;
       const Eigen::Vector3d n =
-          normal_matrix(m) * Eigen::Map<const Eigen::Vector3d>(base.data() + 3 * v);
+          normal_matrix(m, mirrored) * Eigen::Map<const Eigen::Vector3d>(base.data() + 3 * v);
       Eigen::Map<Eigen::Vector3f>(normals.values.data() + 3 * to) = n.normalized().cast<float>();
       if (vertices.tangents.empty())
         continue;
@@ -421,7 +510,8 @@ void GltfBake::add_normals(const GltfPose& pose, const Worlds& worlds, MeshSeque
           m.leftCols<3>() *
           Eigen::Map<const Eigen::Vector3f>(vertices.tangents.data() + 4 * v).cast<double>();
       Eigen::Map<Eigen::Vector3f>(tangents.values.data() + 4 * to) = t.normalized().cast<float>();
-      tangents.values[4 * to + 3] = vertices.tangents[4 * v + 3];
+      // The bitangent is normal x tangent of before the transform.
+      tangents.values[4 * to + 3] = vertices.tangents[4 * v + 3] * (mirrored ? -1.0F : 1.0F);
     }
   }
   for (Attribute* attribute : {&normals, &tangents}) {

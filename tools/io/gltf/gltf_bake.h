@@ -24,6 +24,7 @@ struct GltfBaked {
   size_t primitive = 0;
   const GltfGeometry* geometry = nullptr;  ///< as in the document; of the bake
   uint32_t first_vertex = 0;               ///< of its vertices among all
+  bool turned = false;                     ///< the faces are turned over
   bool owns_vertices = true;               ///< false: those of an earlier primitive of the node
 };
 
@@ -61,6 +62,7 @@ class GltfBake {
   std::shared_ptr<const GltfGeometry> geometry_of(uint32_t mesh, size_t primitive);
   void take_memory(uint64_t bytes, const std::string& path);
   void add_node(uint32_t node);
+  uint64_t add_pieces(const Piece& like);
   bool is_skinned(const Piece& piece) const;
   Worlds worlds_of(const GltfPose& pose) const;
   void move(const Piece& piece, const GltfPose& pose, const Worlds& worlds, float* positions) const;

@@ -7,6 +7,7 @@
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/gltf/gltf_compression.h"
 #include "tools/io/gltf/gltf_container.h"
+#include "tools/io/gltf/gltf_facing.h"
 #include "tools/io/gltf/json_node.h"
 
 #include <algorithm>
@@ -74,6 +75,7 @@ class Reader {
     read_scene();
     for (const JsonNode& node : root_.elements("animations"))
       out_.animations.push_back(read_animation(node));
+    find_facings(&out_);
     return std::move(out_);
   }
 
@@ -106,7 +108,8 @@ class Reader {
         "KHR_xmp",        "EXT_lights_",  "KHR_mesh_quantization"};
     for (const JsonNode& node : root_.elements("extensionsRequired")) {
       const std::string name = node.text();
-      bool known = name == kMeshoptExtension || name == kDracoExtension || name == kVisibility || name == kPointer;
+      bool known = name == kMeshoptExtension || name == kDracoExtension || name == kVisibility ||
+                   name == kPointer || name == kInstancingExtension;
       for (std::string_view prefix : kHarmless)
         known |= name.starts_with(prefix);
       if (!known)
@@ -368,7 +371,40 @@ class Reader {
       if (std::optional<JsonNode> visible = visibility->find("visible"))
         out.visible = visible->boolean();
     }
+    if (std::optional<JsonNode> instancing = extension(node, kInstancingExtension)) {
+      GltfInstances instances = read_instances(*instancing);
+      if (out.skin != kGltfNone)
+        out_.left_out.emplace_back("instances of a skin");  // whose transforms would come twice
+      else if (!instancing->member("attributes").members().empty())
+        out.instances = instances;
+    }
     return out;
+  }
+
+  GltfInstances read_instances(const JsonNode& node) {
+    GltfInstances instances;
+    bool is_first = true;
+    for (const auto& [name, value] : node.member("attributes").members()) {
+      const uint32_t index = value.index(out_.accessors.size(), "accessors");
+      const GltfAccessor& accessor = out_.accessors[index];
+      if (!is_first && accessor.count != instances.count)
+        value.fail("has " + std::to_string(accessor.count) + " elements, but another attribute " +
+                   std::to_string(instances.count));
+      instances.count = accessor.count;
+      is_first = false;
+      uint32_t* place = name == "TRANSLATION" ? &instances.translations
+                        : name == "ROTATION"  ? &instances.rotations
+                        : name == "SCALE"     ? &instances.scales
+                                              : nullptr;
+      if (!place)
+        continue;  // what an application adds
+      const uint32_t components = place == &instances.rotations ? 4 : 3;
+      if (accessor.components != components)
+        value.fail("has " + std::to_string(accessor.components) + " components; " +
+                   std::to_string(components) + " are expected");
+      *place = index;
+    }
+    return instances;
   }
 
   /// Sets the parents; every node has at most one, and none is its own ancestor.

@@ -27,6 +27,8 @@ inline constexpr uint32_t kGltfNone = UINT32_MAX;  ///< an index that is not giv
 inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 
+inline constexpr const char* kInstancingExtension = "EXT_mesh_gpu_instancing";
+
 enum class GltfComponent : uint32_t {
   kInt8 = 5120,
   kUint8 = 5121,
@@ -87,6 +89,19 @@ struct GltfMesh {
   std::vector<double> weights;            ///< of the targets
 };
 
+/// What happens to the front of a mesh's faces, in the pose at rest and in all animations.
+enum class GltfFacing {
+  kKept,
+  kTurned,   ///< the global transform of the node mirrors
+  kChanging  ///< it does so at some times
+};
+
+/// EXT_mesh_gpu_instancing: the mesh of a node is shown once for each, instead of by itself.
+struct GltfInstances {
+  uint32_t count = 0;
+  uint32_t translations = kGltfNone, rotations = kGltfNone, scales = kGltfNone;  ///< accessors
+};
+
 struct GltfNode {
   std::string name;
   uint32_t parent = kGltfNone;
@@ -97,6 +112,8 @@ struct GltfNode {
   std::optional<std::array<double, 16>> matrix;  ///< column-major, instead of the three
   std::vector<double> weights;                   ///< empty: those of the mesh
   bool visible = true;                           ///< KHR_node_visibility: with all below it
+  std::optional<GltfInstances> instances;
+  GltfFacing facing = GltfFacing::kKept;
 };
 
 struct GltfSkin {

@@ -22,7 +22,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kExtension = "ANIC_mesh_animation";
-constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 constexpr const char* kLights = "KHR_lights_punctual";
 
 /// Extensions whose references to accessors and buffer views are known here: most have none.
@@ -31,7 +30,7 @@ bool is_understood(const std::string& extension) {
   constexpr std::string_view kOthers[] = {kExtension,
                                           kDracoExtension,
                                           kMeshoptExtension,
-                                          kInstancing,
+                                          kInstancingExtension,
                                           kLights,
                                           "EXT_lights_image_based",
                                           "KHR_animation_pointer",
@@ -97,7 +96,7 @@ void visit_accessors(Json& document, Visit visit) {
     });
   });
   each(document, "nodes", [&](Json& node) {
-    if (Json* instances = find_extension(node, kInstancing))
+    if (Json* instances = find_extension(node, kInstancingExtension))
       each(*instances, "attributes", visit);
   });
 }
@@ -245,6 +244,7 @@ class MovingGlb {
     if (kept.empty()) {
       for (const char* key : {"mesh", "skin", "weights"})
         node.erase(key);
+      erase_extension(node, kInstancingExtension);
       return;
     }
     mesh["primitives"] = std::move(kept);
@@ -283,9 +283,13 @@ class MovingGlb {
     }
     if (draco) {
       erase_extension(primitive, kDracoExtension);
+    }
+    if (draco || baked.turned) {
+      std::vector<uint32_t> corners = baked.geometry->triangles;
+      for (size_t i = 0; baked.turned && i < corners.size(); i += 3)
+        std::swap(corners[i + 1], corners[i + 2]);
       primitive["mode"] = 4;
-      primitive["indices"] =
-          accessor(buffer_.add_indices(baked.geometry->triangles, vertices.count));
+      primitive["indices"] = accessor(buffer_.add_indices(corners, vertices.count));
     }
     if (baked.owns_vertices) {
       const auto part = [&](const std::vector<float>& all) {
@@ -467,14 +471,16 @@ class MovingGlb {
 
   /// Names those that are in the file now.
   void list_extensions() {
-    const std::string text = document_["meshes"].dump();
+    const std::string meshes = document_["meshes"].dump(), nodes = document_["nodes"].dump();
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       Json* names = find(document_, list);
       if (!names)
         continue;
       Json kept = Json::array();
       for (const Json& one : *names) {
-        if (one != kMeshoptExtension && (one != kDracoExtension || text.find(kDracoExtension) != std::string::npos))
+        if (one != kMeshoptExtension &&
+            (one != kDracoExtension || meshes.find(kDracoExtension) != std::string::npos) &&
+            (one != kInstancingExtension || nodes.find(kInstancingExtension) != std::string::npos))
           kept.push_back(one);
       }
       if (kept.empty())
