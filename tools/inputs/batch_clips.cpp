@@ -10,6 +10,7 @@
 #include "tools/io/files/natural_order.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -21,8 +22,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Without the number at its end and the minus of one below zero.
 std::string without_number(const std::string& stem) {
-  return stem.substr(0, stem.find_last_not_of("0123456789") + 1);
+  std::string before = stem.substr(0, stem.find_last_not_of("0123456789") + 1);
+  if (before.size() < stem.size() && before.ends_with('-') &&
+      (before.size() == 1 || !std::isalnum(static_cast<unsigned char>(before[before.size() - 2]))))
+    before.pop_back();
+  return before;
+}
+
+using FramesOfClips = std::map<std::pair<std::string, FileKind>, std::vector<std::string>>;
+
+/// Joins names with decimals (sim.1.25) to those of their clip that have none (sim.1).
+void join_fractions(FramesOfClips& frames) {
+  for (auto group = frames.begin(); group != frames.end();) {
+    const auto& [before, kind] = group->first;
+    const auto whole = before.ends_with('.')
+                           ? frames.find({without_number(before.substr(0, before.size() - 1)), kind})
+                           : frames.end();
+    if (whole == frames.end() || whole == group) {
+      ++group;
+      continue;
+    }
+    std::vector<std::string> all = whole->second;
+    all.insert(all.end(), group->second.begin(), group->second.end());
+    sort_naturally(all);
+    whole->second = std::move(all);
+    group = frames.erase(group);
+  }
 }
 
 std::string joined(const fs::path& folder, const std::string& name) {
@@ -38,11 +65,10 @@ void add_folder(const fs::path& folder, const fs::path& relative, std::vector<Ba
   if (error)
     throw Error(ErrorKind::kInput, folder.string() + ": " + error.message());
   for (std::vector<std::string>* names : {&files, &folders})
-    std::sort(names->begin(), names->end(),
-              [](const std::string& a, const std::string& b) { return natural_less(a, b); });
+    sort_naturally(*names);
 
   std::set<std::string> cached;  // stems of caches, whose meshes are no clips
-  std::map<std::pair<std::string, FileKind>, std::vector<std::string>> frames;
+  FramesOfClips frames;
   for (const std::string& file : files) {
     const FileKind kind = kind_of(file);
     const std::string stem = fs::path(file).stem().string();
@@ -53,6 +79,7 @@ void add_folder(const fs::path& folder, const fs::path& relative, std::vector<Ba
     else if (kind != FileKind::kUnknown && without_number(stem) != stem)
       frames[{without_number(stem), kind}].push_back(file);
   }
+  join_fractions(frames);
   for (const auto& [group, names] : frames) {
     BatchClip clip;
     for (const std::string& name : names) {

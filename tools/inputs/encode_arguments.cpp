@@ -275,6 +275,7 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.flag("--allow-outside", a.allow_outside,
                "Let a scene name files outside its folder: those of strangers then choose what is "
                "read");
+  options.flag("--no-weld", a.no_weld, "Take every corner of STL files as a vertex: corners at one place may part later");
   options.flag("--live", a.live,
                "INPUT is a mesh, its frames come from the standard input: float32 x, y, z of each vertex, little-endian");
   options.number("--piece", a.piece, "SECONDS", {0.001, 3600}, "Of --live, what is encoded at a time (default 1)");
@@ -366,6 +367,7 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   options.clips = split_at_commas(command.clips);
   options.progress = progress;
   options.allow_outside = command.allow_outside;
+  options.weld_stl = !command.no_weld;
   options.scene_stays = kind_of(command.output) == FileKind::kGlb;
   if (!command.memory.empty() && command.batch.empty())
     options.memory = parse_size(command.memory, "--memory");

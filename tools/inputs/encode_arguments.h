@@ -58,6 +58,7 @@ struct EncodeArguments {
   std::vector<std::string> events;  ///< [CLIP:]NAME=SECONDS
   bool root_motion = false;
   bool allow_outside = false;
+  bool no_weld = false;
   bool no_attributes = false;
   AttributeOptions attributes;
   std::string attribute_error, normal_error;

@@ -8,8 +8,10 @@
 #include "tools/io/assimp/assimp_scene.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_attributes.h"
+#include "tools/io/base/frame_changes.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/base/signed_axes.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
@@ -30,6 +32,8 @@
 #include <set>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <glob.h>
 
@@ -59,8 +63,7 @@ std::vector<std::string> matches(const std::string& pattern) {
     throw Error(ErrorKind::kInput, pattern + ": no file matches");
   if (result != 0)
     throw Error(ErrorKind::kInput, pattern + ": the folder cannot be read");
-  std::sort(paths.begin(), paths.end(),
-            [](const std::string& a, const std::string& b) { return natural_less(a, b); });
+  sort_naturally(paths);
   return paths;
 }
 
@@ -98,7 +101,8 @@ class MeshReader {
         parse_obj(bytes_, path, mesh_, details, &libraries_);
         break;
       case FileKind::kPly:
-        parse_ply(bytes_, path, mesh_, details);
+        left_out_.clear();
+        parse_ply(bytes_, path, mesh_, details, &left_out_);
         break;
       case FileKind::kOff:
         parse_off(bytes_, path, mesh_);
@@ -108,6 +112,18 @@ class MeshReader {
     }
     return mesh_;
   }
+
+  /// Notes what the mesh at `path`, read last with its details, has and these do not.
+  void note_left_out(const std::string& path, const LoadOptions& options) const {
+    std::string text;
+    for (const std::string& what : left_out_)
+      text += (text.empty() ? "" : ", ") + printable(what);
+    if (options.note && !text.empty())
+      options.note(path + ": left out: " + text);
+  }
+
+  /// The libraries of materials that the mesh read last names.
+  const std::vector<std::string>& libraries() const { return libraries_; }
 
   /// The bytes of the file that was read last.
   std::string_view text() const { return bytes_; }
@@ -136,6 +152,31 @@ class MeshReader {
  private:
   std::string bytes_;
   Mesh mesh_;
+  std::vector<std::string> libraries_;
+  std::vector<std::string> left_out_;  ///< of a PLY
+};
+
+/// Tells what changes beside the positions of frames and is not kept.
+class ChangesOfFrames {
+ public:
+  explicit ChangesOfFrames(const LoadOptions& options) : options_(options), changes_(options.note) {
+    options_.note = {};
+  }
+
+  /// The frame that the others are compared with has been read.
+  void begin(const MeshReader& reader) { libraries_ = reader.libraries(); }
+
+  /// The frame at `path`, read last, with its details.
+  void compare(const MeshReader& reader, const std::string& path, const MeshDetails& first,
+               MeshDetails& now) {
+    if (reader.libraries() != libraries_ && first.materials.names == now.materials.names)
+      reader.read_looks(path, options_, now.materials);
+    changes_.compare(first, now, path);
+  }
+
+ private:
+  LoadOptions options_;  ///< notes nothing
+  FrameChanges changes_;
   std::vector<std::string> libraries_;
 };
 
@@ -186,18 +227,20 @@ void load_frames(const std::vector<std::string>& paths, const LoadOptions& optio
                  MeshSequence& sequence) {
   MeshReader reader;
   MeshDetails details;
+  ChangesOfFrames changes(options);
   for (size_t f = 0; f < paths.size(); ++f) {
-    const bool moving = std::ranges::any_of(sequence.attributes, can_move);
-    const Mesh& mesh = reader.read(paths[f], f == 0 ? &sequence : moving ? &details : nullptr);
+    const Mesh& mesh = reader.read(paths[f], f == 0 ? &sequence : &details);
     if (f == 0) {
+      reader.note_left_out(paths[0], options);
+      changes.begin(reader);
       sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
       sequence.polygons = mesh.polygons;
       reader.read_looks(paths[0], options, sequence.materials);
       reserve(sequence, paths.size(), paths[0]);
     } else {
       check_same_mesh(mesh, paths[f], sequence, paths[0]);
-      if (moving)
-        add_frame(details.attributes, static_cast<uint32_t>(f), sequence.attributes);
+      changes.compare(reader, paths[f], sequence, details);
+      add_frame(details.attributes, static_cast<uint32_t>(f), sequence.attributes);
     }
     sequence.positions.insert(sequence.positions.end(), mesh.positions.begin(),
                               mesh.positions.end());
@@ -270,6 +313,38 @@ void compare_axes(const std::string& cache, std::span<const float> mesh, const L
   options.note(text);
 }
 
+/// Takes the first frame and the frames of a sample from the header of a PC2. They count frames of the
+/// scene, whose rate is the one given or assumed.
+void set_pc2_timing(const VertexCache& cache, const std::string& path, const LoadOptions& options,
+                    MeshSequence& sequence) {
+  constexpr float kMostFrames = 10;  // more is a rate: some writers put frames per second there
+  const float step = cache.frames_per_sample;
+  if (options.rate)
+    sequence.rate = *options.rate;
+  sequence.rate.assumed = !options.rate;
+  if (cache.first_frame == 0 && step == 1)
+    return;
+  const auto say = [&](const std::string& text) {
+    if (options.note)
+      options.note(path + ": " + text);
+  };
+  if (!std::isfinite(cache.first_frame) || !(step > 0 && step <= kMostFrames))
+    return say(fmt::format("its header says first frame {:g}, {:g} frames a sample, which is not used",
+                           cache.first_frame, step));
+  const double fps = sequence.rate.value();
+  std::vector<double> times;
+  for (uint32_t f = 0; f < std::max(cache.frame_count, 2U); ++f)
+    times.push_back((static_cast<double>(cache.first_frame) + f * static_cast<double>(step)) / fps);
+  const Timing timing = timing_of(times, 0, path);
+  sequence.rate = timing.rate;
+  sequence.rate.assumed = !options.rate;
+  sequence.start_time = timing.start_time;
+  say(fmt::format("its header says first frame {:g}, {:g} frames a sample: at {:g} frames per second{}, samples "
+                  "from {:g} s at {:g} per second",
+                  cache.first_frame, step, fps, options.rate ? "" : ", which are assumed (--fps)", timing.start_time,
+                  timing.rate.value()));
+}
+
 void load_cache(const std::string& cache_path, const std::string& mesh_path,
                 const LoadOptions& options, MeshSequence& sequence) {
   if (kind_of(mesh_path) == FileKind::kStl)
@@ -295,7 +370,9 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
   read_positions(cache, source, sequence.positions, options.progress);
   if (cache.frame_count > 0)
     compare_axes(cache_path, surface, options, sequence);
-  if (!options.rate && !cache.times.empty()) {
+  if (kind_of(cache_path) == FileKind::kPc2) {
+    set_pc2_timing(cache, cache_path, options, sequence);
+  } else if (!options.rate) {
     Timing timing = timing_of(cache.times, cache_path);
     sequence.rate = timing.rate;
     sequence.start_time = timing.start_time;
@@ -390,8 +467,9 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
     return;
   }
   Mesh mesh;
+  std::vector<std::string> left_out;
   if (bytes.starts_with("ply"))
-    parse_ply(bytes, "-", mesh, &sequence);
+    parse_ply(bytes, "-", mesh, &sequence, &left_out);
   else if (std::string_view(bytes).substr(0, 16).find("OFF") != std::string_view::npos)
     parse_off(bytes, "-", mesh);
   else
@@ -400,6 +478,8 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
   sequence.frame_count = 1;
   sequence.polygons = std::move(mesh.polygons);
   sequence.positions = std::move(mesh.positions);
+  if (options.note && !left_out.empty())
+    options.note(fmt::format("-: left out: {}", fmt::join(left_out, ", ")));
 }
 
 /// Throws when a run was killed while it replaced some of these files together with others, and
@@ -419,6 +499,17 @@ void check_complete(const std::vector<std::string>& paths) {
                  "was to be replaced together with other files by a run that was killed; write "
                  "there or repeat that run to finish it");
   }
+}
+
+/// Tells of frames that are not in the order of their numbers: shells sort by letters.
+void note_order(const std::vector<std::string>& paths, const LoadOptions& options) {
+  const bool fractions = have_fractions(paths);
+  const auto late = std::ranges::adjacent_find(paths, [&](const std::string& a, const std::string& b) {
+    return natural_less(b, a, fractions);
+  });
+  if (options.note && late != paths.end())
+    options.note("frames stay in the order given, " + late[0] + " before " + late[1] +
+                 "; a pattern in quotes sorts them by their numbers");
 }
 
 void load(const std::vector<std::string>& paths, const LoadOptions& options,
@@ -468,6 +559,7 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
     if (kind_of(path) != kind)
       fail_usage(path + ": frames are of one format, but " + meshes[0] + " is of another");
   }
+  note_order(meshes, options);
   if (kind == FileKind::kStl)
     load_stl_frames(meshes, options, sequence);
   else
@@ -490,14 +582,16 @@ MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOption
   if (inputs.empty())
     fail_usage("no input is given");
   MeshSequence sequence;
+  bool has_rate = false;  // that a PC2 makes of the one given
   if (inputs.size() == 1 && inputs[0] == "-") {
     load_standard_input(options, sequence);
   } else {
     std::vector<std::string> paths = expand(inputs);
     sequence.name = fs::path(paths[0]).stem().string();
     load(paths, options, sequence);
+    has_rate = std::ranges::any_of(paths, [](const std::string& path) { return kind_of(path) == FileKind::kPc2; });
   }
-  if (options.rate) {
+  if (options.rate && !has_rate) {
     sequence.rate = *options.rate;
     sequence.rate.assumed = false;
     for (ClipTiming& clip : sequence.clips)
@@ -521,6 +615,7 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
     return scene;
   }
   MeshReader reader;
+  ChangesOfFrames changes(options);
   Scene scene;
   scene.clip.name = fs::path(paths[0]).stem().string();
   if (options.rate) {
@@ -534,6 +629,8 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
       fail_usage(paths[f] + ": frames are of one format, but " + paths[0] + " is of another");
     MeshDetails details;
     const Mesh* mesh = &reader.read(paths[f], &details);
+    if (f == 0)
+      reader.note_left_out(paths[0], options);
     if (runs.empty() || mesh->vertex_count() != runs.back().sequence.vertex_count ||
         mesh->polygons != runs.back().sequence.polygons) {
       MeshSequence& run = runs.emplace_back().sequence;
@@ -542,7 +639,9 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
       run.polygons = mesh->polygons;
       reader.read_looks(paths[f], options, run.materials);
       runs.back().present_in = {{f, 0}};
+      changes.begin(reader);
     } else {
+      changes.compare(reader, paths[f], runs.back().sequence, details);
       add_frame(details.attributes, runs.back().sequence.frame_count,
                 runs.back().sequence.attributes);
     }

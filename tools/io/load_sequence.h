@@ -35,7 +35,7 @@ struct LoadOptions {
   /// Without `clip` and `clips`, several takes of what moves in a scene are clips of the sequence; else
   /// the first is taken, and the others noted.
   bool takes = false;
-  /// See StlWeld.
+  /// Corners of an STL at one place are one vertex, see StlWeld.
   bool weld_stl = true;
   /// Most bytes that may be taken for what a file announces and does not hold: decompressed data,
   /// instances, frames of a scene.
@@ -53,7 +53,8 @@ struct LoadOptions {
 /// Loads what the command line names, one of
 ///   - a mesh (.obj .ply .off .stl) and a vertex cache (.pc2 .mdd), in either order,
 ///   - a vertex cache alone, with options.mesh or a mesh beside it,
-///   - frames of one format: meshes of equal connectivity in the order given,
+///   - frames of one format: meshes of equal connectivity in the order given, which is noted where it is
+///     not that of their numbers,
 ///   - a scene (.gltf .glb), baked,
 ///   - an Alembic archive (.abc), see read_alembic(),
 ///   - a pattern of glob(3) for any of these, its results in natural order,

@@ -81,6 +81,76 @@ TEST(LoadSequence, SortsGlobsNaturallyAndKeepsListsAsGiven) {
   EXPECT_EQ(listed.frame(1)[0], 1);
 }
 
+/// All notes of a load, one a line.
+std::string notes_of(std::vector<std::string> inputs, LoadOptions options = {}) {
+  std::string notes;
+  options.note = [&](const std::string& text) { notes += text + "\n"; };
+  load_sequence(inputs, options);
+  return notes;
+}
+
+TEST(LoadSequence, TellsOfFramesThatAreNotInTheOrderOfTheirNumbers) {
+  TemporaryFolder folder;
+  std::vector<std::string> paths;
+  for (const char* number : {"-0010", "-0009", "0000"})
+    paths.push_back(folder.write(std::string("sim.") + number + ".obj", triangle(number)));
+  EXPECT_EQ(notes_of(paths), "");
+  EXPECT_EQ(notes_of({folder / "sim.*.obj"}), "");
+  std::swap(paths[0], paths[1]);
+  EXPECT_THAT(notes_of(paths), HasSubstr("sim.-0009.obj before " + folder / "sim.-0010.obj"));
+}
+
+TEST(LoadSequence, TellsWhatChangesBesideThePositions) {
+  TemporaryFolder folder;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n", face = "f 1/1 2/2 3/3\n";
+  const std::string first = folder.write("0.obj", mesh + "usemtl a\n" + face);
+  const auto notes = [&](const std::string& text) { return notes_of({first, folder.write("1.obj", text)}); };
+  EXPECT_EQ(notes(mesh + "usemtl a\n" + face), "");
+  EXPECT_EQ(notes(mesh + "usemtl b\n" + face),
+            folder / "1.obj: the material changes, here from 'a' to 'b'; the clip keeps what the first frame has\n");
+  EXPECT_THAT(notes(mesh + "usemtl a\nf 1/2 2/2 3/3\n"), HasSubstr("texture coordinates 'uv' of corners change"));
+  EXPECT_THAT(notes(mesh + "o x\nusemtl a\n" + face), HasSubstr("objects of faces change"));
+  EXPECT_THAT(notes("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nusemtl a\nf 1 2 3\n"),
+              testing::AllOf(HasSubstr("has no texture coordinates 'uv'"), HasSubstr("has colours 'colour'")));
+}
+
+TEST(LoadSequence, TellsOfMaterialsThatLookOtherwiseFromFrameToFrame) {
+  TemporaryFolder folder;
+  std::vector<std::string> paths;
+  for (const std::string n : {"0", "1"}) {
+    folder.write(n + ".mtl", "newmtl a\nKd 1 1 1\nmap_Kd scan_" + n + ".jpg\n");
+    paths.push_back(folder.write(n + ".obj", "mtllib " + n + ".mtl\nusemtl a\n" + triangle("0")));
+  }
+  EXPECT_THAT(notes_of(paths), HasSubstr("1.obj: colours or images of materials change"));
+}
+
+TEST(LoadSequence, TakesFirstFrameAndFramesOfASampleFromAPc2) {
+  TemporaryFolder folder;
+  const std::string mesh = folder.write("a.obj", triangle("0"));
+  std::string bytes = pc2(3, 3);
+  const auto put = [&](size_t offset, float number) {
+    std::string four;
+    append(number, std::endian::little, four);
+    bytes.replace(offset, 4, four);
+  };
+  put(20, 100);
+  put(24, 0.5F);
+  const std::string cache = folder.write("a.pc2", bytes);
+  const MeshSequence asked = load_clip({mesh, cache}, {.rate = parse_frame_rate("24")});
+  EXPECT_DOUBLE_EQ(asked.start_time, 100.0 / 24);
+  EXPECT_DOUBLE_EQ(asked.rate.value(), 48);  // two samples a frame
+  EXPECT_FALSE(asked.rate.assumed);
+  const MeshSequence assumed = load_clip({mesh, cache});
+  EXPECT_DOUBLE_EQ(assumed.rate.value(), 48);
+  EXPECT_TRUE(assumed.rate.assumed);
+  EXPECT_THAT(notes_of({mesh, cache}), HasSubstr("0.5 frames a sample: at 24 frames per second, which are assumed"));
+  put(20, 0);
+  put(24, 30);  // no step of a cache, but a rate
+  folder.write("a.pc2", bytes);
+  EXPECT_DOUBLE_EQ(load_clip({mesh, cache}).rate.value(), 24);
+  EXPECT_THAT(notes_of({mesh, cache}), HasSubstr("which is not used"));
+}
+
 TEST(LoadSequence, TakesANameThatExistsAsNoPattern) {
   TemporaryFolder folder;
   EXPECT_EQ(load_clip({folder.write("a[1].obj", triangle("5"))}).positions[0], 5);

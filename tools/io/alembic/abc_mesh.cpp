@@ -56,10 +56,10 @@ AbcMesh::AbcMesh(const AbcArchive& archive, const AbcObject& object, const AbcCo
     note(path_ +
          ": is a subdivision surface, read as its control mesh; creases, corners and holes "
          "are left out");
-  find_face_sets(object);
+  find_face_sets(object, note);
 }
 
-void AbcMesh::find_face_sets(const AbcObject& object) {
+void AbcMesh::find_face_sets(const AbcObject& object, const AbcNote& note) {
   for (uint32_t child : object.children) {
     const AbcObject& set = archive_.objects[child];
     if (set.schema != AbcSchema::kFaceSet)
@@ -74,6 +74,8 @@ void AbcMesh::find_face_sets(const AbcObject& object) {
       continue;
     archive_.time_of(*faces);
     face_sets_.push_back({set.name, AbcSamples(archive_.file, *faces)});
+    if (!faces->is_constant())
+      note(path_ + ": face set '" + set.name + "' changes, and stays as in the first frame that shows the mesh");
   }
 }
 
@@ -133,12 +135,13 @@ void AbcMesh::read_positions(double time, std::span<float> out) const {
   positions_.read(archive_.sample_at(positions_, time), out);
 }
 
-PolygonLabels AbcMesh::face_sets(double time, size_t polygons) const {
+PolygonLabels AbcMesh::face_sets(double time, size_t polygons, const AbcNote& note) const {
   PolygonLabels labels;
   for (const FaceSet& set : face_sets_) {
     if (labels.names.empty())
       labels.of_polygon.assign(polygons, kNoLabel);
     const auto label = static_cast<uint32_t>(labels.names.size());
+    std::vector<size_t> taken(labels.names.size());  // faces that each set before has already
     for (int32_t face : set.faces.integers(archive_.sample_at(set.faces, time))) {
       if (face < 0 || static_cast<size_t>(face) >= polygons)
         archive_.file.fail(set.faces.property().place(),
@@ -146,6 +149,13 @@ PolygonLabels AbcMesh::face_sets(double time, size_t polygons) const {
       uint32_t& of_face = labels.of_polygon[static_cast<size_t>(face)];
       if (of_face == kNoLabel)
         of_face = label;
+      else if (of_face != label)
+        ++taken[of_face];
+    }
+    for (size_t other = 0; other < taken.size(); ++other) {
+      if (taken[other] > 0)
+        note(path_ + ": " + std::to_string(taken[other]) + " faces of face set '" + set.name + "' are in '" +
+             labels.names[other] + "', too, and stay there alone");
     }
     labels.names.push_back(set.name);
   }

@@ -51,7 +51,7 @@ class AbcMesh {
 
   /// Names of face sets, and which of them each polygon belongs to; the first where several claim
   /// one.
-  PolygonLabels face_sets(double time, size_t polygons) const;
+  PolygonLabels face_sets(double time, size_t polygons, const AbcNote& note) const;
 
   const AbcGeomParams& params() const { return params_; }
 
@@ -66,7 +66,7 @@ class AbcMesh {
 
   AbcMesh(const AbcArchive& archive, const AbcObject& object, const AbcCompound& geometry,
           const AbcNote& note);
-  void find_face_sets(const AbcObject& object);
+  void find_face_sets(const AbcObject& object, const AbcNote& note);
   AbcTopology read_topology(uint32_t counts, uint32_t indices, uint32_t vertices) const;
 
   const AbcArchive& archive_;

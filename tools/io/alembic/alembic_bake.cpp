@@ -198,7 +198,7 @@ MeshSequence AlembicBake::describe(const AbcShown& shown, size_t frame) {
     for (size_t c = 0; c < order.size(); ++c)
       out.polygons.corners[c] = topology.polygons.corners[order[c]];
   }
-  out.materials = shown.mesh->face_sets(clock_.times[frame], out.polygons.size());
+  out.materials = shown.mesh->face_sets(clock_.times[frame], out.polygons.size(), note_);
   const std::vector<AbcPlace> now = places(frame);
   for (const AbcGeomParam& param : shown.mesh->params().all()) {
     std::optional<Attribute> found = attribute(shown, param, frame);

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace anicodec::tools {
 namespace {
@@ -164,7 +166,7 @@ constexpr size_t kNone = std::numeric_limits<size_t>::max();
 
 template <typename Body>
 void read_vertices(const PlyElement& element, std::string_view name, Body& body, Mesh& mesh,
-                   MeshDetails* details) {
+                   MeshDetails* details, std::vector<std::string>* left_out) {
   constexpr std::string_view kAxes[] = {"x", "y", "z"};
   std::vector<size_t> axis_of(element.properties.size(), kNone);
   for (size_t k = 0; k < 3; ++k) {
@@ -184,6 +186,10 @@ void read_vertices(const PlyElement& element, std::string_view name, Body& body,
 
   mesh.positions.resize(element.count * 3);
   PlyAttributes attributes = details ? PlyAttributes(element) : PlyAttributes();
+  if (details && left_out) {
+    for (std::string& what : attributes.left_out(element))
+      left_out->push_back(std::move(what));
+  }
   for (size_t v = 0; v < element.count; ++v) {
     body.begin_element(element, v);
     for (size_t i = 0; i < axis_of.size(); ++i) {
@@ -218,9 +224,20 @@ void read_polygon(const PlyProperty& property, uint64_t vertices, Body& body, Me
   mesh.polygons.offsets.push_back(static_cast<uint32_t>(mesh.polygons.corners.size()));
 }
 
+/// Takes the values of a property of a face, of which each becomes a number of a corner.
+template <typename Body>
+void take_property(const PlyProperty& property, size_t index, Body& body, PlyCorners& corners) {
+  const int64_t count = property.list ? body.integer(property.count_type, "list count") : 1;
+  if (count < 0)
+    body.fail("a list of " + std::to_string(count) + " values");
+  body.expect(static_cast<uint64_t>(count), property.type);
+  for (int64_t i = 0; i < count; ++i)
+    corners.add(index, body.value(property.type));
+}
+
 template <typename Body>
 void read_faces(const PlyElement& element, std::string_view name, uint64_t vertices, Body& body,
-                Mesh& mesh) {
+                Mesh& mesh, PlyCorners& corners) {
   auto is_polygon = [](const PlyProperty& p) {
     return p.name == "vertex_indices" || p.name == "vertex_index";
   };
@@ -232,27 +249,36 @@ void read_faces(const PlyElement& element, std::string_view name, uint64_t verti
     fail_input(name, "the faces have both vertex_indices and vertex_index");
   for (uint64_t f = 0; f < element.count; ++f) {
     body.begin_element(element, f);
-    for (const PlyProperty& property : properties) {
-      if (&property == &*polygon)
-        read_polygon(property, vertices, body, mesh);
+    for (size_t i = 0; i < properties.size(); ++i) {
+      if (&properties[i] == &*polygon)
+        read_polygon(properties[i], vertices, body, mesh);
+      else if (corners.takes(i))
+        take_property(properties[i], i, body, corners);
       else
-        skip_property(property, body);
+        skip_property(properties[i], body);
     }
     body.end_element();
+    corners.end_face(mesh.polygons[mesh.polygons.size() - 1].size());
   }
 }
 
 template <typename Body>
 void read_body(const PlyHeader& header, uint64_t vertices, std::string_view name, Body& body,
-               Mesh& mesh, MeshDetails* details) {
+               Mesh& mesh, MeshDetails* details, std::vector<std::string>* left_out) {
+  std::vector<Attribute> of_corners;
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
-      read_vertices(element, name, body, mesh, details);
+      read_vertices(element, name, body, mesh, details, left_out);
     } else if (element.name == "face") {
-      read_faces(element, name, vertices, body, mesh);
+      PlyCorners corners = details ? PlyCorners(element) : PlyCorners();
+      read_faces(element, name, vertices, body, mesh, corners);
+      if (details)
+        of_corners = corners.finish(element, left_out);
     } else if (element.name == "tristrips" && element.count > 0) {
       fail_input(name, "triangle strips (element tristrips) are not read; save it with faces");
     } else if (!element.properties.empty()) {
+      if (left_out && element.count > 0)
+        left_out->push_back("'" + element.name + "'");
       for (uint64_t i = 0; i < element.count; ++i) {
         body.begin_element(element, i);
         for (const PlyProperty& property : element.properties)
@@ -262,11 +288,14 @@ void read_body(const PlyHeader& header, uint64_t vertices, std::string_view name
     }
   }
   body.end();
+  if (details)
+    std::ranges::move(of_corners, std::back_inserter(details->attributes));
 }
 
 }  // namespace
 
-void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh, MeshDetails* details) {
+void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh, MeshDetails* details,
+               std::vector<std::string>* left_out) {
   mesh.clear();
   PlyHeader header = parse_ply_header(bytes, name);
   uint64_t vertices = 0;
@@ -276,11 +305,11 @@ void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh, MeshDe
   }
   if (header.encoding == PlyEncoding::kAscii) {
     AsciiBody body(bytes.substr(header.body), name, header.body_line);
-    read_body(header, vertices, name, body, mesh, details);
+    read_body(header, vertices, name, body, mesh, details, left_out);
   } else {
     bool big = header.encoding == PlyEncoding::kBigEndian;
     BinaryBody body(bytes, name, header.body, big ? std::endian::big : std::endian::little);
-    read_body(header, vertices, name, body, mesh, details);
+    read_body(header, vertices, name, body, mesh, details, left_out);
   }
   check_size(mesh, name);
 }

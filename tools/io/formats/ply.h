@@ -5,21 +5,24 @@
 
 #include "tools/io/base/mesh.h"
 #include "tools/io/formats/ply_attributes.h"
+#include "tools/io/formats/ply_corners.h"
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace anicodec::tools {
 
 /// Reads PLY 1.0: ascii, binary_little_endian and binary_big_endian. Takes x, y, z of element
 /// vertex (any number type) and the list vertex_indices or vertex_index of element face (any
 /// integer types); `details`, where given, receives the other numbers of the vertices, see
-/// PlyAttributes. All other properties and elements are skipped by their declared types. In ascii
+/// PlyAttributes, and of the faces, see PlyCorners. All other properties and elements are skipped by
+/// their declared types; `left_out`, where given, receives what they are. In ascii
 /// files each element stands on a line of its own. Throws Error(kInput), for ascii bodies with the
 /// line.
 void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh,
-               MeshDetails* details = nullptr);
+               MeshDetails* details = nullptr, std::vector<std::string>* left_out = nullptr);
 
 /// Appends a PLY of one frame, binary_little_endian or ascii; coordinates read back to the same
 /// floats. `properties`, where given, are those of the vertices beside their positions.

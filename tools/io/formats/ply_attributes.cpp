@@ -22,11 +22,6 @@ constexpr const char* kNormal[] = {"nx", "ny", "nz"};
 constexpr const char* kUvNames[][2] = {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
 constexpr float kByte = 255;
 
-/// The largest integer of a colour, which stands for 1.
-double largest_of(PlyType type) {
-  return is_integer(type) ? std::exp2(8.0 * static_cast<double>(size_of(type))) - 1 : 1;
-}
-
 bool is_byte(float x) {
   constexpr float kClose = 0.02F;
   const float k = std::round(x * kByte);
@@ -34,6 +29,10 @@ bool is_byte(float x) {
 }
 
 }  // namespace
+
+double ply_range(PlyType type) {
+  return is_integer(type) ? std::exp2(8.0 * static_cast<double>(size_of(type))) - 1 : 1;
+}
 
 PlyAttributes::PlyAttributes(const PlyElement& vertices) : places_(vertices.properties.size()) {
   group(vertices, AttributeKind::kColour, "colour", kColour, 3);
@@ -75,12 +74,22 @@ void PlyAttributes::group(const PlyElement& vertices, AttributeKind kind, const 
     place.attribute = static_cast<uint32_t>(attributes_.size());
     place.component = c;
     if (kind == AttributeKind::kColour)
-      place.scale = largest_of(vertices.properties[found[c]].type);
+      place.scale = ply_range(vertices.properties[found[c]].type);
   }
   attributes_.push_back({.kind = kind,
                          .name = name,
                          .components = static_cast<uint32_t>(found.size()),
                          .values = {}});
+}
+
+std::vector<std::string> PlyAttributes::left_out(const PlyElement& vertices) const {
+  std::vector<std::string> out;
+  for (size_t i = 0; i < places_.size(); ++i) {
+    const std::string& name = vertices.properties[i].name;
+    if (!takes(i) && name != "x" && name != "y" && name != "z")
+      out.push_back("'" + name + "' of vertices");
+  }
+  return out;
 }
 
 void PlyAttributes::add(size_t vertex, size_t property, double value) {

@@ -14,6 +14,9 @@
 
 namespace anicodec::tools {
 
+/// The largest value of a colour's type, which stands for 1.
+double ply_range(PlyType type);
+
 /// The properties of a PLY's vertices beside positions, and the attributes that they become: red,
 /// green, blue and alpha are a colour (integers are fractions of their largest value), s t, u v or
 /// texture_u texture_v texture coordinates, nx ny nz a normal; any other number is an attribute of
@@ -29,6 +32,9 @@ class PlyAttributes {
   bool takes(size_t property) const {
     return property < places_.size() && places_[property].attribute != kNone;
   }
+
+  /// The properties that are not taken, but for the positions.
+  std::vector<std::string> left_out(const PlyElement& vertices) const;
 
   /// Takes the value of a property of a vertex; vertices come in order.
   void add(size_t vertex, size_t property, double value);

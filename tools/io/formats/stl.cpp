@@ -244,7 +244,7 @@ void StlWeld::append_vertices(std::span<const float> soup, std::string_view name
       fail_input(name, "corner " + std::to_string(c % 3) + " of triangle " + std::to_string(c / 3) +
                            " and corner " + std::to_string(first % 3) + " of triangle " +
                            std::to_string(first / 3) + " lie apart, but are one vertex in " +
-                           first_name_ + "; read the sequence without welding");
+                           first_name_ + "; --no-weld takes every corner as a vertex");
   }
   for (uint32_t c : corner_of_vertex_)
     positions.insert(positions.end(), soup.begin() + size_t{c} * 3,

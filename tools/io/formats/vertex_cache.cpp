@@ -62,6 +62,8 @@ VertexCache open_pc2(const ByteSource& source) {
   VertexCache cache;
   cache.data_offset = kPc2HeaderSize;
   set_counts(number(16), number(28), source.name, cache);
+  cache.first_frame = load<float>(header.data() + 20, std::endian::little);
+  cache.frames_per_sample = load<float>(header.data() + 24, std::endian::little);
   check_file_size(cache, source);
   return cache;
 }

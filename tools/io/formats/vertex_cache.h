@@ -22,10 +22,11 @@ struct VertexCache {
   uint64_t data_offset = 0;  ///< of frame_count x vertex_count x 3 floats
   std::endian order = std::endian::little;
   std::vector<float> times;  ///< seconds of each frame (MDD); PC2 has none
+  /// Of a PC2: the frame of the scene at which the first sample stands, and frames from sample to sample.
+  float first_frame = 0, frames_per_sample = 1;
 };
 
-/// Reads the header of a PC2 (little-endian, "POINTCACHE2", version 1). Its start and rate mean
-/// nothing: they count frames, and most writers set the rate to 1. Throws Error(kInput).
+/// Reads the header of a PC2 (little-endian, "POINTCACHE2", version 1). Throws Error(kInput).
 VertexCache open_pc2(const ByteSource& source);
 
 /// Reads the header and times of an MDD (big-endian). Throws Error(kInput).

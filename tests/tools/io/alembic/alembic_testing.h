@@ -4,11 +4,14 @@
 #define ANICODEC_TESTS_TOOLS_IO_ALEMBIC_TESTING_H_
 
 #include "codec/sequence/scene.h"
+#include "tools/io/alembic/abc_archive.h"
+#include "tools/io/alembic/abc_output.h"
 #include "tools/io/alembic/alembic.h"
 #include "tools/io/alembic/alembic_output.h"
 #include "tools/io/base/frame_attributes.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,6 +77,37 @@ inline Scene scene_of(MeshSequence clip) {
   const FrameRun all{0, clip.frame_count};
   scene.meshes.push_back({std::move(clip), {all}});
   return scene;
+}
+
+/// Changes the bytes of a sample that is copied.
+using ChangeSample = std::function<void(const AbcProperty& property, std::string& bytes)>;
+
+inline void copy_properties(const AbcArchive& from, const AbcCompound& compound, const ChangeSample& change,
+                            AbcCompoundOutput& to) {
+  for (const AbcProperty& p : compound.properties) {
+    if (p.shape == AbcShape::kCompound) {
+      copy_properties(from, from.properties(p), change, to.compound(p.name, p.metadata));
+      continue;
+    }
+    AbcPropertyOutput& out = p.shape == AbcShape::kScalar
+                                 ? to.scalar(p.name, p.metadata, p.type, p.extent, p.sampling)
+                                 : to.array(p.name, p.metadata, p.type, p.extent, p.sampling);
+    const AbcSamples samples(from.file, p);
+    for (uint32_t s = 0; s < p.samples; ++s) {
+      std::string bytes = from.file.read(samples.block(s));
+      if (change)
+        change(p, bytes);
+      out.add(bytes);
+    }
+  }
+}
+
+/// Copies an object with all below it, property by property.
+inline void copy_object(const AbcArchive& from, uint32_t object, AbcObjectOutput& to,
+                        const ChangeSample& change = {}) {
+  copy_properties(from, from.properties(from.objects[object]), change, to.properties());
+  for (uint32_t child : from.objects[object].children)
+    copy_object(from, child, to.child(from.objects[child].name, from.objects[child].metadata), change);
 }
 
 inline MeshSequence read_bytes_of_archive(const std::string& bytes,

@@ -4,8 +4,6 @@
 // Archives of the reference library, copied property by property: the copies have its hashes.
 #include "tests/real_data.h"
 #include "tests/tools/io/alembic/alembic_testing.h"
-#include "tools/io/alembic/abc_archive.h"
-#include "tools/io/alembic/abc_output.h"
 
 #include <filesystem>
 #include <string>
@@ -17,27 +15,6 @@ namespace anicodec::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-void copy(const AbcArchive& from, const AbcCompound& compound, AbcCompoundOutput& to) {
-  for (const AbcProperty& p : compound.properties) {
-    if (p.shape == AbcShape::kCompound) {
-      copy(from, from.properties(p), to.compound(p.name, p.metadata));
-      continue;
-    }
-    AbcPropertyOutput& out = p.shape == AbcShape::kScalar
-                                 ? to.scalar(p.name, p.metadata, p.type, p.extent, p.sampling)
-                                 : to.array(p.name, p.metadata, p.type, p.extent, p.sampling);
-    const AbcSamples samples(from.file, p);
-    for (uint32_t s = 0; s < p.samples; ++s)
-      out.add(from.file.read(samples.block(s)));
-  }
-}
-
-void copy(const AbcArchive& from, uint32_t object, AbcObjectOutput& to) {
-  copy(from, from.properties(from.objects[object]), to.properties());
-  for (uint32_t child : from.objects[object].children)
-    copy(from, child, to.child(from.objects[child].name, from.objects[child].metadata));
-}
 
 /// The last 32 bytes of every object, and the size of what comes before them.
 void add_hashes(const OgawaFile& file, OgawaChild object, std::vector<std::string>& out) {
@@ -69,7 +46,7 @@ TEST(RealDataAlembicCopy, HasTheHashesOfTheReferenceLibrary) {
     AbcArchiveOutput to(sink_to(bytes), from.metadata);
     for (uint32_t s = 0; s < from.samplings.size(); ++s)
       EXPECT_EQ(to.shared().sampling(from.samplings[s]), s);
-    copy(from, 0, to.top());
+    copy_object(from, 0, to.top());
     to.finish();
     EXPECT_EQ(hashes_of(memory_source(bytes, "copy")), hashes_of(source));
     EXPECT_EQ(bytes.size(), source.size);

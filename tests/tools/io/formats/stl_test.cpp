@@ -83,7 +83,7 @@ TEST(Stl, RejectsFramesThatBreakTheWeld) {
   EXPECT_EQ(
       fault([&] { weld.append_vertices(soup, "1.stl", positions); }),
       "1.stl: corner 0 of triangle 1 and corner 2 of triangle 0 lie apart, but are one vertex "
-      "in 0.stl; read the sequence without welding");
+      "in 0.stl; --no-weld takes every corner as a vertex");
   soup.resize(18);
   EXPECT_EQ(fault([&] { weld.append_vertices(soup, "1.stl", positions); }),
             "1.stl: 2 triangles, but 0.stl has 3");
