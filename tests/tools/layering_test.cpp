@@ -134,5 +134,13 @@ TEST(Documents, ShowARangeCodedStreamAsTheirTextDecodesIt) {
   EXPECT_EQ(outcome.status, 0) << outcome;
 }
 
+TEST(Documents, ShowNumbersAsTheirTextWorksThemOut) {
+  Outcome outcome = run_program({"python3", ANICODEC_SOURCE_DIR "/tests/scripts/check_numbers.py",
+                                 ANICODEC_SOURCE_DIR "/spec/09-reconstruction.md",
+                                 ANICODEC_SOURCE_DIR "/spec/09b-reference-pose.md",
+                                 ANICODEC_SOURCE_DIR "/spec/09d-exact-positions.md"});
+  EXPECT_EQ(outcome.status, 0) << outcome;
+}
+
 }  // namespace
 }  // namespace anicodec::tools
