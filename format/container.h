@@ -18,7 +18,7 @@ namespace anicodec {
 
 inline constexpr uint8_t kMagic[8] = {0x89, 'A', 'N', 'I', '\r', '\n', 0x1A, '\n'};
 inline constexpr uint16_t kVersionMajor = 0;
-inline constexpr uint16_t kVersionMinor = 8;
+inline constexpr uint16_t kVersionMinor = 9;
 inline constexpr size_t kHeaderBytes = 40;
 inline constexpr size_t kLeastEntryBytes = 10;  // without mesh and segment, of a short payload
 

@@ -405,7 +405,6 @@ Status MeshRecord::read(ByteView view, MeshRecord* out) {
 
 Bytes PoseRecord::write() const {
   ByteWriter w;
-  w.u8(static_cast<uint8_t>(coding));
   for (double x : {origin[0], origin[1], origin[2], step})
     w.f64(x);
   w.raw(stream);
@@ -414,7 +413,6 @@ Bytes PoseRecord::write() const {
 
 Status PoseRecord::read(ByteView view, PoseRecord* out) {
   ByteReader r(view);
-  const uint8_t id = r.u8();
   bool finite = true;
   for (double* x : {&out->origin[0], &out->origin[1], &out->origin[2], &out->step}) {
     *x = r.f64();
@@ -423,9 +421,6 @@ Status PoseRecord::read(ByteView view, PoseRecord* out) {
   out->stream = r.raw(r.remaining());
   if (!r.ok())
     return Status::kRecord;
-  if (id > static_cast<uint8_t>(PoseCoding::kDependentRows))
-    return Status::kCoder;
-  out->coding = static_cast<PoseCoding>(id);
   return finite && out->step > 0 ? Status::kOk : Status::kQuantizer;
 }
 

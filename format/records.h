@@ -31,15 +31,6 @@ enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentraject
 /// How key-frames are coded.
 enum class CoderId : uint8_t { kNative = 0, kDraco = 1 };
 
-/// How the coordinates of a pose are told: how far each is from what is expected of it, or first
-/// whether it is exactly that of a neighbour or a parallelogram, or as entries of DependentSteps; in
-/// mixed contexts or, faster, in rows of symbols.
-enum class PoseCoding : uint8_t { kRounded = 0, kExact = 1, kDependent = 2, kDependentRows = 3 };
-
-constexpr bool has_dependent_steps(PoseCoding coding) {
-  return coding == PoseCoding::kDependent || coding == PoseCoding::kDependentRows;
-}
-
 /// How a frame is made from key-frames: on straight lines, or by multi-scale geometry
 /// interpolation.
 enum class Reconstruction : uint8_t { kLinear = 0, kMsgi = 1 };
@@ -186,7 +177,6 @@ struct MeshRecord {
 /// Chunk POSE: a reference pose on its grid. That of a mesh serves all its segments of eigenshapes
 /// and eigentrajectories; one that names a segment serves that one.
 struct PoseRecord {
-  PoseCoding coding = PoseCoding::kRounded;
   double origin[3] = {0, 0, 0};
   double step = 1;
   ByteView stream;

@@ -3,7 +3,6 @@
 //
 // Options of the host.
 #include "codec/api/encoder_objects.h"
-#include "sdk/segment/basis_layer.h"
 
 #include <cmath>
 #include <optional>
@@ -84,8 +83,6 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
       InterpolationChoice::kLinear, InterpolationChoice::kMsgi, InterpolationChoice::kAuto};
   constexpr std::optional<KeyframePoses> kPoses[] = {std::nullopt, KeyframePoses::kDraco,
                                                      KeyframePoses::kNative, KeyframePoses::kAuto};
-  constexpr OpeningChoice kOpenings[] = {OpeningChoice::kSmall, OpeningChoice::kAuto,
-                                         OpeningChoice::kFast};
   constexpr OrderMode kOrders[] = {OrderMode::kVertices, OrderMode::kFree, OrderMode::kAll};
   options.basis = chosen(host.basis, kBases, "basis");
   if (host.keyframes > 0) {
@@ -98,10 +95,7 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
   options.interpolation = chosen(host.interpolation, kInterpolations, "interpolation");
   options.keyframe_poses = chosen(host.keyframe_coder, kPoses, "coder of key-frames");
   options.order = chosen(host.order, kOrders, "order");
-  options.opening = chosen(host.opening, kOpenings, "opening");
-  if (host.slices > 0 && !is_slice_count(host.slices))
-    refuse("there are 1, 2, 4 or 8 slices");
-  options.slices = host.slices;
+  options.smallest = (host.flags & ANIC_ENCODE_SMALLEST) != 0;
   options.effort = static_cast<int>(within(host.effort, 5, 9, "the effort"));
 }
 
@@ -124,7 +118,8 @@ EncodingPlan encoding_plan(const anic_encode_options& host) {
   constexpr MassageMode kModes[] = {MassageMode::kOff, MassageMode::kOn, MassageMode::kAuto};
   constexpr uint64_t kKnown = ANIC_ENCODE_PERCENT | ANIC_ENCODE_CAP_PERCENT |
                               ANIC_ENCODE_ERROR_PERCENT | ANIC_ENCODE_NO_ATTRIBUTES |
-                              ANIC_ENCODE_ROOT_MOTION | ANIC_ENCODE_LOSSLESS;
+                              ANIC_ENCODE_ROOT_MOTION | ANIC_ENCODE_LOSSLESS |
+                              ANIC_ENCODE_SMALLEST;
   if (host.flags & ~kKnown)
     refuse("there are unknown flags");
   EncodingPlan plan;

@@ -11,7 +11,6 @@ namespace {
 
 Bytes pose_record(const EncodedPose& pose) {
   PoseRecord record;
-  record.coding = pose.coding;
   std::copy_n(pose.grid.origin, 3, record.origin);
   record.step = pose.grid.step;
   record.stream = pose.stream;

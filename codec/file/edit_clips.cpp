@@ -206,7 +206,6 @@ ClipHome clip_home(const ClipPart& part) {
   file.check(PoseRecord::read(stored, &record));
   auto pose = std::make_shared<EncodedPose>();
   file.check(open_pose(record, CornerTable(topology), &pose->grid));
-  pose->coding = record.coding;
   pose->stream = copy(record.stream);
   home.pose = std::move(pose);
   return home;

@@ -25,10 +25,6 @@ enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajec
 /// or by whichever does better.
 enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
 
-/// The aim of a search: the fewest bytes, to which a millisecond of opening, as estimated,
-/// adds nothing, 100 (kAuto) or 500 (kFast).
-enum class OpeningChoice : uint8_t { kSmall, kAuto, kFast };
-
 /// How far a surface was moved before coding: its Hausdorff distance from the source's, in scene
 /// units.
 struct SurfaceChange {
@@ -66,10 +62,9 @@ struct EncodeOptions {
   /// What the search of eigenshapes and eigentrajectories does without, by the names of
   /// search_means(): to measure what each is worth.
   std::vector<std::string> without;
-  OpeningChoice opening = OpeningChoice::kSmall;
-  /// Streams that coefficients are in, for as many threads: 1, 2, 4 or 8. 0: as many as enlarge the
-  /// file by no more than 0.3 %, where opening takes long enough.
-  uint32_t slices = 0;
+  /// Searches for the fewest bytes, whatever opening takes; else a millisecond of it, as estimated, is worth
+  /// some: bytes_per_nanosecond().
+  bool smallest = false;
 };
 
 /// One encoding that the search tried: for `-v`.
@@ -103,7 +98,6 @@ struct ClipResult {
   double rmse = 0;       ///< scene units
   double max_error = 0;  ///< scene units
   double max_displacement_error = 0;  ///< of a move from frame to frame, scene units
-  double diagonal = 0;
 };
 
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
@@ -120,7 +114,7 @@ struct EncodeResult {
   double rmse = 0;       ///< scene units
   double max_error = 0;  ///< scene units
   double max_displacement_error = 0;  ///< of a move from frame to frame, scene units
-  double diagonal = 0;  ///< of the box around all frames of all clips
+  double diagonal = 0;
   std::vector<AttributeResult> attributes;  ///< those that change
   std::vector<ClipResult> clips;            ///< in the order of their frames
   std::vector<FrameRun> segments;           ///< of positions: clips in one share its basis

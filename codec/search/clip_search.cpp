@@ -3,7 +3,6 @@
 #include "codec/search/clip_search.h"
 
 #include "codec/file/clip_file.h"
-#include "codec/segment/coefficient_slices.h"
 
 #include <algorithm>
 #include <optional>
@@ -14,8 +13,6 @@ namespace {
 
 constexpr int kRateRounds = 4;
 constexpr double kRoom = 0.003;  // of the file, for attributes that change with the pose
-constexpr double kSliceGrowth = 0.003;        // of the file, that slices may take
-constexpr size_t kSlicedCoefficients = 1 << 16;  // two milliseconds to read: fewer are in one slice
 
 /// Segments in the order of the file.
 std::vector<const EncodedSegment*> all_segments(const CodedClip& clip) {
@@ -24,11 +21,6 @@ std::vector<const EncodedSegment*> all_segments(const CodedClip& clip) {
     list.push_back(&part.encoded);
   std::ranges::stable_sort(list, {}, [](const EncodedSegment* s) { return s->sizes.first_frame; });
   return list;
-}
-
-size_t coefficients_of(const EncodedSegment& segment, const MeshLayout& layout) {
-  const size_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
-  return size_t{layout.sizes.coded_vertices} * segment.sizes.components * channels;
 }
 
 /// Room for the errors of attributes that move, which are yet to be measured.
@@ -69,39 +61,7 @@ CodedClip ClipSearch::run(const ClipsRecord& record) {
     // With another pose the attributes take some bytes more or less: room for them.
     positions_bytes -= bytes - *allowed + (round + 1) * kRoom * *allowed;
   }
-  slice(record, allowed, &coded);
   return coded;
-}
-
-/// Puts coefficients into slices, which changes nothing that is decoded.
-void ClipSearch::slice(const ClipsRecord& record, std::optional<double> allowed,
-                       CodedClip* coded) const {
-  const auto file_size = [&] {
-    return static_cast<double>(coded->file(record, input_.layout).size());
-  };
-  const double bytes = file_size();
-  std::vector<EncodedSegment*> segments;
-  for (std::vector<CodedPart>* parts : {&coded->positions.parts, &coded->attributes.parts}) {
-    for (CodedPart& part : *parts)
-      segments.push_back(&part.encoded);
-  }
-  size_t all = 1;
-  for (const EncodedSegment* segment : segments)
-    all += segment->bytes();
-  for (EncodedSegment* segment : segments) {
-    if (options_.slices == 1 || !CoefficientSlices::applies_to(*segment))
-      continue;
-    const CoefficientSlices coefficients(*segment, input_.layout);
-    EncodedSegment sliced = *segment;
-    if (options_.slices > 0)
-      sliced = coefficients.in(options_.slices);
-    else if (coefficients_of(*segment, input_.layout) >= kSlicedCoefficients)
-      sliced = coefficients.within(kSliceGrowth * bytes * static_cast<double>(segment->bytes()) /
-                                   static_cast<double>(all));
-    std::swap(*segment, sliced);
-    if (allowed && file_size() > *allowed)
-      std::swap(*segment, sliced);
-  }
 }
 
 }  // namespace anicodec

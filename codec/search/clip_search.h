@@ -11,7 +11,6 @@
 #include "codec/search/solution.h"
 #include "format/records.h"
 
-#include <optional>
 #include <vector>
 
 namespace anicodec {
@@ -29,14 +28,15 @@ struct CodedClip {
 /// positions get what the attributes leave.
 class ClipSearch {
  public:
-  /// All references must outlive this object.
+  /// All references must outlive this object. Throws Error(kUsage) for a target that float32 cannot
+  /// keep.
   ClipSearch(const EncoderInput& input, const std::vector<StoredAttribute>& stored,
-             const EncodeOptions& options, const Target& target)
+             const EncodeOptions& options, const Target& target, double diagonal)
       : input_(input),
         stored_(stored),
         options_(options),
         target_(target),
-        control_(input, options, target) {}
+        control_(input, options, target, diagonal) {}
 
   /// `record`: for the size of the file. Throws Error(kUsage) when the target cannot be reached.
   CodedClip run(const ClipsRecord& record);
@@ -48,8 +48,6 @@ class ClipSearch {
   const std::vector<Trial>& trials() const { return control_.trials(); }
 
  private:
-  void slice(const ClipsRecord& record, std::optional<double> allowed, CodedClip* coded) const;
-
   const EncoderInput& input_;
   const std::vector<StoredAttribute>& stored_;
   const EncodeOptions& options_;

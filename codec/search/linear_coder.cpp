@@ -62,10 +62,10 @@ size_t vertices_of(const LinearBasis& basis, size_t region) {
 }  // namespace
 
 LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind,
-                         int effort, uint32_t layers, OpeningChoice opening, uint32_t first_frame)
+                         int effort, uint32_t layers, bool smallest, uint32_t first_frame)
     : input_(input),
       analysis_(analysis),
-      opening_(opening),
+      smallest_(smallest),
       first_frame_(first_frame),
       runs_(input.runs(first_frame, static_cast<uint32_t>(analysis.clip().frame_count))),
       kind_(kind),
@@ -75,8 +75,6 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   choice_.pose = shapes ? ReferencePose::kMean : ReferencePose::kRankThree;
   choice_.base = shapes ? Base::kPose : Base::kAffine;
   choice_.settings.layers = layers;
-  if (opening != OpeningChoice::kSmall)
-    choice_.settings.coder = CoefficientCoder::kBatches;
   thorough_ = effort >= kThoroughEffort;
   for (uint32_t p = 0; p < kWeightPredictors; ++p) {
     const char* mean = mean_of(static_cast<WeightPredictor>(p));
@@ -128,7 +126,7 @@ std::shared_ptr<const EncodedPose> LinearCoder::coded_pose(MadeBasis& made,
     return pose_;
   std::call_once(made.first_use, [&] {
     made.pose.emplace(made.basis.pose, made.basis.origin, input_.layout,
-                      bytes_per_nanosecond(opening_));
+                      bytes_per_nanosecond(smallest_));
   });
   return made.pose->at_step(pose_step(settings, analysis_.clip().frame_count));
 }
@@ -228,7 +226,7 @@ LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse
     m.rmse = rmse * std::ranges::max(m.excesses);
   }
   m.part.opening =
-      bytes_per_nanosecond(opening_) *
+      bytes_per_nanosecond(smallest_) *
       opening_nanoseconds(choice.settings, m.part.encoded, input_.layout.topology.coded_vertices);
   m.bytes = bytes(m.part) * std::pow(std::max(m.rmse, rmse * 1e-3) / rmse, kRateSlope);
   return m;
@@ -381,7 +379,7 @@ void LinearCoder::choose_settings(double rmse) {
     if (try_steps(steps, rmse, &least))
       earlier_.push_back(std::move(before));
   }
-  if (opening_ != OpeningChoice::kSmall && effort_ > 1)
+  if (!smallest_ && effort_ > 1)
     try_steps(opening_steps(), rmse, &least);
   least_ = least;
 }

@@ -3,7 +3,6 @@
 #ifndef ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 #define ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 
-#include "codec/file/encode_options.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/linear_choice.h"
 #include "codec/search/linear_steps.h"
@@ -27,10 +26,10 @@ namespace anicodec {
 class LinearCoder : public SegmentCoder {
  public:
   /// `effort` 1..9: how many settings are tried; more never ends with a larger file. The analysis,
-  /// of the frames from `first_frame` on, must outlive the coder. Where opening is worth bytes, what
-  /// is called bytes below has them added.
+  /// of the frames from `first_frame` on, must outlive the coder. What is called bytes below has what
+  /// opening is worth added, unless the `smallest` file is wanted.
   LinearCoder(const EncoderInput& input, const LinearAnalysis& analysis, BasisKind kind, int effort,
-              uint32_t layers, OpeningChoice opening, uint32_t first_frame = 0);
+              uint32_t layers, bool smallest, uint32_t first_frame = 0);
 
   std::optional<CodedPart> at_rmse(double rmse) override;
   std::optional<CodedPart> near_rmse(double rmse) override;
@@ -39,7 +38,7 @@ class LinearCoder : public SegmentCoder {
 
   const LinearAnalysis& analysis() const { return analysis_; }
 
-  OpeningChoice opening() const { return opening_; }
+  bool smallest() const { return smallest_; }
 
   /// Makes the coder use a pose that the file has already, with a base that is an affine image of
   /// it, and the settings as they are.
@@ -134,7 +133,7 @@ class LinearCoder : public SegmentCoder {
 
   const EncoderInput& input_;
   const LinearAnalysis& analysis_;
-  OpeningChoice opening_;
+  bool smallest_;
   uint32_t first_frame_;
   Vector<uint32_t> runs_;  ///< of clips
   BasisKind kind_;

@@ -72,8 +72,6 @@ const std::vector<LinearStep>& linear_steps() {
 
 const std::vector<LinearStep>& opening_steps() {
   static const std::vector<LinearStep> steps = {
-      {"mixing coder",
-       [](LinearChoice& c, BasisKind) { c.settings.coder = CoefficientCoder::kMixing; }, 2, 2},
       {"sparse refits",
        [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kSparse; }, 2, 2},
       {"4 neighbours fewer", fewer_neighbours, 2, 2},
@@ -88,8 +86,6 @@ const char* mean_of(WeightPredictor predictor) {
   switch (predictor) {
     case WeightPredictor::kLine:
       return nullptr;
-    case WeightPredictor::kHold:
-      return "weights from the frame before";
     case WeightPredictor::kRegression:
       return "weights by regression";
     case WeightPredictor::kCosine:

@@ -7,14 +7,9 @@
 namespace anicodec {
 namespace {
 
-/// Nanoseconds of a coder for a time weight, for a coefficient, and for each bit of that.
-struct CoderTime {
-  double weight, coefficient, bit;
-};
-
 // Of coefficients, lines through dance, flag, face, chicken and horse at --kg 0.1: `anicodec_bench open`.
 // Of weights, about what a profile of the same shows.
-constexpr CoderTime kMixing{220, 28, 75}, kBatches{80, 1, 18};
+constexpr double kOfWeight = 110, kOfCoefficient = 1.4, kOfBit = 25;
 
 }  // namespace
 
@@ -23,10 +18,8 @@ double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment&
   const double channels = encoded.sizes.kind == BasisKind::kEigenshapes ? 3 : 1;
   const double components = encoded.sizes.components, n = static_cast<double>(vertices);
   const double bits = 8.0 * static_cast<double>(encoded.coefficient_bytes);
-  const CoderTime& coder = settings.coder == CoefficientCoder::kBatches ? kBatches : kMixing;
-  const auto weights = static_cast<double>(encoded.time_weights);
-  const double reading =
-      coder.weight * weights + coder.coefficient * n * components * channels + coder.bit * bits;
+  const double reading = kOfWeight * static_cast<double>(encoded.time_weights) +
+                         kOfCoefficient * n * components * channels + kOfBit * bits;
 
   PredictionParameters prediction;
   prediction.schedule = settings.schedule;
@@ -44,16 +37,8 @@ double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment&
   return reading + n * of_vertex;
 }
 
-double bytes_per_nanosecond(OpeningChoice opening) {
-  switch (opening) {
-    case OpeningChoice::kSmall:
-      return 0;
-    case OpeningChoice::kAuto:
-      return 1e-4;
-    case OpeningChoice::kFast:
-      return 5e-4;
-  }
-  return 0;
+double bytes_per_nanosecond(bool smallest) {
+  return smallest ? 0 : 3e-5;
 }
 
 }  // namespace anicodec

@@ -3,7 +3,6 @@
 #ifndef ANICODEC_CODEC_SEARCH_OPENING_TIME_H_
 #define ANICODEC_CODEC_SEARCH_OPENING_TIME_H_
 
-#include "codec/file/encode_options.h"
 #include "codec/segment/encoded_segment.h"
 #include "codec/segment/linear_settings.h"
 
@@ -17,9 +16,9 @@ namespace anicodec {
 double opening_nanoseconds(const LinearSettings& settings, const EncodedSegment& encoded,
                            size_t vertices);
 
-/// Bytes that a nanosecond of opening is worth to a search, the multiplier of its Lagrangian: what a
-/// file's transport carries in the meantime.
-double bytes_per_nanosecond(OpeningChoice opening);
+/// Bytes that a nanosecond of opening is worth to a search, the multiplier of its Lagrangian: none if the
+/// smallest file is wanted.
+double bytes_per_nanosecond(bool smallest);
 
 }  // namespace anicodec
 

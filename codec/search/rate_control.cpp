@@ -24,47 +24,6 @@ constexpr double kHopeless = 1.3;
 
 Solution RateControl::solve() {
   std::optional<Solution> best;
-  const bool apart = input_.bounds_differ();
-  try {
-    best = of_all_clips();
-  } catch (const Error& error) {
-    if (!apart || error.kind() != ErrorKind::kUsage)
-      throw;
-  }
-  if (apart)
-    search_.keep_better(clip_by_clip(), &best);
-  if (!best)
-    fail();
-  if (!is_size(target_)) {  // nobody asks again
-    linear_coders_.clear();
-    keyframe_coders_.clear();
-    analysis_.reset();
-  }
-  for (CodedPart& part : best->parts) {
-    if (!part.encoded.corrections.empty())  // added after it was opened: its hash covers them
-      part.opened = open_encoded(part.encoded, input_.layout);
-  }
-  return std::move(*best);
-}
-
-/// Each clip by a basis of its own, which may be as fine as it needs.
-std::optional<Solution> RateControl::clip_by_clip() {
-  std::vector<CodedPart> parts;
-  for (size_t c = 0; c < input_.clips.size(); ++c) {
-    const EncoderInput clip(input_, c);
-    Target own = target_;
-    if (own.metric != ErrorMetric::kKg)
-      own.value *= input_.clips[c].tolerance;
-    for (CodedPart& part : RateControl(clip, options_, own).solve().parts) {
-      part.encoded.sizes.first_frame += input_.clips[c].frames.first;
-      parts.push_back(std::move(part));
-    }
-  }
-  return search_.files().put_together(std::move(parts));
-}
-
-std::optional<Solution> RateControl::of_all_clips() {
-  std::optional<Solution> best;
   if (options_.basis == BasisChoice::kKeyframes || options_.keyframes) {
     best = by_keyframes_alone();
   } else {
@@ -77,7 +36,18 @@ std::optional<Solution> RateControl::of_all_clips() {
       offer(*keyframe_coders_[0], &best);
     }
   }
-  return best;
+  if (!best)
+    fail();
+  if (!is_size(target_)) {  // nobody asks again
+    linear_coders_.clear();
+    keyframe_coders_.clear();
+    analysis_.reset();
+  }
+  for (CodedPart& part : best->parts) {
+    if (!part.encoded.corrections.empty())  // added after it was opened: its hash covers them
+      part.opened = open_encoded(part.encoded, input_.layout);
+  }
+  return std::move(*best);
 }
 
 Solution RateControl::solve_within(double bytes) {
@@ -130,7 +100,7 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
                             : options_.basis == choice;
     if (wanted)
       coders.push_back(std::make_unique<LinearCoder>(input_, analysis, kind, options_.effort,
-                                                     kLayers, options_.opening));
+                                                     kLayers, options_.smallest));
   }
   for (std::unique_ptr<LinearCoder>& coder : coders) {
     if (input_.pose)

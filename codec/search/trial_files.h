@@ -7,6 +7,7 @@
 #include "codec/search/encoder_input.h"
 #include "codec/search/solution.h"
 
+#include <optional>
 #include <vector>
 
 namespace anicodec {
@@ -14,8 +15,10 @@ namespace anicodec {
 /// Puts coded parts together to files, and lists what they measured.
 class TrialFiles {
  public:
-  /// Parts are corrected to the caps of the input. Both references must outlive this object.
-  TrialFiles(const EncoderInput& input, const EncodeOptions& options) : input_(input), options_(options) {}
+  /// `cap`: the maximum error, scene units, to which parts are corrected. Both references must
+  /// outlive this object.
+  TrialFiles(const EncoderInput& input, const EncodeOptions& options, std::optional<double> cap)
+      : input_(input), options_(options), cap_(cap) {}
 
   Solution put_together(std::vector<CodedPart> parts);
 
@@ -27,6 +30,7 @@ class TrialFiles {
  private:
   const EncoderInput& input_;
   const EncodeOptions& options_;
+  std::optional<double> cap_;
   std::vector<Trial> trials_;
 };
 

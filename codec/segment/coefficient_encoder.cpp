@@ -18,35 +18,18 @@ namespace {
 using Eigen::Index;
 
 constexpr int kFewestFractionBits = 4;  // with fewer, residency would add to the error
-constexpr double kBitsPerUnit = 65536;  // of BitCounter
-
-/// Lets a model learn as from coding, and writes nothing.
-struct Rehearsal {
-  static constexpr bool kAdapts = true;
-  static constexpr bool kDecodes = false;
-
-  bool bit(uint32_t, bool value) { return value; }
-
-  bool bit(AdaptiveBit& model, bool value) {
-    model.update(value);
-    return value;
-  }
-
-  uint32_t raw(int, uint32_t value) { return value; }
-};
-
 /// Rounds a residual with the cost of its candidates in mind. @pre |residual| < kCoefficientLimit - 1
-int32_t rounded(CoefficientModel& model, uint32_t v, uint32_t c, double residual, double lambda) {
+int32_t rounded(CoefficientCosts& model, uint32_t v, uint32_t c, double residual, double lambda) {
   double magnitude = std::abs(residual);
   auto q = static_cast<int32_t>(magnitude + 0.5);
   if (q == 0 || lambda <= 0 || q > 200)
     return residual < 0 ? -q : q;
+  const ResidualCosts costs = model.costs(v, c);
   int32_t best = 0, sign = residual < 0 ? -1 : 1;
   double least = 0;
   for (int32_t candidate = q; candidate >= (q <= 2 ? 0 : q - 1); --candidate) {
     double d = magnitude - candidate;
-    double cost =
-        d * d + lambda * static_cast<double>(model.cost(v, c, sign * candidate)) / kBitsPerUnit;
+    double cost = d * d + lambda * static_cast<double>(bits_of(costs, sign * candidate));
     if (candidate == q || cost < least) {
       least = cost;
       best = candidate;
@@ -83,8 +66,6 @@ CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, VertexOrd
       layers_anew_(settings.layers_anew),
       component_(size_t{ranks()} * channels),
       residuals_(size_t{ranks()} * channels) {
-  if (settings.coder == CoefficientCoder::kBatches)
-    begin_batches();
   PredictionParameters prediction;
   prediction.channels = static_cast<int>(channels);
   prediction.radius = settings.radius;
@@ -95,27 +76,17 @@ CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, VertexOrd
     throw Error(ErrorKind::kInternal, "the predictor refuses its parameters");
 }
 
-CoefficientModel CoefficientEncoder::fresh_model() const {
-  return {ranks(), channels_, order_.neighbours.data(),
-          static_cast<uint32_t>(order_.neighbour_count)};
+CoefficientCosts CoefficientEncoder::fresh_model() const {
+  return {channels_, order_.neighbours.data(), static_cast<uint32_t>(order_.neighbour_count),
+          order_.level_start};
 }
 
-void CoefficientEncoder::begin_batches() {
-  batches_.emplace(channels_, order_.neighbours.data(),
-                   static_cast<uint32_t>(order_.neighbour_count), order_.level_start);
-}
-
-/// Ends the stream of the coder in use, and begins the next one.
 Bytes CoefficientEncoder::finish_layer() {
   write_chosen();
-  Bytes bytes = batches_ ? batch_encoder_.finish() : encoder_.finish();
-  encoder_ = BinaryEncoder();
-  batch_encoder_ = RansEncoder();
-  if (layers_anew_) {
+  Bytes bytes = encoder_.finish();
+  encoder_ = RansEncoder();
+  if (layers_anew_)
     model_ = fresh_model();
-    if (batches_)
-      begin_batches();
-  }
   return bytes;
 }
 
@@ -132,7 +103,7 @@ void CoefficientEncoder::take_decoded(DecodedBasis* to) && {
 
 /// Predicts, chooses and codes residual by residual.
 template <class Coder, class Choose>
-bool CoefficientEncoder::pass(CoefficientModel& model, Coder& coder, const Choose& choose) {
+bool CoefficientEncoder::pass(CoefficientCosts& model, Coder& coder, const Choose& choose) {
   model.begin_component();
   for (uint32_t i = 0; i < ranks(); ++i) {
     for (uint32_t c = 0; c < channels_; ++c) {
@@ -150,7 +121,7 @@ bool CoefficientEncoder::pass(CoefficientModel& model, Coder& coder, const Choos
 }
 
 /// The residual that is best by itself; nothing if it is too large.
-std::optional<int32_t> CoefficientEncoder::nearest(CoefficientModel& model, uint32_t i, uint32_t c,
+std::optional<int32_t> CoefficientEncoder::nearest(CoefficientCosts& model, uint32_t i, uint32_t c,
                                                    float prediction) const {
   const double residual = static_cast<double>(component_[place(i, c)]) -
                           static_cast<double>(prediction);
@@ -224,29 +195,15 @@ bool CoefficientEncoder::commit_chosen() {
 void CoefficientEncoder::write_chosen() {
   if (chosen_.empty())
     return;
-  Rehearsal rehearsal;
-  if (batches_) {
-    model_.code_component(rehearsal, chosen_.data());
-    batches_->code_component(batch_encoder_, chosen_.data());
-  } else {
-    model_.code_component(encoder_, chosen_.data());
-  }
+  model_.code_component(encoder_, chosen_.data());
   chosen_.clear();
 }
 
 /// Rounds and writes a component residual by residual.
 bool CoefficientEncoder::round_each() {
-  const auto write = [&](auto& coder) {
-    return pass(model_, coder, [&](uint32_t i, uint32_t c, float prediction) {
-      return nearest(model_, i, c, prediction);
-    });
-  };
-  Rehearsal rehearsal;
-  if (!(batches_ ? write(rehearsal) : write(encoder_)))
-    return false;
-  if (batches_)
-    batches_->code_component(batch_encoder_, residuals_.data());
-  return true;
+  return pass(model_, encoder_, [&](uint32_t i, uint32_t c, float prediction) {
+    return nearest(model_, i, c, prediction);
+  });
 }
 
 std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) {

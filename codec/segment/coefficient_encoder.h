@@ -4,12 +4,10 @@
 #define ANICODEC_CODEC_SEGMENT_COEFFICIENT_ENCODER_H_
 
 #include "codec/connectivity/mesh_layout.h"
+#include "codec/segment/coefficient_costs.h"
 #include "codec/segment/joint_rounding.h"
 #include "codec/segment/linear_settings.h"
 #include "format/bytes.h"
-#include "format/coding/batch_coefficient_coder.h"
-#include "format/coding/binary_coder.h"
-#include "format/coding/coefficient_coder.h"
 #include "format/coding/rans_coder.h"
 #include "sdk/prediction/encoder_predictor.h"
 #include "sdk/prediction/vertex_order.h"
@@ -32,8 +30,7 @@ using Coefficients = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 VertexOrder coefficient_order(const LinearSettings& settings, const MeshLayout& layout,
                               const Vector<int32_t>& pose, const uint8_t* regions);
 
-/// Predicts, rounds and codes the coefficients of a basis, component by component. What residuals
-/// cost is what the mixing coder takes for them, whichever writes them.
+/// Predicts, rounds and codes the coefficients of a basis, component by component.
 class CoefficientEncoder {
  public:
   /// `order`: coefficient_order(); `target`: what the coefficients would best be.
@@ -59,16 +56,15 @@ class CoefficientEncoder {
   void take_decoded(DecodedBasis* to) &&;
 
  private:
-  CoefficientModel fresh_model() const;
-  void begin_batches();
+  CoefficientCosts fresh_model() const;
 
   uint32_t ranks() const { return static_cast<uint32_t>(target_.rows()); }
 
   size_t place(uint32_t rank, uint32_t channel) const { return size_t{channel} * ranks() + rank; }
 
   template <class Coder, class Choose>
-  bool pass(CoefficientModel& model, Coder& coder, const Choose& choose);
-  std::optional<int32_t> nearest(CoefficientModel& model, uint32_t i, uint32_t c,
+  bool pass(CoefficientCosts& model, Coder& coder, const Choose& choose);
+  std::optional<int32_t> nearest(CoefficientCosts& model, uint32_t i, uint32_t c,
                                  float prediction) const;
   bool round_each();
   bool round_together();
@@ -79,11 +75,9 @@ class CoefficientEncoder {
   Coefficients target_, decoded_;
   uint32_t channels_;
   VertexOrder order_;
-  CoefficientModel model_;
-  std::optional<CoefficientModel> rehearsed_;  ///< a copy that learns what will not be written
-  BinaryEncoder encoder_;
-  std::optional<BatchCoefficientModel> batches_;  ///< if that is the coder
-  RansEncoder batch_encoder_;
+  CoefficientCosts model_;
+  std::optional<CoefficientCosts> rehearsed_;  ///< a copy that learns what will not be written
+  RansEncoder encoder_;
   EncoderPredictor predictor_;
   JointRounding joint_;
   bool new_weights_ = true, layers_anew_;

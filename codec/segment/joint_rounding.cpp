@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/joint_rounding.h"
 
+#include "codec/segment/coefficient_costs.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -16,16 +18,6 @@ namespace {
 constexpr float kNegligible = 0.08F;
 constexpr int kSweeps = 4;  // over all vertices, in turns from either end
 
-/// The bits that a residual of any magnitude would take.
-float bits(const ResidualCosts& costs, int32_t q) {
-  constexpr int32_t kKnown = 3;
-  constexpr float kFurther = 0.7F;  // of each more in magnitude
-  const int32_t magnitude = std::abs(q);
-  const float sign = q == 0 ? 0 : q > 0 ? costs.positive : costs.negative;
-  return sign + costs.magnitude[std::min(magnitude, kKnown)] +
-         kFurther * static_cast<float>(std::max(magnitude - kKnown, 0));
-}
-
 /// What to add to a residual q: 0, a step either way, or what makes it 0, whichever lowers the error
 /// and `lambda` times its bits most. `slope`: the product of its column and the error; `energy`: that
 /// of the column and itself.
@@ -34,12 +26,12 @@ int32_t best_change(int32_t q, float slope, float energy, const ResidualCosts& c
   // Nothing below moves a zero: half a step would have to be won.
   if (q == 0 && std::abs(slope) < 0.35F * energy)
     return 0;
-  const float now = bits(costs, q);
+  const float now = bits_of(costs, q);
   float least = -1e-6F;
   int32_t best = 0;
   for (const int32_t change : {-1, 1, -q}) {
     const auto d = static_cast<float>(change);
-    const float cost = d * (d * energy - 2 * slope) + lambda * (bits(costs, q + change) - now);
+    const float cost = d * (d * energy - 2 * slope) + lambda * (bits_of(costs, q + change) - now);
     if (change != 0 && cost < least) {
       least = cost;
       best = change;

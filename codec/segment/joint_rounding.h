@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_SEGMENT_JOINT_ROUNDING_H_
 #define ANICODEC_CODEC_SEGMENT_JOINT_ROUNDING_H_
 
-#include "format/coding/coefficient_coder.h"
+#include "format/coding/coefficient_model.h"
 #include "sdk/prediction/vertex_order.h"
 
 #include <cstddef>

@@ -213,13 +213,13 @@ bool code_by_draco(const MeshLayout& layout, const Vector<uint32_t>& parents, Ve
 Bytes code_natively(const MeshLayout& layout, const Vector<uint32_t>& parents,
                     const Vector<Pose>& poses) {
   const CornerTable table(layout.topology);
-  Bytes best = encode_poses(table, PoseCoding::kRounded, poses, parents);
+  Bytes best = encode_poses(table, PoseSteps::kAny, poses, parents);
   Eigen::MatrixXd first(layout.topology.coded_vertices, 3);
   for (Eigen::Index i = 0; i < first.size(); ++i)
     first(i / 3, i % 3) = poses[0][static_cast<size_t>(i)];
   const PosePartners partners = find_partners(first, table);
   if (!partners.partner.empty()) {
-    Bytes by_partners = encode_poses(table, PoseCoding::kRounded, poses, parents, &partners);
+    Bytes by_partners = encode_poses(table, PoseSteps::kAny, poses, parents, &partners);
     if (by_partners.size() < best.size())
       best = std::move(by_partners);
   }

@@ -34,14 +34,12 @@ void run_together(size_t count, const std::function<void(size_t)>& task) {
 /// in units of `unit`, each column by its own, and replaces them by what a decoder gets.
 class WeightEncoder {
  public:
-  WeightEncoder(size_t frames, const Vector<uint32_t>& runs, const LinearSettings& settings,
-                WeightCoder coder)
+  WeightEncoder(size_t frames, const Vector<uint32_t>& runs, const LinearSettings& settings)
       : frames_(frames),
         lambda_(settings.weight_lambda),
         predictors_(settings.weight_predictors),
         runs_(runs.empty() ? Vector<uint32_t>(1, static_cast<uint32_t>(frames)) : runs),
-        coder_(coder),
-        model_(runs_, coder) {
+        model_(runs_) {
     for (size_t r = 0; r < settings.run_steps.size(); ++r)
       factors_.insert(factors_.end(), runs[r],
                       LinearParameters::sigma_value(settings.run_steps[r]));
@@ -75,7 +73,7 @@ class WeightEncoder {
     return bytes;
   }
 
-  void begin_anew() { model_ = TimeWeightModel(runs_, coder_); }
+  void begin_anew() { model_ = TimeWeightModel(runs_); }
 
  private:
   size_t frames_;
@@ -83,7 +81,6 @@ class WeightEncoder {
   uint32_t predictors_;
   std::vector<double> factors_;  ///< of the unit, for each frame
   Vector<uint32_t> runs_;
-  WeightCoder coder_;
   TimeWeightModel model_;
   BinaryEncoder encoder_;
 };
@@ -114,7 +111,6 @@ class LinearEncoder {
     parameters_.colours = settings.passes_per_level;
     parameters_.radius = settings.radius;
     parameters_.schedule = settings.schedule;
-    parameters_.coder = settings.coder;
     parameters_.alike = settings.alike;
     parameters_.layers_anew = settings.layers_anew;
     parameters_.run_steps.assign(settings.run_steps.begin(), settings.run_steps.end());
@@ -162,9 +158,9 @@ class LinearEncoder {
     for (size_t l = 0; l < layers_.size(); ++l) {
       BasisLayer& layer = layers_[l];
       layer.weights = time_streams_[l];
-      layer.slices[0] = coefficient_streams_[l];
+      layer.coefficients = coefficient_streams_[l];
       encoded_.coefficient_bytes += coefficient_streams_[l].size();
-      encoded_.layers.push_back(layer.write(1));
+      encoded_.layers.push_back(layer.write());
     }
     encoded_.decoded = std::move(decoded_);
     return std::move(encoded_);
@@ -223,7 +219,7 @@ class LinearEncoder {
   /// Codes the time weights of bases and components, and keeps what a decoder gets. False if one is
   /// too large in its unit: then nothing has changed.
   bool code_time(std::vector<TimeWeights> weights) {
-    WeightEncoder coder(clip_.frame_count, encoded_.runs, settings_, parameters_.weight_coder());
+    WeightEncoder coder(clip_.frame_count, encoded_.runs, settings_);
     const auto functions = static_cast<size_t>(weights[0].base.cols());
     const size_t of_function = 3 * clip_.frame_count, regions = weights.size();
     Vector<int32_t> affine(regions * functions * of_function);

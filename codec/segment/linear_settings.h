@@ -35,7 +35,6 @@ struct LinearSettings {
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
   uint8_t alike = 0;  ///< PredictionParameters::alike
-  CoefficientCoder coder = CoefficientCoder::kMixing;
   bool layers_anew = false;  ///< LinearParameters::layers_anew
   uint32_t layers = 1;       ///< parts that the components are stored in
 };

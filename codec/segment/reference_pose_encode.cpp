@@ -26,24 +26,10 @@ using Eigen::MatrixXd;
 /// of eight states is 1.0 dB below that of rounding to steps twice as wide.
 constexpr double kDependentStep = 0.565;
 
-Vector<int32_t> rounded_integers(const MatrixXd& values) {
-  Vector<int32_t> integers;
-  integers.reserve(static_cast<size_t>(values.size()));
-  for (Index v = 0; v < values.rows(); ++v) {
-    for (Index c = 0; c < 3; ++c)
-      integers.push_back(static_cast<int32_t>(std::lround(values(v, c))));
-  }
-  return integers;
-}
-
 /// About the nanoseconds of one thread that a decoder takes for a pose. Lines through dance, horse,
 /// face, flag and chicken at --kg 0.1: `anicodec_bench pose`.
 double pose_nanoseconds(const EncodedPose& pose, double vertices, bool has_partners) {
-  const auto bytes = static_cast<double>(pose.stream.size());
-  const double coding = pose.coding == PoseCoding::kDependentRows
-                            ? 500 * vertices + 25 * bytes
-                            : 720 * vertices + 220 * bytes;
-  return coding + (has_partners ? 300 * vertices : 0);
+  return (has_partners ? 920 : 620) * vertices + 28 * static_cast<double>(pose.stream.size());
 }
 
 /// The lower of the two halves that are tried for a value in some state.
@@ -102,22 +88,19 @@ Vector<int32_t> dependent_integers(const MatrixXd& values) {
   return integers;
 }
 
-std::shared_ptr<const EncodedPose> encode_pose_as(PoseCoding coding, const MatrixXd& pose,
+std::shared_ptr<const EncodedPose> encode_pose_by(const PosePartners* partners,
+                                                  const MatrixXd& pose,
                                                   const Eigen::Vector3d& origin, double step,
-                                                  const CornerTable& table,
-                                                  const PosePartners* partners) {
+                                                  const CornerTable& table) {
   auto encoded = std::make_shared<EncodedPose>();
-  encoded->coding = coding;
   PoseGrid& grid = encoded->grid;
-  const bool dependent = has_dependent_steps(coding);
   const double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
   // Room for a dependent integer, which is up to two steps off.
   grid.step = std::max(
-      {dependent ? kDependentStep * step : step, largest / (kMaxReferenceCoordinate - 4), 1e-37});
+      {kDependentStep * step, largest / (kMaxReferenceCoordinate - 4), 1e-37});
   std::copy_n(origin.data(), 3, grid.origin);
-  const MatrixXd values = pose / grid.step;
-  grid.points = dependent ? dependent_integers(values) : rounded_integers(values);
-  encoded->stream = encode_pose(table, coding, grid.points, partners);
+  grid.points = dependent_integers(pose / grid.step);
+  encoded->stream = encode_pose(table, PoseSteps::kDependent, grid.points, partners);
   return encoded;
 }
 
@@ -130,33 +113,17 @@ ReferencePoseEncoder::ReferencePoseEncoder(const MatrixXd& pose, const Eigen::Ve
       partners_(find_partners(pose, table_)) {}
 
 std::shared_ptr<const EncodedPose> ReferencePoseEncoder::at_step(double step) const {
-  const bool repeats = !partners_.partner.empty();
-  const PosePartners* by = repeats ? &partners_ : nullptr;
-  const auto coded = [&](PoseCoding coding, const PosePartners* those) {
-    return encode_pose_as(coding, pose_, origin_, step, table_, those);
+  const auto coded = [&](const PosePartners* partners) {
+    return encode_pose_by(partners, pose_, origin_, step, table_);
   };
-  std::shared_ptr<const EncodedPose> best, other;
+  if (partners_.partner.empty())
+    return coded(nullptr);
+  std::shared_ptr<const EncodedPose> alone, by_partners;
   // Isolated: a thread that waits here must not begin another trial meanwhile, which takes long.
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_invoke(
-        [&] { best = coded(PoseCoding::kDependent, by); },
-        [&] { other = coded(repeats ? PoseCoding::kDependent : PoseCoding::kExact, nullptr); });
+    tbb::parallel_invoke([&] { alone = coded(nullptr); }, [&] { by_partners = coded(&partners_); });
   });
-  if (repeats) {
-    if (cost(*other, false) <= cost(*best, true)) {
-      best = std::move(other);
-      by = nullptr;
-    }
-    other = coded(PoseCoding::kExact, by);
-  }
-  if (cost(*other, by) < cost(*best, by))
-    best = std::move(other);
-  if (bytes_per_nanosecond_ > 0) {
-    other = coded(PoseCoding::kDependentRows, by);
-    if (cost(*other, by) < cost(*best, by))
-      best = std::move(other);
-  }
-  return best;
+  return cost(*alone, false) <= cost(*by_partners, true) ? alone : by_partners;
 }
 
 double ReferencePoseEncoder::cost(const EncodedPose& pose, bool has_partners) const {

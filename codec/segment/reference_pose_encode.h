@@ -26,8 +26,8 @@ class ReferencePoseEncoder {
                        const MeshLayout& layout, double bytes_per_nanosecond);
 
   /// The pose, ready for the file, with the error of rounding to a grid of this step or, where
-  /// coordinates would be too large, a coarser one: coded with dependent steps or exact coordinates,
-  /// by partners or without, whichever is smallest, or in rows where that is worth the time. O(vertices).
+  /// coordinates would be too large, a coarser one: by partners or without, whichever is smaller, what
+  /// opening is worth included. O(vertices).
   std::shared_ptr<const EncodedPose> at_step(double step) const;
 
  private:
@@ -46,11 +46,11 @@ std::shared_ptr<const EncodedPose> encode_reference_pose(const Eigen::MatrixXd& 
                                                          const MeshLayout& layout,
                                                          double bytes_per_nanosecond = 0);
 
-/// The same in one way of coding, by these partners if any. The table is that of the mesh.
-std::shared_ptr<const EncodedPose> encode_pose_as(PoseCoding coding, const Eigen::MatrixXd& pose,
+/// The same by these partners, if any. The table is that of the mesh.
+std::shared_ptr<const EncodedPose> encode_pose_by(const PosePartners* partners,
+                                                  const Eigen::MatrixXd& pose,
                                                   const Eigen::Vector3d& origin, double step,
-                                                  const CornerTable& table,
-                                                  const PosePartners* partners = nullptr);
+                                                  const CornerTable& table);
 
 /// The integers nearest to `values` (vertices x 3, in steps) that DependentSteps allows along each
 /// axis: the least sum of squared distances. O(vertices).

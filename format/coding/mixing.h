@@ -14,7 +14,6 @@
 #endif
 
 #include "format/coding/binary_coder.h"
-#include "format/coding/symbol_model.h"
 #include "format/memory.h"
 
 #include <array>
@@ -242,53 +241,6 @@ class MixedModel {
   uint32_t per_node_ = 0, selector0_ = 0, selector1_ = 0;
   Vector<MixCounter> counters_;
   Vector<MixWeights> weights_;
-};
-
-/// code_symbol() with mixed contexts: the zero flag, the exponent and the first mantissa bits are
-/// mixed, the rare rest has one adaptive bit per node. Magnitudes below 2^24.
-template <size_t kContexts>
-class MixedSymbolModel {
- public:
-  MixedSymbolModel(const std::array<uint32_t, kContexts>& sizes,
-                   const std::array<uint32_t, 2>& selectors)
-      : mixed_(sizes, selectors, kMixedNodes) {}
-
-  void select(const std::array<uint32_t, kContexts>& contexts, uint32_t selector0,
-              uint32_t selector1) {
-    mixed_.select(contexts, selector0, selector1);
-  }
-
-  /// The same for a value known not to be 0.
-  template <class Coder, class SignCoder>
-  int32_t code_nonzero(Coder& coder, int32_t value, SignCoder&& sign) {
-    return code_symbol<Sign::kModelled, 23>(
-        value,
-        [&](uint32_t node, bool bit) {
-          if (node == 1)
-            return sign(bit);
-          if (node == 0)
-            return true;
-          if (node < 2 + kExponents)
-            return mixed_.code(coder, node - 1, bit);
-          if (node >= 22 && node < 22 + kMantissas)
-            return mixed_.code(coder, node - 21 + kExponents, bit);
-          return coder.bit(rare_[node], bit);
-        },
-        [&](int count, uint32_t bits) { return coder.raw(count, bits); });
-  }
-
-  /// `sign(bool)` codes whether the value is negative.
-  template <class Coder, class SignCoder>
-  int32_t code(Coder& coder, int32_t value, SignCoder&& sign) {
-    return mixed_.code(coder, 0, value != 0) ? code_nonzero(coder, value, sign) : 0;
-  }
-
- private:
-  static constexpr uint32_t kExponents = 10, kMantissas = 9;
-  static constexpr uint32_t kMixedNodes = 1 + kExponents + kMantissas;
-
-  MixedModel<kContexts> mixed_;
-  AdaptiveBit rare_[kSymbolNodes];
 };
 
 }  // namespace anicodec

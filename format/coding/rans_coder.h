@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Range asymmetric numeral system with four states that take turns: the decisions of a stream do not
-// wait for one another (spec/08-entropy.md, section 7). After J. Duda, "Asymmetric numeral systems",
+// wait for one another (spec/08-entropy.md, section 5). After J. Duda, "Asymmetric numeral systems",
 // 2013, and F. Giesen, "Interleaved entropy coders", 2014.
 //
 // Models are written once, as templates over the coder, as for BinaryEncoder and BinaryDecoder.
@@ -11,7 +11,6 @@
 
 #include "format/bytes.h"
 #include "format/coding/binary_coder.h"
-#include "format/coding/symbol_row.h"
 #include "format/memory.h"
 
 #include <array>
@@ -46,7 +45,8 @@ class RansEncoder {
   static constexpr bool kAdapts = true;
   static constexpr bool kDecodes = false;
 
-  uint32_t symbol(const SymbolDistribution& distribution, uint32_t s) {
+  template <class Distribution>
+  uint32_t symbol(const Distribution& distribution, uint32_t s) {
     add(distribution.start(s), distribution.start(s + 1) - distribution.start(s));
     return s;
   }
@@ -88,7 +88,8 @@ class RansDecoder {
   /// The bytes must outlive the object.
   explicit RansDecoder(ByteView bytes);
 
-  uint32_t symbol(const SymbolDistribution& distribution, uint32_t = 0) {
+  template <class Distribution>
+  uint32_t symbol(const Distribution& distribution, uint32_t = 0) {
     uint32_t& state = next();
     const uint32_t s = distribution.at(state % kSymbolScale);
     advance(state, distribution.start(s), distribution.start(s + 1) - distribution.start(s));

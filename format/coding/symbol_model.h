@@ -27,8 +27,9 @@ constexpr int kSymbolNodes = 64;
 /// `model(node, bit)` codes a decision with the model of a node, `raw(count, value)` bits at one
 /// bit each; both return what was coded. At most 62 decisions, whatever is read.
 /// @pre |value| < 2^31
-template <Sign kSign, int kMaxExponent = 30, class Model, class Raw>
+template <Sign kSign, class Model, class Raw>
 int32_t code_symbol(int32_t value, Model&& model, Raw&& raw) {
+  constexpr int kMaxExponent = 30;
   constexpr uint32_t kZero = 0, kSignNode = 1, kExponent = 2, kMantissa = 22;
   if (!model(kZero, value != 0))
     return 0;

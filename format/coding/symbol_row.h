@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Adaptive distributions of eight symbols, two of them averaged for each symbol
-// (spec/08-entropy.md, section 7).
+// Adaptive distributions of eight symbols, several of them averaged for each symbol
+// (spec/08-entropy.md, section 5).
 #ifndef ANICODEC_FORMAT_CODING_SYMBOL_ROW_H_
 #define ANICODEC_FORMAT_CODING_SYMBOL_ROW_H_
 
@@ -49,13 +49,32 @@ struct alignas(16) SymbolRow {
 
 /// The arithmetic of rows, symbol after symbol.
 struct PlainRows {
-  /// The start of each symbol in the average of two rows, 0 .. 32768; none is less likely than
-  /// 8 / 32768.
-  static void mix(const SymbolRow& a, const SymbolRow& b, uint16_t* to) {
+  /// The start of each symbol but the first in the mean of row a and of the mean of b and c, up to
+  /// 32768; none is less likely than 8 / 32768.
+  static void mix(const SymbolRow& a, const SymbolRow& b, const SymbolRow& c, uint16_t* to) {
+    uint16_t mean[kRowEscape];
     for (uint32_t i = 0; i < kRowEscape; ++i) {
-      const uint32_t mean = (uint32_t{a.v[i]} + b.v[i] + 1) >> 1;
-      to[i] = static_cast<uint16_t>(mean - (mean >> 9) + 8 * (i + 1));
+      const uint32_t others = (uint32_t{b.v[i]} + c.v[i] + 1) >> 1;
+      mean[i] = static_cast<uint16_t>((a.v[i] + others + 1) >> 1);
     }
+    starts_of(mean, to);
+  }
+
+  /// The same of the mean of four rows by weights in 1/32768, together at most 1, each below 1.
+  static void mix(const SymbolRow* const* rows, const uint16_t* weights, uint16_t* to) {
+    uint16_t mean[kRowEscape];
+    for (uint32_t i = 0; i < kRowEscape; ++i) {
+      uint32_t sum = 0;
+      for (size_t k = 0; k < 4; ++k)
+        sum += uint32_t{weights[k]} * rows[k]->v[i];
+      mean[i] = static_cast<uint16_t>(sum >> kSymbolBits);
+    }
+    starts_of(mean, to);
+  }
+
+  static void starts_of(const uint16_t* mean, uint16_t* to) {
+    for (uint32_t i = 0; i < kRowEscape; ++i)
+      to[i] = static_cast<uint16_t>(mean[i] - (mean[i] >> 9) + 8 * (i + 1));
     to[kRowEscape] = static_cast<uint16_t>(kSymbolScale);
   }
 
@@ -80,8 +99,24 @@ struct PlainRows {
 #if defined(__SSE2__)
 /// The same by vectors of 16 bytes.
 struct VectorRows {
-  static void mix(const SymbolRow& a, const SymbolRow& b, uint16_t* to) {
-    const __m128i mean = _mm_avg_epu16(load(a.v), load(b.v));
+  static void mix(const SymbolRow& a, const SymbolRow& b, const SymbolRow& c, uint16_t* to) {
+    starts_of(_mm_avg_epu16(load(a.v), _mm_avg_epu16(load(b.v), load(c.v))), to);
+  }
+
+  static void mix(const SymbolRow* const* rows, const uint16_t* weights, uint16_t* to) {
+    const auto pair = [&](size_t k) {
+      return _mm_set1_epi32(static_cast<int32_t>(weights[k] | uint32_t{weights[k + 1]} << 16));
+    };
+    const __m128i a = load(rows[0]->v), b = load(rows[1]->v), c = load(rows[2]->v),
+                  d = load(rows[3]->v), ab = pair(0), cd = pair(2);
+    const __m128i low = _mm_add_epi32(_mm_madd_epi16(_mm_unpacklo_epi16(a, b), ab),
+                                      _mm_madd_epi16(_mm_unpacklo_epi16(c, d), cd));
+    const __m128i high = _mm_add_epi32(_mm_madd_epi16(_mm_unpackhi_epi16(a, b), ab),
+                                       _mm_madd_epi16(_mm_unpackhi_epi16(c, d), cd));
+    starts_of(_mm_packs_epi32(_mm_srli_epi32(low, kSymbolBits), _mm_srli_epi32(high, kSymbolBits)), to);
+  }
+
+  static void starts_of(__m128i mean, uint16_t* to) {
     const __m128i floor = _mm_set_epi16(0, 56, 48, 40, 32, 24, 16, 8);
     __m128i starts = _mm_add_epi16(_mm_sub_epi16(mean, _mm_srli_epi16(mean, 9)), floor);
     starts = _mm_insert_epi16(starts, -32768, 7);
@@ -120,8 +155,29 @@ struct VectorRows {
 #elif defined(__wasm_simd128__)
 /// The same by vectors of 16 bytes.
 struct VectorRows {
-  static void mix(const SymbolRow& a, const SymbolRow& b, uint16_t* to) {
-    const v128_t mean = wasm_u16x8_avgr(wasm_v128_load(a.v), wasm_v128_load(b.v));
+  static void mix(const SymbolRow& a, const SymbolRow& b, const SymbolRow& c, uint16_t* to) {
+    const v128_t others = wasm_u16x8_avgr(wasm_v128_load(b.v), wasm_v128_load(c.v));
+    starts_of(wasm_u16x8_avgr(wasm_v128_load(a.v), others), to);
+  }
+
+  static void mix(const SymbolRow* const* rows, const uint16_t* weights, uint16_t* to) {
+    const auto row = [&](size_t k) { return wasm_v128_load(rows[k]->v); };
+    const auto pair = [&](size_t k) {
+      return wasm_i32x4_splat(static_cast<int32_t>(weights[k] | uint32_t{weights[k + 1]} << 16));
+    };
+    const auto sum = [](v128_t ab, v128_t by_ab, v128_t cd, v128_t by_cd) {
+      return wasm_u32x4_shr(wasm_i32x4_add(wasm_i32x4_dot_i16x8(ab, by_ab), wasm_i32x4_dot_i16x8(cd, by_cd)),
+                            kSymbolBits);
+    };
+    const v128_t a = row(0), b = row(1), c = row(2), d = row(3), by_ab = pair(0), by_cd = pair(2);
+    const v128_t low = sum(wasm_i16x8_shuffle(a, b, 0, 8, 1, 9, 2, 10, 3, 11), by_ab,
+                           wasm_i16x8_shuffle(c, d, 0, 8, 1, 9, 2, 10, 3, 11), by_cd);
+    const v128_t high = sum(wasm_i16x8_shuffle(a, b, 4, 12, 5, 13, 6, 14, 7, 15), by_ab,
+                            wasm_i16x8_shuffle(c, d, 4, 12, 5, 13, 6, 14, 7, 15), by_cd);
+    starts_of(wasm_i16x8_narrow_i32x4(low, high), to);
+  }
+
+  static void starts_of(v128_t mean, uint16_t* to) {
     const v128_t floor = wasm_i16x8_make(8, 16, 24, 32, 40, 48, 56, 0);
     const v128_t starts = wasm_i16x8_add(wasm_i16x8_sub(mean, wasm_u16x8_shr(mean, 9)), floor);
     wasm_v128_store(to, wasm_i16x8_replace_lane(starts, 7, -32768));
@@ -153,12 +209,12 @@ struct VectorRows {
 using VectorRows = PlainRows;
 #endif
 
-/// The distribution that codes the next symbol.
+/// The distribution that codes the next symbol: the mean of row a, and of the mean of b and c.
 class SymbolDistribution {
  public:
-  SymbolDistribution(const SymbolRow& a, const SymbolRow& b) {
+  SymbolDistribution(const SymbolRow& a, const SymbolRow& b, const SymbolRow& c) {
     starts_[0] = 0;
-    VectorRows::mix(a, b, starts_ + 1);
+    VectorRows::mix(a, b, c, starts_ + 1);
   }
 
   /// The start of symbol s, in 1/32768; 32768 for s = 8.
@@ -171,15 +227,17 @@ class SymbolDistribution {
   uint16_t starts_[kRowSymbols + 1];
 };
 
-/// Codes a symbol by the average of two rows, both of which learn from it. Inlined, so that the
-/// coder stays in registers from symbol to symbol.
+/// Codes a symbol by three rows, which learn from it one after the other. Inlined, so that the coder
+/// stays in registers from symbol to symbol.
 template <class Coder>
 inline __attribute__((always_inline)) uint32_t code_row_symbol(Coder& coder, SymbolRow& a,
-                                                               SymbolRow& b, uint32_t s) {
-  s = coder.symbol(SymbolDistribution(a, b), s);
+                                                               SymbolRow& b, SymbolRow& c,
+                                                               uint32_t s) {
+  s = coder.symbol(SymbolDistribution(a, b, c), s);
   if constexpr (Coder::kAdapts) {
     VectorRows::learn(a, s);
     VectorRows::learn(b, s);
+    VectorRows::learn(c, s);
   }
   return s;
 }
@@ -197,7 +255,7 @@ uint32_t code_row_number(Coder& coder, RowNumber& rows, int lowest, uint32_t x) 
   for (SymbolRow& row : rows) {
     const auto left = static_cast<uint32_t>(given > exponent ? given - exponent : 0);
     const uint32_t part =
-        code_row_symbol(coder, row, row, left < kRowEscape ? left : kRowEscape);
+        code_row_symbol(coder, row, row, row, left < kRowEscape ? left : kRowEscape);
     exponent += static_cast<int>(part);
     if (part < kRowEscape)
       break;
@@ -210,21 +268,24 @@ uint32_t code_row_number(Coder& coder, RowNumber& rows, int lowest, uint32_t x) 
   return uint32_t{1} << bits | coder.raw(bits, x);
 }
 
-/// Codes a magnitude below 2^24 by two rows, `far` for what is beyond them, and its `low` lowest bits,
-/// which are as good as random. A decoder that reads a larger one fails and gets 0.
-template <class Coder>
-uint32_t code_row_magnitude(Coder& coder, SymbolRow& a, SymbolRow& b, RowNumber& far, int low,
-                            uint32_t magnitude) {
+/// Codes a magnitude below 2^24: `symbol(s)` tells 0 .. 6 and more, of 0 or one more than the magnitude
+/// without its `low` lowest bits, which are as good as random; `far` what is beyond. A decoder that reads
+/// a larger one fails and gets 0.
+template <class Coder, class Symbol>
+inline uint32_t code_row_magnitude(Coder& coder, const Symbol& symbol, RowNumber& far, int low,
+                                   uint32_t magnitude) {
   constexpr int kBits = 24;
-  const uint32_t given = magnitude >> low;
-  uint32_t high = code_row_symbol(coder, a, b, given < kRowEscape ? given : kRowEscape);
+  const uint32_t given = magnitude == 0 ? 0 : 1 + ((magnitude - 1) >> low);
+  uint32_t high = symbol(given < kRowEscape ? given : kRowEscape);
+  if (high == 0)
+    return 0;
   if (high == kRowEscape)
     high += code_row_number(coder, far, 0, given - kRowEscape + 1) - 1;
-  if (high >> (kBits - low) != 0) {
+  if ((high - 1) >> (kBits - low) != 0) {
     coder.fail();
     return 0;
   }
-  return high << low | coder.raw(low, magnitude & ((1U << low) - 1));
+  return 1 + ((high - 1) << low | coder.raw(low, (magnitude - 1) & ((1U << low) - 1)));
 }
 
 }  // namespace anicodec

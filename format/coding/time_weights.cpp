@@ -5,7 +5,7 @@
 #include "format/coding/cosine_transform.h"
 #include "format/coding/magnitude_class.h"
 #include "format/coding/recursive_least_squares.h"
-#include "format/coding/weight_models.h"
+#include "format/coding/weight_model.h"
 
 #include <algorithm>
 #include <array>
@@ -24,13 +24,8 @@ namespace {
 constexpr int32_t kStep = 1 << kWeightFractionBits;
 constexpr int32_t kValueLimit = kWeightLimit * kStep;
 constexpr uint32_t kMaxChannels = 3;
-constexpr double kBitWorth =
-    0.14;                       ///< squared steps that a bit is worth when predictors are compared
-constexpr uint32_t kMostError = 1U << 28;  ///< of a prediction, in 1/16 step
-constexpr size_t kForward = 3;  ///< predictors that go from frame to frame: the first ones
-constexpr auto kLine = static_cast<size_t>(WeightPredictor::kLine);
-constexpr auto kHold = static_cast<size_t>(WeightPredictor::kHold);
-constexpr auto kRegression = static_cast<size_t>(WeightPredictor::kRegression);
+constexpr double kBitWorth = 0.14;  ///< squared steps to a bit when predictors are compared
+constexpr int32_t kMostSpread = 1 << 28;  ///< of predictions, in 1/16 step
 
 int32_t sign(int32_t x) {
   return (x > 0) - (x < 0);
@@ -55,7 +50,8 @@ class TrialEncoder {
     return value;
   }
 
-  uint32_t symbol(const SymbolDistribution& distribution, uint32_t s) {
+  template <class Distribution>
+  uint32_t symbol(const Distribution& distribution, uint32_t s) {
     const uint32_t start = distribution.start(s), last = distribution.start(s + 1) - 1;
     decisions_.push_back(kPart | start << kSymbolBits | last);
     return counter_.symbol(distribution, s);
@@ -114,7 +110,7 @@ struct Source {
 }  // namespace
 
 struct TimeWeightModel::State {
-  State(const Vector<uint32_t>& runs, WeightCoder coder);
+  explicit State(const Vector<uint32_t>& runs);
 
   template <class Coder>
   void code(Coder& coder, uint32_t channels, const Source* source, WeightPredictor& predictor,
@@ -135,18 +131,17 @@ struct TimeWeightModel::State {
   struct Trace {
     uint32_t channels = 0;       ///< 0: no component yet
     Vector<uint32_t> magnitude;  ///< channels x frames
+    Vector<uint8_t> any;         ///< of each frame: is anything not 0?
 
     void start(uint32_t channel_count, uint32_t frames) {
       channels = channel_count;
       magnitude.assign(size_t{channel_count} * frames, 0);
+      any.assign(frames, uint8_t{0});
     }
   };
 
-  /// The next value of a row by each predictor that goes from frame to frame.
-  using Predictions = std::array<int32_t, kForward>;
-
   template <class Coder>
-  void code_forward(Coder& coder, uint32_t channels, const Source* source, size_t predictor,
+  void code_forward(Coder& coder, uint32_t channels, const Source* source, bool regression,
                     int32_t* values);
   template <class Coder>
   void code_cosine(Coder& coder, uint32_t channels, const Source* source, int32_t* values);
@@ -156,6 +151,7 @@ struct TimeWeightModel::State {
   int32_t evidence(size_t index, uint32_t c) const;
   void learn(uint32_t index, uint32_t c, int32_t q, uint32_t rate);
   uint32_t previous(const Trace& trace, int64_t f, int reach) const;
+  uint32_t pattern(const Trace& trace, uint32_t f) const;
   WeightSurroundings surroundings(uint32_t channels, uint32_t c, uint32_t index, uint32_t before,
                                   uint32_t first) const;
   Filter& filter_of(uint32_t channels, uint32_t c);
@@ -169,25 +165,19 @@ struct TimeWeightModel::State {
   uint32_t all_frames_ = 0;
   uint32_t begin_ = 0, frames_ = 0;  ///< of the run at hand
   AdaptiveBit predictor_[kWeightPredictors - 1];
-  std::optional<MixedWeightModel> mixed_;  ///< of the two, the one that codes
-  std::optional<RowWeightModel> rows_;
-  Filter filters_[2][3];          ///< per number of channels (1, 3) and channel
-  uint32_t errors_[3][kForward];  ///< of predictions in the last eight frames or so, in 1/16 step
-  int32_t agreement_[3][3];       ///< of the signs of two channels, in this component
-  Vector<int32_t> coded_;         ///< of this component, channels x frames
-  Trace trace_;                   ///< of the component at hand
-  Trace before_[2];               ///< of the last one coded over frames; over frequencies
+  WeightModel model_;
+  Filter filters_[2][3];     ///< per number of channels (1, 3) and channel
+  int32_t agreement_[3][3];  ///< of the signs of two channels, in this component
+  Vector<int32_t> coded_;    ///< of this component, channels x frames
+  Trace trace_;              ///< of the component at hand
+  Trace before_[2];          ///< of the last one coded over frames; over frequencies
   std::optional<CosineTransform> transform_;  ///< the last one used
   uint32_t slow_[3];
 };
 
-TimeWeightModel::State::State(const Vector<uint32_t>& runs, WeightCoder coder) : runs_(runs) {
+TimeWeightModel::State::State(const Vector<uint32_t>& runs) : runs_(runs) {
   for (uint32_t run : runs_)
     all_frames_ += run;
-  if (coder == WeightCoder::kMixing)
-    mixed_.emplace();
-  else
-    rows_.emplace();
 }
 
 /// Codes the integer nearest to x, or one nearer to zero if that is worth the bits: code(coder, q). x
@@ -233,11 +223,13 @@ void TimeWeightModel::State::learn(uint32_t index, uint32_t c, int32_t q, uint32
   const uint32_t m = static_cast<uint32_t>(std::min(q < 0 ? -q : q, 65535)) * kWeightUnit;
   trace_.magnitude[at(c, index)] = m;
   coded_[at(c, index)] = q;
-  if (mixed_ && q != 0)
+  if (q != 0) {
+    trace_.any[begin_ + index] = 1;
     for (uint32_t e = 0; e < c; ++e) {
       int32_t& agreement = agreement_[c][e];
       agreement += 32 * sign(q) * sign(coded_[at(e, index)]) - agreement / 8;
     }
+  }
   slow_[c] = ((32 - rate) * slow_[c] + rate * m) >> 5;
 }
 
@@ -259,8 +251,16 @@ uint32_t TimeWeightModel::State::previous(const Trace& trace, int64_t f, int rea
   return static_cast<uint32_t>(sum / weight);
 }
 
-/// What is known around the value at `index`, but for what is expected from it. first: what stands for
-/// magnitudes before index 0.
+/// Where an earlier component is not 0: bit 0 before f, bit 1 there, bit 2 behind it.
+uint32_t TimeWeightModel::State::pattern(const Trace& trace, uint32_t f) const {
+  if (trace.channels == 0)
+    return 0;
+  const uint8_t* any = &trace.any[begin_ + f];
+  return (f > 0 ? any[-1] : 0U) | any[0] * 2U | (f + 1 < frames_ ? any[1] * 4U : 0U);
+}
+
+/// What is known around the value at `index`, but for what is expected from it and of its sign. first:
+/// what stands for magnitudes before index 0.
 WeightSurroundings TimeWeightModel::State::surroundings(uint32_t channels, uint32_t c,
                                                         uint32_t index, uint32_t before,
                                                         uint32_t first) const {
@@ -318,42 +318,29 @@ int32_t TimeWeightModel::State::rounded_prediction(double predicted) {
 
 template <class Coder>
 void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const Source* source,
-                                          size_t predictor, int32_t* values) {
+                                          bool regression, int32_t* values) {
   std::fill_n(slow_, 3, 0);
-  for (auto& row : errors_)
-    std::fill(std::begin(row), std::end(row), 0);
-  // Contexts that are mixed know what the regression expects.
-  const bool regresses = mixed_ || predictor == kRegression;
   for (uint32_t f = 0; f < frames_ && !exhausted(coder); ++f) {
-    const uint32_t before = previous(before_[0], f, 1);
+    const uint32_t before = previous(before_[0], f, 1), around = pattern(before_[0], f);
     for (uint32_t c = 0; c < channels; ++c) {
       int32_t* v = values + at(c, f);
-      Filter* const filter = regresses ? &filter_of(channels, c) : nullptr;
-      Filter::Vector z{};
-      const int32_t held = f > 0 ? v[-1] : 0;
-      Predictions p = {f > 1 ? 2 * v[-1] - v[-2] : held, held, 0};
-      if (filter) {
-        z = regressors(v, f, c);
-        p[kRegression] = rounded_prediction(filter->predict(z));
-      }
-      const int32_t prediction = p[predictor];
+      const int32_t held = f > 0 ? v[-1] : 0, line = f > 1 ? 2 * v[-1] - v[-2] : held;
+      Filter& filter = filter_of(channels, c);
+      const Filter::Vector z = regressors(v, f, c);
+      const int32_t regressed = rounded_prediction(filter.predict(z));
+      const int32_t prediction = regression ? regressed : line;
       WeightSurroundings s = surroundings(channels, c, f, before, 0);
       s.expected = (2 * s.recent + 2 * s.slow + s.beside + s.before) / 6;
-      const int32_t last = f > 0 ? coded_[at(c, f) - 1] : 0;
-      if (mixed_) {
-        const auto [least, most] = std::minmax_element(p.begin(), p.end());
-        const auto spread = static_cast<uint32_t>(std::min(*most - *least, 1 << 28));
-        mixed_->select_frame(s, f, c, errors_[c][predictor] >> 1, spread * (kWeightUnit / kStep));
-        // Where two other predictions are; of the predictor at hand that is held.
-        const auto other = [&](size_t k) {
-          return (p[k == predictor ? kHold : k] - prediction) >> 3;
-        };
-        mixed_->select_sign(0, other(kRegression), last, other(kLine), evidence(f, c));
-      }
+      s.pattern = around;
+      s.signs[0] = f > 0 ? coded_[at(c, f) - 1] : 0;
+      s.signs[1] = regression ? (held - regressed) >> 3 : held - line;
+      s.evidence = evidence(f, c);
+      const uint32_t spread = static_cast<uint32_t>(std::min(std::abs(line - held), kMostSpread)) *
+                              (kWeightUnit / kStep);
       const double x = source ? source->x[at(c, f)] - prediction * (1.0 / kStep) : 0;
       const int32_t q =
           code_value(coder, x, source ? source->lambda : 0, [&](auto& to, int32_t given) {
-            return mixed_ ? mixed_->code(to, false, given) : rows_->code_frame(to, s, last, given);
+            return model_.code_frame(to, s, spread, given);
           });
       *v = std::clamp(prediction + q * kStep, -kValueLimit, kValueLimit);
       if constexpr (std::is_same_v<Coder, TrialEncoder>) {
@@ -361,14 +348,8 @@ void TimeWeightModel::State::code_forward(Coder& coder, uint32_t channels, const
         coder.add_error(miss * miss);
       }
       learn(f, c, q, 5);
-      for (size_t k = 0; mixed_ && k < kForward; ++k) {
-        const auto miss = static_cast<uint32_t>(std::abs(*v - p[k]));
-        errors_[c][k] += std::min(miss, kMostError) - (errors_[c][k] >> 3);
-      }
-      if (filter) {
-        const double noise = slow_[c] * (1.0 / kWeightUnit);
-        filter->learn(z, *v * (1.0 / kStep), 1.0 / 12 + noise * noise);
-      }
+      const double noise = slow_[c] * (1.0 / kWeightUnit);
+      filter.learn(z, *v * (1.0 / kStep), 1.0 / 12 + noise * noise);
     }
   }
 }
@@ -386,19 +367,18 @@ void TimeWeightModel::State::code_cosine(Coder& coder, uint32_t channels, const 
   std::fill_n(slow_, 3, 4 * kWeightUnit);
   for (uint32_t k = 0; k < frames_ && !exhausted(coder); ++k) {
     const uint32_t before = before_[1].channels ? previous(before_[1], k, 2) : 0;
-    const uint32_t band = magnitude_class<1>(k, kWeightBands);
+    const uint32_t around = pattern(before_[1], k);
     for (uint32_t c = 0; c < channels; ++c) {
       WeightSurroundings s = surroundings(channels, c, k, before, 10 * kWeightUnit);
       s.expected = (s.recent + 2 * s.slow + s.beside + 2 * s.before) / 6;
-      if (mixed_) {
-        mixed_->select_frequency(s, band, c);
-        const int32_t* q0 = &coded_[at(c, k)];
-        mixed_->select_sign(1 + std::min(band, 7u), k > 0 ? q0[-1] : 0, k > 1 ? q0[-2] : 0,
-                            k > 2 ? q0[-3] : 0, evidence(k, c));
-      }
+      s.pattern = around;
+      const int32_t* coded = &coded_[at(c, k)];
+      s.signs[0] = k > 0 ? coded[-1] : 0;
+      s.signs[1] = k > 1 ? coded[-2] : 0;
+      s.evidence = evidence(k, c);
       const double x = source ? target[size_t{c} * frames_ + k] : 0;
       int32_t q = code_value(coder, x, source ? source->lambda : 0, [&](auto& to, int32_t given) {
-        return mixed_ ? mixed_->code(to, true, given) : rows_->code_frequency(to, s, k, given);
+        return model_.code_frequency(to, s, k, given);
       });
       q = std::clamp(q, -CosineTransform::kLimit, CosineTransform::kLimit);
       learn(k, c, q, 8);
@@ -428,7 +408,7 @@ void TimeWeightModel::State::code(Coder& coder, uint32_t channels, const Source*
     run_end += run;
     frames_ = run;
     if (!cosine)
-      code_forward(coder, channels, source, p, values);
+      code_forward(coder, channels, source, predictor == WeightPredictor::kRegression, values);
     // Pieces of a length as equal as can be, none of them longer than a transform.
     for (uint32_t pieces = (run - 1) / CosineTransform::kMaxLength + 1; cosine && pieces > 0;
          --pieces) {
@@ -467,9 +447,8 @@ TimeWeightModel::StatePointer TimeWeightModel::make_state(const Arguments&... ar
   return made;
 }
 
-TimeWeightModel::TimeWeightModel(const Vector<uint32_t>& runs, WeightCoder coder)
-    : frames_(std::accumulate(runs.begin(), runs.end(), 0U)),
-      state_(make_state(runs, coder)) {}
+TimeWeightModel::TimeWeightModel(const Vector<uint32_t>& runs)
+    : frames_(std::accumulate(runs.begin(), runs.end(), 0U)), state_(make_state(runs)) {}
 
 TimeWeightModel::~TimeWeightModel() = default;
 

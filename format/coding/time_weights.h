@@ -20,18 +20,11 @@ namespace anicodec {
 /// How the weights of a component are predicted in time; chosen per component. Numbers are pinned.
 enum class WeightPredictor : uint8_t {
   kLine = 0,        ///< through the two frames before
-  kHold = 1,        ///< the frame before
-  kRegression = 2,  ///< on the four frames before and the channels before, which adapts
-  kCosine = 3,      ///< discrete cosine transform over the frames of a run
+  kRegression = 1,  ///< on the four frames before and the channels before, which adapts
+  kCosine = 2,      ///< discrete cosine transform over the frames of a run
 };
 
-constexpr uint32_t kWeightPredictors = 4;
-
-/// How what a prediction leaves is coded.
-enum class WeightCoder : uint8_t {
-  kMixing,  ///< by contexts that are mixed
-  kRows,    ///< by rows of symbols: faster, and some hundredths larger
-};
+constexpr uint32_t kWeightPredictors = 3;
 
 /// Decoded weights are in 1/16 of the weight step.
 constexpr int kWeightFractionBits = 4;
@@ -51,14 +44,14 @@ inline void run_in_turn(size_t count, const std::function<void(size_t)>& task) {
 /// `channels` (1 or 3) rows of `frames` values each. The frames are runs, one for each clip that the
 /// segment has frames of: nothing is predicted over the end of a run, which would be a hard cut.
 /// Contexts and regressions carry over from run to run and from component to component.
-/// Memory: about 0.5 MiB, in rows 10 kB, and 80 bytes per frame.
+/// Memory: 60 kB, and 80 bytes per frame.
 class TimeWeightModel {
  public:
   /// `runs`: how many frames each run has, none of them 0.
-  TimeWeightModel(const Vector<uint32_t>& runs, WeightCoder coder);
+  explicit TimeWeightModel(const Vector<uint32_t>& runs);
 
-  TimeWeightModel(uint32_t frames, WeightCoder coder)
-      : TimeWeightModel(Vector<uint32_t>(frames > 0, frames), coder) {}
+  explicit TimeWeightModel(uint32_t frames)
+      : TimeWeightModel(Vector<uint32_t>(frames > 0, frames)) {}
 
   ~TimeWeightModel();
   TimeWeightModel(TimeWeightModel&&) noexcept;

@@ -11,7 +11,7 @@
 namespace anicodec {
 namespace {
 
-constexpr uint64_t kModels = uint64_t{1} << 21;  // of the entropy coders, for each channel
+constexpr uint64_t kModels = uint64_t{1} << 18;  // of the entropy coders
 constexpr uint64_t kPoseModels = uint64_t{3} << 17;
 constexpr uint64_t kFaceModels = uint64_t{3} << 18;   // of the coder of faces
 constexpr uint64_t kOrderModels = uint64_t{1} << 18;  // and of the order of the vertices
@@ -148,7 +148,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
   if (s.reconstruction == Reconstruction::kMsgi)
     msgi = 12 * n * components + uint64_t{1000} * mesh.triangles + 2 * s.msgi_bytes;
   if (s.kind == BasisKind::kKeyframes)
-    return 36 * n * components + 4 * frames * components + 28 * frames + 2 * kModels + msgi +
+    return 36 * n * components + 4 * frames * components + 28 * frames + kModels + msgi +
            (s.draco_bytes > 0 ? draco(s, mesh) : predicting(mesh));
   // Residuals lie in the resident arrays. Making the order of the vertices takes most for each of
   // them, predicting for each coefficient.
@@ -156,8 +156,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
   const uint64_t ordering = (4 * kNeighbours + 272) * n + uint64_t{48} * mesh.triangles;
   const uint64_t predicting =
       4 * channels * (n + 1) * (components + 8) + (4 * kNeighbours + 24) * n;
-  return std::max(ordering, predicting) + 12 * frames * components + 80 * frames +
-         channels * kModels;
+  return std::max(ordering, predicting) + 12 * frames * components + 80 * frames + kModels;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #ifndef ANICODEC_SDK_MESH_GATE_WALK_H_
 #define ANICODEC_SDK_MESH_GATE_WALK_H_
 
+#include "format/coding/symbol_model.h"
 #include "format/memory.h"
 #include "format/status.h"
 #include "sdk/mesh/gate_models.h"

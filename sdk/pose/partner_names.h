@@ -17,7 +17,7 @@
 
 namespace anicodec {
 
-/// Which earlier vertex each vertex is like (spec/09b-reference-pose.md, section 9). Partners come in
+/// Which earlier vertex each vertex is like (spec/09b-reference-pose.md, section 8). Partners come in
 /// strands: along the surface the partner of a vertex is as a rule beside those of its neighbours.
 /// Bounded work for each vertex. Memory: 9 bytes a vertex, and 90 kB.
 class PartnerNames {

@@ -2,13 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/pose/pose_coding.h"
 
-#include "format/coding/binary_coder.h"
 #include "format/coding/rans_coder.h"
 #include "sdk/base/float_control.h"
 #include "sdk/pose/dependent_steps.h"
-#include "sdk/pose/exact_coordinates.h"
 #include "sdk/pose/partner_names.h"
-#include "sdk/pose/pose_models.h"
+#include "sdk/pose/pose_model.h"
 #include "sdk/pose/pose_prediction.h"
 
 #include <algorithm>
@@ -23,19 +21,13 @@ namespace {
 template <class Coder>
 class PosesCoder {
  public:
-  PosesCoder(Coder& coder, const CornerTable& table, PoseCoding coding)
-      : coder_(coder),
-        table_(table),
-        coding_(coding),
-        prediction_(table, coding == PoseCoding::kDependentRows) {}
+  PosesCoder(Coder& coder, const CornerTable& table, PoseSteps steps)
+      : coder_(coder), table_(table), steps_(steps), prediction_(table) {}
 
   /// False when the stream is no such pose. `parent`: an earlier pose, or null.
   bool code(Vector<int32_t>& pose, const Vector<int32_t>* parent, const PosePartners* partners) {
     prediction_.restart();
     std::fill_n(state_, 3, size_t{0});
-    std::optional<ExactCoordinates> exact;
-    if (coding_ == PoseCoding::kExact)
-      exact.emplace(table_.vertex_count());
     std::optional<PartnerNames> names;
     PoseTurn time;  // from the parent on
     if (!parent && coder_.raw(1, partners != nullptr))
@@ -64,45 +56,41 @@ class PosesCoder {
         }
       }
       for (int step = 0; step < 3; ++step)
-        code_step(v, step, exact ? &*exact : nullptr, pose);
+        code_step(v, step, pose);
     }
     return true;
   }
 
  private:
-  void code_step(uint32_t v, int step, ExactCoordinates* exact, Vector<int32_t>& pose) {
+  void code_step(uint32_t v, int step, Vector<int32_t>& pose) {
     const size_t axis = prediction_.axis(step);
-    const bool follows = prediction_.follows();
     int32_t& x = pose[size_t{3} * v + axis];
     const PosePrediction::Expectation expected = prediction_.expect(step);
-    if (exact && exact->code(coder_, prediction_, expected.mean, pose.data(), v, axis, &x)) {
-      // One of the candidates.
-    } else if (has_dependent_steps(coding_)) {
+    if (steps_ == PoseSteps::kDependent) {
       const int32_t parity = DependentSteps::parity(state_[axis]);
-      const int32_t half = models_.code(coder_, prediction_.kind(), follows, step,
-                                        halved(expected, parity), (x - parity) / 2);
+      const int32_t half = model_.code(coder_, step, halved(expected, parity), (x - parity) / 2);
       x = 2 * half + parity;
       state_[axis] = DependentSteps::next(state_[axis], half);
     } else {
-      x = models_.code(coder_, prediction_.kind(), follows, step, expected, x);
+      x = model_.code(coder_, step, expected, x);
     }
     prediction_.learn(step, x);
   }
 
   Coder& coder_;
   const CornerTable& table_;
-  PoseCoding coding_;
+  PoseSteps steps_;
   PosePrediction prediction_;
-  typename PoseModelsOf<Coder>::Type models_;
+  PoseModel model_;
   size_t state_[3] = {0, 0, 0};
 };
 
 template <class Coder>
-bool code_poses(Coder& coder, const CornerTable& table, PoseCoding coding,
+bool code_poses(Coder& coder, const CornerTable& table, PoseSteps steps,
                 const Vector<uint32_t>& parents, const PosePartners* partners,
                 Vector<Vector<int32_t>>& poses) {
   const FloatControl control;
-  PosesCoder<Coder> poses_coder(coder, table, coding);
+  PosesCoder<Coder> poses_coder(coder, table, steps);
   for (size_t j = 0; j < poses.size(); ++j) {
     if (!poses_coder.code(poses[j], parents[j] > 0 ? &poses[parents[j] - 1] : nullptr, partners))
       return false;
@@ -112,37 +100,32 @@ bool code_poses(Coder& coder, const CornerTable& table, PoseCoding coding,
 
 }  // namespace
 
-Bytes encode_poses(const CornerTable& table, PoseCoding coding,
+Bytes encode_poses(const CornerTable& table, PoseSteps steps,
                    const Vector<Vector<int32_t>>& poses, const Vector<uint32_t>& parents,
                    const PosePartners* partners) {
   Vector<Vector<int32_t>> copy = poses;
-  const auto encode = [&](auto encoder) {
-    code_poses(encoder, table, coding, parents, partners, copy);
-    return encoder.finish();
-  };
-  return coding == PoseCoding::kDependentRows ? encode(RansEncoder()) : encode(BinaryEncoder());
+  RansEncoder encoder;
+  code_poses(encoder, table, steps, parents, partners, copy);
+  return encoder.finish();
 }
 
-Status decode_poses(ByteView stream, const CornerTable& table, PoseCoding coding,
+Status decode_poses(ByteView stream, const CornerTable& table, PoseSteps steps,
                     const Vector<uint32_t>& parents, Vector<Vector<int32_t>>* poses) {
   poses->assign(parents.size(), Vector<int32_t>(size_t{3} * table.vertex_count(), 0));
-  const auto decode = [&](auto decoder) {
-    const bool coded = code_poses(decoder, table, coding, parents, nullptr, *poses);
-    return coded && decoder.finish() ? Status::kOk : Status::kEntropy;
-  };
-  return coding == PoseCoding::kDependentRows ? decode(RansDecoder(stream))
-                                              : decode(BinaryDecoder(stream.data, stream.size));
+  RansDecoder decoder(stream);
+  const bool coded = code_poses(decoder, table, steps, parents, nullptr, *poses);
+  return coded && decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
-Bytes encode_pose(const CornerTable& table, PoseCoding coding, const Vector<int32_t>& pose,
+Bytes encode_pose(const CornerTable& table, PoseSteps steps, const Vector<int32_t>& pose,
                   const PosePartners* partners) {
-  return encode_poses(table, coding, {pose}, {0}, partners);
+  return encode_poses(table, steps, {pose}, {0}, partners);
 }
 
-Status decode_pose(ByteView stream, const CornerTable& table, PoseCoding coding,
+Status decode_pose(ByteView stream, const CornerTable& table, PoseSteps steps,
                    Vector<int32_t>* pose) {
   Vector<Vector<int32_t>> poses;
-  const Status status = decode_poses(stream, table, coding, {0}, &poses);
+  const Status status = decode_poses(stream, table, steps, {0}, &poses);
   *pose = std::move(poses[0]);
   return status;
 }

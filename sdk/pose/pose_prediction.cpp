@@ -14,8 +14,8 @@ constexpr double kLeast = 1e-3;  // of a usual error
 
 }  // namespace
 
-PosePrediction::PosePrediction(const CornerTable& table, bool sparse)
-    : table_(table), sparse_(sparse), known_(table.vertex_count()) {
+PosePrediction::PosePrediction(const CornerTable& table)
+    : table_(table), known_(table.vertex_count()) {
   std::array<double, kVectors> vector_start{}, vector_variance{};
   std::array<double, kHeights> height_start{}, height_variance{};
   std::array<double, kSizes> size_start{}, size_variance{};
@@ -86,7 +86,6 @@ void PosePrediction::follow_frames(const Frame& here, const Frame& there, const 
 void PosePrediction::begin(uint32_t v, const int32_t* positions) {
   positions_ = positions;
   vertex_ = v;
-  learns_ = !sparse_ || v < kAllLearnt || v % 2 != 0;
   turn_ = nullptr;
   gather();
   if (!gates_.empty()) {
@@ -278,7 +277,7 @@ void PosePrediction::expect_height() {
 
 void PosePrediction::learn(int step, int32_t value) {
   gates_.empty() ? learn_far(step, value) : learn_near(step, value);
-  if (step == 2 && follows() && learns_)
+  if (step == 2 && follows())
     turn_->learn(there_, position(vertex_) - anchor_);
 }
 
@@ -303,17 +302,14 @@ void PosePrediction::learn_near(int step, int32_t value) {
   const int role = step == 2;
   if (role == 0) {
     residual_[d] = value - base_[d] - regressed_;
-    if (learns_)
-      offset_[follows()][kind_].learn(z_, value - base_[d], noise);
+    offset_[follows()][kind_].learn(z_, value - base_[d], noise);
     known.error[0] += static_cast<float>(0.5 * magnitude);
   } else {
-    if (learns_)
-      height_[follows()][kind_].learn(h_, value - ground_, noise);
+    height_[follows()][kind_].learn(h_, value - ground_, noise);
     known.error[1] = static_cast<float>(magnitude + kLeast);
   }
   known.offset[d] = static_cast<float>(value - base_[d]);
-  if (learns_)
-    size_of_[follows()][role][kind_].learn(s_, magnitude, 0.1 + size_ * size_);
+  size_of_[follows()][role][kind_].learn(s_, magnitude, 0.1 + size_ * size_);
   usual_[follows()][role] += 0.01 * (magnitude - usual_[follows()][role]);
 }
 

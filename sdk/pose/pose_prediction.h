@@ -33,8 +33,7 @@ class PosePrediction {
   static constexpr uint32_t kKinds = 5;
 
   /// The table must outlive it. O(vertices).
-  ///   sparse   learn of every other vertex only, once it knows kAllLearnt: less time
-  PosePrediction(const CornerTable& table, bool sparse);
+  explicit PosePrediction(const CornerTable& table);
 
   /// Another pose begins: nothing is known of it. What was learnt of poses stays.
   void restart();
@@ -55,9 +54,6 @@ class PosePrediction {
   /// Whether there is another place to predict from.
   bool follows() const { return turn_ != nullptr; }
 
-  /// The vertex as that place has it. @pre follows()
-  const Vector3& likely() const { return likely_; }
-
   /// Axis of the coordinate that is coded as the step-th, 0..2.
   size_t axis(int step) const { return axis_[step]; }
 
@@ -76,13 +72,10 @@ class PosePrediction {
   /// The coordinate turned out to be `value`.
   void learn(int step, int32_t value);
 
-  /// Parallelograms of the vertex at hand, and its known neighbours, as its triangles list them.
-  const auto& gates() const { return gates_; }
-
+  /// Known neighbours of the vertex at hand, as its triangles list them.
   const auto& neighbours() const { return neighbours_; }
 
  private:
-  static constexpr uint32_t kAllLearnt = 512;  ///< vertices that a sparse prediction learns of
   static constexpr uint32_t kMostCorners = 32;  ///< of a vertex that are looked at
   static constexpr size_t kMostGates = 16;
   static constexpr size_t kVectors = 9, kHeights = 5, kSizes = 6;
@@ -152,7 +145,6 @@ class PosePrediction {
   void learn_near(int step, int32_t value);
 
   const CornerTable& table_;
-  bool sparse_;
   const int32_t* positions_ = nullptr;
   Vector<Known> known_;
 
@@ -166,7 +158,6 @@ class PosePrediction {
 
   // The vertex at hand.
   uint32_t vertex_ = 0;
-  bool learns_ = true;  ///< the regressions, of this vertex
   Kind kind_ = kAlone;
   List<uint32_t, size_t{2} * kMostCorners> neighbours_;
   List<Vector3, kMostGates> gates_;

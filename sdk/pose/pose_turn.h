@@ -13,7 +13,7 @@
 namespace anicodec {
 
 /// How one piece of a surface is turned against another one that it is like: a linear map, learnt
-/// from vertex to vertex (spec/09b-reference-pose.md, section 8).
+/// from vertex to vertex (spec/09b-reference-pose.md, section 7).
 class PoseTurn {
  public:
   /// `flips`: bit d is set if axis d points the other way, about.

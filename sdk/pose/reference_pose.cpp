@@ -9,7 +9,7 @@ namespace anicodec {
 Status open_pose(const PoseRecord& record, const CornerTable& table, PoseGrid* out) {
   std::copy_n(record.origin, 3, out->origin);
   out->step = record.step;
-  return decode_pose(record.stream, table, record.coding, &out->points);
+  return decode_pose(record.stream, table, PoseSteps::kDependent, &out->points);
 }
 
 }  // namespace anicodec

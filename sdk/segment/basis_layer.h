@@ -11,28 +11,19 @@
 
 namespace anicodec {
 
-/// Streams that the coefficients of a layer are in, at most.
-inline constexpr uint32_t kMostSlices = 8;
-
-/// Whether a segment may have so many slices: 1, 2, 4 or 8.
-constexpr bool is_slice_count(uint32_t slices) {
-  return slices > 0 && slices <= kMostSlices && (slices & (slices - 1)) == 0;
-}
-
 /// Some components of a linear basis, one after the other: a chunk BASI (spec/06-chunks.md, section
 /// 8). Views of the chunk.
 struct BasisLayer {
   uint32_t first = 0, count = 0;  ///< components
-  ByteView weights;
-  ByteView slices[kMostSlices];
+  ByteView weights, coefficients;
 
-  Bytes write(uint32_t slice_count) const;
+  Bytes write() const;
 };
 
 /// The layers as far as `wanted` of the segment's components. Errors: kRecord, kChunkMissing: too few
 /// components.
-Status read_layers(const Vector<ByteView>& chunks, uint32_t slice_count, uint32_t components,
-                   uint32_t wanted, Vector<BasisLayer>* out);
+Status read_layers(const Vector<ByteView>& chunks, uint32_t components, uint32_t wanted,
+                   Vector<BasisLayer>* out);
 
 }  // namespace anicodec
 

@@ -70,8 +70,8 @@ Status read_poses(const SegmentRecord& record, const SegmentContext& context,
     return Status::kSegment;
   if (!draco) {
     if (context.corners)
-      return decode_poses(record.pose, *context.corners, PoseCoding::kRounded, parents, poses);
-    return decode_poses(record.pose, CornerTable(*context.topology), PoseCoding::kRounded, parents,
+      return decode_poses(record.pose, *context.corners, PoseSteps::kAny, parents, poses);
+    return decode_poses(record.pose, CornerTable(*context.topology), PoseSteps::kAny, parents,
                         poses);
   }
   if (Status s = read_draco_poses(record, context, poses); s != Status::kOk)

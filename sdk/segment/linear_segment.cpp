@@ -52,7 +52,7 @@ class WeightReader {
       : parameters_(parameters),
         runs_(runs),
         segment_(segment),
-        model_(runs, parameters.weight_coder()) {}
+        model_(runs) {}
 
   /// Block `weights` of a segment: DecodedBasis::affine_weights.
   Status read_bases(ByteView bytes, Vector<int32_t>* values) {
@@ -90,7 +90,7 @@ class WeightReader {
     if (layer.count == 0)
       return Status::kOk;
     if (parameters_.layers_anew && layer.first > 0)
-      model_ = TimeWeightModel(runs_, parameters_.weight_coder());
+      model_ = TimeWeightModel(runs_);
     BinaryDecoder decoder(layer.weights.data, layer.weights.size);
     const uint32_t channels = segment_.weight_channels();
     for (uint32_t j = layer.first; j < layer.first + count; ++j) {
@@ -229,7 +229,8 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
   const size_t n = order.vertex_count();
   const uint32_t channels = out->channels();
   const ResidualRoom room = {out->wide_components, out->wide.data(), out->narrow.data()};
-  if (Status s = read_residuals(context, parameters, order, channels, layers, out->components, room);
+  if (Status s = read_residuals(context, parameters.layers_anew, order, channels, layers,
+                                out->components, room);
       s != Status::kOk)
     return s;
   if (kTraces && context.trace)
@@ -363,8 +364,7 @@ Bytes LinearParameters::write() const {
                             (layers_anew ? kLayersAnewFlag : 0) | (alike ? kAlikeFlag : 0)));
   w.f64(basis_step);
   w.f64(weight_step);
-  for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule),
-                    static_cast<uint8_t>(coder), slices})
+  for (uint8_t x : {neighbours, colours, radius, static_cast<uint8_t>(schedule)})
     w.u8(x);
   if (alike)
     w.u8(alike);
@@ -405,15 +405,9 @@ Status LinearParameters::read(ByteView bytes, uint32_t components, size_t runs,
   radius = r.u8();
   uint8_t id = r.u8();
   schedule = static_cast<RefitSchedule>(id);
-  const uint8_t coder_id = r.u8();
-  slices = r.u8();
-  coder = static_cast<CoefficientCoder>(coder_id);
   alike = flags & kAlikeFlag ? r.u8() : 0;
   if (!r.ok() || (flags & ~kFlags))
     return Status::kRecord;
-  if (coder_id >= kCoefficientCoderCount || !is_slice_count(slices) ||
-      (slices > 1 && coder != CoefficientCoder::kMixing))
-    return Status::kCoder;
   if (!(std::isfinite(basis_step) && basis_step > 0) ||
       !(std::isfinite(weight_step) && weight_step > 0) || neighbours < 8 ||
       neighbours > kMaxNeighbours || neighbours % 4 != 0 || colours == 0 || colours > kMaxColours ||
@@ -475,8 +469,6 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
           parameters.read(record.parameters, components, runs.size(), context.sizes->regions);
       s != Status::kOk)
     return s;
-  out->coefficient_coder = parameters.coder;
-  out->slices = parameters.slices;
   if (record.motion.size != 0)
     return Status::kRecord;
   if (!context.pose)
@@ -505,7 +497,7 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
   }
 
   Vector<BasisLayer> layers;
-  if (Status s = read_layers(context.layers, parameters.slices, components, wanted, &layers);
+  if (Status s = read_layers(context.layers, components, wanted, &layers);
       s != Status::kOk)
     return s;
   const Vector<double> factors = step_factors(parameters, runs);

@@ -28,8 +28,6 @@ struct LinearParameters {
   uint8_t colours = 1;
   uint8_t radius = 12;
   RefitSchedule schedule = RefitSchedule::kDense;
-  CoefficientCoder coder = CoefficientCoder::kMixing;
-  uint8_t slices = 1;        ///< streams of the coefficients of a layer: is_slice_count()
   bool layers_anew = false;  ///< the entropy coders' models begin anew with each layer
   uint8_t alike = 0;         ///< PredictionParameters::alike
   /// For each run of frames of a clip: its weights have weight_step * 2^(run_steps / 8). Empty:
@@ -46,10 +44,6 @@ struct LinearParameters {
   /// Whether a region has weights of a component.
   bool has_weights(uint32_t region, size_t component) const {
     return region_components.empty() || component < region_components[region];
-  }
-
-  WeightCoder weight_coder() const {
-    return coder == CoefficientCoder::kBatches ? WeightCoder::kRows : WeightCoder::kMixing;
   }
 
   /// Per component, in the order of the file.

@@ -7,7 +7,6 @@
 #include "format/status.h"
 #include "sdk/prediction/vertex_order.h"
 #include "sdk/segment/basis_layer.h"
-#include "sdk/segment/linear_segment.h"
 #include "sdk/segment/segment.h"
 
 #include <cstdint>
@@ -23,11 +22,11 @@ struct ResidualRoom {
 };
 
 /// Reads the residuals of a linear segment's coefficients from its layers; stops after `wanted` of the
-/// segment's components. Slices are read on the host's threads. Errors: those of the layers;
+/// segment's components. layers_anew: see LinearParameters. Errors: those of the layers;
 /// kEntropy: one does not fit its room; kCancelled by the host.
-Status read_residuals(const SegmentContext& context, const LinearParameters& parameters,
-                      const VertexOrder& order, uint32_t channels,
-                      const Vector<BasisLayer>& layers, uint32_t wanted, const ResidualRoom& room);
+Status read_residuals(const SegmentContext& context, bool layers_anew, const VertexOrder& order,
+                      uint32_t channels, const Vector<BasisLayer>& layers, uint32_t wanted,
+                      const ResidualRoom& room);
 
 }  // namespace anicodec
 

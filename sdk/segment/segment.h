@@ -26,13 +26,6 @@ inline uint32_t block_count(uint32_t vertices) {
   return (vertices + kBlock - 1) / kBlock;
 }
 
-/// How the coefficients of eigenshapes and eigentrajectories are coded, and their time weights.
-enum class CoefficientCoder : uint8_t {
-  kMixing = 0,   ///< CoefficientModel, WeightCoder::kMixing: smallest files
-  kBatches = 1,  ///< BatchCoefficientModel, WeightCoder::kRows: opens faster
-};
-constexpr uint8_t kCoefficientCoderCount = 2;
-
 /// A row-major 3 x 4 matrix: rotation or linear part and translation of an affine map.
 struct Affine {
   float m[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -77,9 +70,6 @@ struct Segment {
   Vector<uint8_t> vertex_region;
   Vector<Affine> motions;    ///< M_f; empty when there are none
 
-  CoefficientCoder coefficient_coder =
-      CoefficientCoder::kMixing;     ///< of eigenshapes and -trajectories
-  uint32_t slices = 1;               ///< streams of their coefficients
   Vector<uint32_t> keyframe_frames;  ///< source frame of each key-frame
   double origin[3] = {0, 0, 0};      ///< key-frame kind: offset of every coefficient vector
 

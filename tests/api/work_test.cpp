@@ -6,7 +6,8 @@
 #include "codec/connectivity/mesh_layout.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "format/coding/binary_coder.h"
-#include "format/coding/coefficient_coder.h"
+#include "format/coding/coefficient_model.h"
+#include "format/coding/rans_coder.h"
 #include "format/coding/time_weights.h"
 #include "format/container.h"
 #include "format/records.h"
@@ -99,8 +100,8 @@ class CraftedFile {
     add("CLIP", kNoMesh, kNoSegment, clip.write());
     add("MESH", 0, kNoSegment, mesh());
     if (std::find(own_pose_.begin(), own_pose_.end(), false) != own_pose_.end())
-      add("POSE", 0, kNoSegment, pose(PoseCoding::kRounded));
-    const Bytes predicted = pose(PoseCoding::kExact);
+      add("POSE", 0, kNoSegment, pose());
+    const Bytes predicted = pose();
     for (uint32_t i = 0; i < limits_.segments.size(); ++i) {
       add("SEGM", 0, i, segment(limits_.segments[i]));
       if (own_pose_[i])
@@ -120,10 +121,9 @@ class CraftedFile {
     return record.write();
   }
 
-  Bytes pose(PoseCoding coding) const {
-    const Bytes stream = encode_pose(CornerTable(topology_), coding, pose_);
+  Bytes pose() const {
+    const Bytes stream = encode_pose(CornerTable(topology_), PoseSteps::kDependent, pose_);
     PoseRecord record;
-    record.coding = coding;
     record.stream = stream;
     return record.write();
   }
@@ -146,7 +146,7 @@ class CraftedFile {
 
   static Bytes weights(const Limits::Segment& s) {
     BinaryEncoder encoder;
-    TimeWeightModel model(s.frames, WeightCoder::kMixing);
+    TimeWeightModel model(s.frames);
     const std::vector<double> still(s.frames, 0.0);
     std::vector<int32_t> decoded(s.frames);
     for (uint32_t j = 0; j < s.components; ++j)
@@ -161,9 +161,9 @@ class CraftedFile {
     EXPECT_EQ(make_vertex_order(topology_.triangles.data(), topology_.triangles.size() / 3,
                                 pose_.data(), vertices_, p.neighbours, p.colours, &order),
               Status::kOk);
-    CoefficientModel model(vertices_, 3, order.neighbours.data(),
-                           static_cast<uint32_t>(order.neighbour_count));
-    BinaryEncoder encoder;
+    CoefficientModel model(3, order.neighbours.data(), static_cast<uint32_t>(order.neighbour_count),
+                           order.level_start);
+    RansEncoder encoder;
     std::vector<int32_t> zeros(size_t{3} * vertices_, 0);
     for (uint32_t j = 0; j < components; ++j)
       model.code_component(encoder, zeros.data());
@@ -171,8 +171,8 @@ class CraftedFile {
     BasisLayer layer;
     layer.count = components;
     layer.weights = of_time;
-    layer.slices[0] = stream;
-    return layer.write(1);
+    layer.coefficients = stream;
+    return layer.write();
   }
 
   Bytes corrections(uint32_t frames) const {

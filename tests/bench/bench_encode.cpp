@@ -72,13 +72,13 @@ ByteView up_to_the_first(const char (&type)[5], ByteView file) {
 }
 
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
-                         bool verbose, OrderMode order, OpeningChoice opening) {
+                         bool verbose, OrderMode order, bool smallest) {
   EncodeOptions options;
   options.target = target;
   options.basis = basis;
   options.order = order;
   options.effort = effort;
-  options.opening = opening;
+  options.smallest = smallest;
   options.encoder = fmt::format("anicodec {}", tools::version());
 
   TimedEncode timed;

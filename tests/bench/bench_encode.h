@@ -59,7 +59,7 @@ struct TimedEncode {
 /// stderr.
 TimedEncode encode_timed(MeshSequence sequence, const Target& target, BasisChoice basis, int effort,
                          bool verbose, OrderMode order = OrderMode::kFree,
-                         OpeningChoice opening = OpeningChoice::kSmall);
+                         bool smallest = false);
 
 /// Bits per frame and vertex.
 double bpfv(uint64_t bytes, const MeshSequence& sequence);

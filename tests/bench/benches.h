@@ -53,14 +53,14 @@ Table run_ablate(const BenchOptions& options, double kg, const std::vector<std::
 /// Opening and playing all frames, against Draco decoding them one by one; one thread.
 Table run_decode(const BenchOptions& options, double kg, int runs);
 
-/// Bytes, opening time and its steps with each choice of `encode --open`; one thread.
+/// Bytes, opening time and its steps with and without `encode --smallest`; one thread.
 Table run_open(const BenchOptions& options, double kg, int runs);
 
 /// Clips as live streams of so many frames a file: time to encode a file, and to open one as a stream does, which keeps the
 /// meshes, or with its meshes.
 Table run_live(const BenchOptions& options, double kg, uint32_t frames, int runs);
 
-/// Bytes and opening time per vertex of frame 0 as a reference pose, each way of coding it, against
+/// Bytes and opening time per vertex of frame 0 as a reference pose, against
 /// Draco on the same grid.
 Table run_static_pose(const BenchOptions& options, double kg, int runs);
 

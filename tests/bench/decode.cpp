@@ -41,7 +41,7 @@ void play(const Clip& clip, std::vector<float>& positions) {
 Table run_decode(const BenchOptions& options, double kg, int runs) {
   Table table({{"clip", "clip", ""},
                {"frames", "frames", ""},
-               {"open", "--open", ""},
+               {"search", "search", ""},
                {"basis", "kind", ""},
                {"components", "k", ""},
                {"bytes", "bytes", ""},
@@ -54,11 +54,10 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
   for (const std::string& name : options.clips) {
     MeshSequence sequence = load_clip(name);
     const DracoFrames draco = draco_at_kg(sequence, fan_triangles(sequence.polygons), kg);
-    for (const auto& [choice, word] :
-         {std::pair{OpeningChoice::kSmall, "small"}, {OpeningChoice::kFast, "fast"}}) {
+    for (const bool smallest : {true, false}) {
       const TimedEncode timed =
           encode_timed(sequence, {ErrorMetric::kKg, kg, false}, options.basis, options.effort,
-                       options.verbose, OrderMode::kFree, choice);
+                       options.verbose, OrderMode::kFree, smallest);
       std::vector<float> positions;
       Clip opened;
       open_encoded(timed.result.file, opened);
@@ -78,7 +77,7 @@ Table run_decode(const BenchOptions& options, double kg, int runs) {
       table.add({{"clip", name},
                  {"vertices", sequence.vertex_count},
                  {"frames", sequence.frame_count},
-                 {"open", word},
+                 {"search", smallest ? "smallest" : "balanced"},
                  {"basis", tools::name_of(timed.result.kind)},
                  {"components", timed.result.components},
                  {"bytes", timed.result.file.size()},

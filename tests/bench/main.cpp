@@ -211,7 +211,7 @@ void add_decode(Bench& bench) {
 void add_open(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options = add(
-      bench, "open", "Bytes and time to open, step by step, of each --open", [](Arguments& args) {
+      bench, "open", "Bytes and time to open, step by step, smallest and balanced", [](Arguments& args) {
         args.bench.clips = clip_words(args.inputs, args.clips);
         return std::vector{run_open(args.bench, args.one_kg, args.runs)};
       });

@@ -124,7 +124,7 @@ MemoryUse memory_use(ByteView file, int runs) {
 
 Table run_open(const BenchOptions& options, double kg, int runs) {
   Table table({{"clip", "clip", ""},
-               {"open", "--open", ""},
+               {"search", "search", ""},
                {"components", "k", ""},
                {"bytes", "bytes", ""},
                {"growth", "more %", "{:.1f}"},
@@ -145,15 +145,12 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
                {"read_ns", "ns/coefficient", "{:.1f}"},
                {"predict_ms", "predict ms", "{:.1f}"},
                {"predict_ns", "ns/coefficient", "{:.1f}"}});
-  constexpr std::pair<OpeningChoice, const char*> kChoices[] = {{OpeningChoice::kSmall, "small"},
-                                                                {OpeningChoice::kAuto, "auto"},
-                                                                {OpeningChoice::kFast, "fast"}};
   for (const std::string& name : options.clips) {
     double bytes = 0, seconds = 0;  // of the smallest file
-    for (const auto& [choice, word] : kChoices) {
+    for (const bool smallest : {true, false}) {
       const TimedEncode timed =
           encode_timed(load_clip(name), {ErrorMetric::kKg, kg, false}, options.basis,
-                       options.effort, options.verbose, OrderMode::kFree, choice);
+                       options.effort, options.verbose, OrderMode::kFree, smallest);
       const Bytes& file = timed.result.file;
       const ByteView base = up_to_the_first("SEGM", file), layer = up_to_the_first("BASI", file);
       enum : size_t { kOpening, kBase, kLayer, kStream };
@@ -183,12 +180,12 @@ Table run_open(const BenchOptions& options, double kg, int runs) {
       };
       const double ordering = median(&Steps::ordering), reading = median(&Steps::reading),
                    predicting = median(&Steps::predicting);
-      if (choice == OpeningChoice::kSmall) {
+      if (smallest) {
         bytes = static_cast<double>(file.size());
         seconds = opening;
       }
       table.add({{"clip", name},
-                 {"open", word},
+                 {"search", smallest ? "smallest" : "balanced"},
                  {"basis", tools::name_of(timed.result.kind)},
                  {"components", timed.result.components},
                  {"bytes", file.size()},

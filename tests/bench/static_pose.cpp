@@ -24,20 +24,14 @@ namespace anicodec::bench {
 Table run_static_pose(const BenchOptions& options, double kg, int runs) {
   Table table({{"clip", "clip", ""},
                {"vertices", "coded vertices", ""},
-               {"rounded", "rounded", ""},
-               {"exact", "exact", ""},
-               {"dependent", "dependent steps", ""},
-               {"rows", "in rows", ""},
+               {"pose", "pose", ""},
                {"partners", "vertices with partners", ""},
-               {"exact_partners", "exact by partners", ""},
-               {"dependent_partners", "dependent by partners", ""},
-               {"rows_partners", "in rows by partners", ""},
+               {"by_partners", "by partners", ""},
                {"search_us", "search us", "{:.2f}"},
                {"partners_us", "by partners us", "{:.2f}"},
                {"draco", "Draco pose", ""},
                {"corners_us", "corners us", "{:.2f}"},
                {"pose_us", "pose us", "{:.2f}"},
-               {"rows_us", "in rows us", "{:.2f}"},
                {"draco_us", "Draco pose us", "{:.2f}"},
                {"static_us", "faces and pose us", "{:.2f}"},
                {"draco_mesh_us", "Draco mesh us", "{:.2f}"},
@@ -53,45 +47,38 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
     const double n = layout.sizes.coded_vertices;
     const CornerTable corners(layout.topology);
     nlohmann::ordered_json row{{"clip", name}, {"vertices", layout.sizes.coded_vertices}};
-    const std::pair<const char*, PoseCoding> codings[] = {{"rounded", PoseCoding::kRounded},
-                                                          {"exact", PoseCoding::kExact},
-                                                          {"dependent", PoseCoding::kDependent},
-                                                          {"rows", PoseCoding::kDependentRows}};
-    for (const auto& [key, coding] : codings) {
-      const auto encoded = encode_pose_as(coding, pose, origin, step, corners);
-      row[key] = encoded->stream.size();
+    // Decodes a pose: microseconds for a vertex.
+    const auto decoding = [&](const EncodedPose& encoded) {
       Vector<int32_t> decoded;
-      const double seconds = median_thread_seconds(
-          runs, [&] { (void)decode_pose(encoded->stream, corners, coding, &decoded); });
-      if (decoded != encoded->grid.points)
+      const double seconds = median_thread_seconds(runs, [&] {
+        (void)decode_pose(encoded.stream, corners, PoseSteps::kDependent, &decoded);
+      });
+      if (decoded != encoded.grid.points)
         throw Error(ErrorKind::kInternal, "the pose does not come back");
-      row[coding == PoseCoding::kDependentRows ? "rows_us" : "pose_us"] = 1e6 * seconds / n;
-      if (coding != PoseCoding::kRounded)
-        continue;
-      const DracoPoses draco = encode_draco_poses(layout.topology, {&encoded->grid.points, 1});
-      row["draco"] = draco.bytes.size();
-      row["draco_us"] =
-          1e6 / n * median_thread_seconds(runs, [&] {
-            Vector<Vector<int32_t>> poses;
-            (void)decode_draco_poses(draco.bytes, layout.topology, draco.points, 1, &poses);
-          });
-    }
+      return 1e6 * seconds / n;
+    };
+    const auto alone = encode_pose_by(nullptr, pose, origin, step, corners);
+    row["pose"] = alone->stream.size();
+    row["pose_us"] = decoding(*alone);
+    // Draco rounds to the step that dependent steps stand for.
+    Vector<int32_t> rounded;
+    for (Eigen::Index i = 0; i < pose.size(); ++i)
+      rounded.push_back(static_cast<int32_t>(std::lround(pose(i / 3, i % 3) / step)));
+    const DracoPoses draco = encode_draco_poses(layout.topology, {&rounded, 1});
+    row["draco"] = draco.bytes.size();
+    row["draco_us"] = 1e6 / n * median_thread_seconds(runs, [&] {
+                        Vector<Vector<int32_t>> poses;
+                        (void)decode_draco_poses(draco.bytes, layout.topology, draco.points, 1, &poses);
+                      });
     PosePartners partners;
     row["search_us"] =
         1e6 / n * median_thread_seconds(runs, [&] { partners = find_partners(pose, corners); });
     row["partners"] = partners.partner.size() - static_cast<size_t>(std::ranges::count(
                                                     partners.partner, PosePartners::kNone));
     if (!partners.partner.empty()) {
-      for (const auto& [key, coding] : codings) {
-        const auto encoded = encode_pose_as(coding, pose, origin, step, corners, &partners);
-        row[std::string(key) + "_partners"] = encoded->stream.size();
-        Vector<int32_t> decoded;
-        row["partners_us"] = 1e6 / n * median_thread_seconds(runs, [&] {
-                               (void)decode_pose(encoded->stream, corners, coding, &decoded);
-                             });
-        if (decoded != encoded->grid.points)
-          throw Error(ErrorKind::kInternal, "the pose does not come back");
-      }
+      const auto by_partners = encode_pose_by(&partners, pose, origin, step, corners);
+      row["by_partners"] = by_partners->stream.size();
+      row["partners_us"] = decoding(*by_partners);
     }
     row["corners_us"] =
         1e6 / n * median_thread_seconds(runs, [&] { CornerTable{layout.topology}; });
@@ -101,7 +88,8 @@ Table run_static_pose(const BenchOptions& options, double kg, int runs) {
       Topology topology;
       Vector<int32_t> decoded;
       if (decode_faces(layout.faces, layout.sizes, &topology) != Status::kOk ||
-          decode_pose(best->stream, CornerTable(topology), best->coding, &decoded) != Status::kOk)
+          decode_pose(best->stream, CornerTable(topology), PoseSteps::kDependent, &decoded) !=
+              Status::kOk)
         throw Error(ErrorKind::kInternal, "the mesh cannot be decoded");
     });
     const double extent = (pose.colwise().maxCoeff() - pose.colwise().minCoeff()).maxCoeff();

@@ -65,7 +65,7 @@ class RandomVector {
     EncodeOptions options;
     options.effort = any({1, 2, 5});
     options.order = any({OrderMode::kFree, OrderMode::kVertices, OrderMode::kAll});
-    options.opening = any({OpeningChoice::kSmall, OpeningChoice::kFast});
+    options.smallest = one_in(2);
     options.target = {ErrorMetric::kKg, any({0.05, 0.3, 2.0}), false};
     if (one_in(3))
       options.cap = Target{ErrorMetric::kMaxError, any({0.2, 2.0}), false};
@@ -99,12 +99,10 @@ class RandomVector {
                       any({RefitSchedule::kNone, RefitSchedule::kSparse, RefitSchedule::kMedium,
                            RefitSchedule::kDense}));
     LinearSettings& settings = r.settings;
-    settings.coder = any({CoefficientCoder::kMixing, CoefficientCoder::kBatches});
     settings.layers = 1 + numbers_.below(3);
     if (one_in(2))
       settings.alike = static_cast<uint8_t>(1 + numbers_.below(255));
     settings.layers_anew = one_in(2);
-    r.pose_in_rows = one_in(3);
     settings.pose_factor = any({0.02, 0.5, 2.0, 8.0});
     settings.weight_factor = any({0.5, 2.4, 10.0});
     if (one_in(2))
@@ -124,31 +122,19 @@ class RandomVector {
       for (uint32_t k = 0; k < r.regions && one_in(2); ++k)
         settings.components.push_back(1 + numbers_.below(9));
     }
-    switch (r.regions > 1 ? 6 : numbers_.below(6)) {
+    switch (r.regions > 1 ? 5 : numbers_.below(5)) {
       case 0:
-        r.change = with_partners(any({PoseCoding::kExact, PoseCoding::kRounded}));
+        r.change = with_partners;
         break;
       case 1:
-        r.change = round_pose;
-        break;
-      case 2:
         r.change = scramble_weights;
         break;
-      case 3:
+      case 2:
         if (settings.layers == 1)
           r.change = scramble_coefficients;
         break;
       default:
         break;
-    }
-    if (settings.coder == CoefficientCoder::kMixing && one_in(2)) {
-      r.change = [sliced = in_slices(any({2U, 4U, 8U})), change = r.change](
-                     EncodedSegment& segment, const EncoderInput& input) {
-        if (segment.sizes.components > 0)
-          sliced(segment, input);
-        if (change)
-          change(segment, input);
-      };
     }
     return r;
   }

@@ -14,9 +14,8 @@
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "format/bytes.h"
-#include "format/coding/batch_coefficient_coder.h"
 #include "format/coding/binary_coder.h"
-#include "format/coding/coefficient_coder.h"
+#include "format/coding/coefficient_model.h"
 #include "format/coding/rans_coder.h"
 #include "format/coding/time_weights.h"
 #include "sdk/clip/clip.h"
@@ -68,10 +67,9 @@ Bytes alike() {
   return file_of(clip, recipes);
 }
 
-/// A recipe of three layers by a coder.
-Recipe layered(BasisKind kind, double step, CoefficientCoder coder, bool anew) {
+/// A recipe of three layers.
+Recipe layered(BasisKind kind, double step, bool anew) {
   Recipe r = recipe(9, kind, step, 12, 1, 12, RefitSchedule::kMedium);
-  r.settings.coder = coder;
   r.settings.layers = 3;
   r.settings.layers_anew = anew;
   return r;
@@ -80,7 +78,6 @@ Recipe layered(BasisKind kind, double step, CoefficientCoder coder, bool anew) {
 Bytes vertex_order() {
   Recipe r = recipe(9, BasisKind::kEigentrajectories, 0.004, 16, 3, 12, RefitSchedule::kDense);
   r.settings.pose_factor = 0.02;  // the grid of the order shifts it
-  r.change = round_pose;
   return file_of(hub(), {r}, [](ClipsRecord& file) {
     ClipRecord& record = file.clips[0];
     record.name = String("tab\there \"quoted\" \xff");
@@ -110,16 +107,11 @@ Bytes cliques_of_vertices() {
 Bytes partners() {
   const MeshSequence clip = corpus::make_scaled("limb", 700, 12);
   const double step = 0.004 * diagonal(clip);
-  std::vector<Recipe> recipes;
-  for (const auto& coding : {std::optional<PoseCoding>(), std::optional(PoseCoding::kExact),
-                             std::optional(PoseCoding::kRounded)}) {
-    recipes.push_back(
-        recipe(3, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse));
-    recipes.back().change = with_partners(coding);
-  }
-  recipes.push_back(recipes.front());
-  recipes.back().pose_in_rows = true;
-  return file_of(clip, recipes);
+  Recipe named = recipe(6, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse);
+  named.change = with_partners;
+  const Recipe found =
+      recipe(6, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse);
+  return file_of(clip, {named, found});
 }
 
 Bytes turned() {
@@ -140,7 +132,6 @@ Bytes weights_in_time() {
       recipe(170, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kSparse);
   Recipe short_one =
       recipe(130, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kNone);
-  short_one.settings.coder = CoefficientCoder::kBatches;
   for (Recipe* r : {&shapes, &short_one}) {
     r->settings.components = {9};
     r->change = scramble_weights;
@@ -166,7 +157,6 @@ Bytes clips() {
   Recipe shared =
       recipe(150, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kSparse);
   Recipe next = recipe(150, BasisKind::kEigentrajectories, step, 8, 1, 12, RefitSchedule::kNone);
-  next.settings.coder = CoefficientCoder::kBatches;
   shared.settings.run_steps = {0, 7, 64, 16, 3};  // the last of these clips goes on in the next
   for (Recipe* r : {&shared, &next}) {
     r->settings.components = {9};
@@ -187,49 +177,26 @@ Bytes saturated() {
   return file_of(clip, {shapes, curves});
 }
 
-/// The second coder of coefficients, layers that begin anew, and residuals at the coder's limits.
-Bytes batches() {
+/// Layers that go on or begin anew, and residuals at the coder's limits.
+Bytes layers() {
   const MeshSequence clip = corpus::make_scaled("limb", 400, 48);
   const double step = 0.001 * diagonal(clip);
-  Recipe wild = layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kBatches, false);
+  Recipe wild = layered(BasisKind::kEigentrajectories, step, false);
   wild.frames = 12;
   wild.settings.components = {11};  // more than are told apart
   wild.change = scramble_coefficients;
-  return file_of(clip,
-                 {layered(BasisKind::kEigenshapes, step, CoefficientCoder::kBatches, false),
-                  layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kBatches, true),
-                  layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kMixing, true),
-                  layered(BasisKind::kEigenshapes, step, CoefficientCoder::kBatches, true), wild});
-}
-
-/// Coefficients in 2 to 8 slices, over layers that go on or begin anew, and residuals at the coder's
-/// limits.
-Bytes slices() {
-  const MeshSequence clip = corpus::make_scaled("limb", 500, 48);
-  const double step = 0.001 * diagonal(clip);
-  std::vector<Recipe> recipes = {
-      layered(BasisKind::kEigenshapes, step, CoefficientCoder::kMixing, false),
-      layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kMixing, false),
-      layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kMixing, true),
-      layered(BasisKind::kEigenshapes, step, CoefficientCoder::kMixing, true),
-      recipe(12, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kMedium)};
-  const uint32_t counts[] = {2, 4, 8, 4, 2};
-  for (size_t i = 0; i < recipes.size(); ++i)
-    recipes[i].change = in_slices(counts[i]);
-  recipes.back().settings.components = {11};
-  recipes.back().change = [](EncodedSegment& segment, const EncoderInput& input) {
-    in_slices(2)(segment, input);
-    scramble_coefficients(segment, input);
-  };
-  return file_of(clip, recipes);
+  return file_of(clip, {layered(BasisKind::kEigenshapes, step, false),
+                        layered(BasisKind::kEigentrajectories, step, true),
+                        layered(BasisKind::kEigentrajectories, step, false),
+                        layered(BasisKind::kEigenshapes, step, true), wild});
 }
 
 /// Regions along the vertices, a few of which have fewer components or none; and scattered ones, over
-/// clips with steps of their own, by the other coder. Corrections.
+/// clips with steps of their own. Corrections.
 Bytes regions() {
   const MeshSequence clip = corpus::make_scaled("limb", 600, 24);
   const double step = 0.0008 * diagonal(clip);
-  Recipe bands = layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kMixing, false);
+  Recipe bands = layered(BasisKind::kEigentrajectories, step, false);
   bands.frames = 12;
   bands.regions = 8;
   bands.region_of = [](uint32_t n) {
@@ -242,10 +209,9 @@ Bytes regions() {
   bands.change = [](EncodedSegment& segment, const EncoderInput& input) {
     Segment opened = open_encoded(segment, input.layout);
     const FrameView frames = input.frames(0, 12);
-    const double bound = 0.6 * measure(opened, frames, input.copies).max;
-    correct(frames, input.copies, std::vector<double>(frames.frame_count, bound), opened, segment);
+    correct(frames, input.copies, 0.6 * measure(opened, frames, input.copies).max, opened, segment);
   };
-  Recipe scattered = layered(BasisKind::kEigentrajectories, step, CoefficientCoder::kBatches, true);
+  Recipe scattered = layered(BasisKind::kEigentrajectories, step, true);
   scattered.frames = 12;
   scattered.regions = 3;
   scattered.settings.passes_per_level = 2;
@@ -632,8 +598,7 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"walk", walk},
                                {"exact", exact},
                                {"saturated", saturated},
-                               {"batches", batches},
-                               {"slices", slices},
+                               {"layers", layers},
                                {"regions", regions},
                                {"partners", partners},
                                {"other_parents", other_parents},

@@ -7,15 +7,13 @@
 #include "codec/file/clip_record.h"
 #include "codec/metrics/metrics.h"
 #include "codec/search/encoder_input.h"
-#include "codec/segment/coefficient_slices.h"
 #include "codec/segment/linear_segment_encode.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
 #include "format/bytes.h"
-#include "format/coding/batch_coefficient_coder.h"
 #include "format/coding/binary_coder.h"
-#include "format/coding/coefficient_coder.h"
+#include "format/coding/coefficient_model.h"
 #include "format/coding/rans_coder.h"
 #include "format/coding/time_weights.h"
 #include "sdk/clip/clip.h"
@@ -23,6 +21,8 @@
 #include "sdk/prediction/vertex_order.h"
 #include "sdk/segment/basis_layer.h"
 #include "sdk/segment/keyframe_segment.h"
+#include "sdk/segment/linear_segment.h"
+#include "sdk/segment/region_coding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
   const double clip_diagonal = diagonal(clip);
   const MeshSequence source = clip;
   ClipsRecord record =
-      clips_record(clip, {}, std::vector<ClipGoal>(clips_of(clip).size(), {{}, {}, clip_diagonal}));
+      clips_record(clip, {}, {}, std::vector<double>(clips_of(clip).size(), clip_diagonal));
   const EncoderInput input(std::move(clip));
   std::vector<EncodedSegment> segments;
   uint32_t first = 0;
@@ -63,7 +63,7 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
     std::optional<EncodedSegment> coded = encode_linear(
         frames, basis, recipe.settings, input.layout,
         encode_reference_pose(basis.pose, basis.origin, pose_step(recipe.settings, recipe.frames),
-                              input.layout, recipe.pose_in_rows ? 1 : 0),
+                              input.layout),
         input.runs(first, recipe.frames));
     if (!coded)
       throw Error(ErrorKind::kInternal, "the step is too fine");
@@ -245,33 +245,22 @@ MeshSequence turned_pair(uint32_t vertices, uint32_t frames) {
   return clip;
 }
 
-void round_pose(EncodedSegment& segment, const EncoderInput& input) {
+void with_partners(EncodedSegment& segment, const EncoderInput& input) {
   auto pose = std::make_shared<EncodedPose>(*segment.reference);
-  pose->coding = PoseCoding::kRounded;
-  pose->stream =
-      encode_pose(CornerTable(input.layout.topology), PoseCoding::kRounded, pose->grid.points);
+  const uint32_t n = input.layout.topology.coded_vertices;
+  Numbers numbers;
+  PosePartners partners;
+  uint32_t ahead = 1;
+  for (uint32_t v = 0; v < n; ++v) {
+    if (numbers.below(3) == 0)
+      ahead = 1 + numbers.below(n);
+    const uint32_t kind = numbers.below(8);
+    partners.partner.push_back(kind == 0 ? PosePartners::kNone : kind == 1 ? v : (v + ahead) % n);
+    partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
+  }
+  pose->stream = encode_pose(CornerTable(input.layout.topology), PoseSteps::kDependent,
+                             pose->grid.points, &partners);
   segment.reference = std::move(pose);
-}
-
-StreamChange with_partners(std::optional<PoseCoding> coding) {
-  return [coding](EncodedSegment& segment, const EncoderInput& input) {
-    auto pose = std::make_shared<EncodedPose>(*segment.reference);
-    pose->coding = coding.value_or(pose->coding);
-    const uint32_t n = input.layout.topology.coded_vertices;
-    Numbers numbers;
-    PosePartners partners;
-    uint32_t ahead = 1;
-    for (uint32_t v = 0; v < n; ++v) {
-      if (numbers.below(3) == 0)
-        ahead = 1 + numbers.below(n);
-      const uint32_t kind = numbers.below(8);
-      partners.partner.push_back(kind == 0 ? PosePartners::kNone : kind == 1 ? v : (v + ahead) % n);
-      partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
-    }
-    pose->stream =
-        encode_pose(CornerTable(input.layout.topology), pose->coding, pose->grid.points, &partners);
-    segment.reference = std::move(pose);
-  };
 }
 
 StreamChange with_turned_partners(bool many_strands) {
@@ -284,8 +273,8 @@ StreamChange with_turned_partners(bool many_strands) {
       partners.partner.push_back((v + n / 2) % n);
       partners.flips.push_back(static_cast<uint8_t>(many_strands ? numbers.below(8) : 3));
     }
-    pose->stream =
-        encode_pose(CornerTable(input.layout.topology), pose->coding, pose->grid.points, &partners);
+    pose->stream = encode_pose(CornerTable(input.layout.topology), PoseSteps::kDependent,
+                               pose->grid.points, &partners);
     segment.reference = std::move(pose);
   };
 }
@@ -305,8 +294,8 @@ LinearParameters parameters_of(const EncodedSegment& segment) {
 Vector<BasisLayer> layers_of(const std::vector<Bytes>& chunks, const LinearParameters& parameters) {
   Vector<BasisLayer> layers;
   const auto components = static_cast<uint32_t>(parameters.sigma.size());
-  if (read_layers(Vector<ByteView>(chunks.begin(), chunks.end()), parameters.slices, components,
-                  components, &layers) != Status::kOk)
+  if (read_layers(Vector<ByteView>(chunks.begin(), chunks.end()), components, components,
+                  &layers) != Status::kOk)
     throw Error(ErrorKind::kInternal, "the layers cannot be read");
   return layers;
 }
@@ -319,17 +308,27 @@ void set_weights(EncodedSegment& segment, const std::vector<Bytes>& streams) {
   size_t l = 0;
   for (BasisLayer layer : layers_of(chunks, parameters)) {
     layer.weights = streams[l++];
-    segment.layers.push_back(layer.write(parameters.slices));
+    segment.layers.push_back(layer.write());
   }
 }
 
-}  // namespace
-
-StreamChange in_slices(uint32_t slices) {
-  return [=](EncodedSegment& segment, const EncoderInput& input) {
-    segment = CoefficientSlices(segment, input.layout).in(slices);
-  };
+/// The order in which the vertices of an encoded segment are decoded.
+VertexOrder order_of(const EncodedSegment& segment, const LinearParameters& parameters,
+                     const Topology& topology) {
+  MeshGraph graph;
+  anicodec::Vector<uint8_t> regions;
+  VertexOrder order;
+  if (graph.init(topology.triangles.data(), topology.triangles.size() / 3,
+                 topology.coded_vertices) != Status::kOk ||
+      read_regions(segment.pose, graph, segment.sizes.regions, &regions) != Status::kOk ||
+      make_vertex_order(std::move(graph), segment.reference->grid.points.data(),
+                        parameters.neighbours, parameters.colours, &order,
+                        regions.empty() ? nullptr : regions.data()) != Status::kOk)
+    throw Error(ErrorKind::kInternal, "the order of the vertices cannot be made");
+  return order;
 }
+
+}  // namespace
 
 void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
   const uint32_t frames = segment.sizes.frames;
@@ -339,7 +338,7 @@ void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
   const anicodec::Vector<uint32_t> runs =
       segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames) : segment.runs;
   Numbers numbers;
-  TimeWeightModel model(runs, parameters.weight_coder());
+  TimeWeightModel model(runs);
   std::vector<int32_t> decoded(size_t{3} * frames);
   const auto code = [&](BinaryEncoder& encoder, uint32_t j) {
     const uint32_t channels = j < base ? 3 : rows;
@@ -356,7 +355,7 @@ void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
   std::vector<Bytes> streams;
   for (const BasisLayer& layer : layers_of(segment.layers, parameters)) {
     if (parameters.layers_anew && layer.first > 0)
-      model = TimeWeightModel(runs, parameters.weight_coder());
+      model = TimeWeightModel(runs);
     BinaryEncoder encoder;
     for (uint32_t j = layer.first; j < layer.first + layer.count; ++j)
       code(encoder, base + j);
@@ -376,33 +375,21 @@ void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
   const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
   const auto stride = static_cast<uint32_t>(order.neighbour_count);
   std::optional<CoefficientModel> model;
-  std::optional<BatchCoefficientModel> batches;
   std::vector<int32_t> q(size_t{channels} * topology.coded_vertices);
   const std::vector<Bytes> chunks = std::move(segment.layers);
   segment.layers.clear();
   for (BasisLayer layer : layers_of(chunks, parameters)) {
-    if (!model || parameters.layers_anew) {
-      model.emplace(topology.coded_vertices, channels, order.neighbours.data(), stride,
-                    parameters.slices);
-      batches.emplace(channels, order.neighbours.data(), stride, order.level_start);
-    }
-    std::vector<BinaryEncoder> encoders(parameters.slices);
-    RansEncoder batch_encoder;
+    if (!model || parameters.layers_anew)
+      model.emplace(channels, order.neighbours.data(), stride, order.level_start);
+    RansEncoder encoder;
     for (uint32_t j = layer.first; j < layer.first + layer.count; ++j) {
       for (int32_t& x : q)
         x = j % 3 == 0 ? numbers.within(3) : numbers.within(1 << (j * 2 % 24));
-      if (parameters.coder == CoefficientCoder::kBatches)
-        batches->code_component(batch_encoder, q.data());
-      else
-        model->code_component(encoders[model->slice()], q.data());
+      model->code_component(encoder, q.data());
     }
-    std::vector<Bytes> streams;
-    for (BinaryEncoder& encoder : encoders)
-      streams.push_back(encoder.finish());
-    if (parameters.coder == CoefficientCoder::kBatches)
-      streams[0] = batch_encoder.finish();
-    std::ranges::copy(streams, layer.slices);
-    segment.layers.push_back(layer.write(parameters.slices));
+    const Bytes stream = encoder.finish();
+    layer.coefficients = stream;
+    segment.layers.push_back(layer.write());
   }
   segment.sizes.wide_components = segment.sizes.components;
 }

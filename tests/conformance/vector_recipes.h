@@ -49,7 +49,6 @@ struct Recipe {
   /// The region of each of so many vertices, and how many regions there are; none: there is one.
   std::function<Vector<uint8_t>(uint32_t)> region_of = {};
   uint32_t regions = 1;
-  bool pose_in_rows = false;  ///< the reference pose, whatever it takes
 };
 
 /// A file of one mesh, one segment after the other, each over a reference pose that is in the file
@@ -74,12 +73,9 @@ MeshSequence cliques();
 /// A limb of the corpus and the same half a turn further, apart.
 MeshSequence turned_pair(uint32_t vertices, uint32_t frames);
 
-/// The reference pose in the way of coding that the encoder does not take.
-void round_pose(EncodedSegment& segment, const EncoderInput& input);
-
 /// The reference pose by partners without reason in runs along the vertices: more strands than are
 /// told apart, vertices that are like themselves.
-StreamChange with_partners(std::optional<PoseCoding> coding);
+void with_partners(EncodedSegment& segment, const EncoderInput& input);
 
 /// Each vertex of turned_pair() like its image, in one strand of half a turn or in a strand for almost
 /// every vertex: more than are told apart.
@@ -90,9 +86,6 @@ void scramble_weights(EncodedSegment& segment, const EncoderInput& input);
 
 /// Residuals at their limits: predictions saturate, refits see numbers that are not finite.
 void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input);
-
-/// Coefficients in so many slices.
-StreamChange in_slices(uint32_t slices);
 
 }  // namespace anicodec
 

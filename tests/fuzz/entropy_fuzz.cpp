@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 // Any bytes through the entropy decoders. The first byte picks the model, the second its size. What
 // a decoder accepts, the encoder writes again, byte for byte.
-#include "format/coding/batch_coefficient_coder.h"
 #include "format/coding/binary_coder.h"
-#include "format/coding/coefficient_coder.h"
+#include "format/coding/coefficient_model.h"
 #include "format/coding/rans_coder.h"
 #include "format/coding/symbol_model.h"
 #include "format/coding/time_weights.h"
@@ -35,42 +34,13 @@ void fuzz_integers(size_t count, const uint8_t* data, size_t size) {
   require(decoder.finish() == same(encoder.finish(), data, size));
 }
 
-void fuzz_coefficients(uint32_t channels, uint32_t slices, uint32_t vertices, const uint8_t* data,
-                       size_t size) {
+void fuzz_coefficients(uint32_t channels, uint32_t vertices, const uint8_t* data, size_t size) {
   constexpr uint32_t kStride = FuzzNeighbours::kStride, kComponents = 4;
-  constexpr uint8_t kNothing = 0;
   const FuzzNeighbours neighbours(vertices);
-  // The first slices have the same number of bytes.
-  const size_t part = size / slices;
-  std::vector<BinaryDecoder> decoders;
-  for (uint32_t s = 0; s < slices; ++s)
-    decoders.emplace_back(size == 0 ? &kNothing : data + s * part,
-                          s + 1 < slices ? part : size - s * part);
-  std::vector<BinaryEncoder> encoders(slices);
-  CoefficientModel read(vertices, channels, neighbours.ranks.data(), kStride, slices);
-  CoefficientModel write(vertices, channels, neighbours.ranks.data(), kStride, slices);
-  std::vector<int32_t> q(size_t{vertices} * channels);
-  for (uint32_t j = 0; j < kComponents; ++j) {
-    const bool good = read.code_component(decoders[read.slice()], q.data());
-    for (const int32_t value : q)
-      require(std::abs(value) < kCoefficientLimit);
-    if (!good)
-      return;
-    write.code_component(encoders[write.slice()], q.data());
-  }
-  for (uint32_t s = 0; s < slices; ++s) {
-    if (decoders[s].finish())
-      require(same(encoders[s].finish(), data + s * part, s + 1 < slices ? part : size - s * part));
-  }
-}
-
-void fuzz_batches(uint32_t channels, uint32_t vertices, const uint8_t* data, size_t size) {
-  constexpr uint32_t kStride = FuzzNeighbours::kStride, kComponents = 4;
-  const FuzzNeighbours neighbours(vertices, FuzzNeighbours::kLevel);
   RansDecoder decoder({data, size});
   RansEncoder encoder;
-  BatchCoefficientModel read(channels, neighbours.ranks.data(), kStride, neighbours.levels);
-  BatchCoefficientModel write(channels, neighbours.ranks.data(), kStride, neighbours.levels);
+  CoefficientModel read(channels, neighbours.ranks.data(), kStride, neighbours.levels);
+  CoefficientModel write(channels, neighbours.ranks.data(), kStride, neighbours.levels);
   std::vector<int32_t> q(size_t{vertices} * channels);
   for (uint32_t j = 0; j < kComponents; ++j) {
     read.code_component(decoder, q.data());
@@ -84,10 +54,10 @@ void fuzz_batches(uint32_t channels, uint32_t vertices, const uint8_t* data, siz
     require(same(encoder.finish(), data, size));
 }
 
-void fuzz_weights(WeightCoder coder, uint32_t frames, const uint8_t* data, size_t size) {
+void fuzz_weights(uint32_t frames, const uint8_t* data, size_t size) {
   constexpr int64_t kLimit = int64_t{kWeightLimit} << kWeightFractionBits;
   BinaryDecoder decoder(data, size);
-  TimeWeightModel model(frames, coder);
+  TimeWeightModel model(frames);
   std::vector<int32_t> values(size_t{3} * frames);
   for (const uint32_t channels : {3u, 1u, 3u, 1u}) {
     if (model.decode(decoder, channels, values.data()) != Status::kOk)
@@ -103,31 +73,18 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2)
     return 0;
   const uint32_t count = data[1];
-  switch (data[0] % 8) {
+  switch (data[0] % 4) {
     case 0:
       fuzz_integers(count, data + 2, size - 2);
       break;
     case 1:
-      fuzz_coefficients(1, 1, count, data + 2, size - 2);
+      fuzz_coefficients(1, count, data + 2, size - 2);
       break;
     case 2:
-      fuzz_coefficients(3, 1, count, data + 2, size - 2);
-      break;
-    case 3:
-      fuzz_batches(1, count, data + 2, size - 2);
-      break;
-    case 4:
-      fuzz_batches(3, count, data + 2, size - 2);
-      break;
-    case 6:
-      fuzz_coefficients(1, 2, count, data + 2, size - 2);
-      break;
-    case 7:
-      fuzz_coefficients(3, 4, count, data + 2, size - 2);
+      fuzz_coefficients(3, count, data + 2, size - 2);
       break;
     default:
-      fuzz_weights(data[0] / 8 % 2 ? WeightCoder::kRows : WeightCoder::kMixing, count, data + 2,
-                   size - 2);
+      fuzz_weights(count, data + 2, size - 2);
       break;
   }
   return 0;

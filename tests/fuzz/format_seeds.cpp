@@ -4,9 +4,8 @@
 // source says what its bytes are. The same ones in every run.
 //
 // usage: format_seeds FOLDER
-#include "format/coding/batch_coefficient_coder.h"
 #include "format/coding/binary_coder.h"
-#include "format/coding/coefficient_coder.h"
+#include "format/coding/coefficient_model.h"
 #include "format/coding/rans_coder.h"
 #include "format/coding/symbol_model.h"
 #include "format/coding/time_weights.h"
@@ -53,6 +52,8 @@ Bytes bytes_of(std::initializer_list<size_t> values) {
   return result;
 }
 
+constexpr size_t kDependentSteps = 1;  // of pose_fuzz
+
 /// Faces, and poses over them, where counts and corners fit bytes.
 void add_mesh(Seeds& seeds, const FuzzFile& file) {
   Limits limits;
@@ -82,8 +83,7 @@ void add_mesh(Seeds& seeds, const FuzzFile& file) {
     const size_t triangles = topology.triangles.size() / 3;
     if (type == "POSE" && triangles <= 255 && topology.coded_vertices <= 256 &&
         PoseRecord::read(part.payload, &pose) == Status::kOk) {
-      Bytes head = bytes_of(
-          {topology.coded_vertices - 1, static_cast<size_t>(pose.coding), 0, triangles});
+      Bytes head = bytes_of({topology.coded_vertices - 1, kDependentSteps, 0, triangles});
       for (const uint32_t v : topology.triangles)
         head.push_back(static_cast<uint8_t>(v));
       seeds.add("pose", file.name + std::to_string(part.chunk.segment), head, pose.stream);
@@ -112,33 +112,15 @@ void add_coefficients(Seeds& seeds) {
       for (const int32_t limit : {3, 40, 1 << 20}) {
         const std::string name = std::to_string(vertices) + "_" + std::to_string(channels) + "_" +
                                  std::to_string(limit);
-        const FuzzNeighbours any(static_cast<uint32_t>(vertices)),
-            levels(static_cast<uint32_t>(vertices), FuzzNeighbours::kLevel);
-        for (const auto& [kind, slices] : {std::pair<size_t, uint32_t>{channels == 1 ? 1 : 2, 1},
-                                           {channels == 1 ? 6 : 7, channels == 1 ? 2 : 4}}) {
-          std::vector<BinaryEncoder> encoders(slices);
-          CoefficientModel model(static_cast<uint32_t>(vertices), static_cast<uint32_t>(channels),
-                                 any.ranks.data(), kStride, slices);
-          for (uint32_t j = 0; j < kComponents; ++j) {
-            auto q = residuals(channels * vertices, limit, random);
-            model.code_component(encoders[model.slice()], q.data());
-          }
-          Bytes streams;
-          for (BinaryEncoder& encoder : encoders) {
-            const Bytes stream = encoder.finish();
-            streams.insert(streams.end(), stream.begin(), stream.end());
-          }
-          seeds.add("entropy", "coefficients_" + std::to_string(slices) + "_" + name,
-                    bytes_of({kind, vertices}), streams);
-        }
+        const FuzzNeighbours levels(static_cast<uint32_t>(vertices));
         RansEncoder encoder;
-        BatchCoefficientModel model(static_cast<uint32_t>(channels), levels.ranks.data(), kStride,
-                                    levels.levels);
+        CoefficientModel model(static_cast<uint32_t>(channels), levels.ranks.data(), kStride,
+                               levels.levels);
         for (uint32_t j = 0; j < kComponents; ++j) {
           auto q = residuals(channels * vertices, limit, random);
           model.code_component(encoder, q.data());
         }
-        seeds.add("entropy", "batches_" + name, bytes_of({channels == 1 ? 3U : 4U, vertices}),
+        seeds.add("entropy", "coefficients_" + name, bytes_of({channels == 1 ? 1U : 2U, vertices}),
                   encoder.finish());
       }
     }
@@ -147,23 +129,18 @@ void add_coefficients(Seeds& seeds) {
 
 void add_weights(Seeds& seeds) {
   for (const size_t frames : {1, 30, 150}) {
-    for (const WeightCoder coder : {WeightCoder::kMixing, WeightCoder::kRows}) {
-      for (uint32_t predictor = 0; predictor < kWeightPredictors; ++predictor) {
-        BinaryEncoder encoder;
-        TimeWeightModel model(static_cast<uint32_t>(frames), coder);
-        for (const uint32_t channels : {3u, 1u, 3u, 1u}) {
-          std::vector<double> x(channels * frames);
-          for (size_t i = 0; i < x.size(); ++i)
-            x[i] = 300.0 / channels * std::sin(0.2 * static_cast<double>(i * (predictor + 1)));
-          std::vector<int32_t> values(x.size());
-          model.encode(encoder, channels, x.data(), 0.1, values.data(), 1U << predictor);
-        }
-        const size_t kind = coder == WeightCoder::kRows ? 13 : 5;
-        seeds.add("entropy",
-                  "weights_" + std::to_string(kind) + "_" + std::to_string(predictor) + "_" +
-                      std::to_string(frames),
-                  bytes_of({kind, frames}), encoder.finish());
+    for (uint32_t predictor = 0; predictor < kWeightPredictors; ++predictor) {
+      BinaryEncoder encoder;
+      TimeWeightModel model(static_cast<uint32_t>(frames));
+      for (const uint32_t channels : {3u, 1u, 3u, 1u}) {
+        std::vector<double> x(channels * frames);
+        for (size_t i = 0; i < x.size(); ++i)
+          x[i] = 300.0 / channels * std::sin(0.2 * static_cast<double>(i * (predictor + 1)));
+        std::vector<int32_t> values(x.size());
+        model.encode(encoder, channels, x.data(), 0.1, values.data(), 1U << predictor);
       }
+      seeds.add("entropy", "weights_" + std::to_string(predictor) + "_" + std::to_string(frames),
+                bytes_of({3, frames}), encoder.finish());
     }
   }
 }
@@ -174,7 +151,7 @@ void add_integers(Seeds& seeds) {
   for (const int32_t x : {0, 1, -1, 0, 100, -5000, 1 << 20, 0, 0, 7})
     model.code(encoder, x);
   seeds.add("entropy", "integers", bytes_of({0, 10}), encoder.finish());
-  for (size_t kind = 0; kind < 16; ++kind) {
+  for (size_t kind = 0; kind < 4; ++kind) {
     seeds.add("entropy", "zeros_" + std::to_string(kind), bytes_of({kind, 60}), Bytes(60, 0));
     seeds.add("entropy", "ones_" + std::to_string(kind), bytes_of({kind, 60}), Bytes(60, 0xFF));
   }
@@ -211,8 +188,8 @@ int main(int argc, char** argv) {
   add_weights(seeds);
   add_integers(seeds);
   // Poses over vertices without triangles.
-  for (size_t coding = 0; coding < 4; ++coding)
-    seeds.add("pose", "no_triangles" + std::to_string(coding), bytes_of({8, coding, 0x3F, 0}),
+  for (size_t steps = 0; steps < 2; ++steps)
+    seeds.add("pose", "no_triangles" + std::to_string(steps), bytes_of({8, steps, 0x3F, 0}),
               Bytes(40, 0xFF));
   if (!seeds.good())
     std::fprintf(stderr, "cannot write %s\n", argv[1]);

@@ -10,14 +10,14 @@
 
 namespace anicodec {
 
-/// Neighbours of ranks as entropy_fuzz gives them to the coders of coefficients, of one level after
+/// Neighbours of ranks as entropy_fuzz gives them to the model of coefficients, of one level after
 /// the other: all before the rank's own level.
 struct FuzzNeighbours {
   static constexpr uint32_t kStride = 8, kLevel = 24;
 
-  explicit FuzzNeighbours(uint32_t vertices, uint32_t level = 1) {
+  explicit FuzzNeighbours(uint32_t vertices) {
     for (uint32_t v = 0; v < vertices; ++v) {
-      const uint32_t first = v / level * level;
+      const uint32_t first = v / kLevel * kLevel;
       if (v == first)
         levels.push_back(v);
       for (uint32_t a = 0; a < kStride; ++a)

@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     return 0;
   Topology topology;
   topology.coded_vertices = 1U + data[0];
-  const auto coding = static_cast<PoseCoding>(data[1] % 4);
+  const auto steps = static_cast<PoseSteps>(data[1] % 2);
   Vector<uint32_t> parents;
   for (uint32_t j = 0; j < 1U + data[2] % 4U; ++j)
     parents.push_back((data[2] >> (2 + j) & 3U) % (j + 1));
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const CornerTable table(topology);
   Vector<Vector<int32_t>> poses;
   const ByteView stream{data + kHead + corners, size - kHead - corners};
-  (void)decode_poses(stream, table, coding, parents, &poses);
+  (void)decode_poses(stream, table, steps, parents, &poses);
   require(poses.size() == parents.size());
   for (const Vector<int32_t>& pose : poses)
     require(pose.size() == size_t{3} * topology.coded_vertices);

@@ -277,7 +277,6 @@ def mesh_rules(files):
     yield 41, "faces_zero", triangle.end("MESH", b"\0"), "a zero byte after the faces, which no encoder writes"
     yield 41, "vmap_more", corrected.end("VMAP", b"\1"), "bytes after the order of the vertices"
     yield 41, "fmap_more", polygons.end("FMAP", b"\1"), "bytes after the order of the polygons"
-    yield 13, "pose_coding", corrected.put("POSE coding", b"\4"), "a way of coding that does not exist"
     for name, label, value in (("origin", "origin y", NAN), ("step", "step", f64(0)), ("step_below", "step", f64(-1)),
                                ("step_infinite", "step", INFINITE)):
         yield 45, f"pose_{name}", corrected.put(f"POSE {label}", value), f"POSE {label} that is out of range"
@@ -335,32 +334,19 @@ def segment_rules(files):
             ("passes", corrected, 45, set_byte(18, 9), "9 parts of a level"),
             ("radius", corrected, 45, set_byte(19, 0), "a radius of 0"),
             ("schedule", corrected, 45, set_byte(20, 4), "a schedule that does not exist"),
-            ("coefficient_coder", corrected, 13, set_byte(21, 2), "a coder of coefficients that does not exist"),
-            ("no_slices", corrected, 13, set_byte(22, 0), "no slices"),
-            ("slices", corrected, 13, set_byte(22, 3), "three slices"),
-            ("many_slices", corrected, 13, set_byte(22, 16), "sixteen slices"),
-            ("alike", files("alike"), 45, set_byte(23, 0), "motion that weighs nothing in a prior"),
-            ("batches_slices", files("batches"), 13, set_byte(22, 2), "two slices of coefficients in batches")):
+            ("alike", files("alike"), 45, set_byte(21, 0), "motion that weighs nothing in a prior")):
         yield status, f"parameters_{name}", file.put(parameters, change), f"parameters with {what}"
     yield 40, "layer_components", corrected.put("BASI components", b"\x7f"), "a layer of more components than are left"
     yield 40, "layer_weights", corrected.put("BASI weight bytes", varint(1 << 40)), "weights of more bytes than the layer"
-    yield 41, "layer_more", corrected.put("BASI coefficients", lambda old: old + b"\1"), "bytes after the coefficients of a layer"
+    yield 41, "layer_more", corrected.put("BASI coefficients", lambda old: old + b"\1"), "half a word after the coefficients of a layer"
     weights = len(corrected.field("BASI weights"))
     yield 41, "layer_more_weights", corrected.put_two(
         ("BASI weight bytes", varint(weights + 1)), ("BASI weights", lambda old: old + b"\1")), "bytes after the weights of a layer"
-    batches, slices = files("batches"), files("slices")
-    last = len(batches.fields["BASI coefficients"]) - 1
-    yield 41, "batches_more", batches.put("BASI coefficients", lambda old: old + b"\1\0", last), \
-        "bytes after a layer of batches"
-    yield 41, "batches_odd", batches.put("BASI coefficients", lambda old: old + b"\0", last), "half a word after a layer of batches"
-    yield 41, "batches_state", batches.put("BASI coefficients", set_bytes(0, b"\xff\xff\0\0")), "a state below its range"
-    yield 40, "slice_bytes", slices.put("BASI slice 0 bytes", varint(1 << 40)), "a slice of more bytes than the layer"
-    yield 41, "slice_more", slices.put("BASI slice 1", lambda old: old + b"\1"), "bytes after the last slice"
-    first = len(slices.field("BASI slice 0"))
-    yield 41, "slice_between", slices.put_two(
-        ("BASI slice 0 bytes", varint(first + 1)), ("BASI slice 0", lambda old: old + b"\1")), "bytes after a slice"
-    yield 41, "slice_short", slices.put_two(
-        ("BASI slice 0 bytes", varint(first // 2)), ("BASI slice 0", lambda old: old[:first // 2])), "a slice that ends early"
+    layers = files("layers")
+    last = len(layers.fields["BASI coefficients"]) - 1
+    yield 41, "layers_more", layers.put("BASI coefficients", lambda old: old + b"\1\0", last), \
+        "a word after the coefficients of a layer"
+    yield 41, "layers_state", layers.put("BASI coefficients", set_bytes(0, b"\xff\xff\0\0")), "a state below its range"
     yield 45, "corrections_step", corrected.put("CORR data", set_bytes(0, f64(0))), "corrections with a step of 0"
     yield 45, "corrections_not_finite", corrected.put("CORR data", set_bytes(0, NAN)), "corrections with a step that is no number"
     yield 26, "corrections_empty", corrected.put("CORR data", b""), "corrections without a byte"

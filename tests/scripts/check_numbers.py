@@ -362,7 +362,7 @@ class Pose:
 
 
 def pose_numbers():
-    """spec/09b, section 11: the last vertex of a fan."""
+    """spec/09b, section 10: the last vertex of a fan."""
     pose = Pose()
     for v in range(len(POSE)):
         pose.vertex_of(v)
@@ -424,7 +424,7 @@ def ordinal(x):
 def main():
     pages = "\n".join(pathlib.Path(page).read_text(encoding="utf-8") for page in sys.argv[1:])
     missing = 0
-    for title, numbers in (("09, section 7", prediction_numbers), ("09b, section 11", pose_numbers), ("09d, section 6", exact_numbers)):
+    for title, numbers in (("09, section 7", prediction_numbers), ("09b, section 10", pose_numbers), ("09d, section 6", exact_numbers)):
         if not pages:
             print(title)
         for name, values in numbers():

@@ -79,7 +79,7 @@ TEST(SpecifiedNumbers, AreWhatIsExpectedOfAVertex) {
   fan.coded_vertices = 5;
   fan.triangles = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1};
   const CornerTable table(fan);
-  PosePrediction prediction(table, false);
+  PosePrediction prediction(table);
   for (uint32_t v = 0; v < 5; ++v) {
     prediction.begin(v, pose);
     for (int step = 0; step < 3; ++step) {

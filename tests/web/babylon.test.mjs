@@ -22,7 +22,7 @@ for (const file of ['babylon.js', 'babylon_surface.js', 'babylon_instances.js'])
 const PAGE = `<!doctype html><link rel=icon href="data:,"><script src="${PACKAGES}/babylonjs/babylon.js"></script>
 <script src="${PACKAGES}/babylonjs-loaders/babylon.glTF2FileLoader.js"></script><script type=importmap>${JSON.stringify({ imports })}</script><canvas id=canvas width=320 height=240></canvas>`;
 // Corrections, shapes, trajectories, several segments, sharp turns, colours, clips, and regions.
-const INSTANCED = ['quad_box_corrected', 'limb_default', 'schedules', 'rings', 'heated', 'clips', 'walk', 'regions', 'slices'].map((name) => `${name}.anic`);
+const INSTANCED = ['quad_box_corrected', 'limb_default', 'schedules', 'rings', 'heated', 'clips', 'walk', 'regions', 'layers'].map((name) => `${name}.anic`);
 const installed = existsSync(new URL('babylon/node_modules/babylonjs', import.meta.url));
 const skip = !CHROMIUM ? 'there is no Chromium' : installed ? false : 'there is no Babylon.js: npm ci --prefix tests/web/babylon';
 

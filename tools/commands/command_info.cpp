@@ -45,10 +45,10 @@ meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of
 it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats the first), up,
 metres_per_unit, order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg,
 massaged, surface_error, surface_error_mean (those of a clip, of the first one), clips (name,
-first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error,
-max_error_percent, rmse, kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
+first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error, rmse,
+kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
 max_error, rmse in units of their values), segments (mesh, basis, of, reconstruction, first_frame,
-frames, components, regions, corrections, coder, slices), chunks (type, offset, size, required,
+frames, components, regions, corrections; coder of key-frames), chunks (type, offset, size, required,
 mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
 
 struct Contents {
@@ -105,18 +105,9 @@ const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t
   return nullptr;
 }
 
-/// The coder of the poses of its key-frames, or of its coefficients.
-const char* coder_of(const Clip& clip, size_t segment) {
-  const Limits::Segment& s = clip.limits().segments[segment];
-  if (s.kind != BasisKind::kKeyframes)
-    return name_of(clip.segments()[segment].coefficient_coder);
-  return name_of(s.draco_bytes > 0 ? CoderId::kDraco : CoderId::kNative);
-}
-
-/// More slices of its coefficients than one.
-std::string slices_of(const Clip& clip, size_t segment) {
-  const uint32_t slices = clip.segments()[segment].slices;
-  return slices > 1 ? fmt::format(" in {} slices", slices) : "";
+/// The coder of key-frames.
+const char* coder_of(const Limits::Segment& segment) {
+  return name_of(segment.draco_bytes > 0 ? CoderId::kDraco : CoderId::kNative);
 }
 
 /// One object for each material, null where its look is unknown.
@@ -205,7 +196,6 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
          {"diagonal", clip.diagonal},
          {"asked", {{"metric", name_of(clip.asked)}, {"value", clip.asked_value}}},
          {"max_error", clip.max_error},
-         {"max_error_percent", percent(clip)},
          {"rmse", clip.rmse},
          {"kg", clip.kg},
          {"max_displacement_error", clip.max_displacement_error},
@@ -244,9 +234,9 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
                                 {"frames", s.frames},
                                 {"components", s.components},
                                 {"regions", s.regions},
-                                {"corrections", s.corrections},
-                                {"coder", coder_of(c.clip, i)},
-                                {"slices", c.clip.segments()[i].slices}});
+                                {"corrections", s.corrections}});
+    if (s.kind == BasisKind::kKeyframes)
+      json["segments"].back()["coder"] = coder_of(s);
   }
   json["chunks"] = nlohmann::ordered_json::array();
   for (const Chunk& chunk : c.container.chunks()) {
@@ -358,7 +348,7 @@ void print_segments(const Clip& clip) {
                                s.first_frame + s.frames, counted_components(s.components, s.kind),
                                s.regions > 1 ? fmt::format(" in {} regions", s.regions) : "",
                                s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "",
-                               fmt::format(", coder {}{}", coder_of(clip, i), slices_of(clip, i)),
+                               s.kind == BasisKind::kKeyframes ? fmt::format(", coder {}", coder_of(s)) : "",
                                counted(s.corrections, "correction")));
   }
 }

@@ -3,7 +3,6 @@
 #include "tools/inputs/encode_arguments.h"
 
 #include "codec/sequence/error.h"
-#include "sdk/segment/basis_layer.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/words/names.h"
@@ -93,9 +92,6 @@ constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
 constexpr Word<InterpolationChoice> kInterpolations[] = {{InterpolationChoice::kLinear, "linear"},
                                                          {InterpolationChoice::kMsgi, "msgi"},
                                                          {InterpolationChoice::kAuto, "auto"}};
-constexpr Word<OpeningChoice> kOpenings[] = {{OpeningChoice::kSmall, "small"},
-                                             {OpeningChoice::kAuto, "auto"},
-                                             {OpeningChoice::kFast, "fast"}};
 constexpr Word<std::optional<KeyframePoses>> kKeyframePoses[] = {{KeyframePoses::kDraco, "draco"},
                                                                  {KeyframePoses::kNative, "native"},
                                                                  {KeyframePoses::kAuto, "auto"}};
@@ -197,13 +193,8 @@ void add_method(Options& options, EncodeArguments& a) {
                "(default: as parts of one mesh)");
   options.number("--effort", a.effort, "N", {1, 9},
                  "How long to search, 1 to 9 (default 5); files from 7 on open slower");
-  options.choice(
-      "--open", a.opening, {kOpenings},
-      "What a millisecond of opening is worth: no byte (small, the default), 100 bytes (auto), 500 "
-      "(fast)");
-  options.number("--slices", a.slices, "N", {1, 8},
-                 "Streams of the coefficients, for as many threads that open: 1, 2, 4 or 8 "
-                 "(default: as many as take at most 0.3 % of the file)");
+  options.flag("--smallest", a.smallest,
+               "Make the file as small as can be, however long it takes to open (default: a balance)");
 }
 
 void add_massage_options(Options& options, EncodeArguments& a) {
@@ -347,10 +338,7 @@ EncodeOptions encode_options(const EncodeArguments& command) {
   }
   options.root_motion = command.root_motion;
   options.effort = command.effort;
-  options.opening = command.opening;
-  if (command.slices > 0 && !is_slice_count(command.slices))
-    throw Error(ErrorKind::kUsage, "--slices takes 1, 2, 4 or 8");
-  options.slices = command.slices;
+  options.smallest = command.smallest;
   options.encoder = fmt::format("anicodec {}", version());
   set_target(command, std::nullopt, options);
   return options;
@@ -405,8 +393,7 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
                                   c.bpfv, c.keyframes, c.effort, options.encoder};
   for (int choice :
        {static_cast<int>(c.basis), static_cast<int>(c.selection), static_cast<int>(c.order),
-        static_cast<int>(c.interpolation), static_cast<int>(c.massage), static_cast<int>(c.opening),
-        static_cast<int>(c.slices),
+        static_cast<int>(c.interpolation), static_cast<int>(c.massage), static_cast<int>(c.smallest),
         c.keyframe_coder ? static_cast<int>(*c.keyframe_coder) : -1,
         static_cast<int>(c.split_objects)})
     settings.push_back(choice);

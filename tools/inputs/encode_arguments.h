@@ -43,8 +43,7 @@ struct EncodeArguments {
   std::optional<KeyframePoses> keyframe_coder;
   OrderChoice order = OrderChoice::kAuto;
   int effort = 5;
-  OpeningChoice opening = OpeningChoice::kSmall;
-  uint32_t slices = 0;  ///< 0: not asked for
+  bool smallest = false;
   TopologyChanges topology_changes = TopologyChanges::kRefuse;
   bool split_objects = false;
   MassageMode massage = MassageMode::kOff;

@@ -4,11 +4,9 @@
 
 #include "format/container.h"
 #include "format/records.h"
-#include "sdk/segment/basis_layer.h"
 #include "tools/words/names.h"
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -134,7 +132,6 @@ void list_mesh(FieldReader& r) {
 }
 
 void list_pose(FieldReader& r) {
-  r.explain(name_of(static_cast<PoseCoding>(r.u8("coding"))));
   for (const char* name : {"origin x", "origin y", "origin z", "step"})
     r.f64(name);
   r.bytes("coordinates", r.remaining());
@@ -156,17 +153,11 @@ void list_exact(FieldReader& r) {
   r.bytes("positions", r.remaining());
 }
 
-/// `slices`: of the segment.
-void list_layer(FieldReader& r, uint32_t slices) {
+void list_layer(FieldReader& r) {
   r.varint("components");
   const uint64_t weights = r.varint("weight bytes");
-  std::vector<uint64_t> sizes;
-  for (uint32_t s = 0; s + 1 < slices && r.ok(); ++s)
-    sizes.push_back(r.varint(fmt::format("slice {} bytes", s)));
   r.bytes("weights", weights);
-  for (size_t s = 0; s < sizes.size() && r.ok(); ++s)
-    r.bytes(fmt::format("slice {}", s), sizes[s]);
-  r.bytes(slices > 1 ? fmt::format("slice {}", slices - 1) : "coefficients", r.remaining());
+  r.bytes("coefficients", r.remaining());
 }
 
 void list_segment(FieldReader& r) {
@@ -222,7 +213,7 @@ void list_attributes(FieldReader& r) {
 }
 
 void list_payload(const Chunk& chunk, ByteView payload, const std::vector<uint32_t>& frames,
-                  uint32_t slices, std::vector<ListedField>& out) {
+                  std::vector<ListedField>& out) {
   FieldReader r(payload, chunk.offset, out);
   if (chunk.type == chunk_type("LIMI"))
     list_limits(r);
@@ -239,23 +230,12 @@ void list_payload(const Chunk& chunk, ByteView payload, const std::vector<uint32
   else if (chunk.type == chunk_type("SEGM"))
     list_segment(r);
   else if (chunk.type == chunk_type("BASI"))
-    list_layer(r, slices);
+    list_layer(r);
   else if (chunk.type == chunk_type("ATTR"))
     list_attributes(r);
   else
     return r.rest("data");
   r.rest(kUnread);
-}
-
-/// Slices that the layers of a segment are in, from its chunk SEGM.
-uint32_t slices_of(ByteView payload) {
-  constexpr size_t kBefore = 22;  // bytes of the parameters
-  SegmentRecord record;
-  if (SegmentRecord::read(payload, &record) != Status::kOk ||
-      record.kind == BasisKind::kKeyframes || record.parameters.size <= kBefore)
-    return 1;
-  const uint32_t slices = record.parameters.data[kBefore];
-  return is_slice_count(slices) ? slices : 1;
 }
 
 /// Header and table; the chunks as the table has them.
@@ -317,7 +297,6 @@ std::vector<ListedField> list_fields(ByteView file) {
   std::vector<ListedField> out;
   std::vector<Chunk> chunks = list_table(file, out);
   const std::vector<uint32_t> frames = clip_frames(file, chunks);
-  std::map<uint32_t, uint32_t> slices;  // of segments
   uint64_t at = out.back().offset + out.back().size;
   auto gap_to = [&](uint64_t end, const char* name) {
     if (end > at)
@@ -329,10 +308,7 @@ std::vector<ListedField> list_fields(ByteView file) {
       break;
     size_t begin = out.size();
     const ByteView payload{file.data + chunk.offset, static_cast<size_t>(chunk.size)};
-    if (chunk.type == chunk_type("SEGM"))
-      slices[chunk.segment] = slices_of(payload);
-    const auto of_segment = slices.find(chunk.segment);
-    list_payload(chunk, payload, frames, of_segment == slices.end() ? 1 : of_segment->second, out);
+    list_payload(chunk, payload, frames, out);
     for (size_t i = begin; i < out.size(); ++i)
       out[i].name = chunk_name(chunk.type) + " " + out[i].name;
     at = chunk.offset + chunk.size;

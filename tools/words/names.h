@@ -8,7 +8,6 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "format/attribute_record.h"
 #include "format/records.h"
-#include "sdk/segment/segment.h"
 #include "tools/words/quantity.h"
 #include "tools/words/word_table.h"
 
@@ -25,14 +24,6 @@ inline constexpr Word<BasisKind> kBasisKinds[] = {
 
 inline constexpr Word<CoderId> kCoders[] = {{CoderId::kDraco, "draco"},
                                             {CoderId::kNative, "native"}};
-
-inline constexpr Word<CoefficientCoder> kCoefficientCoders[] = {
-    {CoefficientCoder::kMixing, "mixing"}, {CoefficientCoder::kBatches, "batches"}};
-
-inline constexpr Word<PoseCoding> kPoseCodings[] = {{PoseCoding::kRounded, "rounded"},
-                                                    {PoseCoding::kExact, "exact"},
-                                                    {PoseCoding::kDependent, "dependent steps"},
-                                                    {PoseCoding::kDependentRows, "dependent steps in rows"}};
 
 inline constexpr Word<Reconstruction> kReconstructions[] = {{Reconstruction::kLinear, "linear"},
                                                             {Reconstruction::kMsgi, "msgi"}};
@@ -73,16 +64,8 @@ inline const char* name_of(BasisKind kind) {
   return word_of(kBasisKinds, kind);
 }
 
-inline const char* name_of(CoefficientCoder coder) {
-  return word_of(kCoefficientCoders, coder);
-}
-
 inline const char* name_of(CoderId coder) {
   return word_of(kCoders, coder);
-}
-
-inline const char* name_of(PoseCoding coding) {
-  return word_of(kPoseCodings, coding);
 }
 
 inline const char* name_of(Reconstruction reconstruction) {

@@ -39,7 +39,7 @@
 
 #ifndef __cplusplus
 typedef int32_t anic_scalar, anic_goal, anic_basis_choice, anic_selection, anic_interpolation,
-    anic_keyframe_coder, anic_massage, anic_opening;
+    anic_keyframe_coder, anic_massage;
 #endif
 
 #ifdef __cplusplus
@@ -221,14 +221,6 @@ enum anic_keyframe_coder ANIC_INT32 {
   ANIC_KEYFRAMES_SMALLEST = 3
 };
 
-/** What is made as short as can be. The files differ by a few bytes in a hundred; the faster ones take
- * a fraction of the time to open. */
-enum anic_opening ANIC_INT32 {
-  ANIC_OPENING_SMALL = 0, /**< the file */
-  ANIC_OPENING_AUTO = 1,  /**< the file, and 100 bytes for each millisecond until it is open */
-  ANIC_OPENING_FAST = 2   /**< the same with 500 bytes */
-};
-
 /** Whether vertices are moved along their surface first, of one mesh alone. */
 enum anic_massage ANIC_INT32 {
   ANIC_MASSAGE_OFF = 0,
@@ -238,15 +230,16 @@ enum anic_massage ANIC_INT32 {
 
 enum {
   ANIC_ENCODE_PERCENT = 1,       /**< goal_value is a length in per cent of the diagonal of the box
-                                      around all frames, of several clips each of its own, not in
-                                      units of the clip */
+                                      around all frames, not in units of the clip */
   ANIC_ENCODE_CAP_PERCENT = 2,   /**< the same of max_error */
   ANIC_ENCODE_ERROR_PERCENT = 4, /**< attribute_error is in per cent of the range of its values */
   ANIC_ENCODE_NO_ATTRIBUTES = 8, /**< positions and polygons alone */
   ANIC_ENCODE_ROOT_MOTION = 16,  /**< the motion of the whole apart, of one mesh alone:
                                       anic_root_motion */
-  ANIC_ENCODE_LOSSLESS = 32      /**< the positions come back bit for bit; instead of a goal, of
+  ANIC_ENCODE_LOSSLESS = 32,     /**< the positions come back bit for bit; instead of a goal, of
                                       max_error and of massage */
+  ANIC_ENCODE_SMALLEST = 64      /**< the smallest file that the search finds, however long it takes to
+                                      open; else bytes and the time of opening are in balance */
 };
 
 /** Follows and stops an encoding. All zero: nobody does. report() gets the name of the stage, and
@@ -290,10 +283,7 @@ typedef struct anic_encode_options {
   double normal_error;      /**< degrees: normals and tangents of frame 0 as numbers that are not
                                further off; 0: hard edges alone */
   anic_encode_progress progress;
-  anic_writer writer;   /**< gets the file instead of anic_encoding */
-  anic_opening opening; /**< what to make short: the file, or the time until it is open */
-  uint32_t slices;      /**< streams of the coefficients, for as many threads that open: 1, 2, 4 or
-                           8; 0: as many as take at most 0.3 % of the file */
+  anic_writer writer; /**< gets the file instead of anic_encoding */
 } anic_encode_options;
 
 /** The file, and what was measured of it by decoding it. Lengths are in units of the clip. */
@@ -304,7 +294,7 @@ typedef struct anic_encoding {
   double max_error;
   double rmse;
   double kg;             /**< per cent */
-  double diagonal;       /**< of the box around all frames of all clips */
+  double diagonal;       /**< of the box around all frames */
   double surface_error;  /**< how far massage moved the surface at most */
   uint32_t components;   /**< of the largest basis */
   anic_basis_kind basis; /**< of the first mesh */

@@ -14,7 +14,7 @@ from .clip import DOMAINS, KINDS, UP, chosen
 from .errors import InputError
 from .material import Material, to_file
 
-_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _ROOT_MOTION, _LOSSLESS = 1, 2, 4, 8, 16, 32
+_PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _ROOT_MOTION, _LOSSLESS, _SMALLEST = 1, 2, 4, 8, 16, 32, 64
 _GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5, "displacement": 6, "sted": 7}
 _QUALITIES = {"good": 0.05, "better": 0.02, "best": 0.01}  # as STED
 _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
@@ -22,9 +22,8 @@ _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentraject
             "interpolation": {"linear": 0, "msgi": 1, "auto": 2},
             "keyframe_coder": {"draco": 1, "native": 2, "auto": 3},
             "massage": {"off": 0, "on": 1, "auto": 2},
-            "order": {"vertices": 0, "none": 1, "faces": 2},
-            "opening": {"small": 0, "auto": 1, "fast": 2}}
-_NUMBERS = ("keyframes", "effort", "slices", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
+            "order": {"vertices": 0, "none": 1, "faces": 2}}
+_NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
             "massage_tolerance", "normal_error")
 _UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
 
@@ -136,6 +135,8 @@ def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
         choices["flags"] |= _NO_ATTRIBUTES
     if options.pop("root_motion", False):
         choices["flags"] |= _ROOT_MOTION
+    if options.pop("smallest", False):
+        choices["flags"] |= _SMALLEST
     if options:
         raise TypeError(f"encode() has no option {next(iter(options))!r}")
     return choices
@@ -291,8 +292,7 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     positions: frames x vertices x 3, numbers of any kind and stride, in scene units; or a function that returns
         vertices x 3 for a frame, with vertex_count= and frame_count=.
     faces: polygons x corners, a list of polygons, a pair (offsets, corners), or None.
-    One target: max_error (default "0.05%"), rmse: scene units, or a text in per cent of the diagonal, of several clips each
-        of its own; kg: per cent;
+    One target: max_error (default "0.05%"), rmse: scene units, or a text in per cent of the diagonal; kg: per cent;
         displacement: the largest error of a vertex's move from frame to frame; sted, or quality "good", "better", "best":
         an error as viewers see it; size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other;
         or lossless=True: positions, as float32, come back bit for bit.
@@ -302,9 +302,9 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     clips: several SourceClip in one file that share what they can; positions have their frames, one after the other.
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
         interpolation ("linear", "msgi", "auto"), keyframe_coder ("draco", "native", "auto"), massage ("off", "on",
-        "auto"), massage_strength, massage_tolerance, order ("vertices", "none", "faces"), effort (1 to 9), opening
-        ("small", "auto", "fast"), slices, uv_bits, colour_bits, attribute_error, normal_error (degrees), no_attributes: as of
-        the command.
+        "auto"), massage_strength, massage_tolerance, order ("vertices", "none", "faces"), effort (1 to 9), smallest
+        (whatever opening takes), uv_bits, colour_bits, attribute_error, normal_error (degrees), no_attributes: as of the
+        command.
     threads: 0 for all. max_bytes: of memory, else LimitError.
     progress: a function of the stage and the share of it that is done; False from it raises Cancelled, and what it
         raises ends the encoding too.

@@ -21,7 +21,6 @@ TEST(OpeningTime, FallsWithCheaperSettings) {
     return opening_nanoseconds(settings, encoded, 7000);
   };
   const double usual = time([](LinearSettings&) {});
-  EXPECT_LT(time([](LinearSettings& s) { s.coder = CoefficientCoder::kBatches; }), usual);
   EXPECT_LT(time([](LinearSettings& s) { s.neighbours = 8; }), usual);
   EXPECT_LT(time([](LinearSettings& s) { s.schedule = RefitSchedule::kSparse; }), usual);
   EXPECT_LT(time([](LinearSettings& s) { s.schedule = RefitSchedule::kNone; }),
@@ -29,28 +28,26 @@ TEST(OpeningTime, FallsWithCheaperSettings) {
   EXPECT_GT(time([](LinearSettings& s) { s.alike = 8; }), usual);
 }
 
-TEST(OpeningTime, IsWorthBytesToSearchesThatAskForIt) {
-  EXPECT_EQ(bytes_per_nanosecond(OpeningChoice::kSmall), 0);
-  EXPECT_GT(bytes_per_nanosecond(OpeningChoice::kAuto), 0);
-  EXPECT_GT(bytes_per_nanosecond(OpeningChoice::kFast), bytes_per_nanosecond(OpeningChoice::kAuto));
+TEST(OpeningTime, IsWorthNothingToTheSmallestFile) {
+  EXPECT_EQ(bytes_per_nanosecond(true), 0);
+  EXPECT_GT(bytes_per_nanosecond(false), 0);
 }
 
 TEST(OpeningTime, PaysInBytes) {
   const MeshSequence clip = corpus::make_scaled("limb", 3000, 30);
-  const auto bytes = [&](OpeningChoice opening) {
+  const auto bytes = [&](bool smallest) {
     EncodeOptions options;
     options.target = {ErrorMetric::kKg, 0.2, false};
     options.basis = BasisChoice::kEigentrajectories;
     options.effort = 2;
-    options.opening = opening;
+    options.smallest = smallest;
     const EncodeResult result = encode(clip, options);
     EXPECT_LE(result.kg, 0.2);
     return static_cast<double>(result.file.size());
   };
-  const double small = bytes(OpeningChoice::kSmall), fast = bytes(OpeningChoice::kFast);
-  EXPECT_LE(small, bytes(OpeningChoice::kAuto) * 1.01);
-  EXPECT_LT(small, fast);
-  EXPECT_LT(fast, small * 1.3);
+  const double smallest = bytes(true), balanced = bytes(false);
+  EXPECT_LE(smallest, balanced * 1.01);
+  EXPECT_LT(balanced, smallest * 1.1);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(TimeSegmentation, SegmentsShareAPoseAndPlayInAnyOrder) {
   MeshSequence clip = two_takes();
   EncoderInput input(clip);
   LinearAnalysis analysis(input.frames());
-  LinearCoder whole(input, analysis, BasisKind::kEigentrajectories, 1, 1, OpeningChoice::kSmall);
+  LinearCoder whole(input, analysis, BasisKind::kEigentrajectories, 1, 1, true);
   double rmse = 0.0005 * diagonal(clip);
   std::optional<CodedPart> one = whole.at_rmse(rmse);
   ASSERT_TRUE(one);

@@ -113,13 +113,12 @@ TEST(LinearSegmentEncode, TakesFewerComponentsInRegionsThatMoveApart) {
   EXPECT_LT(halves.bytes(), whole.bytes());
 }
 
-TEST(LinearSegmentEncode, RegionsGoWithEveryCoderLayerAndRun) {
+TEST(LinearSegmentEncode, RegionsGoWithEveryLayerAndRun) {
   const Sheet sheet;
-  for (CoefficientCoder coder : {CoefficientCoder::kMixing, CoefficientCoder::kBatches}) {
+  for (const bool anew : {false, true}) {
     LinearSettings settings = fine();
-    settings.coder = coder;
     settings.layers = 3;
-    settings.layers_anew = coder == CoefficientCoder::kBatches;
+    settings.layers_anew = anew;
     settings.passes_per_level = 3;
     settings.joint_lambda = 0.2;
     settings.components = {6, 0, 3};
@@ -138,27 +137,24 @@ TEST(LinearSegmentEncode, RegionsGoWithEveryCoderLayerAndRun) {
 TEST(LinearSegmentEncode, KnowsWhatItsStreamsDecodeTo) {
   const Sheet sheet;
   for (uint32_t regions : {1U, 3U}) {
-    for (CoefficientCoder coder : {CoefficientCoder::kMixing, CoefficientCoder::kBatches}) {
-      LinearSettings settings = fine();
-      settings.coder = coder;
-      settings.layers = 2;
-      settings.refit_weights = regions == 1;
-      settings.run_steps = {0, 4};
-      EncodedSegment coded = sheet.encode(sheet.basis(regions), settings, {10, 8});
-      EncodedSegment unknown = coded;
-      unknown.decoded.reset();
-      const Segment known = open_encoded(coded, sheet.layout),
-                    decoded = open_encoded(unknown, sheet.layout);
-      EXPECT_FALSE(coded.decoded.has_value());
-      EXPECT_EQ(coded.hash, unknown.hash);
-      EXPECT_EQ(known.wide, decoded.wide);
-      EXPECT_EQ(known.narrow, decoded.narrow);
-      EXPECT_EQ(known.weights, decoded.weights);
-      EXPECT_EQ(known.vertex_region, decoded.vertex_region);
-      ASSERT_EQ(known.pose_maps.size(), decoded.pose_maps.size());
-      for (size_t i = 0; i < known.pose_maps.size(); ++i)
-        EXPECT_TRUE(std::equal(known.pose_maps[i].m, known.pose_maps[i].m + 12, decoded.pose_maps[i].m));
-    }
+    LinearSettings settings = fine();
+    settings.layers = 2;
+    settings.refit_weights = regions == 1;
+    settings.run_steps = {0, 4};
+    EncodedSegment coded = sheet.encode(sheet.basis(regions), settings, {10, 8});
+    EncodedSegment unknown = coded;
+    unknown.decoded.reset();
+    const Segment known = open_encoded(coded, sheet.layout),
+                  decoded = open_encoded(unknown, sheet.layout);
+    EXPECT_FALSE(coded.decoded.has_value());
+    EXPECT_EQ(coded.hash, unknown.hash);
+    EXPECT_EQ(known.wide, decoded.wide);
+    EXPECT_EQ(known.narrow, decoded.narrow);
+    EXPECT_EQ(known.weights, decoded.weights);
+    EXPECT_EQ(known.vertex_region, decoded.vertex_region);
+    ASSERT_EQ(known.pose_maps.size(), decoded.pose_maps.size());
+    for (size_t i = 0; i < known.pose_maps.size(); ++i)
+      EXPECT_TRUE(std::equal(known.pose_maps[i].m, known.pose_maps[i].m + 12, decoded.pose_maps[i].m));
   }
 }
 

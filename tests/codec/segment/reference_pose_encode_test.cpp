@@ -23,18 +23,15 @@ TEST(ReferencePoseOfCorpus, EveryClipsFirstFrameComesBackWithTheErrorOfItsStep) 
     const MatrixXd pose = input.centred_first_pose(&origin);
     const double step = std::max(pose.cwiseAbs().maxCoeff(), 1e-3) / 4096;
     const CornerTable table(input.layout.topology);
-    for (PoseCoding coding : {PoseCoding::kRounded, PoseCoding::kExact, PoseCoding::kDependent,
-                              PoseCoding::kDependentRows}) {
-      const auto encoded = encode_pose_as(coding, pose, origin, step, table);
-      Vector<int32_t> decoded;
-      ASSERT_EQ(decode_pose(encoded->stream, table, coding, &decoded), Status::kOk);
-      EXPECT_EQ(decoded, encoded->grid.points);
-      double largest = 0;
-      for (Eigen::Index i = 0; i < pose.size(); ++i)
-        largest = std::max(largest, std::abs(decoded[static_cast<size_t>(i)] * encoded->grid.step -
-                                             pose(i / 3, i % 3)));
-      EXPECT_LE(largest, (has_dependent_steps(coding) ? 1.2 : 0.501) * step);
-    }
+    const auto encoded = encode_pose_by(nullptr, pose, origin, step, table);
+    Vector<int32_t> decoded;
+    ASSERT_EQ(decode_pose(encoded->stream, table, PoseSteps::kDependent, &decoded), Status::kOk);
+    EXPECT_EQ(decoded, encoded->grid.points);
+    double largest = 0;
+    for (Eigen::Index i = 0; i < pose.size(); ++i)
+      largest = std::max(largest, std::abs(decoded[static_cast<size_t>(i)] * encoded->grid.step -
+                                           pose(i / 3, i % 3)));
+    EXPECT_LE(largest, 1.2 * step);
   }
 }
 
@@ -55,19 +52,7 @@ TEST(ReferencePoseOfCorpus, IsCodedByPartnersIfThatIsSmaller) {
   const double step = pose.cwiseAbs().maxCoeff() / 4096;
   const CornerTable table(input.layout.topology);
   const size_t best = encode_reference_pose(pose, origin, step, input.layout)->stream.size();
-  for (PoseCoding coding : {PoseCoding::kExact, PoseCoding::kDependent})
-    EXPECT_LE(best, encode_pose_as(coding, pose, origin, step, table)->stream.size());
-}
-
-TEST(ReferencePoseOfCorpus, IsCodedInRowsWhereOpeningCounts) {
-  const EncoderInput input(corpus::make_clip("waves"));
-  Eigen::Vector3d origin;
-  const MatrixXd pose = input.centred_first_pose(&origin);
-  const auto coding = [&](double bytes_per_nanosecond) {
-    return encode_reference_pose(pose, origin, 1e-3, input.layout, bytes_per_nanosecond)->coding;
-  };
-  EXPECT_NE(coding(0), PoseCoding::kDependentRows);
-  EXPECT_EQ(coding(1e-2), PoseCoding::kDependentRows);
+  EXPECT_LE(best, encode_pose_by(nullptr, pose, origin, step, table)->stream.size());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/coding/rans_coder.h"
 
+#include "format/coding/symbol_row.h"
 #include "tests/random.h"
 
 #include <cstdint>
@@ -20,7 +21,7 @@ void code_all(Coder& coder, std::vector<uint32_t>& values) {
   for (size_t i = 0; i < values.size(); ++i) {
     uint32_t& x = values[i];
     if (i % 5 < 3)
-      x = code_row_symbol(coder, rows[i % 3], rows[(i + 1) % 3], x % 8);
+      x = code_row_symbol(coder, rows[i % 3], rows[(i + 1) % 3], rows[2], x % 8);
     else if (i % 5 == 3)
       x = coder.bit(bits[i % 2], x % 2 != 0) ? 1 : 0;
     else

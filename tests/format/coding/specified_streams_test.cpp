@@ -3,9 +3,8 @@
 //
 // The streams that spec/08-entropy.md shows, section 8: what the text says they hold is what they hold.
 #include "build_paths.h"
-#include "format/coding/batch_coefficient_coder.h"
 #include "format/coding/binary_coder.h"
-#include "format/coding/coefficient_coder.h"
+#include "format/coding/coefficient_model.h"
 #include "format/coding/rans_coder.h"
 #include "format/coding/time_weights.h"
 
@@ -34,32 +33,9 @@ std::string hex(const Bytes& bytes) {
   return out;
 }
 
-/// Residuals of section 8: three components of vertices in a row, each the neighbour of the next 8.
-std::string coefficients(uint32_t vertices, uint32_t channels, uint32_t slices = 1) {
-  std::vector<int32_t> neighbours;
-  for (uint32_t v = 0; v < vertices; ++v) {
-    for (uint32_t a = 1; a <= 8; ++a)
-      neighbours.push_back(v < a ? -1 : static_cast<int32_t>(v - a));
-  }
-  CoefficientModel model(vertices, channels, neighbours.data(), 8, slices);
-  std::vector<BinaryEncoder> encoders(slices);
-  for (uint32_t j = 0; j < 3; ++j) {
-    std::vector<int32_t> q;
-    for (uint32_t c = 0; c < channels; ++c) {
-      for (uint32_t v = 0; v < vertices; ++v)
-        q.push_back((v + j + c) % 3 == 0 ? static_cast<int32_t>((7 * v + 5 * j + 3 * c) % 11) - 5
-                                         : 0);
-    }
-    model.code_component(encoders[model.slice()], q.data());
-  }
-  std::string streams;
-  for (BinaryEncoder& encoder : encoders)
-    streams += (streams.empty() ? "" : "` `") + hex(encoder.finish());
-  return streams;
-}
-
-/// The same in batches: levels of 24, the neighbours being the eight vertices before the level.
-std::string batches(uint32_t vertices, uint32_t channels) {
+/// Residuals of section 8: three components, levels of 24 vertices, the neighbours being the eight before
+/// the level.
+std::string coefficients(uint32_t vertices, uint32_t channels) {
   constexpr uint32_t kLevel = 24;
   Vector<uint32_t> levels;
   std::vector<int32_t> neighbours;
@@ -71,7 +47,7 @@ std::string batches(uint32_t vertices, uint32_t channels) {
       neighbours.push_back(first < a ? -1 : static_cast<int32_t>(first - a));
   }
   levels.push_back(vertices);
-  BatchCoefficientModel model(channels, neighbours.data(), 8, levels);
+  CoefficientModel model(channels, neighbours.data(), 8, levels);
   RansEncoder encoder;
   for (uint32_t j = 0; j < 3; ++j) {
     std::vector<int32_t> q;
@@ -87,29 +63,24 @@ std::string batches(uint32_t vertices, uint32_t channels) {
 
 TEST(SpecifiedStreams, HoldTheCoefficientsOfTheText) {
   const std::string text = specification();
-  for (const std::string& stream :
-       {coefficients(24, 1), coefficients(24, 1, 2), coefficients(12, 3), batches(72, 1),
-        batches(48, 3)})
+  for (const std::string& stream : {coefficients(72, 1), coefficients(48, 3)})
     EXPECT_NE(text.find("`" + stream + "`"), std::string::npos) << stream;
 }
 
 TEST(SpecifiedStreams, HoldTheTimeWeightsOfTheText) {
   constexpr uint32_t kFrames = 12;
   const std::string text = specification();
-  for (uint32_t i = 0; i < 2 * kWeightPredictors; ++i) {
-    const uint32_t p = i % kWeightPredictors;
-    const WeightCoder coder = i == p ? WeightCoder::kMixing : WeightCoder::kRows;
+  for (uint32_t p = 0; p < kWeightPredictors; ++p) {
     std::vector<double> x;
     for (uint32_t row = 0; row < 3; ++row) {
       for (uint32_t f = 0; f < kFrames; ++f)
         x.push_back((3 * f * f + 11 * row * f) % 41 + 4 * ((5 * f + row) % 7) - 30.0);
     }
-    TimeWeightModel model(kFrames, coder);
+    TimeWeightModel model(kFrames);
     BinaryEncoder encoder;
     std::vector<int32_t> values(x.size());
     model.encode(encoder, 3, x.data(), 0, values.data(), 1u << p);
-    std::string line = std::string(i == p ? "| mixing" : "| rows") + " | " + std::to_string(p) +
-                       " | `" + hex(encoder.finish()) + "` |";
+    std::string line = "| " + std::to_string(p) + " | `" + hex(encoder.finish()) + "` |";
     for (uint32_t row = 0; row < 3; ++row) {
       for (uint32_t f = 0; f < kFrames; ++f)
         line += (f == 0 ? " " : ", ") + std::to_string(values[row * kFrames + f]);

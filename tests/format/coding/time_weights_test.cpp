@@ -47,13 +47,13 @@ std::vector<Component> smooth(uint32_t frames, uint32_t components, double size,
   return result;
 }
 
-class TimeWeights : public testing::TestWithParam<WeightCoder> {
+class TimeWeights : public testing::Test {
  protected:
   static Coded encode(uint32_t frames, const std::vector<Component>& components,
                       uint32_t allowed = kAll, double lambda = 0.1) {
     Coded coded;
     BinaryEncoder encoder;
-    TimeWeightModel model(frames, GetParam());
+    TimeWeightModel model(frames);
     for (const Component& c : components) {
       coded.values.emplace_back(c.x.size());
       coded.predictors.push_back(
@@ -68,7 +68,7 @@ class TimeWeights : public testing::TestWithParam<WeightCoder> {
   static bool decode(uint32_t frames, const std::vector<Component>& components, const Bytes& bytes,
                      std::vector<std::vector<int32_t>>* values) {
     BinaryDecoder decoder(bytes.data(), bytes.size());
-    TimeWeightModel model(frames, GetParam());
+    TimeWeightModel model(frames);
     values->clear();
     for (const Component& c : components) {
       values->emplace_back(c.x.size());
@@ -92,14 +92,14 @@ class TimeWeights : public testing::TestWithParam<WeightCoder> {
   }
 };
 
-TEST_P(TimeWeights, ReturnsWhatTheEncoderSaw) {
+TEST_F(TimeWeights, ReturnsWhatTheEncoderSaw) {
   for (const uint32_t frames : {0u, 1u, 2u, 3u, 4u, 5u, 63u, 64u, 65u, 127u, 128u, 129u, 200u})
     for (uint32_t p = 0; p < kWeightPredictors; ++p)
       expect_round_trip(frames, smooth(frames, 6, 100, frames), 1u << p);
   expect_round_trip(150, smooth(150, 40, 1000, 5), kAll);
 }
 
-TEST_P(TimeWeights, ReturnsExtremeWeights) {
+TEST_F(TimeWeights, ReturnsExtremeWeights) {
   for (uint32_t p = 0; p < kWeightPredictors; ++p) {
     std::vector<Component> components(4, {3, {}});
     Random random(p);
@@ -120,13 +120,12 @@ TEST_P(TimeWeights, ReturnsExtremeWeights) {
   }
 }
 
-TEST_P(TimeWeights, PicksThePredictorThatFits) {
-  std::vector<Component> line{{1, {}}}, steps{{1, {}}}, spring{{1, {}}}, wave{{1, {}}};
+TEST_F(TimeWeights, PicksThePredictorThatFits) {
+  std::vector<Component> line{{1, {}}}, spring{{1, {}}}, wave{{1, {}}};
   Random random(1);
   double x = 0, before = 0;
   for (int f = 0; f < 256; ++f) {
     line[0].x.push_back(25 * f);
-    steps[0].x.push_back(f / 16 * 37 % 11 * 40);
     const double next = 1.6 * x - 0.97 * before + (random() % 2 ? 20 : -20);
     before = x;
     spring[0].x.push_back(x = next);
@@ -134,15 +133,14 @@ TEST_P(TimeWeights, PicksThePredictorThatFits) {
   }
   EXPECT_EQ(encode(256, line).predictors[0], WeightPredictor::kLine);
   EXPECT_LT(encode(256, line).bytes.size(), 16u);
-  EXPECT_EQ(encode(256, steps).predictors[0], WeightPredictor::kHold);
   EXPECT_EQ(encode(256, spring).predictors[0], WeightPredictor::kRegression);
   EXPECT_EQ(encode(256, wave).predictors[0], WeightPredictor::kCosine);
-  EXPECT_LT(encode(256, wave).bytes.size(), GetParam() == WeightCoder::kMixing ? 16u : 18u);
+  EXPECT_LT(encode(256, wave).bytes.size(), 18u);
 }
 
-TEST_P(TimeWeights, RoundsToTheNearestWithoutLambda) {
+TEST_F(TimeWeights, RoundsToTheNearestWithoutLambda) {
   const std::vector<Component> components = smooth(100, 3, 50, 3);
-  for (const uint32_t allowed : {1u, 2u, 4u}) {
+  for (const uint32_t allowed : {1u, 2u}) {
     const Coded coded = encode(100, components, allowed, 0);
     for (size_t j = 0; j < components.size(); ++j)
       for (size_t i = 0; i < components[j].x.size(); ++i)
@@ -150,7 +148,7 @@ TEST_P(TimeWeights, RoundsToTheNearestWithoutLambda) {
   }
 }
 
-TEST_P(TimeWeights, TruncatedOrCorruptStreamsEndInTime) {
+TEST_F(TimeWeights, TruncatedOrCorruptStreamsEndInTime) {
   const std::vector<Component> components = smooth(70, 6, 60, 4);
   std::vector<std::vector<int32_t>> values;
   const auto expect_within_limits = [&] {
@@ -177,7 +175,7 @@ TEST_P(TimeWeights, TruncatedOrCorruptStreamsEndInTime) {
 }
 
 // A run longer than a transform is cut.
-TEST_P(TimeWeights, TransformsRunsOfAnyLength) {
+TEST_F(TimeWeights, TransformsRunsOfAnyLength) {
   for (const uint32_t frames :
        {CosineTransform::kMaxLength, CosineTransform::kMaxLength + 1, 2 * CosineTransform::kMaxLength + 452}) {
     Component wave{1, {}};
@@ -191,15 +189,12 @@ TEST_P(TimeWeights, TransformsRunsOfAnyLength) {
     EXPECT_EQ(values, coded.values);
     for (uint32_t f = 0; f < frames; ++f)
       ASSERT_NEAR(values[1][f] / 16.0, wave.x[f], 2) << f;
-    if (GetParam() == WeightCoder::kMixing) {
-      EXPECT_EQ(encode(frames, components).predictors[0], WeightPredictor::kCosine);
-    }
   }
 }
 
 // Pins the bytes, the regression's binary64 arithmetic included: a change here is a change of the
-// format (spec/08-entropy.md, section 7).
-TEST_P(TimeWeights, WritesThePinnedBytes) {
+// format (spec/08-entropy.md, section 6).
+TEST_F(TimeWeights, WritesThePinnedBytes) {
   std::vector<Component> components;
   for (int j = 0; j < 8; ++j) {
     Component c{j % 2 ? 1u : 3u, {}};
@@ -210,16 +205,13 @@ TEST_P(TimeWeights, WritesThePinnedBytes) {
     }
     components.push_back(c);
   }
-  constexpr uint64_t kMixing[kWeightPredictors] = {17242766368518606155u, 17772839266235419589u,
-                                                   11610634267473670493u, 5669580739338976950u};
-  constexpr uint64_t kRows[kWeightPredictors] = {515698190761161941u, 16935034346864391367u,
-                                                 10752255307487803404u, 17930410122052121538u};
-  const uint64_t* hashes = GetParam() == WeightCoder::kMixing ? kMixing : kRows;
+  constexpr uint64_t kHashes[kWeightPredictors] = {7212305056532698079u, 1705442234136354839u,
+                                                   4318428978648969202u};
   for (uint32_t p = 0; p < kWeightPredictors; ++p)
-    EXPECT_EQ(hash(encode(130, components, 1u << p).bytes), hashes[p]) << p;
+    EXPECT_EQ(hash(encode(130, components, 1u << p).bytes), kHashes[p]) << p;
 }
 
-TEST_P(TimeWeights, NothingIsPredictedOverTheEndOfARun) {
+TEST_F(TimeWeights, NothingIsPredictedOverTheEndOfARun) {
   const Vector<uint32_t> runs = {1, 40, 3, 64};
   const Vector<uint32_t> one(1, 108);
   for (uint32_t p = 0; p < kWeightPredictors; ++p) {
@@ -232,7 +224,7 @@ TEST_P(TimeWeights, NothingIsPredictedOverTheEndOfARun) {
     for (size_t k = 0; k < 2; ++k) {
       const Vector<uint32_t>& cut = k == 0 ? runs : one;
       BinaryEncoder encoder;
-      TimeWeightModel model(cut, GetParam()), decoding(cut, GetParam());
+      TimeWeightModel model(cut), decoding(cut);
       std::vector<int32_t> values(x.size()), decoded(x.size());
       for (int j = 0; j < 6; ++j)
         model.encode(encoder, 3, x.data(), 0, values.data(), 1u << p);
@@ -249,12 +241,6 @@ TEST_P(TimeWeights, NothingIsPredictedOverTheEndOfARun) {
     }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Coders, TimeWeights,
-                         testing::Values(WeightCoder::kMixing, WeightCoder::kRows),
-                         [](const testing::TestParamInfo<WeightCoder>& coder) {
-                           return coder.param == WeightCoder::kMixing ? "mixing" : "rows";
-                         });
 
 }  // namespace
 }  // namespace anicodec

@@ -61,12 +61,11 @@ Vector<int32_t> dependent(Vector<int32_t> pose) {
   return pose;
 }
 
-constexpr PoseCoding kCodings[] = {PoseCoding::kRounded, PoseCoding::kExact,
-                                   PoseCoding::kDependent, PoseCoding::kDependentRows};
+constexpr PoseSteps kSteps[] = {PoseSteps::kAny, PoseSteps::kDependent};
 
-/// The pose, or the nearest one that the coding takes.
-Vector<int32_t> codable(PoseCoding coding, const Vector<int32_t>& pose) {
-  return has_dependent_steps(coding) ? dependent(pose) : pose;
+/// The pose, or the nearest one of those steps.
+Vector<int32_t> codable(PoseSteps steps, const Vector<int32_t>& pose) {
+  return steps == PoseSteps::kDependent ? dependent(pose) : pose;
 }
 
 /// Partners without rhyme or reason.
@@ -108,14 +107,14 @@ Sample two_sheets(uint32_t n, uint32_t flips, PosePartners* partners) {
 void expect_round_trip(const Sample& s) {
   const CornerTable table(s.topology);
   const PosePartners partners = random_partners(s.topology.coded_vertices, 3);
-  for (PoseCoding coding : kCodings) {
-    const Vector<int32_t> pose = codable(coding, s.pose);
-    const Bytes bytes = encode_pose(table, coding, pose);
+  for (PoseSteps steps : kSteps) {
+    const Vector<int32_t> pose = codable(steps, s.pose);
+    const Bytes bytes = encode_pose(table, steps, pose);
     Vector<int32_t> decoded;
-    ASSERT_EQ(decode_pose(bytes, table, coding, &decoded), Status::kOk);
+    ASSERT_EQ(decode_pose(bytes, table, steps, &decoded), Status::kOk);
     EXPECT_EQ(decoded, pose);
-    const Bytes by_partners = encode_pose(table, coding, pose, &partners);
-    ASSERT_EQ(decode_pose(by_partners, table, coding, &decoded), Status::kOk);
+    const Bytes by_partners = encode_pose(table, steps, pose, &partners);
+    ASSERT_EQ(decode_pose(by_partners, table, steps, &decoded), Status::kOk);
     EXPECT_EQ(decoded, pose);
   }
   // Key-frames: later ones by earlier ones, the last one alone.
@@ -125,9 +124,9 @@ void expect_round_trip(const Sample& s) {
     poses[2][i] = static_cast<int32_t>(i) % 1000 - s.pose[i];
   }
   const Vector<uint32_t> parents{0, 1, 2, 0};
-  const Bytes bytes = encode_poses(table, PoseCoding::kRounded, poses, parents, &partners);
+  const Bytes bytes = encode_poses(table, PoseSteps::kAny, poses, parents, &partners);
   Vector<Vector<int32_t>> decoded;
-  ASSERT_EQ(decode_poses(bytes, table, PoseCoding::kRounded, parents, &decoded), Status::kOk);
+  ASSERT_EQ(decode_poses(bytes, table, PoseSteps::kAny, parents, &decoded), Status::kOk);
   EXPECT_EQ(decoded, poses);
 }
 
@@ -135,36 +134,8 @@ TEST(PoseCoding, ASmoothSheetTakesFewBits) {
   Sample s = sheet(40);
   expect_round_trip(s);
   const CornerTable table(s.topology);
-  EXPECT_LT(encode_pose(table, PoseCoding::kRounded, s.pose).size() * 8,
+  EXPECT_LT(encode_pose(table, PoseSteps::kAny, s.pose).size() * 8,
             6U * s.topology.coded_vertices);
-}
-
-TEST(PoseCoding, RowsTakeLittleMoreThanMixedContexts) {
-  const Sample s = sheet(60);
-  const CornerTable table(s.topology);
-  const Vector<int32_t> pose = dependent(s.pose);
-  const size_t mixed = encode_pose(table, PoseCoding::kDependent, pose).size();
-  EXPECT_LT(encode_pose(table, PoseCoding::kDependentRows, pose).size(), mixed + mixed / 4);
-}
-
-TEST(PoseCoding, CoordinatesThatRepeatTakeLessThanHalfWhenExact) {
-  // Blocks of any height on an uneven grid.
-  Sample s = sheet(40);
-  std::mt19937 random(4);
-  std::vector<int32_t> at(41), height(11 * 11);
-  for (int32_t& x : at)
-    x = static_cast<int32_t>(random() % 9000);
-  for (int32_t& z : height)
-    z = static_cast<int32_t>(random() % 900);
-  for (size_t v = 0; v < 41 * 41; ++v) {
-    const size_t x = v % 41, y = v / 41;
-    s.pose[3 * v] = at[x];
-    s.pose[3 * v + 1] = at[40 - y];
-    s.pose[3 * v + 2] = height[y / 4 * 11 + x / 4];
-  }
-  const CornerTable table(s.topology);
-  EXPECT_LT(2 * encode_pose(table, PoseCoding::kExact, s.pose).size(),
-            encode_pose(table, PoseCoding::kRounded, s.pose).size());
 }
 
 TEST(PoseCoding, ACopyOfAPartTakesNextToNothingHoweverItIsFlipped) {
@@ -173,14 +144,11 @@ TEST(PoseCoding, ACopyOfAPartTakesNextToNothingHoweverItIsFlipped) {
     const Sample s = two_sheets(30, flips, &partners);
     const CornerTable table(s.topology);
     const size_t one =
-        encode_pose(CornerTable(sheet(30).topology), PoseCoding::kRounded, sheet(30).pose).size();
-    const Bytes bytes = encode_pose(table, PoseCoding::kRounded, s.pose, &partners);
+        encode_pose(CornerTable(sheet(30).topology), PoseSteps::kAny, sheet(30).pose).size();
+    const Bytes bytes = encode_pose(table, PoseSteps::kAny, s.pose, &partners);
     EXPECT_LT(bytes.size(), one + one / 6) << flips;
     Vector<int32_t> decoded;
-    ASSERT_EQ(decode_pose(bytes, table, PoseCoding::kRounded, &decoded), Status::kOk);
-    EXPECT_EQ(decoded, s.pose);
-    const Bytes exact = encode_pose(table, PoseCoding::kExact, s.pose, &partners);
-    ASSERT_EQ(decode_pose(exact, table, PoseCoding::kExact, &decoded), Status::kOk);
+    ASSERT_EQ(decode_pose(bytes, table, PoseSteps::kAny, &decoded), Status::kOk);
     EXPECT_EQ(decoded, s.pose);
   }
 }
@@ -197,7 +165,7 @@ TEST(PoseCoding, ALaterMomentTakesAFractionOfAnEarlierOne) {
     poses[1][3 * v + 2] = static_cast<int32_t>(std::lround(std::sin(0.3) * x + std::cos(0.3) * z));
   }
   const auto bytes = [&](uint32_t parent) {
-    return encode_poses(table, PoseCoding::kRounded, poses, {0, parent}).size();
+    return encode_poses(table, PoseSteps::kAny, poses, {0, parent}).size();
   };
   EXPECT_LT(bytes(1), 0.8 * static_cast<double>(bytes(0)));
 }
@@ -242,22 +210,16 @@ TEST(PoseCoding, AVertexOfVeryManyTrianglesTakesBoundedTime) {
 TEST(PoseCoding, TruncatedStreamsAreRefused) {
   const Sample s = sheet(12);
   const CornerTable table(s.topology);
-  for (PoseCoding coding : kCodings) {
-    const Vector<int32_t> pose = codable(coding, s.pose);
-    Bytes bytes = encode_pose(table, coding, pose);
+  for (PoseSteps steps : kSteps) {
+    const Vector<int32_t> pose = codable(steps, s.pose);
+    Bytes bytes = encode_pose(table, steps, pose);
     Vector<int32_t> decoded;
-    // No bytes at all are the stream of some pose.
-    for (size_t size = 1; size < bytes.size(); ++size) {
-      const Status status = decode_pose({bytes.data(), size}, table, coding, &decoded);
-      // Without its last bytes it may be the stream of another pose.
-      if (size + 8 < bytes.size()) {
-        EXPECT_EQ(status, Status::kEntropy) << size;
-      } else {
-        EXPECT_NE(decoded, pose) << size;
-      }
+    for (size_t size = 0; size < bytes.size(); ++size) {
+      const Status status = decode_pose({bytes.data(), size}, table, steps, &decoded);
+      EXPECT_EQ(status, Status::kEntropy) << size;
     }
     bytes.push_back(1);
-    EXPECT_EQ(decode_pose(bytes, table, coding, &decoded), Status::kEntropy);
+    EXPECT_EQ(decode_pose(bytes, table, steps, &decoded), Status::kEntropy);
   }
 }
 
@@ -270,10 +232,10 @@ TEST(PoseCoding, ArbitraryBytesDoNoHarm) {
     Bytes bytes(random() % 600);
     for (uint8_t& b : bytes)
       b = static_cast<uint8_t>(round % 4 == 0 ? 255 : random());
-    (void)decode_pose(bytes, table, kCodings[round % 4], &decoded);
+    (void)decode_pose(bytes, table, kSteps[round % 2], &decoded);
     EXPECT_EQ(decoded.size(), s.pose.size());
     Vector<Vector<int32_t>> poses;
-    (void)decode_poses(bytes, table, PoseCoding::kRounded, {0, 1, 0, 2}, &poses);
+    (void)decode_poses(bytes, table, PoseSteps::kAny, {0, 1, 0, 2}, &poses);
     EXPECT_EQ(poses.size(), 4);
   }
 }
