@@ -123,8 +123,9 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
 
 EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
   check(sequence);
-  double clip_diagonal = diagonal(sequence);
-  Target target = in_scene_units(options.target, clip_diagonal);
+  const double whole_diagonal = diagonal(sequence);
+  const std::vector<ClipGoal> asked = clip_goals(options.target, options.cap, clip_diagonals(sequence));
+  const Target target = largest_target(asked);
   const bool lossless = is_lossless(options.target);
   if (lossless && options.surface_change)
     throw Error(ErrorKind::kUsage, "lossless is what keeps the source's own positions: none that were moved before");
@@ -147,8 +148,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     cut_timing(*options.part, sequence);
     closed[0] = false;
   }
-  ClipsRecord record =
-      clips_record(sequence, options, target, std::vector<double>(closed.size(), clip_diagonal));
+  ClipsRecord record = clips_record(sequence, options, asked);
   for (size_t c = 0; c < closed.size(); ++c)
     record.clips[c].closed = closed[c];
   EncodedRoot root;
@@ -159,33 +159,40 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     if (is_motion(target.metric))
       throw Error(ErrorKind::kUsage, "an error of the motion cannot be kept with the motion of the whole apart");
     whole = sequence.positions;
-    root = take_root_motion(clip_diagonal, &sequence);
+    root = take_root_motion(whole_diagonal, &sequence);
   }
   EncoderInput input(std::move(sequence), options.part, options.layout.get());
-  EncodeOptions limited = options;
-  Target searched = lossless ? basis_target(options) : target;
+  std::vector<ClipGoal> goals = asked;
+  if (lossless) {
+    for (ClipGoal& goal : goals)
+      goal.target = basis_target(options);
+  }
   if (root.frames > 0) {
     input.keep_whole(whole);
     input.layout.root = root.chunk;
     input.layout.root_frames = root.frames;
-    searched = below_rounding(searched, input.smallest_bound());
-    if (options.cap)
-      limited.cap = below_rounding(in_scene_units(*options.cap, clip_diagonal), input.smallest_bound());
+    for (size_t c = 0; c < goals.size(); ++c) {
+      ClipGoal& goal = goals[c];
+      const double rounding = input.clips[c].smallest_bound();
+      goal.target = below_rounding(goal.target, rounding);
+      if (goal.cap)
+        goal.cap = below_rounding({ErrorMetric::kMaxError, *goal.cap, false}, rounding).value;
+    }
   }
   whole = {};
-  if (searched.metric == ErrorMetric::kKg || searched.metric == ErrorMetric::kRmse)
-    input.bound_clips(searched.metric);
+  input.bound_clips(goals);
+  const Target searched = largest_target(goals);
   std::vector<StoredAttribute> stored;
   if (!options.layout)
     stored = encode_attributes(input.sequence, options.attributes, &input.layout);
   if (options.part)
-    input.pose = pose_of_parts(input, searched, clip_diagonal, options.smallest);
+    input.pose = pose_of_parts(input, searched, whole_diagonal, options.smallest);
   if (options.pose) {
     if (options.pose->grid.points.size() != size_t{3} * input.layout.sizes.coded_vertices)
       throw Error(ErrorKind::kInput, "the reference pose is of another mesh");
     input.pose = options.pose;
   }
-  ClipSearch search(input, stored, limited, searched, clip_diagonal);
+  ClipSearch search(input, stored, options, searched);
   SearchProgress steps(progress, search.expected_trials());
   input.without = options.without;
   input.on_trial = [&steps] { steps.trial(); };
@@ -198,9 +205,6 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   const std::vector<MeasuredClip> measured =
       check_file(file, input, stored, options.part ? options.part->first : 0, &attributes);
   EncodeResult result = result_of(measured, input);
-  std::optional<double> cap;
-  if (options.cap)
-    cap = in_scene_units(*options.cap, clip_diagonal).value;
   for (size_t c = 0; c < measured.size(); ++c) {
     const Comparison& positions = measured[c].positions;
     ClipRecord& clip = record.clips[c];
@@ -209,14 +213,12 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     clip.max_error = positions.max_error;
     clip.max_displacement_error = positions.max_displacement_error;
     clip.attribute_errors = measured[c].attributes;
-    if (measured.size() > 1)
-      clip.diagonal = positions.diagonal;
     result.clips.push_back({std::string(clip.name.begin(), clip.name.end()),
                             input.clips[c].frames.count, rates[c], clip.kg, clip.rmse,
-                            clip.max_error, clip.max_displacement_error});
+                            clip.max_error, clip.max_displacement_error, clip.diagonal});
     const FileMeasures measures{clip.kg,     clip.rmse,       clip.max_error, clip.max_displacement_error,
                                 file.size(), result.vertices, result.frames};
-    if (!is_kept(target, cap, measures))
+    if (!is_kept(asked[c].target, asked[c].cap, measures))
       throw Error(ErrorKind::kInternal, "the encoded file does not keep what was asked");
   }
   result.file = coded.file(record, input.layout);
@@ -226,7 +228,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     result.components = std::max(result.components, sizes.components);
     result.segments.push_back({sizes.first_frame, sizes.frames});
   }
-  result.diagonal = clip_diagonal;
+  result.diagonal = whole_diagonal;
   result.attributes = std::move(attributes);
   result.trials = search.trials();
   return result;

@@ -5,7 +5,7 @@
 namespace anicodec {
 
 ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& options,
-                         const Target& target, const std::vector<double>& diagonals) {
+                         const std::vector<ClipGoal>& goals) {
   ClipsRecord record;
   record.encoder = options.encoder;
   record.up = static_cast<uint8_t>(sequence.up);
@@ -13,7 +13,7 @@ ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& opti
   record.metres_per_unit = sequence.metres_per_unit;
   record.clips.clear();
   for (const ClipTiming& timing : clips_of(sequence)) {
-    const double diagonal = diagonals[record.clips.size()];
+    const ClipGoal& goal = goals[record.clips.size()];
     ClipRecord& clip = record.clips.emplace_back();
     clip.name = timing.name;
     clip.frames = timing.frame_count;
@@ -33,9 +33,9 @@ ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& opti
       clip.surface_error = options.surface_change->max;
       clip.surface_error_mean = options.surface_change->mean;
     }
-    clip.asked = target.metric;
-    clip.asked_value = target.value;
-    clip.diagonal = diagonal;
+    clip.asked = goal.target.metric;
+    clip.asked_value = goal.target.value;
+    clip.diagonal = goal.diagonal;
   }
   record.place();
   return record;

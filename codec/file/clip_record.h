@@ -12,9 +12,9 @@
 namespace anicodec {
 
 /// The metadata of a file and its clips without the errors, which are yet to be measured: names,
-/// clocks, coordinates, and what was asked for, in scene units. `diagonals`: of each clip.
+/// clocks, coordinates, and what was asked for. `goals`: of each clip.
 ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& options,
-                         const Target& target, const std::vector<double>& diagonals);
+                         const std::vector<ClipGoal>& goals);
 
 }  // namespace anicodec
 

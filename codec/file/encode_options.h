@@ -98,6 +98,7 @@ struct ClipResult {
   double rmse = 0;       ///< scene units
   double max_error = 0;  ///< scene units
   double max_displacement_error = 0;  ///< of a move from frame to frame, scene units
+  double diagonal = 0;
 };
 
 /// The encoded clip and what is known about it. Errors are measured on the decoded file.
@@ -114,7 +115,7 @@ struct EncodeResult {
   double rmse = 0;       ///< scene units
   double max_error = 0;  ///< scene units
   double max_displacement_error = 0;  ///< of a move from frame to frame, scene units
-  double diagonal = 0;
+  double diagonal = 0;  ///< of the box around all frames of all clips
   std::vector<AttributeResult> attributes;  ///< those that change
   std::vector<ClipResult> clips;            ///< in the order of their frames
   std::vector<FrameRun> segments;           ///< of positions: clips in one share its basis

@@ -4,6 +4,7 @@
 
 #include "codec/sequence/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -19,6 +20,29 @@ Target in_scene_units(Target target, double diagonal) {
     target.percent = false;
   }
   return target;
+}
+
+std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Target>& cap,
+                                 const std::vector<double>& diagonals) {
+  double smallest = 0;
+  for (double d : diagonals) {
+    if (d > 0 && (smallest == 0 || d < smallest))
+      smallest = d;
+  }
+  std::vector<ClipGoal> goals;
+  for (double d : diagonals) {
+    const double length = d > 0 ? d : smallest;
+    ClipGoal& goal = goals.emplace_back();
+    goal.target = in_scene_units(target, length);
+    if (cap)
+      goal.cap = in_scene_units(*cap, length).value;
+    goal.diagonal = d;
+  }
+  return goals;
+}
+
+const Target& largest_target(const std::vector<ClipGoal>& goals) {
+  return std::ranges::max_element(goals, {}, [](const ClipGoal& goal) { return goal.target.value; })->target;
 }
 
 std::optional<double> allowed_bytes(const Target& target, uint32_t vertices, uint32_t frames) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace anicodec {
 
@@ -16,11 +17,26 @@ namespace anicodec {
 struct Target {
   ErrorMetric metric = ErrorMetric::kNone;
   double value = 0;      ///< KG in per cent, lengths in scene units (or per cent), bytes, or bpfv
-  bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames
+  bool percent = false;  ///< a length is per cent of the diagonal of the box over all frames of a clip
 };
 
 /// The target with lengths in scene units. Throws Error(kUsage) for values that make no sense.
 Target in_scene_units(Target target, double diagonal);
+
+/// What a clip must keep, lengths in scene units.
+struct ClipGoal {
+  Target target;
+  std::optional<double> cap;  ///< a maximum error beside another target
+  double diagonal = 0;        ///< of the clip
+};
+
+/// The goals of clips with these diagonals, each of which takes a percentage of its own. Clips that are a single point
+/// take that of the smallest other. Throws Error(kUsage) for values that make no sense.
+std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Target>& cap,
+                                 const std::vector<double>& diagonals);
+
+/// The largest of the targets of clips, which are of one metric.
+const Target& largest_target(const std::vector<ClipGoal>& goals);
 
 /// The bytes that a target which is a size allows a file of these many vertices and frames; nothing
 /// for other targets.

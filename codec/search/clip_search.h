@@ -28,15 +28,14 @@ struct CodedClip {
 /// positions get what the attributes leave.
 class ClipSearch {
  public:
-  /// All references must outlive this object. Throws Error(kUsage) for a target that float32 cannot
-  /// keep.
+  /// All references must outlive this object.
   ClipSearch(const EncoderInput& input, const std::vector<StoredAttribute>& stored,
-             const EncodeOptions& options, const Target& target, double diagonal)
+             const EncodeOptions& options, const Target& target)
       : input_(input),
         stored_(stored),
         options_(options),
         target_(target),
-        control_(input, options, target, diagonal) {}
+        control_(input, options, target) {}
 
   /// `record`: for the size of the file. Throws Error(kUsage) when the target cannot be reached.
   CodedClip run(const ClipsRecord& record);

@@ -2,11 +2,22 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/encoder_input.h"
 
+#include "codec/sequence/error.h"
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace anicodec {
+namespace {
+
+/// A position is rounded a few times on its way: four units in the last place.
+double smallest_bound_at(double coordinate) {
+  return std::max(coordinate * 0x1p-21, 1e-30);
+}
+
+}  // namespace
 
 EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& part,
                            const MeshLayout* laid_out)
@@ -21,11 +32,11 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
   }
   const FrameRun kept = part.value_or(FrameRun{0, sequence.frame_count});
   if (part || sequence.clips.empty()) {
-    clips.push_back({{0, kept.count}});
+    clips.emplace_back(FrameRun{0, kept.count});
   } else {
     uint32_t first = 0;
     for (const ClipTiming& clip : sequence.clips) {
-      clips.push_back({{first, clip.frame_count}});
+      clips.emplace_back(FrameRun{first, clip.frame_count});
       first += clip.frame_count;
     }
   }
@@ -34,7 +45,7 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
   float* to = sequence.positions.data();  // never ahead of what is yet to be read
   for (size_t f = kept.first; f < size_t{kept.first} + kept.count; ++f) {
     std::ranges::copy(sequence.frame(f), frame.begin());
-    double mean[3] = {0, 0, 0}, squares = 0;
+    double mean[3] = {0, 0, 0}, squares = 0, largest = 0;
     for (size_t v = 0; v < sequence.vertex_count; ++v) {
       for (size_t c = 0; c < 3; ++c)
         mean[c] += static_cast<double>(frame[3 * v + c]) / sequence.vertex_count;
@@ -43,13 +54,15 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
       for (size_t c = 0; c < 3; ++c) {
         double x = static_cast<double>(frame[3 * v + c]);
         squares += (x - mean[c]) * (x - mean[c]);
-        largest_coordinate = std::max(largest_coordinate, std::abs(x));
+        largest = std::max(largest, std::abs(x));
       }
     }
     kg_reference += squares;
+    largest_coordinate = std::max(largest_coordinate, largest);
     if (f - kept.first == size_t{clip->frames.first} + clip->frames.count)
       ++clip;
     clip->kg_reference += squares;
+    clip->largest_coordinate = std::max(clip->largest_coordinate, largest);
     for (uint32_t v : layout.coded_source)
       to = std::copy_n(frame.begin() + ptrdiff_t{3} * v, 3, to);
   }
@@ -61,6 +74,26 @@ EncoderInput::EncoderInput(MeshSequence source, const std::optional<FrameRun>& p
     kg_reference = 1;
 }
 
+EncoderInput::EncoderInput(const EncoderInput& all, size_t number)
+    : layout(all.layout),
+      clips{all.clips[number]},
+      copies(all.copies),
+      largest_coordinate(clips[0].largest_coordinate),
+      first_pose(all.first_pose),
+      pose(all.pose),
+      without(all.without),
+      on_trial(all.on_trial) {
+  InputClip& clip = clips[0];
+  const FrameView frames = all.frames(clip.frames.first, clip.frames.count);
+  coded.assign(frames.frame(0), frames.frame(0) + size_t{3} * copies.size() * clip.frames.count);
+  sequence.polygons = all.sequence.polygons;
+  sequence.vertex_count = all.sequence.vertex_count;
+  sequence.frame_count = clip.frames.count;
+  kg_reference = clip.kg_reference > 0 ? clip.kg_reference : 1;
+  clip.frames.first = 0;
+  clip.tolerance = 0;
+}
+
 EncoderInput::EncoderInput(const EncoderInput& mesh, FrameArray trajectories)
     : layout(mesh.layout),
       coded(std::move(trajectories)),
@@ -69,13 +102,17 @@ EncoderInput::EncoderInput(const EncoderInput& mesh, FrameArray trajectories)
       on_trial(mesh.on_trial) {
   sequence.vertex_count = mesh.sequence.vertex_count;
   sequence.frame_count = mesh.sequence.frame_count;
-  for (InputClip& clip : clips)
+  for (InputClip& clip : clips) {
     clip.tolerance = 0;
+    clip.cap.reset();
+  }
   for (float x : coded) {
     const auto value = static_cast<double>(x);
     kg_reference += value * value;
     largest_coordinate = std::max(largest_coordinate, std::abs(value));
   }
+  for (InputClip& clip : clips)
+    clip.largest_coordinate = largest_coordinate;
   if (kg_reference == 0)
     kg_reference = 1;
 }
@@ -88,8 +125,12 @@ void EncoderInput::keep_whole(const FrameArray& positions) {
       whole.insert(whole.end(), at, at + 3);
     }
   }
-  for (float x : whole)
-    largest_coordinate = std::max(largest_coordinate, std::abs(static_cast<double>(x)));
+  const size_t row = size_t{3} * layout.sizes.coded_vertices;
+  for (InputClip& clip : clips) {
+    for (size_t i = row * clip.frames.first; i < row * (clip.frames.first + clip.frames.count); ++i)
+      clip.largest_coordinate = std::max(clip.largest_coordinate, std::abs(static_cast<double>(whole[i])));
+    largest_coordinate = std::max(largest_coordinate, clip.largest_coordinate);
+  }
 }
 
 Eigen::MatrixXd EncoderInput::centred_first_pose(Eigen::Vector3d* origin) const {
@@ -116,12 +157,40 @@ Vector<uint32_t> EncoderInput::runs(uint32_t first, uint32_t count) const {
   return limits.runs(first, count);
 }
 
-void EncoderInput::bound_clips(ErrorMetric metric) {
-  const double mean = kg_reference / sequence.frame_count;
-  for (InputClip& clip : clips) {
-    const double own = clip.kg_reference / clip.frames.count;
-    clip.tolerance = metric == ErrorMetric::kKg && own > 0 ? std::sqrt(own / mean) : 1;
+void EncoderInput::bound_clips(const std::vector<ClipGoal>& goals) {
+  const ErrorMetric metric = goals[0].target.metric;
+  const bool bounds_mean = metric == ErrorMetric::kKg || metric == ErrorMetric::kRmse;
+  const double mean = kg_reference / sequence.frame_count, most = largest_target(goals).value;
+  const bool differ =
+      std::ranges::any_of(goals, [&](const ClipGoal& goal) { return goal.target.value != most; });
+  for (size_t c = 0; c < clips.size(); ++c) {
+    InputClip& clip = clips[c];
+    const double own = clip.kg_reference / clip.frames.count, value = goals[c].target.value;
+    if (bounds_mean || differ)
+      clip.tolerance = metric == ErrorMetric::kKg ? (own > 0 ? std::sqrt(own / mean) : 1) : value / most;
+    const bool is_cap = metric == ErrorMetric::kMaxError;
+    clip.cap = is_cap ? value : goals[c].cap;
+    if (clip.cap == 0)  // per cent of nothing: all vertices are one point that stands still
+      clip.cap.reset();
+    if (clip.cap && *clip.cap < clip.smallest_bound())
+      throw Error(ErrorKind::kUsage, (sequence.clips.empty() ? "" : "clip '" + sequence.clips[c].name + "': ") +
+                                         "the maximum error is below what float32 keeps at these coordinates; the "
+                                         "smallest possible is " +
+                                         four_digits(clip.smallest_bound()));
+    if (clip.cap && is_cap)
+      *clip.cap -= clip.smallest_bound() / 4;  // room for rounding
   }
+}
+
+std::vector<double> EncoderInput::caps(uint32_t first, uint32_t count) const {
+  std::vector<double> result;
+  for (const InputClip& clip : clips) {
+    for (uint32_t f = 0; f < clip.frames.count; ++f) {
+      if (clip.frames.first + f >= first && result.size() < count)
+        result.push_back(*clip.cap);
+    }
+  }
+  return result;
 }
 
 std::vector<double> EncoderInput::excesses(const SegmentError& error, uint32_t first,
@@ -142,9 +211,18 @@ std::vector<double> EncoderInput::excesses(const SegmentError& error, uint32_t f
   return result;
 }
 
+bool EncoderInput::bounds_differ() const {
+  constexpr double kMost = 16;
+  const auto [least, most] = std::ranges::minmax(clips, {}, &InputClip::tolerance);
+  return most.tolerance > kMost * least.tolerance;
+}
+
 double EncoderInput::smallest_bound() const {
-  // A position is rounded a few times on its way: four units in the last place.
-  return std::max(largest_coordinate * 0x1p-21, 1e-30);
+  return smallest_bound_at(largest_coordinate);
+}
+
+double InputClip::smallest_bound() const {
+  return smallest_bound_at(largest_coordinate);
 }
 
 }  // namespace anicodec

@@ -4,6 +4,7 @@
 #define ANICODEC_CODEC_SEARCH_ENCODER_INPUT_H_
 
 #include "codec/connectivity/mesh_layout.h"
+#include "codec/file/target.h"
 #include "codec/segment/encoded_segment.h"
 #include "codec/sequence/frame_view.h"
 #include "codec/sequence/mesh_sequence.h"
@@ -23,10 +24,17 @@ namespace anicodec {
 
 /// A clip of what is coded.
 struct InputClip {
+  explicit InputClip(const FrameRun& run) : frames(run) {}
+
   FrameRun frames;
-  double kg_reference = 0;  ///< as that of the whole
-  /// The root mean square error that it may have for each of the whole; 0: no matter.
+  double kg_reference = 0;        ///< as that of the whole
+  double largest_coordinate = 0;  ///< in magnitude
+  /// The error that it may have for each of the whole; 0: no matter.
   double tolerance = 0;
+  std::optional<double> cap;  ///< the maximum error to which it is corrected, scene units
+
+  /// The smallest maximum error that float32 keeps at its coordinates, scene units.
+  double smallest_bound() const;
 };
 
 /// The clip by coded vertices, and its way back to the source: shared by all ways of coding.
@@ -35,6 +43,9 @@ struct EncoderInput {
   /// remain, of a mesh that serves all parts. `laid_out`: the mesh, where a file has it; null: to be laid out.
   explicit EncoderInput(MeshSequence source, const std::optional<FrameRun>& part = {},
                         const MeshLayout* laid_out = nullptr);
+
+  /// One of the clips alone, for another search with its own goal.
+  EncoderInput(const EncoderInput& all, size_t clip);
 
   /// Other trajectories over the same mesh: as many frames, frames x coded vertices x 3.
   EncoderInput(const EncoderInput& mesh, FrameArray trajectories);
@@ -66,17 +77,26 @@ struct EncoderInput {
   /// How many of `count` frames from `first` on each clip has (Limits::runs()).
   Vector<uint32_t> runs(uint32_t first, uint32_t count) const;
 
-  /// Makes every clip keep a KG error of its own, or all the same root mean square error, where the
-  /// whole is coded to one.
-  void bound_clips(ErrorMetric metric);
+  /// Makes every clip keep its goal where the whole is coded to the largest of their targets, which are of one
+  /// metric: a KG error or root mean square error, any length that is not the same for all, and maximum errors.
+  /// Throws Error(kUsage) for a maximum error that float32 cannot keep.
+  void bound_clips(const std::vector<ClipGoal>& goals);
 
   bool bounds_clips() const { return clips[0].tolerance > 0 && clips.size() > 1; }
+
+  /// Whether the clips may have errors that differ by more than time weights of one basis can.
+  bool bounds_differ() const;
+
+  bool caps_errors() const { return clips[0].cap.has_value(); }
+
+  /// The caps of some frames.
+  std::vector<double> caps(uint32_t first, uint32_t count) const;
 
   /// The error of each clip that has frames from `first` on, as a multiple of what it may be if the
   /// whole may have `rmse`.
   std::vector<double> excesses(const SegmentError& error, uint32_t first, double rmse) const;
 
-  /// The smallest maximum error that float32 keeps at these coordinates, scene units.
+  /// The largest of those of the clips.
   double smallest_bound() const;
 
   /// `first_pose` around its centre, which goes to `origin`.
@@ -90,7 +110,7 @@ struct EncoderInput {
   std::vector<InputClip> clips;   ///< one at least, in the order of their frames
   std::vector<uint32_t> copies;   ///< source vertices of each coded one
   double kg_reference = 0;        ///< denominator of the KG error, squared; 1 where it is 0
-  double largest_coordinate = 0;  ///< in magnitude
+  double largest_coordinate = 0;  ///< in magnitude, of all clips
   std::vector<float> first_pose;  ///< coded vertices x 3: frame 0 of the source, before any cut
   std::shared_ptr<const EncodedPose> pose;  ///< what a part must refer to, else null
 

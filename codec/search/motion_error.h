@@ -12,7 +12,8 @@
 namespace anicodec {
 
 /// Comparison::max_displacement_error (kDisplacement) or the STED (kSted) of what the parts show, all
-/// frames of the input in order: that of the worst clip. Cost: one pass, ten times that for the STED.
+/// frames of the input in order: that of the worst clip by its share of the bound (InputClip::tolerance). Cost: one
+/// pass, ten times that for the STED.
 double motion_error(ErrorMetric metric, const std::vector<CodedPart>& parts,
                     const EncoderInput& input);
 

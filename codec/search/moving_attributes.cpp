@@ -109,7 +109,8 @@ std::vector<CodedPart> encode_offsets(const EncoderInput& input, FrameArray fram
   attribute_options.keyframes.reset();
   attribute_options.cap.reset();
   const Target target{ErrorMetric::kMaxError, bound, false};
-  return RateControl(trajectories, attribute_options, target, 0).solve().parts;
+  trajectories.bound_clips(std::vector<ClipGoal>(trajectories.clips.size(), {target, {}, 0}));
+  return RateControl(trajectories, attribute_options, target).solve().parts;
 }
 
 }  // namespace

@@ -24,18 +24,15 @@ constexpr double kHopeless = 1.3;
 
 Solution RateControl::solve() {
   std::optional<Solution> best;
-  if (options_.basis == BasisChoice::kKeyframes || options_.keyframes) {
-    best = by_keyframes_alone();
-  } else {
-    best = by_linear_bases();
-    if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
-      if (keyframe_coders_.empty())
-        add_keyframe_coder(KeyframePoses::kNative, Reconstruction::kLinear);
-      if (best && search_.rmse_asked())
-        keyframe_coders_[0]->give_up_above(kHopeless * static_cast<double>(best->bytes));
-      offer(*keyframe_coders_[0], &best);
-    }
+  const bool apart = input_.bounds_differ();
+  try {
+    best = of_all_clips();
+  } catch (const Error& error) {
+    if (!apart || error.kind() != ErrorKind::kUsage)
+      throw;
   }
+  if (apart)
+    search_.keep_better(clip_by_clip(), &best);
   if (!best)
     fail();
   if (!is_size(target_)) {  // nobody asks again
@@ -48,6 +45,39 @@ Solution RateControl::solve() {
       part.opened = open_encoded(part.encoded, input_.layout);
   }
   return std::move(*best);
+}
+
+/// Each clip by a basis of its own, which may be as fine as it needs.
+std::optional<Solution> RateControl::clip_by_clip() {
+  std::vector<CodedPart> parts;
+  for (size_t c = 0; c < input_.clips.size(); ++c) {
+    const EncoderInput clip(input_, c);
+    Target own = target_;
+    if (own.metric != ErrorMetric::kKg)
+      own.value *= input_.clips[c].tolerance;
+    for (CodedPart& part : RateControl(clip, options_, own).solve().parts) {
+      part.encoded.sizes.first_frame += input_.clips[c].frames.first;
+      parts.push_back(std::move(part));
+    }
+  }
+  return search_.files().put_together(std::move(parts));
+}
+
+std::optional<Solution> RateControl::of_all_clips() {
+  std::optional<Solution> best;
+  if (options_.basis == BasisChoice::kKeyframes || options_.keyframes) {
+    best = by_keyframes_alone();
+  } else {
+    best = by_linear_bases();
+    if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
+      if (keyframe_coders_.empty())
+        add_keyframe_coder(KeyframePoses::kNative, Reconstruction::kLinear);
+      if (best && search_.rmse_asked())
+        keyframe_coders_[0]->give_up_above(kHopeless * static_cast<double>(best->bytes));
+      offer(*keyframe_coders_[0], &best);
+    }
+  }
+  return best;
 }
 
 Solution RateControl::solve_within(double bytes) {

@@ -20,14 +20,9 @@ namespace anicodec {
 /// opened and measured as a decoder sees it.
 class RateControl {
  public:
-  /// `input` and `options` must outlive this object. Throws Error(kUsage) for a target that float32
-  /// cannot keep.
-  RateControl(const EncoderInput& input, const EncodeOptions& options, const Target& target,
-              double diagonal)
-      : input_(input),
-        options_(options),
-        target_(target),
-        search_(input, options, target, diagonal) {}
+  /// `input` and `options` must outlive this object.
+  RateControl(const EncoderInput& input, const EncodeOptions& options, const Target& target)
+      : input_(input), options_(options), target_(target), search_(input, options, target) {}
 
   /// Throws Error(kUsage) when the target cannot be reached; the text says what can.
   Solution solve();
@@ -43,6 +38,8 @@ class RateControl {
  private:
   using LinearCoders = std::vector<std::unique_ptr<LinearCoder>>;
 
+  std::optional<Solution> of_all_clips();
+  std::optional<Solution> clip_by_clip();
   std::optional<Solution> by_keyframes_alone();
   std::optional<Solution> by_linear_bases();
   LinearCoders linear_coders(const LinearAnalysis& analysis);

@@ -18,16 +18,6 @@
 namespace anicodec {
 namespace {
 
-/// The maximum error to which files are corrected: one that is a target leaves room for rounding.
-std::optional<double> cap_of(const EncoderInput& input, const EncodeOptions& options,
-                             const Target& target, double diagonal) {
-  if (target.metric == ErrorMetric::kMaxError && target.value != 0)
-    return target.value - input.smallest_bound() / 4;
-  if (options.cap)
-    return in_scene_units(*options.cap, diagonal).value;
-  return std::nullopt;
-}
-
 /// Of bytes over 1 / RMSE; the flatter, the more of the file is mesh.
 constexpr BoundSearch::Exponent kOfSizes{0.5, 0.05, 2};
 
@@ -54,27 +44,7 @@ Lowest lowest_of(const std::map<double, double>& prices) {
   return {b * std::exp(shift), fb - curvature * shift * shift};
 }
 
-void check_bound(const EncoderInput& input, double bound) {
-  if (bound < input.smallest_bound() && bound > 0)
-    throw Error(ErrorKind::kUsage,
-                "the maximum error is below what float32 keeps at these coordinates; the smallest "
-                "possible is " +
-                    four_digits(input.smallest_bound()));
-}
-
 }  // namespace
-
-TargetSearch::TargetSearch(const EncoderInput& input, const EncodeOptions& options,
-                           const Target& target, double diagonal)
-    : input_(input),
-      target_(target),
-      effort_(options.effort),
-      files_(input, options, cap_of(input, options, target, diagonal)) {
-  if (target.metric == ErrorMetric::kMaxError)
-    check_bound(input, target.value);
-  else if (options.cap)
-    check_bound(input, in_scene_units(*options.cap, diagonal).value);
-}
 
 std::optional<Solution> TargetSearch::at_rmse(SegmentCoder& coder, double rmse) {
   return listed(within_bounds(coder, input_, 0, rmse));

@@ -21,9 +21,9 @@ namespace anicodec {
 /// corrections of outliers, a size and an error of the motion by the mean error that leads to it.
 class TargetSearch {
  public:
-  /// Throws Error(kUsage) for a maximum error that float32 cannot keep.
-  TargetSearch(const EncoderInput& input, const EncodeOptions& options, const Target& target,
-               double diagonal);
+  /// `target`: of clips whose own differ (EncoderInput::bound_clips()) the largest.
+  TargetSearch(const EncoderInput& input, const EncodeOptions& options, const Target& target)
+      : input_(input), target_(target), effort_(options.effort), files_(input, options) {}
 
   /// The best file of a coder that keeps to the target; nothing when there is none. It need not be the
   /// best if it is far behind `rival`, which another coder made: null for none.

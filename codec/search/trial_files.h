@@ -7,7 +7,6 @@
 #include "codec/search/encoder_input.h"
 #include "codec/search/solution.h"
 
-#include <optional>
 #include <vector>
 
 namespace anicodec {
@@ -15,10 +14,8 @@ namespace anicodec {
 /// Puts coded parts together to files, and lists what they measured.
 class TrialFiles {
  public:
-  /// `cap`: the maximum error, scene units, to which parts are corrected. Both references must
-  /// outlive this object.
-  TrialFiles(const EncoderInput& input, const EncodeOptions& options, std::optional<double> cap)
-      : input_(input), options_(options), cap_(cap) {}
+  /// Parts are corrected to the caps of the input. Both references must outlive this object.
+  TrialFiles(const EncoderInput& input, const EncodeOptions& options) : input_(input), options_(options) {}
 
   Solution put_together(std::vector<CodedPart> parts);
 
@@ -30,7 +27,6 @@ class TrialFiles {
  private:
   const EncoderInput& input_;
   const EncodeOptions& options_;
-  std::optional<double> cap_;
   std::vector<Trial> trials_;
 };
 

@@ -52,19 +52,20 @@ double error_of(const IntegerCorrection& c, const float* decoded, const float* o
   return squared_distance(corrected, original);
 }
 
-IntegerCorrection nearest_correction(const float* decoded, const float* original, double step) {
+/// In multiples of `unit` steps.
+IntegerCorrection nearest_correction(const float* decoded, const float* original, double step, int32_t unit) {
   IntegerCorrection c;
   for (size_t i = 0; i < 3; ++i) {
     const double steps = std::round(
-        (static_cast<double>(original[i]) - static_cast<double>(decoded[i])) / step);
-    c.delta[i] = static_cast<int32_t>(std::clamp(steps, -1e9, 1e9));
+        (static_cast<double>(original[i]) - static_cast<double>(decoded[i])) / (step * unit));
+    c.delta[i] = static_cast<int32_t>(std::clamp(steps * unit, -1e9, 1e9));
   }
   return c;
 }
 
-/// Makes numbers of a correction smaller by one as long as the vertex stays within `bound`, that first
+/// Makes numbers of a correction smaller by `unit` as long as the vertex stays within `bound`, that first
 /// which costs the least error: fewer bits.
-void shorten(const float* decoded, const float* original, double step, double bound,
+void shorten(const float* decoded, const float* original, double step, int32_t unit, double bound,
              IntegerCorrection& c) {
   for (;;) {
     IntegerCorrection best = c;
@@ -73,7 +74,7 @@ void shorten(const float* decoded, const float* original, double step, double bo
       if (c.delta[i] == 0)
         continue;
       IntegerCorrection shorter = c;
-      shorter.delta[i] -= c.delta[i] > 0 ? 1 : -1;
+      shorter.delta[i] -= c.delta[i] > 0 ? unit : -unit;
       const double error = error_of(shorter, decoded, original, step);
       if (error <= least) {
         least = error;
@@ -151,25 +152,27 @@ SegmentError measure(const Segment& segment, const FrameView& source,
   return {sum, std::sqrt(*std::max_element(largest.begin(), largest.end())), std::move(squared)};
 }
 
-void correct(const FrameView& source, const std::vector<uint32_t>& copies, double bound,
-             Segment& segment, EncodedSegment& encoded) {
+void correct(const FrameView& source, const std::vector<uint32_t>& copies,
+             const std::vector<double>& bounds, Segment& segment, EncodedSegment& encoded) {
   // Rounding to a cubic grid leaves at most half its diagonal: 0.95 of the bound, the rest is for
   // float32.
-  double step = 1.9 * bound / std::sqrt(3.0);
+  const double least = *std::ranges::min_element(bounds), step = 1.9 * least / std::sqrt(3.0);
   segment.correction_begin.clear();
   segment.corrections.clear();
   std::vector<Vector<IntegerCorrection>> frames(segment.frames);
   std::vector<uint8_t> too_fine(segment.frames, 0);
   for_each_frame(segment, [&](uint32_t f, const float* decoded) {
     const float* original = source.frame(f);
+    const double bound = bounds[f];
+    const auto unit = static_cast<int32_t>(std::min(bound / least, 0x1p24));
     for (uint32_t v = 0; v < segment.vertices; ++v) {
       const float *d = decoded + size_t{3} * v, *o = original + size_t{3} * v;
       if (squared_distance(d, o) <= bound * bound)
         continue;
-      IntegerCorrection& c = frames[f].emplace_back(nearest_correction(d, o, step));
+      IntegerCorrection& c = frames[f].emplace_back(nearest_correction(d, o, step, unit));
       c.vertex = v;
       too_fine[f] |= error_of(c, d, o, step) > bound * bound;
-      shorten(d, o, step, 0.98 * bound, c);
+      shorten(d, o, step, unit, 0.98 * bound, c);
     }
   });
   if (std::find(too_fine.begin(), too_fine.end(), 1) != too_fine.end())

@@ -57,12 +57,12 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout);
 SegmentError measure(const Segment& segment, const FrameView& source,
                      const std::vector<uint32_t>& copies);
 
-/// Adds corrections so that no vertex is further than `bound` from the source in any frame;
+/// Adds corrections so that no vertex is further from the source than the bound of its frame;
 /// replaces earlier ones. `segment` is opened without corrections and gets them. The hash covers
 /// them too: open_encoded() stores the new one. Throws Error(kUsage) when float32 is too coarse for
 /// the bound.
-void correct(const FrameView& source, const std::vector<uint32_t>& copies, double bound,
-             Segment& segment, EncodedSegment& encoded);
+void correct(const FrameView& source, const std::vector<uint32_t>& copies,
+             const std::vector<double>& bounds, Segment& segment, EncodedSegment& encoded);
 
 }  // namespace anicodec
 

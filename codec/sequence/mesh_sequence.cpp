@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 #include <string_view>
 
 namespace anicodec {
@@ -29,6 +30,20 @@ void check_clips(const MeshSequence& sequence) {
   }
   if (!sequence.clips.empty() && frames != sequence.frame_count)
     fail("the clips do not have all frames of the sequence");
+}
+
+double diagonal(std::span<const float> positions) {
+  if (positions.empty())
+    return 0;
+  double low[3], high[3];
+  std::fill_n(low, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const auto x = static_cast<double>(positions[i]);
+    low[i % 3] = std::min(low[i % 3], x);
+    high[i % 3] = std::max(high[i % 3], x);
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
 }  // namespace
@@ -94,17 +109,18 @@ void check(const MeshSequence& sequence) {
 }
 
 double diagonal(const MeshSequence& sequence) {
-  double low[3], high[3];
-  std::fill_n(low, 3, std::numeric_limits<double>::infinity());
-  std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
-  for (size_t i = 0; i < sequence.positions.size(); ++i) {
-    double x = static_cast<double>(sequence.positions[i]);
-    low[i % 3] = std::min(low[i % 3], x);
-    high[i % 3] = std::max(high[i % 3], x);
+  return diagonal(std::span<const float>(sequence.positions));
+}
+
+std::vector<double> clip_diagonals(const MeshSequence& sequence) {
+  std::vector<double> diagonals;
+  std::span<const float> rest(sequence.positions);
+  for (const ClipTiming& clip : clips_of(sequence)) {
+    const size_t size = size_t{3} * sequence.vertex_count * clip.frame_count;
+    diagonals.push_back(diagonal(rest.first(size)));
+    rest = rest.subspan(size);
   }
-  if (sequence.positions.empty())
-    return 0;
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  return diagonals;
 }
 
 }  // namespace anicodec

@@ -147,6 +147,9 @@ void check(const MeshSequence& sequence);
 /// Length of the diagonal of the box around all vertices of all frames, in scene units.
 double diagonal(const MeshSequence& sequence);
 
+/// The same of each clip.
+std::vector<double> clip_diagonals(const MeshSequence& sequence);
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_CODEC_SEQUENCE_MESH_SEQUENCE_H_

@@ -209,7 +209,8 @@ Bytes regions() {
   bands.change = [](EncodedSegment& segment, const EncoderInput& input) {
     Segment opened = open_encoded(segment, input.layout);
     const FrameView frames = input.frames(0, 12);
-    correct(frames, input.copies, 0.6 * measure(opened, frames, input.copies).max, opened, segment);
+    const double bound = 0.6 * measure(opened, frames, input.copies).max;
+    correct(frames, input.copies, std::vector<double>(frames.frame_count, bound), opened, segment);
   };
   Recipe scattered = layered(BasisKind::kEigentrajectories, step, true);
   scattered.frames = 12;

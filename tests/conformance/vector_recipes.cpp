@@ -44,7 +44,7 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
   const double clip_diagonal = diagonal(clip);
   const MeshSequence source = clip;
   ClipsRecord record =
-      clips_record(clip, {}, {}, std::vector<double>(clips_of(clip).size(), clip_diagonal));
+      clips_record(clip, {}, std::vector<ClipGoal>(clips_of(clip).size(), {{}, {}, clip_diagonal}));
   const EncoderInput input(std::move(clip));
   std::vector<EncodedSegment> segments;
   uint32_t first = 0;

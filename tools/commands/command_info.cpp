@@ -45,8 +45,8 @@ meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of
 it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats the first), up,
 metres_per_unit, order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg,
 massaged, surface_error, surface_error_mean (those of a clip, of the first one), clips (name,
-first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error, rmse,
-kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
+first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error,
+max_error_percent, rmse, kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
 max_error, rmse in units of their values), segments (mesh, basis, of, reconstruction, first_frame,
 frames, components, regions, corrections; coder of key-frames), chunks (type, offset, size, required,
 mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
@@ -196,6 +196,7 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
          {"diagonal", clip.diagonal},
          {"asked", {{"metric", name_of(clip.asked)}, {"value", clip.asked_value}}},
          {"max_error", clip.max_error},
+         {"max_error_percent", percent(clip)},
          {"rmse", clip.rmse},
          {"kg", clip.kg},
          {"max_displacement_error", clip.max_displacement_error},

@@ -6,6 +6,8 @@
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -27,6 +29,16 @@ struct Rate {
 
 double percent(double length, double diagonal) {
   return length == 0 ? 0 : 100 * length / diagonal;
+}
+
+/// Of the clip that is worst, each by its own diagonal.
+double max_error_percent(const EncodeResult& result) {
+  if (result.clips.size() < 2)
+    return percent(result.max_error, result.diagonal);
+  double most = 0;
+  for (const ClipResult& clip : result.clips)
+    most = std::max(most, percent(clip.max_error, clip.diagonal));
+  return most;
 }
 
 }  // namespace
@@ -55,7 +67,7 @@ nlohmann::ordered_json EncodeReport::json() const {
   json["rmse"] = result.rmse;
   json["max_displacement_error"] = result.max_displacement_error;
   json["max_error"] = result.max_error;
-  json["max_error_percent"] = percent(result.max_error, result.diagonal);
+  json["max_error_percent"] = max_error_percent(result);
   json["diagonal"] = result.diagonal;
   json["massaged"] = massage.change.has_value();
   json["surface_error"] = massage.change ? massage.change->max : 0;
@@ -69,7 +81,9 @@ nlohmann::ordered_json EncodeReport::json() const {
                              {"kg", clip.kg},
                              {"rmse", clip.rmse},
                              {"max_displacement_error", clip.max_displacement_error},
-                             {"max_error", clip.max_error}});
+                             {"max_error", clip.max_error},
+                             {"max_error_percent", percent(clip.max_error, clip.diagonal)},
+                             {"diagonal", clip.diagonal}});
   json["moving_attributes"] = nlohmann::ordered_json::array();
   for (const AttributeResult& a : result.attributes)
     json["moving_attributes"].push_back({{"kind", name_of(a.kind)},
@@ -88,9 +102,9 @@ nlohmann::ordered_json EncodeReport::json() const {
 void EncodeReport::print_clips(int verbosity) const {
   uint32_t first = 0;
   for (const ClipResult& clip : result.clips) {
-    print_line("  clip \"{}\": {} at {:.6g} fps ({}), max error {:.4g}, KG {:.3g} %", clip.name,
+    print_line("  clip \"{}\": {} at {:.6g} fps ({}), max error {:.4g} ({:.3g} %), KG {:.3g} %", clip.name,
                counted(clip.frames, "frame"), clip.rate.value(), origin_of(clip.rate),
-               clip.max_error, clip.kg);
+               clip.max_error, percent(clip.max_error, clip.diagonal), clip.kg);
     for (const FrameRun& segment : result.segments) {
       if (verbosity == 0 || segment.first + segment.count <= first ||
           segment.first >= first + clip.frames)
@@ -131,7 +145,7 @@ void EncodeReport::print_text(int verbosity) const {
       "{}: {} bytes, {:.1f} : 1, {:.3f} bpfv; {}; {}; max error {:.4g} ({:.3g} %), KG {:.3g} %",
       path, grouped(result.file.size()), rate.ratio, rate.bpfv, frames,
       counted_components(result.components, result.kind), result.max_error,
-      percent(result.max_error, result.diagonal), result.kg);
+      max_error_percent(result), result.kg);
   if (result.clips.size() > 1)
     print_clips(verbosity);
   for (const AttributeResult& a : result.attributes) {

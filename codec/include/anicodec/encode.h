@@ -230,7 +230,8 @@ enum anic_massage ANIC_INT32 {
 
 enum {
   ANIC_ENCODE_PERCENT = 1,       /**< goal_value is a length in per cent of the diagonal of the box
-                                      around all frames, not in units of the clip */
+                                      around all frames, of several clips each of its own, not in
+                                      units of the clip */
   ANIC_ENCODE_CAP_PERCENT = 2,   /**< the same of max_error */
   ANIC_ENCODE_ERROR_PERCENT = 4, /**< attribute_error is in per cent of the range of its values */
   ANIC_ENCODE_NO_ATTRIBUTES = 8, /**< positions and polygons alone */
@@ -294,7 +295,7 @@ typedef struct anic_encoding {
   double max_error;
   double rmse;
   double kg;             /**< per cent */
-  double diagonal;       /**< of the box around all frames */
+  double diagonal;       /**< of the box around all frames of all clips */
   double surface_error;  /**< how far massage moved the surface at most */
   uint32_t components;   /**< of the largest basis */
   anic_basis_kind basis; /**< of the first mesh */

@@ -292,7 +292,8 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     positions: frames x vertices x 3, numbers of any kind and stride, in scene units; or a function that returns
         vertices x 3 for a frame, with vertex_count= and frame_count=.
     faces: polygons x corners, a list of polygons, a pair (offsets, corners), or None.
-    One target: max_error (default "0.05%"), rmse: scene units, or a text in per cent of the diagonal; kg: per cent;
+    One target: max_error (default "0.05%"), rmse: scene units, or a text in per cent of the diagonal, of several clips each
+        of its own; kg: per cent;
         displacement: the largest error of a vertex's move from frame to frame; sted, or quality "good", "better", "best":
         an error as viewers see it; size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other;
         or lossless=True: positions, as float32, come back bit for bit.
