@@ -14,8 +14,9 @@ packages=(
   libpng-dev libgif-dev                        # tools: pictures
   libassimp-dev                                # tools: FBX, Collada, MD2 ...
   libgtest-dev libgmock-dev python3            # tests
-  python3-dev python3-venv                     # the Python package
-  libmeshoptimizer-dev gltfpack liblzma-dev    # other codecs to compare with
+  python3-dev                                  # the Python package
+  python3-venv                                 # the same; sources of libraries, by pip
+  gltfpack liblzma-dev                         # other codecs to compare with
 )
 
 say() { printf '\n== %s\n' "$*"; }

@@ -79,11 +79,12 @@ class AttributeWriter {
         corners_(corner_sources(sequence, layout)) {}
 
   void run() {
+    const bool told = !sequence_.shared_normals.empty();
     bool has_normals = false;
     for (uint32_t i = 0; i < sequence_.attributes.size(); ++i) {
       const Attribute& attribute = sequence_.attributes[i];
       if (attribute.kind == AttributeKind::kNormal && !options_.normals) {
-        if (!has_normals)
+        if (!told && !has_normals)
           add_shared(normals_shared(attribute));
         has_normals = true;
       } else if (attribute.kind != AttributeKind::kTangent || options_.normals) {
@@ -92,7 +93,7 @@ class AttributeWriter {
         stored_.push_back({i, number, headers_.back()});
       }
     }
-    if (!has_normals && !sequence_.shared_normals.empty()) {
+    if (told) {
       check_count(sequence_.shared_normals.size(), corners_.size(), "shared normals");
       std::vector<uint32_t> shared;
       for (uint32_t c : corners_)

@@ -45,12 +45,18 @@ std::vector<uint32_t> share_normals(const Attribute& normals, std::span<const ui
   return shared;
 }
 
-std::vector<uint32_t> known_shared_normals(const MeshSequence& sequence) {
+std::vector<uint32_t> known_shared_normals(const MeshSequence& sequence,
+                                           const std::vector<bool>& flat) {
   const auto normals =
       std::ranges::find(sequence.attributes, AttributeKind::kNormal, &Attribute::kind);
-  if (!sequence.shared_normals.empty() || normals == sequence.attributes.end())
+  if (!sequence.shared_normals.empty() || (normals == sequence.attributes.end() && flat.empty()))
     return sequence.shared_normals;
   const std::vector<uint32_t>& corners = sequence.polygons.corners;
+  if (normals == sequence.attributes.end()) {  // no two corners share one
+    std::vector<uint32_t> own(corners.size());
+    std::iota(own.begin(), own.end(), 0U);
+    return own;
+  }
   std::vector<uint32_t> rows = corners, places = corners;
   if (normals->per_corner)
     std::iota(rows.begin(), rows.end(), 0U);
@@ -61,7 +67,12 @@ std::vector<uint32_t> known_shared_normals(const MeshSequence& sequence) {
       place = first.try_emplace({at[0], at[1], at[2]}, place).first->second;
     }
   }
-  return share_normals(*normals, rows, places, sequence.vertex_count);
+  uint32_t place_count = sequence.vertex_count;
+  for (size_t p = 0; p < flat.size(); ++p) {
+    for (uint32_t c = sequence.polygons.offsets[p]; flat[p] && c < sequence.polygons.offsets[p + 1]; ++c)
+      places[c] = place_count++;
+  }
+  return share_normals(*normals, rows, places, place_count);
 }
 
 }  // namespace anicodec

@@ -59,6 +59,7 @@ void append_frames(const GriddedClip& clip, const Order& order, bool folded, Buf
   size_t count = order.vertices.size(), frame_width = 3 * count;
   std::vector<Value> before(frame_width, 0), deltas(kWidth * count, 0);
   Buffer buffer(meshopt_encodeVertexBufferBound(count, kWidth * sizeof(Value)));
+  constexpr int kLevelOfMeshopt = 2, kVersion = 0;  // that of EXT_meshopt_compression
   for (size_t begin = 0; begin < clip.values.size(); begin += frame_width) {
     for (size_t i = 0; i < count; ++i) {
       for (size_t c = 0; c < 3; ++c) {
@@ -70,8 +71,8 @@ void append_frames(const GriddedClip& clip, const Order& order, bool folded, Buf
         before[3 * i + c] = value;
       }
     }
-    size_t size = meshopt_encodeVertexBuffer(buffer.data(), buffer.size(), deltas.data(), count,
-                                             kWidth * sizeof(Value));
+    size_t size = meshopt_encodeVertexBufferLevel(buffer.data(), buffer.size(), deltas.data(),
+                                                  count, kWidth * sizeof(Value), kLevelOfMeshopt, kVersion);
     out.insert(out.end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size));
   }
 }

@@ -127,6 +127,7 @@ MeshSequence load_assimp(const std::string& path, const GltfOptions& options) {
   const uint32_t frames = stored_frames(path);
   const AssimpFile file = read_file_by_assimp(path, frames, options);
   GltfOptions one = options;
+  one.flat_without_normals = false;  // a rule of glTF alone
   if (frames > 0)
     one.clip = "none";
   MeshSequence out = parse_gltf(file.scenes[0], path, {}, one);
@@ -146,7 +147,9 @@ std::vector<MeshSequence> load_assimp_clips(const std::string& path, const GltfO
     return {load_assimp(path, options)};
   }
   const AssimpFile file = read_file_by_assimp(path, 0, options);
-  std::vector<MeshSequence> clips = parse_gltf_clips(file.scenes[0], path, {}, options, names);
+  GltfOptions all = options;
+  all.flat_without_normals = false;
+  std::vector<MeshSequence> clips = parse_gltf_clips(file.scenes[0], path, {}, all, names);
   for (MeshSequence& clip : clips)
     file.set_axes(clip);
   return clips;

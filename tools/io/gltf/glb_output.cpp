@@ -51,7 +51,7 @@ class GlbOutput::Writer {
         step_(step),
         images_(images),
         meshes_(vertices_.objects().size()) {
-    if (!clip.shared_normals.empty())
+    if (!clip.shared_normals.empty() && !GlbVertices::is_flat(clip))
       normals_.emplace(clip);
     if (clip.frame_count > UINT16_MAX)
       throw Error(ErrorKind::kInput,

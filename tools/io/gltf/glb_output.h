@@ -19,7 +19,7 @@ namespace anicodec::tools {
 /// become fans of triangles, a primitive for each material; vertices whose corners differ in UV,
 /// colours, hard edges or parts come once for each. Clips whose up axis is Z are turned, and units
 /// scaled, by the topmost node. Normals of every frame come along
-/// where the clip knows its hard edges, and colours and texture coordinates of every frame where
+/// where the clip knows its hard edges (none where all are hard and all polygons triangles), and colours and texture coordinates of every frame where
 /// they change. Positions read back within a rounding of float32.
 class GlbOutput {
  public:

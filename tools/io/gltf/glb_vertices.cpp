@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace anicodec::tools {
@@ -19,6 +20,16 @@ GlbVertices::GlbVertices(const MeshSequence& clip) {
   sort_by_object(part_of_corner);
 }
 
+bool GlbVertices::is_flat(const MeshSequence& clip) {
+  for (size_t p = 0; p < clip.polygons.size(); ++p) {
+    if (clip.polygons[p].size() != 3)
+      return false;
+  }
+  // Corners at several vertices of one place may share a normal, too, so that their numbers must differ.
+  const std::set<uint32_t> numbers(clip.shared_normals.begin(), clip.shared_normals.end());
+  return !numbers.empty() && numbers.size() == clip.polygons.corners.size();
+}
+
 bool GlbVertices::is_written(const Attribute& a) {
   return (a.kind == AttributeKind::kUv && a.components == 2) ||
          (a.kind == AttributeKind::kColour && (a.components == 3 || a.components == 4));
@@ -31,6 +42,7 @@ void GlbVertices::split_vertices(const MeshSequence& clip,
     if (a.per_corner && is_written(a))
       of_corners.emplace_back(a.values);
   }
+  const bool by_normals = !clip.shared_normals.empty() && !is_flat(clip);
   source_.resize(clip.vertex_count);
   std::iota(source_.begin(), source_.end(), 0U);
   corner_.assign(clip.vertex_count, kNoCorner);
@@ -41,7 +53,7 @@ void GlbVertices::split_vertices(const MeshSequence& clip,
     auto same = [&](uint32_t copy) {
       const uint32_t d = corner_[copy];
       if (part_of_corner[c] != part_of_corner[d] ||
-          (!clip.shared_normals.empty() && clip.shared_normals[c] != clip.shared_normals[d]))
+          (by_normals && clip.shared_normals[c] != clip.shared_normals[d]))
         return false;
       return std::ranges::all_of(of_corners, [&](std::span<const float> values) {
         const size_t n = values.size() / of_corner_.size();

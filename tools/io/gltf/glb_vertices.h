@@ -31,6 +31,10 @@ class GlbVertices {
  public:
   explicit GlbVertices(const MeshSequence& clip);
 
+  /// True when no two corners at a vertex share a normal and all polygons are triangles: a GLB says so by
+  /// having no normals.
+  static bool is_flat(const MeshSequence& clip);
+
   /// The attributes of a GLB: two texture coordinates, three or four of a colour.
   static bool is_written(const Attribute& attribute);
 

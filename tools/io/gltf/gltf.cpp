@@ -13,7 +13,9 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -129,7 +131,7 @@ class Takes {
       Moved moved{i, {}};
       for (const GltfChannel& channel : animation.channels) {
         if (nodes[channel.node])
-          moved.tracks.emplace(channel.node, channel.path);
+          moved.tracks.emplace(channel.node, channel.path, channel.element);
       }
       moving_.push_back(std::move(moved));
     }
@@ -157,15 +159,17 @@ class Takes {
   }
 
  private:
+  using Track = std::tuple<uint32_t, GltfPath, uint32_t>;  ///< node, path, element
+
   struct Moved {
     uint32_t animation;
-    std::set<std::pair<uint32_t, GltfPath>> tracks;
+    std::set<Track> tracks;
   };
 
   /// Adds the set that begins with an animation: others that fit are those in no set yet, then the rest.
   void add(size_t first, std::vector<bool>& taken) {
     std::vector<size_t> set{first};
-    std::set<std::pair<uint32_t, GltfPath>> tracks = moving_[first].tracks;
+    std::set<Track> tracks = moving_[first].tracks;
     for (const bool again : {false, true}) {
       for (size_t i = 0; i < moving_.size(); ++i) {
         const auto& own = moving_[i].tracks;
@@ -272,13 +276,28 @@ void add_events(const GltfDocument& document, const GltfAnimation& animation, do
   }
 }
 
+/// Times of frames that are not all those of a clock.
+void set_times(const std::vector<uint32_t>& ticks, uint32_t all, const GltfOptions& options,
+               MeshSequence& out) {
+  std::vector<double> times;
+  for (const uint32_t tick : ticks)
+    times.push_back(out.start_time + tick / out.rate.value());
+  if (options.note)
+    options.note("keys are far apart: " + std::to_string(ticks.size()) +
+                 " frames where the motion changes, instead of " + std::to_string(all) +
+                 "; --fps takes them by the clock");
+  Timing timing = timing_of(times, 0, options.mesh);
+  out.rate = timing.rate;
+  out.times = std::move(timing.times);
+}
+
 /// Some animations played together; of none the pose that the nodes have.
 MeshSequence bake_animations(const GltfDocument& document, const GltfOptions& options,
                              const std::vector<uint32_t>& animations) {
   GltfBake bake(document, options);
   MeshSequence out = bake.still();
   if (animations.empty()) {
-    bake.add_frames(nullptr, 1, options, out);
+    bake.add_frames(nullptr, {{0}}, options, out);
     return out;
   }
   const uint32_t animation = animations[0];
@@ -292,7 +311,17 @@ MeshSequence bake_animations(const GltfDocument& document, const GltfOptions& op
   out.start_time = clip.first_time();
   if (animations.size() < document.animations.size())
     out.name = document.animations[animation].name;
-  bake.add_frames(&clip, count_frames(document, animation, clip, out.rate, options), options, out);
+  const uint32_t frames = count_frames(document, animation, clip, out.rate, options);
+  std::vector<uint32_t> ticks;
+  if (options.rate || !document.animations[animation].rate.empty()) {
+    ticks.resize(frames);
+    std::iota(ticks.begin(), ticks.end(), 0U);
+  } else {
+    ticks = bake.needed_ticks(clip, frames, out.rate.value());
+  }
+  bake.add_frames(&clip, ticks, options, out);
+  if (ticks.size() < frames)
+    set_times(ticks, frames, options, out);
   ClipTiming timing = clips_of(out)[0];
   for (const uint32_t a : animations)
     add_events(document, document.animations[a], clip.first_time(), options, &timing);

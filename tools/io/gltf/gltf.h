@@ -18,7 +18,8 @@ namespace anicodec::tools {
 
 struct GltfOptions {
   /// The frame rate; default: what anicodec wrote beside the keys, else the grid that they stand on
-  /// (grid_rate), else one from 30 on that ends with the last key.
+  /// (grid_rate), else one from 30 on that ends with the last key. Without it, frames between keys that are far apart
+  /// are left out where all moves evenly.
   std::optional<FrameRate> rate = {};
   /// Name of the mesh or node to take; empty: all of the scene.
   std::string mesh = {};
@@ -31,6 +32,8 @@ struct GltfOptions {
   bool allow_outside = false;
   /// The clip goes back into the scene, so that what surrounds it is not noted as left out.
   bool scene_stays = false;
+  /// Faces of what has no normals are flat, as glTF says; false: nothing is known of their edges.
+  bool flat_without_normals = true;
   /// Draco decodes in a process with limits (run_guarded); false: here, for tests of it.
   bool isolate = true;
   /// Stage "reading".
@@ -44,8 +47,9 @@ struct GltfOptions {
 /// that does so at some times there are two surfaces, each shown in its turn. Instances are baked. Frames stand at multiples of
 /// 1/rate from the first key of the animation to the last. Vertices stay as they are, seams
 /// included, primitives with the same accessors share theirs; points and lines are passed over.
-/// UV sets and colours are kept, normals and tangents as in the first frame, names of materials,
-/// meshes and nodes. The clip has the name of the (first) animation where others are left out. Throws
+/// UV sets and colours are kept (moved as the material says where the scene does not stay), normals and
+/// tangents as in the first frame, hard edges where there are none, names of materials, meshes and nodes,
+/// numbers of nodes without one. The clip has the name of the (first) animation where others are left out. Throws
 /// Error(kInput) "name: /json/pointer: reason", Error(kUnsupported), Error(kUsage) for a mesh or
 /// clip that is not there.
 MeshSequence parse_gltf(std::string_view bytes, std::string_view name, const GltfResolver& resolve,

@@ -20,6 +20,20 @@ float scaled(const char* bytes, bool normalized) {
   return std::max(x / static_cast<float>(std::numeric_limits<Stored>::max()), -1.0F);
 }
 
+/// IEEE 754 binary16.
+float half_at(const char* bytes) {
+  constexpr int kBits = 10, kBias = 15, kMostExponent = 31;
+  const auto bits = load<uint16_t>(bytes, std::endian::little);
+  const int exponent = bits >> kBits & kMostExponent;
+  const auto fraction = static_cast<float>(bits & ((1 << kBits) - 1));
+  const float one = 1 << kBits;
+  const float magnitude =
+      exponent == kMostExponent ? std::numeric_limits<float>::infinity()
+      : exponent == 0           ? std::ldexp(fraction / one, 1 - kBias)
+                                : std::ldexp(1 + fraction / one, exponent - kBias);
+  return bits >> 15 != 0 ? -magnitude : magnitude;
+}
+
 float float_at(const char* bytes, GltfComponent type, bool normalized) {
   switch (type) {
     case GltfComponent::kInt8:
@@ -32,6 +46,8 @@ float float_at(const char* bytes, GltfComponent type, bool normalized) {
       return scaled<uint16_t>(bytes, normalized);
     case GltfComponent::kUint32:
       return scaled<uint32_t>(bytes, normalized);
+    case GltfComponent::kHalf:
+      return half_at(bytes);
     case GltfComponent::kFloat:
       break;
   }

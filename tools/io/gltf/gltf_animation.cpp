@@ -49,6 +49,7 @@ GltfClip::GltfClip(const GltfDocument& document, uint32_t animation, uint64_t me
                     std::to_string(memory_limit) + " that are allowed");
     Track track{.node = channel.node,
                 .path = channel.path,
+                .element = channel.element == kGltfNone ? 0 : channel.element,
                 .interpolation = sampler.interpolation,
                 .components = 0,
                 .times = read_floats(document, sampler.input, place + "/input"),
@@ -68,15 +69,19 @@ GltfClip::GltfClip(const GltfDocument& document, uint32_t animation, uint64_t me
   }
 }
 
-std::optional<FrameRate> GltfClip::key_grid() const {
+std::vector<double> GltfClip::key_times() const {
   std::vector<double> times;
   for (const Track& track : tracks_)
     times.insert(times.end(), track.times.begin(), track.times.end());
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+std::optional<FrameRate> GltfClip::key_grid() const {
   const auto last = static_cast<float>(last_time_);
   const float rounding = last - std::nextafter(last, 0.0F);
-  return grid_rate(times, static_cast<double>(rounding));
+  return grid_rate(key_times(), static_cast<double>(rounding));
 }
 
 double GltfClip::key_density() const {
@@ -184,7 +189,7 @@ void GltfClip::apply(double time, double tolerance, GltfPose& pose) const {
         out = pose.scales[track.node].data();
         break;
       case GltfPath::kWeights:
-        out = pose.weights[track.node].data();
+        out = pose.weights[track.node].data() + track.element;
         break;
       case GltfPath::kVisibility:
         out = &pose.visible[track.node];

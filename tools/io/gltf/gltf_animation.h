@@ -37,6 +37,9 @@ class GltfClip {
   /// The grid of frames that the keys of all channels stand on. Nothing where they stand on none.
   std::optional<FrameRate> key_grid() const;
 
+  /// Times of the keys of all channels, in order, each once.
+  std::vector<double> key_times() const;
+
   /// The rate of the channel with most keys, by the median of the gaps between them; 0 without.
   double key_density() const;
 
@@ -53,6 +56,7 @@ class GltfClip {
   struct Track {
     uint32_t node = 0;
     GltfPath path = GltfPath::kTranslation;
+    uint32_t element = 0;  ///< of weights, the first
     GltfInterpolation interpolation = GltfInterpolation::kLinear;
     uint32_t components = 0;   ///< of a key's value; three such values for a cubic spline
     std::vector<float> times;  ///< seconds

@@ -3,6 +3,7 @@
 #include "tools/io/gltf/gltf_bake.h"
 
 #include "codec/sequence/error.h"
+#include "codec/sequence/shared_normals.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/gltf/gltf_accessor.h"
@@ -13,6 +14,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -179,6 +181,7 @@ GltfBake::GltfBake(const GltfDocument& document, const GltfOptions& options)
   }
   if (pieces_.empty())
     fail_input(document.name, "the scene has no mesh of triangles");
+  name_parts();
   if (vertex_count_ > kMaxVertices)
     fail_input(document.name, "the scene has more than 2^31 - 1 vertices");
 
@@ -265,9 +268,9 @@ void GltfBake::add_node(uint32_t n) {
     if (polygons == 0)
       return;
     const auto label = static_cast<uint32_t>(parts_.names.size());
-    parts_.of_polygon.insert(parts_.of_polygon.end(), polygons, name.empty() ? kNoLabel : label);
-    if (!name.empty())
-      parts_.names.push_back(name + suffix);
+    parts_.of_polygon.insert(parts_.of_polygon.end(), polygons, label);
+    parts_.names.push_back(name.empty() ? "" : name + suffix);
+    node_of_part_.push_back(n);
   };
   if (node.facing == GltfFacing::kChanging) {
     add(true, false, "");
@@ -277,13 +280,31 @@ void GltfBake::add_node(uint32_t n) {
   }
 }
 
+/// Of several nodes without a name each is a part by its number; one is what is in no part.
+void GltfBake::name_parts() {
+  if (std::ranges::count(parts_.names, "") == 1) {
+    const auto nameless = std::ranges::find(parts_.names, "");
+    const auto label = static_cast<uint32_t>(nameless - parts_.names.begin());
+    for (uint32_t& of : parts_.of_polygon)
+      of = of == label ? kNoLabel : of > label ? of - 1 : of;
+    parts_.names.erase(nameless);
+  }
+  for (size_t i = 0; i < parts_.names.size(); ++i) {
+    std::string& name = parts_.names[i];
+    if (name.empty())
+      name = "node " + std::to_string(node_of_part_[i]) +
+             (i > 0 && node_of_part_[i - 1] == node_of_part_[i] ? " mirrored" : "");
+  }
+}
+
 /// Adds the primitives of a mesh at one place; returns how many polygons they have.
 uint64_t GltfBake::add_pieces(const Piece& like) {
   const GltfMesh& mesh = document_.meshes[like.mesh];
   uint64_t polygons = 0;
-  // Primitives with the same accessors share their vertices.
+  // Primitives with the same accessors share their vertices, where materials move texture coordinates alike.
   using Accessors = std::map<std::string, uint32_t>;
-  std::map<std::pair<Accessors, std::vector<Accessors>>, uint32_t> vertices_of;
+  using Transforms = std::map<uint32_t, TextureTransform>;
+  std::map<std::tuple<Accessors, std::vector<Accessors>, Transforms>, uint32_t> vertices_of;
   for (size_t p = 0; p < mesh.primitives.size(); ++p) {
     const GltfPrimitive& primitive = mesh.primitives[p];
     if (primitive.mode < kFirstTriangleMode || !primitive.attributes.contains("POSITION"))
@@ -293,8 +314,11 @@ uint64_t GltfBake::add_pieces(const Piece& like) {
     piece.geometry = geometry_of(like.mesh, p);
     piece.first_vertex = static_cast<uint32_t>(vertex_count_);
     if (!primitive.draco) {
-      const auto [same, is_new] =
-          vertices_of.try_emplace({primitive.attributes, primitive.targets}, piece.first_vertex);
+      const bool moved = primitive.material != kGltfNone && !options_.scene_stays;
+      const auto [same, is_new] = vertices_of.try_emplace(
+          {primitive.attributes, primitive.targets,
+           moved ? document_.materials[primitive.material].transforms : Transforms()},
+          piece.first_vertex);
       piece.first_vertex = same->second;
       piece.owns_vertices = is_new;
     }
@@ -562,8 +586,119 @@ void GltfBake::move_attributes(uint32_t frames, const std::function<GltfPose(uin
   }
 }
 
-void GltfBake::add_frames(const GltfClip* clip, uint32_t frames, const GltfOptions& options,
-                          MeshSequence& out) const {
+/// All vertices x 3 in a pose.
+std::vector<float> GltfBake::positions_in(const GltfPose& pose) const {
+  std::vector<float> positions(size_t{3} * vertex_count_);
+  const Worlds worlds = worlds_of(pose);
+  for (const Piece& piece : pieces_) {
+    if (piece.owns_vertices)
+      move(piece, pose, worlds, positions.data() + size_t{3} * piece.first_vertex);
+  }
+  return positions;
+}
+
+std::vector<uint32_t> GltfBake::needed_ticks(const GltfClip& clip, uint32_t ticks,
+                                             double rate) const {
+  constexpr double kLongGap = 10;  // seconds: shorter ones cost few frames
+  constexpr double kTolerance = 1e-5, kRounding = 1e-3;
+  std::vector<uint32_t> needed{0, ticks - 1};
+  for (const double time : clip.key_times()) {
+    const double tick = (time - clip.first_time()) * rate;
+    for (const double at : {std::floor(tick + kRounding), std::ceil(tick - kRounding)})
+      needed.push_back(static_cast<uint32_t>(std::clamp(at, 0.0, static_cast<double>(ticks - 1))));
+  }
+  std::ranges::sort(needed);
+  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+
+  struct Sample {
+    uint32_t tick;
+    std::vector<float> positions;
+    std::vector<std::vector<double>> weights;
+  };
+  const GltfPose rest = pose_at_rest(document_);
+  const auto sample = [&](uint32_t tick) {
+    GltfPose pose = rest;
+    clip.apply(clip.first_time() + tick / rate, kRounding / rate, pose);
+    return Sample{tick, positions_in(pose), std::move(pose.weights)};
+  };
+  const auto extent = [](const std::vector<float>& positions) {
+    float most = 0;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      float least_here = positions[axis], most_here = least_here;
+      for (size_t i = axis; i < positions.size(); i += 3) {
+        least_here = std::min(least_here, positions[i]);
+        most_here = std::max(most_here, positions[i]);
+      }
+      most = std::max(most, most_here - least_here);
+    }
+    return static_cast<double>(most);
+  };
+  const auto is_between = [&](const Sample& at, const Sample& a, const Sample& b) {
+    const double s = static_cast<double>(at.tick - a.tick) / (b.tick - a.tick);
+    const double tolerance =
+        kTolerance * std::max({extent(at.positions), extent(a.positions), extent(b.positions)});
+    for (size_t i = 0; i < at.positions.size(); ++i) {
+      const auto x = static_cast<double>(a.positions[i]), y = static_cast<double>(b.positions[i]);
+      const double rounding = 4e-7 * std::max(std::abs(x), std::abs(y));
+      if (!(std::abs(x + s * (y - x) - static_cast<double>(at.positions[i])) <= tolerance + rounding))
+        return false;
+    }
+    for (size_t n = 0; n < at.weights.size(); ++n) {
+      for (size_t t = 0; t < at.weights[n].size(); ++t) {
+        const double x = a.weights[n][t], y = b.weights[n][t];
+        if (!(std::abs(x + s * (y - x) - at.weights[n][t]) <= kTolerance))
+          return false;
+      }
+    }
+    return true;
+  };
+  std::vector<uint32_t> more;
+  // Straight at a quarter, a half and three quarters is straight all the way: no curve between two keys
+  // bends more often.
+  const std::function<void(const Sample&, const Sample&)> add_between = [&](const Sample& a,
+                                                                            const Sample& b) {
+    const uint32_t length = b.tick - a.tick;
+    if (length < 2)
+      return;
+    const Sample middle = sample(a.tick + length / 2);
+    bool straight = is_between(middle, a, b);
+    for (const uint32_t tick : {a.tick + length / 4, b.tick - length / 4}) {
+      if (straight && tick != a.tick && tick != b.tick)
+        straight = is_between(sample(tick), a, b);
+    }
+    if (straight)
+      return;
+    more.push_back(middle.tick);
+    add_between(a, middle);
+    add_between(middle, b);
+  };
+  for (size_t i = 1; i < needed.size(); ++i) {
+    const uint32_t from = needed[i - 1], to = needed[i];
+    if ((to - from) / rate > kLongGap) {
+      add_between(sample(from), sample(to));
+    } else {
+      for (uint32_t tick = from + 1; tick < to; ++tick)
+        more.push_back(tick);
+    }
+  }
+  needed.insert(needed.end(), more.begin(), more.end());
+  std::ranges::sort(needed);
+  return needed;
+}
+
+/// Of what has no normals every face is flat (glTF 2.0, section 3.7.2.1).
+void GltfBake::add_hard_edges(MeshSequence& out) const {
+  std::vector<bool> flat;
+  for (const Piece& piece : pieces_)
+    flat.insert(flat.end(), piece.geometry->triangles.size() / 3,
+                piece.geometry->vertices.base.normals.empty());
+  if (options_.flat_without_normals && std::ranges::find(flat, true) != flat.end())
+    out.shared_normals = known_shared_normals(out, flat);
+}
+
+void GltfBake::add_frames(const GltfClip* clip, const std::vector<uint32_t>& ticks,
+                          const GltfOptions& options, MeshSequence& out) const {
+  const auto frames = static_cast<uint32_t>(ticks.size());
   const uint64_t bytes = uint64_t{12} * out.vertex_count * frames;
   const std::string size =
       std::to_string(out.vertex_count) + " vertices x " + std::to_string(frames) + " frames";
@@ -583,7 +718,7 @@ void GltfBake::add_frames(const GltfClip* clip, uint32_t frames, const GltfOptio
   auto pose_of = [&](uint32_t f) {
     GltfPose pose = rest;
     if (clip)
-      clip->apply(clip->first_time() + f * gap, kTolerance * gap, pose);
+      clip->apply(clip->first_time() + ticks[f] * gap, kTolerance * gap, pose);
     return pose;
   };
   tbb::parallel_for(uint32_t{0}, frames, [&](uint32_t f) {
@@ -603,6 +738,7 @@ void GltfBake::add_frames(const GltfClip* clip, uint32_t frames, const GltfOptio
   move_attributes(frames, pose_of, out);
   const GltfPose pose = pose_of(0);
   add_normals(pose, worlds_of(pose), out);
+  add_hard_edges(out);
   if (options.progress)
     options.progress("reading", 1);
 }

@@ -16,7 +16,7 @@
 
 namespace anicodec::tools {
 
-/// A buffer view of EXT_meshopt_compression.
+/// A buffer view of KHR_meshopt_compression or EXT_meshopt_compression.
 struct MeshoptView {
   std::string_view bytes;  ///< compressed
   uint32_t count = 0, stride = 0;

@@ -19,12 +19,22 @@ namespace {
 
 constexpr const char* kVisibility = "KHR_node_visibility";
 constexpr const char* kPointer = "KHR_animation_pointer";
+constexpr const char* kHalfFloats = "KHR_accessor_float16";
 constexpr uint64_t kMaxBytes = uint64_t{1} << 40;
 constexpr uint64_t kMaxElements = kMaxVertices;
 
 std::optional<JsonNode> extension(const JsonNode& node, const char* name) {
   std::optional<JsonNode> extensions = node.find("extensions");
   return extensions ? extensions->find(name) : std::nullopt;
+}
+
+/// What a buffer or a view of it says of its compression by meshoptimizer.
+std::optional<JsonNode> meshopt_extension(const JsonNode& node) {
+  for (const char* name : kMeshoptExtensions) {
+    if (std::optional<JsonNode> found = extension(node, name))
+      return found;
+  }
+  return std::nullopt;
 }
 
 uint64_t whole_or(const JsonNode& node, const char* key, uint64_t otherwise, uint64_t limit) {
@@ -108,7 +118,8 @@ class Reader {
         "KHR_xmp",        "EXT_lights_",  "KHR_mesh_quantization"};
     for (const JsonNode& node : root_.elements("extensionsRequired")) {
       const std::string name = node.text();
-      bool known = name == kMeshoptExtension || name == kDracoExtension || name == kVisibility ||
+      bool known = name == kMeshoptExtensions[0] || name == kMeshoptExtensions[1] ||
+                   name == kHalfFloats || name == kDracoExtension || name == kVisibility ||
                    name == kPointer || name == kInstancingExtension;
       for (std::string_view prefix : kHarmless)
         known |= name.starts_with(prefix);
@@ -122,7 +133,7 @@ class Reader {
     const uint64_t length = node.member("byteLength").whole(kMaxBytes);
     std::vector<char>& bytes = out_.buffers.emplace_back();
     // Takes the place of compressed views in readers that do not know them.
-    if (extension(node, kMeshoptExtension))
+    if (meshopt_extension(node))
       return;
     std::optional<JsonNode> uri = node.find("uri");
     if (!uri) {
@@ -179,7 +190,7 @@ class Reader {
   void read_view(const JsonNode& node) {
     GltfView view;
     view.stride = static_cast<uint32_t>(whole_or(node, "byteStride", 0, 252));
-    if (std::optional<JsonNode> packed = extension(node, kMeshoptExtension)) {
+    if (std::optional<JsonNode> packed = meshopt_extension(node)) {
       MeshoptView source;
       source.bytes = range_of_buffer(*packed);
       source.count = static_cast<uint32_t>(packed->member("count").whole(kMaxElements));
@@ -251,7 +262,8 @@ class Reader {
     accessor.offset = whole_or(node, "byteOffset", 0, kMaxBytes);
     const uint64_t component = size_of(accessor.type);
     // Columns of matrices of small components are padded; no matrix of glTF has any.
-    if (accessor.matrix && accessor.type != GltfComponent::kFloat)
+    if (accessor.matrix && accessor.type != GltfComponent::kFloat &&
+        !(accessor.type == GltfComponent::kHalf && accessor.components == 16))
       node.fail("matrices of other than floats are not read");
     if (accessor.view != kGltfNone)
       check_range(node, accessor.view, accessor.offset, accessor.count,
@@ -374,7 +386,7 @@ class Reader {
     if (std::optional<JsonNode> instancing = extension(node, kInstancingExtension)) {
       GltfInstances instances = read_instances(*instancing);
       if (out.skin != kGltfNone)
-        out_.left_out.emplace_back("instances of a skin");  // whose transforms would come twice
+        leave_out("instances of a skin");  // whose transforms would come twice
       else if (!instancing->member("attributes").members().empty())
         out.instances = instances;
     }
@@ -498,7 +510,8 @@ class Reader {
         interpolation->fail("'" + shown(name) + "' is not a known interpolation");
     }
     const GltfAccessor& input = out_.accessors[sampler.input];
-    if (input.components != 1 || input.type != GltfComponent::kFloat || input.count == 0)
+    if (input.components != 1 || input.count == 0 ||
+        (input.type != GltfComponent::kFloat && input.type != GltfComponent::kHalf))
       node.member("input").fail("/accessors/" + std::to_string(sampler.input) +
                                 " does not hold times: floats, at least one");
     return sampler;
@@ -547,32 +560,63 @@ class Reader {
     const JsonNode target = node.member("target");
     channel.node = index_or_none(target, "node", out_.nodes.size(), "nodes");
     std::string path = target.member("path").text();
-    if (path == "pointer") {
-      if (std::optional<JsonNode> pointer = extension(target, kPointer))
-        path = property_of(pointer->member("pointer"), channel.node);
-    }
+    std::vector<uint32_t> nodes;
+    if (std::optional<JsonNode> pointer = extension(target, kPointer); pointer && path == "pointer")
+      nodes = nodes_of(pointer->member("pointer"), path, channel.element);
+    else if (channel.node != kGltfNone)
+      nodes = {channel.node};
     const auto* found = std::find_if(std::begin(kPaths), std::end(kPaths),
                                      [&](const auto& p) { return p.first == path; });
-    if (channel.node == kGltfNone || found == std::end(kPaths))
+    if (found == std::end(kPaths))
       return;
     channel.path = found->second;
-    check_channel(node, channel, animation.samplers[channel.sampler]);
-    animation.channels.push_back(channel);
+    for (const uint32_t n : nodes) {
+      channel.node = n;
+      check_channel(node, channel, animation.samplers[channel.sampler]);
+      animation.channels.push_back(channel);
+    }
   }
 
-  /// The target of a pointer to a property of a node; nothing for pointers elsewhere.
-  std::string property_of(const JsonNode& pointer, uint32_t& node) {
-    constexpr std::string_view kNodes = "/nodes/", kMeshes = "/meshes/";
+  /// The nodes that a pointer moves, the path of what it moves there, and of one weight its number. None
+  /// for pointers to what moves no vertex, which is listed as left out.
+  std::vector<uint32_t> nodes_of(const JsonNode& pointer, std::string& path, uint32_t& element) {
+    constexpr std::string_view kNodes = "/nodes/", kMeshes = "/meshes/", kWeights = "weights/";
     const std::string text = pointer.text();
-    if (text.starts_with(kMeshes))
-      pointer.fail("'" + shown(text) + "': weights can be animated in nodes, not in meshes");
-    if (!text.starts_with(kNodes))
+    const bool is_mesh = text.starts_with(kMeshes);
+    if (!is_mesh && !text.starts_with(kNodes)) {
+      leave_out("animation of " + shown(text.substr(0, text.find('/', 1))));
       return {};
-    const char *first = text.data() + kNodes.size(), *end = text.data() + text.size();
-    const auto [last, error] = std::from_chars(first, end, node);
-    if (error != std::errc() || last == end || *last != '/' || node >= out_.nodes.size())
-      pointer.fail("'" + shown(text) + "' leads to no property of a node");
-    return {last + 1, end};
+    }
+    uint32_t number = 0;
+    const char* end = text.data() + text.size();
+    const auto [last, error] =
+        std::from_chars(text.data() + (is_mesh ? kMeshes : kNodes).size(), end, number);
+    if (error != std::errc() || last == end || *last != '/' ||
+        number >= (is_mesh ? out_.meshes.size() : out_.nodes.size()))
+      pointer.fail("'" + shown(text) + "' leads to no property of a " +
+                   (is_mesh ? "mesh" : "node"));
+    path.assign(last + 1, end);
+    if (path.starts_with(kWeights)) {
+      const auto [after, fault] = std::from_chars(path.data() + kWeights.size(),
+                                                  path.data() + path.size(), element);
+      if (fault != std::errc() || after != path.data() + path.size())
+        pointer.fail("'" + shown(text) + "' leads to no weight");
+      path = "weights";
+    }
+    if (!is_mesh)
+      return {number};
+    std::vector<uint32_t> nodes;
+    for (uint32_t n = 0; n < out_.nodes.size() && path == "weights"; ++n) {
+      if (out_.nodes[n].mesh == number && out_.nodes[n].weights.empty())
+        nodes.push_back(n);
+    }
+    return nodes;
+  }
+
+  /// Names something that a clip does not keep, once.
+  void leave_out(const std::string& what) {
+    if (std::ranges::find(out_.left_out, what) == out_.left_out.end())
+      out_.left_out.push_back(what);
   }
 
   void check_channel(const JsonNode& node, const GltfChannel& channel, const GltfSampler& sampler) {
@@ -588,7 +632,12 @@ class Reader {
       if (targets == 0)
         node.fail("animates weights of node " + std::to_string(channel.node) +
                   ", whose mesh has no morph target");
-      values *= targets;
+      if (channel.element == kGltfNone)
+        values *= targets;
+      else if (channel.element >= targets)
+        node.fail("animates weight " + std::to_string(channel.element) + " of node " +
+                  std::to_string(channel.node) + ", whose mesh has " + std::to_string(targets) +
+                  " morph targets");
       components = 1;
     } else if (channel.path == GltfPath::kVisibility) {
       if (sampler.interpolation != GltfInterpolation::kStep)
@@ -621,6 +670,7 @@ uint32_t size_of(GltfComponent component) {
       return 1;
     case GltfComponent::kInt16:
     case GltfComponent::kUint16:
+    case GltfComponent::kHalf:
       return 2;
     case GltfComponent::kUint32:
     case GltfComponent::kFloat:

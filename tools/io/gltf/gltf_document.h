@@ -24,7 +24,8 @@ namespace anicodec::tools {
 inline constexpr uint32_t kGltfNone = UINT32_MAX;  ///< an index that is not given
 
 // Extensions by which views and primitives are compressed.
-inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
+inline constexpr const char* kMeshoptExtensions[] = {"KHR_meshopt_compression",
+                                                    "EXT_meshopt_compression"};
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 
 inline constexpr const char* kInstancingExtension = "EXT_mesh_gpu_instancing";
@@ -35,13 +36,14 @@ enum class GltfComponent : uint32_t {
   kInt16 = 5122,
   kUint16 = 5123,
   kUint32 = 5125,
-  kFloat = 5126
+  kFloat = 5126,
+  kHalf = 5131  ///< KHR_accessor_float16
 };
 
 /// Bytes of a component.
 uint32_t size_of(GltfComponent component);
 
-/// Bytes of a buffer; those of a view that was compressed (EXT_meshopt_compression) are its own.
+/// Bytes of a buffer; those of a view that was compressed (kMeshoptExtensions) are its own.
 struct GltfView {
   std::string_view bytes;
   uint32_t stride = 0;             ///< 0: packed
@@ -133,6 +135,7 @@ enum class GltfPath { kTranslation, kRotation, kScale, kWeights, kVisibility };
 struct GltfChannel {
   uint32_t sampler = 0, node = 0;
   GltfPath path = GltfPath::kTranslation;
+  uint32_t element = kGltfNone;  ///< of weights, that of one target; none: all
 };
 
 struct GltfAnimation {

@@ -6,6 +6,7 @@
 #include "tools/io/gltf/gltf_compression.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -176,6 +177,34 @@ std::vector<float> with_alpha(std::vector<float> colours, uint32_t components, f
   return out;
 }
 
+/// Moves texture coordinates, or with `offset` 0 differences of them. False: some are not finite then.
+bool move_coordinates(const TextureTransform& transform, double offset, std::vector<float>& uvs) {
+  const std::array<double, 6>& m = transform.matrix;
+  for (size_t i = 0; i + 1 < uvs.size(); i += 2) {
+    const auto u = static_cast<double>(uvs[i]), v = static_cast<double>(uvs[i + 1]);
+    uvs[i] = static_cast<float>(m[0] * u + m[1] * v + m[2] * offset);
+    uvs[i + 1] = static_cast<float>(m[3] * u + m[4] * v + m[5] * offset);
+  }
+  return std::ranges::all_of(uvs, [](float x) { return std::isfinite(x); });
+}
+
+/// Texture coordinates as the material moves them.
+void apply_transforms(const GltfDocument& document, uint32_t material, GltfVertices& vertices) {
+  for (const auto& [set, transform] : document.materials[material].transforms) {
+    const std::string name = "TEXCOORD_" + std::to_string(set);
+    bool finite = true;
+    if (const auto found = vertices.uvs.find(name); found != vertices.uvs.end())
+      finite &= move_coordinates(transform, 1, found->second);
+    for (GltfVectors& target : vertices.targets) {
+      if (const auto found = target.sets.find(name); found != target.sets.end())
+        finite &= move_coordinates(transform, 0, found->second);
+    }
+    if (!finite)
+      fail_gltf(document, "/materials/" + std::to_string(material),
+                "KHR_texture_transform moves " + name + " beyond 32-bit floats");
+  }
+}
+
 GltfVertices read_vertices(const GltfDocument& document, const AttributeReader& in,
                            const GltfPrimitive& primitive) {
   GltfVertices out;
@@ -235,6 +264,8 @@ GltfGeometry read_geometry(const GltfDocument& document, uint32_t mesh, size_t i
   const AttributeReader in(document, mesh, index, options);
   GltfGeometry out;
   out.vertices = read_vertices(document, in, primitive);
+  if (primitive.material != kGltfNone && !options.scene_stays)
+    apply_transforms(document, primitive.material, out.vertices);
 
   const std::string path = in.path() + "/indices";
   std::vector<uint32_t> corners;

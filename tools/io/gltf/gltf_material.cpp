@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -17,6 +18,7 @@ using Json = nlohmann::json;
 
 constexpr std::array<const char*, 3> kAlphaModes = {"OPAQUE", "MASK", "BLEND"};
 constexpr const char* kStrength = "KHR_materials_emissive_strength";
+constexpr const char* kTransform = "KHR_texture_transform";
 
 /// The slots, and where they stand in a material.
 struct SlotPlace {
@@ -96,20 +98,50 @@ class MaterialReader {
       const std::optional<JsonNode> object = place.object ? surface : std::optional(node);
       const std::optional<JsonNode> texture = object ? object->find(place.key) : std::nullopt;
       if (texture)
-        read_texture(*texture, look.texture(place.slot));
+        read_texture(*texture, look.texture(place.slot), &material.transforms);
     }
+    std::erase_if(material.transforms,
+                  [](const auto& of) { return of.second == TextureTransform(); });
     read_extensions(node, look);
     return material;
   }
 
  private:
-  void read_texture(const JsonNode& node, String& texture) {
+  void read_texture(const JsonNode& node, String& texture,
+                    std::map<uint32_t, TextureTransform>* transforms) {
     texture = textures_.empty()
                   ? ""
                   : textures_[node.member("index").index(textures_.size(), "textures")].c_str();
-    if (const std::optional<JsonNode> set = node.find("texCoord"); set && set->number() != 0)
+    uint32_t set = set_of(node, 0);
+    TextureTransform transform;
+    const std::optional<JsonNode> extensions = node.find("extensions");
+    if (const auto moved = extensions ? extensions->find(kTransform) : std::nullopt) {
+      set = set_of(*moved, set);
+      transform = read_transform(*moved);
+    }
+    if (set != 0)
       leave_out("that a texture uses other texture coordinates than the first");
-    leave_out_extensions(node, {});
+    if (transforms->try_emplace(set, transform).first->second != transform)
+      leave_out("that textures of a material move texture coordinates in different ways");
+    leave_out_extensions(node, {kTransform});
+  }
+
+  static uint32_t set_of(const JsonNode& node, uint32_t otherwise) {
+    const std::optional<JsonNode> set = node.find("texCoord");
+    return set ? static_cast<uint32_t>(set->whole(UINT32_MAX)) : otherwise;
+  }
+
+  /// Scales, turns, then moves; v points down, in which a turn is counter-clockwise.
+  static TextureTransform read_transform(const JsonNode& node) {
+    const auto pair = [&node](const char* key, double otherwise) {
+      const std::optional<JsonNode> found = node.find(key);
+      return found ? found->numbers(2) : std::vector<double>{otherwise, otherwise};
+    };
+    const std::vector<double> offset = pair("offset", 0), scale = pair("scale", 1);
+    const std::optional<JsonNode> rotation = node.find("rotation");
+    const double angle = rotation ? rotation->number() : 0;
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {{c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]}};
   }
 
   void read_extensions(const JsonNode& node, MaterialLook& look) {

@@ -6,6 +6,9 @@
 #include "format/material_look.h"
 #include "tools/io/gltf/json_node.h"
 
+#include <array>
+#include <compare>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -19,10 +22,19 @@
 
 namespace anicodec::tools {
 
+/// KHR_texture_transform: how a texture moves the coordinates that it is looked up at.
+struct TextureTransform {
+  std::array<double, 6> matrix{1, 0, 0, 0, 1, 0};  ///< rows of 2 x 3
+
+  auto operator<=>(const TextureTransform&) const = default;
+};
+
 /// A material of a document.
 struct GltfMaterial {
   std::string name;
   MaterialLook look;
+  /// Of a set of texture coordinates that is moved, that of the first texture that uses it.
+  std::map<uint32_t, TextureTransform> transforms = {};
 };
 
 /// Reads the materials of a document, with the images that they name: an image in a file of its own

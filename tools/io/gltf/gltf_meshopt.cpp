@@ -72,6 +72,9 @@ std::vector<char> decode_meshopt(const MeshoptView& view, const JsonNode& node) 
   } else if (view.filter == "EXPONENTIAL") {
     require(view.stride % 4 == 0);
     meshopt_decodeFilterExp(out.data(), view.count, view.stride);
+  } else if (view.filter == "COLOR") {
+    require(view.stride == 4 || view.stride == 8);
+    meshopt_decodeFilterColor(out.data(), view.count, view.stride);
   } else {
     node.fail("'" + view.filter + "' is not a known filter");
   }
@@ -82,7 +85,7 @@ std::vector<char> decode_meshopt(const MeshoptView& view, const JsonNode& node) 
 
 std::vector<char> decode_meshopt(const MeshoptView&, const JsonNode& node) {
   try {
-    node.fail("EXT_meshopt_compression is not read by this build, which is without meshoptimizer");
+    node.fail("meshopt compression is not read by this build, which is without meshoptimizer");
   } catch (const Error& e) {
     throw Error(ErrorKind::kUnsupported, e.what());
   }

@@ -29,7 +29,9 @@ bool is_understood(const std::string& extension) {
   constexpr std::string_view kFamilies[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_"};
   constexpr std::string_view kOthers[] = {kExtension,
                                           kDracoExtension,
-                                          kMeshoptExtension,
+                                          kMeshoptExtensions[0],
+                                          kMeshoptExtensions[1],
+                                          "KHR_accessor_float16",
                                           kInstancingExtension,
                                           kLights,
                                           "EXT_lights_image_based",
@@ -370,11 +372,14 @@ class MovingGlb {
     size_t node = target.value("node", used.size());
     if (Json* pointer = find_extension(target, "KHR_animation_pointer")) {
       const std::string text = pointer->value("pointer", "");
+      if (text.starts_with("/meshes/"))
+        return false;  // weights of a mesh are in the clip
       if (!text.starts_with(kNodes))
         return true;
       const auto [last, error] =
           std::from_chars(text.data() + kNodes.size(), text.data() + text.size(), node);
       path = error == std::errc() && *last == '/' ? last + 1 : "";
+      path = path.substr(0, path.find("/"));
     }
     if (node >= used.size())
       return false;
@@ -423,7 +428,8 @@ class MovingGlb {
     Json& views = document_["bufferViews"];
     for (size_t v = 0; v < views.size(); ++v) {
       Json& view = views[v];
-      erase_extension(view, kMeshoptExtension);
+      for (const char* extension : kMeshoptExtensions)
+        erase_extension(view, extension);
       view["buffer"] = v;
       bytes_.push_back(source_.views[v].bytes);
     }
@@ -478,7 +484,7 @@ class MovingGlb {
         continue;
       Json kept = Json::array();
       for (const Json& one : *names) {
-        if (one != kMeshoptExtension &&
+        if (one != kMeshoptExtensions[0] && one != kMeshoptExtensions[1] &&
             (one != kDracoExtension || meshes.find(kDracoExtension) != std::string::npos) &&
             (one != kInstancingExtension || nodes.find(kInstancingExtension) != std::string::npos))
           kept.push_back(one);
