@@ -174,16 +174,16 @@ class RandomClip:
                 file.write(struct.pack(">ii", len(self.frames), len(self.vertices)))
                 file.write(struct.pack(f">{len(self.times)}f", *self.times))
                 for frame in self.frames:
-                    file.write(self._ordered(frame, "big"))
+                    file.write(self.ordered(frame, "big"))
         else:
             with open(cache := stem.with_suffix(".pc2"), "wb") as file:
                 file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(self.vertices), 0, 1, len(self.frames)))
                 for frame in self.frames:
-                    file.write(self._ordered(frame, "little"))
+                    file.write(self.ordered(frame, "little"))
         return mesh, cache
 
     @staticmethod
-    def _ordered(frame, order):
+    def ordered(frame, order):
         frame = array.array("f", frame)
         if sys.byteorder != order:
             frame.byteswap()
