@@ -112,14 +112,52 @@ AttributeError measure(const Clip& clip, const EncoderInput& input, const FrameR
   return error;
 }
 
+/// A box around points, moved outwards by what decoders may differ by.
+Box box_of(const std::vector<float>& points) {
+  Box box;
+  for (size_t c = 0; c < 3; ++c) {
+    box.low[c] = box.high[c] = points[c];
+    for (size_t i = c; i < points.size(); i += 3) {
+      box.low[c] = std::min(box.low[c], points[i]);
+      box.high[c] = std::max(box.high[c], points[i]);
+    }
+  }
+  return box;
+}
+
+/// Boxes of the frames of a segment as it plays, with a margin for decoders that round in another way.
+BoundsRecord bounds_of(const Clip& clip, uint32_t number) {
+  BoundsRecord bounds;
+  const Limits::Segment& segment = clip.limits().segments[number];
+  if (segment.attribute != kPositions)
+    return bounds;
+  constexpr float kMargin = 1.0F / (1 << 14);
+  std::vector<float> played(size_t{3} * clip.limits().meshes[segment.mesh].source_vertices);
+  Vector<Box> boxes;
+  for (uint32_t f = segment.first_frame; f < segment.first_frame + segment.frames; ++f) {
+    clip.positions(segment.mesh, f, played.data());
+    Box box = box_of(played);
+    float size = 0;
+    for (size_t c = 0; c < 3; ++c)
+      size = std::max({size, box.high[c] - box.low[c], std::abs(box.low[c]) / 16, std::abs(box.high[c]) / 16});
+    for (size_t c = 0; c < 3; ++c) {
+      box.low[c] -= size * kMargin;
+      box.high[c] += size * kMargin;
+    }
+    boxes.push_back(box);
+  }
+  bounds.set(boxes, kFramesOfBox);
+  return bounds;
+}
+
 }  // namespace
 
-std::vector<MeasuredClip> check_file(const Bytes& file, const EncoderInput& input,
-                                     const std::vector<StoredAttribute>& stored,
-                                     uint32_t first_frame,
-                                     std::vector<AttributeResult>* attributes) {
+CheckedFile check_file(const Bytes& file, const EncoderInput& input,
+                       const std::vector<StoredAttribute>& stored, uint32_t first_frame,
+                       std::vector<AttributeResult>* attributes) {
   const Clip clip = opened(file);
-  std::vector<MeasuredClip> clips;
+  CheckedFile checked;
+  std::vector<MeasuredClip>& clips = checked.clips;
   for (const InputClip& source : input.clips) {
     MeasuredClip& measured = clips.emplace_back();
     measured.positions = compare_positions(clip, input, source.frames);
@@ -142,7 +180,9 @@ std::vector<MeasuredClip> check_file(const Bytes& file, const EncoderInput& inpu
       measured.attributes.push_back(error);
     }
   }
-  return clips;
+  for (uint32_t s = 0; s < clip.segments().size(); ++s)
+    checked.bounds.push_back(bounds_of(clip, s));
+  return checked;
 }
 
 }  // namespace anicodec

@@ -7,6 +7,7 @@
 #include "codec/file/encode_options.h"
 #include "codec/metrics/metrics.h"
 #include "codec/search/encoder_input.h"
+#include "format/bounds_record.h"
 
 #include <cstdint>
 #include <vector>
@@ -19,15 +20,20 @@ struct MeasuredClip {
   Vector<AttributeError> attributes;  ///< those that move
 };
 
+/// The file as it decodes.
+struct CheckedFile {
+  std::vector<MeasuredClip> clips;
+  std::vector<BoundsRecord> bounds;  ///< of each segment; without boxes those of attributes
+};
+
 /// Opens a file as a decoder does, plays it and compares each clip with the source: positions, and
 /// the attributes that change over time, whose errors over all clips are filled in. `first_frame`:
 /// the frame of the source that the file begins with. Throws Error(kInternal) for a file that cannot be opened, that
 /// decodes to other integers, or with an attribute further off than was asked for. Cost: that of
 /// playing all frames.
-std::vector<MeasuredClip> check_file(const Bytes& file, const EncoderInput& input,
-                                     const std::vector<StoredAttribute>& stored,
-                                     uint32_t first_frame,
-                                     std::vector<AttributeResult>* attributes);
+CheckedFile check_file(const Bytes& file, const EncoderInput& input,
+                       const std::vector<StoredAttribute>& stored, uint32_t first_frame,
+                       std::vector<AttributeResult>* attributes);
 
 }  // namespace anicodec
 

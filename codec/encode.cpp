@@ -4,6 +4,7 @@
 
 #include "codec/check_file.h"
 #include "codec/file/clip_record.h"
+#include "codec/file/metadata_json.h"
 #include "codec/file/root_motion_encode.h"
 #include "codec/search/clip_search.h"
 #include "codec/search/opening_time.h"
@@ -131,8 +132,11 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     throw Error(ErrorKind::kUsage, "lossless is what keeps the source's own positions: none that were moved before");
   if (target.metric == ErrorMetric::kNone && !options.keyframes)
     throw Error(ErrorKind::kUsage, "an error, a size, or a number of key-frames must be asked for");
-  if (options.interpolation != InterpolationChoice::kLinear && !options.keyframes &&
-      options.basis != BasisChoice::kKeyframes)
+  const InterpolationChoice interpolation = options.interpolation.value_or(InterpolationChoice::kLinear);
+  const bool searches_keyframes =
+      options.basis == BasisChoice::kAuto && interpolation == InterpolationChoice::kAuto;
+  if (interpolation != InterpolationChoice::kLinear && !options.keyframes &&
+      options.basis != BasisChoice::kKeyframes && !searches_keyframes)
     throw Error(ErrorKind::kUsage, "an interpolation can be chosen between key-frames only");
 
   std::vector<bool> closed;
@@ -192,6 +196,9 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
       throw Error(ErrorKind::kInput, "the reference pose is of another mesh");
     input.pose = options.pose;
   }
+  input.layout.has_bounds = options.bounds;
+  if (!options.metadata.empty())
+    input.layout.metadata = checked_metadata(options.metadata);
   ClipSearch search(input, stored, options, searched);
   SearchProgress steps(progress, search.expected_trials());
   input.without = options.without;
@@ -202,8 +209,9 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
 
   const Bytes file = coded.file(record, input.layout);
   std::vector<AttributeResult>& attributes = coded.attributes.results;
-  const std::vector<MeasuredClip> measured =
+  const CheckedFile checked =
       check_file(file, input, stored, options.part ? options.part->first : 0, &attributes);
+  const std::vector<MeasuredClip>& measured = checked.clips;
   EncodeResult result = result_of(measured, input);
   for (size_t c = 0; c < measured.size(); ++c) {
     const Comparison& positions = measured[c].positions;
@@ -221,6 +229,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     if (!is_kept(asked[c].target, asked[c].cap, measures))
       throw Error(ErrorKind::kInternal, "the encoded file does not keep what was asked");
   }
+  for (size_t i = 0; i < coded.positions.parts.size(); ++i)
+    coded.positions.parts[i].encoded.bounds = checked.bounds[i];
   result.file = coded.file(record, input.layout);
   result.kind = coded.positions.parts[0].encoded.sizes.kind;
   for (const CodedPart& part : coded.positions.parts) {
@@ -231,6 +241,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   result.diagonal = whole_diagonal;
   result.attributes = std::move(attributes);
   result.trials = search.trials();
+  result.search_notes = search.notes();
   return result;
 }
 

@@ -46,6 +46,7 @@ LiveEncoder::LiveEncoder(MeshSequence mesh, const EncodeOptions& options)
 void LiveEncoder::begin(const MeshSequence& sequence) {
   auto layout = std::make_shared<MeshLayout>(lay_out_mesh(sequence, no_weld(sequence.vertex_count)));
   encode_attributes(sequence, options_.attributes, layout.get());
+  options_.bounds = false;  // pieces are short, and played as they come
   options_.layout = std::move(layout);
   const double size = diagonal(sequence);
   options_.target = in_scene_units(options_.target, size);
@@ -71,12 +72,9 @@ EncodeResult LiveEncoder::encode(FrameArray positions) {
     mesh_.attributes.clear();
     return result;
   }
-  Bytes continuation = without_meshes(container_of(result.file));
-  ContainerReader reader;
-  // One that leans on no pose is no continuation, but a file with a mesh of its own.
-  if (reader.open_of_stream(continuation).ok() &&
-      with_meshes(container_of(base_), reader) == result.file)
-    result.file = std::move(continuation);
+  // A file that leans on no pose is no continuation, but one with a mesh of its own.
+  if (mesh_hash(container_of(result.file)) == mesh_hash(container_of(base_)))
+    result.file = without_meshes(container_of(result.file));
   else
     base_ = result.file;
   return result;

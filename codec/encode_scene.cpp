@@ -181,6 +181,7 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
       all.attributes.insert(all.attributes.end(), result.attributes.begin(),
                             result.attributes.end());
       all.trials.insert(all.trials.end(), result.trials.begin(), result.trials.end());
+      all.search_notes.insert(all.search_notes.end(), result.search_notes.begin(), result.search_notes.end());
       parts.push_back(
           {std::move(result), {{name, {}}, static_cast<uint16_t>(m), present_in[r].first}});
     }

@@ -8,55 +8,21 @@
 namespace anicodec {
 namespace {
 
-constexpr uint64_t kTextBytes = 64, kLookBytes = 384;
-
-/// False: a field is out of its range, or there are more looks than memory.
-bool read_looks(ByteReader& r, uint64_t most_bytes, AttributeHeader* out) {
+/// False: a field is out of its range.
+bool read_looks(ByteReader& r, AttributeHeader* out) {
   const uint8_t looks = r.u8();
   if (!r.ok() || looks > 1)
     return false;
   if (looks == 0)
     return true;
-  if (out->labels.empty() || out->labels.size() > most_bytes / kLookBytes)
+  if (out->labels.empty())
     return false;
   out->looks = Vector<MaterialLook>(out->labels.size());
   return std::all_of(out->looks.begin(), out->looks.end(),
                      [&](MaterialLook& look) { return look.read(r); });
 }
 
-}  // namespace
-
-uint32_t AttributeHeader::elements(const Limits::Mesh& mesh) const {
-  switch (domain) {
-    case AttributeDomain::kVertex:
-      return mesh.source_vertices;
-    case AttributeDomain::kCorner:
-      return mesh.corners;
-    case AttributeDomain::kPolygon:
-      break;
-  }
-  return mesh.polygons;
-}
-
-uint64_t attribute_bytes(const Vector<AttributeHeader>& attributes, const Limits::Mesh& mesh) {
-  uint64_t bytes = 0;
-  for (const AttributeHeader& a : attributes) {
-    bytes += uint64_t{4} * a.elements(mesh) * std::max(a.components(), 1U);
-    bytes += kTextBytes + a.name.size();
-    for (const String& label : a.labels)
-      bytes += kTextBytes + label.size();
-    for (const MaterialLook& look : a.looks) {
-      bytes += kLookBytes;
-      for (const String& texture : look.textures)
-        bytes += texture.size();
-    }
-  }
-  return bytes;
-}
-
-Bytes AttributeRecord::write() const {
-  ByteWriter w;
-  w.varint(attributes.size());
+void write_heads(const Vector<AttributeHeader>& attributes, ByteWriter& w) {
   for (const AttributeHeader& a : attributes) {
     w.u8(static_cast<uint8_t>(a.kind));
     w.u8(static_cast<uint8_t>(a.domain));
@@ -78,16 +44,50 @@ Bytes AttributeRecord::write() const {
       w.f64(grid.scale);
     }
   }
+}
+
+uint64_t numbers_of(const AttributeHeader& a, const Limits::Mesh& mesh) {
+  return uint64_t{a.elements(mesh)} * std::max(a.components(), 1U);
+}
+
+}  // namespace
+
+uint32_t AttributeHeader::elements(const Limits::Mesh& mesh) const {
+  switch (domain) {
+    case AttributeDomain::kVertex:
+      return mesh.source_vertices;
+    case AttributeDomain::kCorner:
+      return mesh.corners;
+    case AttributeDomain::kPolygon:
+      break;
+  }
+  return mesh.polygons;
+}
+
+void count_attributes(const Vector<AttributeHeader>& attributes, Limits::Mesh* mesh) {
+  ByteWriter w;
+  write_heads(attributes, w);
+  mesh->attributes = static_cast<uint32_t>(attributes.size());
+  mesh->attribute_head = static_cast<uint32_t>(w.size());
+  mesh->attribute_labels = 0;
+  mesh->attribute_numbers = 0;
+  for (const AttributeHeader& a : attributes) {
+    mesh->attribute_labels += static_cast<uint32_t>(a.labels.size());
+    mesh->attribute_numbers += numbers_of(a, *mesh);
+  }
+}
+
+Bytes AttributeRecord::write() const {
+  ByteWriter w;
+  write_heads(attributes, w);
   w.raw(stream);
   return std::move(w.bytes());
 }
 
-Status AttributeRecord::read(ByteView view, uint64_t most_bytes, AttributeRecord* out) {
+Status AttributeRecord::read(ByteView view, const Limits::Mesh& mesh, AttributeRecord* out) {
   ByteReader r(view);
-  const uint32_t count = r.varint32(kMaxAttributes);
-  if (!r.ok() || count == 0)
-    return Status::kRecord;
-  out->attributes.assign(count, {});
+  uint64_t labels_left = mesh.attribute_labels, numbers = 0;
+  out->attributes.assign(mesh.attributes, {});
   for (AttributeHeader& a : out->attributes) {
     const uint8_t kind = r.u8(), domain = r.u8();
     if (kind > static_cast<uint8_t>(AttributeKind::kPart) ||
@@ -100,12 +100,14 @@ Status AttributeRecord::read(ByteView view, uint64_t most_bytes, AttributeRecord
       return Status::kRecord;
     if (a.domain == AttributeDomain::kPolygon) {
       const uint64_t labels = r.varint();
-      if (!r.ok() || labels > std::min<uint64_t>(r.remaining(), most_bytes / kTextBytes))
+      if (!r.ok() || labels > std::min<uint64_t>(r.remaining(), labels_left))
         return Status::kRecord;
+      labels_left -= labels;
+      numbers += numbers_of(a, mesh);
       a.labels = Vector<String>(static_cast<size_t>(labels));
       for (String& label : a.labels)
         label = r.text();
-      if (a.kind == AttributeKind::kMaterial && !read_looks(r, most_bytes, &a))
+      if (a.kind == AttributeKind::kMaterial && !read_looks(r, &a))
         return Status::kRecord;
       continue;
     }
@@ -119,9 +121,12 @@ Status AttributeRecord::read(ByteView view, uint64_t most_bytes, AttributeRecord
       if (r.ok() && !(std::isfinite(grid.origin) && std::isfinite(grid.scale) && grid.scale > 0))
         return Status::kQuantizer;
     }
+    numbers += numbers_of(a, mesh);
   }
+  const bool announced = labels_left == 0 && numbers == mesh.attribute_numbers &&
+                         r.position() == mesh.attribute_head;
   out->stream = r.raw(r.remaining());
-  return r.ok() ? Status::kOk : Status::kRecord;
+  return r.ok() && announced ? Status::kOk : Status::kRecord;
 }
 
 }  // namespace anicodec

@@ -51,18 +51,22 @@ struct AttributeHeader {
   uint32_t elements(const Limits::Mesh& mesh) const;
 };
 
-/// Bytes that the attributes of a mesh keep in memory, for Limits::Mesh::attribute_bytes: 4 for each
-/// number, label or shared value of an element, 64 and its length for each text, 384 and the lengths of
-/// its textures for each look.
-uint64_t attribute_bytes(const Vector<AttributeHeader>& attributes, const Limits::Mesh& mesh);
+/// Sets what the limits say of the attributes of a mesh, whose other counts are there.
+void count_attributes(const Vector<AttributeHeader>& attributes, Limits::Mesh* mesh);
+
+/// Bytes that the attributes of a mesh keep in memory, at most (spec/11-limits.md, section 3).
+inline uint64_t attribute_bytes(const Limits::Mesh& mesh) {
+  return 4 * mesh.attribute_numbers + uint64_t{2} * mesh.attribute_head +
+         512 * uint64_t{mesh.attributes} + 256 * uint64_t{mesh.attribute_labels};
+}
 
 struct AttributeRecord {
   Vector<AttributeHeader> attributes;
   ByteView stream;  ///< entropy-coded values of all, one after the other
 
   Bytes write() const;
-  /// `most_bytes`: of memory that the limits announce for the attributes.
-  static Status read(ByteView view, uint64_t most_bytes, AttributeRecord* out);
+  /// kRecord where the attributes are not those that the limits of their mesh announce, too.
+  static Status read(ByteView view, const Limits::Mesh& mesh, AttributeRecord* out);
 };
 
 }  // namespace anicodec

@@ -6,6 +6,7 @@
 #include "format/sort.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -16,7 +17,31 @@ namespace {
 constexpr size_t kChecksumAt = 32;
 constexpr size_t kTableBytesAt = 36;
 // Flags of an entry.
-constexpr uint8_t kRequired = 1, kOfMesh = 2, kOfSegment = 4;
+constexpr uint8_t kRequired = 1, kOfMesh = 2, kOfSegment = 4, kCopied = 8;
+
+constexpr uint64_t kKnownFeatures = kContinuation | kDracoFeature | kMsgiFeature;
+
+/// What a failure says of each feature that is not known.
+constexpr auto kUnknownFeature = [] {
+  constexpr char kText[] = "the file needs feature 00, which this decoder does not know";
+  constexpr size_t kNumberAt = 23;
+  std::array<std::array<char, sizeof kText>, 64> texts{};
+  for (size_t bit = 0; bit < texts.size(); ++bit) {
+    for (size_t i = 0; i < sizeof kText; ++i)
+      texts[bit][i] = kText[i];
+    texts[bit][kNumberAt] = static_cast<char>('0' + bit / 10);
+    texts[bit][kNumberAt + 1] = static_cast<char>('0' + bit % 10);
+  }
+  return texts;
+}();
+
+/// The number of the lowest bit that is set; there is one.
+size_t lowest_bit(uint64_t bits) {
+  size_t bit = 0;
+  while (!(bits >> bit & 1))
+    ++bit;
+  return bit;
+}
 
 uint32_t low32(uint64_t hash) {
   return static_cast<uint32_t>(hash);
@@ -40,6 +65,18 @@ void ContainerWriter::add(const char (&type)[5], bool required, uint16_t mesh, u
   Chunk chunk;
   chunk.type = chunk_type(type);
   chunk.required = required;
+  add(chunk, mesh, segment, std::move(payload));
+}
+
+void ContainerWriter::add_copied(const char (&type)[5], uint16_t mesh, uint32_t segment, Bytes payload) {
+  Chunk chunk;
+  chunk.type = chunk_type(type);
+  chunk.copied = true;
+  add(chunk, mesh, segment, std::move(payload));
+}
+
+void ContainerWriter::add(const Chunk& like, uint16_t mesh, uint32_t segment, Bytes payload) {
+  Chunk chunk = like;
   chunk.mesh = mesh;
   chunk.segment = segment;
   chunk.checksum = low32(xxh64(payload));
@@ -56,7 +93,7 @@ Bytes container_head(const Vector<Chunk>& chunks, uint64_t features) {
     table.u32(chunk.type);
     table.u32(chunk.checksum);
     table.u8(static_cast<uint8_t>((chunk.required ? kRequired : 0) | (of_mesh ? kOfMesh : 0) |
-                                  (of_segment ? kOfSegment : 0)));
+                                  (of_segment ? kOfSegment : 0) | (chunk.copied ? kCopied : 0)));
     if (of_mesh)
       table.varint(chunk.mesh);
     if (of_segment)
@@ -80,8 +117,8 @@ Bytes container_head(const Vector<Chunk>& chunks, uint64_t features) {
   return std::move(file.bytes());
 }
 
-Bytes ContainerWriter::finish() const {
-  Bytes file = container_head(chunks_, 0);
+Bytes ContainerWriter::finish(uint64_t features) const {
+  Bytes file = container_head(chunks_, features);
   for (const Bytes& payload : payloads_)
     file.insert(file.end(), payload.begin(), payload.end());
   return file;
@@ -118,7 +155,7 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   header.u32();  // of the table, see head_bytes()
   if (!header.ok())
     return failure(Status::kTruncated, file.size, "the file ends inside the header");
-  if (major != kVersionMajor || minor != kVersionMinor)
+  if (!reads_version(major, minor))
     return failure(Status::kVersion, 8, "the file is of another format version");
   uint64_t table_end = head_bytes(file);
   if (table_end > file.size)
@@ -128,11 +165,10 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   std::fill_n(covered.begin() + kChecksumAt, 4, uint8_t{0});
   if (low32(xxh64(covered)) != checksum)
     return failure(Status::kHeaderChecksum, kChecksumAt, "header and table are damaged");
-  if (features & ~(extent == Extent::kOfStream ? kContinuation : 0))
-    return failure(Status::kFeature, 16,
-                   features == kContinuation
-                       ? "the file continues another one, which has its meshes"
-                       : "the file needs a feature this reader does not have");
+  if (const uint64_t unknown = features & ~kKnownFeatures; unknown != 0)
+    return failure(Status::kFeature, 16, kUnknownFeature[lowest_bit(unknown)].data());
+  if ((features & kContinuation) && extent != Extent::kOfStream)
+    return failure(Status::kFeature, 16, "the file continues another one, which has its meshes");
   if (size > file.size && extent == Extent::kWhole)
     return failure(Status::kTruncated, file.size, "the file is shorter than its header says");
   if (size < file.size && extent != Extent::kOfStream)
@@ -150,6 +186,7 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
     chunk.checksum = table.u32();
     const uint8_t flags = table.u8();
     chunk.required = flags & kRequired;
+    chunk.copied = flags & kCopied;
     if (flags & kOfMesh)
       chunk.mesh = static_cast<uint16_t>(table.varint32(kNoMesh - 1));
     if (flags & kOfSegment)
@@ -157,7 +194,7 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
     chunk.size = table.varint();
     if (!table.ok())
       return failure(Status::kHeader, entry, "an entry of the table is damaged", chunk.type);
-    if (flags & ~(kRequired | kOfMesh | kOfSegment))
+    if (flags & ~(kRequired | kOfMesh | kOfSegment | kCopied))
       return failure(Status::kHeader, entry + 8, "a reserved chunk flag is set", chunk.type);
     chunk.offset = at;
     if (at > size || chunk.size > size - at)
@@ -174,6 +211,8 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   sort_by_key();
   file_ = file;
   file_size_ = size;
+  version_major_ = major;
+  version_minor_ = minor;
   features_ = features;
   return {};
 }

@@ -22,8 +22,15 @@ inline constexpr uint16_t kVersionMinor = 9;
 inline constexpr size_t kHeaderBytes = 40;
 inline constexpr size_t kLeastEntryBytes = 10;  // without mesh and segment, of a short payload
 
-/// Feature bit: the meshes are those of a file before it in a live stream (spec/05, section 8).
-inline constexpr uint64_t kContinuation = 1;
+/// Features, as bits of the header (spec/13-extending.md, section 2). The meshes of a continuation are
+/// those of a file before it in a live stream; the other two are the optional profile.
+inline constexpr uint64_t kContinuation = 1, kDracoFeature = 2, kMsgiFeature = 4;
+
+/// Whether this library reads files of a version: drafts (0.x) of its own alone, from 1.0 on every minor
+/// version (spec/13-extending.md, section 1).
+constexpr bool reads_version(uint16_t major, uint16_t minor) {
+  return major == kVersionMajor && (major > 0 || minor == kVersionMinor);
+}
 
 /// Chunk types are four ASCII characters, the first one in the lowest byte.
 constexpr uint32_t chunk_type(const char (&name)[5]) {
@@ -42,6 +49,7 @@ inline constexpr uint32_t kNoSegment = 0xFFFFFFFF;
 struct Chunk {
   uint32_t type = 0;
   bool required = false;          ///< a reader that does not know the type refuses the file
+  bool copied = false;            ///< an editor that does not know the type keeps it, whatever it changes
   uint16_t mesh = kNoMesh;        ///< the mesh it belongs to
   uint32_t segment = kNoSegment;  ///< the segment it belongs to
   uint32_t checksum = 0;          ///< low 32 bits of XXH64 of the payload
@@ -67,8 +75,14 @@ class ContainerWriter {
  public:
   void add(const char (&type)[5], bool required, uint16_t mesh, uint32_t segment, Bytes payload);
 
+  /// A chunk that is not required, and that editors keep.
+  void add_copied(const char (&type)[5], uint16_t mesh, uint32_t segment, Bytes payload);
+
+  /// A chunk of another file, of this mesh and segment in this one.
+  void add(const Chunk& chunk, uint16_t mesh, uint32_t segment, Bytes payload);
+
   /// The whole file. Deterministic.
-  Bytes finish() const;
+  Bytes finish(uint64_t features = 0) const;
 
  private:
   Vector<Chunk> chunks_;
@@ -121,12 +135,15 @@ class ContainerReader {
   /// The payload after checking its checksum; kTruncated when it is not there.
   Failure payload(const Chunk& chunk, ByteView* out) const;
 
-  uint16_t version_major() const { return kVersionMajor; }
+  uint16_t version_major() const { return version_major_; }
 
-  uint16_t version_minor() const { return kVersionMinor; }
+  uint16_t version_minor() const { return version_minor_; }
 
   /// The fields of the header.
   uint64_t file_size() const { return file_size_; }
+
+  /// Features that the file needs, all known; a decoder may lack some.
+  uint64_t features() const { return features_; }
 
   bool is_continuation() const { return (features_ & kContinuation) != 0; }
 
@@ -142,6 +159,7 @@ class ContainerReader {
 
   ByteView file_;
   uint64_t file_size_ = 0;
+  uint16_t version_major_ = 0, version_minor_ = 0;
   Vector<Chunk> chunks_;
   Vector<uint32_t> by_key_;
   uint64_t features_ = 0;

@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/continuation.h"
 
+#include "format/checksum.h"
+#include "format/records.h"
+
 namespace anicodec {
 namespace {
 
@@ -22,10 +25,20 @@ struct Spliced {
     }
   }
 
-  Bytes bytes(uint64_t features) const {
+  /// `limits`: in place of the chunk LIMI; empty: as it is.
+  Bytes bytes(uint64_t features, const Bytes& limits = {}) {
+    const auto is_replaced = [&](const Chunk& chunk) {
+      return !limits.empty() && chunk.type == chunk_type("LIMI");
+    };
+    for (Chunk& chunk : chunks) {
+      if (is_replaced(chunk)) {
+        chunk.size = limits.size();
+        chunk.checksum = static_cast<uint32_t>(xxh64(limits));
+      }
+    }
     Bytes out = container_head(chunks, features);
     for (size_t i = 0; i < chunks.size(); ++i) {
-      const ByteView payload = files[i]->unchecked(chunks[i]);
+      const ByteView payload = is_replaced(chunks[i]) ? ByteView(limits) : files[i]->unchecked(chunks[i]);
       out.insert(out.end(), payload.data, payload.data + payload.size);
     }
     return out;
@@ -34,10 +47,26 @@ struct Spliced {
 
 }  // namespace
 
+uint64_t mesh_hash(const ContainerReader& file) {
+  ByteWriter meshes;
+  for (const Chunk& chunk : file.chunks()) {
+    if (!is_of_mesh(chunk))
+      continue;
+    meshes.u32(chunk.type);
+    meshes.u32(chunk.mesh);
+    meshes.u64(xxh64(file.unchecked(chunk)));
+  }
+  return xxh64(meshes.bytes());
+}
+
 Bytes without_meshes(const ContainerReader& file) {
   Spliced out;
   out.add_if(file, false);
-  return out.bytes(kContinuation);
+  Limits limits;
+  if (const Chunk* chunk = file.find("LIMI"))
+    Limits::read(file.unchecked(*chunk), &limits);
+  limits.continued_meshes = mesh_hash(file);
+  return out.bytes(file.features() | kContinuation, limits.write());
 }
 
 Bytes with_meshes(const ContainerReader& before, const ContainerReader& continuation) {
@@ -49,7 +78,7 @@ Bytes with_meshes(const ContainerReader& before, const ContainerReader& continua
   out.add_if(before, true);
   for (; next < chunks.size(); ++next)
     out.add(continuation, chunks[next]);
-  return out.bytes(0);
+  return out.bytes(continuation.features() & ~kContinuation);
 }
 
 }  // namespace anicodec

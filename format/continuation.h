@@ -10,11 +10,15 @@
 
 namespace anicodec {
 
-/// The continuation that a file becomes behind one with the same meshes.
+/// Identifies the meshes of a file: XXH64 over the type, the mesh and the XXH64 of the payload of each chunk that
+/// belongs to a mesh and to no segment, in the order of the file. All payloads are there. O(bytes of the meshes).
+uint64_t mesh_hash(const ContainerReader& file);
+
+/// Drops the meshes of a file, which then continues a file with the same meshes. @pre the limits of `file` are valid
 Bytes without_meshes(const ContainerReader& file);
 
-/// The file that a continuation is with the meshes of the file before it. Both are complete; nothing is checked but where
-/// chunks are. ContainerReader::add_meshes() does without the file. O(bytes).
+/// Returns the complete file that a continuation stands for: its own chunks and the mesh chunks of `before`. Both files
+/// are there in full; only places of chunks are checked. ContainerReader::add_meshes() does without the file. O(bytes).
 Bytes with_meshes(const ContainerReader& before, const ContainerReader& continuation);
 
 }  // namespace anicodec

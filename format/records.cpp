@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/records.h"
 
+#include "format/container.h"
+#include "format/record_fields.h"
 #include "format/sort.h"
 
 #include <algorithm>
@@ -15,16 +17,12 @@ namespace {
 constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 16,
                   kAttributeErrors = 32, kEvents = 64;
 
-/// In the limits: key-frames, the frames between them by MSGI.
-constexpr uint8_t kMsgiKind = 16;
-/// In the limits, added to a kind: the segment is of an attribute.
-constexpr uint8_t kAttributeKind = 32;
-/// In the limits, added to a kind: exact positions follow.
-constexpr uint8_t kExactKind = 64;
-/// In the limits, added to eigentrajectories of positions: the segment has regions.
-constexpr uint8_t kRegionsKind = 128;
-constexpr uint64_t kMaxMsgiBytes = uint64_t{1} << 48;
-constexpr uint64_t kMaxAttributeBytes = uint64_t{1} << 48;
+/// Optional fields of the limits.
+constexpr uint32_t kContinuedMeshes = 1;
+
+/// Flags of a segment in the limits.
+constexpr uint8_t kExact = 1, kRegions = 2, kOfAttribute = 4, kDraco = 8;
+constexpr uint64_t kMaxAttributeNumbers = uint64_t{1} << 46;
 
 bool is_length(double x) {
   return std::isfinite(x) && x >= 0;
@@ -34,9 +32,117 @@ Status finished(const ByteReader& reader) {
   return reader.finished() ? Status::kOk : Status::kRecord;
 }
 
-bool has_attributes(const Vector<Limits::Mesh>& meshes) {
-  return std::any_of(meshes.begin(), meshes.end(),
-                     [](const Limits::Mesh& m) { return m.attribute_bytes > 0; });
+bool is_of_attribute(const Limits::Segment& s) {
+  return s.attribute != kPositions;
+}
+
+/// Whether the format has segments like this: what is not listed here has no meaning yet.
+bool is_supported(uint8_t basis, uint8_t reconstruction, uint8_t flags) {
+  const auto is = [](uint8_t field, auto value) { return field == static_cast<uint8_t>(value); };
+  const bool keyframes = is(basis, BasisKind::kKeyframes);
+  const bool trajectories = is(basis, BasisKind::kEigentrajectories);
+  return basis <= static_cast<uint8_t>(BasisKind::kEigentrajectories) &&
+         (is(reconstruction, Reconstruction::kLinear) ||
+          (is(reconstruction, Reconstruction::kMsgi) && keyframes)) &&
+         !(flags & ~(kExact | kRegions | kOfAttribute | kDraco)) &&
+         (!(flags & kRegions) || trajectories) && (!(flags & kDraco) || keyframes) &&
+         (!(flags & kOfAttribute) || (trajectories && flags == kOfAttribute));
+}
+
+void write_mesh(const Limits::Mesh& m, ByteWriter& w) {
+  for (uint32_t x : {m.source_vertices, m.coded_vertices, m.triangles, m.polygons, m.corners,
+                     m.attributes})
+    w.varint(x);
+  if (m.attributes > 0) {
+    w.varint(m.attribute_labels);
+    w.varint(m.attribute_head);
+    w.varint(m.attribute_numbers);
+  }
+}
+
+Status read_mesh(ByteReader& r, Limits::Mesh* m) {
+  constexpr uint32_t kLeastHead = 4;  // of an attribute
+  for (uint32_t* x : {&m->source_vertices, &m->coded_vertices, &m->triangles, &m->polygons})
+    *x = r.varint32(kMaxVertices);
+  m->corners = r.varint32();
+  m->attributes = r.varint32(kMaxAttributes);
+  if (m->attributes > 0) {
+    m->attribute_labels = r.varint32();
+    m->attribute_head = r.varint32();
+    m->attribute_numbers = r.varint(kMaxAttributeNumbers);
+  }
+  const bool ok = r.ok() && m->triangles <= kMaxTriangles && m->source_vertices > 0 &&
+                  m->coded_vertices > 0 && m->coded_vertices <= m->source_vertices &&
+                  m->attribute_head / kLeastHead >= m->attributes &&
+                  m->attribute_head >= m->attribute_labels;
+  return ok ? Status::kOk : Status::kRecord;
+}
+
+void write_segment(const Limits::Segment& s, ByteWriter& w) {
+  w.varint(s.mesh);
+  w.u8(static_cast<uint8_t>(s.kind));
+  w.u8(static_cast<uint8_t>(s.reconstruction));
+  w.u8(static_cast<uint8_t>((s.exact ? kExact : 0) | (s.regions > 1 ? kRegions : 0) |
+                            (is_of_attribute(s) ? kOfAttribute : 0) |
+                            (s.draco_bytes > 0 ? kDraco : 0)));
+  for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
+    w.varint(x);
+  if (s.regions > 1)
+    w.varint(s.regions);
+  if (is_of_attribute(s)) {
+    w.varint(s.attribute);
+    w.varint(s.first_component / 3);
+  }
+  if (s.draco_bytes > 0) {
+    w.varint(s.draco_bytes);
+    w.varint(s.draco_points);
+  }
+}
+
+/// Reads the optional fields at the end. False: one is malformed.
+bool read_limit_fields(ByteReader& r, Limits* out) {
+  out->continued_meshes.reset();
+  RecordField field;
+  while (read_field(r, &field)) {
+    if (field.tag != kContinuedMeshes)
+      continue;
+    if (field.value.size != sizeof(uint64_t))
+      return false;
+    out->continued_meshes = ByteReader(field.value).u64();
+  }
+  return r.finished();
+}
+
+/// Reads a segment of a file of so many meshes and frames.
+Status read_segment(ByteReader& r, size_t meshes, uint32_t frames, Limits::Segment* s) {
+  s->mesh = static_cast<uint16_t>(r.varint32(static_cast<uint32_t>(meshes) - 1));
+  const uint8_t basis = r.u8(), reconstruction = r.u8(), flags = r.u8();
+  if (!r.ok())
+    return Status::kRecord;
+  if (!is_supported(basis, reconstruction, flags))
+    return Status::kFeature;
+  s->kind = static_cast<BasisKind>(basis);
+  s->reconstruction = static_cast<Reconstruction>(reconstruction);
+  s->exact = flags & kExact;
+  s->first_frame = r.varint32(kMaxFrames);
+  s->frames = r.varint32(kMaxFrames);
+  s->components = r.varint32(kMaxComponents);
+  s->wide_components = r.varint32(s->components);
+  s->corrections = r.varint32();
+  if (flags & kRegions)
+    s->regions = r.varint32(kMaxRegions);
+  if (flags & kOfAttribute) {
+    s->attribute = r.varint32(kMaxAttributes - 1);
+    s->first_component = 3 * r.varint32((kMaxAttributeComponents - 1) / 3);
+  }
+  if (flags & kDraco) {
+    s->draco_bytes = r.varint32();
+    s->draco_points = r.varint32();
+  }
+  const bool ok = r.ok() && !((flags & kRegions) && s->regions < 2) &&
+                  !((flags & kDraco) && (s->draco_bytes == 0 || s->draco_points == 0)) &&
+                  s->frames > 0 && s->first_frame < frames && s->frames <= frames - s->first_frame;
+  return ok ? Status::kOk : Status::kRecord;
 }
 
 }  // namespace
@@ -44,7 +150,8 @@ bool has_attributes(const Vector<Limits::Mesh>& meshes) {
 bool Limits::Mesh::operator==(const Mesh& other) const {
   return source_vertices == other.source_vertices && coded_vertices == other.coded_vertices &&
          triangles == other.triangles && polygons == other.polygons && corners == other.corners &&
-         attribute_bytes == other.attribute_bytes;
+         attributes == other.attributes && attribute_labels == other.attribute_labels &&
+         attribute_head == other.attribute_head && attribute_numbers == other.attribute_numbers;
 }
 
 Bytes Limits::write() const {
@@ -56,41 +163,16 @@ Bytes Limits::write() const {
     w.varint(frames);
   for (uint32_t count : clip_frames)
     w.varint(count);
-  for (const Mesh& m : meshes) {
-    for (uint32_t x : {m.source_vertices, m.coded_vertices, m.triangles, m.polygons, m.corners})
-      w.varint(x);
+  for (const Mesh& m : meshes)
+    write_mesh(m, w);
+  for (const Segment& s : segments)
+    write_segment(s, w);
+  w.varint(root_frames);
+  if (continued_meshes) {
+    ByteWriter value;
+    value.u64(*continued_meshes);
+    write_field(w, kContinuedMeshes, value.bytes());
   }
-  for (const Segment& s : segments) {
-    w.varint(s.mesh);
-    const bool msgi = s.reconstruction == Reconstruction::kMsgi;
-    const bool of_attribute = s.attribute != kPositions;
-    w.u8(static_cast<uint8_t>(static_cast<uint8_t>(s.kind) | (msgi ? kMsgiKind : 0) |
-                              (of_attribute ? kAttributeKind : 0) | (s.exact ? kExactKind : 0) |
-                              (s.regions > 1 ? kRegionsKind : 0)));
-    for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
-      w.varint(x);
-    if (s.kind == BasisKind::kKeyframes) {
-      w.varint(s.draco_bytes);
-      if (s.draco_bytes > 0)
-        w.varint(s.draco_points);
-    }
-    if (msgi) {
-      w.varint(s.msgi_bytes);
-      w.varint(s.msgi_frame_bytes);
-    }
-    if (of_attribute) {
-      w.varint(s.attribute);
-      w.varint(s.first_component / 3);
-    }
-    if (s.regions > 1)
-      w.varint(s.regions);
-  }
-  if (has_attributes(meshes) || root_frames > 0) {
-    for (const Mesh& m : meshes)
-      w.varint(m.attribute_bytes);
-  }
-  if (root_frames > 0)
-    w.varint(root_frames);
   return std::move(w.bytes());
 }
 
@@ -99,10 +181,10 @@ Status Limits::read(ByteView view, Limits* out) {
   uint32_t clip_count = r.varint32(kMaxFrames);
   uint32_t mesh_count = r.varint32(kMaxMeshes);
   uint32_t segment_count = r.varint32(kMaxFrames);
-  // A clip takes at least a byte, a mesh 5, a segment 7: no allocation beyond what the chunk can
+  // A clip takes at least a byte, a mesh 6, a segment 9: no allocation beyond what the chunk can
   // hold.
-  if (!r.ok() || clip_count > r.remaining() || mesh_count > r.remaining() / 5 ||
-      segment_count > r.remaining() / 7)
+  if (!r.ok() || clip_count > r.remaining() || mesh_count > r.remaining() / 6 ||
+      segment_count > r.remaining() / 9)
     return Status::kRecord;
   if (clip_count == 0 || mesh_count == 0 || segment_count == 0)
     return Status::kRecord;
@@ -117,66 +199,16 @@ Status Limits::read(ByteView view, Limits* out) {
   out->meshes.assign(mesh_count, {});
   out->segments.assign(segment_count, {});
   for (Mesh& m : out->meshes) {
-    for (uint32_t* x : {&m.source_vertices, &m.coded_vertices, &m.triangles, &m.polygons})
-      *x = r.varint32(kMaxVertices);
-    m.corners = r.varint32();
-    if (m.triangles > kMaxTriangles || m.source_vertices == 0 || m.coded_vertices == 0 ||
-        m.coded_vertices > m.source_vertices)
-      return Status::kRecord;
+    if (Status s = read_mesh(r, &m); s != Status::kOk)
+      return s;
   }
   for (Segment& s : out->segments) {
-    s.mesh = static_cast<uint16_t>(r.varint32(mesh_count - 1));
-    uint8_t kind = r.u8();
-    const bool of_attribute = kind & kAttributeKind;
-    s.exact = kind & kExactKind;
-    const bool has_regions = kind & kRegionsKind;
-    kind = static_cast<uint8_t>(kind & ~(kAttributeKind | kExactKind | kRegionsKind));
-    constexpr auto kTrajectories = static_cast<uint8_t>(BasisKind::kEigentrajectories);
-    if ((kind > kTrajectories && (kind != kMsgiKind || of_attribute)) || (s.exact && of_attribute) ||
-        (has_regions && (of_attribute || kind != kTrajectories)))
-      return r.ok() ? Status::kFeature : Status::kRecord;
-    if (kind == kMsgiKind)
-      s.reconstruction = Reconstruction::kMsgi;
-    else
-      s.kind = static_cast<BasisKind>(kind);
-    s.first_frame = r.varint32(kMaxFrames);
-    s.frames = r.varint32(kMaxFrames);
-    s.components = r.varint32(kMaxComponents);
-    s.wide_components = r.varint32(s.components);
-    s.corrections = r.varint32();
-    if (s.kind == BasisKind::kKeyframes) {
-      s.draco_bytes = r.varint32();
-      if (s.draco_bytes > 0) {
-        s.draco_points = r.varint32();
-        if (s.draco_points == 0)
-          return Status::kRecord;
-      }
-    }
-    if (s.reconstruction == Reconstruction::kMsgi) {
-      s.msgi_bytes = r.varint(kMaxMsgiBytes);
-      s.msgi_frame_bytes = r.varint(kMaxMsgiBytes);
-    }
-    if (of_attribute) {
-      s.attribute = r.varint32(kMaxAttributes - 1);
-      s.first_component = 3 * r.varint32((kMaxAttributeComponents - 1) / 3);
-    }
-    if (has_regions) {
-      s.regions = r.varint32(kMaxRegions);
-      if (s.regions < 2)
-        return Status::kRecord;
-    }
-    if (s.frames == 0 || s.first_frame >= out->frames || s.frames > out->frames - s.first_frame)
-      return Status::kRecord;
+    if (Status status = read_segment(r, mesh_count, out->frames, &s); status != Status::kOk)
+      return status;
   }
-  if (r.remaining() > 0) {
-    for (Mesh& m : out->meshes)
-      m.attribute_bytes = r.varint(kMaxAttributeBytes);
-    const bool has_root = r.remaining() > 0;
-    if (has_root)
-      out->root_frames = r.varint32(out->frames);
-    if (has_root ? out->root_frames == 0 : !has_attributes(out->meshes))
-      return Status::kRecord;
-  }
+  out->root_frames = r.varint32(out->frames);
+  if (!read_limit_fields(r, out))
+    return Status::kRecord;
   const Vector<uint32_t> order = out->segments_by_frame();
   for (size_t i = 1; i < order.size(); ++i) {
     const Segment &a = out->segments[order[i - 1]], &b = out->segments[order[i]];
@@ -184,10 +216,18 @@ Status Limits::read(ByteView view, Limits* out) {
       return Status::kRecord;
   }
   for (const Segment& s : out->segments) {
-    if (s.attribute != kPositions && out->meshes[s.mesh].attribute_bytes == 0)
+    if (is_of_attribute(s) && s.attribute >= out->meshes[s.mesh].attributes)
       return Status::kRecord;
   }
-  return finished(r);
+  return Status::kOk;
+}
+
+uint64_t Limits::features() const {
+  uint64_t features = 0;
+  for (const Segment& s : segments)
+    features |= (s.draco_bytes > 0 ? kDracoFeature : 0) |
+                (s.reconstruction == Reconstruction::kMsgi ? kMsgiFeature : 0);
+  return features;
 }
 
 Vector<uint32_t> Limits::segments_by_frame() const {
@@ -386,7 +426,7 @@ Status ClipsRecord::read(ByteView view, const Limits& limits, ClipsRecord* out) 
       return Status::kRecord;
   }
   out->place();
-  return finished(r);
+  return skip_fields(r) ? Status::kOk : Status::kRecord;
 }
 
 Bytes MeshRecord::write() const {
@@ -426,8 +466,6 @@ Status PoseRecord::read(ByteView view, PoseRecord* out) {
 
 Bytes SegmentRecord::write() const {
   ByteWriter w;
-  w.u8(static_cast<uint8_t>(kind));
-  w.u8(static_cast<uint8_t>(reconstruction));
   w.u64(hash);
   for (ByteView part : {parameters, pose, motion, weights})
     w.block(part);
@@ -436,18 +474,10 @@ Bytes SegmentRecord::write() const {
 
 Status SegmentRecord::read(ByteView view, SegmentRecord* out) {
   ByteReader r(view);
-  uint8_t kind = r.u8(), reconstruction = r.u8();
-  if (r.ok() && (kind > static_cast<uint8_t>(BasisKind::kEigentrajectories) ||
-                 reconstruction > static_cast<uint8_t>(Reconstruction::kMsgi)))
-    return Status::kFeature;
-  if (reconstruction != 0 && kind != static_cast<uint8_t>(BasisKind::kKeyframes))
-    return Status::kRecord;
-  out->kind = static_cast<BasisKind>(kind);
-  out->reconstruction = static_cast<Reconstruction>(reconstruction);
   out->hash = r.u64();
   for (ByteView* part : {&out->parameters, &out->pose, &out->motion, &out->weights})
     *part = r.block();
-  return finished(r);
+  return skip_fields(r) ? Status::kOk : Status::kRecord;
 }
 
 }  // namespace anicodec

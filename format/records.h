@@ -11,6 +11,7 @@
 #include "format/status.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace anicodec {
 
@@ -28,9 +29,6 @@ inline constexpr uint32_t kPositions = UINT32_MAX;
 
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
 
-/// How key-frames are coded.
-enum class CoderId : uint8_t { kNative = 0, kDraco = 1 };
-
 /// How a frame is made from key-frames: on straight lines, or by multi-scale geometry
 /// interpolation.
 enum class Reconstruction : uint8_t { kLinear = 0, kMsgi = 1 };
@@ -43,7 +41,10 @@ struct Limits {
     uint32_t triangles = 0;        ///< of the coded faces
     uint32_t polygons = 0;         ///< what the user gets back
     uint32_t corners = 0;          ///< of those polygons
-    uint64_t attribute_bytes = 0;  ///< that static attributes keep in memory
+    uint32_t attributes = 0;         ///< 0: no chunk ATTR
+    uint32_t attribute_labels = 0;   ///< of all attributes of polygons together
+    uint32_t attribute_head = 0;     ///< bytes of ATTR that describe the attributes, before the values
+    uint64_t attribute_numbers = 0;  ///< values, labels or shared values of all elements of all attributes
 
     bool operator==(const Mesh& other) const;
   };
@@ -58,10 +59,8 @@ struct Limits {
     uint32_t regions = 1;          ///< of the surface, each with time weights of its own
     uint32_t corrections = 0;      ///< of vertices, copies included, over all frames
     uint32_t draco_points = 0;     ///< key-frames by Draco: vertices, non-manifold ones split
-    uint32_t draco_bytes = 0;      ///< of the Draco bitstream; 0: there is none
+    uint32_t draco_bytes = 0;      ///< of the Draco bitstream; 0: the key-frames are native
     Reconstruction reconstruction = Reconstruction::kLinear;
-    uint64_t msgi_bytes = 0;        ///< kMsgi: what it keeps beside the coefficients, at most
-    uint64_t msgi_frame_bytes = 0;  ///< kMsgi: memory that a frame is made in
     bool exact = false;  ///< the positions of its frames are there bit for bit (ExactRecord)
     /// The quantity that it moves: positions, or three components of an attribute, in number from
     /// first_component on, a multiple of three.
@@ -80,9 +79,14 @@ struct Limits {
   Vector<Mesh> meshes;
   Vector<Segment> segments;
   uint32_t root_frames = 0;  ///< of the clips whose motion as a whole is apart (RootRecord)
+  /// mesh_hash() of the file that a continuation follows.
+  std::optional<uint64_t> continued_meshes;
 
   /// The frames first .. first + count - 1, cut where a clip ends: how many frames each piece has.
   Vector<uint32_t> runs(uint32_t first, uint32_t count) const;
+
+  /// The features that a file of such segments needs, as bits of the header (spec/13-extending.md).
+  uint64_t features() const;
 
   /// Numbers of the segments, ascending by first frame among those of one mesh, or attribute of it.
   /// The meshes come first, then the attributes, both ascending. O(segments log segments).
@@ -187,8 +191,6 @@ struct PoseRecord {
 
 /// Chunk SEGM: one range of frames of one mesh.
 struct SegmentRecord {
-  BasisKind kind = BasisKind::kKeyframes;
-  Reconstruction reconstruction = Reconstruction::kLinear;
   uint64_t hash = 0;    ///< IntegerHash of the segment's decoded integers
   ByteView parameters;  ///< of the kind
   ByteView pose;        ///< key-frames

@@ -24,8 +24,6 @@ const char* status_string(Status status) {
       return "unsupported format version";
     case Status::kFeature:
       return "unsupported required feature";
-    case Status::kCoder:
-      return "unsupported coder";
     case Status::kTruncated:
       return "file is truncated";
     case Status::kHeader:
@@ -66,6 +64,8 @@ const char* status_string(Status status) {
       return "inconsistent segment";
     case Status::kHash:
       return "decoded integers do not match the stored hash";
+    case Status::kMeshes:
+      return "the file continues a file with other meshes";
     case Status::kLimit:
       return "file exceeds the caller's limits";
     case Status::kMemory:

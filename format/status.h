@@ -22,7 +22,6 @@ enum class Status : int32_t {
   kMagic = 10,
   kVersion = 11,
   kFeature = 12,
-  kCoder = 13,
   // 20-39: container
   kTruncated = 20,
   kHeader = 21,
@@ -45,6 +44,7 @@ enum class Status : int32_t {
   kDraco = 47,
   kSegment = 48,
   kHash = 49,
+  kMeshes = 50,
   // 60-69: limits
   kLimit = 60,
   // 70-79: the host: memory, callbacks

@@ -79,10 +79,11 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
                                     BasisChoice::kEigenshapes, BasisChoice::kEigentrajectories};
   constexpr KeyframeMethod kMethods[] = {KeyframeMethod::kPivot, KeyframeMethod::kGas,
                                          KeyframeMethod::kUniform};
-  constexpr InterpolationChoice kInterpolations[] = {
-      InterpolationChoice::kLinear, InterpolationChoice::kMsgi, InterpolationChoice::kAuto};
-  constexpr std::optional<KeyframePoses> kPoses[] = {std::nullopt, KeyframePoses::kDraco,
-                                                     KeyframePoses::kNative, KeyframePoses::kAuto};
+  constexpr std::optional<InterpolationChoice> kInterpolations[] = {
+      std::nullopt, InterpolationChoice::kLinear, InterpolationChoice::kMsgi,
+      InterpolationChoice::kAuto};
+  constexpr KeyframePoses kPoses[] = {KeyframePoses::kNative, KeyframePoses::kDraco,
+                                      KeyframePoses::kAuto};
   constexpr OrderMode kOrders[] = {OrderMode::kVertices, OrderMode::kFree, OrderMode::kAll};
   options.basis = chosen(host.basis, kBases, "basis");
   if (host.keyframes > 0) {
@@ -96,6 +97,8 @@ void set_method(const anic_encode_options& host, EncodeOptions& options) {
   options.keyframe_poses = chosen(host.keyframe_coder, kPoses, "coder of key-frames");
   options.order = chosen(host.order, kOrders, "order");
   options.smallest = (host.flags & ANIC_ENCODE_SMALLEST) != 0;
+  if (host.metadata)
+    options.metadata = host.metadata;
   options.effort = static_cast<int>(within(host.effort, 5, 9, "the effort"));
 }
 

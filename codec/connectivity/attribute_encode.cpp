@@ -324,7 +324,7 @@ std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
   writer.run();
   if (writer.headers().empty())
     return {};
-  layout->sizes.attribute_bytes = attribute_bytes(writer.headers(), layout->sizes);
+  count_attributes(writer.headers(), &layout->sizes);
   layout->attributes = writer.finish();
   return std::move(writer).stored();
 }

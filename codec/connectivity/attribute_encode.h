@@ -47,7 +47,7 @@ double error_bound(const Attribute& attribute, const AttributeOptions& options);
 std::vector<float> stored_values(const Attribute& attribute, const StoredAttribute& stored);
 
 /// Codes what stands beside the positions, as in the first frame, into layout->attributes (chunk
-/// ATTR) and layout->sizes.attribute_bytes. Of normals only the hard edges are kept, unless options
+/// ATTR) and counts of them (layout->sizes). Of normals only the hard edges are kept, unless options
 /// ask for more: corners at one coded vertex whose normals are less than half a degree apart share
 /// one. Materials and parts become labels of polygons. The steps of an attribute that moves are
 /// halved until its first frame takes a quarter of its error at most. Returns the attributes that

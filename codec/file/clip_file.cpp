@@ -17,6 +17,14 @@ Bytes pose_record(const EncodedPose& pose) {
   return record.write();
 }
 
+/// Of a segment whose boxes are not measured yet: as many bytes as it will have.
+Bytes bounds_record(const EncodedSegment& segment) {
+  BoundsRecord record = segment.bounds;
+  if (record.is_empty())
+    record = BoundsRecord::unmeasured(segment.sizes.frames, kFramesOfBox);
+  return record.write();
+}
+
 }  // namespace
 
 Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
@@ -43,6 +51,12 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
   file.add("CLIP", true, kNoMesh, kNoSegment, record.write());
   if (!layout.root.empty())
     file.add("ROOT", true, kNoMesh, kNoSegment, layout.root);
+  if (!layout.metadata.empty())
+    file.add_copied("META", kNoMesh, kNoSegment, Bytes(layout.metadata.begin(), layout.metadata.end()));
+  for (uint32_t i = 0; i < segments.size(); ++i) {
+    if (layout.has_bounds && segments[i]->sizes.attribute == kPositions)
+      file.add_copied("BNDS", kMesh, i, bounds_record(*segments[i]));
+  }
   file.add("MESH", true, kMesh, kNoSegment, mesh.write());
   if (record.order != OrderMode::kFree)
     file.add("VMAP", true, kMesh, kNoSegment, layout.vertex_map);
@@ -62,8 +76,6 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
     if (s.reference && s.reference.get() != of_mesh)
       file.add("POSE", true, kMesh, i, pose_record(*s.reference));
     SegmentRecord segment;
-    segment.kind = s.sizes.kind;
-    segment.reconstruction = s.sizes.reconstruction;
     segment.hash = s.hash;
     segment.parameters = s.parameters;
     segment.pose = s.pose;
@@ -80,7 +92,7 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
     if (!segments[i]->exact.empty())
       file.add("DIFF", true, kMesh, i, segments[i]->exact);
   }
-  return file.finish();
+  return file.finish(limits.features());
 }
 
 }  // namespace anicodec

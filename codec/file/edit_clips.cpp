@@ -29,6 +29,7 @@ constexpr const char (*kSegmentChunks[])[5] = {&"POSE", &"SEGM", &"BASI", &"CORR
 struct Opened {
   explicit Opened(const ClipPart& part) : file(part) {
     check(reader.open(part.file).status);
+    check_known_chunks(*this, part);
     check(Limits::read(payload("LIMI"), &limits));
     check(ClipsRecord::read(payload("CLIP"), limits, &record));
     if (limits.meshes.size() != 1)
@@ -127,10 +128,14 @@ class Edited {
     out.add("CLIP", true, kNoMesh, kNoSegment, record_.write());
     if (limits_.root_frames > 0)
       out.add("ROOT", true, kNoMesh, kNoSegment, root());
+    add_copied(base_, kNoMesh, kNoMesh, out);
+    for (uint32_t i = 0; i < segments_.size(); ++i)
+      add_chunks(segments_[i], i, ChunkPlace::kBeforeMeshes, out);
     for (const char(*type)[5] : kMeshChunks) {
       if (const Chunk* chunk = base_.reader.find(*type, 0))
-        out.add(*type, chunk->required, 0, kNoSegment, copy(base_.payload(*chunk)));
+        out.add(*chunk, 0, kNoSegment, copy(base_.payload(*chunk)));
     }
+    add_copied(base_, 0, 0, out);
     for (uint32_t i = 0; i < segments_.size(); ++i) {
       const Moved& s = segments_[i];
       // A segment that leans on the pose of another file brings it along.
@@ -138,11 +143,11 @@ class Edited {
       const ByteView own = s.from->of_mesh("POSE");
       if (linear && !s.from->reader.find("POSE", 0, s.number) && !equal(own, pose))
         out.add("POSE", true, 0, i, copy(own));
-      add_chunks(s, i, false, out);
+      add_chunks(s, i, ChunkPlace::kWithSegment, out);
     }
     for (uint32_t i = 0; i < segments_.size(); ++i)
-      add_chunks(segments_[i], i, true, out);
-    Bytes bytes = out.finish();
+      add_chunks(segments_[i], i, ChunkPlace::kBehindSegments, out);
+    Bytes bytes = out.finish(limits_.features());
     Clip opened;
     Failure failure = opened.open(bytes);
     if (failure.ok())
@@ -154,14 +159,14 @@ class Edited {
   }
 
  private:
-  /// Adds the chunks of a segment under its new number: those that come last, or the others.
-  static void add_chunks(const Moved& segment, uint32_t number, bool last, ContainerWriter& out) {
+  /// Adds the chunks of a segment that stand in this place, under its new number.
+  static void add_chunks(const Moved& segment, uint32_t number, ChunkPlace place, ContainerWriter& out) {
     for (const Chunk& chunk : segment.from->reader.chunks()) {
-      for (const char(*type)[5] : kSegmentChunks) {
-        if (chunk.segment == segment.number && chunk.type == chunk_type(*type) &&
-            is_last(chunk) == last)
-          out.add(*type, chunk.required, 0, number, copy(segment.from->payload(chunk)));
-      }
+      const bool goes_along = chunk.copied || std::ranges::any_of(kSegmentChunks, [&](const char(*type)[5]) {
+                                return chunk.type == chunk_type(*type);
+                              });
+      if (goes_along && chunk.segment == segment.number && place_of(chunk) == place)
+        out.add(chunk, 0, number, copy(segment.from->payload(chunk)));
     }
   }
 

@@ -21,8 +21,8 @@ namespace anicodec {
 
 enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajectories };
 
-/// How frames are made from key-frames: on straight lines, by multi-scale geometry interpolation,
-/// or by whichever does better.
+/// How frames are made from key-frames: on straight lines, by multi-scale geometry interpolation
+/// (MSGI), which decoders may lack, or by whichever does better.
 enum class InterpolationChoice : uint8_t { kLinear, kMsgi, kAuto };
 
 /// How far a surface was moved before coding: its Hausdorff distance from the source's, in scene
@@ -38,14 +38,16 @@ struct EncodeOptions {
   BasisChoice basis = BasisChoice::kAuto;
   std::optional<uint32_t> keyframes;  ///< exact number of key-frames
   KeyframeMethod select = KeyframeMethod::kPivot;
-  /// The coder of key-frames' poses; as a rule Draco for those that were asked for, the coder of
-  /// reference poses for those that the search ends with by itself.
-  std::optional<KeyframePoses> keyframe_poses;
-  InterpolationChoice interpolation = InterpolationChoice::kLinear;  ///< only with key-frames alone
+  KeyframePoses keyframe_poses = KeyframePoses::kNative;
+  /// As a rule kLinear between key-frames that are asked for. The search for the smallest basis takes MSGI
+  /// where limbs swing so far that it makes a file a tenth smaller; kLinear: never.
+  std::optional<InterpolationChoice> interpolation;
   OrderMode order = OrderMode::kVertices;
   /// Encodes these frames alone, as a part for join_clips(): mesh, reference pose and diagonal are
   /// those of the whole sequence, and the same in all parts. Not with key-frames.
   std::optional<FrameRun> part;
+  std::string metadata;  ///< a JSON object to store in the file (spec/06, section 14); empty: none
+  bool bounds = true;  ///< whether the file has boxes of its frames, to cull it without decoding
   std::string encoder;  ///< name and version to store in the file
   /// The sequence is not the source itself but one that massage() made of it: to store in the file.
   std::optional<SurfaceChange> surface_change;
@@ -120,6 +122,7 @@ struct EncodeResult {
   std::vector<ClipResult> clips;            ///< in the order of their frames
   std::vector<FrameRun> segments;           ///< of positions: clips in one share its basis
   std::vector<Trial> trials;
+  std::vector<std::string> search_notes;  ///< what the search left alone, and why
 };
 
 }  // namespace anicodec

@@ -21,6 +21,7 @@ namespace {
 struct OpenPart {
   explicit OpenPart(const ClipPart& source) : part(source) {
     check(reader.open(part.file));
+    check_known_chunks(*this, part);
     check(Limits::read(payload(required("LIMI")), &limits));
     check(ClipsRecord::read(payload(required("CLIP")), limits, &record));
     if (limits.meshes.size() != 1)
@@ -153,6 +154,8 @@ void add_chunk(const OpenPart& part, const Chunk& chunk, uint16_t mesh, uint32_t
     if (chunk.type == chunk_type(*type))
       return file.add(*type, chunk.required, mesh, segment, copy(part.payload(chunk)));
   }
+  if (chunk.copied)
+    return file.add(chunk, mesh, segment, copy(part.payload(chunk)));
   if (chunk.required)
     fail(part.part, ErrorKind::kUnsupported,
          "a chunk " + chunk_name(chunk.type) + " cannot be joined");
@@ -246,27 +249,27 @@ Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipsRecord re
   ContainerWriter file;
   file.add("LIMI", true, kNoMesh, kNoSegment, limits.write());
   file.add("CLIP", true, kNoMesh, kNoSegment, record.write());
+  add_copied(*meshes[0], kNoMesh, kNoMesh, file);
+  const auto add_segments = [&](ChunkPlace place) {
+    for (uint32_t s = 0; s < segments.size(); ++s) {
+      const PlacedMesh& placed = *segments[s].placed;
+      for (const Chunk* chunk : segments[s].chunks) {
+        if (place_of(*chunk) == place)
+          add_chunk(*placed.part, *chunk, placed.mesh, s, file);
+      }
+    }
+  };
+  add_segments(ChunkPlace::kBeforeMeshes);
   for (uint16_t m = 0; m < meshes.size(); ++m) {
     for (const char(*type)[5] : kMeshChunks) {
       if (const Chunk* chunk = meshes[m]->reader.find(*type, 0))
-        file.add(*type, chunk->required, m, kNoSegment, copy(meshes[m]->payload(*chunk)));
+        file.add(*chunk, m, kNoSegment, copy(meshes[m]->payload(*chunk)));
     }
+    add_copied(*meshes[m], 0, m, file);
   }
-  for (uint32_t s = 0; s < segments.size(); ++s) {
-    const PlacedMesh& placed = *segments[s].placed;
-    for (const Chunk* chunk : segments[s].chunks) {
-      if (!is_last(*chunk))
-        add_chunk(*placed.part, *chunk, placed.mesh, s, file);
-    }
-  }
-  for (uint32_t s = 0; s < segments.size(); ++s) {
-    const PlacedMesh& placed = *segments[s].placed;
-    for (const Chunk* chunk : segments[s].chunks) {
-      if (is_last(*chunk))
-        add_chunk(*placed.part, *chunk, placed.mesh, s, file);
-    }
-  }
-  Bytes bytes = file.finish();
+  add_segments(ChunkPlace::kWithSegment);
+  add_segments(ChunkPlace::kBehindSegments);
+  Bytes bytes = file.finish(limits.features());
   verify(bytes);
   return bytes;
 }

@@ -5,11 +5,30 @@
 #include "codec/file/part_chunks.h"
 #include "codec/sequence/error.h"
 #include "format/continuation.h"
+#include "format/records.h"
 
 #include <algorithm>
 #include <string>
 
 namespace anicodec {
+
+namespace {
+
+/// Fails unless a file continues one with the meshes of `before`.
+void check_continues(const ContainerReader& file, const ContainerReader& before, const ClipPart& stream,
+                     const std::string& place) {
+  Limits limits;
+  const Chunk* chunk = file.find("LIMI");
+  const Status read = chunk ? Limits::read(file.unchecked(*chunk), &limits) : Status::kChunkMissing;
+  const Status status = read != Status::kOk                                ? read
+                        : !limits.continued_meshes                         ? Status::kRecord
+                        : *limits.continued_meshes != mesh_hash(before)    ? Status::kMeshes
+                                                                           : Status::kOk;
+  if (status != Status::kOk)
+    fail(stream, ErrorKind::kCorrupt, place + status_string(status));
+}
+
+}  // namespace
 
 bool is_live_stream(ByteView bytes) {
   ContainerReader reader;
@@ -36,6 +55,7 @@ LiveStream read_live_stream(const ClipPart& stream) {
     if (file.is_continuation()) {
       if (is_first)
         fail(stream, ErrorKind::kCorrupt, place + "the stream begins with a file that continues another one");
+      check_continues(file, before, stream, place);
       out.files.push_back(with_meshes(before, file));
     } else {
       const auto size = static_cast<size_t>(file.file_size());

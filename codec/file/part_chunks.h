@@ -9,6 +9,7 @@
 #include "codec/sequence/error.h"
 #include "format/bytes.h"
 #include "format/container.h"
+#include "sdk/clip/file_checks.h"
 
 #include <algorithm>
 #include <string>
@@ -18,13 +19,38 @@ namespace anicodec {
 /// The chunks that a mesh has once.
 inline constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
 
-/// Whether a chunk of a segment comes behind those of all segments: what refines all that plays.
-inline bool is_last(const Chunk& chunk) {
-  return chunk.type == chunk_type("DIFF");
+/// Where a chunk of a segment stands (spec/05-file-layout.md, section 6): boxes come before all meshes, what refines all that
+/// plays behind all segments.
+enum class ChunkPlace : uint8_t { kBeforeMeshes, kWithSegment, kBehindSegments };
+
+inline ChunkPlace place_of(const Chunk& chunk) {
+  return chunk.type == chunk_type("BNDS")   ? ChunkPlace::kBeforeMeshes
+         : chunk.type == chunk_type("DIFF") ? ChunkPlace::kBehindSegments
+                                            : ChunkPlace::kWithSegment;
 }
 
 [[noreturn]] inline void fail(const ClipPart& part, ErrorKind kind, const std::string& text) {
   throw Error(kind, part.name + ": " + text);
+}
+
+/// Fails where a part has a chunk that no program but one that knows it may leave out.
+template <class Part>
+void check_known_chunks(const Part& opened, const ClipPart& part) {
+  const Failure failure = check_chunks(opened.reader);
+  if (failure.status == Status::kChunkUnknown)
+    fail(part, ErrorKind::kUnsupported, "has a chunk " + chunk_name(failure.chunk) + " that this version does not know");
+  if (!failure.ok())
+    fail(part, ErrorKind::kCorrupt, status_string(failure.status));
+}
+
+/// Adds the chunks marked as copied that a part has for a mesh, or for the file as a whole (kNoMesh), under the
+/// number `as` of the mesh. Part: has `reader` and payload().
+template <class Part>
+void add_copied(const Part& part, uint16_t mesh, uint16_t as, ContainerWriter& file) {
+  for (const Chunk& chunk : part.reader.chunks()) {
+    if (chunk.copied && chunk.mesh == mesh && chunk.segment == kNoSegment)
+      file.add(chunk, as, kNoSegment, Bytes(part.payload(chunk).data, part.payload(chunk).data + chunk.size));
+  }
 }
 
 inline bool equal(ByteView a, ByteView b) {

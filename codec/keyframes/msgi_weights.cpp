@@ -12,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -252,6 +253,33 @@ MsgiFit fit_msgi_weights(const FrameView& clip, std::span<const uint32_t> triang
   MsgiFit result{*best, interpolation->leaf_faces()};
   interpolation->improve_into(result.fit);
   return result;
+}
+
+std::optional<double> msgi_error_between(const FrameView& clip, std::span<const uint32_t> triangles,
+                                         size_t count) {
+  std::vector<uint32_t> keyframes;
+  std::vector<const float*> inputs;
+  for (size_t j = 0; j < count; ++j) {
+    keyframes.push_back(static_cast<uint32_t>(j * (clip.frame_count - 1) / (count - 1)));
+    inputs.push_back(clip.frame(keyframes.back()));
+  }
+  std::vector<uint32_t> between;
+  for (uint32_t f = 0; f < clip.frame_count; ++f) {
+    if (!std::ranges::binary_search(keyframes, f))
+      between.push_back(f);
+  }
+  Msgi msgi;
+  if (between.empty() ||
+      msgi.init(triangles.data(), triangles.size() / 3, static_cast<uint32_t>(clip.vertex_count),
+                inputs.data(), inputs.size(), {}) != Status::kOk)
+    return std::nullopt;
+  std::vector<double> errors(std::min(between.size(), kTried));
+  tbb::parallel_for(size_t{0}, errors.size(), [&](size_t i) {
+    const uint32_t f = between[(2 * i + 1) * between.size() / (2 * errors.size())];
+    errors[i] = FrameFit(msgi, clip, f).residual(by_time(keyframes, f)).squaredNorm();
+  });
+  return std::sqrt(std::accumulate(errors.begin(), errors.end(), 0.0) /
+                   static_cast<double>(errors.size() * clip.vertex_count));
 }
 
 }  // namespace anicodec

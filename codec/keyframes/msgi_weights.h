@@ -5,7 +5,9 @@
 
 #include "codec/keyframes/keyframe_fit.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace anicodec {
@@ -27,6 +29,12 @@ struct MsgiFit {
 /// better. Cost: 10 to 40 evaluations of Msgi per frame; the same bits for any number of threads.
 MsgiFit fit_msgi_weights(const FrameView& clip, std::span<const uint32_t> triangles,
                          std::span<const KeyframeFit> rigid_fits);
+
+/// What MSGI may be hoped to do for a clip: the root mean square error of up to 24 frames between `count`
+/// key-frames, two at least, that are spread evenly, with weights by time and moved rigidly. Nothing
+/// where the mesh cannot be interpolated. Cost: Msgi::init() and as many evaluations.
+std::optional<double> msgi_error_between(const FrameView& clip, std::span<const uint32_t> triangles,
+                                         size_t count);
 
 }  // namespace anicodec
 

@@ -46,6 +46,8 @@ class ClipSearch {
   /// The trials of the first search of the positions.
   const std::vector<Trial>& trials() const { return control_.trials(); }
 
+  const std::vector<std::string>& notes() const { return control_.notes(); }
+
  private:
   const EncoderInput& input_;
   const std::vector<StoredAttribute>& stored_;

@@ -79,9 +79,10 @@ const MsgiFit& KeyframeCoder::fit(double rmse) {
   if (count_)
     return interpolated(*count_);
   // About as many as straight lines need, then fewer.
-  const size_t frames = input_.frames().frame_count;
+  const size_t frames = std::min(input_.frames().frame_count, most_keyframes_);
   size_t few = 0;
-  size_t enough = fewest_keyframes(fitter_, rmse_target(rmse), method_, weights_).keyframes.size();
+  size_t enough = std::min(
+      frames, fewest_keyframes(fitter_, rmse_target(rmse), method_, weights_).keyframes.size());
   while (enough < frames && fitter_.rmse(interpolated(enough).fit) > rmse) {
     few = enough;
     enough = std::min(frames, enough + enough / 4 + 1);

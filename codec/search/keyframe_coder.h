@@ -28,6 +28,9 @@ class KeyframeCoder : public SegmentCoder {
 
   std::optional<CodedPart> at_rmse(double rmse) override;
 
+  /// Takes no more key-frames: what needs more is out of reach.
+  void take_at_most(size_t keyframes) { most_keyframes_ = keyframes; }
+
   /// Ends searches at a trial that takes more.
   void give_up_above(double bytes) { most_bytes_ = bytes; }
 
@@ -48,6 +51,7 @@ class KeyframeCoder : public SegmentCoder {
   std::optional<uint32_t> count_;
   KeyframePoses poses_;
   Reconstruction reconstruction_;
+  size_t most_keyframes_ = std::numeric_limits<size_t>::max();
   double most_bytes_ = std::numeric_limits<double>::infinity();
   KeyframeWeights weights_ = KeyframeWeights::kLinear;
   MsgiFit fit_;                             ///< the last one by straight lines, leaf_faces 0

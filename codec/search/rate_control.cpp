@@ -20,9 +20,19 @@ constexpr double kFarBehind = 1.15;
 // face, by default and with --kg 0.1% and 1%.
 constexpr double kHopeless = 1.3;
 
+// Files that decoders may refuse have to be clearly smaller.
+constexpr double kClearly = 0.9;
+// Key-frames of helix, the clip of the corpus that MSGI suits, take 2.8 bits per coordinate at --kg 0.1%; the
+// fewer are believed, the more key-frames are tried.
+constexpr double kBitsOfMsgi = 2;
+constexpr size_t kMostMsgiKeyframes = 48;
+// What the weights and the choice of key-frames win on evenly spread ones, at most.
+constexpr double kHopelessMsgi = 8;
+
 }  // namespace
 
 Solution RateControl::solve() {
+  notes_.clear();
   std::optional<Solution> best;
   const bool apart = input_.bounds_differ();
   try {
@@ -71,11 +81,13 @@ std::optional<Solution> RateControl::of_all_clips() {
     best = by_linear_bases();
     if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
       if (keyframe_coders_.empty())
-        add_keyframe_coder(KeyframePoses::kNative, Reconstruction::kLinear);
+        add_keyframe_coder(Reconstruction::kLinear);
       if (best && search_.rmse_asked())
         keyframe_coders_[0]->give_up_above(kHopeless * static_cast<double>(best->bytes));
       offer(*keyframe_coders_[0], &best);
     }
+    if (best && allows_msgi())
+      try_msgi(&*best);
   }
   return best;
 }
@@ -86,22 +98,67 @@ Solution RateControl::solve_within(double bytes) {
   return solve();
 }
 
-void RateControl::add_keyframe_coder(KeyframePoses poses, Reconstruction reconstruction) {
+void RateControl::add_keyframe_coder(Reconstruction reconstruction) {
   keyframe_coders_.push_back(std::make_unique<KeyframeCoder>(
-      input_, options_.select, options_.keyframes, options_.keyframe_poses.value_or(poses),
-      reconstruction));
+      input_, options_.select, options_.keyframes, options_.keyframe_poses, reconstruction));
 }
 
 void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
   search_.keep_better(search_.reach(coder, best->has_value() ? &**best : nullptr), best);
 }
 
+bool RateControl::allows_msgi() const {
+  return options_.basis == BasisChoice::kAuto && options_.effort > 0 && !input_.pose &&
+         options_.interpolation.value_or(InterpolationChoice::kAuto) != InterpolationChoice::kLinear &&
+         input_.layout.sizes.triangles > 0;
+}
+
+void RateControl::try_msgi(Solution* best) {
+  const double rmse = input_.rmse(best->squared_error());
+  const double keyframe = kBitsOfMsgi / 8 * 3 * input_.layout.sizes.coded_vertices;
+  const auto most = static_cast<size_t>(kClearly * static_cast<double>(best->bytes) / keyframe);
+  const size_t count = std::min({most, kMostMsgiKeyframes, size_t{input_.sequence.frame_count} / 2});
+  if (count < 2)
+    return note("the file has not the bytes of two key-frames");
+  const std::optional<double> left =
+      msgi_error_between(input_.frames(), input_.layout.topology.triangles, count);
+  if (!left)
+    return note("the mesh is not for it");
+  if (*left > kHopelessMsgi * rmse)
+    return note("halfway between " + std::to_string(count) +
+                " key-frames, which take as many bytes, an RMSE of " + four_digits(*left) + " is left");
+  if (!msgi_coder_)
+    msgi_coder_ = std::make_unique<KeyframeCoder>(input_, options_.select, std::nullopt,
+                                                  options_.keyframe_poses, Reconstruction::kMsgi);
+  msgi_coder_->take_at_most(count);
+  std::optional<Solution> solution;
+  try {
+    solution = search_.reach(*msgi_coder_, best);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInternal)
+      throw;
+    return note(error.what());
+  }
+  const bool wins =
+      solution && (is_size(target_)
+                       ? input_.rmse(solution->squared_error()) < kClearly * rmse
+                       : static_cast<double>(solution->bytes) < kClearly * static_cast<double>(best->bytes));
+  if (wins)
+    *best = std::move(*solution);
+  else
+    note("the file is not a tenth smaller");
+}
+
+void RateControl::note(const std::string& reason) {
+  notes_.push_back("key-frames by MSGI are not taken: " + reason);
+}
+
 std::optional<Solution> RateControl::by_keyframes_alone() {
   const bool is_first = keyframe_coders_.empty();
-  if (is_first && options_.interpolation != InterpolationChoice::kMsgi)
-    add_keyframe_coder(KeyframePoses::kDraco, Reconstruction::kLinear);
-  if (is_first && options_.interpolation != InterpolationChoice::kLinear)
-    add_keyframe_coder(KeyframePoses::kDraco, Reconstruction::kMsgi);
+  if (is_first && options_.interpolation.value_or(InterpolationChoice::kLinear) != InterpolationChoice::kMsgi)
+    add_keyframe_coder(Reconstruction::kLinear);
+  if (is_first && options_.interpolation.value_or(InterpolationChoice::kLinear) != InterpolationChoice::kLinear)
+    add_keyframe_coder(Reconstruction::kMsgi);
   std::optional<Solution> best;
   for (std::unique_ptr<KeyframeCoder>& coder : keyframe_coders_) {
     if (target_.metric != ErrorMetric::kNone) {

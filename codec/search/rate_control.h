@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace anicodec {
@@ -35,6 +36,9 @@ class RateControl {
 
   const std::vector<Trial>& trials() const { return search_.files().trials(); }
 
+  /// What was left alone, and why.
+  const std::vector<std::string>& notes() const { return notes_; }
+
  private:
   using LinearCoders = std::vector<std::unique_ptr<LinearCoder>>;
 
@@ -43,7 +47,10 @@ class RateControl {
   std::optional<Solution> by_keyframes_alone();
   std::optional<Solution> by_linear_bases();
   LinearCoders linear_coders(const LinearAnalysis& analysis);
-  void add_keyframe_coder(KeyframePoses poses, Reconstruction reconstruction);
+  void add_keyframe_coder(Reconstruction reconstruction);
+  bool allows_msgi() const;
+  void try_msgi(Solution* best);
+  void note(const std::string& reason);
   void offer(SegmentCoder& coder, std::optional<Solution>* best);
   std::optional<Solution> cut_in_time(const Solution& whole, const LinearCoder& coder);
   bool beats_keyframes(const Solution& solution) const;
@@ -57,6 +64,8 @@ class RateControl {
   std::optional<LinearAnalysis> analysis_;
   LinearCoders linear_coders_;  ///< of the analysis
   std::vector<std::unique_ptr<KeyframeCoder>> keyframe_coders_;
+  std::unique_ptr<KeyframeCoder> msgi_coder_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace anicodec

@@ -100,15 +100,10 @@ size_t EncodedSegment::bytes() const {
 
 Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   SegmentRecord record;
-  record.kind = encoded.sizes.kind;
-  record.reconstruction = encoded.sizes.reconstruction;
   record.parameters = encoded.parameters;
   record.pose = encoded.pose;
   record.motion = encoded.motion;
   record.weights = encoded.weights;
-  const bool msgi = encoded.sizes.reconstruction == Reconstruction::kMsgi;
-  if (msgi)
-    encoded.sizes.msgi_bytes = encoded.sizes.msgi_frame_bytes = uint64_t{1} << 48;
   SegmentContext context;
   context.sizes = &encoded.sizes;
   context.mesh_sizes = &layout.sizes;
@@ -123,13 +118,12 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   encoded.decoded.reset();
   if (status == Status::kNonFinite)
     throw Error(ErrorKind::kUsage, "the coordinates are too large");
+  if (status == Status::kLimit)
+    throw Error(ErrorKind::kUsage,
+                "geometry interpolation of this mesh takes more memory than decoders allow");
   if (status != Status::kOk)
     throw Error(ErrorKind::kInternal,
                 std::string("the encoded segment cannot be opened: ") + status_string(status));
-  if (msgi) {
-    encoded.sizes.msgi_bytes = segment.msgi[0].required_bytes();
-    encoded.sizes.msgi_frame_bytes = segment.msgi[0].scratch_bytes();
-  }
   encoded.hash = segment.stored_hash = segment.decoded_hash;
   return segment;
 }

@@ -5,6 +5,7 @@
 
 #include "codec/connectivity/mesh_layout.h"
 #include "codec/sequence/frame_view.h"
+#include "format/bounds_record.h"
 #include "format/records.h"
 #include "sdk/segment/segment.h"
 
@@ -32,6 +33,7 @@ struct EncodedSegment {
   size_t time_weights = 0;                       ///< how many values they are, of bases and components
   Bytes corrections;                             ///< chunk CORR
   Bytes exact;                                   ///< chunk DIFF
+  BoundsRecord bounds;                           ///< chunk BNDS, of positions; without numbers until measured
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
   /// What weights and layers decode to, if they were just encoded: opened once without decoding them.
   std::optional<DecodedBasis> decoded;

@@ -7,9 +7,9 @@
 
 namespace anicodec {
 
-/// The coder of key-frames' poses: Draco as in the thesis' codec, the coder of reference poses
-/// with each key-frame predicted from an earlier one, or whichever takes fewer bytes.
-enum class KeyframePoses : uint8_t { kDraco, kNative, kAuto };
+/// The coder of key-frames' poses: that of reference poses, each key-frame predicted from an earlier
+/// one; Draco as in the thesis' codec, which decoders may lack; or whichever takes fewer bytes.
+enum class KeyframePoses : uint8_t { kNative, kDraco, kAuto };
 
 }  // namespace anicodec
 

@@ -226,19 +226,18 @@ Bytes code_natively(const MeshLayout& layout, const Vector<uint32_t>& parents,
   return best;
 }
 
-/// Codes key-frames, and tells by what.
-CoderId code_poses(const MeshLayout& layout, KeyframePoses coder, const Vector<uint32_t>& parents,
+/// Codes key-frames.
+void code_poses(const MeshLayout& layout, KeyframePoses coder, const Vector<uint32_t>& parents,
                    const Vector<Pose>& poses, EncodedSegment* encoded) {
   const bool draco =
       coder != KeyframePoses::kNative && code_by_draco(layout, parents, poses, encoded);
   if (draco && coder == KeyframePoses::kDraco)
-    return CoderId::kDraco;
+    return;
   Bytes native = code_natively(layout, parents, poses);
   if (draco && encoded->pose.size() <= native.size())
-    return CoderId::kDraco;
+    return;
   encoded->sizes.draco_bytes = encoded->sizes.draco_points = 0;
   encoded->pose = std::move(native);
-  return CoderId::kNative;
 }
 
 }  // namespace
@@ -276,7 +275,7 @@ std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const Keyf
   encoded.sizes.components = static_cast<uint32_t>(poses.size());
   encoded.sizes.wide_components = are_wide(poses) ? encoded.sizes.components : 0;
   parameters.parents = choose_parents(layout, poses);
-  parameters.coder = code_poses(layout, coder, parameters.parents, poses, &encoded);
+  code_poses(layout, coder, parameters.parents, poses, &encoded);
 
   std::optional<Bytes> weights = code_weights(fit.weights, parameters);
   std::optional<Bytes> motion = parameters.rigid ? code_motions(fit.motions, parameters) : Bytes();

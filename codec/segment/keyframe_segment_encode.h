@@ -23,7 +23,7 @@ std::optional<EncodedSegment> encode_keyframes(const FrameView& clip, const Keyf
                                                KeyframeWeights kind,
                                                const Eigen::Vector3d& mean_position, double step,
                                                const MeshLayout& layout,
-                                               KeyframePoses coder = KeyframePoses::kDraco,
+                                               KeyframePoses coder = KeyframePoses::kNative,
                                                uint32_t leaf_faces = 0);
 
 /// The step for which rounding of key-frames and weights adds about `rms` (root mean square

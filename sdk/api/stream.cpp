@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The C interface: files that are read through a callback, or arrive piece by piece, one after the other.
+#include "format/continuation.h"
 #include "sdk/api/objects.h"
 #include "sdk/clip/file_checks.h"
 #include "sdk/clip/kept_meshes.h"
@@ -16,6 +17,7 @@ struct anic_stream {
   anicodec::Bytes bytes;
   anicodec::ContainerReader meshes;  ///< of that file, which has `begin` bytes; 0: there is none
   size_t begin = 0;
+  uint64_t mesh_hash = 0;           ///< of that file
   anicodec::ContainerReader file;  ///< the one at hand, with its meshes
   anicodec::KeptMeshes kept;       ///< of the assets that were opened
   bool adds_to_meshes = false;     ///< the file at hand is a continuation with chunks of meshes of its own
@@ -64,7 +66,7 @@ void each_needed(anic_stream* stream, size_t begin, size_t end, Visit visit) {
       if (chunk.required)
         visit(&stream->common_missing);
     } else if (chunk.segment < stream->missing.size() && chunk.type != chunk_type("BASI") &&
-               chunk.type != chunk_type("CORR") && chunk.type != chunk_type("DIFF")) {
+               chunk.type != chunk_type("CORR") && chunk.type != chunk_type("DIFF") && chunk.required) {
       visit(&stream->missing[chunk.segment]);
     }
   }
@@ -105,6 +107,10 @@ Failure read_head(anic_stream* stream) {
   const OpenOptions options = open_options(stream->options, file.file_size());
   if (Failure failure = read_limits(file, options, &limits); !failure.ok())
     return failure;
+  if (file.is_continuation() && limits.continued_meshes != stream->mesh_hash)
+    return limits.continued_meshes
+               ? failure_in(*chunk, Status::kMeshes, "the file continues a file with other meshes")
+               : failure_in(*chunk, Status::kRecord, "the file does not say which meshes it continues");
   stream->has_limits = true;
   const size_t segments = limits.segments.size(), chunks = file.chunks().size();
   stream->missing.assign(segments, 0);
@@ -179,6 +185,8 @@ Failure push(anic_stream* stream, const void* bytes, size_t size) {
 Failure advance(anic_stream* stream) {
   const MemoryScope scope(&memory_of_object(stream));
   const auto size = static_cast<size_t>(stream->info.file_bytes);
+  if (!stream->file.is_continuation())
+    stream->mesh_hash = mesh_hash(stream->file);
   const bool keeps = !stream->file.is_continuation();  // its meshes, instead of those before
   const auto gone = stream->bytes.begin() + static_cast<ptrdiff_t>(keeps ? 0 : stream->begin);
   stream->bytes.erase(gone, gone + static_cast<ptrdiff_t>(keeps ? stream->begin : size));

@@ -78,11 +78,9 @@ Vector<uint32_t> inverse(const Vector<uint32_t>& permutation) {
 
 Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& sizes,
                          const Topology& topology, Vector<MeshAttribute>* out) {
-  if (attribute_bytes(record.attributes, sizes) != sizes.attribute_bytes)
-    return Status::kRecord;
   // Each attribute looks at all corners, also where few elements share them.
   if (uint64_t{sizes.corners} * record.attributes.size() >
-      uint64_t{16} * sizes.corners + 64 * sizes.attribute_bytes)
+      uint64_t{16} * sizes.corners + 256 * sizes.attribute_numbers + 4096 * record.attributes.size())
     return Status::kLimit;
   const CornerGraph graph(topology);
   BinaryDecoder decoder(record.stream.data, record.stream.size);

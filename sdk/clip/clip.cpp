@@ -308,7 +308,7 @@ Failure Clip::open_mesh(const ContainerReader& file, uint16_t mesh, const OpenOp
 
 Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
                               const OpenOptions& options) {
-  if (limits_.meshes[mesh].attribute_bytes == 0)
+  if (limits_.meshes[mesh].attributes == 0)
     return {};
   const Chunk* chunk = file.find("ATTR", mesh);
   if (options.prefix && chunk && !file.has(*chunk)) {
@@ -319,7 +319,7 @@ Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
   if (Failure f = required_payload(file, "ATTR", mesh, kNoSegment, &chunk, &payload); !f.ok())
     return f;
   AttributeRecord record;
-  Status s = AttributeRecord::read(payload, limits_.meshes[mesh].attribute_bytes, &record);
+  Status s = AttributeRecord::read(payload, limits_.meshes[mesh], &record);
   if (s == Status::kOk)
     s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology,
                           &meshes_[mesh].attributes);
@@ -329,7 +329,7 @@ Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
 /// Whether the attributes of all meshes are there.
 bool Clip::has_attributes() const {
   for (size_t m = 0; m < meshes_.size(); ++m) {
-    if (limits_.meshes[m].attribute_bytes > 0 && meshes_[m].attributes.empty())
+    if (limits_.meshes[m].attributes > 0 && meshes_[m].attributes.empty())
       return false;
   }
   return true;
@@ -398,8 +398,6 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
     return f;
   SegmentRecord record;
   Status s = SegmentRecord::read(payload, &record);
-  if (s == Status::kOk && record.kind != sizes.kind)
-    s = Status::kSegment;
   if (s != Status::kOk)
     return failure_in(*chunk, s, "the segment record is malformed");
   if (sizes.attribute != kPositions) {
@@ -452,7 +450,7 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   context.trace = options.trace;
   context.progress = options.progress;
   context.threads = options.threads;
-  if (record.kind != BasisKind::kKeyframes)
+  if (sizes.kind != BasisKind::kKeyframes)
     s = work.shared_graph(*context.topology, &context.graph);
   else if (is_predicted(sizes) && work.is_shared())
     context.corners = &work.corner_table(*context.topology);
@@ -467,8 +465,8 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
     keep_frames(kept.first, kept.count, &segments_[number]);
   if (s == Status::kCancelled)
     return stopped();
-  if (s == Status::kCoder && sizes.draco_bytes > 0)
-    return failure_in(*chunk, s, "Draco coded the key-frames, and this build is without Draco");
+  if (s == Status::kLimit && sizes.reconstruction == Reconstruction::kMsgi)
+    return failure_in(*chunk, s, "geometry interpolation of this mesh takes too much memory");
   return s == Status::kOk ? Failure{} : failure_in(*chunk, s, "the segment cannot be opened");
 }
 
@@ -523,7 +521,7 @@ size_t Clip::resident_bytes() const {
     total += 4 * (m.topology.vertex_coded.size() + m.topology.polygon_offsets.size() +
                   m.topology.polygon_corners.size());
   for (const auto& m : limits_.meshes)
-    total += m.attribute_bytes;
+    total += attribute_bytes(m);
   for (const Segment& s : segments_)
     total += s.resident_bytes();
   return total + root_.resident_bytes();

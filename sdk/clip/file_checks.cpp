@@ -4,6 +4,8 @@
 
 #include "sdk/clip/clip.h"
 #include "sdk/clip/memory_estimate.h"
+#include "sdk/mesh/draco_poses.h"
+#include "sdk/msgi/msgi.h"
 
 #include <algorithm>
 
@@ -17,6 +19,7 @@ struct KnownChunk {
   uint32_t type;
   Owner owner;
   bool required = true;  ///< must be marked so
+  bool copied = false;   ///< must be marked so
 };
 
 constexpr KnownChunk kKnownChunks[] = {
@@ -25,7 +28,9 @@ constexpr KnownChunk kKnownChunks[] = {
     {chunk_type("FMAP"), Owner::kMesh},    {chunk_type("POSE"), Owner::kEither},
     {chunk_type("SEGM"), Owner::kSegment}, {chunk_type("BASI"), Owner::kSegment},
     {chunk_type("CORR"), Owner::kSegment}, {chunk_type("ATTR"), Owner::kMesh, false},
-    {chunk_type("ROOT"), Owner::kClip},    {chunk_type("DIFF"), Owner::kSegment}};
+    {chunk_type("ROOT"), Owner::kClip},    {chunk_type("DIFF"), Owner::kSegment},
+    {chunk_type("META"), Owner::kClip, false, true},
+    {chunk_type("BNDS"), Owner::kSegment, false, true}};
 
 const KnownChunk* known(const Chunk& chunk) {
   const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
@@ -33,7 +38,12 @@ const KnownChunk* known(const Chunk& chunk) {
   return found == std::end(kKnownChunks) ? nullptr : found;
 }
 
-/// Unknown chunks are skipped, unless required; only layers of a basis may occur twice.
+}  // namespace
+
+Failure failure_in(const Chunk& chunk, Status status, const char* detail) {
+  return {status, chunk.offset, chunk.type, detail};
+}
+
 Failure check_chunks(const ContainerReader& file) {
   for (const Chunk& chunk : file.chunks()) {
     if (chunk.required && !known(chunk))
@@ -47,11 +57,21 @@ Failure check_chunks(const ContainerReader& file) {
   return {};
 }
 
-}  // namespace
+namespace {
 
-Failure failure_in(const Chunk& chunk, Status status, const char* detail) {
-  return {status, chunk.offset, chunk.type, detail};
+/// The optional profile.
+Failure check_features(uint64_t features) {
+  constexpr uint64_t kFeaturesAt = 16;
+  if ((features & kDracoFeature) && !has_draco())
+    return {Status::kFeature, kFeaturesAt, 0,
+            "the file needs feature 1 (key-frames by Draco), which this decoder lacks"};
+  if ((features & kMsgiFeature) && !Msgi::is_there())
+    return {Status::kFeature, kFeaturesAt, 0,
+            "the file needs feature 2 (geometry interpolation), which this decoder lacks"};
+  return {};
 }
+
+}  // namespace
 
 Failure check_places(const ContainerReader& file, const Limits& limits, OrderMode order) {
   auto fits = [&](const Chunk& chunk, Owner owner) {
@@ -63,7 +83,7 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
         (owner == Owner::kSegment && !of_segment))
       return false;
     if (chunk.type == chunk_type("ATTR"))
-      return limits.meshes[chunk.mesh].attribute_bytes > 0;
+      return limits.meshes[chunk.mesh].attributes > 0;
     if (!of_segment)
       return (chunk.type != chunk_type("VMAP") || order != OrderMode::kFree) &&
              (chunk.type != chunk_type("FMAP") || order == OrderMode::kAll);
@@ -76,11 +96,13 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
       return segment.corrections > 0;
     if (chunk.type == chunk_type("DIFF"))
       return segment.exact;
+    if (chunk.type == chunk_type("BNDS"))
+      return segment.attribute == kPositions;
     return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
   };
   for (const Chunk& chunk : file.chunks()) {
     const KnownChunk* k = known(chunk);
-    if (k && !(chunk.required == k->required && fits(chunk, k->owner)))
+    if (k && !(chunk.required == k->required && chunk.copied == k->copied && fits(chunk, k->owner)))
       return failure_in(chunk, Status::kIndexRange, "a chunk belongs to nothing in the file");
   }
   return {};
@@ -95,6 +117,8 @@ Failure required_payload(const ContainerReader& file, const char (&type)[5], uin
 }
 
 Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out) {
+  if (Failure failure = check_features(file.features()); !failure.ok())
+    return failure;
   if (Failure failure = check_chunks(file); !failure.ok())
     return failure;
 
@@ -104,6 +128,8 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
     return f;
   if (Status s = Limits::read(payload, out); s != Status::kOk)
     return failure_in(*chunk, s, "the limits are malformed");
+  if ((file.features() & ~kContinuation) != out->features())
+    return failure_in(*chunk, Status::kRecord, "the header announces other features");
   // Even a mesh that is all alike takes some thousandth of a bit per vertex.
   const uint64_t plausible = std::min(file.file_size(), UINT64_MAX >> 22) << 16;
   for (const auto& mesh : out->meshes) {
@@ -128,8 +154,6 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
       return failure_in(*chunk, Status::kLimit, "counts that no file of this size can hold");
     if (s.draco_bytes > file.file_size() || s.draco_points / 3 > out->meshes[s.mesh].triangles)
       return failure_in(*chunk, Status::kLimit, "more of Draco than the mesh or the file can hold");
-    if (s.reconstruction == Reconstruction::kMsgi && s.msgi_bytes < out->meshes[s.mesh].triangles)
-      return failure_in(*chunk, Status::kLimit, "more triangles than what is kept of them can be of");
     if (s.exact && uint64_t{s.frames} * out->meshes[s.mesh].coded_vertices > plausible)
       return failure_in(*chunk, Status::kLimit, "more exact positions than a file of this size can hold");
     decisions += uint64_t{std::min(s.frames, s.corrections)} *

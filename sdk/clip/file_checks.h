@@ -18,6 +18,9 @@ struct OpenOptions;
 /// segments).
 Failure read_limits(const ContainerReader& file, const OpenOptions& options, Limits* out);
 
+/// Checks that every required chunk is known, and that only layers of a basis occur twice.
+Failure check_chunks(const ContainerReader& file);
+
 /// Checks that known chunks are where the limits and the order of the vertices want them, and nowhere else.
 Failure check_places(const ContainerReader& file, const Limits& limits, OrderMode order);
 

@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/memory_estimate.h"
 
+#include "format/attribute_record.h"
 #include "sdk/clip/mesh_work.h"
 #include "sdk/mesh/draco_profile.h"
+#include "sdk/msgi/msgi_memory.h"
 #include "sdk/segment/segment.h"
 
 #include <algorithm>
@@ -36,7 +38,7 @@ class CheckedSum {
 
 uint64_t resident(const Limits::Mesh& m) {
   return kStructure + 4 * (uint64_t{m.source_vertices} + m.polygons + 1 + uint64_t{m.corners}) +
-         m.attribute_bytes;
+         attribute_bytes(m);
 }
 
 /// Bytes for a mesh until its segments are open: its triangles, and a pose.
@@ -96,7 +98,7 @@ uint64_t resident(const Limits::Segment& s, const Limits::Mesh& mesh) {
       break;
   }
   if (s.reconstruction == Reconstruction::kMsgi)
-    bytes += s.msgi_bytes + uint64_t{4} * mesh.source_vertices;
+    bytes += msgi_bytes(s, mesh) + uint64_t{4} * mesh.source_vertices;
   if (s.exact) {
     const bool maps = s.reconstruction != Reconstruction::kMsgi;  // which has the map already
     bytes += exact_bytes(s, mesh) + (maps ? uint64_t{4} * mesh.source_vertices : 0);
@@ -132,10 +134,10 @@ uint64_t opening(const Limits::Mesh& m) {
   const uint64_t maps = uint64_t{40} * m.source_vertices + uint64_t{36} * m.polygons +
                         uint64_t{16} * m.corners + kOrderModels;
   // Edges, entries and their numbers; or a permutation and a copy.
-  const uint64_t attributes = m.attribute_bytes == 0
+  const uint64_t attributes = m.attributes == 0
                                   ? 0
                                   : uint64_t{64} * m.corners + uint64_t{16} * m.source_vertices +
-                                        2 * m.attribute_bytes + 65536;
+                                        2 * attribute_bytes(m) + 65536;
   return std::max({faces, maps + attributes, predicting(m)}) + kZstd;
 }
 
@@ -146,7 +148,7 @@ uint64_t opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
   // Key-frames as floats, faces and patches, and the fronts of the factorisation.
   uint64_t msgi = 0;
   if (s.reconstruction == Reconstruction::kMsgi)
-    msgi = 12 * n * components + uint64_t{1000} * mesh.triangles + 2 * s.msgi_bytes;
+    msgi = 12 * n * components + uint64_t{1000} * mesh.triangles + msgi_bytes(s, mesh);
   if (s.kind == BasisKind::kKeyframes)
     return 36 * n * components + 4 * frames * components + 28 * frames + kModels + msgi +
            (s.draco_bytes > 0 ? draco(s, mesh) : predicting(mesh));

@@ -3,6 +3,7 @@
 #include "sdk/clip/sample_size.h"
 
 #include "sdk/clip/sample.h"
+#include "sdk/msgi/msgi_memory.h"
 #include "sdk/play/play.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ SampleSize segment_size(const Limits::Segment& s, const Limits::Mesh& mesh, doub
   if (s.reconstruction == Reconstruction::kMsgi) {
     size.shapes = 1;
     size.shape = uint64_t{3} * mesh.coded_vertices;
-    size.scratch = shape_scratch_bytes(s.components, s.msgi_frame_bytes);
+    size.scratch = shape_scratch_bytes(s.components, msgi_frame_bytes(mesh));
   }
   return size;
 }

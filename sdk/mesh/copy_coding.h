@@ -7,6 +7,7 @@
 #define ANICODEC_SDK_MESH_COPY_CODING_H_
 
 #include "format/coding/mixing.h"
+#include "format/coding/symbol_model.h"
 #include "sdk/mesh/gate_walk.h"
 
 #include <algorithm>

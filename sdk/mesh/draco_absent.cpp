@@ -6,8 +6,12 @@
 
 namespace anicodec {
 
+bool has_draco() {
+  return false;
+}
+
 Status decode_draco_poses(ByteView, const Topology&, uint32_t, uint32_t, Vector<Vector<int32_t>>*) {
-  return Status::kCoder;
+  return Status::kFeature;
 }
 
 }  // namespace anicodec

@@ -119,6 +119,10 @@ Status decode(ByteView bytes, const Topology& topology, uint32_t points, uint32_
 
 }  // namespace
 
+bool has_draco() {
+  return true;
+}
+
 Status decode_draco_poses(ByteView bytes, const Topology& topology, uint32_t points, uint32_t poses,
                           Vector<Vector<int32_t>>* out) {
   try {

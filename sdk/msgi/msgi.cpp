@@ -35,6 +35,10 @@ class Block {
 
 }  // namespace
 
+bool Msgi::is_there() {
+  return true;
+}
+
 /// Scratch memory for one frame.
 struct Msgi::Scratch {
   UnitQuaternion* rotations;  ///< per patch

@@ -42,6 +42,9 @@ class Msgi {
     size_t most_bytes = size_t{4} << 30;
   };
 
+  /// Whether this build has it: without, init() ends in kFeature.
+  static bool is_there();
+
   /// inputs[i] holds vertex_count x 3 coordinates; nothing given is kept. Errors: kArgument for no
   /// input, leaf_faces or pins out of range; kIndexRange for a corner that is no vertex; kNonFinite
   /// for a coordinate; kLimit. Cost: O(vertices log vertices) and the factorisation, and

@@ -6,6 +6,10 @@
 
 namespace anicodec {
 
+bool Msgi::is_there() {
+  return false;
+}
+
 Status Msgi::init(const uint32_t*, size_t, uint32_t, const float* const*, size_t, const Options&) {
   return Status::kFeature;
 }

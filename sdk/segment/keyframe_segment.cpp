@@ -5,6 +5,7 @@
 #include "sdk/base/bounded_float.h"
 #include "sdk/mesh/draco_poses.h"
 #include "sdk/mesh/plain_coding.h"
+#include "sdk/msgi/msgi_memory.h"
 #include "sdk/pose/pose_coding.h"
 #include "sdk/segment/resident_writer.h"
 #include "sdk/segment/series_coding.h"
@@ -15,7 +16,7 @@
 namespace anicodec {
 namespace {
 
-constexpr uint8_t kSumToOne = 1, kRigid = 2, kPatches = 4;
+constexpr uint8_t kSumToOne = 1, kRigid = 2;
 
 /// Rotation matrix and translation of a quaternion (x, y, z, w) of any length. False when an entry
 /// is too large.
@@ -65,10 +66,9 @@ Status read_poses(const SegmentRecord& record, const SegmentContext& context,
                   const KeyframeParameters& parameters, Vector<Vector<int32_t>>* poses) {
   const Limits::Segment& sizes = *context.sizes;
   const Vector<uint32_t>& parents = parameters.parents;
-  const bool draco = parameters.coder == CoderId::kDraco;
-  if (draco != (sizes.draco_bytes > 0) || sizes.draco_bytes > record.pose.size)
+  if (sizes.draco_bytes > record.pose.size)
     return Status::kSegment;
-  if (!draco) {
+  if (sizes.draco_bytes == 0) {
     if (context.corners)
       return decode_poses(record.pose, *context.corners, PoseSteps::kAny, parents, poses);
     return decode_poses(record.pose, CornerTable(*context.topology), PoseSteps::kAny, parents,
@@ -130,28 +130,26 @@ Status set_up_msgi(const KeyframeParameters& parameters, const Vector<Vector<int
     inputs.push_back(x.data());
   Msgi::Options options;
   options.leaf_faces = parameters.leaf_faces;
-  options.most_bytes = static_cast<size_t>(context.sizes->msgi_bytes);
+  options.most_bytes =
+      static_cast<size_t>(std::min<uint64_t>(msgi_bytes(*context.sizes, *context.mesh_sizes), SIZE_MAX));
   const Vector<uint32_t>& triangles = context.topology->triangles;
   out->msgi.resize(1);
   Status s =
       out->msgi[0].init(triangles.data(), triangles.size() / 3, context.topology->coded_vertices,
                         inputs.data(), inputs.size(), options);
-  if (s == Status::kOk && out->msgi[0].scratch_bytes() > context.sizes->msgi_frame_bytes)
+  if (s == Status::kOk && out->msgi[0].scratch_bytes() > msgi_frame_bytes(*context.mesh_sizes))
     s = Status::kLimit;
   out->weight_scale = parameters.step;
   if (context.vertex_coded)
     out->vertex_coded = *context.vertex_coded;
-  // More than the file's limits say is a fault of the file.
-  return s == Status::kLimit ? Status::kRecord : s;
+  return s;
 }
 
 }  // namespace
 
 Bytes KeyframeParameters::write() const {
   ByteWriter w;
-  w.u8(static_cast<uint8_t>((sum_to_one ? kSumToOne : 0) | (rigid ? kRigid : 0) |
-                            (leaf_faces > 0 ? kPatches : 0)));
-  w.u8(static_cast<uint8_t>(coder));
+  w.u8(static_cast<uint8_t>((sum_to_one ? kSumToOne : 0) | (rigid ? kRigid : 0)));
   for (double x : origin)
     w.f64(x);
   w.f64(step);
@@ -172,12 +170,13 @@ Bytes KeyframeParameters::write() const {
   return std::move(w.bytes());
 }
 
-Status KeyframeParameters::read(ByteView bytes, uint32_t components, uint32_t segment_frames) {
+Status KeyframeParameters::read(ByteView bytes, const Limits::Segment& sizes) {
+  const uint32_t components = sizes.components;
+  const bool msgi = sizes.reconstruction == Reconstruction::kMsgi;
   ByteReader r(bytes);
-  uint8_t flags = r.u8(), id = r.u8();
+  const uint8_t flags = r.u8();
   sum_to_one = flags & kSumToOne;
   rigid = flags & kRigid;
-  coder = static_cast<CoderId>(id);
   bool finite = true;
   for (double& x : origin) {
     x = r.f64();
@@ -189,24 +188,22 @@ Status KeyframeParameters::read(ByteView bytes, uint32_t components, uint32_t se
     rotation_bits = r.u8();
     translation_step = r.f64();
   }
-  leaf_faces = flags & kPatches ? r.u8() : uint8_t{0};
-  if (!r.ok() || ((flags & kPatches) && leaf_faces == 0) || components > r.remaining())
+  leaf_faces = msgi ? r.u8() : uint8_t{0};
+  if (!r.ok() || (msgi && leaf_faces == 0) || components > r.remaining())
     return Status::kRecord;
   uint64_t before = 0;
   frames.resize(components);
   for (uint32_t& f : frames) {
-    before += r.varint(segment_frames);
-    if (before >= segment_frames)
+    before += r.varint(sizes.frames);
+    if (before >= sizes.frames)
       return Status::kRecord;
     f = static_cast<uint32_t>(before);
   }
   parents.resize(components);
   for (uint32_t j = 0; j < components; ++j)
     parents[j] = r.varint32(j);
-  if (!r.finished() || (flags & ~(kSumToOne | kRigid | kPatches)))
+  if (!r.finished() || (flags & ~(kSumToOne | kRigid)))
     return Status::kRecord;
-  if (id > static_cast<uint8_t>(CoderId::kDraco))
-    return Status::kCoder;
   if (!finite || !std::isfinite(step) || step <= 0 || weight_bits > 24 || rotation_bits > 27 ||
       !std::isfinite(translation_step) || translation_step <= 0)
     return Status::kQuantizer;
@@ -219,12 +216,10 @@ Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& 
   uint32_t k = context.sizes->components;
   if (k == 0)
     return Status::kSegment;
-  if (Status s = parameters.read(record.parameters, k, out->frames); s != Status::kOk)
+  if (Status s = parameters.read(record.parameters, *context.sizes); s != Status::kOk)
     return s;
   const bool msgi = out->reconstruction == Reconstruction::kMsgi;
-  if (out->reconstruction != context.sizes->reconstruction)
-    return Status::kSegment;
-  if (msgi != (parameters.leaf_faces > 0) || (msgi && !parameters.sum_to_one))
+  if (msgi && !parameters.sum_to_one)
     return Status::kSegment;
   Vector<Vector<int32_t>> poses;
   if (Status s = read_poses(record, context, parameters, &poses); s != Status::kOk)

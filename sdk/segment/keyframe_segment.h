@@ -18,7 +18,6 @@ namespace anicodec {
 struct KeyframeParameters {
   bool sum_to_one = false;  ///< the weight of key-frame 0 is what the others leave of one
   bool rigid = false;       ///< there is a motion M_f
-  CoderId coder = CoderId::kNative;
   double origin[3] = {0, 0, 0};
   double step = 1;
   uint8_t weight_bits = 12;
@@ -29,7 +28,7 @@ struct KeyframeParameters {
   Vector<uint32_t> parents;  ///< 0, or one more than the earlier key-frame it is coded against
 
   Bytes write() const;
-  Status read(ByteView bytes, uint32_t components, uint32_t segment_frames);
+  Status read(ByteView bytes, const Limits::Segment& sizes);
 };
 
 Status open_keyframe_segment(const SegmentRecord& record, const SegmentContext& context,

@@ -100,8 +100,8 @@ double segment_work(const Limits::Segment& segment, const Limits::Mesh& mesh, do
 
 Status open_segment(const SegmentRecord& record, const SegmentContext& context, Segment* out) {
   const Limits::Segment& sizes = *context.sizes;
-  out->kind = record.kind;
-  out->reconstruction = record.reconstruction;
+  out->kind = sizes.kind;
+  out->reconstruction = sizes.reconstruction;
   out->mesh = sizes.mesh;
   out->first_frame = sizes.first_frame;
   out->frames = sizes.frames;
@@ -113,7 +113,7 @@ Status open_segment(const SegmentRecord& record, const SegmentContext& context, 
   out->stored_hash = record.hash;
   const FloatControl control;
   DecodedIntegers integers(context.trace);
-  Status status = record.kind == BasisKind::kKeyframes
+  Status status = sizes.kind == BasisKind::kKeyframes
                       ? open_keyframe_segment(record, context, integers, out)
                       : open_linear_segment(record, context, integers, out);
   if (status == Status::kOk)

@@ -87,7 +87,8 @@ export class Decoder {
     const what = detail || this.string(this.wasm.web_status_text(status));
     const error = new AnicError(STATUS[status] ?? `status ${status}`, chunk ? `${what} (chunk ${chunk}, byte ${offset})` : what,
       { chunk, offset });
-    error.needsFullModule = status === FEATURE;
+    // The full module has geometry interpolation and exact positions, and no other feature.
+    error.needsFullModule = status === FEATURE && (detail.includes('feature 2 ') || !detail.includes('needs feature'));
     return error;
   }
 

@@ -304,8 +304,17 @@ export declare function open(source: Source, options?: OpenOptions): Promise<Cli
  */
 export declare function live(source: Source, options?: Pick<OpenOptions, 'quality' | 'bounds' | 'maxBytes' | 'inPlace' | 'inexact' | 'signal'>): AsyncGenerator<Clip, void>;
 
+/** The metadata of a file: a JSON object; undefined if the file has none. */
+export declare function readMetadata(file: ArrayBuffer | ArrayBufferView): Promise<Record<string, unknown> | undefined>;
+
+/**
+ * A box around frames of a mesh that the file keeps for culling, without decoding; undefined if it has none. The first bytes
+ * of the file suffice. frames 0: all from firstFrame on.
+ */
+export declare function readBounds(file: ArrayBuffer | ArrayBufferView, options?: { mesh?: number; firstFrame?: number; frames?: number }): Promise<Box | undefined>;
+
 /** Gives a compiled module, where the files of dist/ cannot be fetched. */
 export declare function provideModule(kind: 'small' | 'full', module: WebAssembly.Module): void;
 
-export declare const Anicodec: { open: typeof open; live: typeof live };
+export declare const Anicodec: { open: typeof open; live: typeof live; readMetadata: typeof readMetadata; readBounds: typeof readBounds };
 export default Anicodec;

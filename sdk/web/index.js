@@ -157,5 +157,46 @@ export async function* live(source, { quality, bounds, maxBytes, inPlace, inexac
   }
 }
 
-export const Anicodec = { open, live };
+/** Runs read(decoder, address) with the bytes of a file in a decoder of its own; undefined where the file lacks what is read. */
+async function unopened(file, read) {
+  const bytes = ArrayBuffer.isView(file) ? new Uint8Array(file.buffer, file.byteOffset, file.byteLength) : new Uint8Array(file);
+  const decoder = await Decoder.create(await loadModule('small'));
+  try {
+    return decoder.withBytes(bytes, (at) => read(decoder, at, bytes.byteLength));
+  } catch (error) {
+    if (error.status === 'ANIC_E_ABSENT')
+      return undefined;
+    throw error;
+  } finally {
+    decoder.close();
+  }
+}
+
+/** See index.d.ts. */
+export function readMetadata(file) {
+  return unopened(file, (decoder, at, size) => {
+    decoder.call('read_metadata', at, size);
+    const [text, bytes] = decoder.numbers(2);
+    let metadata;
+    try {
+      metadata = JSON.parse(new TextDecoder().decode(decoder.view(Uint8Array, text, bytes).slice()));
+    } catch {
+      // No JSON: the same error as another value.
+    }
+    if (metadata === null || typeof metadata !== 'object' || Array.isArray(metadata))
+      throw new AnicError('ANIC_E_RECORD', 'the metadata is not a JSON object', { chunk: 'META' });
+    return metadata;
+  });
+}
+
+/** See index.d.ts. */
+export function readBounds(file, { mesh = 0, firstFrame = 0, frames = 0 } = {}) {
+  return unopened(file, (decoder, at, size) => {
+    decoder.call('read_bounds', at, size, mesh, firstFrame, frames);
+    const box = [...decoder.numbers(6)];
+    return { min: box.slice(0, 3), max: box.slice(3) };
+  });
+}
+
+export const Anicodec = { open, live, readMetadata, readBounds };
 export default Anicodec;

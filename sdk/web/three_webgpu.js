@@ -202,9 +202,10 @@ export class AnicInstances extends Mesh {
       renderer.compute(this.#segment(segment).pass);
   }
 
-  /** Reads back what the card made: positions in the order of the source. For tests. */
+  /** The positions that the card made, or that it is given when it draws: in the order of the source. For tests. */
   async read(renderer, instance) {
-    const n = this.#mesh.sourceVertexCount, all = new Float32Array(await renderer.getArrayBufferAsync(this.#positions)), out = new Float32Array(3 * n);
+    const n = this.#mesh.sourceVertexCount, out = new Float32Array(3 * n);
+    const all = this.madeByCpu === this.count ? this.#positions.array : new Float32Array(await renderer.getArrayBufferAsync(this.#positions));
     for (let v = 0; v < n; ++v)
       out.set(all.subarray(4 * (instance * n + v), 4 * (instance * n + v) + 3), 3 * v);
     return out;

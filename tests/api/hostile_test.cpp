@@ -42,6 +42,17 @@ std::vector<Entry> listed(const std::string& wanted) {
   return result;
 }
 
+/// What is read without opening: a file may lack it.
+anic_status read_unopened(const Bytes& file) {
+  const char* text;
+  size_t bytes;
+  anic_box box;
+  anic_status status = anic_read_metadata(file.data(), file.size(), &text, &bytes);
+  if (status == ANIC_OK || status == ANIC_E_ABSENT)
+    status = anic_read_bounds(file.data(), file.size(), 0, 0, 0, &box);
+  return status == ANIC_E_ABSENT ? ANIC_OK : status;
+}
+
 /// Opens and compares hashes; what opens is played. Nothing is kept.
 anic_status tried(const Bytes& file, CountingMemory* memory) {
   anic_options options = ANIC_INIT(anic_options);
@@ -69,7 +80,7 @@ anic_status tried(const Bytes& file, CountingMemory* memory) {
     }
   }
   EXPECT_EQ(memory->held, 0U);
-  return status;
+  return status == ANIC_OK ? read_unopened(file) : status;
 }
 
 anic_status tried(const Bytes& file) {
@@ -85,11 +96,11 @@ TEST(Hostile, ConformanceFilesHaveTheirStatus) {
     EXPECT_EQ(tried(entry.bytes), entry.status) << entry.file;
     seen.push_back(entry.status);
   }
-  // One for each code that a file can cause.
+  // One for each code that a file by itself can cause.
   for (int status = ANIC_E_MAGIC; status < ANIC_E_LIMIT; ++status) {
     const bool exists =
         std::string(anic_get_status_text(static_cast<anic_status>(status))) != "unknown status";
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), status) > 0, exists) << status;
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), status) > 0, exists && status != ANIC_E_MESHES) << status;
   }
 }
 

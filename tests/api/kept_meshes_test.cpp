@@ -6,6 +6,9 @@
 #include "sdk/clip/kept_meshes.h"
 #include "tests/api/opened.h"
 
+#include "format/checksum.h"
+#include "format/continuation.h"
+
 #include <algorithm>
 #include <set>
 #include <string>
@@ -90,18 +93,28 @@ TEST(KeptMeshes, AreDecodedOnce) {
   EXPECT_TRUE(steps.has("polygon corners"));
 }
 
-/// A continuation that has the pose of its mesh itself.
-Bytes continuation_with_pose(const Bytes& file) {
-  ContainerReader reader;
+/// A continuation of `before` that has the pose of its mesh itself.
+Bytes continuation_with_pose(const Bytes& before, const Bytes& file) {
+  ContainerReader base, reader;
+  EXPECT_TRUE(base.open(before).ok());
   EXPECT_TRUE(reader.open(file).ok());
+  Limits sizes;
+  EXPECT_EQ(Limits::read(reader.unchecked(*reader.find("LIMI")), &sizes), Status::kOk);
+  sizes.continued_meshes = mesh_hash(base);
+  const Bytes limits = sizes.write();
   Vector<Chunk> chunks;
-  for (const Chunk& chunk : reader.chunks()) {
+  for (Chunk chunk : reader.chunks()) {
+    if (chunk.type == chunk_type("LIMI")) {
+      chunk.size = limits.size();
+      chunk.checksum = static_cast<uint32_t>(xxh64(limits));
+    }
     if (!is_of_mesh(chunk) || chunk.type == chunk_type("POSE"))
       chunks.push_back(chunk);
   }
   Bytes out = container_head(chunks, kContinuation);
   for (const Chunk& chunk : chunks) {
-    const ByteView payload = reader.unchecked(chunk);
+    const ByteView payload =
+        chunk.type == chunk_type("LIMI") ? ByteView(limits) : reader.unchecked(chunk);
     out.insert(out.end(), payload.data, payload.data + payload.size);
   }
   return out;
@@ -114,7 +127,7 @@ TEST(KeptMeshes, AreNotThoseThatAContinuationHasItself) {
   open(stream);
   for (const uint32_t frames : {24U, 12U, 6U}) {
     const Bytes& whole = encoded_clip("limb", BasisChoice::kEigentrajectories, frames);
-    const Bytes next = continuation_with_pose(whole);
+    const Bytes next = continuation_with_pose(keyframes, whole);
     ASSERT_EQ(anic_advance_stream(stream.get()), ANIC_OK);
     ASSERT_EQ(anic_push_bytes(stream.get(), next.data(), next.size()), ANIC_OK);
     ASSERT_TRUE(info_of(stream).complete);

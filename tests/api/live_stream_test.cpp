@@ -123,6 +123,24 @@ TEST(LiveStream, RefusesWhatIsNone) {
   EXPECT_EQ(anic_push_bytes(stream.get(), garbage + 1, 1), ANIC_E_TRAILING_BYTES);
 }
 
+TEST(LiveStream, RefusesContinuationsOfOtherMeshes) {
+  const Bytes other = encoded_clip("limb", BasisChoice::kEigentrajectories, 12);
+  Stream stream = new_stream();
+  ASSERT_EQ(anic_push_bytes(stream.get(), other.data(), other.size()), ANIC_OK);
+  ASSERT_EQ(anic_advance_stream(stream.get()), ANIC_OK);
+  EXPECT_EQ(anic_push_bytes(stream.get(), files()[1].data(), files()[1].size()), ANIC_E_MESHES);
+  // A second file with meshes takes the place of the first.
+  stream = new_stream();
+  for (const Bytes* file : {&other, files().data(), &files()[1]}) {
+    ASSERT_EQ(anic_push_bytes(stream.get(), file->data(), file->size()), ANIC_OK);
+    open(stream);
+    ASSERT_EQ(anic_advance_stream(stream.get()), ANIC_OK);
+  }
+  Bytes all = other;
+  all.insert(all.end(), files()[1].begin(), files()[1].end());
+  EXPECT_ANY_THROW(read_live_stream({"stream", all}));
+}
+
 TEST(LiveStream, NoticesEveryDamagedByteOfAContinuation) {
   Bytes damaged = files()[1];
   for (size_t i = 0; i < damaged.size(); ++i) {

@@ -139,7 +139,6 @@ class CraftedFile {
   static Bytes segment(const Limits::Segment& s) {
     const Bytes head = parameters(s.components).write();
     SegmentRecord record;
-    record.kind = s.kind;
     record.parameters = head;
     return record.write();
   }

@@ -7,7 +7,6 @@
 #include "format/records.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,12 +20,14 @@ struct EditedFile {
   };
 
   std::vector<Part> parts;
+  uint64_t features = 0;
 
   /// Leaves out what cannot be read.
   explicit EditedFile(const Bytes& file) {
     ContainerReader reader;
     if (!reader.open(file).ok())
       return;
+    features = reader.features();
     for (const Chunk& chunk : reader.chunks()) {
       ByteView view;
       if (reader.payload(chunk, &view).ok())
@@ -46,6 +47,7 @@ struct EditedFile {
     Limits::read(part("LIMI").payload, &limits);
     change(limits);
     part("LIMI").payload = limits.write();
+    features = limits.features();
   }
 
   template <class Change>
@@ -70,12 +72,9 @@ struct EditedFile {
 
   Bytes bytes() const {
     ContainerWriter writer;
-    for (const Part& p : parts) {
-      std::string type = chunk_name(p.chunk.type);
-      const char name[5] = {type[0], type[1], type[2], type[3], 0};
-      writer.add(name, p.chunk.required, p.chunk.mesh, p.chunk.segment, p.payload);
-    }
-    return writer.finish();
+    for (const Part& p : parts)
+      writer.add(p.chunk, p.chunk.mesh, p.chunk.segment, p.payload);
+    return writer.finish(features);
   }
 };
 

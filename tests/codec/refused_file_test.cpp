@@ -22,6 +22,7 @@ Bytes encoded(const char* clip, BasisChoice basis, OrderMode order = OrderMode::
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1, true};
   options.basis = basis;
+  options.keyframe_poses = KeyframePoses::kDraco;
   options.effort = 1;
   options.order = order;
   return encode(corpus::make_clip(clip), options).file;
@@ -85,40 +86,50 @@ TEST_F(RefusedFile, MoreTrianglesThanCornersCanBeNumbered) {
   EXPECT_EQ(status_of(file), Status::kRecord);
 }
 
-TEST_F(RefusedFile, UnknownReconstruction) {
-  EditedFile file(keyframes_);
-  file.change_record<SegmentRecord>("SEGM", [](SegmentRecord& record) {
-    record.reconstruction = static_cast<Reconstruction>(2);
-  });
-  EXPECT_EQ(status_of(file), Status::kFeature);
-}
-
-TEST_F(RefusedFile, ReconstructionThatTheLimitsDoNotTell) {
-  EditedFile file(keyframes_);
-  file.change_record<SegmentRecord>(
-      "SEGM", [](SegmentRecord& record) { record.reconstruction = Reconstruction::kMsgi; });
-  EXPECT_EQ(status_of(file), Status::kSegment);
-}
-
-TEST_F(RefusedFile, MoreMemoryThanTheLimitsTell) {
-  EncodeOptions options;
-  options.keyframes = 3;
-  options.interpolation = InterpolationChoice::kMsgi;
-  const Bytes bytes = encode(corpus::make_clip("nonmanifold"), options).file;
-  for (uint64_t Limits::Segment::*size :
-       {&Limits::Segment::msgi_bytes, &Limits::Segment::msgi_frame_bytes}) {
+TEST_F(RefusedFile, SegmentsThatTheFormatDoesNotHave) {
+  const auto with = [](const Bytes& bytes, auto change) {
     EditedFile file(bytes);
-    ASSERT_EQ(status_of(file), Status::kOk);
-    file.change_limits([&](Limits& limits) { limits.segments[0].*size /= 2; });
-    EXPECT_EQ(status_of(file), Status::kRecord);
+    file.change_limits([&](Limits& limits) { change(limits.segments[0]); });
+    return status_of(file);
+  };
+  constexpr auto unknown_kind = [](Limits::Segment& s) { s.kind = static_cast<BasisKind>(3); };
+  constexpr auto unknown_reconstruction = [](Limits::Segment& s) {
+    s.reconstruction = static_cast<Reconstruction>(2);
+  };
+  constexpr auto by_msgi = [](Limits::Segment& s) { s.reconstruction = Reconstruction::kMsgi; };
+  constexpr auto in_regions = [](Limits::Segment& s) { s.regions = 2; };
+  constexpr auto of_attribute = [](Limits::Segment& s) { s.attribute = 0; };
+  EXPECT_EQ(with(keyframes_, unknown_kind), Status::kFeature);
+  EXPECT_EQ(with(keyframes_, unknown_reconstruction), Status::kFeature);
+  for (const Bytes& bytes : {keyframes_, shapes_}) {
+    EXPECT_EQ(with(bytes, in_regions), Status::kFeature);
+    EXPECT_EQ(with(bytes, of_attribute), Status::kFeature);
   }
+  EXPECT_EQ(with(shapes_, by_msgi), Status::kFeature);
+  EXPECT_EQ(with(shapes_, [](Limits::Segment& s) { s.draco_bytes = s.draco_points = 1; }),
+            Status::kFeature);
+}
+
+TEST_F(RefusedFile, FeaturesThatAreNotThoseOfTheSegments) {
+  for (const Bytes& bytes : {keyframes_, shapes_}) {
+    for (const uint64_t change : {kDracoFeature, kMsgiFeature}) {
+      EditedFile file(bytes);
+      file.features ^= change;
+      EXPECT_EQ(status_of(file), Status::kRecord) << change;
+    }
+  }
+  EditedFile unknown(keyframes_);
+  unknown.features |= uint64_t{1} << 17;
+  EXPECT_EQ(status_of(unknown), Status::kFeature);
+  Clip clip;
+  EXPECT_STREQ(clip.open(unknown.bytes()).detail, "the file needs feature 17, which this decoder does not know");
 }
 
 TEST_F(RefusedFile, DracoBytesThatAreNotThere) {
   EditedFile loose(encoded("one_vertex", BasisChoice::kKeyframes));
   ASSERT_EQ(status_of(loose), Status::kOk);
   loose.change_limits([](Limits& limits) {
-    limits.segments[0].draco_bytes = 1;
+    limits.segments[0].draco_bytes = 100;
     limits.segments[0].draco_points = 1;
   });
   EXPECT_EQ(status_of(loose), Status::kSegment);
@@ -128,7 +139,7 @@ TEST_F(RefusedFile, DracoBytesThatAreNotThere) {
     return status_of(file);
   };
   ASSERT_EQ(with([](Limits::Segment&) {}), Status::kOk);
-  EXPECT_EQ(with([](Limits::Segment& s) { s.draco_bytes = s.draco_points = 0; }), Status::kSegment);
+  EXPECT_EQ(with([](Limits::Segment& s) { s.draco_bytes = s.draco_points = 0; }), Status::kEntropy);
   EXPECT_EQ(with([](Limits::Segment& s) { s.draco_bytes += 200; }), Status::kSegment);
   EXPECT_EQ(with([](Limits::Segment& s) { s.draco_bytes = UINT32_MAX; }), Status::kLimit);
   EXPECT_EQ(with([](Limits::Segment& s) { ++s.draco_points; }), Status::kRecord);
@@ -199,7 +210,6 @@ TEST_F(RefusedFile, ZstdFrameOfAnotherSize) {
 TEST_F(RefusedFile, NativeKeyframesThatRunOut) {
   EncodeOptions options;
   options.keyframes = 3;
-  options.keyframe_poses = KeyframePoses::kNative;
   const Bytes bytes = encode(corpus::make_clip("limb"), options).file;
   EditedFile whole(bytes);
   ASSERT_EQ(status_of(whole), Status::kOk);
@@ -228,7 +238,10 @@ TEST_F(RefusedFile, NumbersTooLargeToPlay) {
   EditedFile file(keyframes_);
   file.change_record<SegmentRecord>("SEGM", [&](SegmentRecord& record) {
     KeyframeParameters parameters;
-    ASSERT_EQ(parameters.read(record.parameters, components(keyframes_), 1 << 20), Status::kOk);
+    Limits::Segment sizes;
+    sizes.components = components(keyframes_);
+    sizes.frames = 1 << 20;
+    ASSERT_EQ(parameters.read(record.parameters, sizes), Status::kOk);
     parameters.step = 1e300;
     changed_ = parameters.write();
     record.parameters = changed_;

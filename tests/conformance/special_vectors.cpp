@@ -10,6 +10,7 @@
 #include "codec/file/clip_record.h"
 #include "codec/metrics/metrics.h"
 #include "codec/search/encoder_input.h"
+#include "codec/segment/exact_encode.h"
 #include "codec/segment/linear_segment_encode.h"
 #include "codec/sequence/error.h"
 #include "corpus/clips.h"
@@ -225,6 +226,26 @@ Bytes regions() {
     return result;
   };
   return file_of(clip, {bands, scattered});
+}
+
+/// Exact positions of a surface in regions.
+Bytes exact_regions() {
+  const MeshSequence clip = corpus::make_scaled("limb", 120, 6);
+  Recipe r = recipe(6, BasisKind::kEigentrajectories, 0.004 * diagonal(clip), 12, 1, 12,
+                    RefitSchedule::kSparse);
+  r.regions = 2;
+  r.settings.components = {3, 4};
+  r.region_of = [](uint32_t n) {
+    Vector<uint8_t> result(n);
+    for (uint32_t v = n / 3; v < n; ++v)
+      result[v] = 1;
+    return result;
+  };
+  r.change = [](EncodedSegment& segment, const EncoderInput& input) {
+    segment.exact = encode_exact(input.frames(0, segment.sizes.frames), input.layout.topology);
+    segment.sizes.exact = true;
+  };
+  return file_of(clip, {r});
 }
 
 /// Several meshes that come and go, several segments of one of them.
@@ -504,7 +525,6 @@ Bytes flat(const MeshSequence& clip) {
   EncodeOptions options;
   options.basis = BasisChoice::kKeyframes;
   options.keyframes = 1;
-  options.keyframe_poses = KeyframePoses::kNative;
   options.order = OrderMode::kAll;
   return encode(clip, options).file;
 }
@@ -601,6 +621,7 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"saturated", saturated},
                                {"layers", layers},
                                {"regions", regions},
+                               {"exact_regions", exact_regions},
                                {"partners", partners},
                                {"other_parents", other_parents},
                                {"draco_parents", draco_parents},

@@ -96,7 +96,7 @@ TEST(Container, NamesWhatIsWrong) {
   EXPECT_EQ(status_of(with_byte(12, 5)), Status::kHeader);    // too few bytes for as many
   EXPECT_EQ(status_of(with_byte(13, 255)), Status::kHeader);  // by far
   EXPECT_EQ(status_of(with_byte(30, 1)), Status::kTruncated);
-  EXPECT_EQ(status_of(with_byte(kSecondEntry + 8, 11)), Status::kHeader);         // reserved flag
+  EXPECT_EQ(status_of(with_byte(kSecondEntry + 8, 19)), Status::kHeader);         // reserved flag
   EXPECT_EQ(status_of(with_byte(kSecondEntry + 9, 0x80)), Status::kChunkBounds);  // mesh 21 << 7
   EXPECT_EQ(status_of(with_byte(kHeaderBytes + kTableBytes - 1, 0x85)), Status::kHeader);  // size
   EXPECT_EQ(status_of(with_byte(kSecondEntry + 10, 99)), Status::kChunkBounds);            // size

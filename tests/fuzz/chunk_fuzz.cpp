@@ -11,7 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2)
     return 0;
   static const std::vector<FuzzFile> files = fuzz_files();
-  const std::vector<FuzzFile::Part>& parts = files[data[0] % files.size()].parts;
+  const FuzzFile& good = files[data[0] % files.size()];
+  const std::vector<FuzzFile::Part>& parts = good.parts;
   ContainerWriter writer;
   for (size_t i = 0; i < parts.size(); ++i) {
     const Chunk& chunk = parts[i].chunk;
@@ -20,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     writer.add(name, chunk.required, chunk.mesh, chunk.segment,
                i == data[1] % parts.size() ? Bytes(data + 2, data + size) : parts[i].payload);
   }
-  const Bytes file = writer.finish();
+  const Bytes file = writer.finish(good.features);
   CappedMemory memory;
   const anic_options options = memory.options();
   anic_asset* asset = nullptr;

@@ -18,7 +18,8 @@ inline Bytes repaired(ByteView file) {
   ByteReader r(file);
   r.raw(12);
   uint32_t count = r.u32();
-  r.raw(kHeaderBytes - 16);
+  const uint64_t features = r.u64();
+  r.raw(kHeaderBytes - 24);
   if (!r.ok() || count > r.remaining() / kLeastEntryBytes)
     return {file.data, file.data + file.size};
 
@@ -54,7 +55,7 @@ inline Bytes repaired(ByteView file) {
     writer.add(type, e.required, e.mesh, e.segment, {file.data + at, file.data + at + size});
     at += size;
   }
-  return writer.finish();
+  return writer.finish(features);
 }
 
 /// Decisions, taken from bytes one after another; from zeros when they are used up.

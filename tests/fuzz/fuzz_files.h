@@ -22,6 +22,7 @@ struct FuzzFile {
 
   std::string name;
   Bytes bytes;
+  uint64_t features = 0;
   std::vector<Part> parts;
 };
 
@@ -30,7 +31,7 @@ inline std::vector<FuzzFile> fuzz_files() {
   std::vector<FuzzFile> result;
   for (const char* name : {"triangle", "nonmanifold_keyframes", "polygons_all", "quad_box_corrected",
                            "soup", "limb_small", "far_rigid", "uneven_times", "painted_box", "heated",
-                           "walk", "exact", "alike", "regions"}) {
+                           "walk", "exact", "alike", "regions", "nonmanifold_interpolated"}) {
     std::ifstream in(std::string(ANICODEC_CONFORMANCE) + "/" + name + ".anic", std::ios::binary);
     FuzzFile& file = result.emplace_back();
     file.name = name;
@@ -38,6 +39,7 @@ inline std::vector<FuzzFile> fuzz_files() {
     ContainerReader reader;
     if (!reader.open(file.bytes).ok())
       std::abort();
+    file.features = reader.features();
     for (const Chunk& chunk : reader.chunks()) {
       ByteView view;
       if (!reader.payload(chunk, &view).ok())

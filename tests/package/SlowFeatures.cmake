@@ -38,7 +38,7 @@ foreach(clip soup polygons_all quad_box_corrected limb_effort9 uneven_times heat
 endforeach()
 execute_process(COMMAND "${program}" "${clips}/nonmanifold_keyframes.anic"
   RESULT_VARIABLE result ERROR_VARIABLE text)
-if(result EQUAL 0 OR NOT text MATCHES "this build is without Draco")
+if(result EQUAL 0 OR NOT text MATCHES "needs feature 1 .key-frames by[ \n]+Draco")
   message(FATAL_ERROR "${result}: ${text}")
 endif()
 message("without Draco: needs ${needed}")

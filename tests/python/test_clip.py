@@ -131,6 +131,7 @@ def test_damaged_files(clip):
         damaged[place] ^= 0x55
         with pytest.raises(anicodec.AnicodecError):
             anicodec.open(damaged)
+            anicodec.read_bounds(damaged)  # which no opening looks at
     with pytest.raises(MemoryError):
         anicodec.open(data, max_bytes=100)
     with pytest.raises(ValueError):

@@ -9,7 +9,7 @@ PRIMES = (11400714785074694791, 14029467366897019727, 1609587929392839161, 96500
           2870177450012600261)
 HEADER_BYTES = 40
 NO_MESH, NO_SEGMENT = 0xFFFF, 0xFFFFFFFF
-REQUIRED, OF_MESH, OF_SEGMENT = 1, 2, 4
+REQUIRED, OF_MESH, OF_SEGMENT, COPIED = 1, 2, 4, 8
 
 
 def _rotated(x, n):
@@ -95,6 +95,11 @@ def entries(data):
         payload += size
 
 
+def features(data):
+    """The feature bits of the header."""
+    return struct.unpack_from("<Q", data, 16)[0]
+
+
 def file_size(data):
     """The bytes of the first file of a stream."""
     return struct.unpack_from("<Q", data, 24)[0]
@@ -127,17 +132,17 @@ def entry(chunk, size=None):
     return struct.pack("<4sIB", chunk.type.encode("latin-1"), xxh64(chunk.payload) & 0xFFFFFFFF, flags) + varints(numbers)
 
 
-def write_table(chunks, table, version=(0, 9)):
-    """A file of chunks with any table."""
+def write_table(chunks, table, version=(0, 9), needs=0):
+    """A file of chunks with any table. `needs`: its feature bits."""
     body = b"".join(chunk.payload for chunk in chunks)
-    header = struct.pack("<8sHHIQQII", b"\x89ANI\r\n\x1a\n", *version, len(chunks), 0, HEADER_BYTES + len(table) + len(body), 0,
+    header = struct.pack("<8sHHIQQII", b"\x89ANI\r\n\x1a\n", *version, len(chunks), needs, HEADER_BYTES + len(table) + len(body), 0,
                          len(table))
     return checked_header(header + table + body)
 
 
-def write_chunks(chunks, version=(0, 9)):
-    """A file of these chunks, all checksums right."""
-    return write_table(chunks, b"".join(map(entry, chunks)), version)
+def write_chunks(chunks, version=(0, 9), needs=0):
+    """A file of these chunks, all checksums right. `needs`: its feature bits."""
+    return write_table(chunks, b"".join(map(entry, chunks)), version, needs)
 
 
 def varints(values):

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 """Invalid files, one for each rule of the specification that a record, or the list of chunks, can break."""
+import json
 import re
 import struct
 import subprocess
 
 import anic_file
 
-LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
-COLUMN = 29  # of the values
 NONE, NO_MESH = 0xFFFFFFFF, 0xFFFF
 
 
@@ -18,6 +17,9 @@ def f64(x):
 
 def varint(x):
     return anic_file.varints([x])
+
+
+varints = anic_file.varints
 
 
 def varint_value(data):
@@ -35,16 +37,23 @@ class File:
         self.name = path.name
         self.fields = {}
         starts = [(entry[5], i) for i, entry in enumerate(anic_file.entries(self.data))]
-        for row in subprocess.run([command, "dump", path], check=True, capture_output=True, text=True).stdout.splitlines():
-            match = LINE.match(row)
-            at, size, text = int(match[1], 16), int(match[2]), match[3]
-            label = (text[:COLUMN] if text[COLUMN - 1:COLUMN] in ("", " ") else text.rpartition(" ")[0]).strip()
+        for row in subprocess.run([command, "dump", "--json", path], check=True, capture_output=True, text=True).stdout.splitlines():
+            field = json.loads(row)
+            at, size, label = field["offset"], field["size"], field["name"]
             chunk = max(((start, i) for start, i in starts if start <= at), default=None)
             if chunk:
                 self.fields.setdefault(label, []).append((chunk[1], at - chunk[0], size))
 
     def chunks(self):
         return anic_file.read_chunks(self.data)
+
+    def of(self, chunks):
+        """A file of these chunks that needs the same features."""
+        return anic_file.write_chunks(chunks, needs=anic_file.features(self.data))
+
+    def needing(self, features):
+        """The file with other feature bits."""
+        return anic_file.write_chunks(self.chunks(), needs=features)
 
     def field(self, label, number=0):
         """Bytes of a field; `number`: which of several of that name."""
@@ -58,7 +67,7 @@ class File:
         payload = chunks[chunk].payload
         value = new(payload[at:at + size]) if callable(new) else new
         chunks[chunk].payload = payload[:at] + value + payload[at + size:]
-        return anic_file.write_chunks(chunks)
+        return self.of(chunks)
 
     def put_two(self, earlier, later):
         """The file with two fields of one chunk changed."""
@@ -69,7 +78,7 @@ class File:
             value = new(payload[at:at + size]) if callable(new) else new
             payload = payload[:at] + value + payload[at + size:]
         chunks[first[1]].payload = payload
-        return anic_file.write_chunks(chunks)
+        return self.of(chunks)
 
     def grown(self, label, change=lambda old: old + b"\1"):
         """The file with another block of SEGM; its length stands before it."""
@@ -80,29 +89,29 @@ class File:
         end = at + size + (blocks[0][2] if blocks else 0)
         block = change(payload[at + size:end])
         chunks[chunk].payload = payload[:at] + varint(len(block)) + block + payload[end:]
-        return anic_file.write_chunks(chunks)
+        return self.of(chunks)
 
     def end(self, kind, more=b"", less=0):
         """The file with more, or fewer, bytes at the end of the first chunk of a type."""
         chunks = self.chunks()
         chunk = next(c for c in chunks if c.type == kind)
         chunk.payload = chunk.payload[:len(chunk.payload) - less] + more
-        return anic_file.write_chunks(chunks)
+        return self.of(chunks)
 
     def without(self, kind):
         """The file without the last chunk of a type."""
         chunks = self.chunks()
         chunks.remove([c for c in chunks if c.type == kind][-1])
-        return anic_file.write_chunks(chunks)
+        return self.of(chunks)
 
     def twice(self, kind):
         """The file with a chunk of a type once more."""
         chunks = self.chunks()
-        return anic_file.write_chunks(chunks + [next(c for c in chunks if c.type == kind)])
+        return self.of(chunks + [next(c for c in chunks if c.type == kind)])
 
     def more(self, kind, mesh=NO_MESH, segment=NONE, payload=b"\0"):
         """The file with a chunk that does not belong into it."""
-        return anic_file.write_chunks(self.chunks() + [anic_file.Chunk(kind, 1, mesh, segment, payload)])
+        return self.of(self.chunks() + [anic_file.Chunk(kind, 1, mesh, segment, payload)])
 
 
 def set_byte(at, value):
@@ -136,7 +145,10 @@ def chunk_rules(files):
     next(c for c in chunks if c.type == "SEGM").mesh = 1
     yield 44, "segm_of_other_mesh", anic_file.write_chunks(chunks), "SEGM of a segment with another mesh"
     chunks = triangle.chunks()
-    chunks[1].flags |= 8
+    chunks[1].flags |= anic_file.COPIED
+    yield 44, "copied_clip", anic_file.write_chunks(chunks), "CLIP with the flag *copied*"
+    chunks = triangle.chunks()
+    chunks[1].flags |= 16
     yield 21, "reserved_flag", anic_file.write_chunks(chunks), "a reserved flag of a chunk is set"
     chunks = triangle.chunks()
     table = b"".join(map(anic_file.entry, chunks))
@@ -159,8 +171,9 @@ def chunk_rules(files):
 
 def limit_rules(files):
     """The same for LIMI, section 2."""
-    triangle, corrected, far, scene, moved, clips = (
-        files(name) for name in ("triangle", "quad_box_corrected", "far_rigid", "scene", "heated", "clips"))
+    triangle, corrected, scene, moved, clips, shapes, draco, msgi = (
+        files(name) for name in ("triangle", "quad_box_corrected", "scene", "heated", "clips", "polygons_all",
+                                 "nonmanifold_keyframes", "nonmanifold_interpolated"))
     yield 40, "limi_clip_frames", clips.put("LIMI clip 1 frames", b"\0"), "a clip without a frame"
     yield 40, "limi_clips_frames", clips.put("LIMI clip 1 frames", varint((1 << 24) - 1)), \
         "clips of more than 2^24 - 1 frames together"
@@ -174,22 +187,44 @@ def limit_rules(files):
             ("first_frame", "segment 0 first frame", 5, 40), ("segment_frames", "segment 0 frames", 0, 40),
             ("past_the_end", "segment 0 frames", 6, 40), ("components", "segment 0 components", (1 << 20) + 1, 40),
             ("wide", "segment 0 wide components", 3, 40), ("basis", "segment 0 basis", 3, 12),
-            ("other_basis", "segment 0 basis", 17, 12)):
+            ("reconstruction", "segment 0 reconstruction", 2, 12), ("segment_flags", "segment 0 flags", 16, 12),
+            ("attributes", "mesh 0 attributes", 257, 40)):
         yield status, f"limi_{name}", triangle.put(f"LIMI {label}", varint(value)), f"LIMI {label} {value}"
     yield 48, "limi_no_keyframe", triangle.put("LIMI segment 0 components", b"\0"), "key-frames without a key-frame"
-    yield 40, "limi_points", far.put("LIMI segment 0 Draco points", b"\0"), "bytes of Draco without points"
+    yield 40, "limi_points", draco.put("LIMI segment 0 Draco points", b"\0"), "bytes of Draco without points"
+    yield 40, "limi_draco_bytes", draco.put("LIMI segment 0 Draco bytes", b"\0"), "Draco without bytes"
+    yield 12, "limi_draco_of_shapes", shapes.put("LIMI segment 0 flags", b"\x08"), "eigenshapes by Draco"
+    yield 12, "limi_shapes_interpolated", shapes.put("LIMI segment 0 reconstruction", b"\1"), "eigenshapes by geometry interpolation"
+    for name, file, bit in (("draco", draco, 2), ("msgi", msgi, 4)):
+        yield 40, f"{name}_not_announced", file.needing(0), f"the feature bit of {name} is clear, and LIMI uses it"
+        yield 40, f"{name}_not_used", triangle.needing(bit), f"the feature bit of {name} is set, and LIMI does not use it"
+    yield 12, "first_feature", triangle.needing(8), "the first feature bit that is not assigned"
     yield 40, "limi_shared_frame", scene.put("LIMI segment 2 first frame", scene.field("LIMI segment 1 first frame")), \
         "two segments of a mesh share frames"
-    yield 40, "limi_attribute_bytes", moved.put("LIMI mesh 0 attribute bytes", lambda old: varint(6932)), \
-        "attribute bytes that are not those of the attributes"
-    yield 40, "limi_more", triangle.end("LIMI", b"\0"), "a byte after the last field, which is no attribute bytes"
+    for label in ("labels", "bytes before the values", "numbers"):
+        for file in (moved, files("painted_box")):
+            yield 40, f"limi_{label.split()[0]}_{file.name.split('.')[0]}", \
+                file.put(f"LIMI mesh 0 {label}", lambda old: varint(varint_value(old) + 1)), f"LIMI {label} that are not those of the attributes"
+    yield 40, "limi_attribute_head", triangle.put("LIMI mesh 0 attributes", varints((2, 0, 7, 2))), \
+        "two attributes in seven bytes"
+    yield 40, "limi_more", triangle.end("LIMI", b"\0"), "a byte after the last field"
     yield 40, "limi_short", triangle.end("LIMI", less=1), "LIMI that ends early"
     yield 40, "limi_long_varint", triangle.put("LIMI clip 0 frames", b"\x85\0"), "a varint that is not the shortest"
     cut = files("regions")
     yield 40, "limi_one_region", cut.put("LIMI segment 0 regions", b"\1"), "regions of which there is one"
     yield 40, "limi_many_regions", cut.put("LIMI segment 0 regions", b"\x09"), "nine regions"
-    yield 12, "limi_regions_of_shapes", cut.put("LIMI segment 0 basis", b"\x81"), "eigenshapes in regions"
-    yield 12, "limi_regions_of_attribute", cut.put("LIMI segment 0 basis", b"\xa2"), "an attribute in regions"
+    yield 12, "limi_regions_of_shapes", cut.put("LIMI segment 0 basis", b"\1"), "eigenshapes in regions"
+    yield 12, "limi_regions_of_attribute", cut.put("LIMI segment 0 flags", b"\6"), "an attribute in regions"
+    moving = [label.removesuffix(" attribute") for label in moved.fields if re.fullmatch("LIMI segment \\d+ attribute", label)]
+    first, second = moving[:2]
+    for name, basis in (("keyframes", 0), ("shapes", 1)):
+        yield 12, f"attribute_{name}", moved.put(f"{first} basis", bytes([basis])), f"an attribute by {name}"
+    yield 40, "attribute_number", moved.put(f"{first} attribute", varint(256)), "a segment of attribute 256"
+    yield 40, "attribute_unknown", moved.put(f"{first} attribute", moved.field("LIMI mesh 0 attributes")), \
+        "a segment of one attribute more than there are"
+    yield 44, "attribute_component", moved.put(f"{first} three components", b"\5"), "a segment of components 15 to 17"
+    yield 40, "attribute_twice", moved.put_two(*((f"{second} {field}", moved.field(f"{first} {field}")) for field in
+                                                 ("attribute", "three components"))), "two segments of one attribute share frames"
     yield 41, "limi_fewer_corrections", corrected.put("LIMI segment 0 corrections", lambda old: varint(1)), \
         "more corrections than announced"
 
@@ -227,7 +262,7 @@ def root_rules(files):
     yield 40, "clip_no_events", walk.put("CLIP clip 0 events", b"\0"), "a list of no events"
     yield 40, "clip_many_events", walk.put("CLIP clip 0 events", b"\x7f"), "more events than bytes"
     yield 40, "limi_root_frames", walk.put("LIMI frames with root motion", b"\x0f"), "root frames that are not those of the clips"
-    yield 40, "limi_no_root_frames", walk.put("LIMI frames with root motion", b"\0"), "root frames of 0"
+    yield 44, "limi_no_root_frames", walk.put("LIMI frames with root motion", b"\0"), "ROOT although LIMI says no root frames"
     yield 40, "limi_many_root_frames", walk.put("LIMI frames with root motion", b"\x7f"), "more root frames than frames"
     yield 26, "root_missing", walk.without("ROOT"), "root frames without ROOT"
     yield 25, "root_twice", walk.twice("ROOT"), "ROOT twice"
@@ -246,8 +281,7 @@ def root_rules(files):
 def exact_rules(files):
     """The same for DIFF, section 12."""
     exact, triangle = files("exact"), files("triangle")
-    kind = exact.field("LIMI segment 0 basis")[0]
-    yield 12, "limi_exact_attribute", exact.put("LIMI segment 0 basis", bytes([kind | 32])), "exact positions of an attribute"
+    yield 12, "limi_exact_attribute", exact.put("LIMI segment 0 flags", b"\5"), "exact positions of an attribute"
     yield 44, "diff_not_announced", triangle.more("DIFF", 0, 0), "DIFF although LIMI says no exact positions"
     yield 26, "diff_missing", exact.without("DIFF"), "exact positions without DIFF"
     yield 25, "diff_twice", exact.twice("DIFF"), "DIFF twice"
@@ -282,7 +316,6 @@ def mesh_rules(files):
         yield 45, f"pose_{name}", corrected.put(f"POSE {label}", value), f"POSE {label} that is out of range"
     yield 41, "pose_more", corrected.end("POSE", b"\1"), "bytes after the pose"
     yield 41, "pose_short", corrected.end("POSE", less=20), "a pose that ends early"
-    yield 40, "attr_none", painted.put("ATTR attributes", b"\0"), "ATTR without attributes"
     yield 12, "attr_kind", painted.put("ATTR attribute 0 kind", b"\7"), "a kind of attribute that does not exist"
     yield 12, "attr_domain", painted.put("ATTR attribute 0 domain", b"\3"), "a domain that does not exist"
     yield 40, "attr_kind_of_domain", painted.put("ATTR attribute 0 kind", b"\5"), "a material of each corner"
@@ -300,7 +333,7 @@ def mesh_rules(files):
     yield 40, "look_not_finite", painted.put(f"{look} red", struct.pack("<f", float("nan"))), "a colour that is not a number"
     yield 40, "look_textures", painted.put(f"{look} textures", b"\x25"), "an image for a purpose that does not exist"
     yield 40, "look_image", painted.put(f"{look} base_colour", b"\0"), "an image without a name"
-    yield 40, "limi_fewer_looks", painted.put("LIMI mesh 0 attribute bytes", varint(500)), "less memory than names and looks take"
+    yield 40, "attr_more_labels", painted.put("ATTR attribute 3 labels", b"\x7f"), "more names than LIMI announces"
     yield 41, "attr_more", painted.end("ATTR", b"\1"), "bytes after the values"
 
 
@@ -308,25 +341,21 @@ def segment_rules(files):
     """The same for SEGM, BASI and CORR, sections 7 to 9, and the parameters of spec/09a."""
     triangle, far, corrected, shapes, msgi = (
         files(name) for name in ("triangle", "far_rigid", "quad_box_corrected", "polygons_all", "nonmanifold_interpolated"))
-    yield 12, "segm_basis", triangle.put("SEGM basis", b"\3"), "a basis that does not exist"
-    yield 48, "segm_other_basis", triangle.put("SEGM basis", b"\1"), "another basis than LIMI says"
-    yield 12, "segm_reconstruction", triangle.put("SEGM reconstruction", b"\2"), "a reconstruction that does not exist"
-    yield 40, "segm_shapes_by_msgi", shapes.put("SEGM reconstruction", b"\1"), "eigenshapes by geometry interpolation"
-    yield 48, "segm_other_reconstruction", triangle.put("SEGM reconstruction", b"\1"), "another reconstruction than LIMI says"
     yield 40, "segm_more", triangle.end("SEGM", b"\0"), "a byte after the last block"
     yield 40, "segm_short", triangle.end("SEGM", less=1), "a block longer than the record"
     parameters = "SEGM parameters"
     yield 45, "parameters_run_step", files("clips").put(parameters, set_byte(25, 65)), "a run step of 65"
     for name, file, status, change, what in (
-            ("flags", triangle, 40, set_byte(0, 8), "a reserved flag"),
-            ("coder", triangle, 13, set_byte(1, 250), "a coder that does not exist"),
-            ("origin", triangle, 45, set_bytes(2, NAN), "an origin that is not a number"),
-            ("step", triangle, 45, set_bytes(26, f64(0)), "a step of 0"),
-            ("weight_bits", triangle, 45, set_byte(34, 25), "25 bits of weights"),
-            ("frame", triangle, 40, set_byte(35, 5), "a key-frame from a frame that is not there"),
-            ("parent", triangle, 40, set_byte(38, 2), "a key-frame coded against itself"),
-            ("rotation_bits", far, 45, set_byte(35, 28), "28 bits of rotations"),
-            ("translation_step", far, 45, set_bytes(36, f64(-1)), "a step of translations below 0"),
+            ("flags", triangle, 40, set_byte(0, 4), "a reserved flag"),
+            ("origin", triangle, 45, set_bytes(1, NAN), "an origin that is not a number"),
+            ("step", triangle, 45, set_bytes(25, f64(0)), "a step of 0"),
+            ("weight_bits", triangle, 45, set_byte(33, 25), "25 bits of weights"),
+            ("frame", triangle, 40, set_byte(34, 5), "a key-frame from a frame that is not there"),
+            ("parent", triangle, 40, set_byte(37, 2), "a key-frame coded against itself"),
+            ("rotation_bits", far, 45, set_byte(34, 28), "28 bits of rotations"),
+            ("translation_step", far, 45, set_bytes(35, f64(-1)), "a step of translations below 0"),
+            ("sum", msgi, 48, lambda old: bytes([old[0] & ~1]) + old[1:], "geometry interpolation by weights of any sum"),
+            ("leaf", msgi, 40, set_byte(43 if msgi.field(parameters)[0] & 2 else 34, 0), "patches of no face"),
             ("linear_flags", corrected, 40, set_byte(0, 16), "a reserved flag of eigentrajectories"),
             ("basis_step", corrected, 45, set_bytes(1, f64(0)), "a basis step of 0"),
             ("weight_step", corrected, 45, set_bytes(9, INFINITE), "a weight step that is infinite"),
@@ -351,8 +380,6 @@ def segment_rules(files):
     yield 45, "corrections_not_finite", corrected.put("CORR data", set_bytes(0, NAN)), "corrections with a step that is no number"
     yield 26, "corrections_empty", corrected.put("CORR data", b""), "corrections without a byte"
     yield 41, "corrections_more", corrected.end("CORR", b"\1"), "bytes after the corrections"
-    yield 48, "parameters_patches", msgi.grown(parameters, without_patches), \
-        "geometry interpolation without patches"
     yield 41, "weights_more", far.grown("SEGM weights"), "bytes after the weights"
     yield 41, "motions_more", far.grown("SEGM motion"), "bytes after the motions"
     yield 40, "motion_of_shapes", shapes.grown("SEGM motion"), "eigenshapes with a motion"
@@ -389,12 +416,6 @@ def stream_rules(files, status_of):
                     yield status, f"stream_{name}_{kind.lower()}_{len(found)}", data, f"byte {at} of {kind} of {name}.anic changed"
                     break
         chunk.payload = good
-
-
-def without_patches(parameters):
-    """Parameters of geometry interpolation without the size of a leaf."""
-    at = 44 if parameters[0] & 2 else 35
-    return bytes([parameters[0] & ~4]) + parameters[1:at] + parameters[at + 1:]
 
 
 def broken_rules(command, folder, status_of):

@@ -64,7 +64,7 @@ test('opens in a worker what opens in the page, bit for bit, and reports damage'
         last = url;
         a.close();
       } catch (error) {
-        if (error.status !== 'ANIC_E_CODER')
+        if (!error.message.includes('feature 1 '))
           throw error;
         ++outcome.draco;
       }
@@ -312,7 +312,7 @@ test('the graphics card plays instances as the CPU does', { skip }, async (t) =>
       const { Anicodec } = await import('anicodec');
       const { AnicInstances, AnicMesh } = await import('anicodec/three');
       const clip = await Anicodec.open(`/tests/conformance/${name}`, { inexact: true }).catch((error) => {
-        if (error.status !== 'ANIC_E_CODER')
+        if (!error.message.includes('feature 1 '))
           throw error;
       });
       if (!clip || clip.meshes.length > 1 || clip.meshes[0].triangleCount === 0)

@@ -13,7 +13,7 @@ const dist = new URL('../../sdk/web/dist/', import.meta.url);
 const moduleOf = (name) => WebAssembly.compile(readFileSync(new URL(name, dist)));
 const KINDS = { small: 'anicodec.wasm', full: 'anicodec-full.wasm', scalar: 'anicodec-scalar.wasm' };
 /** Files whose key-frames Draco coded: the package has no Draco. */
-const isDraco = (error) => error instanceof AnicError && error.status === 'ANIC_E_CODER';
+const isDraco = (error) => error instanceof AnicError && error.status === 'ANIC_E_FEATURE' && error.message.includes('feature 1 ');
 
 async function expectFacts(file) {
   const facts = factsOf(file), clip = await Anicodec.open(bytesOf(file));

@@ -26,9 +26,9 @@ namespace {
 constexpr const char* kAddFooter =
     R"(FILE is an .anic file of one mesh, and INPUT is what encode takes, of the same mesh: vertices and
 faces in the same order. The clips that are there are not coded again: their bytes stay. Mesh and
-order are stored once, and so is the reference pose where that is smaller (-v says so). The new clip
-keeps the target of the last clip of the file, a length in scene units, unless another one is given; a
-percentage is of its own diagonal.
+order are stored once, and so is the reference pose where that is smaller (-v says so). The new
+clip keeps the target of the last clip of the file, a length in scene units, unless another one is
+given; a percentage is of its own diagonal.
 
 Examples:
   anicodec add hero.anic hero.obj jump.pc2

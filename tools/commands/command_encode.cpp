@@ -91,9 +91,12 @@ may stand beside any other as a cap. Without a target it is --max-error 0.05%: n
 frame is further off. --keyframes alone sets no target: the quantisation then adds at most a tenth
 to the error of that many exact key-frames.
 
---interpolation msgi rebuilds frames by multi-scale geometry interpolation of the key-frames, which
-keeps lengths and volume where limbs swing far; auto takes what does better. Both need key-frames
-(--basis keyframes or --keyframes), take longer, and the file takes longer to open and to play.
+--interpolation msgi rebuilds frames by multi-scale geometry interpolation of key-frames (--basis
+keyframes or --keyframes), which keeps lengths and volume where limbs swing far; auto takes what
+does better. Both take longer, and the file takes longer to open and to play. --basis auto does so
+where it makes the file a tenth smaller (-v says why not), with --interpolation linear never. A
+decoder may lack geometry interpolation, and Draco: encode and info say that a file needs one of
+them.
 
 --massage on moves the vertices of every frame along its surface before coding (anicodec massage);
 errors are then those against the moved clip, and the file records how far the surface moved. auto

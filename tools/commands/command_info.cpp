@@ -46,16 +46,18 @@ it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats 
 metres_per_unit, order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg,
 massaged, surface_error, surface_error_mean (those of a clip, of the first one), clips (name,
 first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error,
-max_error_percent, rmse, kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of those that move, bytes,
-max_error, rmse in units of their values), segments (mesh, basis, of, reconstruction, first_frame,
-frames, components, regions, corrections; coder of key-frames), chunks (type, offset, size, required,
-mesh, segment). Lengths are in scene units, errors those the encoder measured.)";
+max_error_percent, rmse, kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of
+those that move, bytes, max_error, rmse in units of their values), segments (mesh, basis, of,
+reconstruction, first_frame, frames, components, regions, corrections; coder of key-frames), chunks
+(type, offset, size, required, mesh, segment). Lengths are in scene units, errors those the encoder
+measured.)";
 
 struct Contents {
   uint64_t bytes = 0;
   anic_requirements memory = ANIC_INIT(anic_requirements);  ///< as the SDK announces it
   ContainerReader container;
   Clip clip;
+  nlohmann::ordered_json metadata = nlohmann::ordered_json::object();
 };
 
 double percent(const ClipRecord& record) {
@@ -107,7 +109,7 @@ const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t
 
 /// The coder of key-frames.
 const char* coder_of(const Limits::Segment& segment) {
-  return name_of(segment.draco_bytes > 0 ? CoderId::kDraco : CoderId::kNative);
+  return segment.draco_bytes > 0 ? "draco" : "native";
 }
 
 /// One object for each material, null where its look is unknown.
@@ -145,7 +147,9 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
   json["opening_bytes"] = c.memory.opening_bytes;
   json["context_bytes"] = c.memory.context_bytes;
   json["format"] = fmt::format("{}.{}", c.container.version_major(), c.container.version_minor());
+  json["features"] = feature_list(c.container.features());
   json["encoder"] = c.clip.record().encoder;
+  json["metadata"] = c.metadata;
   json["name"] = record.name;
   json["vertices"] = limits.meshes[0].source_vertices;
   json["coded_vertices"] = limits.meshes[0].coded_vertices;
@@ -406,6 +410,10 @@ void print_text(const std::string& path, const Contents& c) {
     row("name", std::string(record.name.begin(), record.name.end()));
   row("format", fmt::format("{}.{}, written by {}", c.container.version_major(),
                             c.container.version_minor(), all.encoder));
+  if (c.container.features() != 0)
+    row("needs", feature_names(c.container.features()) + ", which decoders may lack");
+  for (const auto& [key, value] : c.metadata.items())
+    row(key.c_str(), value.is_string() ? value.get<std::string>() : value.dump());
   const std::string what =
       limits.meshes.size() > 1
           ? fmt::format("{} meshes", limits.meshes.size())
@@ -448,6 +456,13 @@ void print_contents(const std::string& path, const CommonOptions& common) {
   options.max_bytes = UINT64_MAX;
   anic_get_requirements(bytes.data(), bytes.size(), &options,
                         &contents.memory);  // it is open: nothing fails
+  const char* text;
+  size_t size;
+  if (anic_read_metadata(bytes.data(), bytes.size(), &text, &size) == ANIC_OK) {
+    contents.metadata = nlohmann::ordered_json::parse(text, text + size, nullptr, false);
+    if (!contents.metadata.is_object())
+      throw Error(ErrorKind::kCorrupt, path + ": chunk META: is not a JSON object");
+  }
   if (common.json)
     print_json(json_of(path, contents));
   else

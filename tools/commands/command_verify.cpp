@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
+#include "format/bounds_record.h"
 #include "format/container.h"
+#include "format/metadata.h"
 #include "sdk/clip/clip.h"
+#include "sdk/clip/file_checks.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
 #include "tools/words/progress_line.h"
 #include "tools/words/quantity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -22,8 +26,8 @@ namespace {
 
 constexpr const char* kVerifyFooter =
     R"(Checks every byte: header, table, the checksum of every chunk, and padding; decodes everything;
-compares the decoded integers with the hash the encoder stored; plays every frame. No source is
-needed.
+compares the decoded integers with the hash the encoder stored; plays every frame, which must lie in
+the boxes that the file keeps. No source is needed.
 
 --json prints an object for each file: file, ok, bytes, chunks, frames, meshes; of one that fails:
 error, status.)";
@@ -58,6 +62,50 @@ void check_frames(const std::string& path, const Clip& clip, ProgressLine& line)
   }
 }
 
+/// Makes a box larger by what decoders may differ by (spec/09a-segments.md, section 7).
+void widen(uint32_t components, anicodec::Box* box) {
+  float largest = 0;
+  for (size_t c = 0; c < 3; ++c)
+    largest = std::max({largest, std::abs(box->low[c]), std::abs(box->high[c])});
+  const float tolerance = static_cast<float>(components + 16) * largest / (1 << 23);
+  for (size_t c = 0; c < 3; ++c) {
+    box->low[c] -= tolerance;
+    box->high[c] += tolerance;
+  }
+}
+
+/// Metadata and boxes, which no opening looks at: boxes must hold all positions.
+void check_unopened(const std::string& path, const std::string& bytes, const Clip& clip) {
+  ContainerReader reader;
+  if (Failure failure = reader.open(view_of(bytes)); !failure.ok())
+    fail_clip(path, failure);
+  for (const Chunk& chunk : reader.chunks()) {
+    const ByteView payload = reader.unchecked(chunk);
+    if (chunk.type == chunk_type("META") && !is_metadata(payload))
+      fail_clip(path, failure_in(chunk, Status::kRecord, "the metadata is too long, too deep, or no UTF-8"));
+    if (chunk.type == chunk_type("META") &&
+        !nlohmann::json::parse(payload.data, payload.data + payload.size, nullptr, false).is_object())
+      throw Error(ErrorKind::kCorrupt, path + ": chunk META: is not a JSON object");
+    if (chunk.type != chunk_type("BNDS"))
+      continue;
+    const Limits::Segment& segment = clip.limits().segments[chunk.segment];
+    BoundsRecord bounds;
+    if (Status s = BoundsRecord::read(payload, segment.frames, &bounds); s != Status::kOk)
+      fail_clip(path, failure_in(chunk, s, "the boxes are malformed"));
+    FrameSource frames = play(path, clip, {segment.mesh});
+    for (uint32_t f = 0; f < segment.frames; ++f) {
+      anicodec::Box box = bounds.of_frame(f);
+      widen(segment.components, &box);
+      const std::span<const float> positions = frames(segment.first_frame + f);
+      for (size_t i = 0; i < positions.size(); ++i) {
+        if (positions[i] < box.low[i % 3] || positions[i] > box.high[i % 3])
+          throw Error(ErrorKind::kCorrupt, fmt::format("{}: chunk BNDS: frame {}: vertex {} is outside of its box", path,
+                                                       segment.first_frame + f, i / 3));
+      }
+    }
+  }
+}
+
 void verify(const std::string& path, const CommonOptions& common) {
   ProgressLine line(common.quiet);
   std::string bytes = read_bytes(path);
@@ -67,6 +115,7 @@ void verify(const std::string& path, const CommonOptions& common) {
   if (Failure failure = clip.check_hashes(); !failure.ok())
     fail_clip(path, failure);
   check_frames(path, clip, line);
+  check_unopened(path, bytes, clip);
   line.clear();
   if (common.json)
     print_json({{"file", path},

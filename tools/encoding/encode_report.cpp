@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/encoding/encode_report.h"
 
+#include "format/container.h"
 #include "tools/program/print.h"
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
@@ -26,6 +27,13 @@ struct Rate {
   double ratio = 0;  ///< float32 positions against it
   double bpfv = 0;   ///< bits per frame and vertex
 };
+
+/// The feature bits of a file.
+uint64_t features_of(ByteView file) {
+  ContainerReader reader;
+  reader.open(file);
+  return reader.features();
+}
 
 double percent(double length, double diagonal) {
   return length == 0 ? 0 : 100 * length / diagonal;
@@ -62,6 +70,7 @@ nlohmann::ordered_json EncodeReport::json() const {
   json["fps"] = result.rate.value();
   json["fps_from"] = origin_of(result.rate);
   json["basis"] = name_of(result.kind);
+  json["features"] = feature_list(features_of(result.file));
   json["components"] = result.components;
   json["kg"] = result.kg;
   json["rmse"] = result.rmse;
@@ -123,6 +132,8 @@ void EncodeReport::print_text(int verbosity) const {
     for (const Trial& trial : result.trials)
       fmt::print("  tried {:<28} {:>12} bytes  RMSE {:<11.4g} max error {:.4g}\n", trial.what,
                  grouped(trial.bytes), trial.rmse, trial.max_error);
+    for (const std::string& note : result.search_notes)
+      print_line("  {}", note);
   }
   if (massage_was_choice && verbosity > 0)
     fmt::print("  massage: sample {} bytes plain, {} massaged; whole clip plain {}\n",
@@ -146,6 +157,8 @@ void EncodeReport::print_text(int verbosity) const {
       path, grouped(result.file.size()), rate.ratio, rate.bpfv, frames,
       counted_components(result.components, result.kind), result.max_error,
       max_error_percent(result), result.kg);
+  if (const uint64_t features = features_of(result.file); features != 0)
+    print_line("  needs the feature {}, which decoders may lack", feature_names(features));
   if (result.clips.size() > 1)
     print_clips(verbosity);
   for (const AttributeResult& a : result.attributes) {

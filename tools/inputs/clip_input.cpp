@@ -74,7 +74,6 @@ ErrorKind error_kind(Status status) {
   switch (status) {
     case Status::kVersion:
     case Status::kFeature:
-    case Status::kCoder:
     case Status::kChunkUnknown:
     case Status::kLimit:
       return ErrorKind::kUnsupported;

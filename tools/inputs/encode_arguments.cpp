@@ -3,6 +3,7 @@
 #include "tools/inputs/encode_arguments.h"
 
 #include "codec/sequence/error.h"
+#include "format/metadata.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/words/names.h"
@@ -89,12 +90,13 @@ constexpr Word<BasisChoice> kBases[] = {{BasisChoice::kAuto, "auto"},
 constexpr Word<KeyframeMethod> kSelections[] = {{KeyframeMethod::kGas, "gas"},
                                                 {KeyframeMethod::kPivot, "pivot"},
                                                 {KeyframeMethod::kUniform, "uniform"}};
-constexpr Word<InterpolationChoice> kInterpolations[] = {{InterpolationChoice::kLinear, "linear"},
-                                                         {InterpolationChoice::kMsgi, "msgi"},
-                                                         {InterpolationChoice::kAuto, "auto"}};
-constexpr Word<std::optional<KeyframePoses>> kKeyframePoses[] = {{KeyframePoses::kDraco, "draco"},
-                                                                 {KeyframePoses::kNative, "native"},
-                                                                 {KeyframePoses::kAuto, "auto"}};
+constexpr Word<std::optional<InterpolationChoice>> kInterpolations[] = {
+    {InterpolationChoice::kLinear, "linear"},
+    {InterpolationChoice::kMsgi, "msgi"},
+    {InterpolationChoice::kAuto, "auto"}};
+constexpr Word<KeyframePoses> kKeyframePoses[] = {{KeyframePoses::kNative, "native"},
+                                                  {KeyframePoses::kDraco, "draco"},
+                                                  {KeyframePoses::kAuto, "auto"}};
 constexpr Word<OrderChoice> kOrders[] = {{OrderChoice::kAuto, "auto"},
                                          {OrderChoice::kVertices, "vertices"},
                                          {OrderChoice::kFree, "free"},
@@ -176,11 +178,12 @@ void add_method(Options& options, EncodeArguments& a) {
   options.choice("--keyframe-selection", a.selection, {kSelections},
                  "How key-frames are chosen (default pivot)");
   options.choice("--interpolation", a.interpolation, {kInterpolations},
-                 "How frames come from key-frames (default linear)");
+                 "How frames come from key-frames: linear, msgi, which decoders may lack, or auto "
+                 "(default linear, of --basis auto auto)");
   options.choice(
       "--keyframe-coder", a.keyframe_coder, {kKeyframePoses},
-      "Coder of key-frames: draco (default), native, which needs no Draco to play, or the "
-      "smaller (auto)");
+      "Coder of key-frames: native (default), draco, which decoders may lack, or the smaller "
+      "(auto)");
   options.choice(
       "--order", a.order, {kOrders},
       "Source order kept: that of vertices, none (free), of faces too (all); default auto: "
@@ -232,10 +235,42 @@ void add_metadata(Options& options, EncodeArguments& a) {
   options.option("--unit", a.unit, "METRES", "Length of a scene unit: metres, or m cm mm km in ft");
   options.repeated("--event", a.events, "[CLIP:]NAME=SECONDS",
                    "A named time of the clip, from its first frame on, or of one of several clips");
+  options.repeated("--meta", a.metadata, "KEY=VALUE",
+                   "What the file says of itself, as author=, licence=, source=: shown by info");
+  options.option("--meta-file", a.metadata_file, "FILE.json", "The same, as a JSON object");
   options.flag("--root-motion", a.root_motion,
                "Keep the motion of the whole along the ground, and its turn about the up axis, "
                "apart: a program can leave it out and move the character itself");
   options.flag("--loop", a.loop, "The clip is meant to be repeated");
+}
+
+}  // namespace
+
+namespace {
+
+/// The JSON object of --meta-file with the entries of --meta; empty for none.
+std::string metadata_of(const EncodeArguments& command) {
+  nlohmann::ordered_json object = nlohmann::ordered_json::object();
+  if (!command.metadata_file.empty()) {
+    const std::string text = read_bytes(command.metadata_file);
+    if (is_metadata(view_of(text)))
+      object = nlohmann::ordered_json::parse(text, nullptr, false);
+    if (!is_metadata(view_of(text)) || !object.is_object())
+      throw Error(ErrorKind::kInput, command.metadata_file + ": is not a JSON object in UTF-8 of at most 2^20 bytes");
+  }
+  for (const std::string& entry : command.metadata) {
+    const size_t equals = entry.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorKind::kUsage, "--meta takes KEY=VALUE, not " + entry);
+    object[entry.substr(0, equals)] = entry.substr(equals + 1);
+  }
+  if (object.empty())
+    return {};
+  try {
+    return object.dump();
+  } catch (const nlohmann::ordered_json::exception&) {
+    throw Error(ErrorKind::kUsage, "--meta: a key or value is not UTF-8");
+  }
 }
 
 }  // namespace
@@ -317,11 +352,14 @@ EncodeOptions encode_options(const EncodeArguments& command) {
     options.basis = BasisChoice::kKeyframes;
   }
   options.select = command.selection;
-  if (command.interpolation != InterpolationChoice::kLinear &&
-      options.basis != BasisChoice::kKeyframes)
-    throw Error(ErrorKind::kUsage, "--interpolation goes with --basis keyframes or --keyframes");
+  const bool fits = options.basis == BasisChoice::kKeyframes ||
+                    (options.basis == BasisChoice::kAuto && command.interpolation != InterpolationChoice::kMsgi);
+  if (command.interpolation && !fits)
+    throw Error(ErrorKind::kUsage, command.interpolation == InterpolationChoice::kMsgi
+                                       ? "--interpolation msgi goes with --basis keyframes or --keyframes"
+                                       : "--interpolation goes with --basis auto or keyframes");
   options.interpolation = command.interpolation;
-  if (command.keyframe_coder && options.basis != BasisChoice::kKeyframes)
+  if (command.keyframe_coder != KeyframePoses::kNative && options.basis != BasisChoice::kKeyframes)
     throw Error(ErrorKind::kUsage, "--keyframe-coder goes with --basis keyframes or --keyframes");
   options.keyframe_poses = command.keyframe_coder;
   options.order = order_of(command.order, command.inputs);
@@ -337,6 +375,7 @@ EncodeOptions encode_options(const EncodeArguments& command) {
     options.attributes.error_percent = error.percent;
   }
   options.root_motion = command.root_motion;
+  options.metadata = metadata_of(command);
   options.effort = command.effort;
   options.smallest = command.smallest;
   options.encoder = fmt::format("anicodec {}", version());
@@ -393,8 +432,8 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
                                   c.bpfv, c.keyframes, c.effort, options.encoder};
   for (int choice :
        {static_cast<int>(c.basis), static_cast<int>(c.selection), static_cast<int>(c.order),
-        static_cast<int>(c.interpolation), static_cast<int>(c.massage), static_cast<int>(c.smallest),
-        c.keyframe_coder ? static_cast<int>(*c.keyframe_coder) : -1,
+        c.interpolation ? static_cast<int>(*c.interpolation) : -1, static_cast<int>(c.massage),
+        static_cast<int>(c.smallest), static_cast<int>(c.keyframe_coder),
         static_cast<int>(c.split_objects)})
     settings.push_back(choice);
   settings.push_back(c.massage_strength);
@@ -403,6 +442,7 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
   settings.push_back(c.normal_error);
   settings.push_back(c.root_motion);
   settings.push_back(c.events);
+  settings.push_back(options.metadata);
   for (uint32_t number : {uint32_t{options.attributes.keep}, options.attributes.uv_bits,
                           options.attributes.colour_bits})
     settings.push_back(number);

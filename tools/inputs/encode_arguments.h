@@ -39,8 +39,8 @@ struct EncodeArguments {
   BasisChoice basis = BasisChoice::kAuto;
   uint32_t keyframes = 0;
   KeyframeMethod selection = KeyframeMethod::kPivot;
-  InterpolationChoice interpolation = InterpolationChoice::kLinear;
-  std::optional<KeyframePoses> keyframe_coder;
+  std::optional<InterpolationChoice> interpolation;
+  KeyframePoses keyframe_coder = KeyframePoses::kNative;
   OrderChoice order = OrderChoice::kAuto;
   int effort = 5;
   bool smallest = false;
@@ -54,7 +54,9 @@ struct EncodeArguments {
   bool loop = false;
   bool live = false;
   double piece = 1;                 ///< of a live stream, seconds
-  std::vector<std::string> events;  ///< [CLIP:]NAME=SECONDS
+  std::vector<std::string> events;    ///< [CLIP:]NAME=SECONDS
+  std::vector<std::string> metadata;  ///< KEY=VALUE
+  std::string metadata_file;          ///< a JSON object
   bool root_motion = false;
   bool allow_outside = false;
   bool no_weld = false;

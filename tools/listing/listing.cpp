@@ -17,6 +17,26 @@ namespace {
 
 constexpr const char* kUnread = "(not understood)";
 
+/// Names the bits that are set.
+template <size_t kCount>
+void explain_flags(FieldReader& r, uint8_t flags, const char* const (&names)[kCount]) {
+  std::string meaning;
+  for (size_t i = 0; i < kCount; ++i) {
+    if (flags >> i & 1)
+      meaning += (meaning.empty() ? "" : ", ") + std::string(names[i]);
+  }
+  if (!meaning.empty())
+    r.explain(meaning);
+}
+
+/// Optional fields at the end of a record.
+void list_optional_fields(FieldReader& r) {
+  while (r.ok() && r.remaining() > 0) {
+    const uint64_t tag = r.varint("field");
+    r.block(fmt::format("field {}", tag));
+  }
+}
+
 void list_limits(FieldReader& r) {
   uint64_t clips = r.varint("clips");
   uint64_t meshes = r.varint("meshes");
@@ -27,36 +47,36 @@ void list_limits(FieldReader& r) {
     for (const char* name :
          {"source vertices", "coded vertices", "triangles", "polygons", "corners"})
       r.varint(fmt::format("mesh {} {}", i, name));
+    if (r.varint(fmt::format("mesh {} attributes", i)) == 0)
+      continue;
+    for (const char* name : {"labels", "bytes before the values", "numbers"})
+      r.varint(fmt::format("mesh {} {}", i, name));
   }
   for (uint64_t i = 0; i < segments && r.ok(); ++i) {
     r.varint(fmt::format("segment {} mesh", i));
-    constexpr uint8_t kMsgi = 16, kAttribute = 32, kExact = 64, kRegions = 128;
-    const uint8_t code = r.u8(fmt::format("segment {} basis", i));
-    const auto kind = static_cast<uint8_t>(code & ~(kAttribute | kExact | kRegions));
-    r.explain((kind == kMsgi ? "keyframes, msgi" : name_of(static_cast<BasisKind>(kind))) +
-              std::string(code & kAttribute ? ", of an attribute" : "") +
-              (code & kExact ? ", exact" : "") + (code & kRegions ? ", in regions" : ""));
+    r.explain(name_of(static_cast<BasisKind>(r.u8(fmt::format("segment {} basis", i)))));
+    r.explain(
+        name_of(static_cast<Reconstruction>(r.u8(fmt::format("segment {} reconstruction", i)))));
+    constexpr uint8_t kRegions = 2, kOfAttribute = 4, kDraco = 8;
+    constexpr const char* kFlags[] = {"exact", "regions", "of an attribute", "Draco"};
+    const uint8_t flags = r.u8(fmt::format("segment {} flags", i));
+    explain_flags(r, flags, kFlags);
     for (const char* name :
          {"first frame", "frames", "components", "wide components", "corrections"})
       r.varint(fmt::format("segment {} {}", i, name));
-    if ((kind == static_cast<uint8_t>(BasisKind::kKeyframes) || kind == kMsgi) &&
-        r.varint(fmt::format("segment {} Draco bytes", i)) > 0)
-      r.varint(fmt::format("segment {} Draco points", i));
-    if (kind == kMsgi) {
-      r.varint(fmt::format("segment {} bytes of msgi", i));
-      r.varint(fmt::format("segment {} bytes of msgi for a frame", i));
-    }
-    if (code & kAttribute) {
+    if (flags & kRegions)
+      r.varint(fmt::format("segment {} regions", i));
+    if (flags & kOfAttribute) {
       r.varint(fmt::format("segment {} attribute", i));
       r.varint(fmt::format("segment {} three components", i));
     }
-    if (code & kRegions)
-      r.varint(fmt::format("segment {} regions", i));
+    if (flags & kDraco) {
+      r.varint(fmt::format("segment {} Draco bytes", i));
+      r.varint(fmt::format("segment {} Draco points", i));
+    }
   }
-  for (uint64_t i = 0; i < meshes && r.ok() && r.remaining() > 0; ++i)
-    r.varint(fmt::format("mesh {} attribute bytes", i));
-  if (r.ok() && r.remaining() > 0)
-    r.varint("frames with root motion");
+  r.varint("frames with root motion");
+  list_optional_fields(r);
 }
 
 void list_clip(FieldReader& r, const std::string& clip, uint32_t frames) {
@@ -65,15 +85,9 @@ void list_clip(FieldReader& r, const std::string& clip, uint32_t frames) {
   r.varint(clip + "rate numerator");
   r.varint(clip + "rate denominator");
   uint8_t flags = r.u8(clip + "flags");
-  std::string meaning;
   constexpr const char* kFlags[] = {"rate assumed", "loop",  "closed",
                                     "massaged",     "times", "attribute errors", "events"};
-  for (size_t i = 0; i < std::size(kFlags); ++i) {
-    if (flags >> i & 1)
-      meaning += (meaning.empty() ? "" : ", ") + std::string(kFlags[i]);
-  }
-  if (!meaning.empty())
-    r.explain(meaning);
+  explain_flags(r, flags, kFlags);
   r.f64(clip + "start time");
   for (uint32_t f = 0; (flags & kTimes) && f < frames && r.ok(); ++f)
     r.f64(fmt::format("{}time of frame {}", clip, f));
@@ -107,6 +121,7 @@ void list_clips(FieldReader& r, const std::vector<uint32_t>& frames) {
   r.f32("metres per unit");
   for (size_t c = 0; c < frames.size() && r.ok(); ++c)
     list_clip(r, frames.size() > 1 ? fmt::format("clip {} ", c) : "", frames[c]);
+  list_optional_fields(r);
 }
 
 void list_root(FieldReader& r, size_t clips) {
@@ -153,6 +168,13 @@ void list_exact(FieldReader& r) {
   r.bytes("positions", r.remaining());
 }
 
+void list_bounds(FieldReader& r) {
+  r.varint("frames of a box");
+  for (const char* name : {"low x", "low y", "low z", "high x", "high y", "high z"})
+    r.f32(name);
+  r.bytes("boxes", r.remaining());
+}
+
 void list_layer(FieldReader& r) {
   r.varint("components");
   const uint64_t weights = r.varint("weight bytes");
@@ -161,11 +183,10 @@ void list_layer(FieldReader& r) {
 }
 
 void list_segment(FieldReader& r) {
-  r.explain(name_of(static_cast<BasisKind>(r.u8("basis"))));
-  r.explain(name_of(static_cast<Reconstruction>(r.u8("reconstruction"))));
   r.hex64("hash of the integers");
   for (const char* name : {"parameters", "pose", "motion", "weights"})
     r.block(name);
+  list_optional_fields(r);
 }
 
 void list_look(const std::string& name, FieldReader& r) {
@@ -185,9 +206,9 @@ void list_look(const std::string& name, FieldReader& r) {
   }
 }
 
-void list_attributes(FieldReader& r) {
-  const uint64_t count = r.varint("attributes");
-  for (uint64_t i = 0; i < count && r.ok(); ++i) {
+/// `count`: of attributes, which another chunk tells.
+void list_attributes(FieldReader& r, uint32_t count) {
+  for (uint32_t i = 0; i < count && r.ok(); ++i) {
     auto name = [i](std::string_view field) { return fmt::format("attribute {} {}", i, field); };
     const auto kind = static_cast<AttributeKind>(r.u8(name("kind")));
     r.explain(name_of(kind));
@@ -213,7 +234,7 @@ void list_attributes(FieldReader& r) {
 }
 
 void list_payload(const Chunk& chunk, ByteView payload, const std::vector<uint32_t>& frames,
-                  std::vector<ListedField>& out) {
+                  uint32_t attributes, std::vector<ListedField>& out) {
   FieldReader r(payload, chunk.offset, out);
   if (chunk.type == chunk_type("LIMI"))
     list_limits(r);
@@ -221,6 +242,10 @@ void list_payload(const Chunk& chunk, ByteView payload, const std::vector<uint32
     list_clips(r, frames);
   else if (chunk.type == chunk_type("DIFF"))
     list_exact(r);
+  else if (chunk.type == chunk_type("META"))
+    return r.rest("JSON");
+  else if (chunk.type == chunk_type("BNDS"))
+    list_bounds(r);
   else if (chunk.type == chunk_type("ROOT"))
     list_root(r, frames.size());
   else if (chunk.type == chunk_type("MESH"))
@@ -232,7 +257,7 @@ void list_payload(const Chunk& chunk, ByteView payload, const std::vector<uint32
   else if (chunk.type == chunk_type("BASI"))
     list_layer(r);
   else if (chunk.type == chunk_type("ATTR"))
-    list_attributes(r);
+    list_attributes(r, attributes);
   else
     return r.rest("data");
   r.rest(kUnread);
@@ -245,7 +270,8 @@ std::vector<Chunk> list_table(ByteView file, std::vector<ListedField>& out) {
   r.u16("major version");
   r.u16("minor version");
   uint32_t count = r.u32("chunks");
-  r.hex64("required features");
+  const uint64_t features = r.hex64("required features");
+  r.explain(feature_names(features));
   r.u64("file size");
   r.hex32("header checksum");
   r.u32("table bytes");
@@ -256,7 +282,7 @@ std::vector<Chunk> list_table(ByteView file, std::vector<ListedField>& out) {
     r.explain(chunk_name(chunk.type));
     chunk.checksum = r.hex32(fmt::format("chunk {} checksum", i));
     const uint8_t flags = r.u8(fmt::format("chunk {} flags", i));
-    r.explain(flags & 1 ? "required" : "optional");
+    r.explain(flags & 1 ? "required" : flags & 8 ? "optional, copied" : "optional");
     if (flags & 2)
       chunk.mesh = static_cast<uint16_t>(r.varint(fmt::format("chunk {} mesh", i)));
     if (flags & 4)
@@ -291,12 +317,29 @@ std::vector<uint32_t> clip_frames(ByteView file, const std::vector<Chunk>& chunk
   return frames;
 }
 
+/// Attributes of each mesh; none where the limits cannot be read.
+std::vector<uint32_t> attribute_counts(ByteView file, const std::vector<Chunk>& chunks) {
+  std::vector<uint32_t> counts;
+  Limits limits;
+  for (const Chunk& chunk : chunks) {
+    if (chunk.type == chunk_type("LIMI") && chunk.offset <= file.size &&
+        chunk.size <= file.size - chunk.offset &&
+        Limits::read({file.data + chunk.offset, static_cast<size_t>(chunk.size)}, &limits) == Status::kOk) {
+      for (const Limits::Mesh& mesh : limits.meshes)
+        counts.push_back(mesh.attributes);
+      break;
+    }
+  }
+  return counts;
+}
+
 }  // namespace
 
 std::vector<ListedField> list_fields(ByteView file) {
   std::vector<ListedField> out;
   std::vector<Chunk> chunks = list_table(file, out);
   const std::vector<uint32_t> frames = clip_frames(file, chunks);
+  const std::vector<uint32_t> attributes = attribute_counts(file, chunks);
   uint64_t at = out.back().offset + out.back().size;
   auto gap_to = [&](uint64_t end, const char* name) {
     if (end > at)
@@ -308,7 +351,8 @@ std::vector<ListedField> list_fields(ByteView file) {
       break;
     size_t begin = out.size();
     const ByteView payload{file.data + chunk.offset, static_cast<size_t>(chunk.size)};
-    list_payload(chunk, payload, frames, out);
+    list_payload(chunk, payload, frames, chunk.mesh < attributes.size() ? attributes[chunk.mesh] : 0,
+                 out);
     for (size_t i = begin; i < out.size(); ++i)
       out[i].name = chunk_name(chunk.type) + " " + out[i].name;
     at = chunk.offset + chunk.size;

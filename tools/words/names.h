@@ -7,6 +7,7 @@
 
 #include "codec/sequence/mesh_sequence.h"
 #include "format/attribute_record.h"
+#include "format/container.h"
 #include "format/records.h"
 #include "tools/words/quantity.h"
 #include "tools/words/word_table.h"
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace anicodec::tools {
 
@@ -21,9 +23,6 @@ inline constexpr Word<BasisKind> kBasisKinds[] = {
     {BasisKind::kKeyframes, "keyframes"},
     {BasisKind::kEigenshapes, "eigenshapes"},
     {BasisKind::kEigentrajectories, "eigentrajectories"}};
-
-inline constexpr Word<CoderId> kCoders[] = {{CoderId::kDraco, "draco"},
-                                            {CoderId::kNative, "native"}};
 
 inline constexpr Word<Reconstruction> kReconstructions[] = {{Reconstruction::kLinear, "linear"},
                                                             {Reconstruction::kMsgi, "msgi"}};
@@ -60,12 +59,30 @@ inline constexpr Word<AttributeDomain> kAttributeDomains[] = {
 
 inline constexpr Word<UpAxis> kUpAxes[] = {{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}};
 
-inline const char* name_of(BasisKind kind) {
-  return word_of(kBasisKinds, kind);
+inline constexpr Word<uint64_t> kFeatures[] = {{kContinuation, "continuation"},
+                                               {kDracoFeature, "draco"},
+                                               {kMsgiFeature, "msgi"}};
+
+/// The names of the feature bits that are set.
+inline std::vector<std::string> feature_list(uint64_t features) {
+  std::vector<std::string> names;
+  for (const Word<uint64_t>& feature : kFeatures) {
+    if (features & feature.value)
+      names.emplace_back(feature.text);
+  }
+  return names;
 }
 
-inline const char* name_of(CoderId coder) {
-  return word_of(kCoders, coder);
+/// The same, separated by commas; "none" where there is none.
+inline std::string feature_names(uint64_t features) {
+  std::string names;
+  for (const std::string& name : feature_list(features))
+    names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "none" : names;
+}
+
+inline const char* name_of(BasisKind kind) {
+  return word_of(kBasisKinds, kind);
 }
 
 inline const char* name_of(Reconstruction reconstruction) {

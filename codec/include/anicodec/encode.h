@@ -208,17 +208,18 @@ enum anic_selection ANIC_INT32 {
 
 /** How frames come from key-frames. */
 enum anic_interpolation ANIC_INT32 {
-  ANIC_INTERPOLATE_LINEAR = 0,
-  ANIC_INTERPOLATE_MSGI = 1,
-  ANIC_INTERPOLATE_BEST = 2
+  ANIC_INTERPOLATE_USUAL = 0, /**< between key-frames that were asked for linear; else best, where a file by
+                                   geometry interpolation is a tenth smaller */
+  ANIC_INTERPOLATE_LINEAR = 1, /**< any decoder plays the file */
+  ANIC_INTERPOLATE_MSGI = 2,   /**< geometry interpolation, which decoders may lack: of key-frames alone */
+  ANIC_INTERPOLATE_BEST = 3
 };
 
 /** What codes the poses of key-frames. */
 enum anic_keyframe_coder ANIC_INT32 {
-  ANIC_KEYFRAMES_USUAL = 0, /**< Draco if key-frames were asked for, else the coder of poses */
-  ANIC_KEYFRAMES_DRACO = 1,
-  ANIC_KEYFRAMES_NATIVE = 2, /**< the coder of poses: any decoder plays the file */
-  ANIC_KEYFRAMES_SMALLEST = 3
+  ANIC_KEYFRAMES_NATIVE = 0, /**< the coder of poses: any decoder plays the file */
+  ANIC_KEYFRAMES_DRACO = 1,  /**< Draco, which decoders may lack */
+  ANIC_KEYFRAMES_SMALLEST = 2
 };
 
 /** Whether vertices are moved along their surface first, of one mesh alone. */
@@ -285,6 +286,7 @@ typedef struct anic_encode_options {
                                further off; 0: hard edges alone */
   anic_encode_progress progress;
   anic_writer writer; /**< gets the file instead of anic_encoding */
+  const char* metadata; /**< a JSON object in UTF-8 that the file keeps, at most 2^20 bytes; NULL: none */
 } anic_encode_options;
 
 /** The file, and what was measured of it by decoding it. Lengths are in units of the clip. */

@@ -83,6 +83,29 @@ namespace Anicodec
             };
         }
 
+        /// <summary>The metadata of a file that is not opened: a JSON object; null if it has none.</summary>
+        public static string ReadMetadata(ReadOnlySpan<byte> file)
+        {
+            fixed (byte* bytes = file)
+            {
+                byte* text;
+                UIntPtr size;
+                if (!Native.Present(Native.anic_read_metadata(bytes, (UIntPtr)file.Length, &text, &size)))
+                    return null;
+                return System.Text.Encoding.UTF8.GetString(text, (int)size);
+            }
+        }
+
+        /// <summary>A box around frames of a mesh that a file keeps for culling, without decoding; false if it has none. The first bytes
+        /// of the file suffice. frames 0: all from firstFrame on.</summary>
+        public static bool ReadBounds(ReadOnlySpan<byte> file, out Box box, int mesh = 0, int firstFrame = 0, int frames = 0)
+        {
+            box = default(Box);
+            fixed (byte* bytes = file)
+            fixed (Box* to = &box)
+                return Native.Present(Native.anic_read_bounds(bytes, (UIntPtr)file.Length, (uint)mesh, (uint)firstFrame, (uint)frames, to));
+        }
+
         internal static Native.anic_failure Failure()
         {
             Native.anic_failure failure = default(Native.anic_failure);

@@ -394,6 +394,8 @@ namespace Anicodec
         [DllImport(Library)] public static extern uint anic_get_version();
         [DllImport(Library)] public static extern byte* anic_get_status_text(Status status);
         [DllImport(Library)] public static extern Status anic_init_block_allocator(void* block, UIntPtr size, anic_allocator* result);
+        [DllImport(Library)] public static extern Status anic_read_metadata(void* file, UIntPtr size, byte** text, UIntPtr* text_bytes);
+        [DllImport(Library)] public static extern Status anic_read_bounds(void* file, UIntPtr size, uint mesh, uint first_frame, uint frame_count, Box* result);
         [DllImport(Library)] public static extern Status anic_get_requirements(void* head, UIntPtr size, anic_options* options, anic_requirements* result);
         [DllImport(Library)] public static extern Status anic_open_asset(void* file, UIntPtr size, anic_options* options, out AssetHandle result, anic_failure* failure);
         [DllImport(Library)] public static extern Status anic_open_asset_from_reader(anic_reader* reader, ulong file_size, anic_options* options, out AssetHandle result, anic_failure* failure);

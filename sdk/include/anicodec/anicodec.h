@@ -127,7 +127,6 @@ enum anic_status ANIC_INT32 {
   ANIC_E_MAGIC = 10,
   ANIC_E_VERSION = 11,
   ANIC_E_FEATURE = 12,
-  ANIC_E_CODER = 13, /**< a coder that this build does not have */
 
   /* container */
   ANIC_E_TRUNCATED = 20,
@@ -152,6 +151,7 @@ enum anic_status ANIC_INT32 {
   ANIC_E_DRACO = 47,
   ANIC_E_SEGMENT = 48, /**< a segment contradicts its counts or its mesh */
   ANIC_E_HASH = 49,
+  ANIC_E_MESHES = 50, /**< a continuation of a live stream follows a file with other meshes */
 
   ANIC_E_LIMIT = 60, /**< more than anic_options allow */
 
@@ -279,7 +279,8 @@ typedef struct anic_requirements {
   size_t struct_size;
   uint64_t head_bytes;     /**< first bytes of the file that anic_get_requirements() has to see */
   uint64_t file_bytes;     /**< the whole file; 0 while its header is not seen */
-  uint64_t resident_bytes; /**< held while the asset is open; within 5 % or 4096 bytes */
+  uint64_t resident_bytes; /**< held while the asset is open; within 5 % or 4096 bytes, but for geometry
+                              interpolation: a bound of up to three times it */
   uint64_t opening_bytes;  /**< held at most while the file opens, resident bytes included, the
                               bytes of the file excluded */
   uint64_t draco_bytes;    /**< part of opening_bytes that Draco may take from the global heap */
@@ -306,6 +307,40 @@ typedef struct anic_requirements {
  */
 ANIC_API anic_status anic_get_requirements(const void* head, size_t size,
                                            const anic_options* options, anic_requirements* out);
+
+/**
+ * Finds the metadata of a file: a JSON object in UTF-8, not ended by a NUL. `file` holds the first `size` bytes of
+ * the file; *text points into them.
+ *
+ * - Errors: ANIC_E_ABSENT: the file has none; ANIC_E_TRUNCATED: it has not arrived; ANIC_E_RECORD: it is longer than
+ *   2^20 bytes, nested deeper than 32, or no UTF-8; others: the file is none
+ * - Memory: 32 bytes for each chunk for a moment
+ * - Cost: O(chunks + bytes of the metadata)
+ * - Spec: 06, section 14
+ */
+ANIC_API anic_status anic_read_metadata(const void* file, size_t size, const char** text,
+                                        size_t* text_bytes);
+
+/** An axis-aligned box. */
+typedef struct anic_box {
+  float min[3], max[3];
+} anic_box;
+
+/**
+ * Reads a box around frames of a mesh from a file that is not opened, to cull it before it is decoded. `file` holds
+ * the first `size` bytes of the file. The box contains all positions of these frames, the motion of the whole
+ * included, up to rounding, and is larger than they are: it is kept for 64 frames as a rule. Between frames see
+ * anic_get_clip_bounds().
+ *
+ * - Params: frame_count 0: all frames from first_frame on
+ * - Errors: ANIC_E_ABSENT: the mesh is in none of these frames, or the file has no boxes of them; ANIC_E_TRUNCATED:
+ *   the boxes have not arrived; ANIC_E_FRAME_RANGE; ANIC_E_ARGUMENT: there is no such mesh; others: the file is none
+ * - Memory: 32 bytes for each chunk, mesh and segment for a moment
+ * - Cost: O(chunks + segments + frames / 64)
+ * - Spec: 06, section 13
+ */
+ANIC_API anic_status anic_read_bounds(const void* file, size_t size, uint32_t mesh,
+                                      uint32_t first_frame, uint32_t frame_count, anic_box* out);
 
 /** An opened file. Immutable, so threads and contexts may share it. Destroy the contexts first. */
 typedef struct anic_asset anic_asset;
@@ -882,11 +917,6 @@ ANIC_API anic_status anic_write_frames(const anic_asset* asset, uint32_t mesh,
                                        uint32_t count, const anic_output* outputs);
 
 /* ---- bounds ---------------------------------------------------------------------------------- */
-
-/** An axis-aligned box. */
-typedef struct anic_box {
-  float min[3], max[3];
-} anic_box;
 
 /**
  * Computes the exact box of a mesh at the time chosen.

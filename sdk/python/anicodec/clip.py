@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import builtins
+import json
 import os
 from fractions import Fraction
 from typing import Any, Dict, Iterator, NamedTuple, Optional, Sequence, Tuple, Union
@@ -12,7 +13,7 @@ import numpy as np
 
 from . import _anicodec, _arrays, _page
 from ._convert import to_package
-from .errors import FrameError, InputError
+from .errors import CorruptError, FrameError, InputError
 from .material import Material, from_file
 
 _SAMPLING = {"step": 0, "linear": 1, "cubic": 2}
@@ -249,6 +250,11 @@ class Clip:
         return self.info["name"]
 
     @property
+    def metadata(self) -> Dict[str, Any]:
+        """What the file says of itself: see encode(); empty if nothing."""
+        return read_metadata(self.data)
+
+    @property
     def frame_count(self) -> int:
         return self.info["frame_count"]
 
@@ -339,6 +345,38 @@ class Clip:
                 f"{len(self.data)} bytes>")
 
 
+def _bytes_of(source: Any) -> bytes:
+    if isinstance(source, (str, os.PathLike)):
+        with builtins.open(source, "rb") as file:
+            source = file.read()
+    elif hasattr(source, "read"):
+        source = source.read()
+    if isinstance(source, str):
+        raise TypeError("the file must be open in binary mode")
+    return bytes(memoryview(source))
+
+
+def read_metadata(source: Any) -> Dict[str, Any]:
+    """The metadata of a file, which is not opened: see encode(). Empty if it has none. source: as of open()."""
+    text = _anicodec.read_metadata(_bytes_of(source))
+    if text is None:
+        return {}
+    try:
+        metadata = json.loads(text)
+    except ValueError:
+        metadata = None
+    if not isinstance(metadata, dict):
+        raise CorruptError("chunk META: is not a JSON object")
+    return metadata
+
+
+def read_bounds(source: Any, mesh: int = 0, first_frame: int = 0, frames: int = 0) -> Optional[np.ndarray]:
+    """A box around frames of a mesh that a file keeps for culling: 2 x 3 of float32, least and greatest, without
+    decoding. None if the file has none, or the mesh is in none of the frames. frames 0: all from first_frame on. The
+    first bytes of the file suffice."""
+    return _anicodec.read_bounds(_bytes_of(source), mesh, first_frame, frames)
+
+
 #: Names that a clip of one mesh passes on to it.
 _OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "polygons", "shown_in", "to", "triangles",
             "vertex_count"}
@@ -354,11 +392,4 @@ def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[
     take as much memory as all frames. Raises OSError, CorruptError,
     UnsupportedError, LimitError, AbsentError: no clip has this name.
     """
-    if isinstance(source, (str, os.PathLike)):
-        with builtins.open(source, "rb") as file:
-            source = file.read()
-    elif hasattr(source, "read"):
-        source = source.read()
-    if isinstance(source, str):
-        raise TypeError("the file must be open in binary mode")
-    return Clip(bytes(memoryview(source)), quality, max_bytes, clips, in_place, inexact)
+    return Clip(_bytes_of(source), quality, max_bytes, clips, in_place, inexact)

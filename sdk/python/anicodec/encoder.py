@@ -3,6 +3,7 @@
 """Encoding."""
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
@@ -19,8 +20,8 @@ _GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5, "displacemen
 _QUALITIES = {"good": 0.05, "better": 0.02, "best": 0.01}  # as STED
 _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
             "selection": {"pivot": 0, "gas": 1, "uniform": 2},
-            "interpolation": {"linear": 0, "msgi": 1, "auto": 2},
-            "keyframe_coder": {"draco": 1, "native": 2, "auto": 3},
+            "interpolation": {"linear": 1, "msgi": 2, "auto": 3},
+            "keyframe_coder": {"native": 0, "draco": 1, "auto": 2},
             "massage": {"off": 0, "on": 1, "auto": 2},
             "order": {"vertices": 0, "none": 1, "faces": 2}}
 _NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
@@ -137,6 +138,9 @@ def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
         choices["flags"] |= _ROOT_MOTION
     if options.pop("smallest", False):
         choices["flags"] |= _SMALLEST
+    metadata = options.pop("metadata", None)
+    if metadata:
+        choices["metadata"] = json.dumps(dict(metadata), ensure_ascii=False, allow_nan=False)
     if options:
         raise TypeError(f"encode() has no option {next(iter(options))!r}")
     return choices
@@ -299,10 +303,11 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
         or lossless=True: positions, as float32, come back bit for bit.
     uv, colours, normals, custom, materials, parts: see SourceMesh.
     fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop, events (pairs of a name and seconds): stored.
+    metadata: a mapping that the file keeps as JSON, for instance author, licence, source: Clip.metadata.
     root_motion: keep the motion of the whole along the ground, and its turn about the up axis, apart.
     clips: several SourceClip in one file that share what they can; positions have their frames, one after the other.
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
-        interpolation ("linear", "msgi", "auto"), keyframe_coder ("draco", "native", "auto"), massage ("off", "on",
+        interpolation ("linear", "msgi", "auto"), keyframe_coder ("native", "draco", "auto"), massage ("off", "on",
         "auto"), massage_strength, massage_tolerance, order ("vertices", "none", "faces"), effort (1 to 9), smallest
         (whatever opening takes), uv_bits, colour_bits, attribute_error, normal_error (degrees), no_attributes: as of the
         command.

@@ -389,6 +389,26 @@ void bind_clip(nb::module_& module) {
   nb::class_<NormalPlan>(module, "NormalPlan")
       .def_prop_ro("count", &NormalPlan::count)
       .def("write", &NormalPlan::write);
+  module.def("read_metadata", [](const nb::bytes& file) -> std::optional<std::string> {
+    const char* text;
+    size_t size;
+    const anic_status status = anic_read_metadata(file.data(), file.size(), &text, &size);
+    if (status == ANIC_E_ABSENT)
+      return std::nullopt;
+    check_status(status);
+    return std::string(text, size);
+  });
+  module.def("read_bounds", [](const nb::bytes& file, uint32_t mesh, uint32_t first,
+                               uint32_t count) -> std::optional<nb::ndarray<nb::numpy, float>> {
+    anic_box box;
+    const anic_status status = anic_read_bounds(file.data(), file.size(), mesh, first, count, &box);
+    if (status == ANIC_E_ABSENT)
+      return std::nullopt;
+    check_status(status);
+    auto result = new_array<float>({2, 3});
+    std::memcpy(result.data(), &box, sizeof box);
+    return result;
+  });
   nb::class_<Asset>(module, "Asset")
       .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&, bool, bool>())
       .def("root_motion", &Asset::root_motion)

@@ -239,6 +239,11 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
   set("massage_tolerance", options.massage_tolerance);
   set("attribute_error", options.attribute_error);
   set("normal_error", options.normal_error);
+  std::string metadata;
+  if (choices.contains("metadata")) {
+    metadata = nb::cast<std::string>(choices["metadata"]);
+    options.metadata = metadata.c_str();
+  }
   Callback follower{progress, 0, &thrown_};
   options.progress = {&follower, report};
   anic_encoding result = ANIC_INIT(anic_encoding);

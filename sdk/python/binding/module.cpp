@@ -33,7 +33,6 @@ const char* exception_name(anic_status status) {
       return "AbsentError";
     case ANIC_E_VERSION:
     case ANIC_E_FEATURE:
-    case ANIC_E_CODER:
       return "UnsupportedError";
     case ANIC_E_LIMIT:
     case ANIC_E_MEMORY:

@@ -73,6 +73,14 @@ static double address(const void* p) {
   return (double)(uintptr_t)p;
 }
 
+static int give_box(anic_status status, const anic_box* box) {
+  for (int i = 0; i < 3 && status == ANIC_OK; ++i) {
+    numbers[i] = (double)box->min[i];
+    numbers[3 + i] = (double)box->max[i];
+  }
+  return status;
+}
+
 /* ---- memory and texts ---- */
 
 EXPORT(numbers) double* web_numbers(void) {
@@ -123,6 +131,24 @@ EXPORT(choose_clips) int web_choose_clips(char* names, uint32_t size) {
   for (uint32_t begin = 0; clip_names_count < count; begin += (uint32_t)strlen(names + begin) + 1)
     clip_names[clip_names_count++] = names + begin;
   return ANIC_OK;
+}
+
+/* The metadata of a file that is not opened. numbers: where in `file`, bytes. */
+EXPORT(read_metadata) int web_read_metadata(const void* file, uint32_t size) {
+  const char* text;
+  size_t bytes;
+  const anic_status status = anic_read_metadata(file, size, &text, &bytes);
+  numbers[0] = address(text);
+  numbers[1] = (double)bytes;
+  return status;
+}
+
+/* A box of a file that is not opened. numbers: least, greatest. */
+EXPORT(read_bounds)
+
+int web_read_bounds(const void* file, uint32_t size, uint32_t mesh, uint32_t first, uint32_t count) {
+  anic_box box = {{0}, {0}};
+  return give_box(anic_read_bounds(file, size, mesh, first, count, &box), &box);
 }
 
 EXPORT(open)
@@ -343,14 +369,6 @@ EXPORT(material) int web_material(uint32_t mesh, uint32_t attribute, uint32_t la
 
 EXPORT(frame_time) double web_frame_time(uint32_t frame) {
   return anic_get_frame_time(asset, frame);
-}
-
-static int give_box(anic_status status, const anic_box* box) {
-  for (int i = 0; i < 3 && status == ANIC_OK; ++i) {
-    numbers[i] = (double)box->min[i];
-    numbers[3 + i] = (double)box->max[i];
-  }
-  return status;
 }
 
 EXPORT(clip_bounds) int web_clip_bounds(uint32_t mesh) {

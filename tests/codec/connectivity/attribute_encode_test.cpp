@@ -262,7 +262,7 @@ TEST(AttributeDecode, SurvivesDamagedStreams) {
     else
       bytes[random() % bytes.size()] ^= static_cast<uint8_t>(1 + random() % 255);
     AttributeRecord record;
-    Status status = AttributeRecord::read(bytes, UINT64_MAX, &record);
+    Status status = AttributeRecord::read(bytes, clip.limits().meshes[0], &record);
     Vector<MeshAttribute> out;
     if (status == Status::kOk)
       status = decode_attributes(record, clip.limits().meshes[0], clip.meshes()[0].topology, &out);

@@ -166,11 +166,11 @@ TEST_F(EncodeCommand, RebuildsFramesAsAskedFor) {
   nlohmann::json info = anicodec({"info", folder_ / "a.anic", "--json"}).json();
   EXPECT_EQ(info["segments"][0]["reconstruction"], "msgi");
   EXPECT_THAT(anicodec({"info", folder_ / "a.anic"}).out, HasSubstr("by msgi"));
-  EXPECT_THAT(anicodec({"dump", folder_ / "a.anic"}).out, HasSubstr("bytes of msgi for a frame"));
+  EXPECT_THAT(anicodec({"dump", folder_ / "a.anic"}).out, HasSubstr("required features"));
   EXPECT_LE(kg("auto"), std::min(linear, msgi) * 1.000001);
   Outcome wrong = encode({"--basis", "eigenshapes", "--interpolation", "msgi", "-f"});
   EXPECT_EQ(wrong.status, 1);
-  EXPECT_THAT(wrong.err, HasSubstr("--interpolation goes with"));
+  EXPECT_THAT(wrong.err, HasSubstr("--interpolation msgi goes with"));
 }
 
 TEST_F(EncodeCommand, CodesKeyframesAsAskedFor) {
@@ -182,10 +182,14 @@ TEST_F(EncodeCommand, CodesKeyframesAsAskedFor) {
   };
   const nlohmann::json draco = coded("draco"), native = coded("native"), best = coded("auto");
   EXPECT_EQ(draco["segments"][0]["coder"], "draco");
+  EXPECT_EQ(draco["features"], nlohmann::json({"draco"}));
   EXPECT_EQ(native["segments"][0]["coder"], "native");
+  EXPECT_TRUE(native["features"].empty());
   EXPECT_LT(native["bytes"], draco["bytes"]);
   EXPECT_EQ(best["bytes"], native["bytes"]);
-  Outcome wrong = encode({"--keyframe-coder", "native", "-f"});
+  ASSERT_EQ(encode({"--keyframes", "5", "-f"}).status, 0);
+  EXPECT_EQ(anicodec({"info", folder_ / "a.anic", "--json"}).json()["bytes"], native["bytes"]);
+  Outcome wrong = encode({"--keyframe-coder", "draco", "-f"});
   EXPECT_EQ(wrong.status, 1);
   EXPECT_THAT(wrong.err, HasSubstr("--keyframe-coder goes with"));
 }

@@ -57,7 +57,8 @@ TEST_F(InspectCommand, InfoAccountsForTheWholeFile) {
   EXPECT_GT(info["opening_bytes"], info["resident_bytes"]);
   EXPECT_GT(info["context_bytes"], 0);
   EXPECT_EQ(info["segments"][0]["basis"], "keyframes");
-  EXPECT_EQ(info["segments"][0]["coder"], "draco");
+  EXPECT_EQ(info["segments"][0]["coder"], "native");
+  EXPECT_TRUE(info["features"].empty());
   size_t end = info["chunks"][0]["offset"];
   for (const nlohmann::json& chunk : info["chunks"]) {
     EXPECT_EQ(chunk["offset"], end);
