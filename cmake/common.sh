@@ -12,7 +12,7 @@ packages=(
   libopenmesh-dev                              # codec: remeshing
   libcli11-dev libfmt-dev nlohmann-json3-dev   # tools
   libpng-dev libgif-dev                        # tools: pictures
-  libassimp-dev                                # tools: FBX, Collada, MD2 ...
+  libassimp-dev                                # tools: Collada, MD2 ...
   libgtest-dev libgmock-dev python3            # tests
   python3-dev                                  # the Python package
   python3-venv                                 # the same; sources of libraries, by pip

@@ -44,6 +44,7 @@ THROUGH = {
     "tools/io/alembic": ("tests/tools/io/alembic", "parts of one reader and one writer"),
     "tools/io/assimp": ("tests/tools/topology_test.cpp", "files of formats that assimp reads, through the command"),
     "tools/io/base": ("tests/tools/io/formats", "parts that all readers of text share"),
+    "tools/io/fbx": ("tests/tools/io/fbx/fbx_test.cpp", "steps of one reader, in a process of its own"),
     "tools/io/files": ("tests/tools/io/files", "steps of writing a set of files"),
     "tools/io/gltf": ("tests/tools/io/gltf/gltf_test.cpp", "parts of one reader and one writer"),
     "tools/listing": ("tests/tools/commands/inspect_command_test.cpp", "what `dump` prints"),

@@ -36,7 +36,7 @@ constexpr const char* kEncodeFooter =
     R"(INPUT is a mesh and its vertex cache (mesh.obj cache.pc2), a vertex cache with the mesh beside it or
 given by --mesh, a quoted pattern ('frames/*.obj', in natural order), a list of frames of equal
 connectivity, a scene, or an archive. Meshes: .obj .ply .off .stl; caches: .pc2 .mdd; scenes: .gltf
-.glb, and in builds with assimp .fbx .dae .md2 .md3 .3ds and others; archives: .abc (Alembic).
+.glb .fbx .md3, and in builds with assimp .dae .md2 .3ds and others; archives: .abc (Alembic).
 
 INPUT - is a scene in one file or a mesh from the standard input; -o - writes the .anic file to the
 standard output, and nothing else; decode, info and verify read one from -.

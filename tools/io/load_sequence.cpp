@@ -13,10 +13,12 @@
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/printable.h"
 #include "tools/io/base/signed_axes.h"
+#include "tools/io/fbx/fbx.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
 #include "tools/io/files/staging.h"
 #include "tools/io/formats/cache_record.h"
+#include "tools/io/formats/md3.h"
 #include "tools/io/formats/mtl.h"
 #include "tools/io/formats/obj.h"
 #include "tools/io/formats/off.h"
@@ -34,7 +36,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-
 #include <glob.h>
 
 namespace anicodec::tools {
@@ -43,7 +44,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReadableKinds =
-    ".obj, .ply, .off, .stl, .pc2, .mdd, .gltf, .glb, .abc and scenes of assimp";
+    ".obj, .ply, .off, .stl, .pc2, .mdd, .gltf, .glb, .fbx, .abc and scenes of assimp";
 
 [[noreturn]] void fail_usage(const std::string& text) {
   throw Error(ErrorKind::kUsage, text);
@@ -329,8 +330,9 @@ void set_pc2_timing(const VertexCache& cache, const std::string& path, const Loa
       options.note(path + ": " + text);
   };
   if (!std::isfinite(cache.first_frame) || !(step > 0 && step <= kMostFrames))
-    return say(fmt::format("its header says first frame {:g}, {:g} frames a sample, which is not used",
-                           cache.first_frame, step));
+    return say(
+        fmt::format("its header says first frame {:g}, {:g} frames a sample, which is not used",
+                    cache.first_frame, step));
   const double fps = sequence.rate.value();
   std::vector<double> times;
   for (uint32_t f = 0; f < std::max(cache.frame_count, 2U); ++f)
@@ -339,10 +341,12 @@ void set_pc2_timing(const VertexCache& cache, const std::string& path, const Loa
   sequence.rate = timing.rate;
   sequence.rate.assumed = !options.rate;
   sequence.start_time = timing.start_time;
-  say(fmt::format("its header says first frame {:g}, {:g} frames a sample: at {:g} frames per second{}, samples "
+  say(
+      fmt::format("its header says first frame {:g}, {:g} frames a sample: at {:g} frames per "
+                  "second{}, samples "
                   "from {:g} s at {:g} per second",
-                  cache.first_frame, step, fps, options.rate ? "" : ", which are assumed (--fps)", timing.start_time,
-                  timing.rate.value()));
+                  cache.first_frame, step, fps, options.rate ? "" : ", which are assumed (--fps)",
+                  timing.start_time, timing.rate.value()));
 }
 
 void load_cache(const std::string& cache_path, const std::string& mesh_path,
@@ -413,21 +417,24 @@ MeshSequence load_animations(const LoadOptions& options, const LoadOne& load_one
 void load_scene(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
   const GltfOptions scene = scene_options(options);
   const std::string stem = sequence.name;
+  const FileKind kind = kind_of(path);
   std::string bytes;
-  if (kind_of(path) != FileKind::kAssimp)
+  if (kind == FileKind::kGltf || kind == FileKind::kGlb)
     read_file(path, bytes);
   if (options.note && clip_of_glb(bytes, path))
     options.note(path + " moves by a clip inside, which decode writes; as a scene it stands still");
-  const bool is_assimp = kind_of(path) == FileKind::kAssimp;
   sequence = load_animations(
       options,
       [&] {
-        return is_assimp ? load_assimp(path, scene)
-                         : parse_gltf(bytes, path, resolver_of(path), scene);
+        return kind == FileKind::kFbx      ? load_fbx(path, scene)
+               : kind == FileKind::kAssimp ? load_assimp(path, scene)
+                                           : parse_gltf(bytes, path, resolver_of(path), scene);
       },
       [&] {
-        return is_assimp ? load_assimp_clips(path, scene, options.clips)
-                         : parse_gltf_clips(bytes, path, resolver_of(path), scene, options.clips);
+        return kind == FileKind::kFbx ? load_fbx_clips(path, scene, options.clips)
+               : kind == FileKind::kAssimp
+                   ? load_assimp_clips(path, scene, options.clips)
+                   : parse_gltf_clips(bytes, path, resolver_of(path), scene, options.clips);
       });
   if (sequence.clips.empty())
     sequence.name = sequence.name.empty() ? stem : stem + " " + sequence.name;
@@ -444,6 +451,16 @@ AlembicOptions alembic_options(const LoadOptions& options) {
 void load_archive(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
   const std::string stem = sequence.name;
   sequence = read_alembic(file_source(path), alembic_options(options));
+  sequence.name = stem;
+}
+
+void load_md3(const std::string& path, const LoadOptions& options, MeshSequence& sequence) {
+  if (!options.mesh.empty())
+    fail_usage("--mesh " + options.mesh + ": of an MD3 all surfaces are read");
+  const std::string stem = sequence.name;
+  std::string bytes;
+  read_file(path, bytes);
+  sequence = parse_md3(bytes, path, options.note);
   sequence.name = stem;
 }
 
@@ -504,9 +521,9 @@ void check_complete(const std::vector<std::string>& paths) {
 /// Tells of frames that are not in the order of their numbers: shells sort by letters.
 void note_order(const std::vector<std::string>& paths, const LoadOptions& options) {
   const bool fractions = have_fractions(paths);
-  const auto late = std::ranges::adjacent_find(paths, [&](const std::string& a, const std::string& b) {
-    return natural_less(b, a, fractions);
-  });
+  const auto late = std::ranges::adjacent_find(
+      paths,
+      [&](const std::string& a, const std::string& b) { return natural_less(b, a, fractions); });
   if (options.note && late != paths.end())
     options.note("frames stay in the order given, " + late[0] + " before " + late[1] +
                  "; a pattern in quotes sorts them by their numbers");
@@ -528,6 +545,8 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
     fail_usage("--clips: " + paths[0] + " is no scene with clips");
   if (kind_of(paths[0]) == FileKind::kAlembic)
     return load_archive(paths[0], options, sequence);
+  if (kind_of(paths[0]) == FileKind::kMd3)
+    return load_md3(paths[0], options, sequence);
   std::vector<std::string> caches, meshes;
   for (const std::string& path : paths)
     (is_cache(kind_of(path)) ? caches : meshes).push_back(path);
@@ -589,7 +608,8 @@ MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOption
     std::vector<std::string> paths = expand(inputs);
     sequence.name = fs::path(paths[0]).stem().string();
     load(paths, options, sequence);
-    has_rate = std::ranges::any_of(paths, [](const std::string& path) { return kind_of(path) == FileKind::kPc2; });
+    has_rate = std::ranges::any_of(
+        paths, [](const std::string& path) { return kind_of(path) == FileKind::kPc2; });
   }
   if (options.rate && !has_rate) {
     sequence.rate = *options.rate;

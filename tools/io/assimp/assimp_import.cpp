@@ -24,7 +24,6 @@
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
-#include <assimp/commonMetaData.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -64,14 +63,7 @@ String texture_of(const aiMaterial& from, std::initializer_list<aiTextureType> t
   return {};
 }
 
-/// Whether Blender wrote a file, as it says itself.
-bool is_blenders(const aiScene& scene) {
-  aiString generator;
-  return scene.mMetaData && scene.mMetaData->Get(AI_METADATA_SOURCE_GENERATOR, generator) &&
-         std::string_view(generator.C_Str()).starts_with("Blender");
-}
-
-GltfMaterial material(const aiMaterial& from, bool blenders) {
+GltfMaterial material(const aiMaterial& from) {
   GltfMaterial out;
   out.name = from.GetName().C_Str();
   MaterialLook& look = out.look;
@@ -84,8 +76,7 @@ GltfMaterial material(const aiMaterial& from, bool blenders) {
   look.base_colour = {colour.r, colour.g, colour.b, std::min(colour.a, opacity)};
   if (look.base_colour[3] < 1)
     look.alpha = AlphaMode::kBlend;
-  if (from.Get(AI_MATKEY_METALLIC_FACTOR, look.metallic) != aiReturn_SUCCESS && blenders)
-    from.Get(AI_MATKEY_REFLECTIVITY, look.metallic);  // where Blender's FBX has it
+  from.Get(AI_MATKEY_METALLIC_FACTOR, look.metallic);
   if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, look.roughness) != aiReturn_SUCCESS &&
       from.Get(AI_MATKEY_SHININESS, shininess) == aiReturn_SUCCESS)
     look.roughness = roughness_of_shininess(shininess);
@@ -116,7 +107,7 @@ class Converter {
 
   GltfDocument convert() {
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
-      out_.materials.push_back(material(*scene_.mMaterials[i], is_blenders(scene_)));
+      out_.materials.push_back(material(*scene_.mMaterials[i]));
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i)
       out_.meshes.push_back(mesh(*scene_.mMeshes[i]));
     add_node(*scene_.mRootNode, kGltfNone);
@@ -454,6 +445,8 @@ class SceneFiles : public Assimp::DefaultIOSystem {
 const aiScene& import(Assimp::Importer& importer, const std::string& path, unsigned steps) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES,
+                           true);  // which would stand for bones without a mesh
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType |
                                                      aiProcess_ValidateDataStructure | steps);
   if (!scene || !scene->mRootNode)
@@ -461,27 +454,9 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path, unsig
   return *scene;
 }
 
-/// A file as assimp read it.
-struct AssimpImport {
-  UpAxis up = UpAxis::kUnknown;
-  double metres_per_unit = 0;  ///< 0: unknown
-  std::vector<std::string> scenes;
-};
-
-void add_metadata(const aiScene& scene, AssimpImport& out) {
-  int32_t axis = 0;
-  if (scene.mMetaData && scene.mMetaData->Get("UpAxis", axis))
-    out.up = axis == 1 ? UpAxis::kY : axis == 2 ? UpAxis::kZ : UpAxis::kUnknown;
-  double centimetres = 0;
-  float single = 0;  // as which assimp 5.2 keeps it
-  if (scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", single))
-    centimetres = static_cast<double>(single);
-  if (centimetres > 0 || (scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", centimetres)))
-    out.metres_per_unit = centimetres / 100;
-}
-
-AssimpImport import_scenes(const std::string& path, uint32_t frames, bool allow_outside) {
-  AssimpImport out;
+std::vector<std::string> import_scenes(const std::string& path, uint32_t frames,
+                                       bool allow_outside) {
+  std::vector<std::string> out;
   for (uint32_t f = 0; f < std::max(frames, 1U); ++f) {
     Assimp::Importer importer;
     importer.SetIOHandler(new SceneFiles(path, allow_outside));  // the importer owns it
@@ -489,18 +464,14 @@ AssimpImport import_scenes(const std::string& path, uint32_t frames, bool allow_
       importer.SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, static_cast<int>(f));
     const aiScene& scene =
         import(importer, path, frames > 0 ? 0U : aiProcess_JoinIdenticalVertices + 0U);
-    if (frames == 0)
-      add_metadata(scene, out);
-    out.scenes.push_back(glb_of(Converter(scene, path).convert()));
+    out.push_back(glb_of(Converter(scene, path).convert()));
   }
   return out;
 }
 
-std::string packed(const AssimpImport& imported) {
+std::string packed(const std::vector<std::string>& scenes) {
   std::string out;
-  append(static_cast<uint32_t>(imported.up), std::endian::native, out);
-  append(imported.metres_per_unit, std::endian::native, out);
-  for (const std::string& scene : imported.scenes) {
+  for (const std::string& scene : scenes) {
     append(uint64_t{scene.size()}, std::endian::native, out);
     out += scene;
   }

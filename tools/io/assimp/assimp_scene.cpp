@@ -6,12 +6,12 @@
 #include "tools/io/assimp/assimp_plugin.h"
 #include "tools/io/base/byte_order.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/guard/guarded_call.h"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -19,20 +19,61 @@
 namespace anicodec::tools {
 namespace {
 
-/// How many frames an MD2 or MD3 holds, as its header says; 0 for others.
+/// How many frames an MD2 holds, as its header says; 0 for others.
 uint32_t stored_frames(const std::string& path) {
-  constexpr std::pair<const char*, uint64_t> kPlaces[] = {{"IDP2", 40}, {"IDP3", 76}};
+  constexpr uint64_t kPlace = 40;
   const ByteSource source = file_source(path);
-  for (const auto& [magic, place] : kPlaces) {
-    if (source.size < place + 4)
-      continue;
-    char head[4], count[4];
-    source.read(0, head);
-    source.read(place, count);
-    if (std::equal(head, head + 4, magic))
-      return load<uint32_t>(count, std::endian::little);
+  if (source.size < kPlace + 4)
+    return 0;
+  char head[4], count[4];
+  source.read(0, head);
+  source.read(kPlace, count);
+  return std::string_view(head, 4) == "IDP2" ? load<uint32_t>(count, std::endian::little) : 0;
+}
+
+bool is_collada(const std::string& path) {
+  return path.size() >= 4 && (path.ends_with(".dae") || path.ends_with(".DAE"));
+}
+
+/// The value of an attribute of the tag at a place; empty without.
+std::string attribute_of_tag(std::string_view text, size_t tag, std::string_view name) {
+  const std::string_view inside = text.substr(tag, text.find('>', tag) - tag);
+  const size_t at = inside.find(" " + std::string(name) + "=");
+  if (at == inside.npos)
+    return {};
+  const size_t quote = at + name.size() + 2;
+  return quote < inside.size() ? std::string(inside.substr(
+                                     quote + 1, inside.find(inside[quote], quote + 1) - quote - 1))
+                               : "";
+}
+
+/// What assimp makes of Collada that is not in it: it takes the shapes of a morph controller for no mesh, and keys of
+/// every kind for linear ones.
+void check_collada(const std::string& path, const GltfOptions& options) {
+  std::string text;
+  read_file(path, text);
+  std::string controller;
+  for (size_t at = text.find('<'); at != text.npos; at = text.find('<', at + 1)) {
+    const std::string_view here = std::string_view(text).substr(at + 1);
+    if (here.starts_with("controller ")) {
+      controller = attribute_of_tag(text, at, "id");
+    } else if (here.starts_with("morph ") && text.find("\"#" + controller + "\"") != text.npos) {
+      throw Error(ErrorKind::kUnsupported,
+                  path + ": the morph controller '" + printable(controller) +
+                      "' cannot be read; export the clip as glTF, FBX or Alembic");
+    } else if (here.starts_with("Name_array") && options.note) {
+      const size_t begin = text.find('>', at), end = text.find('<', begin);
+      const std::string names =
+          begin == text.npos || end == text.npos ? "" : text.substr(begin, end - begin);
+      for (const char* kind : {"BEZIER", "STEP", "HERMITE", "BSPLINE", "CARDINAL"}) {
+        if (names.find(kind) == names.npos)
+          continue;
+        return options.note(
+            path + ": keys of interpolation " + kind +
+            " are read as linear ones; export with a key at each frame, or as glTF or FBX");
+      }
+    }
   }
-  return 0;
 }
 
 std::string imported(ImportWithAssimp import, const std::string& path, uint32_t frames,
@@ -74,12 +115,6 @@ class Unpacker {
   const std::string& path_;
 };
 
-UpAxis axis_of(uint32_t number) {
-  return number == static_cast<uint32_t>(UpAxis::kY)   ? UpAxis::kY
-         : number == static_cast<uint32_t>(UpAxis::kZ) ? UpAxis::kZ
-                                                       : UpAxis::kUnknown;
-}
-
 /// Adds a stored frame to those before it.
 void add_stored_frame(MeshSequence frame, const std::string& path, MeshSequence& out) {
   if (frame.polygons != out.polygons || frame.vertex_count != out.vertex_count)
@@ -93,26 +128,18 @@ void add_stored_frame(MeshSequence frame, const std::string& path, MeshSequence&
 struct AssimpFile {
   std::string bytes;
   std::vector<std::string_view> scenes;  ///< of `bytes`
-  UpAxis up = UpAxis::kUnknown;
-  double metres_per_unit = 0;  ///< 0: unknown
-
-  void set_axes(MeshSequence& out) const {
-    out.up = up;
-    out.metres_per_unit = metres_per_unit;
-  }
 };
 
 AssimpFile read_file_by_assimp(const std::string& path, uint32_t frames,
                                const GltfOptions& options) {
+  if (is_collada(path))
+    check_collada(path, options);
   const GuardLimits limits = GuardLimits::for_input(file_source(path).size, options.memory_limit);
   const ImportWithAssimp import = assimp_plugin(path);
   AssimpFile file;
   file.bytes = run_guarded(path, limits,
                            [&] { return imported(import, path, frames, options.allow_outside); });
   Unpacker in(file.bytes, path);
-  file.up = axis_of(in.number<uint32_t>());
-  const auto metres = in.number<double>();
-  file.metres_per_unit = std::isfinite(metres) && metres >= 0 ? metres : 0;
   while (!in.at_end())
     file.scenes.push_back(in.scene());
   if (file.scenes.empty())
@@ -135,7 +162,6 @@ MeshSequence load_assimp(const std::string& path, const GltfOptions& options) {
     add_stored_frame(parse_gltf(file.scenes[i], path, {}, one), path, out);
   if (frames > 0)
     out.rate = options.rate.value_or(kQuakeRate);
-  file.set_axes(out);
   return out;
 }
 
@@ -149,10 +175,7 @@ std::vector<MeshSequence> load_assimp_clips(const std::string& path, const GltfO
   const AssimpFile file = read_file_by_assimp(path, 0, options);
   GltfOptions all = options;
   all.flat_without_normals = false;
-  std::vector<MeshSequence> clips = parse_gltf_clips(file.scenes[0], path, {}, all, names);
-  for (MeshSequence& clip : clips)
-    file.set_axes(clip);
-  return clips;
+  return parse_gltf_clips(file.scenes[0], path, {}, all, names);
 }
 
 }  // namespace anicodec::tools

@@ -11,9 +11,8 @@
 
 namespace anicodec::tools {
 
-/// Bakes a scene of any format that assimp reads (FBX, Collada, 3DS ...), in the way of
-/// parse_gltf(), triangulated; frames of MD2 and MD3 are taken as they are. Up axis and unit are
-/// those that an FBX states, else unknown. Throws Error(kInput), Error(kUnsupported) in a build
+/// Bakes a scene of any format that assimp reads (Collada, 3DS ...), in the way of
+/// parse_gltf(), triangulated; frames of MD2 are taken as they are. Up axis and unit are unknown. Throws Error(kInput), Error(kUnsupported) in a build
 /// without assimp.
 MeshSequence load_assimp(const std::string& path, const GltfOptions& options);
 

@@ -13,8 +13,8 @@ FileKind kind_of(const std::string& path) {
   constexpr std::pair<std::string_view, FileKind> kKinds[] = {
       {".obj", FileKind::kObj},    {".ply", FileKind::kPly},    {".off", FileKind::kOff},
       {".stl", FileKind::kStl},    {".pc2", FileKind::kPc2},    {".mdd", FileKind::kMdd},
-      {".gltf", FileKind::kGltf},  {".glb", FileKind::kGlb},    {".fbx", FileKind::kAssimp},
-      {".dae", FileKind::kAssimp}, {".md2", FileKind::kAssimp}, {".md3", FileKind::kAssimp},
+      {".gltf", FileKind::kGltf},  {".glb", FileKind::kGlb},    {".fbx", FileKind::kFbx},
+      {".dae", FileKind::kAssimp}, {".md2", FileKind::kAssimp}, {".md3", FileKind::kMd3},
       {".3ds", FileKind::kAssimp}, {".b3d", FileKind::kAssimp}, {".ms3d", FileKind::kAssimp},
       {".smd", FileKind::kAssimp}, {".x", FileKind::kAssimp},   {".lwo", FileKind::kAssimp},
       {".abc", FileKind::kAlembic}};

@@ -17,6 +17,8 @@ enum class FileKind {
   kMdd,
   kGltf,
   kGlb,
+  kFbx,
+  kMd3,
   kAssimp,
   kAlembic
 };
@@ -26,7 +28,8 @@ FileKind kind_of(const std::string& path);
 
 /// True for what can be written.
 inline bool is_output(FileKind kind) {
-  return kind != FileKind::kUnknown && kind != FileKind::kGltf && kind != FileKind::kAssimp;
+  return kind != FileKind::kUnknown && kind != FileKind::kGltf && kind != FileKind::kFbx &&
+         kind != FileKind::kMd3 && kind != FileKind::kAssimp;
 }
 
 inline bool is_cache(FileKind kind) {
@@ -35,12 +38,13 @@ inline bool is_cache(FileKind kind) {
 
 /// True for scenes, which can be sampled at any rate.
 inline bool is_scene(FileKind kind) {
-  return kind == FileKind::kGltf || kind == FileKind::kGlb || kind == FileKind::kAssimp;
+  return kind == FileKind::kGltf || kind == FileKind::kGlb || kind == FileKind::kFbx ||
+         kind == FileKind::kAssimp;
 }
 
 /// True for files of which one is a whole clip: scenes, and archives of frames with their meshes.
 inline bool is_whole_clip(FileKind kind) {
-  return is_scene(kind) || kind == FileKind::kAlembic;
+  return is_scene(kind) || kind == FileKind::kAlembic || kind == FileKind::kMd3;
 }
 
 }  // namespace anicodec::tools
