@@ -4,7 +4,7 @@
 
 #include "codec/connectivity/weld.h"
 #include "codec/sequence/error.h"
-#include "codec/surface/closest_point.h"
+#include "codec/sequence/triangulate.h"
 
 #include <algorithm>
 #include <array>
@@ -185,7 +185,7 @@ Positions SoundMesh::frame(std::span<const float> positions) const {
 
 SoundMesh sound_mesh(const MeshSequence& sequence) {
   check(sequence);
-  const std::vector<uint32_t> corners = fan_triangles(sequence.polygons);
+  const std::vector<uint32_t> corners = triangulated(sequence.polygons, sequence.frame(0)).corners;
   const Weld weld = weld_trajectories(sequence);
   std::vector<uint32_t> place(sequence.vertex_count);
   for (size_t v = 0; v < place.size(); ++v)

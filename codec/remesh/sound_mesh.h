@@ -33,7 +33,7 @@ struct SoundMesh {
   Positions frame(std::span<const float> positions) const;
 };
 
-/// Cuts polygons into fans, welds vertices with bit-identical trajectories (seams of texture
+/// Cuts polygons into triangles as in the first frame (triangulated()), welds vertices with bit-identical trajectories (seams of texture
 /// coordinates are no boundaries) unless a non-manifold edge came of it, leaves out unused vertices
 /// and degenerate and repeated triangles, and parts fans that share a vertex only. Cost:
 /// O(triangles log triangles). Throws Error(kInput) for a mesh without faces, an edge of three

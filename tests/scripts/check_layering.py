@@ -103,6 +103,7 @@ EXCEPTIONS = {"sdk/mesh/draco_poses.cpp": ["<draco/"], "sdk/mesh/draco_corners.h
               "codec/connectivity/draco_encode.cpp": ["<draco/"],
               "sdk/examples/crowd.c": ["<GL/", "<SDL2/", "<string.h>", "<time.h>"],
               "codec/file/metadata_json.cpp": ["<nlohmann/"],
+              "codec/sequence/triangulate.cpp": ["<Eigen/", "<mapbox/earcut.hpp>"],
               "codec/remesh/decimate.cpp": ["<OpenMesh/"],
               "codec/remesh/isotropic.cpp": ["<OpenMesh/"],
               "codec/remesh/subdivide.cpp": ["<OpenMesh/"],

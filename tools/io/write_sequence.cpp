@@ -3,6 +3,7 @@
 #include "tools/io/write_sequence.h"
 
 #include "codec/sequence/error.h"
+#include "codec/sequence/triangulate.h"
 #include "tools/io/base/byte_order.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_attributes.h"
@@ -193,6 +194,9 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
   }
   std::vector<Attribute> attributes = clip.attributes;
   const PlyProperties properties(attributes);
+  // The triangles of all frames are those of the first, so that they correspond.
+  const Polygons triangles =
+      kind == FileKind::kStl ? triangulated(clip.polygons, frames(0)) : Polygons();
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
     AtomicFile& file =
         files.emplace_back(pattern.name(uint64_t{options.first_number} + f), options.overwrite);
@@ -201,8 +205,8 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
       if (details)
         details->set_attributes(attributes);
     }
-    append_mesh(kind, clip.polygons, frames(f), options.ascii, details ? &*details : nullptr,
-                &properties, bytes);
+    append_mesh(kind, kind == FileKind::kStl ? triangles : clip.polygons, frames(f), options.ascii,
+                details ? &*details : nullptr, &properties, bytes);
     file.write(bytes);
     file.close();
     bytes.clear();

@@ -5,7 +5,7 @@
 #include "codec/sequence/error.h"
 #include "codec/sequence/frame_normals.h"
 #include "codec/sequence/shared_normals.h"
-#include "codec/surface/closest_point.h"
+#include "codec/sequence/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +145,7 @@ MeshSequence surface_of(const MeshSequence& sequence) {
 }  // namespace
 
 struct ShadedView::Scene {
+  Polygons polygons;                     ///< until they are cut
   std::vector<uint32_t> triangles;       ///< three vertices each
   std::vector<uint32_t> normal_numbers;  ///< of the same corners
   FrameNormals frame_normals;
@@ -154,15 +155,24 @@ struct ShadedView::Scene {
   std::vector<Vector3f> points;
   std::vector<float> normals;
 
-  explicit Scene(const MeshSequence& sequence) : frame_normals(surface_of(sequence)) {
-    const Polygons& polygons = sequence.polygons;
-    triangles = fan_triangles(polygons);
+  explicit Scene(const MeshSequence& sequence)
+      : polygons(sequence.polygons), frame_normals(surface_of(sequence)) {}
+
+  bool has_face() const {
     for (size_t p = 0; p < polygons.size(); ++p) {
-      for (uint32_t c = polygons.offsets[p] + 2; c < polygons.offsets[p + 1]; ++c) {
-        for (uint32_t corner : {polygons.offsets[p], c - 1, c})
-          normal_numbers.push_back(frame_normals.of_corner(corner));
-      }
+      if (polygons[p].size() >= 3)
+        return true;
     }
+    return false;
+  }
+
+  /// Cuts the polygons by the first frame that is drawn.
+  void cut(std::span<const float> positions) {
+    for (const uint32_t corner : corner_triangles(polygons, positions)) {
+      triangles.push_back(polygons.corners[corner]);
+      normal_numbers.push_back(frame_normals.of_corner(corner));
+    }
+    polygons = {};
   }
 
   void place(std::span<const float> positions);
@@ -174,7 +184,7 @@ ShadedView::ShadedView(const MeshSequence& sequence, const Box& box, uint32_t wi
                        uint32_t height)
     : scene_(std::make_unique<Scene>(sequence)) {
   Scene& s = *scene_;
-  if (s.triangles.empty())
+  if (!s.has_face())
     throw Error(ErrorKind::kInput, "there is no face to draw");
   s.width = width;
   s.height = height;
@@ -187,6 +197,8 @@ ShadedView::ShadedView(const MeshSequence& sequence, const Box& box, uint32_t wi
 ShadedView::~ShadedView() = default;
 
 void ShadedView::Scene::place(std::span<const float> positions) {
+  if (triangles.empty())
+    cut(positions);
   points.resize(positions.size() / 3);
   for (size_t v = 0; v < points.size(); ++v)
     points[v] = (at(positions, v) - centre) * scale;

@@ -29,6 +29,23 @@ TEST(SoundMesh, CutsPolygonsAndLeavesOutUnusedVertices) {
   EXPECT_EQ(result.frame(mesh.positions).row(0), Eigen::RowVector3d(0, 0, 0));
 }
 
+TEST(SoundMesh, CutsConcavePolygonsSoThatTrianglesCoverThemOnce) {
+  SurfaceFrame mesh;  // an L of area 5 that begins at a corner from which no fan covers it
+  mesh.positions = {3, 0, 0, 3, 1, 0, 1, 1, 0, 1, 3, 0, 0, 3, 0, 0, 0, 0};
+  mesh.polygons.add(std::vector<uint32_t>{0, 1, 2, 3, 4, 5});
+  const SoundMesh result = sound(mesh);
+  ASSERT_EQ(result.triangles.size(), 4U);
+  const Positions places = result.frame(mesh.positions);
+  double whole = 0;
+  for (const auto& t : result.triangles) {
+    const Eigen::RowVector3d a = places.row(t[1]) - places.row(t[0]),
+                             b = places.row(t[2]) - places.row(t[0]);
+    EXPECT_GT(a.cross(b)[2], 0);
+    whole += a.cross(b)[2] / 2;
+  }
+  EXPECT_DOUBLE_EQ(whole, 5);
+}
+
 TEST(SoundMesh, WeldsSeams) {
   // Two triangles of a sheet, with vertices of their own.
   const SurfaceFrame mesh =

@@ -55,7 +55,8 @@ TEST_F(EncodeCommand, GivesEveryBitBackWithoutLoss) {
   EXPECT_EQ(folder_.read("b.pc2"), folder_.read("a.pc2"));
   EXPECT_THAT(anicodec({"info", file}).out, HasSubstr("bit for bit"));
   EXPECT_EQ(anicodec({"info", file, "--json"}).json()["max_error"], 0);
-  for (const std::vector<std::string>& with : {std::vector<std::string>{"--kg", "1"}, {"--max-error", "1"}, {"--massage", "on"}}) {
+  for (const std::vector<std::string>& with :
+       {std::vector<std::string>{"--kg", "1"}, {"--max-error", "1"}, {"--massage", "on"}}) {
     std::vector<std::string> options{"--lossless", "-f"};
     options.insert(options.end(), with.begin(), with.end());
     EXPECT_EQ(encode(options).status, 1) << with[0];
@@ -307,6 +308,15 @@ TEST_F(EncodeCommand, NamesFrameAndFileOfANumberThatIsNotFinite) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bad.anic"));
 }
 
+TEST_F(EncodeCommand, CountsConcavePolygons) {
+  const std::string mesh = folder_.write(
+      "l.obj", "v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 1 2 3 4 5 6\nf 1 2 4\n");
+  const Outcome encoded = anicodec({"encode", mesh, "-o", folder_ / "l.anic"});
+  ASSERT_EQ(encoded.status, 0) << encoded;
+  EXPECT_THAT(encoded.err, HasSubstr("1 concave polygon: programs that play the file cut"));
+  EXPECT_THAT(encode({}).err, Not(HasSubstr("concave")));
+}
+
 TEST_F(EncodeCommand, NamesAFrameThatDoesNotFit) {
   folder_.write("f/1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   folder_.write("f/2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n");
@@ -329,7 +339,8 @@ TEST_F(EncodeCommand, NamesAFrameThatDoesNotFit) {
 TEST_F(EncodeCommand, KeepsFramesInFilesWhereTheMemoryIsSmall) {
   write_sequence(folder_ / "big.pc2", corpus::make_wave_grid(2000, 60, 8));
   const auto arguments = [&](const std::string& output) {
-    return std::vector<std::string>{"encode", folder_ / "big.pc2", "--effort", "1", "-o", folder_ / output};
+    return std::vector<std::string>{"encode", folder_ / "big.pc2", "--effort", "1",
+                                    "-o",     folder_ / output};
   };
   std::vector<std::string> small = arguments("files.anic");
   small.insert(small.end(), {"--memory", "1k"});
@@ -337,7 +348,8 @@ TEST_F(EncodeCommand, KeepsFramesInFilesWhereTheMemoryIsSmall) {
   without_room.insert(without_room.end(), small.begin(), small.end());
   const Outcome failed = run_program(without_room);
   EXPECT_EQ(failed.status, 5) << failed;
-  EXPECT_THAT(failed.err, AllOf(HasSubstr("big.pc2: /no/such/folder: "), HasSubstr("No such file")));
+  EXPECT_THAT(failed.err,
+              AllOf(HasSubstr("big.pc2: /no/such/folder: "), HasSubstr("No such file")));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "files.anic"));
   EXPECT_EQ(anicodec(small).status, 0);
   EXPECT_EQ(anicodec(arguments("memory.anic")).status, 0);

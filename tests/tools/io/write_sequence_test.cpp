@@ -47,6 +47,31 @@ TEST(WriteSequence, RoundTripsFramesOfEveryFormat) {
   }
 }
 
+TEST(WriteSequence, CutsConcavePolygonsOfStlOnce) {
+  MeshSequence clip;  // an L that begins at a corner from which no fan covers it; its area is 5
+  clip.polygons.add(std::vector<uint32_t>{0, 1, 2, 3, 4, 5});
+  clip.vertex_count = 6;
+  clip.frame_count = 2;
+  for (const float z : {0.F, 1.F})
+    clip.positions.insert(clip.positions.end(),
+                          {3, 0, z, 3, 1, z, 1, 1, z, 1, 3, z, 0, 3, z, 0, 0, z});
+  TemporaryFolder folder;
+  write_sequence(folder / "f_%d.stl", clip);
+  const MeshSequence back = load({folder / "f_*.stl"});
+  ASSERT_EQ(back.polygons.size(), 4U);
+  double whole = 0;
+  for (size_t p = 0; p < 4; ++p) {
+    const auto at = [&](size_t corner, size_t axis) {
+      return static_cast<double>(back.frame(1)[3 * back.polygons[p][corner] + axis]);
+    };
+    const double area = (at(1, 0) - at(0, 0)) * (at(2, 1) - at(0, 1)) -
+                        (at(2, 0) - at(0, 0)) * (at(1, 1) - at(0, 1));
+    EXPECT_GT(area, 0);
+    whole += area / 2;
+  }
+  EXPECT_DOUBLE_EQ(whole, 5);
+}
+
 TEST(WriteSequence, RoundTripsCachesWithTheirMesh) {
   MeshSequence clip = awkward_clip(12);
   clip.rate = {24000, 1001, false};

@@ -29,6 +29,24 @@ TEST(ShadedView, ShowsATriangleWhereItIs) {
   EXPECT_GT(corner[1], 200);
 }
 
+TEST(ShadedView, LeavesTheNotchOfAConcavePolygonOpen) {
+  MeshSequence dart;
+  dart.polygons.add(std::vector<uint32_t>{0, 1, 2, 3});
+  dart.vertex_count = 4;
+  const std::vector<float> positions = {-1, -1, 0, 0, 0.5F, 0, 1, -1, 0, 0, 1, 0};
+  Box box;
+  box.add(positions);
+  ShadedView view(dart, box, 65, 65);
+  Camera front;
+  front.azimuth = front.elevation = 0;
+  std::vector<float> red;
+  for (int v = 0; v < 4; ++v)
+    red.insert(red.end(), {1, 0, 0});
+  Image image = view.draw(positions, front, red);
+  EXPECT_GT(image.pixel(32, 40)[1], 100);  // below the inner corner
+  EXPECT_LT(image.pixel(32, 16)[1], 10);
+}
+
 /// A roof of two squares that meet in an edge along z, seen from the front with that edge upright.
 MeshSequence roof() {
   MeshSequence sequence;

@@ -18,8 +18,8 @@ namespace anicodec::tools {
 /// its size fits the count of triangles in its header, else ascii. Throws Error(kInput).
 void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>& soup);
 
-/// Appends a binary or ascii STL of one frame: polygons as fans from their first corner, unit
-/// normals (zero for degenerate triangles). Unused vertices are lost.
+/// Appends a binary or ascii STL of one frame: polygons, triangles best, as fans from their first
+/// corner, unit normals (zero for degenerate triangles). Unused vertices are lost.
 void append_stl(const Polygons& polygons, std::span<const float> positions, bool ascii,
                 std::string& out);
 

@@ -63,6 +63,7 @@ class GlbOutput::Writer {
     std::vector<Written> frame = written(positions, attributes);
     if (first_.empty()) {
       first_ = frame;
+      triangles_ = vertices_.triangles(clip_, positions);
       for (size_t m = 0; m < meshes_.size(); ++m)
         add_first(vertices_.objects()[m], meshes_[m]);
     }
@@ -196,7 +197,7 @@ class GlbOutput::Writer {
     OrderedJson result = OrderedJson::array();
     for (const GlbObject& object : vertices_.objects())
       result.push_back({{"name", name_of(object)}, {"primitives", OrderedJson::array()}});
-    for (const auto& [object, material, corners] : vertices_.triangles(clip_)) {
+    for (const auto& [object, material, corners] : triangles_) {
       OrderedJson& primitive = result[object]["primitives"].emplace_back(OrderedJson::object());
       primitive["mode"] = kTriangles;
       primitive["indices"] = buffer_.add_indices(corners, vertices_.objects()[object].count);
@@ -280,6 +281,7 @@ class GlbOutput::Writer {
   const std::span<const GltfImage> images_;
   GlbBuffer buffer_;
   std::vector<Written> first_;
+  std::vector<GlbTriangles> triangles_;
   std::vector<Output> meshes_;
 };
 

@@ -15,9 +15,8 @@ namespace anicodec::tools {
 /// Makes a GLB of a clip, frame by frame: a node with a mesh for each part, together below a node.
 /// A mesh is that of the first frame; each frame is a morph target, stored sparsely where that is
 /// smaller, and an animation gives each its turn at its time, of several clips one for each. A single frame has
-/// none. Polygons
-/// become fans of triangles, a primitive for each material; vertices whose corners differ in UV,
-/// colours, hard edges or parts come once for each. Clips whose up axis is Z are turned, and units
+/// none. Polygons become triangles by the first frame (corner_triangles()), a primitive for each
+/// material; vertices whose corners differ in UV, colours, hard edges or parts come once for each. Clips whose up axis is Z are turned, and units
 /// scaled, by the topmost node. Normals of every frame come along
 /// where the clip knows its hard edges (none where all are hard and all polygons triangles), and colours and texture coordinates of every frame where
 /// they change. Positions read back within a rounding of float32.

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/gltf/glb_vertices.h"
 
+#include "codec/sequence/triangulate.h"
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -114,7 +116,10 @@ void GlbVertices::sort_by_object(const std::vector<uint32_t>& part_of_corner) {
     v = place[v];
 }
 
-std::vector<GlbTriangles> GlbVertices::triangles(const MeshSequence& clip) const {
+std::vector<GlbTriangles> GlbVertices::triangles(const MeshSequence& clip,
+                                                 std::span<const float> positions) const {
+  const std::vector<uint32_t> cut = corner_triangles(clip.polygons, positions);
+  size_t next = 0;  // of `cut`
   std::vector<GlbTriangles> groups;
   std::map<std::pair<uint32_t, uint32_t>, size_t> group_of;
   const std::vector<uint32_t>& materials = clip.materials.of_polygon;
@@ -129,9 +134,8 @@ std::vector<GlbTriangles> GlbVertices::triangles(const MeshSequence& clip) const
       groups.push_back({object, material, {}});
     std::vector<uint32_t>& corners = groups[found->second].corners;
     const uint32_t first = objects_[object].first;
-    for (size_t i = 2; i < clip.polygons[p].size(); ++i)
-      corners.insert(corners.end(),
-                     {polygon[0] - first, polygon[i - 1] - first, polygon[i] - first});
+    for (const size_t end = next + 3 * (clip.polygons[p].size() - 2); next < end; ++next)
+      corners.push_back(of_corner_[cut[next]] - first);
   }
   return groups;
 }

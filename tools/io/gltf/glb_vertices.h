@@ -40,8 +40,10 @@ class GlbVertices {
 
   const std::vector<GlbObject>& objects() const { return objects_; }
 
-  /// One for each object and material, in order of their first polygon; polygons become fans.
-  std::vector<GlbTriangles> triangles(const MeshSequence& clip) const;
+  /// One for each object and material, in order of their first polygon; polygons are cut by `positions`, of
+  /// a frame of the clip (corner_triangles()).
+  std::vector<GlbTriangles> triangles(const MeshSequence& clip,
+                                      std::span<const float> positions) const;
 
   /// A corner of the clip that each vertex stands for, or kNoCorner.
   const std::vector<uint32_t>& corners() const { return corner_; }

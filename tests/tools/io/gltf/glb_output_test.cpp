@@ -87,6 +87,29 @@ TEST(GlbOutput, MakesAMeshOfEachObjectAndKeepsTheirNames) {
   EXPECT_EQ(std::ranges::count(mixed.parts.of_polygon, 0U), 2 * (quads - 1));
 }
 
+TEST(GlbOutput, CutsConcavePolygonsSoThatTrianglesCoverThemOnce) {
+  MeshSequence clip;  // an L that begins at a corner from which no fan covers it; its area is 5
+  clip.polygons.add(std::vector<uint32_t>{0, 1, 2, 3, 4, 5});
+  clip.vertex_count = 6;
+  clip.frame_count = 1;
+  clip.positions = {3, 0, 0, 3, 1, 0, 1, 1, 0, 1, 3, 0, 0, 3, 0, 0, 0, 0};
+  GlbOutput output(clip, false);
+  output.add_frame(clip.positions, {});
+  const MeshSequence back = parse_gltf(output.finish(std::vector<float>{0}), "l.glb", {}, {});
+  ASSERT_EQ(back.polygons.size(), 4U);
+  double whole = 0;
+  for (size_t p = 0; p < 4; ++p) {
+    const auto at = [&](size_t corner, size_t axis) {
+      return static_cast<double>(back.positions[3 * back.polygons[p][corner] + axis]);
+    };
+    const double area = (at(1, 0) - at(0, 0)) * (at(2, 1) - at(0, 1)) -
+                        (at(2, 0) - at(0, 0)) * (at(1, 1) - at(0, 1));
+    EXPECT_GT(area, 0);
+    whole += area / 2;
+  }
+  EXPECT_DOUBLE_EQ(whole, 5);
+}
+
 TEST(GlbOutput, TurnsClipsWithZUpAndScalesUnits) {
   TemporaryFolder folder;
   MeshSequence clip;
