@@ -585,6 +585,32 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
     load_frames(meshes, options, sequence);
 }
 
+/// Tells of coordinates so far from the origin that float32 is coarse for the mesh around them.
+void note_coarse(const std::string& input, const MeshSequence& sequence,
+                 const LoadOptions& options) {
+  if (!options.note || sequence.frame_count == 0)
+    return;
+  const std::span<const float> frame = sequence.frame(0);
+  constexpr double kCoarse = 1e-4;  // of the diagonal: a fifth of the usual bound
+  double least[3] = {}, most[3] = {}, squares = 0;
+  float largest = 0;
+  for (size_t i = 0; i < frame.size(); ++i) {
+    const auto x = static_cast<double>(frame[i]);
+    least[i % 3] = i < 3 ? x : std::min(least[i % 3], x);
+    most[i % 3] = i < 3 ? x : std::max(most[i % 3], x);
+    largest = std::max(largest, std::abs(frame[i]));
+  }
+  for (size_t k = 0; k < 3; ++k)
+    squares += (most[k] - least[k]) * (most[k] - least[k]);
+  const double size = std::sqrt(squares);
+  const double rounding = static_cast<double>(largest - std::nextafter(largest, 0.F)) / 2;
+  if (size > 0 && rounding > kCoarse * size)
+    options.note(fmt::format(
+        "{}: coordinates up to {:.7g} of a mesh of {:.3g}: float32 rounds them by up to {:.2g}; "
+        "move the source near its origin to keep more",
+        input, largest, size, rounding));
+}
+
 }  // namespace
 
 bool is_sequence_input(const std::string& path) {
@@ -617,6 +643,7 @@ MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOption
     for (ClipTiming& clip : sequence.clips)
       clip.rate = sequence.rate;
   }
+  note_coarse(inputs[0], sequence, options);
   return sequence;
 }
 

@@ -102,16 +102,23 @@ TEST(LoadSequence, TellsOfFramesThatAreNotInTheOrderOfTheirNumbers) {
 
 TEST(LoadSequence, TellsWhatChangesBesideThePositions) {
   TemporaryFolder folder;
-  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n", face = "f 1/1 2/2 3/3\n";
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n",
+                    face = "f 1/1 2/2 3/3\n";
   const std::string first = folder.write("0.obj", mesh + "usemtl a\n" + face);
-  const auto notes = [&](const std::string& text) { return notes_of({first, folder.write("1.obj", text)}); };
+  const auto notes = [&](const std::string& text) {
+    return notes_of({first, folder.write("1.obj", text)});
+  };
   EXPECT_EQ(notes(mesh + "usemtl a\n" + face), "");
   EXPECT_EQ(notes(mesh + "usemtl b\n" + face),
-            folder / "1.obj: the material changes, here from 'a' to 'b'; the clip keeps what the first frame has\n");
-  EXPECT_THAT(notes(mesh + "usemtl a\nf 1/2 2/2 3/3\n"), HasSubstr("texture coordinates 'uv' of corners change"));
+            folder /
+                "1.obj: the material changes, here from 'a' to 'b'; the clip keeps what the first "
+                "frame has\n");
+  EXPECT_THAT(notes(mesh + "usemtl a\nf 1/2 2/2 3/3\n"),
+              HasSubstr("texture coordinates 'uv' of corners change"));
   EXPECT_THAT(notes(mesh + "o x\nusemtl a\n" + face), HasSubstr("objects of faces change"));
   EXPECT_THAT(notes("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nusemtl a\nf 1 2 3\n"),
-              testing::AllOf(HasSubstr("has no texture coordinates 'uv'"), HasSubstr("has colours 'colour'")));
+              testing::AllOf(HasSubstr("has no texture coordinates 'uv'"),
+                             HasSubstr("has colours 'colour'")));
 }
 
 TEST(LoadSequence, TellsOfMaterialsThatLookOtherwiseFromFrameToFrame) {
@@ -143,7 +150,8 @@ TEST(LoadSequence, TakesFirstFrameAndFramesOfASampleFromAPc2) {
   const MeshSequence assumed = load_clip({mesh, cache});
   EXPECT_DOUBLE_EQ(assumed.rate.value(), 48);
   EXPECT_TRUE(assumed.rate.assumed);
-  EXPECT_THAT(notes_of({mesh, cache}), HasSubstr("0.5 frames a sample: at 24 frames per second, which are assumed"));
+  EXPECT_THAT(notes_of({mesh, cache}),
+              HasSubstr("0.5 frames a sample: at 24 frames per second, which are assumed"));
   put(20, 0);
   put(24, 30);  // no step of a cache, but a rate
   folder.write("a.pc2", bytes);
@@ -315,6 +323,24 @@ TEST(LoadSequence, TakesTheRateOfMddUnlessOneIsGiven) {
   path = folder.write("a.mdd", mdd({0, 0, 0}));
   EXPECT_THAT(load_fault({path}), HasSubstr("a.mdd: the time of frame 1 is not after"));
   EXPECT_EQ(load_clip({path}, {.rate = parse_frame_rate("24")}).rate.numerator, 24U);
+}
+
+TEST(LoadSequence, TellsWhereFloat32IsCoarseForTheMesh) {
+  TemporaryFolder folder;
+  std::string notes;
+  LoadOptions options;
+  options.note = [&](const std::string& text) { notes += text; };
+  // 2^22 is exact, and numbers above are whole halves: a quarter is rounded away.
+  folder.write("far.obj", "v 4194304 0 0\nv 4194307 4 0\nv 4194304 4 0\nf 1 2 3\n");
+  load_sequence(std::vector<std::string>{folder / "far.obj"}, options);
+  EXPECT_EQ(notes,
+            folder /
+                "far.obj: coordinates up to 4194307 of a mesh of 5: float32 rounds them by up to "
+                "0.25; move the source near its origin to keep more");
+  notes.clear();
+  folder.write("near.obj", "v 1000 0 0\nv 1003 4 0\nv 1000 4 0\nf 1 2 3\n");
+  load_sequence(std::vector<std::string>{folder / "near.obj"}, options);
+  EXPECT_EQ(notes, "");
 }
 
 TEST(LoadSequence, ReportsProgressAndCanBeCancelled) {
