@@ -84,7 +84,6 @@ LinearCoder::LinearCoder(const EncoderInput& input, const LinearAnalysis& analys
   if (!shapes) {
     // Trajectories are many: half the time that prediction takes, for two bytes in a hundred.
     choice_.settings.neighbours = 12;
-    choice_.settings.schedule = RefitSchedule::kMedium;
   }
 }
 

@@ -22,7 +22,6 @@ void fewer_neighbours(LinearChoice& choice, BasisKind) {
 }  // namespace
 
 const std::vector<LinearStep>& linear_steps() {
-  constexpr int kNever = 10;
   static const std::vector<LinearStep> steps = {
       {"coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= kPoseFactor; }, 2,
        2},
@@ -56,8 +55,6 @@ const std::vector<LinearStep>& linear_steps() {
        5},
       {"fewer components", [](LinearChoice& c, BasisKind) { c.settings.rank_factor *= 1.5; }, 5, 6},
       {"radius 16", [](LinearChoice& c, BasisKind) { c.settings.radius = 16; }, 6, 6},
-      {"refits more often",  // the file opens more slowly
-       [](LinearChoice& c, BasisKind) { c.settings.schedule = RefitSchedule::kDense; }, 7, kNever},
       {"24 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 24; }, 7, 7},
       {"lambda 0.11", [](LinearChoice& c, BasisKind) { c.settings.lambda = 0.11; }, 7, 7},
       {"yet coarser weights", [](LinearChoice& c, BasisKind) { c.settings.weight_factor *= 1.2; },

@@ -48,6 +48,12 @@ inline float bits_of(const ResidualCosts& costs, int32_t q) {
          kOctave * static_cast<float>(floor_log2(magnitude - 3));
 }
 
+/// Ranks that are coded together.
+struct BatchCosts {
+  uint32_t first = 0, end = 0;
+  float zero_saves = 0;  ///< CoefficientModel::zero_saves()
+};
+
 /// Codes residuals one by one, for an encoder that asks before each what it would take. The model codes
 /// batches: it is asked as it is before the batch, and codes it with its last residual.
 class CoefficientCosts {
@@ -59,12 +65,16 @@ class CoefficientCosts {
 
   void begin_component() {
     model_.begin_component();
+    batches_.clear();
     std::fill(q_.begin(), q_.end(), 0);
     level_ = 0;
     first_ = end_ = 0;
   }
 
   void end_component() { model_.end_component(); }
+
+  /// Those of the component at hand, as far as it is coded.
+  const std::vector<BatchCosts>& batches() const { return batches_; }
 
   /// Of residuals of channel c of rank v. @pre code() is next for it
   ResidualCosts costs(uint32_t v, uint32_t c) {
@@ -102,6 +112,7 @@ class CoefficientCosts {
         ++level_;
       first_ = v;
       end_ = std::min(start[level_ + 1], v + CoefficientModel::kBatch);
+      batches_.push_back({first_, end_, model_.zero_saves(first_, end_ - first_)});
     } else if (v == vertex_) {
       return;
     }
@@ -110,6 +121,7 @@ class CoefficientCosts {
   }
 
   CoefficientModel model_;
+  std::vector<BatchCosts> batches_;
   std::vector<int32_t> q_;  ///< of the component at hand, channels x ranks
   size_t level_ = 0;
   uint32_t first_ = 0, end_ = 0;  ///< of the batch at hand

@@ -161,7 +161,8 @@ bool CoefficientEncoder::round_together() {
   if (!is_coded)
     return false;
   const auto improve = [&] {
-    joint_.improve(channels_, component_.data(), costs.data(), joint_lambda_, residuals_.data());
+    joint_.improve(channels_, component_.data(), costs.data(), rehearsed_->batches(), joint_lambda_,
+                   residuals_.data());
   };
   improve();
   rehearsed_ = model_;

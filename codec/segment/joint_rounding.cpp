@@ -2,9 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/joint_rounding.h"
 
-#include "codec/segment/coefficient_costs.h"
-
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -20,18 +18,19 @@ constexpr int kSweeps = 4;  // over all vertices, in turns from either end
 
 /// What to add to a residual q: 0, a step either way, or what makes it 0, whichever lowers the error
 /// and `lambda` times its bits most. `slope`: the product of its column and the error; `energy`: that
-/// of the column and itself.
+/// of the column and itself; `zero_saves`: bits that its batch saves if it is 0.
 int32_t best_change(int32_t q, float slope, float energy, const ResidualCosts& costs,
-                    float lambda) {
+                    float zero_saves, float lambda) {
   // Nothing below moves a zero: half a step would have to be won.
   if (q == 0 && std::abs(slope) < 0.35F * energy)
     return 0;
-  const float now = bits_of(costs, q);
+  const auto bits = [&](int32_t x) { return bits_of(costs, x) - (x == 0 ? zero_saves : 0.F); };
+  const float now = bits(q);
   float least = -1e-6F;
   int32_t best = 0;
   for (const int32_t change : {-1, 1, -q}) {
     const auto d = static_cast<float>(change);
-    const float cost = d * (d * energy - 2 * slope) + lambda * (bits_of(costs, q + change) - now);
+    const float cost = d * (d * energy - 2 * slope) + lambda * (bits(q + change) - now);
     if (change != 0 && cost < least) {
       least = cost;
       best = change;
@@ -138,55 +137,150 @@ void JointRounding::set_weights(std::vector<float> weights) {
     }
 }
 
-void JointRounding::improve(uint32_t channels, const float* target, const ResidualCosts* costs,
-                            double price, int32_t* q) const {
-  if (channels == 1)
-    improve<1>(target, costs, price, q);
-  else
-    improve<3>(target, costs, price, q);
-}
-
+/// The residuals of a component while they change.
 template <Eigen::Index kChannels>
-void JointRounding::improve(const float* target, const ResidualCosts* costs, double price,
-                            int32_t* q) const {
-  // The channels of a rank are beside one another, so that a column is read once for all.
-  using Channels = Eigen::Array<float, kChannels == 1 ? 1 : 4, 1>;
-  const size_t n = order_.vertex_count();
-  const auto m = static_cast<size_t>(order_.neighbour_count);
-  const auto at = [n](Eigen::Index c, size_t i) { return static_cast<size_t>(c) * n + i; };
-  std::vector<Channels> y(n, Channels::Zero()), error(n, Channels::Zero());
-  for (size_t i = 0; i < n; ++i) {
-    for (size_t a = 0; a < m && order_.neighbours[i * m + a] >= 0; ++a)
-      y[i] += weights_[i * m + a] * y[static_cast<size_t>(order_.neighbours[i * m + a])];
-    for (Eigen::Index c = 0; c < kChannels; ++c) {
-      y[i](c) += static_cast<float>(q[at(c, i)]);
-      error[i](c) = target[at(c, i)] - y[i](c);
+class JointRounding::Component {
+ public:
+  Component(const JointRounding& rounding, const float* target, const ResidualCosts* costs,
+            const std::vector<BatchCosts>& batches, float lambda, int32_t* q)
+      : rounding_(rounding),
+        n_(rounding.order_.vertex_count()),
+        costs_(costs),
+        batches_(batches),
+        lambda_(lambda),
+        q_(q),
+        error_(n_, Channels::Zero()),
+        nonzero_(batches.size(), 0),
+        saved_(batches.size(), 0.F) {
+    set_error(target);
+    for (size_t b = 0; b < batches.size(); ++b) {
+      saved_[b] = batches[b].zero_saves;
+      for (size_t i = batches[b].first; i < batches[b].end; ++i) {
+        for (Eigen::Index c = 0; c < kChannels; ++c) {
+          nonzero_[b] += q[at(c, i)] != 0;
+          saved_[b] += costs[at(c, i)].magnitude[0];
+        }
+      }
     }
   }
-  const auto lambda = static_cast<float>(price);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+
+  /// Changes one residual after the other; false if none is worth it.
+  bool sweep(bool backwards) {
     bool changes = false;
-    for (size_t k = 0; k < n; ++k) {
-      const size_t i = sweep % 2 == 0 ? n - 1 - k : k;
-      const std::span<const Entry> column(column_.data() + start_[i], start_[i + 1] - start_[i]);
-      const Channels slope = product(column, error);
+    for (size_t k = 0; k < batches_.size(); ++k) {
+      const size_t b = backwards ? batches_.size() - 1 - k : k;
+      const BatchCosts& batch = batches_[b];
+      for (size_t l = batch.first; l < batch.end; ++l)
+        changes |= change_vertex(b, backwards ? batch.first + batch.end - 1 - l : l);
+    }
+    return changes;
+  }
+
+  /// Makes all residuals of a batch 0 if that is worth it.
+  void clear(size_t b) {
+    constexpr int kFew = 6;  // Single ones are those of a sweep.
+    if (nonzero_[b] < 2 || nonzero_[b] > kFew || !std::isfinite(saved_[b]))
+      return;
+    float gain = lambda_ * saved_[b];
+    std::array<std::pair<size_t, Channels>, kFew> steps;
+    size_t count = 0;
+    for (size_t i = batches_[b].first; i < batches_[b].end; ++i) {
       Channels step = Channels::Zero();
       for (Eigen::Index c = 0; c < kChannels; ++c) {
-        int32_t& residual = q[at(c, i)];
-        const int32_t change =
-            best_change(residual, slope(c), energy_[i], costs[at(c, i)], lambda);
-        step(c) = static_cast<float>(change);
-        residual += change;
+        const int32_t q = q_[at(c, i)];
+        const ResidualCosts& costs = costs_[at(c, i)];
+        step(c) = static_cast<float>(-q);
+        if (q != 0)
+          gain += lambda_ * (bits_of(costs, q) - costs.magnitude[0]);
       }
       if ((step == 0).all())
         continue;
-      for (const Entry& entry : column)
-        error[entry.rank] -= step * entry.value;
-      changes = true;
+      gain -= (step * (step * rounding_.energy_[i] - 2 * product(column(i), error_))).sum();
+      move(i, step);
+      steps[count++] = {i, step};
     }
-    if (!changes)
-      break;
+    for (const auto& [i, step] : std::span(steps).first(count)) {
+      if (gain <= 0)
+        move(i, -step);
+      else
+        for (Eigen::Index c = 0; c < kChannels; ++c)
+          q_[at(c, i)] = 0;
+    }
   }
+
+ private:
+  // The channels of a rank are beside one another, so that a column is read once for all.
+  using Channels = Eigen::Array<float, kChannels == 1 ? 1 : 4, 1>;
+
+  size_t at(Eigen::Index c, size_t i) const { return static_cast<size_t>(c) * n_ + i; }
+
+  std::span<const Entry> column(size_t i) const {
+    return {rounding_.column_.data() + rounding_.start_[i],
+            rounding_.start_[i + 1] - rounding_.start_[i]};
+  }
+
+  void move(size_t i, const Channels& step) {
+    for (const Entry& entry : column(i))
+      error_[entry.rank] -= step * entry.value;
+  }
+
+  void set_error(const float* target) {
+    const VertexOrder& order = rounding_.order_;
+    const auto m = static_cast<size_t>(order.neighbour_count);
+    std::vector<Channels> y(n_, Channels::Zero());
+    for (size_t i = 0; i < n_; ++i) {
+      for (size_t a = 0; a < m && order.neighbours[i * m + a] >= 0; ++a)
+        y[i] += rounding_.weights_[i * m + a] * y[static_cast<size_t>(order.neighbours[i * m + a])];
+      for (Eigen::Index c = 0; c < kChannels; ++c) {
+        y[i](c) += static_cast<float>(q_[at(c, i)]);
+        error_[i](c) = target[at(c, i)] - y[i](c);
+      }
+    }
+  }
+
+  bool change_vertex(size_t b, size_t i) {
+    const Channels slope = product(column(i), error_);
+    Channels step = Channels::Zero();
+    for (Eigen::Index c = 0; c < kChannels; ++c) {
+      int32_t& residual = q_[at(c, i)];
+      const bool alone = nonzero_[b] == (residual != 0 ? 1 : 0) && std::isfinite(saved_[b]);
+      const int32_t change = best_change(residual, slope(c), rounding_.energy_[i], costs_[at(c, i)],
+                                         alone ? saved_[b] : 0.F, lambda_);
+      step(c) = static_cast<float>(change);
+      nonzero_[b] += (residual + change != 0) - (residual != 0);
+      residual += change;
+    }
+    if ((step == 0).all())
+      return false;
+    move(i, step);
+    return true;
+  }
+
+  const JointRounding& rounding_;
+  size_t n_;
+  const ResidualCosts* costs_;
+  const std::vector<BatchCosts>& batches_;
+  float lambda_;
+  int32_t* q_;
+  std::vector<Channels> error_;
+  std::vector<int> nonzero_;  ///< of each batch, residuals that are not 0
+  std::vector<float> saved_;  ///< bits that a batch saves that has none
+};
+
+void JointRounding::improve(uint32_t channels, const float* target, const ResidualCosts* costs,
+                            const std::vector<BatchCosts>& batches, double price,
+                            int32_t* q) const {
+  const auto improved = [&](auto component) {
+    for (int sweep = 0; sweep < kSweeps && component.sweep(sweep % 2 == 0); ++sweep) {
+    }
+    for (size_t b = 0; b < batches.size(); ++b)
+      component.clear(b);
+  };
+  const auto lambda = static_cast<float>(price);
+  if (channels == 1)
+    improved(Component<1>(*this, target, costs, batches, lambda, q));
+  else
+    improved(Component<3>(*this, target, costs, batches, lambda, q));
 }
 
 }  // namespace anicodec

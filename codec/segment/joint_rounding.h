@@ -3,7 +3,7 @@
 #ifndef ANICODEC_CODEC_SEGMENT_JOINT_ROUNDING_H_
 #define ANICODEC_CODEC_SEGMENT_JOINT_ROUNDING_H_
 
-#include "format/coding/coefficient_model.h"
+#include "codec/segment/coefficient_costs.h"
 #include "sdk/prediction/vertex_order.h"
 
 #include <cstddef>
@@ -30,11 +30,12 @@ class JointRounding {
   /// Cost: some hundred operations per vertex.
   void set_weights(std::vector<float> weights);
 
-  /// Changes residuals one by one while that lowers |target - y|^2 + `price` times the bits. `costs`:
-  /// what each would take; all of them channels x rank, of 1 or 3 channels. Cost: some tens of
-  /// operations per vertex and sweep, for three channels little more than for one.
-  void improve(uint32_t channels, const float* target, const ResidualCosts* costs, double price,
-               int32_t* q) const;
+  /// Changes residuals, one by one or to zero in a batch, while that lowers |target - y|^2 + `price` times
+  /// the bits. `costs`: what each would take in a batch that is not zero; all of them channels x rank, of 1
+  /// or 3 channels. Cost: some tens of operations per vertex and sweep, for three channels little more than
+  /// for one.
+  void improve(uint32_t channels, const float* target, const ResidualCosts* costs,
+               const std::vector<BatchCosts>& batches, double price, int32_t* q) const;
 
  private:
   struct Entry {
@@ -45,7 +46,7 @@ class JointRounding {
   class SparseSum;
 
   template <Eigen::Index kChannels>
-  void improve(const float* target, const ResidualCosts* costs, double price, int32_t* q) const;
+  class Component;
 
   const VertexOrder& order_;
   std::vector<float> weights_;

@@ -33,7 +33,7 @@ struct LinearSettings {
   uint8_t neighbours = 16;
   uint8_t passes_per_level = 1;
   uint8_t radius = 12;
-  RefitSchedule schedule = RefitSchedule::kDense;
+  RefitSchedule schedule = RefitSchedule::kMedium;
   uint8_t alike = 0;  ///< PredictionParameters::alike
   bool layers_anew = false;  ///< LinearParameters::layers_anew
   uint32_t layers = 1;       ///< parts that the components are stored in

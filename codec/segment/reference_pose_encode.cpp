@@ -4,6 +4,7 @@
 
 #include "codec/segment/pose_partners.h"
 #include "sdk/pose/dependent_steps.h"
+#include "sdk/pose/exact_pose.h"
 #include "sdk/prediction/vertex_order.h"
 
 #include <algorithm>
@@ -25,6 +26,38 @@ using Eigen::MatrixXd;
 /// Dependent steps that are so much finer lead to the same error: the mean squared one of a trellis
 /// of eight states is 1.0 dB below that of rounding to steps twice as wide.
 constexpr double kDependentStep = 0.565;
+
+Vector<int32_t> rounded_integers(const MatrixXd& values) {
+  Vector<int32_t> integers;
+  integers.reserve(static_cast<size_t>(values.size()));
+  for (Index v = 0; v < values.rows(); ++v) {
+    for (Index c = 0; c < 3; ++c)
+      integers.push_back(static_cast<int32_t>(std::lround(values(v, c))));
+  }
+  return integers;
+}
+
+/// A pose on a grid, not coded yet. finer: its steps in those asked for.
+std::shared_ptr<EncodedPose> on_grid(const MatrixXd& pose, const Eigen::Vector3d& origin,
+                                     double step, double finer) {
+  auto encoded = std::make_shared<EncodedPose>();
+  const double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
+  // Room for a dependent integer, which is up to two steps off.
+  encoded->grid.step = std::max({finer * step, largest / (kMaxReferenceCoordinate - 4), 1e-37});
+  std::copy_n(origin.data(), 3, encoded->grid.origin);
+  return encoded;
+}
+
+/// The pose, rounded, with exact coordinates.
+std::shared_ptr<const EncodedPose> encode_exactly(const PosePartners* partners,
+                                                  const MatrixXd& pose,
+                                                  const Eigen::Vector3d& origin, double step,
+                                                  const CornerTable& table) {
+  auto encoded = on_grid(pose, origin, step, 1);
+  encoded->grid.points = rounded_integers(pose / encoded->grid.step);
+  encoded->stream = encode_exact_pose(table, encoded->grid.points, partners);
+  return encoded;
+}
 
 /// About the nanoseconds of one thread that a decoder takes for a pose. Lines through dance, horse,
 /// face, flag and chicken at --kg 0.1: `anicodec_bench pose`.
@@ -92,15 +125,9 @@ std::shared_ptr<const EncodedPose> encode_pose_by(const PosePartners* partners,
                                                   const MatrixXd& pose,
                                                   const Eigen::Vector3d& origin, double step,
                                                   const CornerTable& table) {
-  auto encoded = std::make_shared<EncodedPose>();
-  PoseGrid& grid = encoded->grid;
-  const double largest = pose.size() > 0 ? pose.cwiseAbs().maxCoeff() : 0;
-  // Room for a dependent integer, which is up to two steps off.
-  grid.step = std::max(
-      {kDependentStep * step, largest / (kMaxReferenceCoordinate - 4), 1e-37});
-  std::copy_n(origin.data(), 3, grid.origin);
-  grid.points = dependent_integers(pose / grid.step);
-  encoded->stream = encode_pose(table, PoseSteps::kDependent, grid.points, partners);
+  auto encoded = on_grid(pose, origin, step, kDependentStep);
+  encoded->grid.points = dependent_integers(pose / encoded->grid.step);
+  encoded->stream = encode_pose(table, PoseSteps::kDependent, encoded->grid.points, partners);
   return encoded;
 }
 
@@ -116,14 +143,26 @@ std::shared_ptr<const EncodedPose> ReferencePoseEncoder::at_step(double step) co
   const auto coded = [&](const PosePartners* partners) {
     return encode_pose_by(partners, pose_, origin_, step, table_);
   };
-  if (partners_.partner.empty())
-    return coded(nullptr);
-  std::shared_ptr<const EncodedPose> alone, by_partners;
+  const auto exactly = [&](const PosePartners* partners) {
+    return encode_exactly(partners, pose_, origin_, step, table_);
+  };
+  const bool repeats = !partners_.partner.empty();
+  const PosePartners* by = repeats ? &partners_ : nullptr;
+  std::shared_ptr<const EncodedPose> best, other;
   // Isolated: a thread that waits here must not begin another trial meanwhile, which takes long.
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_invoke([&] { alone = coded(nullptr); }, [&] { by_partners = coded(&partners_); });
+    tbb::parallel_invoke([&] { best = coded(by); },
+                         [&] { other = repeats ? coded(nullptr) : exactly(nullptr); });
   });
-  return cost(*alone, false) <= cost(*by_partners, true) ? alone : by_partners;
+  if (repeats) {
+    if (cost(*other, false) <= cost(*best, true)) {
+      best = std::move(other);
+      by = nullptr;
+    }
+    other = exactly(by);
+  }
+  const bool by_partners = by != nullptr;
+  return cost(*other, by_partners) < cost(*best, by_partners) ? other : best;
 }
 
 double ReferencePoseEncoder::cost(const EncodedPose& pose, bool has_partners) const {

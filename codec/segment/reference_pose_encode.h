@@ -26,8 +26,8 @@ class ReferencePoseEncoder {
                        const MeshLayout& layout, double bytes_per_nanosecond);
 
   /// The pose, ready for the file, with the error of rounding to a grid of this step or, where
-  /// coordinates would be too large, a coarser one: by partners or without, whichever is smaller, what
-  /// opening is worth included. O(vertices).
+  /// coordinates would be too large, a coarser one: by partners or without, with dependent steps or exact
+  /// coordinates, whichever is smallest, what opening is worth included. O(vertices).
   std::shared_ptr<const EncodedPose> at_step(double step) const;
 
  private:

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/coding/coefficient_model.h"
 
+#include <limits>
+
 namespace anicodec {
 namespace {
 
@@ -106,6 +108,14 @@ CoefficientModel::Vertex CoefficientModel::contexts_of(uint32_t rank) const {
   int16_t features[kFeatures];
   set_features(rank, 1, features);
   return classes_of(features, 1, expected_of(features, 1));
+}
+
+float CoefficientModel::zero_saves(uint32_t first, uint32_t count) const {
+  const uint32_t total = total_of(first, count);
+  if (total >= kBusy)
+    return -std::numeric_limits<float>::infinity();
+  const uint32_t any = any_[magnitude_class<2>(total >> 1, kTotals)][recent_].probability();
+  return in_bits(any) - in_bits(kProbabilityOne - any);
 }
 
 ResidualCosts CoefficientModel::costs(const Vertex& vertex, uint32_t rank, uint32_t channel,

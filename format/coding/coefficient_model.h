@@ -122,6 +122,10 @@ class CoefficientModel {
   /// Contexts of a rank whose batch is next, those of earlier levels being coded.
   Vertex contexts_of(uint32_t rank) const;
 
+  /// By how many bits less it takes to tell that a batch is zero than that it is not; minus infinity where
+  /// that cannot be told.
+  float zero_saves(uint32_t first, uint32_t count) const;
+
   /// The bits that a residual of a rank would take, after `sum` in the channels before it; what a batch of
   /// zeros saves is left out. q: the residuals of earlier levels.
   ResidualCosts costs(const Vertex& vertex, uint32_t rank, uint32_t channel, uint32_t sum,
@@ -238,24 +242,14 @@ class CoefficientModel {
     }
   }
 
-  /// By how much a magnitude is above 7: two classes to an octave up to 44, then its exponent and
-  /// the bits below it.
+  /// By how much a magnitude is above 7.
   template <class Coder>
   uint32_t code_excess(Coder& coder, const Vertex& vertex, uint32_t excess) {
-    constexpr uint32_t kFirst = 4, kLast = 48;
-    const uint32_t x = excess + kFirst;
-    uint32_t s = x >= kLast ? kRowEscape : magnitude_class<1>(x) - kFirst;
-    s = code_row_symbol(coder, expected_excess_[vertex.expected], near_excess_[vertex.near],
-                        past_excess_[vertex.past], s);
-    if (s < kRowEscape) {
-      const int bits = static_cast<int>(s / 2) + 1;
-      const uint32_t low = (s % 2 + 2) << bits;
-      return low + coder.raw(bits, x - low) - kFirst;
-    }
-    constexpr int kFar = 4;
-    const uint32_t far =
-        code_row_number(coder, far_[vertex.expected / 4], kFar, x - kLast + (1U << kFar));
-    const uint32_t result = far - (1U << kFar) + kLast - kFirst;
+    const auto symbol = [&](uint32_t s) {
+      return code_row_symbol(coder, expected_excess_[vertex.expected], near_excess_[vertex.near],
+                             past_excess_[vertex.past], s);
+    };
+    const uint32_t result = code_row_excess(coder, symbol, far_[vertex.expected / 4], excess);
     if (result + kRowEscape >= static_cast<uint32_t>(kCoefficientLimit)) {
       coder.fail();
       return 0;

@@ -13,6 +13,7 @@
 #endif
 
 #include "format/coding/binary_coder.h"
+#include "format/coding/magnitude_class.h"
 #include "format/coding/symbol_model.h"
 
 #include <array>
@@ -268,19 +269,38 @@ uint32_t code_row_number(Coder& coder, RowNumber& rows, int lowest, uint32_t x) 
   return uint32_t{1} << bits | coder.raw(bits, x);
 }
 
-/// Codes a magnitude below 2^24: `symbol(s)` tells 0 .. 6 and more, of 0 or one more than the magnitude
-/// without its `low` lowest bits, which are as good as random; `far` what is beyond. A decoder that reads
-/// a larger one fails and gets 0.
+/// Codes by how much a number is above the symbols of a row: `symbol(s)` tells two classes to an octave up to
+/// 44, `far` its exponent from there on, then come the bits below. A decoder gets less than 2^24 + 28, and
+/// fails with a number that is too long.
 template <class Coder, class Symbol>
-inline uint32_t code_row_magnitude(Coder& coder, const Symbol& symbol, RowNumber& far, int low,
-                                   uint32_t magnitude) {
+inline uint32_t code_row_excess(Coder& coder, const Symbol& symbol, RowNumber& far,
+                                uint32_t excess) {
+  constexpr uint32_t kFirst = 4, kLast = 48;
+  constexpr int kFar = 4;
+  const uint32_t x = excess + kFirst;
+  const uint32_t s = symbol(x >= kLast ? kRowEscape : magnitude_class<1>(x) - kFirst);
+  if (s < kRowEscape) {
+    const int bits = static_cast<int>(s / 2) + 1;
+    const uint32_t low = (s % 2 + 2) << bits;
+    return low + coder.raw(bits, x - low) - kFirst;
+  }
+  return code_row_number(coder, far, kFar, x - kLast + (1U << kFar)) - (1U << kFar) + kLast -
+         kFirst;
+}
+
+/// Codes a magnitude below 2^24: 0, or one more than a number whose `low` lowest bits are as good as
+/// random. `symbol(s)` and `more(s)` tell the number without these, and its excess. A decoder that reads a
+/// larger one fails and gets 0.
+template <class Coder, class Symbol, class More>
+inline uint32_t code_row_magnitude(Coder& coder, const Symbol& symbol, const More& more,
+                                   RowNumber& far, int low, uint32_t magnitude) {
   constexpr int kBits = 24;
   const uint32_t given = magnitude == 0 ? 0 : 1 + ((magnitude - 1) >> low);
   uint32_t high = symbol(given < kRowEscape ? given : kRowEscape);
   if (high == 0)
     return 0;
   if (high == kRowEscape)
-    high += code_row_number(coder, far, 0, given - kRowEscape + 1) - 1;
+    high += code_row_excess(coder, more, far, given - kRowEscape);
   if ((high - 1) >> (kBits - low) != 0) {
     coder.fail();
     return 0;

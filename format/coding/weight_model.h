@@ -61,6 +61,7 @@ class WeightModel {
   struct Rows {
     SymbolRow expected[kExpected], recent[kRecent][kRecent], beside[kRecent][kPatterns],
         before[kBands][kRecent];
+    SymbolRow expected_excess[kExpected], recent_excess[kRecent], beside_excess[kRecent];
     RowWeights weights[kWeights];
     RowNumber far;
     AdaptiveBit evidence[2 * kEvidence + 1];
@@ -82,14 +83,19 @@ class WeightModel {
                       uint32_t second, uint32_t band, SignBits& signs, int32_t q) {
     const uint32_t pattern =
         4 * s.pattern + (s.recent > 0 ? 1 : 0) + (s.slow >= kWeightUnit ? 2 : 0);
-    const FourRows four = {&rows.expected[magnitude_class<1>(s.expected >> low, kExpected)],
-                           &rows.recent[class_of(s.recent, low)][second],
-                           &rows.beside[class_of(s.beside, low)][pattern],
+    const uint32_t expected = magnitude_class<1>(s.expected >> low, kExpected);
+    const uint32_t recent = class_of(s.recent, low), beside = class_of(s.beside, low);
+    const FourRows four = {&rows.expected[expected], &rows.recent[recent][second],
+                           &rows.beside[beside][pattern],
                            &rows.before[band][class_of(s.before, low)]};
     RowWeights& weights = rows.weights[magnitude_class<0>(s.expected >> 3, kWeights)];
     const auto symbol = [&](uint32_t x) { return code_weighted_symbol(coder, four, weights, x); };
+    const auto more = [&](uint32_t x) {
+      return code_row_symbol(coder, rows.expected_excess[expected], rows.recent_excess[recent],
+                             rows.beside_excess[beside], x);
+    };
     const auto magnitude = static_cast<int32_t>(code_row_magnitude(
-        coder, symbol, rows.far, low, static_cast<uint32_t>(q < 0 ? -q : q)));
+        coder, symbol, more, rows.far, low, static_cast<uint32_t>(q < 0 ? -q : q)));
     if (magnitude == 0)
       return 0;
     const int32_t e = s.evidence;

@@ -59,13 +59,21 @@ class PoseModel {
     // The lowest bits of what is expected to be large are as good as random.
     const int low = std::clamp(floor_log2(scale) - 4, 0, kMostLow);
     const auto class_of = [&](uint32_t x) { return magnitude_class<0>(x >> low, kNear); };
-    SymbolRow& a = scale_[magnitude_class<2>(scale, kScales)][last];
-    SymbolRow& b = near_[class_of(eighths(e.before))][class_of(eighths(e.near))][last];
-    SymbolRow& c = spread_[class_of(eighths(e.spread))][class_of(scale)][last];
+    const uint32_t size = magnitude_class<2>(scale, kScales), before = class_of(eighths(e.before)),
+                   spread = class_of(eighths(e.spread));
     const int32_t distance = value - expected.centre;
-    const auto symbol = [&](uint32_t s) { return code_row_symbol(coder, a, b, c, s); };
-    const auto magnitude = static_cast<int32_t>(code_row_magnitude(
-        coder, symbol, far_, low, static_cast<uint32_t>(distance < 0 ? -distance : distance)));
+    const auto symbol = [&](uint32_t s) {
+      return code_row_symbol(coder, scale_[size][last],
+                             near_[before][class_of(eighths(e.near))][last],
+                             spread_[spread][class_of(scale)][last], s);
+    };
+    const auto more = [&](uint32_t s) {
+      return code_row_symbol(coder, scale_excess_[size], before_excess_[before],
+                             spread_excess_[spread], s);
+    };
+    const auto magnitude = static_cast<int32_t>(
+        code_row_magnitude(coder, symbol, more, far_, low,
+                           static_cast<uint32_t>(distance < 0 ? -distance : distance)));
     if (magnitude == 0)
       return expected.centre;
     const bool negative = coder.bit(sign_[last][expected.quarter], distance < 0);
@@ -77,6 +85,7 @@ class PoseModel {
   static constexpr int kMostLow = 12;
 
   SymbolRow scale_[kScales][2], near_[kNear][kNear][2], spread_[kNear][kNear][2];
+  SymbolRow scale_excess_[kScales], before_excess_[kNear], spread_excess_[kNear];
   RowNumber far_;
   AdaptiveBit sign_[2][4];
 };

@@ -54,6 +54,9 @@ class PosePrediction {
   /// Whether there is another place to predict from.
   bool follows() const { return turn_ != nullptr; }
 
+  /// The vertex as that place has it. @pre follows()
+  const Vector3& likely() const { return likely_; }
+
   /// Axis of the coordinate that is coded as the step-th, 0..2.
   size_t axis(int step) const { return axis_[step]; }
 
@@ -72,7 +75,9 @@ class PosePrediction {
   /// The coordinate turned out to be `value`.
   void learn(int step, int32_t value);
 
-  /// Known neighbours of the vertex at hand, as its triangles list them.
+  /// Parallelograms of the vertex at hand, and its known neighbours, as its triangles list them.
+  const auto& gates() const { return gates_; }
+
   const auto& neighbours() const { return neighbours_; }
 
  private:

@@ -15,8 +15,6 @@ namespace {
 constexpr uint16_t kSparse[] = {1, 4, 12, 36, 108, 324};
 constexpr uint16_t kMedium[] = {0,  1,  2,  3,   5,   8,   12,  18,  26,
                                 36, 50, 70, 100, 140, 200, 280, 400, 560};
-constexpr uint16_t kDense[] = {0,  1,  2,  3,  4,  5,  6,   8,   10,  12,  14,  17,  20,  24,  28,
-                               33, 40, 48, 56, 66, 80, 100, 120, 140, 170, 200, 250, 300, 400, 500};
 
 /// Components after which the prior is renewed: the first ones tell most of the motion, later ones nothing new.
 constexpr uint16_t kRenewals[] = {1, 3, 7, 9};
@@ -43,9 +41,6 @@ const uint16_t* refit_components(RefitSchedule schedule, size_t* count) {
     case RefitSchedule::kMedium:
       *count = std::size(kMedium);
       return kMedium;
-    case RefitSchedule::kDense:
-      *count = std::size(kDense);
-      return kDense;
     case RefitSchedule::kNone:
       break;
   }

@@ -19,17 +19,16 @@ namespace anicodec {
 /// Components after which the weights are refitted.
 enum class RefitSchedule : uint8_t {
   kNone = 0,    ///< the prior weights throughout
-  kSparse = 1,  ///< fastest to decode
-  kMedium = 2,
-  kDense = 3,  ///< smallest files
+  kSparse = 1,  ///< faster to decode
+  kMedium = 2,  ///< smallest files
 };
-constexpr uint8_t kRefitScheduleCount = 4;
+constexpr uint8_t kRefitScheduleCount = 3;
 
 /// Parameters that encoder and decoder of a segment agree on.
 struct PredictionParameters {
   int channels = 1;     ///< scalars per vertex and component: 1 (trajectories) or 3 (shapes)
   uint8_t radius = 12;  ///< of the prior's kernel, in mean neighbour distances, 1..255
-  RefitSchedule schedule = RefitSchedule::kDense;
+  RefitSchedule schedule = RefitSchedule::kMedium;
   /// How much the prior heeds who moves alike, in eighths; 0: positions alone make it.
   uint8_t alike = 0;
 };

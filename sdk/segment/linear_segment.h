@@ -27,7 +27,7 @@ struct LinearParameters {
   uint8_t neighbours = 16;  ///< m, see VertexOrder
   uint8_t colours = 1;
   uint8_t radius = 12;
-  RefitSchedule schedule = RefitSchedule::kDense;
+  RefitSchedule schedule = RefitSchedule::kMedium;
   bool layers_anew = false;  ///< the entropy coders' models begin anew with each layer
   uint8_t alike = 0;         ///< PredictionParameters::alike
   /// For each run of frames of a clip: its weights have weight_step * 2^(run_steps / 8). Empty:

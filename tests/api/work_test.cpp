@@ -14,6 +14,7 @@
 #include "sdk/clip/clip.h"
 #include "sdk/mesh/faces_coding.h"
 #include "sdk/mesh/plain_coding.h"
+#include "sdk/pose/exact_pose.h"
 #include "sdk/pose/pose_coding.h"
 #include "sdk/segment/basis_layer.h"
 #include "sdk/segment/correction_coding.h"
@@ -100,8 +101,9 @@ class CraftedFile {
     add("CLIP", kNoMesh, kNoSegment, clip.write());
     add("MESH", 0, kNoSegment, mesh());
     if (std::find(own_pose_.begin(), own_pose_.end(), false) != own_pose_.end())
-      add("POSE", 0, kNoSegment, pose());
-    const Bytes predicted = pose();
+      add("POSE", 0, kNoSegment,
+          pose(encode_pose(CornerTable(topology_), PoseSteps::kDependent, pose_)));
+    const Bytes predicted = pose(encode_exact_pose(CornerTable(topology_), pose_));
     for (uint32_t i = 0; i < limits_.segments.size(); ++i) {
       add("SEGM", 0, i, segment(limits_.segments[i]));
       if (own_pose_[i])
@@ -121,8 +123,7 @@ class CraftedFile {
     return record.write();
   }
 
-  Bytes pose() const {
-    const Bytes stream = encode_pose(CornerTable(topology_), PoseSteps::kDependent, pose_);
+  static Bytes pose(const Bytes& stream) {
     PoseRecord record;
     record.stream = stream;
     return record.write();

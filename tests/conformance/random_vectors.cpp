@@ -96,8 +96,7 @@ class RandomVector {
                       any({0.0005, 0.004, 0.03}) * length, any<uint8_t>({8, 12, 16, 20, 24}),
                       static_cast<uint8_t>(1 + numbers_.below(8)),
                       static_cast<uint8_t>(1 + numbers_.below(255)),
-                      any({RefitSchedule::kNone, RefitSchedule::kSparse, RefitSchedule::kMedium,
-                           RefitSchedule::kDense}));
+                      any({RefitSchedule::kNone, RefitSchedule::kSparse, RefitSchedule::kMedium}));
     LinearSettings& settings = r.settings;
     settings.layers = 1 + numbers_.below(3);
     if (one_in(2))
@@ -124,7 +123,7 @@ class RandomVector {
     }
     switch (r.regions > 1 ? 5 : numbers_.below(5)) {
       case 0:
-        r.change = with_partners;
+        r.change = one_in(2) ? with_partners : exactly_with_partners;
         break;
       case 1:
         r.change = scramble_weights;

@@ -49,7 +49,7 @@ Bytes schedules() {
       clip, {recipe(10, BasisKind::kEigenshapes, step, 8, 1, 1, RefitSchedule::kNone),
              recipe(10, BasisKind::kEigentrajectories, step, 12, 8, 255, RefitSchedule::kSparse),
              recipe(10, BasisKind::kEigenshapes, step, 24, 4, 12, RefitSchedule::kMedium),
-             recipe(10, BasisKind::kEigentrajectories, step, 20, 2, 5, RefitSchedule::kDense)});
+             recipe(10, BasisKind::kEigentrajectories, step, 20, 2, 5, RefitSchedule::kMedium)});
 }
 
 /// Priors renewed by motion, by little and by much of it; the last meets numbers that are not finite.
@@ -59,7 +59,7 @@ Bytes alike() {
   std::vector<Recipe> recipes = {
       recipe(13, BasisKind::kEigenshapes, step, 8, 1, 12, RefitSchedule::kNone),
       recipe(13, BasisKind::kEigentrajectories, step, 16, 2, 12, RefitSchedule::kSparse),
-      recipe(13, BasisKind::kEigentrajectories, step, 24, 1, 40, RefitSchedule::kDense),
+      recipe(13, BasisKind::kEigentrajectories, step, 24, 1, 40, RefitSchedule::kMedium),
       recipe(13, BasisKind::kEigenshapes, step, 12, 1, 5, RefitSchedule::kMedium)};
   constexpr uint8_t kWeights[] = {1, 32, 255, 8};
   for (size_t i = 0; i < recipes.size(); ++i)
@@ -77,7 +77,7 @@ Recipe layered(BasisKind kind, double step, bool anew) {
 }
 
 Bytes vertex_order() {
-  Recipe r = recipe(9, BasisKind::kEigentrajectories, 0.004, 16, 3, 12, RefitSchedule::kDense);
+  Recipe r = recipe(9, BasisKind::kEigentrajectories, 0.004, 16, 3, 12, RefitSchedule::kMedium);
   r.settings.pose_factor = 0.02;  // the grid of the order shifts it
   return file_of(hub(), {r}, [](ClipsRecord& file) {
     ClipRecord& record = file.clips[0];
@@ -110,9 +110,9 @@ Bytes partners() {
   const double step = 0.004 * diagonal(clip);
   Recipe named = recipe(6, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse);
   named.change = with_partners;
-  const Recipe found =
-      recipe(6, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse);
-  return file_of(clip, {named, found});
+  Recipe exact = named;
+  exact.change = exactly_with_partners;
+  return file_of(clip, {named, exact});
 }
 
 Bytes turned() {
@@ -169,8 +169,9 @@ Bytes clips() {
 Bytes saturated() {
   const MeshSequence clip = corpus::make_scaled("limb", 120, 32);
   const double step = 0.001 * diagonal(clip);
-  Recipe shapes = recipe(16, BasisKind::kEigenshapes, step, 16, 1, 12, RefitSchedule::kDense);
-  Recipe curves = recipe(16, BasisKind::kEigentrajectories, step, 16, 2, 12, RefitSchedule::kDense);
+  Recipe shapes = recipe(16, BasisKind::kEigenshapes, step, 16, 1, 12, RefitSchedule::kMedium);
+  Recipe curves =
+      recipe(16, BasisKind::kEigentrajectories, step, 16, 2, 12, RefitSchedule::kMedium);
   for (Recipe* r : {&shapes, &curves}) {
     r->settings.components = {14};  // the largest residuals are those of the 11th and 12th
     r->change = scramble_coefficients;

@@ -17,6 +17,7 @@
 #include "format/coding/rans_coder.h"
 #include "format/coding/time_weights.h"
 #include "sdk/clip/clip.h"
+#include "sdk/pose/exact_pose.h"
 #include "sdk/pose/pose_coding.h"
 #include "sdk/prediction/vertex_order.h"
 #include "sdk/segment/basis_layer.h"
@@ -62,8 +63,8 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
                              shapes ? Base::kPose : Base::kAffine, 1000, 0);
     std::optional<EncodedSegment> coded = encode_linear(
         frames, basis, recipe.settings, input.layout,
-        encode_reference_pose(basis.pose, basis.origin, pose_step(recipe.settings, recipe.frames),
-                              input.layout),
+        encode_pose_by(nullptr, basis.pose, basis.origin, pose_step(recipe.settings, recipe.frames),
+                       CornerTable(input.layout.topology)),
         input.runs(first, recipe.frames));
     if (!coded)
       throw Error(ErrorKind::kInternal, "the step is too fine");
@@ -245,9 +246,9 @@ MeshSequence turned_pair(uint32_t vertices, uint32_t frames) {
   return clip;
 }
 
-void with_partners(EncodedSegment& segment, const EncoderInput& input) {
-  auto pose = std::make_shared<EncodedPose>(*segment.reference);
-  const uint32_t n = input.layout.topology.coded_vertices;
+namespace {
+
+PosePartners random_partners(uint32_t n) {
   Numbers numbers;
   PosePartners partners;
   uint32_t ahead = 1;
@@ -258,8 +259,24 @@ void with_partners(EncodedSegment& segment, const EncoderInput& input) {
     partners.partner.push_back(kind == 0 ? PosePartners::kNone : kind == 1 ? v : (v + ahead) % n);
     partners.flips.push_back(static_cast<uint8_t>(numbers.below(8)));
   }
+  return partners;
+}
+
+}  // namespace
+
+void with_partners(EncodedSegment& segment, const EncoderInput& input) {
+  auto pose = std::make_shared<EncodedPose>(*segment.reference);
+  const PosePartners partners = random_partners(input.layout.topology.coded_vertices);
   pose->stream = encode_pose(CornerTable(input.layout.topology), PoseSteps::kDependent,
                              pose->grid.points, &partners);
+  segment.reference = std::move(pose);
+}
+
+void exactly_with_partners(EncodedSegment& segment, const EncoderInput& input) {
+  auto pose = std::make_shared<EncodedPose>(*segment.reference);
+  const PosePartners partners = random_partners(input.layout.topology.coded_vertices);
+  pose->stream =
+      encode_exact_pose(CornerTable(input.layout.topology), pose->grid.points, &partners);
   segment.reference = std::move(pose);
 }
 

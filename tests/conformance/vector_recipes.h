@@ -77,6 +77,9 @@ MeshSequence turned_pair(uint32_t vertices, uint32_t frames);
 /// told apart, vertices that are like themselves.
 void with_partners(EncodedSegment& segment, const EncoderInput& input);
 
+/// The same with exact coordinates.
+void exactly_with_partners(EncodedSegment& segment, const EncoderInput& input);
+
 /// Each vertex of turned_pair() like its image, in one strand of half a turn or in a strand for almost
 /// every vertex: more than are told apart.
 StreamChange with_turned_partners(bool many_strands);

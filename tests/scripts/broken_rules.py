@@ -362,7 +362,7 @@ def segment_rules(files):
             ("neighbours", corrected, 45, set_byte(17, 9), "9 neighbours"),
             ("passes", corrected, 45, set_byte(18, 9), "9 parts of a level"),
             ("radius", corrected, 45, set_byte(19, 0), "a radius of 0"),
-            ("schedule", corrected, 45, set_byte(20, 4), "a schedule that does not exist"),
+            ("schedule", corrected, 45, set_byte(20, 3), "a schedule that does not exist"),
             ("alike", files("alike"), 45, set_byte(21, 0), "motion that weighs nothing in a prior")):
         yield status, f"parameters_{name}", file.put(parameters, change), f"parameters with {what}"
     yield 40, "layer_components", corrected.put("BASI components", b"\x7f"), "a layer of more components than are left"

@@ -27,19 +27,19 @@ struct PredictionCase {
 };
 
 inline constexpr PredictionCase kPredictionCases[] = {
-    {16, 1, 1, 45, 12, RefitSchedule::kDense, 0, 0x0d3eea0242ab2c1b},
+    {16, 1, 1, 45, 12, RefitSchedule::kMedium, 0, 0x20b2ba7dcb8e42c7},
     {16, 2, 3, 20, 14, RefitSchedule::kMedium, 0, 0x67b92155669ec63e},
     {8, 1, 3, 7, 9, RefitSchedule::kSparse, 0, 0x91848e4d6f5c1d37},
     {12, 4, 1, 30, 20, RefitSchedule::kMedium, 0, 0x6e261346da042123},
     {20, 1, 1, 12, 12, RefitSchedule::kNone, 0, 0xd0051b13eab2c6f9},
-    {24, 2, 3, 25, 255, RefitSchedule::kDense, 0, 0xaf210ad467e82f67},
-    {16, 1, 1, 45, 12, RefitSchedule::kDense, 32, 0x65337de083a9ab69},
+    {24, 2, 3, 25, 255, RefitSchedule::kMedium, 0, 0x769c4bd171abdf03},
+    {16, 1, 1, 45, 12, RefitSchedule::kMedium, 32, 0x9fdf5b1ac2529e03},
     {12, 2, 3, 14, 14, RefitSchedule::kMedium, 8, 0x32dbd443ca69680d},
     {24, 1, 3, 9, 200, RefitSchedule::kSparse, 255, 0x295275c548f4b6b2},
     {8, 4, 1, 5, 9, RefitSchedule::kNone, 4, 0xa8f1ffa416c1ad93},
     {16, 1, 1, 30, 12, RefitSchedule::kMedium, 32, 0x8c726a81f0914e85},
     {12, 2, 3, 20, 20, RefitSchedule::kNone, 4, 0x302ee0d784d6c6e5},
-    {24, 1, 3, 6, 3, RefitSchedule::kDense, 255, 0x88fea913c63b2337},
+    {24, 1, 3, 6, 3, RefitSchedule::kMedium, 255, 0xd21abc6f81977bcd},
 };
 
 struct PredictionClip {

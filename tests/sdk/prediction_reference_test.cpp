@@ -278,10 +278,7 @@ Matrix reference_coefficients(const PredictionCase& t, const PredictionClip& cli
       {RefitSchedule::kNone, {}},
       {RefitSchedule::kSparse, {1, 4, 12, 36, 108, 324}},
       {RefitSchedule::kMedium,
-       {0, 1, 2, 3, 5, 8, 12, 18, 26, 36, 50, 70, 100, 140, 200, 280, 400, 560}},
-      {RefitSchedule::kDense,
-       {0,  1,  2,  3,  4,  5,  6,   8,   10,  12,  14,  17,  20,  24,  28,
-        33, 40, 48, 56, 66, 80, 100, 120, 140, 170, 200, 250, 300, 400, 500}}};
+       {0, 1, 2, 3, 5, 8, 12, 18, 26, 36, 50, 70, 100, 140, 200, 280, 400, 560}}};
   std::set<size_t> refits;
   for (const size_t j : schedules.at(t.schedule))
     if (j + 1 < K)

@@ -4,7 +4,12 @@
 
 #include "tests/random.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -117,6 +122,19 @@ double bits(const std::vector<int32_t>& q) {
   return sum;
 }
 
+/// Batches of 32 that save so much, besides their bits, if they are empty.
+std::vector<BatchCosts> batches(float zero_saves) {
+  std::vector<BatchCosts> all;
+  for (uint32_t first = 0; first < kCount; first += 32)
+    all.push_back({first, std::min(first + 32, uint32_t{kCount}), zero_saves});
+  return all;
+}
+
+/// Batches that cannot be empty.
+std::vector<BatchCosts> full_batches() {
+  return batches(-std::numeric_limits<float>::infinity());
+}
+
 TEST(JointRounding, LowersErrorPlusBits) {
   const Grid grid;
   const std::vector<float> t = target(grid);
@@ -126,7 +144,7 @@ TEST(JointRounding, LowersErrorPlusBits) {
   const std::vector<int32_t> start = grid.rounded(t);
   for (const double price : {0.02, 0.1, 0.5}) {
     std::vector<int32_t> q = start;
-    joint.improve(1, t.data(), costs.data(), price, q.data());
+    joint.improve(1, t.data(), costs.data(), full_batches(), price, q.data());
     const double before = grid.squared_error(t, start) + price * bits(start);
     const double after = grid.squared_error(t, q) + price * bits(q);
     EXPECT_LT(after, (price < 0.1 ? 0.995 : 0.97) * before) << price;
@@ -142,12 +160,37 @@ TEST(JointRounding, TakesFewerBitsTheDearerTheyAre) {
   double last_bits = 1e9, last_error = 0;
   for (const double price : {0.02, 0.2, 1.0}) {
     std::vector<int32_t> q = grid.rounded(t);
-    joint.improve(1, t.data(), costs.data(), price, q.data());
+    joint.improve(1, t.data(), costs.data(), full_batches(), price, q.data());
     EXPECT_LT(bits(q), last_bits);
     EXPECT_GT(grid.squared_error(t, q), last_error);
     last_bits = bits(q);
     last_error = grid.squared_error(t, q);
   }
+}
+
+TEST(JointRounding, EmptiesBatchesWhereThatSaves) {
+  constexpr float kSaves = 3;
+  constexpr double kPrice = 0.2;
+  const Grid grid;
+  std::vector<float> t = target(grid);
+  for (float& x : t)
+    x *= 0.12F;
+  const std::vector<ResidualCosts> costs(kCount, usual_costs());
+  JointRounding joint(grid.order);
+  joint.set_weights(grid.weights);
+  const auto cost = [&](const std::vector<int32_t>& q) {
+    double sum = grid.squared_error(t, q);
+    for (const BatchCosts& batch : batches(kSaves)) {
+      const std::vector<int32_t> part(q.begin() + batch.first, q.begin() + batch.end);
+      const bool empty = std::ranges::count(part, 0) == std::ssize(part);
+      sum += kPrice * (empty ? -static_cast<double>(kSaves) : bits(part));
+    }
+    return sum;
+  };
+  std::vector<int32_t> heeded = grid.rounded(t), not_heeded = heeded;
+  joint.improve(1, t.data(), costs.data(), batches(kSaves), kPrice, heeded.data());
+  joint.improve(1, t.data(), costs.data(), full_batches(), kPrice, not_heeded.data());
+  EXPECT_LT(cost(heeded), 0.95 * cost(not_heeded));
 }
 
 TEST(JointRounding, LeavesAnExactTargetAlone) {
@@ -162,7 +205,7 @@ TEST(JointRounding, LeavesAnExactTargetAlone) {
   JointRounding joint(grid.order);
   joint.set_weights(grid.weights);
   std::vector<int32_t> improved = q;
-  joint.improve(1, t.data(), costs.data(), 0.0, improved.data());
+  joint.improve(1, t.data(), costs.data(), full_batches(), 0.0, improved.data());
   EXPECT_EQ(improved, q);
 }
 
@@ -180,10 +223,10 @@ TEST(JointRounding, TreatsEachOfThreeChannelsAsItWouldAlone) {
     std::vector<int32_t> q = grid.rounded(t);
     all.insert(all.end(), t.begin(), t.end());
     together.insert(together.end(), q.begin(), q.end());
-    joint.improve(1, t.data(), costs.data(), 0.1, q.data());
+    joint.improve(1, t.data(), costs.data(), full_batches(), 0.1, q.data());
     alone.insert(alone.end(), q.begin(), q.end());
   }
-  joint.improve(3, all.data(), costs.data(), 0.1, together.data());
+  joint.improve(3, all.data(), costs.data(), full_batches(), 0.1, together.data());
   EXPECT_EQ(together, alone);
 }
 

@@ -78,14 +78,15 @@ TEST(SymbolRow, StartsAsAGeometricSequence) {
 
 /// Rows that code magnitudes among bits.
 struct Rows {
-  SymbolRow a, b, c;
+  SymbolRow a, b, c, more_a, more_b, more_c;
   RowNumber far;
   AdaptiveBit bit;
 
   template <class Coder>
   uint32_t code(Coder& coder, int low, uint32_t value) {
     const auto symbol = [&](uint32_t s) { return code_row_symbol(coder, a, b, c, s); };
-    return code_row_magnitude(coder, symbol, far, low, value);
+    const auto more = [&](uint32_t s) { return code_row_symbol(coder, more_a, more_b, more_c, s); };
+    return code_row_magnitude(coder, symbol, more, far, low, value);
   }
 };
 
@@ -132,7 +133,7 @@ TEST(SymbolRow, SurvivesAnyBytesOfTheBinaryCoder) {
     RowNumber far;
     const auto symbol = [&](uint32_t s) { return code_row_symbol(decoder, a, b, c, s); };
     for (int i = 0; i < 500; ++i)
-      ASSERT_LE(code_row_magnitude(decoder, symbol, far, i % 14, 0), 1U << 24);
+      ASSERT_LE(code_row_magnitude(decoder, symbol, symbol, far, i % 14, 0), 1U << 24);
     (void)decoder.finish();
   }
 }

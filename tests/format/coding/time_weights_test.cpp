@@ -205,8 +205,8 @@ TEST_F(TimeWeights, WritesThePinnedBytes) {
     }
     components.push_back(c);
   }
-  constexpr uint64_t kHashes[kWeightPredictors] = {7212305056532698079u, 1705442234136354839u,
-                                                   4318428978648969202u};
+  constexpr uint64_t kHashes[kWeightPredictors] = {6534775254848390507u, 2550667367308787642u,
+                                                   11679190363803144286u};
   for (uint32_t p = 0; p < kWeightPredictors; ++p)
     EXPECT_EQ(hash(encode(130, components, 1u << p).bytes), kHashes[p]) << p;
 }

@@ -3,6 +3,7 @@
 #include "sdk/pose/pose_coding.h"
 
 #include "sdk/pose/dependent_steps.h"
+#include "sdk/pose/exact_pose.h"
 
 #include <cmath>
 #include <random>
@@ -117,6 +118,13 @@ void expect_round_trip(const Sample& s) {
     ASSERT_EQ(decode_pose(by_partners, table, steps, &decoded), Status::kOk);
     EXPECT_EQ(decoded, pose);
   }
+  for (const PosePartners* by : {static_cast<const PosePartners*>(nullptr), &partners}) {
+    Vector<int32_t> exact;
+    ASSERT_EQ(
+        decode_pose(encode_exact_pose(table, s.pose, by), table, PoseSteps::kDependent, &exact),
+        Status::kOk);
+    EXPECT_EQ(exact, s.pose);
+  }
   // Key-frames: later ones by earlier ones, the last one alone.
   Vector<Vector<int32_t>> poses(4, s.pose);
   for (size_t i = 0; i < s.pose.size(); ++i) {
@@ -136,6 +144,26 @@ TEST(PoseCoding, ASmoothSheetTakesFewBits) {
   const CornerTable table(s.topology);
   EXPECT_LT(encode_pose(table, PoseSteps::kAny, s.pose).size() * 8,
             6U * s.topology.coded_vertices);
+}
+
+TEST(PoseCoding, CoordinatesThatRepeatTakeLessThanHalfWhenExact) {
+  // Blocks of any height on an uneven grid.
+  Sample s = sheet(40);
+  std::mt19937 random(4);
+  std::vector<int32_t> at(41), height(11 * 11);
+  for (int32_t& x : at)
+    x = static_cast<int32_t>(random() % 9000);
+  for (int32_t& z : height)
+    z = static_cast<int32_t>(random() % 900);
+  for (size_t v = 0; v < 41 * 41; ++v) {
+    const size_t x = v % 41, y = v / 41;
+    s.pose[3 * v] = at[x];
+    s.pose[3 * v + 1] = at[40 - y];
+    s.pose[3 * v + 2] = height[y / 4 * 11 + x / 4];
+  }
+  const CornerTable table(s.topology);
+  EXPECT_LT(2 * encode_exact_pose(table, s.pose).size(),
+            encode_pose(table, PoseSteps::kAny, s.pose).size());
 }
 
 TEST(PoseCoding, ACopyOfAPartTakesNextToNothingHoweverItIsFlipped) {

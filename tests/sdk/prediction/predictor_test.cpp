@@ -185,7 +185,7 @@ TEST(Predictor, LearnsWeightsThatThePriorDoesNotHave) {
     }
     return sum;
   };
-  EXPECT_LT(bits(RefitSchedule::kDense), 0.5 * bits(RefitSchedule::kNone));
+  EXPECT_LT(bits(RefitSchedule::kMedium), 0.5 * bits(RefitSchedule::kNone));
 }
 
 TEST(Predictor, HeedsWhoMovesAlike) {
@@ -241,7 +241,7 @@ TEST(Predictor, HandsOutTheWeightsThatItPredictsWith) {
       ASSERT_NEAR(static_cast<double>(p), expected, 1.0 / 64);
       predictor.commit(r, 0, p, static_cast<int32_t>(4 * random.symmetric()));
     }
-    // The dense schedule refits after each of the first components, but for the last one.
+    // The schedule refits after each of the first components, but for the last one.
     EXPECT_EQ(predictor.refits(), j + 1 < components);
     before = weights;
     predictor.update(0, predictor.block_count(), omega_byte(1));
@@ -252,7 +252,7 @@ TEST(Predictor, HandsOutTheWeightsThatItPredictsWith) {
 }
 
 TEST(Predictor, SurvivesHostileInput) {
-  const PredictionCase c{16, 2, 3, 20, 12, RefitSchedule::kDense, 255, 0};
+  const PredictionCase c{16, 2, 3, 20, 12, RefitSchedule::kMedium, 255, 0};
   PredictionClip clip = prediction_clip(c.components, 3);
   std::vector<int32_t> q(clip.q.begin(), clip.q.end());
   SmallRandom random(9);
