@@ -32,9 +32,9 @@ constexpr KnownChunk kKnownChunks[] = {
     {chunk_type("META"), Owner::kClip, false, true},
     {chunk_type("BNDS"), Owner::kSegment, false, true}};
 
-const KnownChunk* known(const Chunk& chunk) {
+const KnownChunk* known(uint32_t type) {
   const KnownChunk* found = std::find_if(std::begin(kKnownChunks), std::end(kKnownChunks),
-                                         [&](const KnownChunk& k) { return k.type == chunk.type; });
+                                         [&](const KnownChunk& k) { return k.type == type; });
   return found == std::end(kKnownChunks) ? nullptr : found;
 }
 
@@ -44,14 +44,18 @@ Failure failure_in(const Chunk& chunk, Status status, const char* detail) {
   return {status, chunk.offset, chunk.type, detail};
 }
 
+bool is_known_chunk(uint32_t type) {
+  return known(type) != nullptr;
+}
+
 Failure check_chunks(const ContainerReader& file) {
   for (const Chunk& chunk : file.chunks()) {
-    if (chunk.required && !known(chunk))
+    if (chunk.required && !known(chunk.type))
       return failure_in(chunk, Status::kChunkUnknown, "the file needs a chunk this reader does not know");
   }
   for (size_t i = 1; i < file.by_key().size(); ++i) {
     const Chunk &a = file.chunks()[file.by_key()[i - 1]], &b = file.chunks()[file.by_key()[i]];
-    if (chunk_key(a) == chunk_key(b) && b.type != chunk_type("BASI") && known(b))
+    if (chunk_key(a) == chunk_key(b) && b.type != chunk_type("BASI") && known(b.type))
       return failure_in(b, Status::kChunkDuplicate, "a chunk occurs twice");
   }
   return {};
@@ -101,7 +105,7 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
     return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
   };
   for (const Chunk& chunk : file.chunks()) {
-    const KnownChunk* k = known(chunk);
+    const KnownChunk* k = known(chunk.type);
     if (k && !(chunk.required == k->required && chunk.copied == k->copied && fits(chunk, k->owner)))
       return failure_in(chunk, Status::kIndexRange, "a chunk belongs to nothing in the file");
   }

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
 #include "codec/file/edit_clips.h"
+#include "codec/file/left_out.h"
 #include "codec/sequence/error.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/encode_arguments.h"
@@ -41,6 +42,11 @@ that stays cannot be removed.
 Examples:
   anicodec remove hero.anic jump
   anicodec remove hero.anic jump fly -o less.anic)";
+
+void print_left_out(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines)
+    print_line(stderr, "anicodec: {}", line);
+}
 
 void write_file(const std::string& path, const Bytes& bytes, bool overwrite) {
   AtomicFile output(path, overwrite);
@@ -96,6 +102,7 @@ void add(EncodeArguments command, const CommonOptions& common) {
   else
     options.target = target_of(home);
   Bytes best;
+  std::vector<std::string> left_out;
   bool shares_pose = false;
   for (const bool with_pose : {true, false}) {
     if (with_pose && (!home.pose || options.basis == BasisChoice::kKeyframes))
@@ -109,9 +116,11 @@ void add(EncodeArguments command, const CommonOptions& common) {
         throw Error(e.kind(), fmt::format("{}: {}", command.inputs[0], e.what()));
       continue;  // a pose of another number of vertices, or too coarse: the clip has its own
     }
-    const Bytes all = add_clips(file, {command.inputs[0], result.file});
+    const ClipPart added{command.inputs[0], result.file};
+    const Bytes all = add_clips(file, added);
     if (best.empty() || all.size() < best.size()) {
       best = all;
+      left_out = list_left_out({file, added}, all);
       shares_pose = with_pose;
     }
   }
@@ -120,8 +129,9 @@ void add(EncodeArguments command, const CommonOptions& common) {
   const uint64_t more = best.size() - bytes.size();
   if (common.json) {
     print_json(
-        {{"file", target}, {"bytes", best.size()}, {"added", more}, {"shares_pose", shares_pose}});
+        {{"file", target}, {"bytes", best.size()}, {"added", more}, {"shares_pose", shares_pose}, {"left_out", left_out}});
   } else if (!common.quiet) {
+    print_left_out(left_out);
     print_line("{}: {} bytes, {} more", target, grouped(best.size()), grouped(more));
     if (common.verbosity > 0)
       print_line("shared with the file: mesh{}", shares_pose ? ", reference pose" : "");
@@ -141,14 +151,16 @@ void remove(const RemoveCommand& command, const CommonOptions& common) {
   const std::string target = in_place ? path : command.output;
   check_anic_output(target);
   const std::string bytes = read_bytes(path);
-  const Bytes less =
-      remove_clips({path, view_of(bytes)}, {command.words.begin() + 1, command.words.end()});
+  const ClipPart file{path, view_of(bytes)};
+  const Bytes less = remove_clips(file, {command.words.begin() + 1, command.words.end()});
+  const std::vector<std::string> left_out = list_left_out({file}, less);
   write_file(target, less, in_place || common.overwrite);
-  if (common.json)
-    print_json({{"file", target}, {"bytes", less.size()}});
-  else if (!common.quiet)
-    print_line("{}: {} bytes, {} less", target, grouped(less.size()),
-               grouped(bytes.size() - less.size()));
+  if (common.json) {
+    print_json({{"file", target}, {"bytes", less.size()}, {"left_out", left_out}});
+  } else if (!common.quiet) {
+    print_left_out(left_out);
+    print_line("{}: {} bytes, {} less", target, grouped(less.size()), grouped(bytes.size() - less.size()));
+  }
 }
 
 }  // namespace

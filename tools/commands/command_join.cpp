@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/file/join_clips.h"
+#include "codec/file/left_out.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/program/command.h"
@@ -43,12 +44,16 @@ void run(const JoinCommand& command, const CommonOptions& common) {
     parts.push_back({path, view_of(files.back())});
   }
   const Bytes joined = join_clips(parts);
+  const std::vector<std::string> left_out = list_left_out(parts, joined);
   output.write({reinterpret_cast<const char*>(joined.data()), joined.size()});
   output.commit();
-  if (common.json)
-    print_json({{"file", command.output}, {"bytes", joined.size()}, {"parts", parts.size()}});
-  else if (!common.quiet)
+  if (common.json) {
+    print_json({{"file", command.output}, {"bytes", joined.size()}, {"parts", parts.size()}, {"left_out", left_out}});
+  } else if (!common.quiet) {
+    for (const std::string& line : left_out)
+      print_line(stderr, "anicodec: {}", line);
     print_line("{}: {} bytes of {} parts", command.output, grouped(joined.size()), parts.size());
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "tools/inputs/clip_input.h"
 
 #include "codec/connectivity/attribute_encode.h"
+#include "codec/file/left_out.h"
 #include "codec/file/live_stream.h"
 #include "codec/sequence/scene.h"
 #include "format/container.h"
@@ -118,6 +119,8 @@ std::string joined(const std::string& path, const std::string& bytes) {
   for (const Bytes& file : stream.files)
     parts.push_back({path, file});
   const Bytes clip = join_clips(parts);
+  for (const std::string& line : list_left_out(parts, clip))
+    fmt::print(stderr, "{}\n", printable(line));
   return {reinterpret_cast<const char*>(clip.data()), clip.size()};
 }
 

@@ -58,6 +58,12 @@ TEST_F(AddCommand, AddsAClipAndTakesItOutAgain) {
   EXPECT_EQ(anicodec({"info", at("hero.anic"), "--json"}).out, before.out);
 }
 
+TEST_F(AddCommand, SaysWhatItLeavesOut) {
+  const Outcome seen = add({"--meta", "author=somebody"});
+  EXPECT_EQ(seen.status, 0);
+  EXPECT_THAT(seen.err, HasSubstr("run.obj: leaves out chunk META: only that of the first file is kept\n"));
+}
+
 TEST_F(AddCommand, RefusesInOneLineAndWritesNothing) {
   ASSERT_EQ(add().status, 0);
   const std::string before = anicodec({"info", at("hero.anic"), "--json"}).out;
