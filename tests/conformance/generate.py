@@ -42,7 +42,7 @@ def main():
     (arguments.folder / "MANIFEST").write_text("".join(lines), encoding="utf-8")
     if arguments.command:
         run = pathlib.Path(__file__).resolve().parent / "run.py"
-        sys.exit(subprocess.run([sys.executable, run, "--memory", "0", "--folder", arguments.folder, *arguments.command],
+        sys.exit(subprocess.run([sys.executable, run, "--any-code", "--memory", "0", "--folder", arguments.folder, *arguments.command],
                                 check=False).returncode)
 
 

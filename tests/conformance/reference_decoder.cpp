@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Decodes a file for tests/conformance/run.py: positions and faces of each mesh, and all else that
-// a file holds as JSON. Exit status 1 for a file that is refused, its code on stderr.
+// Decodes a file or a live stream for tests/conformance/run.py: positions and faces of each mesh, and all
+// else that it holds as JSON; a stream as one clip. The exit status of a file that is refused is its code.
 //
 // usage: reference_decoder FILE.anic OUT
+#include "format/bounds_record.h"
+#include "format/container.h"
+#include "format/continuation.h"
+#include "format/metadata.h"
 #include "sdk/clip/clip.h"
+#include "sdk/clip/file_checks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -151,7 +157,56 @@ std::string attribute(const Clip& clip, uint32_t mesh, uint32_t which) {
   return out.str();
 }
 
-std::string mesh_facts(const Clip& clip, uint32_t mesh, const Positions& frames) {
+/// A file that is open, and what it says without being decoded.
+struct OpenFile {
+  Bytes bytes;
+  Clip clip;
+  std::string metadata;                    ///< JSON; empty: there is none
+  std::vector<std::vector<Box>> boxes;     ///< of each mesh and frame; empty: there are none
+};
+
+Failure read_unopened(OpenFile* out) {
+  ContainerReader file;
+  file.open(out->bytes);
+  const Limits& limits = out->clip.limits();
+  for (const Chunk& chunk : file.chunks()) {
+    ByteView payload;
+    if (chunk.type != chunk_type("META") && chunk.type != chunk_type("BNDS"))
+      continue;
+    if (Failure f = file.payload(chunk, &payload); !f.ok())
+      return f;
+    if (chunk.type == chunk_type("META")) {
+      if (!is_metadata(payload))
+        return failure_in(chunk, Status::kRecord, "the metadata is too long, too deep, or no UTF-8");
+      out->metadata.assign(payload.data, payload.data + payload.size);
+      continue;
+    }
+    const Limits::Segment& segment = limits.segments[chunk.segment];
+    BoundsRecord bounds;
+    if (Status s = BoundsRecord::read(payload, segment.frames, &bounds); s != Status::kOk)
+      return failure_in(chunk, s, "the boxes are malformed");
+    out->boxes.resize(limits.meshes.size());
+    std::vector<Box>& boxes = out->boxes[chunk.mesh];
+    boxes.resize(limits.frames, Box{{1, 1, 1}, {0, 0, 0}});
+    for (uint32_t f = 0; f < segment.frames; ++f)
+      boxes[segment.first_frame + f] = bounds.of_frame(f);
+  }
+  return {};
+}
+
+/// Sides of the box of each frame: x, y, z of the low ones, then of the high ones; null where there is none.
+std::string boxes_of(const std::vector<Box>& boxes) {
+  return list(boxes, [](const Box& box) {
+    if (box.low[0] > box.high[0])
+      return std::string("null");
+    std::vector<float> sides(box.low.begin(), box.low.end());
+    sides.insert(sides.end(), box.high.begin(), box.high.end());
+    return numbers(sides.data(), sides.size());
+  });
+}
+
+std::string mesh_facts(const OpenFile& file, uint32_t mesh, const Positions& frames) {
+  const Clip& clip = file.clip;
   const Mesh& m = clip.meshes()[mesh];
   std::vector<float> low(3, std::numeric_limits<float>::max()), high(3, -low[0]);
   for (const std::vector<float>& frame : frames) {
@@ -163,17 +218,16 @@ std::string mesh_facts(const Clip& clip, uint32_t mesh, const Positions& frames)
   std::vector<std::string> attributes;
   for (uint32_t a = 0; a < m.attributes.size(); ++a)
     attributes.push_back(attribute(clip, mesh, a));
-  auto as_number = [](float x) { return number(double{x}); };
-  return Object()
-      .add("name", quoted(m.name))
-      .add("low", list(low, as_number))
-      .add("high", list(high, as_number))
-      .add("attributes", list(attributes, [](const std::string& a) { return a; }))
-      .str();
+  Object out;
+  out.add("name", quoted(m.name));
+  out.add("low", numbers(low.data(), 3)).add("high", numbers(high.data(), 3));
+  out.add("attributes", list(attributes, [](const std::string& a) { return a; }));
+  if (!file.boxes.empty() && !file.boxes[mesh].empty())
+    out.add("boxes", boxes_of(file.boxes[mesh]));
+  return out.str();
 }
 
-std::string clip_facts(const Clip& clip, uint32_t of) {
-  const ClipRecord& r = clip.clips()[of];
+std::string clip_facts(const Clip& clip, uint32_t of, const ClipRecord& r) {
   Object out;
   out.add("name", quoted(r.name)).add("frames", integer(r.frames));
   out.add("rate", list(std::vector<uint64_t>{r.rate_numerator, r.rate_denominator}, integer));
@@ -214,19 +268,44 @@ std::string clip_facts(const Clip& clip, uint32_t of) {
   return out.str();
 }
 
-std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
+/// What the files of a stream promise as one clip (spec/05-file-layout.md, section 8).
+ClipRecord joined(const std::vector<OpenFile>& files) {
+  ClipRecord all = files[0].clip.clips()[0];
+  double squares = 0, scaled = 0, before = 0;
+  all.frames = 0;
+  for (const OpenFile& file : files) {
+    const ClipRecord& r = file.clip.clips()[0];
+    squares += r.frames * r.rmse * r.rmse;
+    scaled += r.kg > 0 ? r.frames * std::pow(100 * r.rmse / r.kg, 2) : 0;
+    for (const double error : {r.max_displacement_error, all.frames > 0 ? before + r.max_error : 0.0})
+      all.max_displacement_error = std::max(all.max_displacement_error, error);
+    all.frames += r.frames;
+    all.max_error = std::max(all.max_error, r.max_error);
+    all.diagonal = std::max(all.diagonal, r.diagonal);
+    all.surface_error = std::max(all.surface_error, r.surface_error);
+    before = r.max_error;
+  }
+  all.rmse = std::sqrt(squares / all.frames);
+  all.kg = scaled > 0 ? 100 * std::sqrt(squares / scaled) : 0;
+  return all;
+}
+
+std::string facts(const std::vector<OpenFile>& files, const std::vector<Positions>& positions) {
+  const Clip& clip = files[0].clip;
   Object out;
   out.add("encoder", quoted(clip.record().encoder));
   out.add("up", integer(clip.record().up));
   out.add("order", integer(static_cast<uint64_t>(clip.record().order)));
   out.add("metres_per_unit", number(clip.record().metres_per_unit));
+  if (!files[0].metadata.empty())
+    out.add("metadata", files[0].metadata);
   std::vector<std::string> clips;
   for (uint32_t c = 0; c < clip.clips().size(); ++c)
-    clips.push_back(clip_facts(clip, c));
+    clips.push_back(clip_facts(clip, c, files.size() > 1 ? joined(files) : clip.clips()[c]));
   out.add("clips", list(clips, [](const std::string& c) { return c; }));
   std::vector<std::string> meshes;
   for (uint32_t m = 0; m < clip.meshes().size(); ++m)
-    meshes.push_back(mesh_facts(clip, m, positions[m]));
+    meshes.push_back(mesh_facts(files[0], m, positions[m]));
   out.add("meshes", list(meshes, [](const std::string& m) { return m; }));
   return out.str();
 }
@@ -234,37 +313,90 @@ std::string facts(const Clip& clip, const std::vector<Positions>& positions) {
 int refused(const Failure& failure) {
   std::fprintf(stderr, "%d %s: %s\n", static_cast<int>(failure.status),
                status_string(failure.status), failure.detail);
-  return 1;
+  return static_cast<int>(failure.status);
+}
+
+/// Whether a continuation follows a file with the meshes that it needs.
+Failure check_meshes(const ContainerReader& file, const OpenOptions& options, const ContainerReader& before) {
+  Limits limits;
+  if (Failure f = read_limits(file, options, &limits); !f.ok())
+    return f;
+  if (!limits.continued_meshes)
+    return {Status::kRecord, 0, chunk_type("LIMI"), "the file does not say which meshes it continues"};
+  if (*limits.continued_meshes != mesh_hash(before))
+    return {Status::kMeshes, 0, chunk_type("LIMI"), "the file continues a file with other meshes"};
+  return {};
+}
+
+/// The files of a live stream, each as it is with its meshes; of bytes that are none, these bytes.
+Failure files_of(const Bytes& bytes, const OpenOptions& options, std::vector<OpenFile>* files) {
+  Bytes base;
+  size_t at = 0;
+  do {
+    const ByteView rest{bytes.data() + at, bytes.size() - at};
+    ContainerReader file, before;
+    Failure failure = file.open_of_stream(rest);
+    const bool more = failure.ok() && file.file_size() < rest.size;
+    if (at == 0 && (!more || file.is_continuation() ||
+                    rest.data[file.file_size()] != kMagic[0])) {  // no stream
+      files->emplace_back().bytes = bytes;
+      return {};
+    }
+    if (failure.status == Status::kMagic)
+      return {Status::kTrailingBytes, at, 0, "bytes follow the last file of the stream"};
+    if (!failure.ok())
+      return failure;
+    if (!file.is_complete())
+      return {Status::kTruncated, 0, 0, "the last file of the stream is not complete"};
+    const Bytes part(rest.data, rest.data + file.file_size());
+    if (file.is_continuation()) {
+      before.open(base);
+      if (Failure f = check_meshes(file, options, before); !f.ok())
+        return f;
+      files->emplace_back().bytes = with_meshes(before, file);
+    } else {
+      base = part;
+      files->emplace_back().bytes = part;
+    }
+    at += part.size();
+  } while (at < bytes.size());
+  return {};
 }
 
 int decode(const char* path, const std::string& out) {
   std::ifstream file(path, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file),
-                                std::istreambuf_iterator<char>()};
   OpenOptions options;
   options.limits.resident_bytes = uint64_t{256} << 20;
-  Clip clip;
-  if (Failure f =
-          clip.open({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, options);
-      !f.ok())
+  std::vector<OpenFile> files;
+  if (Failure f = files_of(Bytes(std::istreambuf_iterator<char>(file), {}), options, &files); !f.ok())
     return refused(f);
-  if (Failure f = clip.check_hashes(); !f.ok())
-    return refused(f);
-  std::vector<Positions> positions(clip.meshes().size());
-  for (uint32_t m = 0; m < positions.size(); ++m) {
-    for (uint32_t f = 0; f < clip.frame_count(); ++f) {
-      std::vector<float>& frame = positions[m].emplace_back(size_t{3} * clip.vertex_count(m));
-      const Status s = clip.positions(m, f, frame.data());
-      if (s == Status::kAbsent)
-        std::fill(frame.begin(), frame.end(), std::numeric_limits<float>::quiet_NaN());
-      else if (s != Status::kOk)
-        return refused({s, 0, 0, "a frame cannot be played"});
+  std::vector<Positions> positions;
+  for (OpenFile& part : files) {
+    Clip& clip = part.clip;
+    if (Failure f = clip.open(part.bytes, options); !f.ok())
+      return refused(f);
+    if (Failure f = clip.check_hashes(); !f.ok())
+      return refused(f);
+    if (Failure f = read_unopened(&part); !f.ok())
+      return refused(f);
+    positions.resize(clip.meshes().size());
+    for (uint32_t m = 0; m < positions.size(); ++m) {
+      for (uint32_t f = 0; f < clip.frame_count(); ++f) {
+        std::vector<float>& frame = positions[m].emplace_back(size_t{3} * clip.vertex_count(m));
+        const Status s = clip.positions(m, f, frame.data());
+        if (s == Status::kAbsent)
+          std::fill(frame.begin(), frame.end(), std::numeric_limits<float>::quiet_NaN());
+        else if (s != Status::kOk)
+          return refused({s, 0, 0, "a frame cannot be played"});
+      }
     }
-    const std::string stem = out + (m == 0 ? "" : "." + std::to_string(m));
-    write(stem + ".pc2", cache(positions[m], clip.vertex_count(m)));
-    write(stem + ".obj", faces(clip.meshes()[m].topology));
   }
-  write(out + ".json", facts(clip, positions));
+  for (uint32_t m = 0; m < positions.size(); ++m) {
+    const std::string stem = out + (m == 0 ? "" : "." + std::to_string(m));
+    write(stem + ".pc2", cache(positions[m], files[0].clip.vertex_count(m)));
+    write(stem + ".obj", faces(files[0].clip.meshes()[m].topology));
+  }
+  write(out + ".json", facts(files, positions));
   return 0;
 }
 

@@ -3,20 +3,28 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Runs a decoder on the conformance files.
 
-usage: run.py [--memory BYTES] [--folder FOLDER] [--stop] COMMAND...
-       as: run.py anicodec decode -q -f --clip all {file} -o {out}.pc2
+usage: run.py [--any-code] [--without PART]... [--memory BYTES] [--folder FOLDER] [--stop] COMMAND...
+       as: run.py --any-code --without streams --without bounds --without metadata anicodec decode -q -f --clip all {file} -o {out}.pc2
 
-COMMAND decodes {file}, or refuses it by an exit status other than 0, without a signal. Of a file that it decodes it writes
+COMMAND decodes {file}, or refuses it with the code of spec/12-errors.md as its exit status, without a signal. Of a file that it decodes it writes
   {out}.pc2, {out}.obj      positions and faces of the first mesh
   {out}.1.pc2, {out}.1.obj  of the second, and so on; not-a-number where a mesh is not there. May be left out: then
                             positions of files with several meshes are not compared
   {out}.json                all else that the file holds, as README.md says. May be left out
 Checked are
   valid    every file, as MANIFEST hashes it, decodes to what facts/NAME.json says, positions within the tolerance
-  invalid  every file is refused
-  stream   every live stream is refused, or its files decode as one clip to what facts/NAME.json says
+  invalid  every file is refused with its code, or with --any-code by any exit status other than 0; so is every live stream of
+           invalid_stream
+  stream   every live stream decodes as one clip to what facts/NAME.json says
   limit    every file is refused, and nothing takes longer than a few seconds or more than a gigabyte (--memory 0:
            whatever it takes, for decoders with a sanitizer in them)
+--without PART, once for each: what the decoder lacks, which a decoder may
+  draco, interpolation      files that need them are refused with FEATURE
+  attributes, exact         attributes, exact positions: stay closed. Files with exact positions are skipped, and of attributes
+                            facts and what is wrong
+  bounds, metadata          are not read: facts, and files that are wrong in nothing else, are skipped
+  hashes                    are not compared: files that are wrong in nothing else are skipped
+  streams                   live streams are skipped
 --stop ends at the first fault. Exit status 1 if anything is wrong.
 """
 import argparse
@@ -34,6 +42,10 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "scripts
 import clip_output  # pylint: disable=wrong-import-position
 
 SECONDS = 60  # of a slow machine
+FEATURE = 12  # the code
+PARTS = ("draco", "interpolation", "attributes", "exact", "bounds", "metadata", "hashes", "streams")
+TOLD_PARTS = {"attributes", "bounds", "metadata"}  # without them all else of a valid file is compared
+REFUSED_PARTS = {"draco", "interpolation"}  # they are features of the header
 ROUNDING = 1e-6  # of numbers that are printed in decimal, relative
 
 
@@ -88,10 +100,10 @@ def mesh_faults(out, number, mesh):
             yield f"mesh {number}: vertex {vertex} of frame {frame} is at {at}, not {expected}"
 
 
-def fact_faults(seen, facts):
+def fact_faults(seen, facts, without):
     """Faults of what is not positions or faces."""
     for key, value in facts["clip"].items():
-        if not close(seen.get(key), value):
+        if key not in without and not close(seen.get(key), value):
             yield f"{key} is {seen.get(key)}, not {value}"
     if len(seen.get("meshes", ())) != len(facts["meshes"]):
         yield f"{len(seen.get('meshes', ()))} meshes, not {len(facts['meshes'])}"
@@ -100,6 +112,10 @@ def fact_faults(seen, facts):
         for key in ("name", "low", "high"):
             if not close(mesh.get(key), expected[key], expected["tolerance"]):
                 yield f"mesh {number}: {key} is {mesh.get(key)}, not {expected[key]}"
+        if "bounds" not in without:
+            yield from box_faults(mesh.get("boxes"), number, expected.get("boxes", ()))
+        if "attributes" in without:
+            continue
         if len(mesh["attributes"]) != len(expected["attributes"]):
             yield f"mesh {number}: {len(mesh['attributes'])} attributes, not {len(expected['attributes'])}"
             continue
@@ -117,7 +133,14 @@ def fact_faults(seen, facts):
                            f"{attribute['values'][frame][index]}, not {value}")
 
 
-def check_valid(decoder, file, facts, folder):
+def box_faults(seen, number, boxes):
+    """Faults of the boxes of frames."""
+    for frame, expected in boxes:
+        if seen is None or not close(seen[frame], expected):
+            yield f"mesh {number}: the box of frame {frame} is {seen and seen[frame]}, not {expected}"
+
+
+def check_valid(decoder, file, facts, folder, without):
     """Faults of a file that must decode."""
     out = pathlib.Path(folder) / file.stem
     status = decoder.run(file, out)
@@ -131,29 +154,51 @@ def check_valid(decoder, file, facts, folder):
         for number, mesh in enumerate(meshes):
             yield from mesh_faults(out, number, mesh)
         if (told := pathlib.Path(f"{out}.json")).exists():
-            yield from fact_faults(json.loads(told.read_text(encoding="utf-8").replace("nan", "null")), facts)
+            yield from fact_faults(json.loads(told.read_text(encoding="utf-8").replace("nan", "null")), facts, without)
     except (OSError, ValueError, KeyError, TypeError) as error:
         yield f"what was written cannot be read: {error}"
 
 
-def faults_of(decoder, folder, kind, name, digest, scratch):
+class Entry:
+    """A line of the manifest."""
+
+    def __init__(self, line):
+        self.kind, self.name, self.digest, *rest = line.split()
+        self.code = int(rest[0]) if self.kind in ("invalid", "invalid_stream", "limit") else None
+        needs = next((word for word in rest[:3] if word.startswith("needs=")), "needs=")
+        self.needs = {part for part in needs[len("needs="):].split(",") if part}
+        if unknown := self.needs - set(PARTS):
+            sys.exit(f"{self.name} needs parts that do not exist: {', '.join(sorted(unknown))}")
+
+    def skipped(self, without):
+        """Whether nothing is to be learnt from it about a decoder without some parts."""
+        lacking = self.needs & without - REFUSED_PARTS
+        return bool(lacking - TOLD_PARTS if self.kind == "valid" else lacking)
+
+
+def faults_of(decoder, folder, entry, without, any_code, scratch):
     """Faults of one file of the manifest."""
-    file = folder / name
-    if hashlib.sha256(file.read_bytes()).hexdigest() != digest:
+    file = folder / entry.name
+    if hashlib.sha256(file.read_bytes()).hexdigest() != entry.digest:
         yield "is not the file of the manifest"
-    elif kind == "stream" and decoder.run(file, pathlib.Path(scratch) / "refused") > 0:
-        return  # a decoder of files, not of streams
-    elif kind in ("valid", "stream"):
+        return
+    lacks_feature = entry.needs & without & REFUSED_PARTS
+    if entry.kind in ("valid", "stream") and not lacks_feature:
         facts = json.loads((folder / "facts" / f"{file.stem}.json").read_text(encoding="utf-8"))
-        yield from check_valid(decoder, file, facts, scratch)
-    else:
-        status = decoder.run(file, pathlib.Path(scratch) / "refused")
-        if status <= 0:
-            yield "was accepted" if status == 0 else f"ended the decoder: {status}"
+        yield from check_valid(decoder, file, facts, scratch, without)
+        return
+    status = decoder.run(file, pathlib.Path(scratch) / "refused")
+    codes = {entry.code, FEATURE} if lacks_feature else {entry.code}
+    if status <= 0:
+        yield "was accepted" if status == 0 else f"ended the decoder: {status}"
+    elif entry.kind != "limit" and not any_code and status not in codes:
+        yield f"was refused with {status}, not {' or '.join(str(code) for code in codes if code)}"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--any-code", action="store_true")
+    parser.add_argument("--without", action="append", choices=PARTS, default=[])
     parser.add_argument("--memory", type=int, default=1 << 30)
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent)
     parser.add_argument("--stop", action="store_true")
@@ -161,19 +206,23 @@ def main():
     arguments = parser.parse_args()
     if not any("{file}" in word for word in arguments.command):
         parser.error("COMMAND names no {file}")
-    decoder = Decoder(arguments.command, arguments.memory)
-    entries = [line.split() for line in (arguments.folder / "MANIFEST").read_text().splitlines()]
-    wrong, counts = False, {"valid": 0, "stream": 0, "invalid": 0, "limit": 0}
+    decoder, without = Decoder(arguments.command, arguments.memory), set(arguments.without)
+    entries = [Entry(line) for line in (arguments.folder / "MANIFEST").read_text(encoding="utf-8").splitlines()]
+    wrong, skipped, counts = False, 0, dict.fromkeys(("valid", "stream", "invalid", "invalid_stream", "limit"), 0)
     with tempfile.TemporaryDirectory() as scratch:
-        for kind, name, digest, *_ in entries:
-            counts[kind] += 1
-            for fault in faults_of(decoder, arguments.folder, kind, name, digest, scratch):
+        for entry in entries:
+            if entry.skipped(without):
+                skipped += 1
+                continue
+            counts[entry.kind] += 1
+            for fault in faults_of(decoder, arguments.folder, entry, without, arguments.any_code, scratch):
                 wrong = True
-                print(f"{name}: {fault}")
+                print(f"{entry.name}: {fault}")
                 if arguments.stop:
                     sys.exit(1)
     if not wrong:
-        print(", ".join(f"{count} {kind} files" for kind, count in counts.items()) + ": conforms")
+        told = ", ".join(f"{count} {kind.replace('_', ' ')} files" for kind, count in counts.items())
+        print(f"{told}{f', {skipped} skipped' if skipped else ''}: conforms")
     sys.exit(1 if wrong else 0)
 
 

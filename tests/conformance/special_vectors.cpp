@@ -23,6 +23,7 @@
 #include "sdk/pose/pose_coding.h"
 #include "sdk/prediction/vertex_order.h"
 #include "sdk/segment/keyframe_segment.h"
+#include "tests/conformance/reading_vectors.h"
 #include "tests/conformance/vector_recipes.h"
 
 #include <algorithm>
@@ -101,7 +102,7 @@ Bytes rings_by_degree() {
 }
 
 Bytes cliques_of_vertices() {
-  return file_of(cliques(),
+  return file_of(cliques(17),
                  {recipe(4, BasisKind::kEigenshapes, 0.004, 16, 2, 12, RefitSchedule::kSparse)});
 }
 
@@ -541,11 +542,11 @@ Bytes flowers() {
 
 /// A character of a few vertices that walks in a curve, stands, and walks again: three clips, of which
 /// one has no motion of its own, with events and corrections.
-Bytes walk() {
+Bytes walk_on_ground(UpAxis up) {
   constexpr uint32_t kVertices = 12, kFrames = 8;
   MeshSequence all;
   all.vertex_count = kVertices;
-  all.up = UpAxis::kZ;
+  all.up = up;
   for (uint32_t v = 0; v + 2 < kVertices; ++v)
     all.polygons.add(std::vector<uint32_t>{v, v + 1, v + 2});
   for (uint32_t c = 0; c < 3; ++c) {
@@ -559,6 +560,8 @@ Bytes walk() {
         all.positions.push_back(
             static_cast<float>(x * std::sin(turn) + y * std::cos(turn) - way / 2));
         all.positions.push_back(static_cast<float>(z));
+        if (up == UpAxis::kY)  // x, y, z become z, x, y
+          std::rotate(all.positions.end() - 3, all.positions.end() - 2, all.positions.end());
       }
     }
     ClipTiming clip;
@@ -576,6 +579,14 @@ Bytes walk() {
   options.basis = BasisChoice::kEigentrajectories;
   options.root_motion = true;
   return encode(all, options).file;
+}
+
+Bytes walk() {
+  return walk_on_ground(UpAxis::kZ);
+}
+
+Bytes walk_y_up() {
+  return walk_on_ground(UpAxis::kY);
 }
 
 /// Exact positions: steps that binary32 rounds twice along x, fractions of 1024 along z, anything along y.
@@ -606,18 +617,14 @@ Bytes exact() {
   return encode(clip, options).file;
 }
 
-struct Vector {
-  const char* name;
-  Bytes (*make)();
-};
-
-constexpr Vector kVectors[] = {{"schedules", schedules},
+constexpr SpecialVector kVectors[] = {{"schedules", schedules},
                                {"alike", alike},
                                {"vertex_order", vertex_order},
                                {"rings", rings_by_degree},
                                {"weights_in_time", weights_in_time},
                                {"clips", clips},
                                {"walk", walk},
+                               {"walk_y_up", walk_y_up},
                                {"exact", exact},
                                {"saturated", saturated},
                                {"layers", layers},
@@ -633,7 +640,9 @@ constexpr Vector kVectors[] = {{"schedules", schedules},
                                {"tangle", tangle}};
 
 int run(int argc, char** argv) {
-  for (const Vector& vector : kVectors) {
+  std::vector<SpecialVector> vectors(std::begin(kVectors), std::end(kVectors));
+  vectors.insert(vectors.end(), reading_vectors().begin(), reading_vectors().end());
+  for (const SpecialVector& vector : vectors) {
     if (argc == 1)
       std::printf("%s\n", vector.name);
     if (argc != 3 || std::string(argv[1]) != vector.name)

@@ -41,18 +41,20 @@
 namespace anicodec {
 
 Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
-              const std::function<void(ClipsRecord&)>& describe) {
+              const std::function<void(ClipsRecord&)>& describe, const MeshLayout* layout) {
   const double clip_diagonal = diagonal(clip);
   const MeshSequence source = clip;
   ClipsRecord record =
       clips_record(clip, {}, std::vector<ClipGoal>(clips_of(clip).size(), {{}, {}, clip_diagonal}));
-  const EncoderInput input(std::move(clip));
+  const EncoderInput input(std::move(clip), {}, layout);
   std::vector<EncodedSegment> segments;
   uint32_t first = 0;
   for (const Recipe& recipe : recipes) {
     const FrameView frames = input.frames(first, recipe.frames);
     const LinearAnalysis analysis(frames);
     const bool shapes = recipe.kind == BasisKind::kEigenshapes;
+    // The search for few leading ones is quick, whatever the number of frames.
+    const size_t most = recipe.frames > 1000 ? std::ranges::max(recipe.settings.components) : 1000;
     const LinearBasis basis =
         recipe.region_of
             ? RegionAnalysis(std::make_shared<const RegionClips>(
@@ -60,7 +62,7 @@ Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
                                  recipe.regions))
                   .basis(analysis, ReferencePose::kRankThree, 1000)
             : analysis.basis(recipe.kind, shapes ? ReferencePose::kMean : ReferencePose::kRankThree,
-                             shapes ? Base::kPose : Base::kAffine, 1000, 0);
+                             shapes ? Base::kPose : Base::kAffine, most, 0);
     std::optional<EncodedSegment> coded = encode_linear(
         frames, basis, recipe.settings, input.layout,
         encode_pose_by(nullptr, basis.pose, basis.origin, pose_step(recipe.settings, recipe.frames),
@@ -191,19 +193,19 @@ MeshSequence rings() {
   return clip;
 }
 
-MeshSequence cliques() {
-  constexpr uint32_t kCliques = 3, kSize = 17, kFrames = 4;
+MeshSequence cliques(uint32_t size) {
+  constexpr uint32_t kCliques = 3, kFrames = 4;
   MeshSequence clip;
   clip.name = "cliques";
-  clip.vertex_count = kCliques * kSize;
+  clip.vertex_count = kCliques * size;
   clip.frame_count = kFrames;
   for (uint32_t clique = 0; clique < kCliques; ++clique) {
-    const uint32_t first = clique * kSize;
-    for (uint32_t a = 0; a < kSize; ++a) {
-      for (uint32_t b = a + 1; b < kSize; ++b) {
-        uint32_t c = (a + b) % kSize;
+    const uint32_t first = clique * size;
+    for (uint32_t a = 0; a < size; ++a) {
+      for (uint32_t b = a + 1; b < size; ++b) {
+        uint32_t c = (a + b) % size;
         while (c == a || c == b)
-          c = (c + 1) % kSize;
+          c = (c + 1) % size;
         clip.polygons.add(std::vector<uint32_t>{first + a, first + b, first + c});
       }
     }
@@ -212,7 +214,7 @@ MeshSequence cliques() {
   std::vector<float> rest;
   for (uint32_t i = 0; i < 3 * clip.vertex_count; ++i)
     rest.push_back(static_cast<float>(numbers.within(4096)) / 4096 +
-                   (i % 3 == 0 ? static_cast<float>(i / (3 * kSize)) * 2 : 0));
+                   (i % 3 == 0 ? static_cast<float>(i / (3 * size)) * 2 : 0));
   for (uint32_t f = 0; f < kFrames; ++f) {
     for (const float x : rest)
       clip.positions.push_back(x + static_cast<float>(numbers.within(200)) / 4096);
@@ -329,9 +331,10 @@ void set_weights(EncodedSegment& segment, const std::vector<Bytes>& streams) {
   }
 }
 
-/// The order in which the vertices of an encoded segment are decoded.
-VertexOrder order_of(const EncodedSegment& segment, const LinearParameters& parameters,
-                     const Topology& topology) {
+}  // namespace
+
+VertexOrder order_of(const EncodedSegment& segment, const Topology& topology) {
+  const LinearParameters parameters = parameters_of(segment);
   MeshGraph graph;
   anicodec::Vector<uint8_t> regions;
   VertexOrder order;
@@ -345,70 +348,92 @@ VertexOrder order_of(const EncodedSegment& segment, const LinearParameters& para
   return order;
 }
 
-}  // namespace
-
-void scramble_weights(EncodedSegment& segment, const EncoderInput&) {
-  const uint32_t frames = segment.sizes.frames;
-  const bool affine = segment.sizes.kind == BasisKind::kEigentrajectories;
-  const uint32_t base = affine ? 4 : 0, rows = affine ? 3 : 1;
-  const LinearParameters parameters = parameters_of(segment);
-  const anicodec::Vector<uint32_t> runs =
-      segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames) : segment.runs;
-  Numbers numbers;
-  TimeWeightModel model(runs);
-  std::vector<int32_t> decoded(size_t{3} * frames);
-  const auto code = [&](BinaryEncoder& encoder, uint32_t j) {
-    const uint32_t channels = j < base ? 3 : rows;
-    std::vector<double> x(size_t{channels} * frames);
-    for (size_t i = 0; i < x.size(); ++i)
-      x[i] = 300 * std::sin(0.05 * static_cast<double>(i % frames) * (1 + j % 3) + j) +
-             numbers.within(10 << (j % 7)) + (i % 41 == 0 ? 20000 : 0);
-    model.encode(encoder, channels, x.data(), 0, decoded.data(), 1u << (j % kWeightPredictors));
+StreamChange with_weights(const std::function<double(uint32_t j, uint32_t row, uint32_t frame)>& weight,
+                          const std::function<uint32_t(uint32_t j)>& predictor) {
+  return [=](EncodedSegment& segment, const EncoderInput&) {
+    const uint32_t frames = segment.sizes.frames;
+    const bool affine = segment.sizes.kind == BasisKind::kEigentrajectories;
+    const uint32_t base = affine ? 4 : 0, rows = affine ? 3 : 1;
+    const LinearParameters parameters = parameters_of(segment);
+    const anicodec::Vector<uint32_t> runs =
+        segment.runs.empty() ? anicodec::Vector<uint32_t>(1, frames) : segment.runs;
+    TimeWeightModel model(runs);
+    std::vector<int32_t> decoded(size_t{3} * frames);
+    const auto code = [&](BinaryEncoder& encoder, uint32_t j) {
+      const uint32_t channels = j < base ? 3 : rows;
+      std::vector<double> x(size_t{channels} * frames);
+      for (size_t i = 0; i < x.size(); ++i)
+        x[i] = weight(j, static_cast<uint32_t>(i / frames), static_cast<uint32_t>(i % frames));
+      model.encode(encoder, channels, x.data(), 0, decoded.data(), 1U << predictor(j));
+    };
+    BinaryEncoder of_base;
+    for (uint32_t j = 0; j < base; ++j)
+      code(of_base, j);
+    segment.weights = of_base.finish();
+    std::vector<Bytes> streams;
+    for (const BasisLayer& layer : layers_of(segment.layers, parameters)) {
+      if (parameters.layers_anew && layer.first > 0)
+        model = TimeWeightModel(runs);
+      BinaryEncoder encoder;
+      for (uint32_t j = layer.first; j < layer.first + layer.count; ++j)
+        code(encoder, base + j);
+      streams.push_back(encoder.finish());
+    }
+    set_weights(segment, streams);
   };
-  BinaryEncoder of_base;
-  for (uint32_t j = 0; j < base; ++j)
-    code(of_base, j);
-  segment.weights = of_base.finish();
-  std::vector<Bytes> streams;
-  for (const BasisLayer& layer : layers_of(segment.layers, parameters)) {
-    if (parameters.layers_anew && layer.first > 0)
-      model = TimeWeightModel(runs);
-    BinaryEncoder encoder;
-    for (uint32_t j = layer.first; j < layer.first + layer.count; ++j)
-      code(encoder, base + j);
-    streams.push_back(encoder.finish());
-  }
-  set_weights(segment, streams);
+}
+
+void scramble_weights(EncodedSegment& segment, const EncoderInput& input) {
+  auto numbers = std::make_shared<Numbers>();
+  const uint32_t frames = segment.sizes.frames;
+  with_weights(
+      [=](uint32_t j, uint32_t row, uint32_t frame) {
+        const size_t i = size_t{row} * frames + frame;
+        return 300 * std::sin(0.05 * frame * (1 + j % 3) + j) + numbers->within(10 << (j % 7)) +
+               (i % 41 == 0 ? 20000 : 0);
+      },
+      [](uint32_t j) { return j % kWeightPredictors; })(segment, input);
+}
+
+StreamChange with_residuals(const std::function<int32_t(uint32_t j, uint32_t c, uint32_t r)>& residual,
+                            const std::function<uint8_t(uint32_t j)>& omega) {
+  return [=](EncodedSegment& segment, const EncoderInput& input) {
+    LinearParameters parameters = parameters_of(segment);
+    for (uint32_t j = 0; j < parameters.omega.size(); ++j)
+      parameters.omega[j] = omega(j);
+    segment.parameters = parameters.write();
+    const VertexOrder order = order_of(segment, input.layout.topology);
+    const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3,
+                   ranks = input.layout.topology.coded_vertices;
+    const auto stride = static_cast<uint32_t>(order.neighbour_count);
+    std::optional<CoefficientModel> model;
+    std::vector<int32_t> q(size_t{channels} * ranks);
+    const std::vector<Bytes> chunks = std::move(segment.layers);
+    segment.layers.clear();
+    for (BasisLayer layer : layers_of(chunks, parameters)) {
+      if (!model || parameters.layers_anew)
+        model.emplace(channels, order.neighbours.data(), stride, order.level_start);
+      RansEncoder encoder;
+      for (uint32_t j = layer.first; j < layer.first + layer.count; ++j) {
+        for (size_t i = 0; i < q.size(); ++i)
+          q[i] = residual(j, static_cast<uint32_t>(i / ranks), static_cast<uint32_t>(i % ranks));
+        model->code_component(encoder, q.data());
+      }
+      const Bytes stream = encoder.finish();
+      layer.coefficients = stream;
+      segment.layers.push_back(layer.write());
+    }
+    segment.sizes.wide_components = segment.sizes.components;
+  };
 }
 
 void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input) {
-  LinearParameters parameters = parameters_of(segment);
-  Numbers numbers;
-  for (uint8_t& omega : parameters.omega)
-    omega = static_cast<uint8_t>(numbers.below(256));
-  segment.parameters = parameters.write();
-  const Topology& topology = input.layout.topology;
-  const VertexOrder order = order_of(segment, parameters, topology);
-  const uint32_t channels = segment.sizes.kind == BasisKind::kEigentrajectories ? 1 : 3;
-  const auto stride = static_cast<uint32_t>(order.neighbour_count);
-  std::optional<CoefficientModel> model;
-  std::vector<int32_t> q(size_t{channels} * topology.coded_vertices);
-  const std::vector<Bytes> chunks = std::move(segment.layers);
-  segment.layers.clear();
-  for (BasisLayer layer : layers_of(chunks, parameters)) {
-    if (!model || parameters.layers_anew)
-      model.emplace(channels, order.neighbours.data(), stride, order.level_start);
-    RansEncoder encoder;
-    for (uint32_t j = layer.first; j < layer.first + layer.count; ++j) {
-      for (int32_t& x : q)
-        x = j % 3 == 0 ? numbers.within(3) : numbers.within(1 << (j * 2 % 24));
-      model->code_component(encoder, q.data());
-    }
-    const Bytes stream = encoder.finish();
-    layer.coefficients = stream;
-    segment.layers.push_back(layer.write());
-  }
-  segment.sizes.wide_components = segment.sizes.components;
+  auto numbers = std::make_shared<Numbers>();
+  with_residuals(
+      [=](uint32_t j, uint32_t, uint32_t) {
+        return j % 3 == 0 ? numbers->within(3) : numbers->within(1 << (j * 2 % 24));
+      },
+      [=](uint32_t) { return static_cast<uint8_t>(numbers->below(256)); })(segment, input);
 }
 
 }  // namespace anicodec

@@ -11,6 +11,7 @@
 #include "codec/sequence/mesh_sequence.h"
 #include "format/bytes.h"
 #include "sdk/clip/clip.h"
+#include "sdk/prediction/vertex_order.h"
 
 #include <cstdint>
 #include <functional>
@@ -52,9 +53,10 @@ struct Recipe {
 };
 
 /// A file of one mesh, one segment after the other, each over a reference pose that is in the file
-/// for it alone. Its errors are measured.
+/// for it alone. Its errors are measured. `layout`: of the mesh; null: that of the encoder.
 Bytes file_of(MeshSequence clip, const std::vector<Recipe>& recipes,
-              const std::function<void(ClipsRecord&)>& describe = {});
+              const std::function<void(ClipsRecord&)>& describe = {},
+              const MeshLayout* layout = nullptr);
 
 Recipe recipe(uint32_t frames, BasisKind kind, double step, uint8_t neighbours, uint8_t passes,
               uint8_t radius, RefitSchedule schedule);
@@ -67,8 +69,9 @@ MeshSequence hub();
 /// order, where the limit decides.
 MeshSequence rings();
 
-/// Vertices that are all neighbours of one another: a level removes less than one in sixteen.
-MeshSequence cliques();
+/// Three groups of so many vertices that are all neighbours of one another: with 17 a level removes less
+/// than one in sixteen.
+MeshSequence cliques(uint32_t size);
 
 /// A limb of the corpus and the same half a turn further, apart.
 MeshSequence turned_pair(uint32_t vertices, uint32_t frames);
@@ -84,10 +87,23 @@ void exactly_with_partners(EncodedSegment& segment, const EncoderInput& input);
 /// every vertex: more than are told apart.
 StreamChange with_turned_partners(bool many_strands);
 
+/// Weights in time that are these, of component j of the base and then of the basis, in steps, each
+/// component by a predictor.
+StreamChange with_weights(const std::function<double(uint32_t j, uint32_t row, uint32_t frame)>& weight,
+                          const std::function<uint32_t(uint32_t j)>& predictor);
+
 /// Weights in time by each predictor, of numbers that suit none.
 void scramble_weights(EncodedSegment& segment, const EncoderInput& input);
 
-/// Residuals at their limits: predictions saturate, refits see numbers that are not finite.
+/// The order in which the vertices of an encoded segment are decoded.
+VertexOrder order_of(const EncodedSegment& segment, const Topology& topology);
+
+/// Coefficients of other residuals: of component j, channel c and rank r. `omega` changes the weights of
+/// samples.
+StreamChange with_residuals(const std::function<int32_t(uint32_t j, uint32_t c, uint32_t r)>& residual,
+                            const std::function<uint8_t(uint32_t j)>& omega);
+
+/// Residuals at their limits: predictions saturate.
 void scramble_coefficients(EncodedSegment& segment, const EncoderInput& input);
 
 }  // namespace anicodec

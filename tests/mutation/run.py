@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Plants single errors in the decoder and counts those that the conformance files catch.
+"""Plants single errors in a decoder and counts those that the conformance files catch.
 
-usage: run.py [--work FOLDER] [--every N] [--jobs N] [--least PERCENT] [ERRORS...]
+usage: run.py [--work FOLDER] [--every N] [--jobs N] [--least PERCENT] [--fits] [--tree FOLDER --command WORDS] [ERRORS...]
 Each entry of ERRORS (default: errors.txt here) names a file and changes one piece of it that occurs once:
+    # Chapter of the specification: what follows, up to the next such line, is of it.
     sdk/mesh/map_coding.h
     - old text
     + new text
 The decoder of the tests is built without the error, and must conform; then with each. An error is caught if
-tests/conformance/run.py finds a fault, or the build fails. --every N takes each Nth error, for a quick look. Exit status 1
-if fewer than --least per cent (default 90) are caught, or an entry fits no longer. Objects stay in --work.
+tests/conformance/run.py finds a fault, or the build fails. --every N takes each Nth error, for a quick look. --fits only
+looks whether each entry fits. --tree plants them in a copy of another decoder that needs no compiler, its files named from FOLDER
+on; --command runs it, {tree} being the copy: --tree spec/reference --command 'python3 {tree}/anic.py {file} {out}'.
+Exit status 1 if fewer than --least per cent (default 95) are caught, or an entry fits no longer. Objects stay in --work.
 """
 import argparse
 import concurrent.futures
@@ -64,23 +67,60 @@ def linked(objects, program):
                           check=False).returncode == 0
 
 
-def conforms(program):
+def conforms(command):
     """None, or the first fault."""
-    result = subprocess.run([sys.executable, str(ROOT / "tests/conformance/run.py"), "--stop", str(program), "{file}",
-                             "{out}"], capture_output=True, text=True, check=False)
+    result = subprocess.run([sys.executable, str(ROOT / "tests/conformance/run.py"), "--stop", "--memory", "0", *command],
+                            capture_output=True, text=True, check=False)
     return None if result.returncode == 0 else (result.stdout.strip() or result.stderr.strip()).splitlines()[0]
 
 
 def errors_of(paths):
-    """(file, old, new) of each entry."""
+    """(chapter, file, old, new) of each entry."""
     for path in paths:
+        chapter = ""
         for block in path.read_text(encoding="utf-8").split("\n\n"):
-            lines = [line for line in block.splitlines() if line and not line.startswith("#")]
-            if not lines:
-                continue
-            old = "\n".join(line[2:] for line in lines[1:] if line.startswith("- "))
-            new = "\n".join(line[2:] for line in lines[1:] if line.startswith("+"))
-            yield lines[0].strip(), old, new
+            lines = []
+            for line in block.splitlines():
+                if line.startswith("#"):
+                    chapter = line.strip("# .")
+                elif line:
+                    lines.append(line)
+            if lines:
+                old = "\n".join(line[2:] for line in lines[1:] if line.startswith("- "))
+                new = "\n".join(line[2:] for line in lines[1:] if line.startswith("+"))
+                yield chapter, lines[0].strip(), old, new
+
+
+def planted(root, error, folder):
+    """Writes the file with the error below a folder; what keeps it from fitting, or None."""
+    _, file, old, new = error
+    text = (root / file).read_text(encoding="utf-8") if (root / file).exists() else ""
+    if text.count(old) != 1:
+        return f"FITS NO LONGER ({text.count(old)} places)"
+    if folder:
+        (folder / file).parent.mkdir(parents=True, exist_ok=True)
+        (folder / file).write_text(text.replace(old, new), encoding="utf-8")
+    return None
+
+
+class Copies:
+    """Plants errors in copies of a decoder that needs no compiler."""
+
+    def __init__(self, tree, command):
+        self.tree, self.command = tree, shlex.split(command)
+        if fault := conforms(self.on(tree)):
+            sys.exit(f"without an error: {fault}")
+
+    def on(self, tree):
+        """The command for a copy."""
+        return [word.replace("{tree}", str(tree)) for word in self.command]
+
+    def outcome(self, error):
+        """How the error shows, or None."""
+        with tempfile.TemporaryDirectory() as scratch:
+            copy = pathlib.Path(scratch) / "tree"
+            shutil.copytree(self.tree, copy)
+            return planted(self.tree, error, copy) or conforms(self.on(copy))
 
 
 class Nursery:
@@ -101,7 +141,7 @@ class Nursery:
         program = work / "reference_decoder"
         if not linked(self.objects(), program):
             sys.exit("the decoder cannot be linked")
-        if fault := conforms(program):
+        if fault := conforms(self.on(program)):
             sys.exit(f"without an error: {fault}")
 
     def fresh(self, name):
@@ -116,21 +156,22 @@ class Nursery:
         """Object files, some of them from another folder."""
         return [(folder if name in changed else self.base) / (name.replace("/", "_") + ".o") for name in self.names]
 
+    @staticmethod
+    def on(program):
+        """The command of the built decoder."""
+        return [str(program), "{file}", "{out}"]
+
     def outcome(self, error):
         """How the error shows, or None."""
-        file, old, new = error
-        text = (ROOT / file).read_text(encoding="utf-8") if (ROOT / file).exists() else ""
-        if text.count(old) != 1:
-            return f"FITS NO LONGER ({text.count(old)} places)"
         with tempfile.TemporaryDirectory() as scratch:
             overlay = pathlib.Path(scratch)
-            (overlay / file).parent.mkdir(parents=True)
-            (overlay / file).write_text(text.replace(old, new), encoding="utf-8")
-            changed = self.users.get(file, [])
+            if unfit := planted(ROOT, error, overlay):
+                return unfit
+            changed = self.users.get(error[1], [])
             if not all(compiled(name, overlay, overlay) for name in changed) or \
                     not linked(self.objects(changed, overlay), overlay / "decoder"):
                 return "does not compile"
-            return conforms(overlay / "decoder")
+            return conforms(self.on(overlay / "decoder"))
 
 
 def main():
@@ -138,23 +179,29 @@ def main():
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--least", type=float, default=90)
+    parser.add_argument("--least", type=float, default=95)
+    parser.add_argument("--fits", action="store_true")
+    parser.add_argument("--tree", type=pathlib.Path)
+    parser.add_argument("--command")
     parser.add_argument("errors", nargs="*", type=pathlib.Path, default=[pathlib.Path(__file__).with_name("errors.txt")])
     arguments = parser.parse_args()
+    errors = list(errors_of(arguments.errors))[::arguments.every]
+    if arguments.fits:
+        unfit = [f"{error[1]}: {error[2]}: {fault}" for error in errors if (fault := planted(arguments.tree or ROOT, error, None))]
+        sys.exit("\n".join(unfit) if unfit else 0)
     work = arguments.work or pathlib.Path(tempfile.mkdtemp())
     try:
-        nursery = Nursery(work.resolve(), arguments.jobs)
-        errors = list(errors_of(arguments.errors))[::arguments.every]
+        nursery = Copies(arguments.tree.resolve(), arguments.command) if arguments.tree else Nursery(work.resolve(), arguments.jobs)
         missed, unfit = [], 0
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
             for error, outcome in zip(errors, pool.map(nursery.outcome, errors)):
-                label = f"{error[0]}: {error[1].strip().splitlines()[0]}  ->  {(error[2].strip() or '(nothing)').splitlines()[0]}"
+                label = f"{error[0]}: {error[1]}: {error[2].strip().splitlines()[0]}  ->  {(error[3].strip() or '(nothing)').splitlines()[0]}"
                 if outcome is None:
                     missed.append(label)
                     print(f"missed  {label}", flush=True)
                 if outcome and outcome.startswith("FITS"):
                     unfit += 1
-                    print(f"{label}: {outcome}")
+                    print(f"{label}: {outcome}", flush=True)
         caught = len(errors) - len(missed) - unfit
         print(f"{caught} of {len(errors)} planted errors are caught")
         sys.exit(0 if unfit == 0 and caught * 100 >= arguments.least * len(errors) else 1)

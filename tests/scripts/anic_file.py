@@ -105,6 +105,21 @@ def file_size(data):
     return struct.unpack_from("<Q", data, 24)[0]
 
 
+def split_stream(data):
+    """The files of a live stream."""
+    files = []
+    while data:
+        size = file_size(data)
+        files.append(data[:size])
+        data = data[size:]
+    return files
+
+
+def field(tag, value):
+    """An optional field of a record."""
+    return varints((tag, len(value))) + value
+
+
 def read_chunks(data):
     """The chunks of a good file."""
     return [Chunk(kind, flags, mesh, segment, data[offset:offset + size])

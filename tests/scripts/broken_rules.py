@@ -109,6 +109,15 @@ class File:
         chunks = self.chunks()
         return self.of(chunks + [next(c for c in chunks if c.type == kind)])
 
+    def with_chunks(self, *more):
+        """The file with chunks more."""
+        return self.of(self.chunks() + list(more))
+
+    @staticmethod
+    def told(text=b"{}"):
+        """Metadata."""
+        return anic_file.Chunk("META", anic_file.COPIED, NO_MESH, NONE, text)
+
     def more(self, kind, mesh=NO_MESH, segment=NONE, payload=b"\0"):
         """The file with a chunk that does not belong into it."""
         return self.of(self.chunks() + [anic_file.Chunk(kind, 1, mesh, segment, payload)])
@@ -144,9 +153,28 @@ def chunk_rules(files):
     chunks = moved.chunks()
     next(c for c in chunks if c.type == "SEGM").mesh = 1
     yield 44, "segm_of_other_mesh", anic_file.write_chunks(chunks), "SEGM of a segment with another mesh"
+    for file, kind, what in ((triangle, "MESH", "clear"), (painted, "ATTR", "set")):
+        chunks = file.chunks()
+        next(c for c in chunks if c.type == kind).flags ^= 1
+        yield 44, f"required_{kind.lower()}", anic_file.write_chunks(chunks), f"{kind} with the flag required {what}"
     chunks = triangle.chunks()
     chunks[1].flags |= anic_file.COPIED
     yield 44, "copied_clip", anic_file.write_chunks(chunks), "CLIP with the flag *copied*"
+    for kind, place in (("META", (NO_MESH, NONE)), ("BNDS", (0, 0))):
+        name = kind.lower()
+        if kind == "META":
+            yield 25, "two_meta", triangle.with_chunks(triangle.told(), triangle.told()), "two META"
+        else:
+            yield 25, "two_bnds", triangle.twice(kind), "two BNDS of one segment"
+        for what, flags, where in (("required", anic_file.REQUIRED | anic_file.COPIED, place), ("not_copied", 0, place),
+                                   ("place", anic_file.COPIED, (0, NONE))):
+            chunk = triangle.told() if kind == "META" else next(c for c in triangle.chunks() if c.type == kind)
+            chunk.flags, (chunk.mesh, chunk.segment) = flags, where
+            yield 44, f"{what}_{name}", triangle.of([c for c in triangle.chunks() if c.type != kind] + [chunk]), \
+                f"{kind} {'of a mesh' if what == 'place' else 'with the flags ' + format(flags, 'd')}"
+    chunk = next(c for c in moved.chunks() if c.type == "BNDS")
+    chunk.segment = next(i for i in range(9) if f"LIMI segment {i} attribute" in moved.fields)
+    yield 44, "attribute_bnds", moved.with_chunks(chunk), "BNDS of a segment that moves an attribute"
     chunks = triangle.chunks()
     chunks[1].flags |= 16
     yield 21, "reserved_flag", anic_file.write_chunks(chunks), "a reserved flag of a chunk is set"
@@ -167,6 +195,29 @@ def chunk_rules(files):
     chunks = triangle.chunks()
     table = b"".join(map(anic_file.entry, chunks[:-1])) + anic_file.entry(chunks[-1], (1 << 64) - 1)
     yield 23, "chunk_beyond", anic_file.write_table(chunks, table), "a chunk of 2^64 - 1 bytes"
+
+
+def told_rules(files):
+    """The same for optional fields, section 1, BNDS and META, sections 13 and 14."""
+    triangle, boxes = files("triangle"), files("boxes_and_metadata")
+    good = anic_file.field(5, b"value")
+    for kind in ("LIMI", "CLIP", "SEGM", "BNDS"):
+        for what, bytes_, text in (("zero", anic_file.field(0, b""), "the tag 0"), ("twice", good + good, "one tag twice"),
+                                   ("falls", good + anic_file.field(4, b""), "tags that do not ascend"),
+                                   ("beyond", b"\5\2x", "a value that goes beyond the record"),
+                                   ("large", varint(1 << 32) + b"\0", "a tag of 2^32"), ("tag_alone", b"\5", "a tag and no more")):
+            yield 40, f"{kind.lower()}_field_{what}", boxes.end(kind, bytes_), f"{kind} with {text}"
+    yield 40, "limi_hash_short", triangle.end("LIMI", anic_file.field(1, bytes(7))), "a mesh hash of 7 bytes"
+    yield 40, "limi_hash_long", triangle.end("LIMI", anic_file.field(1, bytes(9))), "a mesh hash of 9 bytes"
+    for name, label, value in (("every", "frames of a box", b"\x09"), ("low", "low y", struct.pack("<f", float("nan"))),
+                               ("high", "high z", struct.pack("<f", float("inf"))), ("turned", "high x", struct.pack("<f", -1e30))):
+        yield 40, f"bnds_{name}", boxes.put(f"BNDS {label}", value), f"BNDS {label} that is out of range"
+    yield 40, "bnds_short", boxes.end("BNDS", less=1), "BNDS with half a box"
+    for name, text, what in (("empty", b"", "no byte"), ("deep", b'{"":' + b"[" * 32 + b"]" * 32 + b"}", "33 arrays and objects in one another"),
+                             ("utf8", b'{"title":"\xc0\x80"}', "a character that is not in its shortest form"),
+                             ("long", b'{"title":"\xf0\x8f\xbf\xbf"}', "four bytes where three do"),
+                             ("surrogate", b'{"title":"\xed\xa0\x80"}', "a surrogate"), ("cut", b'{"title":"\xe4\xb8"}', "half a character")):
+        yield 40, f"meta_{name}", triangle.with_chunks(triangle.told(text)), f"META of {what}"
 
 
 def limit_rules(files):
@@ -307,6 +358,12 @@ def mesh_rules(files):
     yield 43, "faces_triangles", triangle.put("LIMI mesh 0 triangles", b"\2"), "fewer triangles than announced"
     yield 43, "faces_polygons", triangle.put("LIMI mesh 0 polygons", b"\2"), "fewer polygons than announced"
     yield 43, "faces_corners", triangle.put("LIMI mesh 0 corners", b"\2"), "more corners than announced"
+    yield 43, "faces_repeated", files("leftovers").put("LIMI mesh 0 corners", lambda old: varint(varint_value(old) - 3)), \
+        "more repeated faces than there are corners for"
+    wild = files("wild_pose").chunks()
+    poses = [c for c in wild if c.type == "POSE"]
+    poses[1].payload = poses[0].payload
+    yield 45, "pose_far", anic_file.write_chunks(wild), "a pose beyond 2^21 under coefficients"
     yield 41, "faces_more", triangle.end("MESH", b"\1"), "bytes that no encoder writes after the faces"
     yield 41, "faces_zero", triangle.end("MESH", b"\0"), "a zero byte after the faces, which no encoder writes"
     yield 41, "vmap_more", corrected.end("VMAP", b"\1"), "bytes after the order of the vertices"
@@ -376,6 +433,8 @@ def segment_rules(files):
     yield 41, "layers_more", layers.put("BASI coefficients", lambda old: old + b"\1\0", last), \
         "a word after the coefficients of a layer"
     yield 41, "layers_state", layers.put("BASI coefficients", set_bytes(0, b"\xff\xff\0\0")), "a state below its range"
+    yield 41, "coefficients_state", files("quiet").put("BASI coefficients", set_byte(12, 1)), \
+        "a state that no decision uses, which is not that of the end"
     yield 45, "corrections_step", corrected.put("CORR data", set_bytes(0, f64(0))), "corrections with a step of 0"
     yield 45, "corrections_not_finite", corrected.put("CORR data", set_bytes(0, NAN)), "corrections with a step that is no number"
     yield 26, "corrections_empty", corrected.put("CORR data", b""), "corrections without a byte"
@@ -427,6 +486,6 @@ def broken_rules(command, folder, status_of):
             opened[name] = File(command, folder / f"{name}.anic")
         return opened[name]
 
-    for rules in (chunk_rules, limit_rules, clip_rules, root_rules, exact_rules, mesh_rules, segment_rules):
+    for rules in (chunk_rules, told_rules, limit_rules, clip_rules, root_rules, exact_rules, mesh_rules, segment_rules):
         yield from rules(files)
     yield from stream_rules(files, status_of)

@@ -49,7 +49,9 @@ def _mesh(stem, told, exact):
         attributes.append({key: attribute[key] for key in ATTRIBUTE_KEYS} |
                           {"sizes": sizes, "samples": samples,
                            "tolerance": 2e-5 * max(_largest(frame) for frame in attribute["values"])})
-    return {key: told[key] for key in MESH_KEYS} | {
+    boxes = told.get("boxes", [])
+    frames = sorted({0, len(boxes) // 2, len(boxes) - 1}) if boxes else []
+    return {key: told[key] for key in MESH_KEYS} | {"boxes": [[frame, boxes[frame]] for frame in frames]} | {
         "counts": [clip.vertices, len(clip.frames), len(faces)], "faces": clip_output.faces_hash(faces),
         "tolerance": float(f"{tolerance:.3g}"), "points": points, "attributes": attributes}
 

@@ -8,6 +8,8 @@ usage: update_conformance.py BUILD
 """
 import ctypes
 import hashlib
+import json
+import os
 import pathlib
 import re
 import shutil
@@ -49,13 +51,25 @@ VECTORS = [
 MOVING = ["heated"]
 # Clips whose frames have times: they go by MDD.
 TIMED = ["uneven"]
+ABSENT = 5  # the status of what a file does not have
+MESHES = 50  # which no file by itself has
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 # Codes that a file can cause, with the names of spec/12-errors.md.
 CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
 
 
-# A live stream: clip, frames in a second, which are a file, and options.
+# Live streams: clip, frames in a second, which are a file, and options, more of which make a second stream of the same
+# frames that follows: a file with meshes, which are others, in the midst of a stream.
 STREAM = ("streams/live.anic", "limb --vertices 100 --frame-count 20", 8, "--kg 0.5 --effort 2")
+TWO_BASES = ("streams/two_bases.anic", "limb --vertices 100 --frame-count 14", 8, "--kg 0.5 --effort 2", "--kg 0.2 --order all")
+# Rules that only decoders of a part can find broken, by the beginning of their names; a decoder MAY lack it.
+OPTIONAL_RULES = {"attr_": "attributes", "attr_not_announced": "", "look_": "attributes", "attribute_unknown": "attributes",
+                  "attribute_component": "attributes", "stream_heated_attr": "attributes", "diff_hash": "exact,hashes",
+                  "hash": "hashes", "diff_axes": "exact", "diff_errs": "exact", "diff_noise": "exact", "diff_origin": "exact",
+                  "diff_step": "exact", "diff_points": "exact", "diff_many_points": "exact", "diff_more": "exact",
+                  "diff_short": "exact", "bnds_": "bounds", "meta_": "metadata"}
+FEATURES = {1: "draco", 2: "interpolation"}  # bits of the header
+PARTS_OF_CHUNKS = {"ATTR": "attributes", "DIFF": "exact", "BNDS": "bounds", "META": "metadata"}
 
 
 def listing(command, path):
@@ -74,6 +88,29 @@ def listing(command, path):
     return "\n".join(lines)
 
 
+def needs(parts):
+    """The field of MANIFEST for parts that a decoder may lack."""
+    return [f"needs={','.join(parts)}"] if parts else []
+
+
+def features_of(data):
+    """Those parts that the header names."""
+    bits = struct.unpack_from("<Q", data, 16)[0] if len(data) >= 24 else 0
+    return [part for bit, part in FEATURES.items() if bits >> bit & 1]
+
+
+def parts_of(data):
+    """Those that a good file needs to be shown in full."""
+    kinds = {chunk.type for chunk in anic_file.read_chunks(data)}
+    return features_of(data) + [part for kind, part in PARTS_OF_CHUNKS.items() if kind in kinds]
+
+
+def parts_of_rule(name, data):
+    """Those that a decoder needs to see what is wrong."""
+    rule = max((beginning for beginning in OPTIONAL_RULES if name.startswith(beginning)), key=len, default="")
+    return features_of(data) + [part for part in OPTIONAL_RULES.get(rule, "").split(",") if part]
+
+
 class Library:
     """Tells what the reference decoder makes of a file."""
 
@@ -86,6 +123,9 @@ class Library:
         self.functions = ctypes.CDLL(str(path))
         self.functions.anic_verify_asset.argtypes = [ctypes.c_void_p]
         self.functions.anic_close_asset.argtypes = [ctypes.c_void_p]
+        self.functions.anic_read_metadata.argtypes = [ctypes.c_char_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p]
+        self.functions.anic_read_bounds.argtypes = [ctypes.c_char_p, ctypes.c_size_t, ctypes.c_uint32, ctypes.c_uint32,
+                                                    ctypes.c_uint32, ctypes.c_void_p]
 
     def status(self, data):
         """Status and what it says of the place."""
@@ -95,7 +135,75 @@ class Library:
         if status == 0:
             status = self.functions.anic_verify_asset(asset)
             self.functions.anic_close_asset(asset)
+        if status == 0:
+            status = self.status_unopened(data)
         return status, (failure.detail or b"").decode()
+
+
+    def status_unopened(self, data):
+        """That of metadata and boxes, which opening does not read."""
+        text, size, box = ctypes.c_char_p(), ctypes.c_size_t(), (ctypes.c_float * 6)()
+        seen = (self.functions.anic_read_metadata(data, len(data), ctypes.byref(text), ctypes.byref(size)),
+                self.functions.anic_read_bounds(data, len(data), 0, 0, 0, box))
+        return next((status for status in seen if status not in (0, ABSENT)), 0)
+
+
+def grown_file():
+    """One with optional fields, and with chunks of types that nobody knows."""
+    chunks = anic_file.read_chunks((FOLDER / "limb_small.anic").read_bytes())
+    for chunk in chunks:
+        if chunk.type == "LIMI":  # without meaning in a file that is no continuation
+            chunk.payload += anic_file.field(1, bytes(range(8)))
+        if chunk.type in ("LIMI", "CLIP", "SEGM", "BNDS"):
+            chunk.payload += anic_file.field(77, b"seventy-seven") + anic_file.field(78, b"") + anic_file.field((1 << 32) - 1, b"\xff")
+    none, segment = (anic_file.NO_MESH, anic_file.NO_SEGMENT), (0, 0)
+    unknown = [anic_file.Chunk(kind, flags, *place, kind.encode() * size) for kind, flags, place, size in (
+        ("NEWS", anic_file.COPIED, none, 3), ("NEWS", anic_file.COPIED, none, 0), ("news", 0, none, 1),
+        ("x0Yz", anic_file.COPIED, (0, anic_file.NO_SEGMENT), 5), ("x0Yz", 0, (40, anic_file.NO_SEGMENT), 2),
+        ("seg1", anic_file.COPIED, segment, 20), ("seg2", 0, (0, 3000), 1))]
+    return anic_file.write_chunks(chunks[:2] + unknown[:1] + chunks[2:4] + unknown[1:5] + chunks[4:] + unknown[5:])
+
+
+def told_file():
+    """One with metadata at its limits, and a box for every three frames."""
+    chunks = [c for c in anic_file.read_chunks((FOLDER / "limb_small.anic").read_bytes()) if c.type != "BNDS"]
+    mesh = json.loads((FOLDER / "facts" / "limb_small.json").read_text(encoding="utf-8"))["meshes"][0]
+    margins = [(high - low) / 4 for low, high in zip(mesh["low"], mesh["high"])]
+    sides = [x - m for x, m in zip(mesh["low"], margins)] + [x + m for x, m in zip(mesh["high"], margins)]
+    boxes = bytes(1 + (7 * i) % 40 for i in range(18))  # at most 40 / 255 of 1.5 times the box: less than the margin
+    text = '{"title":"\u00e9\u4e00\U0001f41f \\"[{\\"","author":"","deep":' + "[" * 31 + "1e-3" + "]" * 31 + "}"
+    told = [anic_file.Chunk("META", anic_file.COPIED, anic_file.NO_MESH, anic_file.NO_SEGMENT, text.encode()),
+            anic_file.Chunk("BNDS", anic_file.COPIED, 0, 0, b"\3" + struct.pack("<6f", *sides) + boxes)]
+    return anic_file.write_chunks(chunks[:2] + told + chunks[2:])
+
+
+def unusual_files():
+    """(name, file) of good ones that no encoder writes, made of others."""
+    yield "grown", grown_file()
+    yield "boxes_and_metadata", told_file()
+    chunks = anic_file.read_chunks((FOLDER / "limb_small.anic").read_bytes())
+    first = next(i for i, chunk in enumerate(chunks) if chunk.type == "BASI")
+    empty = anic_file.Chunk("BASI", 1, chunks[first].mesh, chunks[first].segment, b"\0\0")
+    yield "empty_layers", anic_file.write_chunks(chunks[:first] + [empty] + chunks[first:] + [empty])
+
+
+def broken_streams(stream, two_bases):
+    """(status, name, stream, what) of live streams that are refused, though each of their files is good."""
+    def continued(change):
+        first, second = anic_file.split_stream(stream)[:2]
+        chunks = anic_file.read_chunks(second)
+        limits = next(c for c in chunks if c.type == "LIMI")
+        limits.payload = change(limits.payload[:-len(anic_file.field(1, bytes(8)))], limits.payload[-8:])
+        return first + anic_file.write_chunks(chunks, needs=anic_file.features(second))
+
+    bases = anic_file.split_stream(two_bases)
+    yield 50, "other_meshes", bases[0] + bases[-1], "a continuation of a file with other meshes"
+    yield 50, "wrong_hash", continued(lambda limits, hash_: limits + anic_file.field(1, bytes([hash_[0] ^ 1]) + hash_[1:])), \
+        "a continuation with another hash of the meshes"
+    yield 40, "no_hash", continued(lambda limits, hash_: limits), "a continuation that does not say which meshes it continues"
+    yield 40, "short_hash", continued(lambda limits, hash_: limits + anic_file.field(1, hash_[:7])), "a hash of 7 bytes"
+    yield 29, "trailing", stream + b"\0", "a byte that begins no file"
+    yield 24, "checksum", stream[:-1] + bytes([stream[-1] ^ 1]), "a last chunk with another checksum"
 
 
 def broken_containers(data):
@@ -201,7 +309,7 @@ def main():
 
     def add_valid(path, out):
         add_facts(path, out)
-        add("valid", path)
+        add("valid", path, *needs(parts_of(path.read_bytes())))
 
     shutil.rmtree(FOLDER / "facts", ignore_errors=True)
     (FOLDER / "facts").mkdir()
@@ -222,15 +330,22 @@ def main():
             subprocess.run([special, what, FOLDER / f"{what}.anic"], check=True)
             add_valid(FOLDER / f"{what}.anic", pathlib.Path(name) / "decoded")
 
+        for what, data in unusual_files():
+            (FOLDER / f"{what}.anic").write_bytes(data)
+            add_valid(FOLDER / f"{what}.anic", pathlib.Path(name) / "decoded")
+
         (FOLDER / "streams").mkdir(exist_ok=True)
-        file, clip, frames, options = STREAM
-        cache, joined = pathlib.Path(name) / "live.pc2", pathlib.Path(name) / "live.anic"
-        subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
-        subprocess.run([command, "encode", "-q", "-f", "--live", cache.with_suffix(".obj"), "--fps", str(frames), "-o",
-                        FOLDER / file] + options.split(), check=True, input=cache.read_bytes()[32:])
-        subprocess.run([command, "join", "-q", "-f", FOLDER / file, "-o", joined], check=True)
-        add_facts(joined, pathlib.Path(name) / "decoded")
-        add("stream", FOLDER / file)
+        for file, clip, frames, *all_options in (STREAM, TWO_BASES):
+            cache, part = pathlib.Path(name) / "live.pc2", pathlib.Path(name) / "part.anic"
+            subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
+            stream = b""
+            for options in all_options:
+                subprocess.run([command, "encode", "-q", "-f", "--live", cache.with_suffix(".obj"), "--fps", str(frames), "-o",
+                                part] + options.split(), check=True, input=cache.read_bytes()[32:])
+                stream += part.read_bytes()
+            (FOLDER / file).write_bytes(stream)
+            add_facts(FOLDER / file, pathlib.Path(name) / "decoded")
+            add("stream", FOLDER / file, *needs(["streams"]))
 
     for folder in ("invalid", "limits"):
         shutil.rmtree(FOLDER / folder, ignore_errors=True)
@@ -239,7 +354,7 @@ def main():
     broken = {}
     for status, data in broken_containers(files[0][1]):
         broken[status] = (data, "")
-    rest = {int(code) for code in CODES if 10 <= int(code) < 60} - set(broken)
+    rest = {int(code) for code in CODES if 10 <= int(code) < 60} - set(broken) - {MESHES}
     for status, data, what in broken_payloads(sorted(files, key=lambda f: len(f[1])), library, rest):
         broken[status] = (data, what)
         rest.discard(status)
@@ -249,7 +364,8 @@ def main():
             sys.exit(f"{CODES[str(status)]} is answered with {seen}: {detail}")
         path = FOLDER / "invalid" / f"{status}_{CODES[str(status)].lower()}.anic"
         path.write_bytes(data)
-        add("invalid", path, str(status), CODES[str(status)], what or detail)
+        add("invalid", path, str(status), CODES[str(status)], *needs(parts_of_rule(CODES[str(status)].lower(), data)),
+            what or detail)
     stream = (FOLDER / STREAM[0]).read_bytes()
     second = stream[anic_file.file_size(stream):]
     alone = [(12, "continuation", second[:anic_file.file_size(second)], "a continuation without the file that it continues")]
@@ -259,7 +375,15 @@ def main():
             sys.exit(f"{what} is answered with {seen}: {detail}")
         path = FOLDER / "invalid" / f"{status}_{what}.anic"
         path.write_bytes(data)
-        add("invalid", path, str(status), CODES[str(status)], text)
+        add("invalid", path, str(status), CODES[str(status)], *needs(parts_of_rule(what, data)), text)
+    (FOLDER / "invalid" / "streams").mkdir()
+    for status, what, data, text in broken_streams(stream, (FOLDER / TWO_BASES[0]).read_bytes()):
+        path = FOLDER / "invalid" / "streams" / f"{status}_{what}.anic"
+        path.write_bytes(data)
+        seen = subprocess.run([decoder, path, os.devnull], check=False, stderr=subprocess.DEVNULL).returncode
+        if seen != status:
+            sys.exit(f"{what} is answered with {seen}")
+        add("invalid_stream", path, str(status), CODES[str(status)], *needs(["streams"]), text)
     for what, data in greedy_files(files[0][1]):
         path = FOLDER / "limits" / f"{what}.anic"
         path.write_bytes(data)
