@@ -88,27 +88,29 @@ bool has_all_bits(const Clip& clip, const EncoderInput& input, const FrameRun& r
 
 /// Measures one attribute that changes over time in some frames.
 AttributeError measure(const Clip& clip, const EncoderInput& input, const FrameRun& run,
-                       const Attribute& attribute, uint32_t first_frame, uint32_t number) {
+                       const StoredAttribute& stored, uint32_t first_frame) {
+  const Attribute& attribute = input.sequence.attributes[stored.source];
   AttributeError error;
-  error.attribute = static_cast<uint16_t>(number);
-  const bool free = clip.record().order == OrderMode::kFree;
-  const uint32_t vertices = input.sequence.vertex_count, n = attribute.components;
-  std::vector<float> played(size_t{vertices} * n);
+  error.attribute = static_cast<uint16_t>(stored.number);
+  const OrderMode order = clip.record().order;
+  const bool canonical =
+      order == OrderMode::kFree || (order == OrderMode::kVertices && !attribute.per_vertex());
+  const size_t elements = stored.rows.size(), n = attribute.components;
+  std::vector<float> played(elements * n);
   double squared = 0;
   for (uint32_t f = run.first; f < run.first + run.count; ++f) {
-    clip.attribute_values(0, number, f, played.data());
-    const float* source = attribute.values.data() + size_t{f + first_frame} * vertices * n;
-    for (uint32_t v = 0; v < vertices; ++v) {
-      const float* values = source + size_t{free ? input.layout.vertex_source[v] : v} * n;
-      for (uint32_t c = 0; c < n; ++c) {
-        const double d =
-            static_cast<double>(values[c]) - static_cast<double>(played[size_t{v} * n + c]);
+    clip.attribute_values(0, stored.number, f, played.data());
+    const float* source = attribute.values.data() + size_t{f + first_frame} * elements * n;
+    for (size_t e = 0; e < elements; ++e) {
+      const float* values = source + (canonical ? stored.rows[e] : e) * n;
+      for (size_t c = 0; c < n; ++c) {
+        const double d = static_cast<double>(values[c]) - static_cast<double>(played[e * n + c]);
         squared += d * d;
         error.max_error = std::max(error.max_error, std::abs(d));
       }
     }
   }
-  error.rmse = std::sqrt(squared / n / vertices / run.count);
+  error.rmse = std::sqrt(squared / static_cast<double>(n * elements) / run.count);
   return error;
 }
 
@@ -164,15 +166,11 @@ CheckedFile check_file(const Bytes& file, const EncoderInput& input,
     if (clip.limits().segments[clip.by_frame()[0]].exact && !has_all_bits(clip, input, source.frames))
       throw Error(ErrorKind::kInternal, "the encoded file does not have the source's positions");
     for (AttributeResult& result : *attributes) {
-      if (!result.kept)
-        continue;
       const auto of = std::ranges::find(stored, result.number, &StoredAttribute::number);
-      const Attribute& attribute = input.sequence.attributes[of->source];
-      const AttributeError error =
-          measure(clip, input, source.frames, attribute, first_frame, result.number);
+      const AttributeError error = measure(clip, input, source.frames, *of, first_frame);
       if (error.max_error > result.asked)
         throw Error(ErrorKind::kInternal,
-                    attribute.name + ": the error is above what was asked for");
+                    result.name + ": the error is above what was asked for");
       result.max_error = std::max(result.max_error, error.max_error);
       result.rmse = std::hypot(
           result.rmse,

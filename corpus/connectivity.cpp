@@ -162,8 +162,8 @@ MeshSequence box_of_quads(ClipSize size) {
 MeshSequence painted_box(ClipSize size) {
   constexpr uint32_t kCells = 4, kSides = 6;  // quads along an edge of the box
   MeshSequence clip = animate_twisted(quad_box(kCells), size.frames);
-  Attribute uv{AttributeKind::kUv, "atlas", true, 2, 1, {}};
-  Attribute colour{AttributeKind::kColour, "paint", false, 3, 1, {}};
+  Attribute uv{AttributeKind::kUv, "atlas", AttributeDomain::kCorner, 2, 1, {}};
+  Attribute colour{AttributeKind::kColour, "paint", AttributeDomain::kVertex, 3, 1, {}};
   clip.materials.names = {"wood", "metal"};  // of the second nothing else is known
   MaterialLook wood;
   wood.known = true;

@@ -27,7 +27,7 @@ void write_heads(const Vector<AttributeHeader>& attributes, ByteWriter& w) {
     w.u8(static_cast<uint8_t>(a.kind));
     w.u8(static_cast<uint8_t>(a.domain));
     w.text(a.name);
-    if (a.domain == AttributeDomain::kPolygon) {
+    if (a.has_labels()) {
       w.varint(a.labels.size());
       for (const String& label : a.labels)
         w.text(label);
@@ -51,18 +51,6 @@ uint64_t numbers_of(const AttributeHeader& a, const Limits::Mesh& mesh) {
 }
 
 }  // namespace
-
-uint32_t AttributeHeader::elements(const Limits::Mesh& mesh) const {
-  switch (domain) {
-    case AttributeDomain::kVertex:
-      return mesh.source_vertices;
-    case AttributeDomain::kCorner:
-      return mesh.corners;
-    case AttributeDomain::kPolygon:
-      break;
-  }
-  return mesh.polygons;
-}
 
 void count_attributes(const Vector<AttributeHeader>& attributes, Limits::Mesh* mesh) {
   ByteWriter w;
@@ -96,9 +84,9 @@ Status AttributeRecord::read(ByteView view, const Limits::Mesh& mesh, AttributeR
     a.kind = static_cast<AttributeKind>(kind);
     a.domain = static_cast<AttributeDomain>(domain);
     a.name = r.text();
-    if ((a.kind >= AttributeKind::kMaterial) != (a.domain == AttributeDomain::kPolygon))
+    if (a.has_labels() && a.domain != AttributeDomain::kPolygon)
       return Status::kRecord;
-    if (a.domain == AttributeDomain::kPolygon) {
+    if (a.has_labels()) {
       const uint64_t labels = r.varint();
       if (!r.ok() || labels > std::min<uint64_t>(r.remaining(), labels_left))
         return Status::kRecord;

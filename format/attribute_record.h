@@ -26,11 +26,8 @@ enum class AttributeKind : uint8_t {
   kPart = 6
 };
 
-/// The elements that have one value each.
-enum class AttributeDomain : uint8_t { kVertex = 0, kCorner = 1, kPolygon = 2 };
-
-/// One attribute. Vertices and corners have numbers on a grid, or with no component only the information which
-/// corners share a value. Polygons have one of the labels, or none.
+/// One attribute: numbers on a grid, or with no component only the information which corners share a value; of
+/// materials and parts, a label for each polygon, or none.
 struct AttributeHeader {
   /// A component of an integer n is origin + n / scale.
   struct Grid {
@@ -41,14 +38,16 @@ struct AttributeHeader {
   AttributeKind kind = AttributeKind::kUv;
   AttributeDomain domain = AttributeDomain::kVertex;
   String name;
-  Vector<Grid> grids;          ///< one for each component, empty for polygons
-  Vector<String> labels;       ///< only for polygons
+  Vector<Grid> grids;          ///< one for each component, empty for labels
+  Vector<String> labels;
   Vector<MaterialLook> looks;  ///< of materials: one for each label, or none
 
   uint32_t components() const { return static_cast<uint32_t>(grids.size()); }
 
+  bool has_labels() const { return kind >= AttributeKind::kMaterial; }
+
   /// How many elements a mesh has in the domain.
-  uint32_t elements(const Limits::Mesh& mesh) const;
+  uint32_t elements(const Limits::Mesh& mesh) const { return mesh.elements(domain); }
 };
 
 /// Sets what the limits say of the attributes of a mesh, whose other counts are there.

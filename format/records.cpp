@@ -92,6 +92,8 @@ void write_segment(const Limits::Segment& s, ByteWriter& w) {
   if (is_of_attribute(s)) {
     w.varint(s.attribute);
     w.varint(s.first_component / 3);
+    w.u8(static_cast<uint8_t>(s.domain));
+    w.varint(s.entries);
   }
   if (s.draco_bytes > 0) {
     w.varint(s.draco_bytes);
@@ -134,6 +136,11 @@ Status read_segment(ByteReader& r, size_t meshes, uint32_t frames, Limits::Segme
   if (flags & kOfAttribute) {
     s->attribute = r.varint32(kMaxAttributes - 1);
     s->first_component = 3 * r.varint32((kMaxAttributeComponents - 1) / 3);
+    const uint8_t domain = r.u8();
+    if (r.ok() && domain > static_cast<uint8_t>(AttributeDomain::kPolygon))
+      return Status::kFeature;
+    s->domain = static_cast<AttributeDomain>(domain);
+    s->entries = r.varint32(kMaxVertices);
   }
   if (flags & kDraco) {
     s->draco_bytes = r.varint32();
@@ -216,7 +223,9 @@ Status Limits::read(ByteView view, Limits* out) {
       return Status::kRecord;
   }
   for (const Segment& s : out->segments) {
-    if (is_of_attribute(s) && s.attribute >= out->meshes[s.mesh].attributes)
+    const Mesh& mesh = out->meshes[s.mesh];
+    if (is_of_attribute(s) && (s.attribute >= mesh.attributes || s.entries == 0 ||
+                               s.entries > mesh.elements(s.domain)))
       return Status::kRecord;
   }
   return Status::kOk;

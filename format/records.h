@@ -27,6 +27,9 @@ inline constexpr uint32_t kMaxAttributeComponents = 16;
 /// In place of an attribute's number: the positions.
 inline constexpr uint32_t kPositions = UINT32_MAX;
 
+/// What an attribute has a value for each of.
+enum class AttributeDomain : uint8_t { kVertex = 0, kCorner = 1, kPolygon = 2 };
+
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };
 
 /// How a frame is made from key-frames: on straight lines, or by multi-scale geometry
@@ -45,6 +48,12 @@ struct Limits {
     uint32_t attribute_labels = 0;   ///< of all attributes of polygons together
     uint32_t attribute_head = 0;     ///< bytes of ATTR that describe the attributes, before the values
     uint64_t attribute_numbers = 0;  ///< values, labels or shared values of all elements of all attributes
+
+    uint32_t elements(AttributeDomain domain) const {
+      return domain == AttributeDomain::kCorner    ? corners
+             : domain == AttributeDomain::kPolygon ? polygons
+                                                   : source_vertices;
+    }
 
     bool operator==(const Mesh& other) const;
   };
@@ -66,11 +75,24 @@ struct Limits {
     /// first_component on, a multiple of three.
     uint32_t attribute = kPositions;
     uint32_t first_component = 0;
+    AttributeDomain domain = AttributeDomain::kVertex;  ///< of the attribute
+    uint32_t entries = 0;                               ///< of the attribute: distinct ones among its elements
 
     /// Whether two segments move the same: then they share no frame.
     bool same_track(const Segment& other) const {
       return mesh == other.mesh && attribute == other.attribute &&
              first_component == other.first_component;
+    }
+
+    /// The counts of what it is coded over: those of the mesh, or of an attribute's elements, entries and links.
+    Mesh coded_over(const Mesh& whole) const {
+      if (attribute == kPositions)
+        return whole;
+      Mesh of_attribute;
+      of_attribute.source_vertices = whole.elements(domain);
+      of_attribute.coded_vertices = entries;
+      of_attribute.triangles = whole.corners;
+      return of_attribute;
     }
   };
 

@@ -211,8 +211,6 @@ void take_attribute(const anic_source_attribute& host, MeshSequence* mesh) {
   const size_t elements = elements_of(host, *mesh);
   if (host.components == 0)
     return take_labels(host, elements, mesh);
-  if (host.domain == ANIC_DOMAIN_POLYGONS)
-    fail(ANIC_E_ARGUMENT, "numbers are of vertices or of corners, not of polygons");
   if (!fits(host.kind, host.components))
     fail(ANIC_E_ARGUMENT, text_of(host.name) + ": its kind has no attribute of " +
                               std::to_string(host.components) + " components");
@@ -225,7 +223,7 @@ void take_attribute(const anic_source_attribute& host, MeshSequence* mesh) {
   Attribute attribute;
   attribute.kind = static_cast<AttributeKind>(host.kind);
   attribute.name = text_of(host.name);
-  attribute.per_corner = host.domain == ANIC_DOMAIN_CORNERS;
+  attribute.domain = static_cast<AttributeDomain>(host.domain);
   attribute.components = host.components;
   attribute.frames = frames;
   attribute.values.assign(host.values, host.values + elements * host.components * frames);

@@ -6,10 +6,12 @@
 #include "codec/sequence/shared_normals.h"
 #include "format/attribute_record.h"
 #include "sdk/clip/attribute_coding.h"
+#include "sdk/clip/attribute_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -89,8 +91,8 @@ class AttributeWriter {
         has_normals = true;
       } else if (attribute.kind != AttributeKind::kTangent || options_.normals) {
         const auto number = static_cast<uint32_t>(headers_.size());
-        add_numbers(attribute);
-        stored_.push_back({i, number, headers_.back()});
+        stored_.push_back({i, number, {}, rows_of(attribute), {}});
+        add_numbers(attribute, &stored_.back());
       }
     }
     if (told) {
@@ -135,24 +137,24 @@ class AttributeWriter {
 
   /// The source's row of each element in canonical order.
   std::vector<uint32_t> rows_of(const Attribute& attribute) const {
-    if (attribute.per_corner)
+    if (attribute.per_corner())
       return corners_;
+    if (!attribute.per_vertex())
+      return {layout_.polygon_source.begin(), layout_.polygon_source.end()};
     return {layout_.vertex_source.begin(), layout_.vertex_source.end()};
   }
 
-  void add_numbers(const Attribute& attribute) {
-    const std::vector<uint32_t> rows = rows_of(attribute);
+  void add_numbers(const Attribute& attribute, StoredAttribute* stored) {
+    const std::vector<uint32_t>& rows = stored->rows;
     const uint32_t n = attribute.components;
     if (n == 0 || n > kMaxAttributeComponents)
       throw Error(ErrorKind::kInput,
                   attribute.name + ": 1 to 16 components are possible, not " + std::to_string(n));
     check_count(attribute.values.size(), rows.size() * n * attribute.frames, attribute.name);
-    AttributeHeader& header = add_header(
-        attribute.kind, attribute.per_corner ? AttributeDomain::kCorner : AttributeDomain::kVertex,
-        attribute.name);
+    AttributeHeader& header = add_header(attribute.kind, attribute.domain, attribute.name);
     for (uint32_t i = 0; i < n; ++i)
       header.grids.push_back(grid_of(attribute, i));
-    if (moves(attribute) && !attribute.per_corner)
+    if (moves(attribute))
       refine(attribute, &header);
     std::vector<int32_t> truth;
     truth.reserve(rows.size() * n);
@@ -168,7 +170,47 @@ class AttributeWriter {
         truth.push_back(static_cast<int32_t>(integer));
       }
     }
-    code(header, truth);
+    stored->header = header;
+    if (!moves(attribute))
+      return static_cast<void>(code(header, truth));
+    const std::vector<uint32_t> tracks = trajectories(attribute, rows);
+    stored->surface = attribute_surface(graph_, header.domain, code(header, truth, tracks.data()));
+  }
+
+  /// A number for each element: those at one coded vertex whose values stay close to those of the first have its
+  /// number.
+  std::vector<uint32_t> trajectories(const Attribute& attribute, const std::vector<uint32_t>& rows) const {
+    constexpr double kShare = 0.125;  // of the error
+    constexpr size_t kMost = 256;     // looked at
+    const auto allowed = static_cast<float>(kShare * error_bound(attribute, options_));
+    const size_t n = attribute.components, frame = n * rows.size();
+    const auto close = [&](uint32_t a, uint32_t b) {
+      for (size_t f = 0; f < attribute.frames; ++f) {
+        const float* values = attribute.values.data() + f * frame;
+        for (size_t i = 0; i < n; ++i) {
+          if (!(std::abs(values[n * rows[a] + i] - values[n * rows[b] + i]) <= allowed))
+            return false;
+        }
+      }
+      return true;
+    };
+    std::vector<uint32_t> result(rows.size());
+    std::iota(result.begin(), result.end(), 0U);
+    if (attribute.domain == AttributeDomain::kPolygon)
+      return result;
+    std::vector<std::vector<uint32_t>> at(layout_.topology.coded_vertices);
+    for (uint32_t e = 0; e < rows.size(); ++e) {
+      std::vector<uint32_t>& known =
+          at[attribute.per_corner() ? graph_.coded(e) : layout_.topology.vertex_coded[e]];
+      const size_t looked_at = std::min(known.size(), kMost);
+      const auto found = std::find_if(known.end() - static_cast<ptrdiff_t>(looked_at), known.end(),
+                                      [&](uint32_t other) { return close(e, other); });
+      if (found == known.end())
+        known.push_back(e);
+      else
+        result[e] = *found;
+    }
+    return result;
   }
 
   void refine(const Attribute& attribute, AttributeHeader* header) const {
@@ -225,7 +267,7 @@ class AttributeWriter {
                 normals.name);
     std::vector<uint32_t> rows(corners_.size()), places(corners_.size());
     for (uint32_t c = 0; c < corners_.size(); ++c) {
-      rows[c] = normals.per_corner ? corners_[c] : layout_.vertex_source[graph_.vertex(c)];
+      rows[c] = normals.per_corner() ? corners_[c] : layout_.vertex_source[graph_.vertex(c)];
       places[c] = graph_.coded(c);
     }
     return share_normals(normals, rows, places, layout_.topology.coded_vertices);
@@ -237,12 +279,14 @@ class AttributeWriter {
            std::vector<int32_t>(shared.begin(), shared.end()));
   }
 
-  void code(const AttributeHeader& header, const std::vector<int32_t>& truth) {
+  AttributeEntries code(const AttributeHeader& header, const std::vector<int32_t>& truth,
+                        const uint32_t* apart = nullptr) {
     AttributeEntries entries;
     AttributeCoding<BinaryEncoder> coding(coder_, graph_, header.domain, header.components(),
-                                          truth.data(), &entries);
+                                          truth.data(), &entries, apart);
     if (coding.run() != Status::kOk)
       throw Error(ErrorKind::kInternal, "an attribute could not be coded");
+    return entries;
   }
 
   void add_labels(AttributeKind kind, const PolygonLabels& labels) {
@@ -332,7 +376,7 @@ std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
 void restore_attributes(const Vector<MeshAttribute>& decoded, MeshSequence* sequence) {
   for (const MeshAttribute& a : decoded) {
     const AttributeHeader& header = a.header;
-    if (header.domain == AttributeDomain::kPolygon) {
+    if (header.has_labels()) {
       PolygonLabels& labels =
           header.kind == AttributeKind::kMaterial ? sequence->materials : sequence->parts;
       labels = {};
@@ -347,7 +391,7 @@ void restore_attributes(const Vector<MeshAttribute>& decoded, MeshSequence* sequ
       Attribute& attribute = sequence->attributes.emplace_back();
       attribute.kind = header.kind;
       attribute.name.assign(header.name.begin(), header.name.end());
-      attribute.per_corner = header.domain == AttributeDomain::kCorner;
+      attribute.domain = header.domain;
       attribute.components = header.components();
       attribute.values.assign(a.values.begin(), a.values.end());
     }

@@ -34,6 +34,8 @@ struct StoredAttribute {
   uint32_t source = 0;  ///< its number in the sequence
   uint32_t number = 0;  ///< and in the file
   AttributeHeader header;
+  std::vector<uint32_t> rows;  ///< the source's element of each element in canonical order
+  Topology surface;            ///< of one that moves: attribute_surface(), in canonical order
 };
 
 /// Whether values of some frame differ from those of the first one. Normals and tangents never do:
@@ -50,7 +52,8 @@ std::vector<float> stored_values(const Attribute& attribute, const StoredAttribu
 /// ATTR) and counts of them (layout->sizes). Of normals only the hard edges are kept, unless options
 /// ask for more: corners at one coded vertex whose normals are less than half a degree apart share
 /// one. Materials and parts become labels of polygons. The steps of an attribute that moves are
-/// halved until its first frame takes a quarter of its error at most. Returns the attributes that
+/// halved until its first frame takes a quarter of its error at most, and its elements share what moves only where
+/// their values stay within an eighth of it. Returns the attributes that
 /// are stored as numbers. Throws Error(kInput) for values that are not
 /// finite, that do not fit the mesh, or that the grid cannot hold. Cost: O(corners log corners).
 std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,

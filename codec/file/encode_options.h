@@ -82,8 +82,6 @@ struct AttributeResult {
   AttributeKind kind = AttributeKind::kCustom;
   std::string name;
   uint32_t number = 0;  ///< in the file
-  bool kept = false;    ///< false: as in the first frame, for the reason in `note`
-  std::string note;
   uint32_t components = 0;  ///< of its basis; 0: it stays within the error of the first frame
   size_t bytes = 0;         ///< of its segments
   double asked = 0;         ///< largest error allowed

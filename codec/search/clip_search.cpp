@@ -26,10 +26,8 @@ std::vector<const EncodedSegment*> all_segments(const CodedClip& clip) {
 /// Room for the errors of attributes that move, which are yet to be measured.
 Vector<AttributeError> errors_of(const std::vector<AttributeResult>& attributes) {
   Vector<AttributeError> errors;
-  for (const AttributeResult& a : attributes) {
-    if (a.kept)
-      errors.push_back({0, static_cast<uint16_t>(a.number), 0, 0});
-  }
+  for (const AttributeResult& a : attributes)
+    errors.push_back({0, static_cast<uint16_t>(a.number), 0, 0});
   return errors;
 }
 

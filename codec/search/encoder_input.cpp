@@ -94,14 +94,21 @@ EncoderInput::EncoderInput(const EncoderInput& all, size_t number)
   clip.tolerance = 0;
 }
 
-EncoderInput::EncoderInput(const EncoderInput& mesh, FrameArray trajectories)
-    : layout(mesh.layout),
+EncoderInput::EncoderInput(const EncoderInput& clip_input, const Topology& surface, FrameArray trajectories)
+    : layout(clip_input.layout),
       coded(std::move(trajectories)),
-      clips(mesh.clips),
-      copies(mesh.copies),
-      on_trial(mesh.on_trial) {
-  sequence.vertex_count = mesh.sequence.vertex_count;
-  sequence.frame_count = mesh.sequence.frame_count;
+      clips(clip_input.clips),
+      copies(surface.coded_vertices, 0),
+      on_trial(clip_input.on_trial) {
+  layout.topology = surface;
+  layout.source_coded.assign(surface.vertex_coded.begin(), surface.vertex_coded.end());
+  layout.sizes.source_vertices = static_cast<uint32_t>(surface.vertex_coded.size());
+  layout.sizes.coded_vertices = surface.coded_vertices;
+  layout.sizes.triangles = static_cast<uint32_t>(surface.triangles.size() / 3);
+  for (uint32_t entry : surface.vertex_coded)
+    ++copies[entry];
+  sequence.vertex_count = layout.sizes.source_vertices;
+  sequence.frame_count = clip_input.sequence.frame_count;
   for (InputClip& clip : clips) {
     clip.tolerance = 0;
     clip.cap.reset();

@@ -47,8 +47,9 @@ struct EncoderInput {
   /// One of the clips alone, for another search with its own goal.
   EncoderInput(const EncoderInput& all, size_t clip);
 
-  /// Other trajectories over the same mesh: as many frames, frames x coded vertices x 3.
-  EncoderInput(const EncoderInput& mesh, FrameArray trajectories);
+  /// The trajectories of an attribute: frames of the clip x entries x 3, over its surface
+  /// (StoredAttribute::surface).
+  EncoderInput(const EncoderInput& clip, const Topology& surface, FrameArray trajectories);
 
   FrameView frames(size_t first, size_t count) const { return frames().frames(first, count); }
 

@@ -5,6 +5,7 @@
 #include "codec/search/rate_control.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
+#include "sdk/clip/attribute_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,6 @@
 namespace anicodec {
 namespace {
 
-/// Most of the error that copies of a vertex may take up by moving differently.
-constexpr double kSpreadShare = 0.5;
 /// Rounding of a value in binary32, against its magnitude.
 constexpr double kRounding = 0x1p-22;
 
@@ -29,49 +28,55 @@ std::shared_ptr<const EncodedPose> own_pose(const EncoderInput& input) {
 
 /// How three components of an attribute differ from those of frame 0 as stored.
 struct Offsets {
-  FrameArray frames;          ///< frames x coded vertices x 3
-  double spread = 0;          ///< largest distance of a copy from the mean of its vertex
-  double largest = 0;         ///< of the means
+  FrameArray frames;   ///< frames x entries x 3
+  double spread = 0;   ///< largest distance of an element from the mean of its entry
+  double largest = 0;  ///< of the means
 };
 
 class OffsetReader {
  public:
   OffsetReader(const EncoderInput& input, const StoredAttribute& stored, uint32_t first_frame)
       : input_(input),
+        stored_(stored),
         attribute_(input.sequence.attributes[stored.source]),
         rest_(stored_values(attribute_, stored)),
-        first_frame_(first_frame) {}
+        copies_(stored.surface.coded_vertices, 0),
+        first_frame_(first_frame) {
+    for (uint32_t entry : stored.surface.vertex_coded)
+      ++copies_[entry];
+  }
 
   Offsets read(uint32_t first_component) const {
     const uint32_t n = attribute_.components, width = std::min(n - first_component, 3U);
-    const std::vector<uint32_t>& coded = input_.layout.source_coded;
-    const size_t row = size_t{3} * input_.layout.sizes.coded_vertices;
+    const Vector<uint32_t>& entries = stored_.surface.vertex_coded;
+    const size_t row = size_t{3} * stored_.surface.coded_vertices;
     Offsets result;
     result.frames.resize(row * input_.sequence.frame_count);
-    std::vector<double> sums(row), moved(size_t{3} * coded.size());
+    std::vector<double> sums(row), moved(size_t{3} * entries.size());
     // All frames of the clip decide, so that parts of it agree.
     std::vector<float> other_frame(row);
     for (size_t f = 0; f < attribute_.frames; ++f) {
       const bool is_own = f >= first_frame_ && f - first_frame_ < input_.sequence.frame_count;
-      const float* values = attribute_.values.data() + f * coded.size() * n + first_component;
+      const float* values = attribute_.values.data() + f * entries.size() * n + first_component;
       const float* at_rest = rest_.data() + first_component;
       std::fill(sums.begin(), sums.end(), 0.0);
-      for (size_t v = 0; v < coded.size(); ++v) {
+      for (size_t e = 0; e < entries.size(); ++e) {
+        const size_t at = size_t{stored_.rows[e]} * n;
         for (size_t c = 0; c < width; ++c) {
-          moved[3 * v + c] =
-              static_cast<double>(values[v * n + c]) - static_cast<double>(at_rest[v * n + c]);
-          sums[size_t{3} * coded[v] + c] += moved[3 * v + c];
+          moved[3 * e + c] =
+              static_cast<double>(values[at + c]) - static_cast<double>(at_rest[at + c]);
+          sums[size_t{3} * entries[e] + c] += moved[3 * e + c];
         }
       }
       float* means = is_own ? result.frames.data() + row * (f - first_frame_) : other_frame.data();
       for (size_t i = 0; i < row; ++i)
-        means[i] = static_cast<float>(sums[i] / input_.copies[i / 3]);
-      for (size_t v = 0; v < coded.size(); ++v) {
-        const float* mean = means + size_t{3} * coded[v];
+        means[i] = static_cast<float>(sums[i] / copies_[i / 3]);
+      for (size_t e = 0; e < entries.size(); ++e) {
+        const float* mean = means + size_t{3} * entries[e];
         double away = 0, size = 0;
         for (size_t c = 0; c < width; ++c) {
           const auto m = static_cast<double>(mean[c]);
-          away += (moved[3 * v + c] - m) * (moved[3 * v + c] - m);
+          away += (moved[3 * e + c] - m) * (moved[3 * e + c] - m);
           size += m * m;
         }
         result.spread = std::max(result.spread, std::sqrt(away));
@@ -94,23 +99,37 @@ class OffsetReader {
 
  private:
   const EncoderInput& input_;
+  const StoredAttribute& stored_;
   const Attribute& attribute_;
   const std::vector<float> rest_;
+  std::vector<uint32_t> copies_;  ///< elements of each entry
   const uint32_t first_frame_;
 };
 
-std::vector<CodedPart> encode_offsets(const EncoderInput& input, FrameArray frames,
-                                      double bound, const EncodeOptions& options,
+/// The pose of a mesh as that of an attribute's entries.
+std::shared_ptr<const EncodedPose> pose_of_entries(const EncodedPose& pose, const MeshLayout& layout,
+                                                   const StoredAttribute& stored) {
+  auto result = std::make_shared<EncodedPose>();
+  result->grid = surface_pose(pose.grid, layout.topology, stored.header.domain, stored.surface);
+  return result;
+}
+
+std::vector<CodedPart> encode_offsets(const EncoderInput& input, const StoredAttribute& stored,
+                                      FrameArray frames, double bound, const EncodeOptions& options,
                                       const std::shared_ptr<const EncodedPose>& pose) {
-  EncoderInput trajectories(input, std::move(frames));
-  trajectories.pose = pose;
+  EncoderInput trajectories(input, stored.surface, std::move(frames));
+  trajectories.pose = pose_of_entries(*pose, input.layout, stored);
   EncodeOptions attribute_options = options;
   attribute_options.basis = BasisChoice::kEigentrajectories;
   attribute_options.keyframes.reset();
   attribute_options.cap.reset();
   const Target target{ErrorMetric::kMaxError, bound, false};
   trajectories.bound_clips(std::vector<ClipGoal>(trajectories.clips.size(), {target, {}, 0}));
-  return RateControl(trajectories, attribute_options, target).solve().parts;
+  std::vector<CodedPart> parts =
+      RateControl(trajectories, attribute_options, target).solve().parts;
+  for (CodedPart& part : parts)
+    part.encoded.reference = pose;
+  return parts;
 }
 
 }  // namespace
@@ -130,45 +149,37 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
     result.name = attribute.name;
     result.number = s.number;
     result.asked = error_bound(attribute, options.attributes);
-    if (attribute.per_corner) {
-      result.note = "changes at corners of polygons: kept as in the first frame";
-      out.results.push_back(result);
-      continue;
-    }
     const OffsetReader reader(input, s, first_frame);
     const double rounding = kRounding * reader.largest_value();
     std::vector<CodedPart> parts;
-    for (uint32_t first = 0; first < attribute.components && result.note.empty(); first += 3) {
+    for (uint32_t first = 0; first < attribute.components; first += 3) {
       Offsets offsets = reader.read(first);
       const double bound = result.asked - offsets.spread - rounding;
       if (!(rounding < result.asked / 4))
         throw Error(ErrorKind::kUsage,
                     attribute.name + ": the error asked for is finer than float32 values can keep");
-      if (offsets.spread > kSpreadShare * result.asked) {
-        result.note =
-            "changes differently in vertices that share a position: kept as in the first frame";
-      } else if (offsets.largest > bound) {
-        if (!pose)
-          pose = own_pose(input);
-        try {
-          for (CodedPart& part :
-               encode_offsets(input, std::move(offsets.frames), bound, options, pose)) {
-            part.encoded.sizes.attribute = s.number;
-            part.encoded.sizes.first_component = first;
-            parts.push_back(std::move(part));
-          }
-        } catch (const Error& error) {
-          throw Error(error.kind(), attribute.name + ": " + error.what());
+      if (!(offsets.largest > bound))
+        continue;
+      if (!pose)
+        pose = own_pose(input);
+      try {
+        for (CodedPart& part :
+             encode_offsets(input, s, std::move(offsets.frames), bound, options, pose)) {
+          Limits::Segment& sizes = part.encoded.sizes;
+          sizes.attribute = s.number;
+          sizes.first_component = first;
+          sizes.domain = attribute.domain;
+          sizes.entries = s.surface.coded_vertices;
+          parts.push_back(std::move(part));
         }
+      } catch (const Error& error) {
+        throw Error(error.kind(), attribute.name + ": " + error.what());
       }
     }
-    if (result.note.empty()) {
-      for (CodedPart& part : parts) {
-        result.bytes += part.encoded.bytes();
-        result.components = std::max(result.components, part.encoded.sizes.components);
-        out.parts.push_back(std::move(part));
-      }
-      result.kept = true;
+    for (CodedPart& part : parts) {
+      result.bytes += part.encoded.bytes();
+      result.components = std::max(result.components, part.encoded.sizes.components);
+      out.parts.push_back(std::move(part));
     }
     out.results.push_back(std::move(result));
   }

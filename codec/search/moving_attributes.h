@@ -19,12 +19,10 @@ struct MovingAttributes {
   std::vector<CodedPart> parts;
 };
 
-/// Codes how the values of attributes of vertices differ from those stored for frame 0, to the
-/// error that the options ask for: three components at a time are trajectories of the coded
-/// vertices, as positions are, over the geometry of `pose` (null: one of their own). Copies of a
-/// vertex move by the mean of what they do; where that is too far off, and for attributes of
-/// corners, the result says that the attribute stays as in frame 0. Components that stay within the
-/// error have no segment. Throws Error(kUsage) for an error that cannot be reached, Error(kInput)
+/// Codes how the values of attributes differ from those stored for frame 0, to the error that the options ask for:
+/// three components at a time are trajectories of the attribute's entries, as positions are of coded vertices, over
+/// the geometry of `pose` (null: one of their own). Elements of an entry move by the mean of what they do. Components
+/// that stay within the error have no segment. Throws Error(kUsage) for an error that cannot be reached, Error(kInput)
 /// for values that are not finite.
 MovingAttributes encode_moving_attributes(const EncoderInput& input,
                                           const std::vector<StoredAttribute>& stored,

@@ -25,7 +25,7 @@ void check_fits(const MeshSequence& first, const MeshSequence& next) {
     refuse(next, "has another up axis or unit than '" + first.name + "'");
   const bool fits = std::ranges::equal(
       next.attributes, first.attributes, [](const Attribute& a, const Attribute& b) {
-        return a.kind == b.kind && a.name == b.name && a.per_corner == b.per_corner &&
+        return a.kind == b.kind && a.name == b.name && a.domain == b.domain &&
                a.components == b.components;
       });
   if (!fits)

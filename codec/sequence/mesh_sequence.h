@@ -44,14 +44,18 @@ struct FrameRate {
 
 enum class UpAxis : uint8_t { kUnknown = 0, kY = 1, kZ = 2 };
 
-/// Values that stand beside the positions: of each vertex, or of each corner of the polygons.
+/// Values that stand beside the positions: of each vertex, of each corner of the polygons, or of each polygon.
 struct Attribute {
   AttributeKind kind = AttributeKind::kUv;
   std::string name;  ///< as in the source, "TEXCOORD_0"
-  bool per_corner = false;
+  AttributeDomain domain = AttributeDomain::kVertex;
   uint32_t components = 2;    ///< 2 for UV, 3 for normals, 4 for tangents, 3 or 4 for colours
   uint32_t frames = 1;        ///< 1: static, or as in the first frame; else as many as the sequence
   FrameArray values;  ///< frames x elements x components, row-major
+
+  bool per_vertex() const { return domain == AttributeDomain::kVertex; }
+
+  bool per_corner() const { return domain == AttributeDomain::kCorner; }
 };
 
 inline constexpr uint32_t kNoLabel = UINT32_MAX;
@@ -123,6 +127,13 @@ struct MeshSequence : MeshDetails {
     return {positions.data() + f * vertex_count * 3, size_t{vertex_count} * 3};
   }
 };
+
+/// How many values a domain has for each component and frame.
+inline size_t element_count(const MeshSequence& mesh, AttributeDomain domain) {
+  return domain == AttributeDomain::kCorner    ? mesh.polygons.corners.size()
+         : domain == AttributeDomain::kPolygon ? mesh.polygons.size()
+                                               : mesh.vertex_count;
+}
 
 /// Frames that follow one another.
 struct FrameRun {

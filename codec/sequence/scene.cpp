@@ -96,9 +96,10 @@ SceneMesh taken(const MeshSequence& whole, const PartMembers& members) {
   out.frame_count = static_cast<uint32_t>(frames.size());
   for (const Attribute& attribute : whole.attributes) {
     Attribute& mesh_attribute = out.attributes.emplace_back(attribute);
-    const std::vector<uint32_t>& rows = attribute.per_corner ? members.corners : members.vertices;
-    const size_t elements =
-        attribute.per_corner ? whole.polygons.corners.size() : whole.vertex_count;
+    const std::vector<uint32_t>& rows = attribute.per_corner()   ? members.corners
+                                        : attribute.per_vertex() ? members.vertices
+                                                                 : members.polygons;
+    const size_t elements = element_count(whole, attribute.domain);
     mesh_attribute.values.clear();
     for (uint32_t f : attribute.frames == 1 ? std::vector<uint32_t>{0} : frames) {
       for (uint32_t row : rows) {
@@ -216,7 +217,7 @@ MeshSequence merge_meshes(std::span<const MeshSequence> meshes) {
     has_materials |= !mesh.materials.of_polygon.empty();
   }
   for (const MeshSequence& mesh : meshes) {
-    const size_t first_corner = out.polygons.corners.size();
+    const size_t first_corner = out.polygons.corners.size(), first_polygon = out.polygons.size();
     for (size_t p = 0; p < mesh.polygons.size(); ++p)
       out.polygons.add(mesh.polygons[p]);
     for (size_t c = first_corner; c < out.polygons.corners.size(); ++c)
@@ -233,7 +234,7 @@ MeshSequence merge_meshes(std::span<const MeshSequence> meshes) {
     for (const Attribute& attribute : mesh.attributes) {
       auto found = std::find_if(out.attributes.begin(), out.attributes.end(), [&](const auto& a) {
         return a.kind == attribute.kind && a.name == attribute.name &&
-               a.per_corner == attribute.per_corner;
+               a.domain == attribute.domain;
       });
       if (found == out.attributes.end()) {
         found = out.attributes.insert(found, attribute);
@@ -243,14 +244,16 @@ MeshSequence merge_meshes(std::span<const MeshSequence> meshes) {
       Attribute& all = *found;
       if (attribute.components != all.components || attribute.frames != 1)
         continue;
-      const size_t before = attribute.per_corner ? first_corner : out.vertex_count;
+      const size_t before = attribute.per_corner()   ? first_corner
+                            : attribute.per_vertex() ? out.vertex_count
+                                                     : first_polygon;
       all.values.resize(before * all.components, all.kind == AttributeKind::kColour ? 1.0F : 0.0F);
       all.values.insert(all.values.end(), attribute.values.begin(), attribute.values.end());
     }
     out.vertex_count += mesh.vertex_count;
   }
   for (Attribute& attribute : out.attributes) {
-    const size_t elements = attribute.per_corner ? out.polygons.corners.size() : out.vertex_count;
+    const size_t elements = element_count(out, attribute.domain);
     attribute.values.resize(elements * attribute.components,
                             attribute.kind == AttributeKind::kColour ? 1.0F : 0.0F);
   }

@@ -58,7 +58,7 @@ std::vector<uint32_t> known_shared_normals(const MeshSequence& sequence,
     return own;
   }
   std::vector<uint32_t> rows = corners, places = corners;
-  if (normals->per_corner)
+  if (normals->per_corner())
     std::iota(rows.begin(), rows.end(), 0U);
   if (!sequence.positions.empty()) {
     std::map<std::array<float, 3>, uint32_t> first;

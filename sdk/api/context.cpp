@@ -89,8 +89,7 @@ anic_status find_attribute(const anic_context* context, uint32_t mesh, uint32_t 
   if (status != ANIC_OK && status != ANIC_E_ABSENT)
     return status;
   const Vector<MeshAttribute>& attributes = context->asset->clip.meshes()[mesh].attributes;
-  if (attribute >= attributes.size() ||
-      attributes[attribute].header.domain != AttributeDomain::kVertex)
+  if (attribute >= attributes.size() || attributes[attribute].header.components() == 0)
     return ANIC_E_ARGUMENT;
   *out = &attributes[attribute];
   return status;
@@ -323,7 +322,8 @@ anic_status anic_write_attribute(const anic_context* context, uint32_t mesh, uin
       status != ANIC_OK)
     return status;
   const Clip& clip = context->asset->clip;
-  if (!is_range(clip, mesh, first, count))
+  const uint32_t elements = found->header.elements(clip.limits().meshes[mesh]);
+  if (first > elements || count > elements - first)
     return ANIC_E_ARGUMENT;
   const uint32_t components = found->header.components();
   anic_value_output wanted;

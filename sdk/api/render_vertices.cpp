@@ -27,8 +27,7 @@ constexpr size_t kLargestPosition = 16;
 const uint32_t* material_labels(const Mesh& mesh) {
   const auto found =
       std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [](const MeshAttribute& a) {
-        return a.header.kind == AttributeKind::kMaterial &&
-               a.header.domain == AttributeDomain::kPolygon && a.header.components() == 0;
+        return a.header.kind == AttributeKind::kMaterial;
       });
   return found == mesh.attributes.end() ? nullptr : found->labels.data();
 }
@@ -36,8 +35,11 @@ const uint32_t* material_labels(const Mesh& mesh) {
 Vector<CornerValues> corner_values(const Mesh& mesh) {
   Vector<CornerValues> result;
   for (const MeshAttribute& a : mesh.attributes) {
-    if (a.header.domain == AttributeDomain::kCorner && a.header.components() > 0)
-      result.push_back({a.values.data(), a.header.components()});
+    if (a.header.domain != AttributeDomain::kCorner || a.header.components() == 0)
+      continue;
+    result.push_back({a.values.data(), a.header.components()});
+    if (!a.surface.vertex_coded.empty())  // equal in frame 0 alone
+      result.push_back({a.surface.vertex_coded.data(), 1});
   }
   return result;
 }
@@ -203,13 +205,18 @@ anic_status anic_write_render_attribute(const anic_render_plan* plan, const anic
   ValueOutput output;
   if (Status status = ValueOutput::make(wanted, components, count, &output); status != Status::kOk)
     return c_status(status);
-  if (found.header.domain == AttributeDomain::kCorner) {
-    for (uint32_t r = first; r < first + count; ++r)
-      output.store(found.values.data() + size_t{components} * plan->plan.corners[r], 1);
-    return ANIC_OK;
-  }
   const auto [begin, end] = clip.attribute_tracks(plan->mesh, attribute);
   float values[kValueRange * kMaxAttributeComponents];
+  if (found.header.domain == AttributeDomain::kCorner) {
+    for (uint32_t r = first; r < first + count; ++r) {
+      const uint32_t corner = plan->plan.corners[r];
+      std::copy_n(found.values.data() + size_t{components} * corner, components, values);
+      for (uint32_t t = begin; t < end; ++t)
+        context->states[when].samples[t].add_motion(components, corner, 1, values);
+      output.store(values, 1);
+    }
+    return ANIC_OK;
+  }
   const uint32_t* vertices = plan->plan.vertices.data();
   for_each_run(
       plan->plan, first, count, kValueRange,

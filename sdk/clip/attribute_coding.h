@@ -86,37 +86,58 @@ class CornerGraph {
 struct AttributeEntries {
   Vector<uint32_t> of_element;
   Vector<int32_t> numbers;  ///< entries x components
+  uint32_t count = 0;
 };
 
-/// Codes an attribute of vertices or corners. `truth` (elements x max(components, 1)) is what an
-/// encoder codes; elements with equal rows at one coded vertex get one entry.
+/// Codes an attribute of numbers. `truth` (elements x max(components, 1)) is what an encoder codes; elements of
+/// vertices and corners with equal rows at one coded vertex get one entry, if they also have the same number in
+/// `apart` (null: all have). Polygons have an entry each.
 template <class Coder>
 class AttributeCoding {
  public:
   AttributeCoding(Coder& coder, const CornerGraph& graph, AttributeDomain domain,
-                  uint32_t components, const int32_t* truth, AttributeEntries* out)
+                  uint32_t components, const int32_t* truth, AttributeEntries* out,
+                  const uint32_t* apart = nullptr)
       : coder_(coder),
         graph_(graph),
+        domain_(domain),
         per_corner_(domain == AttributeDomain::kCorner),
         components_(components),
         truth_(truth),
+        apart_(apart),
+        out_(out),
         entry_(out->of_element),
         numbers_(out->numbers) {
     const Topology& t = graph.topology();
-    entry_.assign(per_corner_ ? graph.corner_count() : t.vertex_coded.size(), CornerGraph::kNone);
+    entry_.assign(domain == AttributeDomain::kPolygon ? graph.polygon_count()
+                  : per_corner_                       ? graph.corner_count()
+                                                      : t.vertex_coded.size(),
+                  CornerGraph::kNone);
     newest_.assign(t.coded_vertices, CornerGraph::kNone);
     last_.assign(components, 0);
     guess_.assign(components, 0);
   }
 
   Status run() {
+    const Status status = run_all();
+    out_->count = static_cast<uint32_t>(older_.size());
+    return status;
+  }
+
+ private:
+  Status run_all() {
     for (uint32_t p = 0; p < graph_.polygon_count(); ++p) {
-      choose(p);
-      predict(p);
+      if (domain_ == AttributeDomain::kPolygon) {
+        add_entry(p, CornerGraph::kNone);
+        code_numbers(p, guess_polygon(p), guess_.data());
+      } else {
+        choose(p);
+        predict(p);
+      }
       if (!alive())
         return Status::kEntropy;
     }
-    for (uint32_t v = 0; !per_corner_ && v < entry_.size(); ++v) {
+    for (uint32_t v = 0; domain_ == AttributeDomain::kVertex && v < entry_.size(); ++v) {
       if (entry_[v] != CornerGraph::kNone)
         continue;
       if (choose_entry(v, graph_.topology().vertex_coded[v], newest_of(v), 0))
@@ -127,7 +148,6 @@ class AttributeCoding {
     return Status::kOk;
   }
 
- private:
   /// Rules of prediction, by what is known around a corner; contexts of the residuals.
   enum Rule : uint32_t { kInside, kAcross, kStraight, kMiddle, kBefore, kNothing, kRules };
 
@@ -189,13 +209,17 @@ class AttributeCoding {
         return false;
       }
     }
-    entry_[e] = static_cast<uint32_t>(older_.size());
-    older_.push_back(newest_[coded]);
+    add_entry(e, newest_[coded]);
     newest_[coded] = entry_[e];
+    return true;
+  }
+
+  void add_entry(uint32_t e, uint32_t older) {
+    entry_[e] = static_cast<uint32_t>(older_.size());
+    older_.push_back(older);
     numbers_.resize(numbers_.size() + components_);
     if (truth_)
       maker_.push_back(e);
-    return true;
   }
 
   /// The entry at a coded vertex that has the element's truth, or kNone.
@@ -205,7 +229,8 @@ class AttributeCoding {
     for (uint32_t at = newest_[coded]; at != CornerGraph::kNone && *steps <= kMaxWalk;
          at = older_[at], ++*steps) {
       const int32_t* other = truth_ + columns * maker_[at];
-      if (std::equal(other, other + columns, truth_ + columns * e))
+      if (std::equal(other, other + columns, truth_ + columns * e) &&
+          (!apart_ || apart_[e] == apart_[maker_[at]]))
         return at;
     }
     return CornerGraph::kNone;
@@ -271,6 +296,23 @@ class AttributeCoding {
     return kBefore;
   }
 
+  /// Predicts the numbers of a polygon from those of the first two across its edges.
+  Rule guess_polygon(uint32_t p) {
+    const int32_t* near[2];
+    uint32_t found = 0;
+    for (uint32_t c = graph_.begin(p); c < graph_.end(p) && found < 2; ++c) {
+      if (graph_.across(c) != CornerGraph::kNone)
+        near[found++] = numbers_.data() + size_t{components_} * graph_.polygon(graph_.across(c));
+    }
+    if (found == 0) {
+      guess_ = last_;
+      return kNothing;
+    }
+    for (uint32_t i = 0; i < components_; ++i)
+      guess_[i] = static_cast<int32_t>((int64_t{near[0][i]} + near[found - 1][i]) >> 1);
+    return found == 2 ? kMiddle : kBefore;
+  }
+
   Rule sum(uint32_t a, uint32_t b, uint32_t minus, Rule rule) {
     for (uint32_t i = 0; i < components_; ++i)
       guess_[i] =
@@ -304,9 +346,12 @@ class AttributeCoding {
 
   Coder& coder_;
   const CornerGraph& graph_;
+  const AttributeDomain domain_;
   const bool per_corner_;
   const uint32_t components_;
   const int32_t* truth_;
+  const uint32_t* apart_;
+  AttributeEntries* out_;
   Vector<uint32_t>& entry_;  ///< of each element
   Vector<int32_t>& numbers_;
   Vector<uint32_t> newest_;  ///< entry of each coded vertex

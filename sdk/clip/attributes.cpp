@@ -3,6 +3,7 @@
 #include "sdk/clip/attributes.h"
 
 #include "sdk/clip/attribute_coding.h"
+#include "sdk/clip/attribute_surface.h"
 
 #include <cmath>
 #include <utility>
@@ -10,9 +11,9 @@
 namespace anicodec {
 namespace {
 
-Status decode_values(BinaryDecoder& decoder, const CornerGraph& graph, MeshAttribute* out) {
+Status decode_values(BinaryDecoder& decoder, const CornerGraph& graph, bool moves, MeshAttribute* out) {
   const AttributeHeader& header = out->header;
-  if (header.domain == AttributeDomain::kPolygon) {
+  if (header.has_labels()) {
     out->labels.assign(graph.polygon_count(), 0);
     return code_labels(decoder, graph, static_cast<uint32_t>(header.labels.size()) + 1,
                        &out->labels);
@@ -40,6 +41,8 @@ Status decode_values(BinaryDecoder& decoder, const CornerGraph& graph, MeshAttri
         return Status::kNonFinite;
     }
   }
+  if (moves)
+    out->surface = attribute_surface(graph, header.domain, std::move(entries));
   return Status::kOk;
 }
 
@@ -64,6 +67,7 @@ void permute(const Vector<uint32_t>& from, AttributeDomain domain,
       continue;
     permute(from, a.header.components(), &a.values);
     permute(from, 1, &a.labels);
+    permute(from, 1, &a.surface.vertex_coded);
   }
 }
 
@@ -77,7 +81,7 @@ Vector<uint32_t> inverse(const Vector<uint32_t>& permutation) {
 }  // namespace
 
 Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& sizes,
-                         const Topology& topology, Vector<MeshAttribute>* out) {
+                         const Topology& topology, const Vector<uint8_t>& moving, Vector<MeshAttribute>* out) {
   // Each attribute looks at all corners, also where few elements share them.
   if (uint64_t{sizes.corners} * record.attributes.size() >
       uint64_t{16} * sizes.corners + 256 * sizes.attribute_numbers + 4096 * record.attributes.size())
@@ -88,7 +92,8 @@ Status decode_attributes(const AttributeRecord& record, const Limits::Mesh& size
   for (size_t i = 0; i < out->size(); ++i) {
     MeshAttribute& attribute = (*out)[i];
     attribute.header = record.attributes[i];
-    if (Status s = decode_values(decoder, graph, &attribute); s != Status::kOk)
+    const bool moves = moving[i] == 1 + static_cast<uint8_t>(attribute.header.domain);
+    if (Status s = decode_values(decoder, graph, moves, &attribute); s != Status::kOk)
       return s;
   }
   return decoder.finish() ? Status::kOk : Status::kEntropy;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/clip.h"
 
+#include "sdk/clip/attribute_surface.h"
 #include "sdk/clip/file_checks.h"
 #include "sdk/clip/kept_meshes.h"
 #include "sdk/clip/memory_estimate.h"
@@ -26,7 +27,7 @@ double opening_work(const Limits& limits, const OpenOptions& options) {
   for (const Limits::Mesh& mesh : limits.meshes)
     work += mesh_work(mesh);
   for (const Limits::Segment& s : limits.segments)
-    work += segment_work(s, limits.meshes[s.mesh], options.quality) +
+    work += segment_work(s, s.coded_over(limits.meshes[s.mesh]), options.quality) +
             (s.exact && options.opens_exact()
                  ? 3.0 * kExactWork * s.frames * limits.meshes[s.mesh].coded_vertices
                  : 0);
@@ -77,8 +78,11 @@ bool has_room_for_kept(const Limits& limits, const OpenOptions& options) {
   return estimate.opening <= allowed && estimate.kept <= allowed - estimate.opening;
 }
 
-/// Whether what a segment cannot do without is there: its record and its pose.
+/// Whether what a segment cannot do without is there: its record and its pose, and the attribute that it moves.
 bool has_arrived(const ContainerReader& file, const Limits::Segment& sizes, uint32_t number) {
+  const Chunk* attributes = file.find("ATTR", sizes.mesh);
+  if (sizes.attribute != kPositions && attributes && !file.has(*attributes))
+    return false;
   const Chunk* record = file.find("SEGM", sizes.mesh, number);
   const Chunk* pose = file.find("POSE", sizes.mesh, number);
   if (!pose)
@@ -135,6 +139,7 @@ Failure Clip::open(const ContainerReader& file, const OpenOptions& wanted) {
   const Vector<uint32_t> predicted = predicted_segments(limits_);
   for (size_t m = 0; m < work_.size(); ++m)
     work_[m].predicted_segments = predicted[m];
+  list_tracks();
   Failure failure = open_meshes(file, options);
   if (failure.ok())
     failure = open_segments(file, options);
@@ -146,6 +151,8 @@ Failure Clip::open(const ContainerReader& file, const OpenOptions& wanted) {
   poses_ = Vector<MeshPose>();
   for (Mesh& mesh : meshes_) {
     mesh.topology.triangles = Vector<uint32_t>();
+    for (MeshAttribute& attribute : mesh.attributes)
+      attribute.surface.triangles = Vector<uint32_t>();
   }
   if (!failure.ok())
     *this = Clip();
@@ -250,8 +257,8 @@ uint32_t Clip::clip_at(uint32_t frame) const {
 
 Failure Clip::open_meshes(const ContainerReader& file, const OpenOptions& options) {
   const size_t count = limits_.meshes.size();
-  const bool kept =
-      options.kept && options.kept->take(limits_.meshes, record_.order, &meshes_, &poses_);
+  const bool kept = options.kept &&
+                    options.kept->take(limits_.meshes, record_.order, &meshes_, &poses_) && has_surfaces();
   if (!kept) {
     meshes_ = Vector<Mesh>(count);
     poses_ = Vector<MeshPose>(count);
@@ -320,8 +327,14 @@ Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
     return f;
   AttributeRecord record;
   Status s = AttributeRecord::read(payload, limits_.meshes[mesh], &record);
+  Vector<uint8_t> moving(kMaxAttributes, 0);
+  for (uint32_t a = 0; a < moving.size(); ++a) {
+    const auto [first, last] = attribute_tracks(mesh, a);
+    if (first != last)
+      moving[a] = 1 + static_cast<uint8_t>(limits_.segments[by_frame_[tracks_[first].begin]].domain);
+  }
   if (s == Status::kOk)
-    s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology,
+    s = decode_attributes(record, limits_.meshes[mesh], meshes_[mesh].topology, moving,
                           &meshes_[mesh].attributes);
   return s == Status::kOk ? Failure{} : failure_in(*chunk, s, "the attributes are damaged");
 }
@@ -330,6 +343,17 @@ Failure Clip::open_attributes(const ContainerReader& file, uint16_t mesh,
 bool Clip::has_attributes() const {
   for (size_t m = 0; m < meshes_.size(); ++m) {
     if (limits_.meshes[m].attributes > 0 && meshes_[m].attributes.empty())
+      return false;
+  }
+  return true;
+}
+
+/// Whether the attributes that move, where they are there, have what their segments are over.
+bool Clip::has_surfaces() const {
+  for (size_t t = meshes_.size(); t < tracks_.size(); ++t) {
+    const Track& track = tracks_[t];
+    const Vector<MeshAttribute>& attributes = meshes_[track.mesh].attributes;
+    if (track.attribute < attributes.size() && attributes[track.attribute].surface.coded_vertices == 0)
       return false;
   }
   return true;
@@ -345,7 +369,7 @@ void Clip::list_tracks() {
     segments_[i].first_frame = sizes.first_frame;
   }
   by_frame_ = limits_.segments_by_frame();
-  tracks_.resize(meshes_.size());
+  tracks_.resize(limits_.meshes.size());
   for (uint32_t m = 0; m < tracks_.size(); ++m)
     tracks_[m].mesh = m;
   for (uint32_t i = 0; i < by_frame_.size(); ++i) {
@@ -361,7 +385,6 @@ void Clip::list_tracks() {
 }
 
 Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& options) {
-  list_tracks();
   // Layers by segment, in file order, in one pass.
   Vector<Vector<const Chunk*>> layers(segments_.size());
   for (const Chunk& chunk : file.chunks()) {
@@ -389,6 +412,37 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
   return {};
 }
 
+/// What the segments of an attribute share, made for the first of them. kIndexRange: there is no such attribute;
+/// kChunkMissing: the mesh has no pose.
+Status Clip::attribute_work(const Limits::Segment& sizes, AttributeWork** out) {
+  const Mesh& mesh = meshes_[sizes.mesh];
+  if (sizes.attribute >= mesh.attributes.size())
+    return Status::kIndexRange;
+  const MeshAttribute& attribute = mesh.attributes[sizes.attribute];
+  const AttributeDomain domain = attribute.header.domain;
+  if (domain != sizes.domain || sizes.first_component >= attribute.header.components() ||
+      attribute.surface.coded_vertices != sizes.entries)
+    return Status::kIndexRange;
+  const PoseGrid& pose = poses_[sizes.mesh].grid;
+  if (pose.points.empty())
+    return Status::kChunkMissing;
+  Vector<AttributeWork>& all = work_[sizes.mesh].attributes;
+  auto found = std::find_if(all.begin(), all.end(),
+                            [&](const AttributeWork& w) { return w.attribute == sizes.attribute; });
+  if (found == all.end()) {
+    all.emplace_back();
+    found = all.end() - 1;
+    found->attribute = sizes.attribute;
+    found->sizes = sizes.coded_over(limits_.meshes[sizes.mesh]);
+    found->pose = surface_pose(pose, mesh.topology, domain, attribute.surface);
+    const Vector<uint32_t>& links = attribute.surface.triangles;
+    if (Status s = found->graph.init(links.data(), links.size() / 3, sizes.entries); s != Status::kOk)
+      return s;
+  }
+  *out = &*found;
+  return Status::kOk;
+}
+
 Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
                            const Vector<const Chunk*>& layers, const OpenOptions& options) {
   const Limits::Segment& sizes = limits_.segments[number];
@@ -400,14 +454,6 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   Status s = SegmentRecord::read(payload, &record);
   if (s != Status::kOk)
     return failure_in(*chunk, s, "the segment record is malformed");
-  if (sizes.attribute != kPositions) {
-    const Vector<MeshAttribute>& attributes = meshes_[sizes.mesh].attributes;
-    const bool unknown = attributes.empty() && options.prefix;  // not there yet
-    if (!unknown && !(sizes.attribute < attributes.size() &&
-                      attributes[sizes.attribute].header.domain == AttributeDomain::kVertex &&
-                      sizes.first_component < attributes[sizes.attribute].header.components()))
-      return failure_in(*chunk, Status::kIndexRange, "the segment is of no attribute of the vertices");
-  }
   SegmentContext context;
   context.sizes = &sizes;
   context.mesh_sizes = &limits_.meshes[sizes.mesh];
@@ -427,6 +473,19 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   }
   if (context.pose->points.empty())
     context.pose = nullptr;
+  if (sizes.attribute != kPositions) {
+    AttributeWork* shared = nullptr;
+    if (s = attribute_work(sizes, &shared); s != Status::kOk)
+      return failure_in(*chunk, s,
+                        s == Status::kIndexRange ? "the segment is of no attribute of the mesh"
+                                                 : "the attribute has nothing to be predicted over");
+    context.mesh_sizes = &shared->sizes;
+    context.topology = &meshes_[sizes.mesh].attributes[sizes.attribute].surface;
+    context.vertex_coded = &context.topology->vertex_coded;
+    context.pose = &shared->pose;
+    context.graph = &shared->graph;
+    context.order = &shared->order;
+  }
   context.quality = options.quality;
   for (const Chunk* layer : layers) {
     if (options.prefix && !file.has(*layer)) {
@@ -450,7 +509,7 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   context.trace = options.trace;
   context.progress = options.progress;
   context.threads = options.threads;
-  if (sizes.kind != BasisKind::kKeyframes)
+  if (sizes.attribute == kPositions && sizes.kind != BasisKind::kKeyframes)
     s = work.shared_graph(*context.topology, &context.graph);
   else if (is_predicted(sizes) && work.is_shared())
     context.corners = &work.corner_table(*context.topology);
@@ -517,9 +576,12 @@ const Segment* Clip::segment_at(uint32_t track, uint32_t frame) const {
 
 size_t Clip::resident_bytes() const {
   size_t total = 0;
-  for (const Mesh& m : meshes_)
+  for (const Mesh& m : meshes_) {
     total += 4 * (m.topology.vertex_coded.size() + m.topology.polygon_offsets.size() +
                   m.topology.polygon_corners.size());
+    for (const MeshAttribute& a : m.attributes)
+      total += 4 * a.surface.vertex_coded.size();
+  }
   for (const auto& m : limits_.meshes)
     total += attribute_bytes(m);
   for (const Segment& s : segments_)
@@ -541,7 +603,7 @@ Status Clip::attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame,
   if (frame >= frame_count())
     return Status::kFrameRange;
   if (mesh >= meshes_.size() || attribute >= meshes_[mesh].attributes.size() ||
-      meshes_[mesh].attributes[attribute].header.domain != AttributeDomain::kVertex)
+      meshes_[mesh].attributes[attribute].header.components() == 0)
     return Status::kArgument;
   const MeshAttribute& still = meshes_[mesh].attributes[attribute];
   std::copy(still.values.begin(), still.values.end(), out);

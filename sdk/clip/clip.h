@@ -169,8 +169,8 @@ class Clip {
   /// frames are played one after the other, make_sample() allocates nothing there either.
   Status positions(uint32_t mesh, uint32_t frame, float* out) const;
 
-  /// Values of an attribute of vertices in one frame, vertices x components, moving or not. Errors:
-  /// kFrameRange, kArgument: no such attribute of vertices. Cost: as positions(), for each track.
+  /// Values of an attribute of numbers in one frame, elements x components, moving or not. Errors:
+  /// kFrameRange, kArgument: no such attribute. Cost: as positions(), for each track.
   Status attribute_values(uint32_t mesh, uint32_t attribute, uint32_t frame, float* out) const;
 
   /// Whether something had not arrived: segments have no frames, fewer components than options
@@ -190,6 +190,8 @@ class Clip {
   Failure open_root(const ContainerReader& file);
   void turn_corrections();
   bool has_attributes() const;
+  bool has_surfaces() const;
+  Status attribute_work(const Limits::Segment& sizes, AttributeWork** out);
   void list_tracks();
   Failure open_attributes(const ContainerReader& file, uint16_t mesh, const OpenOptions& options);
   Failure open_segments(const ContainerReader& file, const OpenOptions& options);

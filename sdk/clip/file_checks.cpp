@@ -102,6 +102,8 @@ Failure check_places(const ContainerReader& file, const Limits& limits, OrderMod
       return segment.exact;
     if (chunk.type == chunk_type("BNDS"))
       return segment.attribute == kPositions;
+    if (chunk.type == chunk_type("POSE") && segment.attribute != kPositions)
+      return false;
     return chunk.type == chunk_type("SEGM") || segment.kind != BasisKind::kKeyframes;
   };
   for (const Chunk& chunk : file.chunks()) {
@@ -148,20 +150,21 @@ Failure read_limits(const ContainerReader& file, const OpenOptions& options, Lim
   // Decisions over the frames that have corrections, against what else there is to decode.
   uint64_t decisions = 0, allowed = uint64_t{1} << 20;
   for (const auto& s : out->segments) {
+    const Limits::Mesh mesh = s.coded_over(out->meshes[s.mesh]);
     if (s.components > options.limits.components)
       return failure_in(*chunk, Status::kLimit, "more components than allowed");
     uint64_t channels = s.kind == BasisKind::kEigentrajectories ? 1 : 3;
-    uint64_t coefficients = channels * s.components * out->meshes[s.mesh].coded_vertices;
+    uint64_t coefficients = channels * s.components * mesh.coded_vertices;
     uint64_t weights =
         uint64_t{4} * s.regions * s.frames * s.components * (channels == 1 ? 3 : 1);
     if (coefficients > plausible * 64 || weights > plausible * 64)
       return failure_in(*chunk, Status::kLimit, "counts that no file of this size can hold");
-    if (s.draco_bytes > file.file_size() || s.draco_points / 3 > out->meshes[s.mesh].triangles)
+    if (s.draco_bytes > file.file_size() || s.draco_points / 3 > mesh.triangles)
       return failure_in(*chunk, Status::kLimit, "more of Draco than the mesh or the file can hold");
-    if (s.exact && uint64_t{s.frames} * out->meshes[s.mesh].coded_vertices > plausible)
+    if (s.exact && uint64_t{s.frames} * mesh.coded_vertices > plausible)
       return failure_in(*chunk, Status::kLimit, "more exact positions than a file of this size can hold");
     decisions += uint64_t{std::min(s.frames, s.corrections)} *
-                 block_count(out->meshes[s.mesh].coded_vertices);
+                 block_count(mesh.coded_vertices);
     allowed += coefficients + weights / 4;
   }
   if (decisions / 16 > allowed + std::min(file.file_size(), UINT64_MAX >> 8) * 16)

@@ -180,11 +180,22 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality, bool exact)
     largest = std::max(largest, opening(m));
   }
   for (const Limits::Segment& s : limits.segments) {
-    const Limits::Mesh& mesh = limits.meshes[s.mesh];
+    const Limits::Mesh mesh = s.coded_over(limits.meshes[s.mesh]);
     const Limits::Segment wanted = coarser(s, quality, exact);
     open.add(resident(wanted, mesh));
     largest = std::max({largest, opening(wanted, mesh), exact_opening(wanted, mesh)});
     estimate.draco = std::max(estimate.draco, draco(s, mesh));
+  }
+  const Vector<uint32_t> order_of_segments = limits.segments_by_frame();
+  for (size_t i = 0; i < order_of_segments.size(); ++i) {  // each attribute that moves, once
+    const Limits::Segment& s = limits.segments[order_of_segments[i]];
+    const Limits::Segment* before = i > 0 ? &limits.segments[order_of_segments[i - 1]] : nullptr;
+    if (s.attribute == kPositions || (before && before->mesh == s.mesh && before->attribute == s.attribute))
+      continue;
+    const Limits::Mesh surface = s.coded_over(limits.meshes[s.mesh]);
+    open.add(uint64_t{4} * surface.source_vertices);
+    until_open.add(held(surface) + shared(surface));
+    kept.add(uint64_t{4} * surface.source_vertices + uint64_t{12} * surface.triangles);
   }
   estimate.resident = open.total();
   open.add(until_open.total());

@@ -20,12 +20,22 @@ struct MeshPose {
   SharedOrder order;
 };
 
+/// What the segments of an attribute share until they are open.
+struct AttributeWork {
+  uint32_t attribute = 0;
+  Limits::Mesh sizes;
+  PoseGrid pose;
+  MeshGraph graph;
+  SharedOrder order;
+};
+
 /// Data of a mesh that its segments use while they open. All that follows from the connectivity alone
 /// is made once, so that no segment costs O(triangles); a lone segment keeps nothing of it.
 struct MeshWork {
   uint32_t predicted_segments = 0;     ///< of the limits
   std::optional<CornerTable> corners;  ///< for the poses
   std::optional<MeshGraph> graph;      ///< of the orders of vertices
+  Vector<AttributeWork> attributes;    ///< of those that move, in the order of their first segments
 
   bool is_shared() const { return predicted_segments > 1; }
 
@@ -64,11 +74,11 @@ inline bool is_predicted(const Limits::Segment& segment) {
   return segment.kind != BasisKind::kKeyframes || segment.draco_bytes == 0;
 }
 
-/// By mesh: how many of its segments are predicted.
+/// By mesh: how many of the segments of its positions are predicted.
 inline Vector<uint32_t> predicted_segments(const Limits& limits) {
   Vector<uint32_t> counts(limits.meshes.size(), 0);
   for (const Limits::Segment& s : limits.segments)
-    counts[s.mesh] += is_predicted(s);
+    counts[s.mesh] += s.attribute == kPositions && is_predicted(s);
   return counts;
 }
 

@@ -25,9 +25,9 @@ class CornerOrder {
     if (int order = compare_numbers(normals_.group[a], normals_.group[b]); order != 0)
       return order;
     for (const CornerValues& v : values_) {
-      const size_t n = v.components;
-      if (int order = std::memcmp(v.values + n * a, v.values + n * b, n * sizeof(float));
-          order != 0)
+      const auto* bytes = static_cast<const unsigned char*>(v.values);
+      const size_t n = sizeof(float) * v.components;
+      if (int order = std::memcmp(bytes + n * a, bytes + n * b, n); order != 0)
         return order;
     }
     return 0;

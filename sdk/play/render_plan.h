@@ -11,9 +11,9 @@
 
 namespace anicodec {
 
-/// Numbers of corners, `components` for each.
+/// Numbers of corners, `components` of 32 bits for each.
 struct CornerValues {
-  const float* values;
+  const void* values;
   uint32_t components;
 };
 

@@ -412,12 +412,19 @@ export class ClipMesh {
     return { positions: give(at, positions), normals: give(at + bytes, normals) };
   }
 
-  /** Values of an attribute, by its number or kind ('uv', 'colour'), of the vertices: vertexCount x components. */
+  /**
+   * Values of an attribute, by its number or kind ('uv', 'colour'), at a time: of the vertices, vertexCount x components; of one
+   * of polygons, of these.
+   */
   attribute(which, time = 0, out = undefined, options = undefined) {
     const found = this.attributes.find((a) => (typeof which === 'number' ? a.index === which : a.kind === which && a.components > 0));
-    if (!found || found.components === 0 || found.domain === 'polygon')
+    if (!found || found.components === 0)
       return undefined;
-    const context = this.#clip.seek(time, options), plan = this.#planned, count = this.vertexCount;
+    const context = this.#clip.seek(time, options);
+    if (found.domain === 'polygon')
+      return this.#write(Float32Array, found.components * found.count, out, (at, bytes) =>
+        this.#clip.decoder.call('write_attribute', context, this.#index, found.index, found.count, at, bytes));
+    const plan = this.#planned, count = this.vertexCount;
     return this.#write(Float32Array, found.components * count, out, (at, bytes) =>
       this.#clip.decoder.call('plan_attribute', plan, context, found.index, count, at, bytes, 0));
   }

@@ -91,13 +91,16 @@ TEST(AnicAttributeValues, OfOthersStandStillAndSayWhetherTheyMove) {
   EXPECT_EQ(paint.moves, 0);
   const std::vector<float> shown = values(box, context, 1);
   EXPECT_TRUE(std::equal(shown.begin(), shown.end(), paint.values));
-  // Of corners there is no value for each vertex.
-  float x = 0;
+  anic_attribute map = ANIC_INIT(anic_attribute);
+  ASSERT_EQ(anic_get_attribute(box.get(), 0, 0, &map), ANIC_OK);
+  ASSERT_EQ(map.domain, ANIC_DOMAIN_CORNERS);
+  std::vector<float> of_corners(size_t{map.count} * map.components);
   anic_value_output to = ANIC_INIT(anic_value_output);
-  to.data = &x;
-  to.size = sizeof x;
-  EXPECT_EQ(anic_write_attribute(context.get(), 0, 0, ANIC_WHEN_CURRENT, 0, 1, &to),
-            ANIC_E_ARGUMENT);
+  to.data = of_corners.data();
+  to.size = of_corners.size() * sizeof(float);
+  EXPECT_EQ(anic_write_attribute(context.get(), 0, 0, ANIC_WHEN_CURRENT, 0, map.count, &to),
+            ANIC_OK);
+  EXPECT_TRUE(std::equal(of_corners.begin(), of_corners.end(), map.values));
 }
 
 TEST(AnicAttributeValues, ComeInAnyFormatStrideAndRange) {

@@ -56,7 +56,7 @@ Bytes corner_values() {
   };
   Attribute uv;
   uv.name = "uv";
-  uv.per_corner = true;
+  uv.domain = AttributeDomain::kCorner;
   Numbers numbers;
   const auto value = [&](uint32_t number) {
     uv.values.push_back(static_cast<float>(-1.0 - (2 * number + 1) / 4096.0));

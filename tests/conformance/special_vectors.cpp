@@ -617,6 +617,65 @@ Bytes exact() {
   return encode(clip, options).file;
 }
 
+/// A shell of quadrangles, triangles and a vertex in no face whose attributes move, in the source's order: texture
+/// coordinates of corners that scroll but for one corner of a fan that turns on its own, four numbers of each
+/// polygon, one of each vertex that differs in copies, and colours of polygons that rest.
+Bytes domains() {
+  constexpr uint32_t kSide = 5, kFrames = 7, kVertices = kSide * kSide + 3;
+  MeshSequence clip;
+  clip.vertex_count = kVertices;
+  clip.frame_count = kFrames;
+  for (uint32_t y = 0; y + 1 < kSide; ++y) {
+    for (uint32_t x = 0; x + 1 < kSide; ++x) {
+      const uint32_t v = y * kSide + x;
+      if ((x + y) % 4 == 3) {
+        clip.polygons.add(std::vector<uint32_t>{v, v + 1, v + kSide + 1});
+        clip.polygons.add(std::vector<uint32_t>{v + kSide, v, v + kSide + 1});
+      } else {
+        clip.polygons.add(std::vector<uint32_t>{v + 1, v + kSide + 1, v + kSide, v});
+      }
+    }
+  }
+  clip.polygons.add(std::vector<uint32_t>{kSide * kSide, kSide * kSide + 1, 7});  // copies of the first two
+  for (uint32_t f = 0; f < kFrames; ++f) {
+    for (uint32_t v = 0; v < kVertices; ++v) {
+      const uint32_t of = v == kSide * kSide ? 0 : v == kSide * kSide + 1 ? 1 : v;
+      const double x = of % kSide, y = of / kSide;
+      clip.positions.push_back(static_cast<float>(x + 0.1 * std::sin(0.9 * f + y)));
+      clip.positions.push_back(static_cast<float>(y));
+      clip.positions.push_back(static_cast<float>(0.3 * std::cos(0.5 * f + x)));
+    }
+  }
+  const size_t corners = clip.polygons.corners.size(), polygons = clip.polygons.size();
+  Attribute uv{.kind = AttributeKind::kUv, .name = "uv", .domain = AttributeDomain::kCorner, .frames = kFrames, .values = {}};
+  Attribute cells{.name = "cells", .domain = AttributeDomain::kPolygon, .components = 4, .frames = kFrames, .values = {}};
+  Attribute heat{.name = "heat", .components = 1, .frames = kFrames, .values = {}};
+  cells.kind = heat.kind = AttributeKind::kCustom;
+  for (uint32_t f = 0; f < kFrames; ++f) {
+    for (size_t c = 0; c < corners; ++c) {
+      const uint32_t v = clip.polygons.corners[c];
+      const double turn = c == 9 ? 0.2 * f : 0, seam = c % 11 == 0 ? 0.5 : 0;
+      uv.values.push_back(static_cast<float>(0.1 * (v % kSide) + seam + 0.03 * f + turn));
+      uv.values.push_back(static_cast<float>(0.1 * (v / kSide) - 0.01 * f));
+    }
+    for (size_t p = 0; p < polygons; ++p) {
+      for (int k = 0; k < 4; ++k)
+        cells.values.push_back(static_cast<float>(10 * k + std::sin(0.4 * p + 0.6 * f * (k + 1)) * (k + 1)));
+    }
+    for (uint32_t v = 0; v < kVertices; ++v)
+      heat.values.push_back(static_cast<float>(20 + std::cos(0.3 * v + f) + (v == kSide * kSide ? 2.0 * f : 0)));
+  }
+  Attribute paint{.kind = AttributeKind::kColour, .name = "paint", .domain = AttributeDomain::kPolygon, .components = 3, .values = {}};
+  for (size_t i = 0; i < 3 * polygons; ++i)
+    paint.values.push_back(static_cast<float>(i / 12 % 3) / 2);
+  clip.attributes = {uv, cells, heat, paint};
+  EncodeOptions options;
+  options.target = {ErrorMetric::kKg, 1, false};
+  options.basis = BasisChoice::kEigentrajectories;
+  options.order = OrderMode::kAll;
+  return encode(clip, options).file;
+}
+
 constexpr SpecialVector kVectors[] = {{"schedules", schedules},
                                {"alike", alike},
                                {"vertex_order", vertex_order},
@@ -626,6 +685,7 @@ constexpr SpecialVector kVectors[] = {{"schedules", schedules},
                                {"walk", walk},
                                {"walk_y_up", walk_y_up},
                                {"exact", exact},
+                               {"domains", domains},
                                {"saturated", saturated},
                                {"layers", layers},
                                {"regions", regions},

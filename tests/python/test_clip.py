@@ -84,6 +84,20 @@ def test_normals(clip):
         clip.normals(np.zeros((2, 3)))
 
 
+def test_attributes_of_corners_and_polygons_that_move(wave):
+    positions, faces = wave
+    frames, turns = np.arange(len(positions))[:, None, None], np.arange(faces.size)[:, None] % 3
+    uv = (np.random.default_rng(1).random((faces.size, 2)) + 0.01 * frames + 0.02 * turns * np.sin(frames)).astype(np.float32)
+    pressure = (np.sin(0.2 * np.arange(len(faces))[:, None] + 0.1 * frames) * [1, 2, 3, 4]).astype(np.float32)
+    clip = anicodec.open(anicodec.encode(positions, faces, uv=uv, custom={"pressure": pressure}, order="faces", effort=1))
+    for number, values in enumerate((uv, pressure)):
+        attribute = clip.attributes[number]
+        assert attribute.moves and attribute.domain == ("corners", "polygons")[number]
+        for frame in (0, 7, 11):
+            off = np.abs(clip.attribute_at(number, frame / 24) - values[frame]).max()
+            assert off <= 0.0011 * (values.max(axis=(0, 1)) - values.min(axis=(0, 1))).max()
+
+
 def test_moving_attribute(wave):
     positions, faces = wave
     colours = np.clip(positions * [1, 1, 5] * 0.5 + 0.25, 0, 1)

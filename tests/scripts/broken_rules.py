@@ -144,6 +144,7 @@ def chunk_rules(files):
     yield 44, "vmap_of_free_order", triangle.more("VMAP", 0), "VMAP although the order is free"
     yield 44, "fmap_of_vertices", corrected.more("FMAP", 0), "FMAP although the order is that of vertices"
     yield 44, "mesh_beyond", triangle.more("MESH", 1), "MESH of a mesh that LIMI does not have"
+    yield 44, "pose_of_attribute", moved.more("POSE", 0, 1), "POSE of a segment of an attribute"
     yield 44, "mesh_of_segment", triangle.more("MESH", 0, 0), "MESH with a segment"
     yield 44, "segm_beyond", triangle.more("SEGM", 0, 1), "SEGM of a segment that LIMI does not have"
     yield 44, "pose_of_keyframes", triangle.more("POSE", 0, 0), "POSE of a segment of key-frames"
@@ -250,6 +251,12 @@ def limit_rules(files):
         yield 40, f"{name}_not_announced", file.needing(0), f"the feature bit of {name} is clear, and LIMI uses it"
         yield 40, f"{name}_not_used", triangle.needing(bit), f"the feature bit of {name} is set, and LIMI does not use it"
     yield 12, "first_feature", triangle.needing(8), "the first feature bit that is not assigned"
+    of_attribute = "LIMI segment 1 "
+    yield 12, "limi_domain", moved.put(of_attribute + "domain", b"\3"), "a domain that does not exist"
+    yield 40, "limi_no_entries", moved.put(of_attribute + "entries", b"\0"), "an attribute without an entry"
+    yield 40, "limi_many_entries", moved.put(of_attribute + "entries", varint(1 << 14)), "more entries than vertices"
+    yield 44, "limi_other_domain", moved.put(of_attribute + "domain", b"\1"), "an attribute of vertices moved as one of corners"
+    yield 44, "limi_fewer_entries", moved.put(of_attribute + "entries", b"\7"), "fewer entries than the attribute has"
     yield 40, "limi_shared_frame", scene.put("LIMI segment 2 first frame", scene.field("LIMI segment 1 first frame")), \
         "two segments of a mesh share frames"
     for label in ("labels", "bytes before the values", "numbers"):

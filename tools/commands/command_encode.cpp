@@ -82,7 +82,7 @@ separated by tabs. Clips that are done already, by the content of what goes in a
 left alone; one that fails does not stop the others.
 
 Texture coordinates, colours, other numbers, materials (values and names of images) and objects are
-kept; those of vertices in every frame, all others as they are in the first. Of normals the hard
+kept; numbers in every frame, all others as they are in the first. Of normals the hard
 edges are: normals come from the positions of a frame. What else a scene has is named as not kept.
 
 A LEN is in scene units (0.02), in per cent of the diagonal of the box around all frames (0.05%; of
@@ -231,7 +231,7 @@ StillSurface split_surface(MeshSequence& sequence) {
   StillSurface still;
   still.positions.assign(sequence.frame(0).begin(), sequence.frame(0).end());
   for (const Attribute& attribute : sequence.attributes) {
-    if (attribute.kind == AttributeKind::kNormal && !attribute.per_corner)
+    if (attribute.kind == AttributeKind::kNormal && attribute.per_vertex())
       still.normals.assign(attribute.values.begin(), attribute.values.end());
   }
   std::erase_if(sequence.attributes, [](const Attribute& attribute) {

@@ -306,7 +306,7 @@ std::string attribute_text(const AttributeHeader& a) {
   std::string text = fmt::format("{} of {}", name_of(a.kind), name_of(a.domain));
   if (!a.name.empty())
     text += fmt::format(" \"{}\"", a.name);
-  if (a.domain == AttributeDomain::kPolygon)
+  if (a.has_labels())
     return text + fmt::format(", {}{}", counted(a.labels.size(), "name"),
                               a.looks.empty() ? "" : " with their values");
   if (a.components() == 0)

@@ -389,7 +389,7 @@ uint64_t content_hash(const MeshSequence& sequence) {
   for (const Attribute& attribute : sequence.attributes) {
     hash.add(attribute.name);
     hash.add_value(attribute.kind);
-    hash.add_value(attribute.per_corner);
+    hash.add_value(attribute.domain);
     hash.add_value(attribute.components);
     hash.add(attribute.values);
   }

@@ -97,8 +97,6 @@ nlohmann::ordered_json EncodeReport::json() const {
   for (const AttributeResult& a : result.attributes)
     json["moving_attributes"].push_back({{"kind", name_of(a.kind)},
                                          {"name", a.name},
-                                         {"kept", a.kept},
-                                         {"note", a.note},
                                          {"bytes", a.bytes},
                                          {"asked", a.asked},
                                          {"max_error", a.max_error},
@@ -161,13 +159,9 @@ void EncodeReport::print_text(int verbosity) const {
     print_line("  needs the feature {}, which decoders may lack", feature_names(features));
   if (result.clips.size() > 1)
     print_clips(verbosity);
-  for (const AttributeResult& a : result.attributes) {
-    if (a.kept)
-      print_line("  {} \"{}\": {} bytes, max error {:.3g} of {:.3g}", name_of(a.kind), a.name,
-                 grouped(a.bytes), a.max_error, a.asked);
-    else
-      print_line("  {} \"{}\" {}", name_of(a.kind), a.name, a.note);
-  }
+  for (const AttributeResult& a : result.attributes)
+    print_line("  {} \"{}\": {} bytes, max error {:.3g} of {:.3g}", name_of(a.kind), a.name,
+               grouped(a.bytes), a.max_error, a.asked);
 }
 
 }  // namespace anicodec::tools

@@ -10,7 +10,7 @@ namespace anicodec::tools {
 namespace {
 
 bool is_alike(const Attribute& a, const Attribute& b) {
-  return a.kind == b.kind && a.name == b.name && a.per_corner == b.per_corner &&
+  return a.kind == b.kind && a.name == b.name && a.domain == b.domain &&
          a.components == b.components && a.values.size() == b.values.size();
 }
 
@@ -26,7 +26,7 @@ std::vector<AttributeDifference> attribute_differences(const AttributeSource& a,
     for (size_t i = 0; f == 0 && i < of_a.size(); ++i) {
       const auto found = std::ranges::find_if(
           of_b, [&](const Attribute& other) { return is_alike(of_a[i], other); });
-      if (found == of_b.end() || (of_a[i].per_corner && !corners))
+      if (found == of_b.end() || (!of_a[i].per_vertex() && !corners))
         continue;
       pairs.emplace_back(i, static_cast<size_t>(found - of_b.begin()));
       result.push_back({of_a[i].kind, of_a[i].name});

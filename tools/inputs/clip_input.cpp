@@ -275,8 +275,7 @@ AttributeSource play_attributes(const Clip& clip, const std::vector<uint32_t>& m
         if (decoded[i].header.components() == 0)
           continue;
         Attribute& attribute = described[m].attributes[restored++];
-        if (!attribute.per_corner)
-          clip.attribute_values(meshes[m], i, shown, attribute.values.data());
+        clip.attribute_values(meshes[m], i, shown, attribute.values.data());
       }
     }
     return described.size() == 1 ? described[0].attributes : merge_meshes(described).attributes;

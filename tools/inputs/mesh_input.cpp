@@ -20,11 +20,15 @@ bool goes_with_shape(const Attribute& attribute) {
   return attribute.kind == AttributeKind::kNormal || attribute.kind == AttributeKind::kTangent;
 }
 
-/// A vertex or corner attribute of a surface at points of it.
+size_t polygon_of(const Polygons& polygons, uint32_t corner) {
+  return static_cast<size_t>(std::ranges::upper_bound(polygons.offsets, corner) - polygons.offsets.begin()) - 1;
+}
+
+/// An attribute of a surface at points of it.
 Attribute sampled(const Attribute& from, const Polygons& polygons,
                   std::span<const MeshPoint> points) {
   Attribute to = from;
-  to.per_corner = true;
+  to.domain = AttributeDomain::kCorner;
   to.frames = 1;
   to.values.clear();
   for (const MeshPoint& point : points) {
@@ -32,7 +36,9 @@ Attribute sampled(const Attribute& from, const Polygons& polygons,
       double value = 0;
       for (size_t k = 0; k < 3; ++k) {
         const uint32_t corner = point.corners[k];
-        const size_t element = from.per_corner ? corner : polygons.corners[corner];
+        const size_t element = from.per_corner()   ? corner
+                               : from.per_vertex() ? polygons.corners[corner]
+                                                   : polygon_of(polygons, corner);
         value += point.weights[k] * static_cast<double>(from.values[element * from.components + i]);
       }
       to.values.push_back(static_cast<float>(value));

@@ -164,7 +164,10 @@ AlembicTrack only_track(const MeshSequence& clip, const FrameSource& source,
 void write_glb(const std::string& path, const MeshSequence& clip, const Frames& frames,
                const WriteOptions& options) {
   AtomicFile file(path, options.overwrite);
-  GlbOutput glb(clip, options.step, options.images);
+  std::vector<Attribute> all = options.attributes ? options.attributes(0) : clip.attributes;
+  for (uint32_t f = 1; options.attributes && f < clip.frame_count; ++f)
+    add_frame(options.attributes(f), f, all);
+  GlbOutput glb(clip, options.step, options.images, &all);
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
     std::vector<Attribute> attributes;
     if (options.attributes)

@@ -69,6 +69,8 @@ void list_limits(FieldReader& r) {
     if (flags & kOfAttribute) {
       r.varint(fmt::format("segment {} attribute", i));
       r.varint(fmt::format("segment {} three components", i));
+      r.explain(name_of(static_cast<AttributeDomain>(r.u8(fmt::format("segment {} domain", i)))));
+      r.varint(fmt::format("segment {} entries", i));
     }
     if (flags & kDraco) {
       r.varint(fmt::format("segment {} Draco bytes", i));
@@ -215,7 +217,7 @@ void list_attributes(FieldReader& r, uint32_t count) {
     const auto domain = static_cast<AttributeDomain>(r.u8(name("domain")));
     r.explain(name_of(domain));
     r.text(name("name"));
-    const bool has_labels = domain == AttributeDomain::kPolygon;
+    const bool has_labels = kind >= AttributeKind::kMaterial;
     const uint64_t entries = r.varint(name(has_labels ? "labels" : "components"));
     for (uint64_t k = 0; k < entries && r.ok(); ++k) {
       if (has_labels) {

@@ -80,14 +80,15 @@ namespace Anicodec
                 return Native.Present(Native.anic_write_positions(handle, (uint)mesh, when, (uint)first, (uint)count, output));
         }
 
-        /// <summary>Writes values of an attribute of all vertices, packed; false when the mesh is not there.</summary>
+        /// <summary>Writes values of an attribute of all its elements (vertices, corners or polygons), packed; false when
+        /// the mesh is not there.</summary>
         public bool WriteAttribute(int attribute, Span<float> to, int mesh = 0, When when = When.Current)
         {
             fixed (float* first = to)
             {
                 Native.anic_value_output output = Values(first, to.Length);
                 return Native.Present(Native.anic_write_attribute(handle, (uint)mesh, (uint)attribute, when, 0,
-                    asset.Mesh(mesh).vertex_count, &output));
+                    (uint)asset.GetAttribute(attribute, mesh).Count, &output));
             }
         }
 

@@ -601,9 +601,8 @@ typedef struct anic_attribute {
   const uint32_t* labels; /**< count; NULL with components. A polygon has 0 for none, or one more
                              than the number of a name. Corners at a vertex with the same label
                              share a value */
-  uint32_t label_count;   /**< names of ANIC_DOMAIN_POLYGONS: anic_get_label_name() */
-  uint8_t moves; /**< of ANIC_DOMAIN_VERTICES: other frames have other values, for which there is
-                    anic_write_attribute() */
+  uint32_t label_count;   /**< names of labels: anic_get_label_name() */
+  uint8_t moves; /**< other frames have other values, for which there is anic_write_attribute() */
 } anic_attribute;
 
 /**
@@ -887,11 +886,12 @@ typedef struct anic_value_output {
 } anic_value_output;
 
 /**
- * Writes values of an attribute at the time chosen, of the vertices first .. first + count - 1 of a
- * mesh; the attribute need not move. Between frames values are interpolated as positions are.
+ * Writes values of an attribute at the time chosen, of the elements first .. first + count - 1 of
+ * its domain: vertices, corners or polygons; the attribute need not move. Between frames values are
+ * interpolated as positions are.
  *
- * - Errors: ANIC_E_ARGUMENT: no such attribute, or not one of ANIC_DOMAIN_VERTICES with components;
- *   others as anic_write_positions()
+ * - Errors: ANIC_E_ARGUMENT: no such attribute, or one without components; others as
+ *   anic_write_positions()
  * - Cost: O(count x components of its segments), the same for every frame
  * - Spec: 09a, section 8
  */
@@ -1098,8 +1098,8 @@ ANIC_API anic_status anic_write_render_normals(const anic_render_plan* plan, con
                                                const anic_output* out);
 
 /**
- * Writes values of an attribute of the render vertices first .. first + count - 1: of vertices at
- * the time chosen, as anic_write_attribute() does, or of corners.
+ * Writes values of an attribute of vertices or corners at the time chosen, as
+ * anic_write_attribute() does, of the render vertices first .. first + count - 1.
  *
  * - Errors: as anic_write_attribute(); ANIC_E_ARGUMENT: the plan is of another mesh, or the
  *   attribute is one of polygons or has no components
@@ -1191,7 +1191,8 @@ enum anic_basis_kind ANIC_INT32 {
 /** Vertices or values that a basis moves. */
 enum anic_target ANIC_INT32 {
   ANIC_TARGET_POSITIONS = 0, /**< the positions of a mesh */
-  ANIC_TARGET_ATTRIBUTE = 1  /**< three components of an attribute of its vertices, or fewer */
+  ANIC_TARGET_ATTRIBUTE = 1  /**< three components of an attribute, or fewer, of its elements in
+                                  place of vertices */
 };
 
 /** How positions come from a basis. */

@@ -190,13 +190,13 @@ class Mesh:
     def attribute_at(self, number: int, seconds: float, loop: bool = False, sampling: str = "linear",
                      out: Optional[np.ndarray] = None, clip: Union[None, int, str] = None,
                      blend: Optional[Blend] = None) -> np.ndarray:
-        """Values of attribute `number` of the vertices at a time: vertices x components, float32. See at()."""
-        if not 0 <= number < len(self.attributes) or self.attributes[number].domain != "vertices":
-            raise InputError(f"there is no attribute {number} of vertices")
-        shape = (self.vertex_count, self.attributes[number].values.shape[1])
+        """Values of attribute `number` at a time: vertices, corners or polygons x components, float32. See at()."""
+        if not 0 <= number < len(self.attributes) or self.attributes[number].values.ndim != 2:
+            raise InputError(f"there is no attribute {number} of numbers")
+        shape = self.attributes[number].values.shape
         result = _arrays.output(out, shape)
         moment = self._moment(seconds, loop, sampling, None, clip, blend, None)
-        self._asset.attribute_at(self._number, number, *moment, result, self.vertex_count)
+        self._asset.attribute_at(self._number, number, *moment, result, shape[0])
         return result
 
     def normals(self, frame: Union[int, np.ndarray], crease: float = 0, per_corner: bool = False,

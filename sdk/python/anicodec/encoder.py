@@ -45,8 +45,9 @@ class SourceMesh:
     faces: Any = None  #: see encode()
     name: str = ""
     vertex_count: Optional[int] = None  #: with a function alone
-    uv: Any = None  #: vertices x 2 or corners x 2; a mapping of names for several
-    colours: Any = None  #: vertices x 3 or 4, corners x 3 or 4, frames x vertices x 3 or 4; 0 to 1
+    #: vertices x 2 or corners x 2, or frames of these; a mapping of names for several
+    uv: Any = None
+    colours: Any = None  #: vertices, corners or polygons x 3 or 4, or frames of these; 0 to 1
     normals: Any = None  #: vertices x 3 or corners x 3
     custom: Mapping[str, Any] = field(default_factory=dict)  #: other numbers, as colours
     #: names, and for each polygon a number of one or -1; then maybe looks: for each name a Material, or None
@@ -203,15 +204,14 @@ class _Adder:
     def _values(self, name: str, kind: str, given: Any, components: Tuple[int, ...]) -> None:
         what = f"{kind} {name!r}" if name else kind
         values = _arrays.floats(given, what)
-        vertices, corners, _ = self._counts
         moving = values.ndim == 3
         frames = values.shape[0] if moving else 1
         elements = values.shape[1 if moving else 0] if values.ndim in (2, 3) else -1
-        if elements not in (vertices, corners) or values.shape[-1] not in components:
+        if elements not in self._counts or values.shape[-1] not in components:
             wanted = " or ".join(map(str, components)) if len(components) < 5 else "1 to 16"
-            raise InputError(f"{what} must be {vertices} vertices or {corners} corners x {wanted}, "
-                             f"not {_arrays.shape_text(values)}")
-        domain = DOMAINS.index("vertices" if elements == vertices else "corners")
+            domains = ", ".join(f"{count} {domain}" for count, domain in zip(self._counts, DOMAINS))
+            raise InputError(f"{what} must be one of {domains} x {wanted}, not {_arrays.shape_text(values)}")
+        domain = self._counts.index(elements)  # the first of those with as many elements
         self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, values.shape[-1], frames, values,
                                     None, [], [])
 

@@ -179,8 +179,7 @@ class _MeshReader:
         name, kind = primvar.GetPrimvarName(), primvar.GetTypeName()
         if name.startswith("skel:") or name == "normals":
             return
-        of_corners = primvar.GetInterpolation() == UsdGeom.Tokens.faceVarying
-        sampled = codes if primvar.ValueMightBeTimeVarying() and not of_corners and len(codes) > 1 else codes[:1]
+        sampled = codes if primvar.ValueMightBeTimeVarying() and len(codes) > 1 else codes[:1]
         frames = [self._values(primvar, run, code) for code in sampled]
         if any(frame is None or frame.shape != frames[0].shape for frame in frames):
             return
@@ -304,7 +303,7 @@ def _write_mesh(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, rate: float) -> None:
 
 
 def _write_attribute(prim: UsdGeom.Mesh, attribute: Any, number: int) -> None:
-    if attribute.domain == "polygons":
+    if attribute.labels:
         if attribute.kind == "material":
             for label, name in enumerate(attribute.labels, 1):
                 UsdGeom.Subset.CreateUniqueGeomSubset(prim, _identifier(name), UsdGeom.Tokens.face, Vt.IntArray.FromNumpy(
@@ -322,6 +321,7 @@ def _write_attribute(prim: UsdGeom.Mesh, attribute: Any, number: int) -> None:
     if not found:
         return
     standard = {"uv": "st", "colour": "displayColor", "normal": "normals"}.get(attribute.kind, f"attribute{number}")
-    interpolation = UsdGeom.Tokens.vertex if attribute.domain == "vertices" else UsdGeom.Tokens.faceVarying
+    interpolation = {"vertices": UsdGeom.Tokens.vertex, "corners": UsdGeom.Tokens.faceVarying,
+                     "polygons": UsdGeom.Tokens.uniform}[attribute.domain]
     primvar = UsdGeom.PrimvarsAPI(prim).CreatePrimvar(_identifier(attribute.name or standard), found[0], interpolation)
     primvar.Set(found[1].FromNumpy(values if values.shape[1] > 1 else values.ravel()))

@@ -242,10 +242,10 @@ class Asset {
         anic_write_positions(context_.get(), mesh, ANIC_WHEN_CURRENT, 0, vertices, &output));
   }
 
-  /// Fills vertices x components with an attribute at a moment.
+  /// Fills elements x components with an attribute at a moment.
   void attribute_at(uint32_t mesh, uint32_t attribute, uint32_t clip, double seconds, int sampling,
                     int wrap, uint32_t other, double other_seconds, int other_wrap, double weight,
-                    Writable<float> out, uint32_t vertices) {
+                    Writable<float> out, uint32_t elements) {
     anic_value_output output = ANIC_INIT(anic_value_output);
     output.data = out.data();
     output.size = out.nbytes();
@@ -254,7 +254,7 @@ class Asset {
     seek(clip, seconds, sampling, wrap);
     blend(other, other_seconds, sampling, other_wrap, weight);
     check_status(anic_write_attribute(context_.get(), mesh, attribute, ANIC_WHEN_CURRENT, 0,
-                                      vertices, &output));
+                                      elements, &output));
   }
 
   NormalPlan* normal_plan(uint32_t mesh, double crease, uint32_t frame, bool per_corner,

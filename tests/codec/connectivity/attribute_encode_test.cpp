@@ -31,8 +31,8 @@ MeshSequence detailed(const std::string& name) {
   MeshSequence clip = corpus::make_clip(name);
   const std::span<const float> pose = clip.frame(0);
   const std::vector<uint32_t>& corners = clip.polygons.corners;
-  Attribute uv{AttributeKind::kUv, "map", true, 2, 1, {}};
-  Attribute normals{AttributeKind::kNormal, "", true, 3, 1, {}};
+  Attribute uv{AttributeKind::kUv, "map", AttributeDomain::kCorner, 2, 1, {}};
+  Attribute normals{AttributeKind::kNormal, "", AttributeDomain::kCorner, 3, 1, {}};
   for (size_t p = 0; p < clip.polygons.size(); ++p) {
     const bool other_chart = p % 16 >= 8;
     for (uint32_t v : clip.polygons[p]) {
@@ -46,8 +46,8 @@ MeshSequence detailed(const std::string& name) {
   }
   clip.materials.names = {"skin", "cloth \xC3\xA9"};
   clip.parts.names = {"head", "body"};
-  Attribute colours{AttributeKind::kColour, "Col", false, 4, 1, {}};
-  Attribute weight{AttributeKind::kCustom, "weight", false, 1, 1, {}};
+  Attribute colours{AttributeKind::kColour, "Col", AttributeDomain::kVertex, 4, 1, {}};
+  Attribute weight{AttributeKind::kCustom, "weight", AttributeDomain::kVertex, 1, 1, {}};
   for (uint32_t v = 0; v < clip.vertex_count; ++v) {
     for (uint32_t i = 0; i < 4; ++i)
       colours.values.push_back(static_cast<float>(v * 7 % 256) / 255.0F);
@@ -104,7 +104,7 @@ TEST_P(AttributeEncodeOf, ComeBackInTheOrderOfTheSource) {
                   *colour = find(back, AttributeKind::kColour),
                   *weight = find(back, AttributeKind::kCustom);
   ASSERT_TRUE(uv && colour && weight);
-  EXPECT_TRUE(uv->per_corner);
+  EXPECT_TRUE(uv->per_corner());
   EXPECT_EQ(uv->name, "map");
   ASSERT_EQ(uv->values.size(), clip.attributes[0].values.size());
   for (size_t i = 0; i < uv->values.size(); ++i)
@@ -176,7 +176,7 @@ TEST(AttributeEncode, LeavesFilesWithoutAttributesAsTheyWere) {
 
 TEST(AttributeEncode, KeepsTangentsWithNormalsOnly) {
   MeshSequence clip = corpus::make_clip("quad_box");
-  Attribute tangents{AttributeKind::kTangent, "TANGENT", false, 4, 1, {}};
+  Attribute tangents{AttributeKind::kTangent, "TANGENT", AttributeDomain::kVertex, 4, 1, {}};
   for (uint32_t v = 0; v < clip.vertex_count; ++v)
     tangents.values.insert(tangents.values.end(), {0.6F, 0, 0.8F, v % 2 == 0 ? 1.0F : -1.0F});
   clip.attributes = {tangents};
@@ -202,7 +202,7 @@ TEST(AttributeEncode, StoresNormalsWhereAsked) {
 
 TEST(AttributeEncode, KeepsDirectionsWithinTheAngle) {
   MeshSequence clip = corpus::make_clip("limb");
-  Attribute normals{AttributeKind::kNormal, "NORMAL", false, 3, 1, {}};
+  Attribute normals{AttributeKind::kNormal, "NORMAL", AttributeDomain::kVertex, 3, 1, {}};
   for (uint32_t v = 0; v < clip.vertex_count; ++v) {
     const float a = 0.7F * static_cast<float>(v), b = 0.3F * static_cast<float>(v);
     const float length = v % 2 == 0 ? 1 : 0.5F;
@@ -255,6 +255,7 @@ TEST(AttributeDecode, SurvivesDamagedStreams) {
   ASSERT_EQ(clip.open(file).status, Status::kOk);
   std::mt19937 random(1);
   int refused = 0;
+  const Vector<uint8_t> moving(kMaxAttributes, 0);
   for (int i = 0; i < 400; ++i) {
     Bytes bytes(payload.data, payload.data + payload.size);
     if (i % 2 == 0)
@@ -265,7 +266,7 @@ TEST(AttributeDecode, SurvivesDamagedStreams) {
     Status status = AttributeRecord::read(bytes, clip.limits().meshes[0], &record);
     Vector<MeshAttribute> out;
     if (status == Status::kOk)
-      status = decode_attributes(record, clip.limits().meshes[0], clip.meshes()[0].topology, &out);
+      status = decode_attributes(record, clip.limits().meshes[0], clip.meshes()[0].topology, moving, &out);
     refused += status != Status::kOk;
     for (const MeshAttribute& a : out) {
       for (float x : a.values)

@@ -226,7 +226,7 @@ TEST(MassageCommand, MapsTexturesFromEitherSide) {
   ASSERT_EQ(outcome.status, 0) << outcome;
   const MeshSequence mapped = load_sequence(std::vector<std::string>{folder / "mapped.obj"}, {});
   ASSERT_EQ(mapped.attributes.size(), 1U);
-  ASSERT_TRUE(mapped.attributes[0].per_corner);
+  ASSERT_TRUE(mapped.attributes[0].per_corner());
   for (size_t c = 0; c < mapped.polygons.corners.size(); ++c) {
     const size_t v = mapped.polygons.corners[c];
     for (size_t k = 0; k < 2; ++k)

@@ -66,7 +66,7 @@ TEST(ShadedView, ShadesHardEdgesFlat) {
   MeshSequence smooth = roof(), hard = roof();
   Attribute normals;
   normals.kind = AttributeKind::kNormal;
-  normals.per_corner = true;
+  normals.domain = AttributeDomain::kCorner;
   normals.components = 3;
   for (int c = 0; c < 8; ++c)
     normals.values.insert(normals.values.end(), {c < 4 ? -1.F : 1.F, 0, 1});

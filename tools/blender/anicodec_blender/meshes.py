@@ -37,6 +37,8 @@ def _add_attribute(mesh, attribute, kept, corner_kept):
         of_corners = attribute.values[corner_vertices]
     elif attribute.domain == "corners":
         of_corners = attribute.values[corner_kept]
+    elif attribute.values.ndim == 2:
+        of_corners = np.repeat(attribute.values[kept], [polygon.loop_total for polygon in mesh.polygons], axis=0)
     if attribute.kind == "uv":
         layer = mesh.uv_layers.new(name=attribute.name or "UVMap")
         layer.data.foreach_set("uv", np.ascontiguousarray(of_corners, np.float32).ravel())

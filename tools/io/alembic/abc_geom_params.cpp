@@ -153,7 +153,8 @@ std::optional<Attribute> AbcGeomParams::attribute_at(const AbcGeomParam& param, 
   out.kind = param.kind;
   out.name = param.name;
   out.components = param.components();
-  out.per_corner = found.domain == AbcDomain::kCorner || found.domain == AbcDomain::kFace;
+  if (found.domain == AbcDomain::kCorner || found.domain == AbcDomain::kFace)
+    out.domain = AttributeDomain::kCorner;
   const size_t n = out.components;
   if (found.domain == AbcDomain::kMesh) {
     for (uint32_t v = 0; v < vertices; ++v)

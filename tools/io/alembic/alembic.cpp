@@ -52,13 +52,13 @@ void reserve_positions(const AlembicBake& bake, MeshSequence& out) {
 std::vector<Attribute> moving_attributes(const AlembicBake& bake, size_t frame,
                                          const std::vector<Attribute>& before) {
   std::vector<Attribute> out;
-  uint32_t first_vertex = 0;
+  size_t first_vertex = 0, first_corner = 0;
   for (const AbcShown& shown : bake.shown()) {
     const bool is_shown = shown.topology[frame] != kAbcNone;
     for (const Attribute& now :
          is_shown ? bake.moving_attributes(shown, frame) : std::vector<Attribute>()) {
       const auto same = [&](const Attribute& a) {
-        return a.kind == now.kind && a.name == now.name && !a.per_corner &&
+        return a.kind == now.kind && a.name == now.name && a.domain == now.domain &&
                a.components == now.components;
       };
       const auto all = std::ranges::find_if(before, same);
@@ -72,11 +72,13 @@ std::vector<Attribute> moving_attributes(const AlembicBake& bake, size_t frame,
             all->values.end());
         own->frames = 1;
       }
-      std::ranges::copy(
-          now.values,
-          own->values.begin() + static_cast<std::ptrdiff_t>(size_t{first_vertex} * now.components));
+      const size_t first = now.per_corner() ? first_corner : first_vertex;
+      std::ranges::copy(now.values,
+                        own->values.begin() + static_cast<std::ptrdiff_t>(first * now.components));
     }
-    first_vertex += shown.mesh->topologies()[shown.topology[shown.first_frame()]].vertex_count;
+    const auto& topology = shown.mesh->topologies()[shown.topology[shown.first_frame()]];
+    first_vertex += topology.vertex_count;
+    first_corner += topology.polygons.corners.size();
   }
   return out;
 }

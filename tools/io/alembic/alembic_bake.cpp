@@ -207,13 +207,10 @@ MeshSequence AlembicBake::describe(const AbcShown& shown, size_t frame) {
             (param.kind == AttributeKind::kCustom ? "vertex" : "vertex or corner"));
       continue;
     }
-    if (found->per_corner && !shown.mirrored)
+    if (found->per_corner() && !shown.mirrored)
       reorder(order, found->components, found->values);
     if (found->kind == AttributeKind::kNormal)
       turn_normals(now[shown.node].world, found->values);
-    if (found->per_corner && moves(param))
-      note_(out.mesh_name + ": '" + param.name +
-            "' stays as in the first frame: values of corners do not move");
     out.attributes.push_back(std::move(*found));
   }
   return out;
@@ -229,8 +226,12 @@ std::vector<Attribute> AlembicBake::moving_attributes(const AbcShown& shown, siz
     if (!moves(param))
       continue;
     std::optional<Attribute> found = attribute(shown, param, frame);
-    if (found && can_move(*found))
-      out.push_back(std::move(*found));
+    if (!found || !can_move(*found))
+      continue;
+    if (found->per_corner() && !shown.mirrored)
+      reorder(reversed_corners(shown.mesh->topologies()[shown.topology[frame]].polygons), found->components,
+              found->values);
+    out.push_back(std::move(*found));
   }
   return out;
 }

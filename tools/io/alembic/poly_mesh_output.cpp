@@ -89,13 +89,15 @@ std::string param_metadata(AttributeKind kind, uint32_t components, bool per_cor
 
 /// Whether an archive can have the attribute.
 bool is_written(const Attribute& attribute) {
+  if (attribute.domain == AttributeDomain::kPolygon)
+    return false;
   switch (attribute.kind) {
     case AttributeKind::kUv:
       return attribute.components == 2;
     case AttributeKind::kColour:
       return attribute.components == 3 || attribute.components == 4;
     case AttributeKind::kCustom:
-      return !attribute.per_corner && attribute.components > 0;
+      return attribute.per_vertex() && attribute.components > 0;
     default:
       return false;
   }
@@ -211,16 +213,15 @@ void PolyMeshOutput::add_params(AbcCompoundOutput& geometry, uint32_t sampling, 
     for (const Attribute& attribute : look.mesh().attributes) {
       const auto same = [&](const Param& p) {
         return p.kind == attribute.kind && p.name == attribute.name &&
-               p.per_corner == attribute.per_corner && p.components == attribute.components;
+               p.per_corner == attribute.per_corner() && p.components == attribute.components;
       };
       if (is_written(attribute) && std::ranges::none_of(params_, same))
         params_.push_back({.kind = attribute.kind,
                            .name = attribute.name,
                            .source = attribute.name,
-                           .per_corner = attribute.per_corner,
+                           .per_corner = attribute.per_corner(),
                            .components = attribute.components,
-                           .is_still = looks_.size() == 1 && attribute.frames == 1 &&
-                                       (attribute.per_corner || !moving)});
+                           .is_still = looks_.size() == 1 && attribute.frames == 1 && !moving});
     }
   }
   const auto uv =
@@ -326,7 +327,7 @@ void PolyMeshOutput::write(Param& param, const AbcLook& look, const AbcSample& s
   if (param.is_still && param.values->samples() > 0)
     return;
   const auto found = std::ranges::find_if(sample.attributes, [&](const Attribute& a) {
-    return a.kind == param.kind && a.per_corner == param.per_corner &&
+    return a.kind == param.kind && a.per_corner() == param.per_corner &&
            a.components == param.components && a.name == param.source;
   });
   std::vector<float> values;

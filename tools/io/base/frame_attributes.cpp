@@ -15,8 +15,7 @@ const float* row_of(const Attribute& attribute, uint32_t frame, size_t row) {
 }  // namespace
 
 bool can_move(const Attribute& attribute) {
-  return !attribute.per_corner && attribute.kind != AttributeKind::kNormal &&
-         attribute.kind != AttributeKind::kTangent;
+  return attribute.kind != AttributeKind::kNormal && attribute.kind != AttributeKind::kTangent;
 }
 
 void add_frame(const std::vector<Attribute>& from, uint32_t frame,
@@ -27,7 +26,7 @@ void add_frame(const std::vector<Attribute>& from, uint32_t frame,
     const size_t row = a.values.size() / a.frames;
     const auto found = std::ranges::find_if(from, [&](const Attribute& b) {
       return b.kind == a.kind && b.name == a.name && b.components == a.components &&
-             !b.per_corner && b.frames == 1 && b.values.size() == row;
+             b.domain == a.domain && b.frames == 1 && b.values.size() == row;
     });
     const FrameArray last(row_of(a, a.frames - 1, row), row_of(a, a.frames - 1, row) + row);
     const FrameArray& next = found == from.end() ? last : found->values;
@@ -50,7 +49,7 @@ std::vector<Attribute> attributes_of_frame(const std::vector<Attribute>& attribu
     Attribute& one = result.emplace_back();
     one.kind = a.kind;
     one.name = a.name;
-    one.per_corner = a.per_corner;
+    one.domain = a.domain;
     one.components = a.components;
     one.values.assign(row_of(a, frame, row), row_of(a, frame, row) + row);
   }

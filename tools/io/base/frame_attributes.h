@@ -10,8 +10,7 @@
 
 namespace anicodec::tools {
 
-/// Whether further frames can bring other values: attributes of vertices but for normals and
-/// tangents.
+/// Whether further frames can bring other values: all attributes but normals and tangents.
 bool can_move(const Attribute& attribute);
 
 /// Takes the values of frame `frame` of the attributes that can move. `attributes` are those of the

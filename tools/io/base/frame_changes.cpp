@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/base/frame_changes.h"
 
-#include "tools/io/base/frame_attributes.h"
 #include "tools/io/base/printable.h"
 
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace anicodec::tools {
 namespace {
 
 bool is_same(const Attribute& a, const Attribute& b) {
-  return a.kind == b.kind && a.name == b.name && a.per_corner == b.per_corner &&
+  return a.kind == b.kind && a.name == b.name && a.domain == b.domain &&
          a.components == b.components;
 }
 
@@ -53,8 +52,6 @@ void FrameChanges::compare_attributes(const MeshDetails& first, const MeshDetail
       continue;
     if (other == nullptr)
       tell("has no " + text_of(a), path);
-    else if (!can_move(a) && other->values != a.values)
-      tell(text_of(a) + " of corners change", path);
   }
   for (const Attribute& a : now.attributes) {
     if (!follows_surface(a) && find_same(first.attributes, a) == nullptr)

@@ -106,7 +106,7 @@ MeshSequence read_clip(MessageReader& in) {
     Attribute& attribute = clip.attributes.emplace_back();
     attribute.kind = in.one<AttributeKind>();
     attribute.name = in.text();
-    attribute.per_corner = in.one<uint8_t>() != 0;
+    attribute.domain = in.one<AttributeDomain>();
     attribute.components = in.one<uint32_t>();
     in.values(attribute.values);
   }
@@ -138,7 +138,7 @@ void FbxMessage::begin_clip(const MeshSequence& clip) {
   for (const Attribute& attribute : clip.attributes) {
     append_one(attribute.kind, bytes_);
     append_values(attribute.name, bytes_);
-    append_one(uint8_t{attribute.per_corner}, bytes_);
+    append_one(attribute.domain, bytes_);
     append_one(attribute.components, bytes_);
     append_values(attribute.values, bytes_);
   }

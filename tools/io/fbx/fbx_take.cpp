@@ -259,8 +259,11 @@ void FbxTake::add_attributes(const Piece& piece, const ufbx_scene& scene, MeshSe
   const ufbx_mesh& mesh = *node.mesh;
   const auto add = [&](AttributeKind kind, const std::string& name, uint32_t components,
                        const auto& value_of) {
-    Attribute attribute{
-        .kind = kind, .name = name, .per_corner = true, .components = components, .values = {}};
+    Attribute attribute{.kind = kind,
+                        .name = name,
+                        .domain = AttributeDomain::kCorner,
+                        .components = components,
+                        .values = {}};
     attribute.values.reserve(piece.order.size() * components);
     for (const uint32_t corner : piece.order) {
       const ufbx_vec4 value = value_of(corner);

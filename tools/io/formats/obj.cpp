@@ -99,7 +99,7 @@ class DetailsParser {
     Attribute attribute;
     attribute.kind = kind;
     attribute.name = pool.what;
-    attribute.per_corner = true;
+    attribute.domain = AttributeDomain::kCorner;
     attribute.components = pool.components;
     for (size_t p = 0; p < mesh.polygons.size(); ++p) {
       for (uint32_t c = mesh.polygons.offsets[p]; c < mesh.polygons.offsets[p + 1]; ++c) {
@@ -317,17 +317,18 @@ void ObjDetails::set_attributes(const std::vector<Attribute>& attributes) {
   const std::vector<uint32_t>& corners = clip_.polygons.corners;
   for (const Attribute& attribute : attributes) {
     const size_t n = attribute.components;
-    if (attribute.kind == AttributeKind::kColour && !attribute.per_corner && n >= 3 &&
+    if (attribute.kind == AttributeKind::kColour && attribute.per_vertex() && n >= 3 &&
         colours_.empty()) {
       for (size_t v = 0; v < clip_.vertex_count; ++v)
         colours_.insert(colours_.end(), attribute.values.begin() + static_cast<ptrdiff_t>(n * v),
                         attribute.values.begin() + static_cast<ptrdiff_t>(n * v + 3));
     }
-    if (attribute.kind != AttributeKind::kUv || n != 2 || !uv_.empty())
+    if (attribute.kind != AttributeKind::kUv || n != 2 || !uv_.empty() ||
+        attribute.domain == AttributeDomain::kPolygon)
       continue;
     std::map<std::pair<float, float>, uint32_t> known;
     for (size_t c = 0; c < corners.size(); ++c) {
-      const float* uv = attribute.values.data() + 2 * (attribute.per_corner ? c : corners[c]);
+      const float* uv = attribute.values.data() + 2 * (attribute.per_corner() ? c : corners[c]);
       const auto [found, is_new] =
           known.try_emplace({uv[0], uv[1]}, static_cast<uint32_t>(known.size()));
       uv_.push_back(found->second);

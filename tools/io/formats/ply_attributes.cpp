@@ -125,7 +125,7 @@ PlyProperties::PlyProperties(const std::vector<Attribute>& attributes) {
     const bool is_colour =
         a.kind == AttributeKind::kColour && a.components >= 3 && a.components <= std::size(kColour);
     const bool is_uv = a.kind == AttributeKind::kUv && a.components == 2;
-    if (a.per_corner || !(is_colour || is_uv || a.kind == AttributeKind::kCustom) ||
+    if (!a.per_vertex() || !(is_colour || is_uv || a.kind == AttributeKind::kCustom) ||
         (a.kind != AttributeKind::kCustom && !kinds.insert(a.kind).second))
       continue;
     const bool bytes = is_colour && std::ranges::all_of(a.values, is_byte);

@@ -93,7 +93,7 @@ std::vector<Attribute> PlyCorners::finish(const PlyElement& faces, std::vector<s
     if (track.fits && track.components > 0)
       out.push_back({.kind = track.kind,
                      .name = track.name,
-                     .per_corner = true,
+                     .domain = AttributeDomain::kCorner,
                      .components = track.components,
                      .values = std::move(track.values)});
   }

@@ -45,9 +45,10 @@ class GlbOutput::Writer {
   };
 
  public:
-  Writer(const MeshSequence& clip, bool step, std::span<const GltfImage> images)
+  Writer(const MeshSequence& clip, bool step, std::span<const GltfImage> images,
+         const std::vector<Attribute>* attributes)
       : clip_(clip),
-        vertices_(clip),
+        vertices_(clip, attributes ? *attributes : clip.attributes),
         step_(step),
         images_(images),
         meshes_(vertices_.objects().size()) {
@@ -108,7 +109,7 @@ class GlbOutput::Writer {
       const size_t n = attribute.components;
       const std::string name = (attribute.kind == AttributeKind::kUv ? "TEXCOORD_" : "COLOR_") +
                                std::to_string(sets[attribute.kind]++);
-      std::vector<float> values = attribute.per_corner ? vertices_.of_corners(attribute.values, n)
+      std::vector<float> values = attribute.per_corner() ? vertices_.of_corners(attribute.values, n)
                                                        : vertices_.of_vertices(attribute.values, n);
       if (attribute.kind == AttributeKind::kUv) {  // glTF's v points down
         for (size_t i = 1; i < values.size(); i += 2)
@@ -285,8 +286,9 @@ class GlbOutput::Writer {
   std::vector<Output> meshes_;
 };
 
-GlbOutput::GlbOutput(const MeshSequence& clip, bool step, std::span<const GltfImage> images)
-    : writer_(std::make_unique<Writer>(clip, step, images)) {}
+GlbOutput::GlbOutput(const MeshSequence& clip, bool step, std::span<const GltfImage> images,
+                     const std::vector<Attribute>* attributes)
+    : writer_(std::make_unique<Writer>(clip, step, images, attributes)) {}
 
 GlbOutput::~GlbOutput() = default;
 

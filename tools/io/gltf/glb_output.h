@@ -24,8 +24,10 @@ class GlbOutput {
  public:
   /// `step`: each frame stands until the next, instead of moving to it. `images`: those that materials
   /// name by "#name", to be put inside. Takes counts, polygons,
-  /// attributes and timing from `clip`, which must outlive it; not its positions.
-  GlbOutput(const MeshSequence& clip, bool step, std::span<const GltfImage> images = {});
+  /// attributes and timing from `clip`, which must outlive it; not its positions. `attributes`: in all
+  /// frames, where they move and the clip has those of the first frame alone; else null.
+  GlbOutput(const MeshSequence& clip, bool step, std::span<const GltfImage> images = {},
+            const std::vector<Attribute>* attributes = nullptr);
   GlbOutput(const GlbOutput&) = delete;
   GlbOutput& operator=(const GlbOutput&) = delete;
   ~GlbOutput();

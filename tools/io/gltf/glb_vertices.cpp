@@ -12,13 +12,13 @@
 
 namespace anicodec::tools {
 
-GlbVertices::GlbVertices(const MeshSequence& clip) {
+GlbVertices::GlbVertices(const MeshSequence& clip, const std::vector<Attribute>& attributes) {
   std::vector<uint32_t> part_of_corner(clip.polygons.corners.size(), kNoLabel);
   for (size_t p = 0; p < clip.parts.of_polygon.size(); ++p) {
     for (uint32_t c = clip.polygons.offsets[p]; c < clip.polygons.offsets[p + 1]; ++c)
       part_of_corner[c] = clip.parts.of_polygon[p];
   }
-  split_vertices(clip, part_of_corner);
+  split_vertices(clip, attributes, part_of_corner);
   sort_by_object(part_of_corner);
 }
 
@@ -33,16 +33,18 @@ bool GlbVertices::is_flat(const MeshSequence& clip) {
 }
 
 bool GlbVertices::is_written(const Attribute& a) {
-  return (a.kind == AttributeKind::kUv && a.components == 2) ||
-         (a.kind == AttributeKind::kColour && (a.components == 3 || a.components == 4));
+  return a.domain != AttributeDomain::kPolygon &&
+         ((a.kind == AttributeKind::kUv && a.components == 2) ||
+          (a.kind == AttributeKind::kColour && (a.components == 3 || a.components == 4)));
 }
 
-void GlbVertices::split_vertices(const MeshSequence& clip,
+void GlbVertices::split_vertices(const MeshSequence& clip, const std::vector<Attribute>& attributes,
                                  const std::vector<uint32_t>& part_of_corner) {
   std::vector<std::span<const float>> of_corners;
-  for (const Attribute& a : clip.attributes) {
-    if (a.per_corner && is_written(a))
-      of_corners.emplace_back(a.values);
+  for (const Attribute& a : attributes) {
+    const size_t row = a.values.size() / a.frames;
+    for (uint32_t f = 0; a.per_corner() && is_written(a) && f < a.frames; ++f)
+      of_corners.push_back(std::span<const float>(a.values).subspan(row * f, row));
   }
   const bool by_normals = !clip.shared_normals.empty() && !is_flat(clip);
   source_.resize(clip.vertex_count);

@@ -29,7 +29,8 @@ struct GlbTriangles {
 /// attributes, normals or parts more than once. Vertices without polygon go with the one before.
 class GlbVertices {
  public:
-  explicit GlbVertices(const MeshSequence& clip);
+  /// `attributes`: those of the clip, in all frames where they move.
+  GlbVertices(const MeshSequence& clip, const std::vector<Attribute>& attributes);
 
   /// True when no two corners at a vertex share a normal and all polygons are triangles: a GLB says so by
   /// having no normals.
@@ -57,7 +58,8 @@ class GlbVertices {
   static constexpr uint32_t kNoCorner = UINT32_MAX;
 
  private:
-  void split_vertices(const MeshSequence& clip, const std::vector<uint32_t>& part_of_corner);
+  void split_vertices(const MeshSequence& clip, const std::vector<Attribute>& attributes,
+                      const std::vector<uint32_t>& part_of_corner);
   void sort_by_object(const std::vector<uint32_t>& part_of_corner);
 
   std::vector<uint32_t> source_;     ///< vertex of the clip

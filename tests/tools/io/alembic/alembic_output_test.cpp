@@ -27,7 +27,7 @@ MeshSequence painted_strip(uint32_t frames) {
     s.polygons.add(std::vector<uint32_t>{v, v + 1, v + 3, v + 2});
   for (uint32_t i = 0; i < frames * 30; ++i)
     s.positions.push_back(static_cast<float>((i * 37) % 101) / 7.0F);
-  Attribute uv{.kind = AttributeKind::kUv, .name = "map1", .per_corner = true, .values = {}};
+  Attribute uv{.kind = AttributeKind::kUv, .name = "map1", .domain = AttributeDomain::kCorner, .values = {}};
   for (uint32_t c = 0; c < 32; ++c)
     uv.values.push_back(static_cast<float>(c % 5) / 4.0F);
   Attribute second{.kind = AttributeKind::kUv, .name = "map2", .values = {}};
@@ -63,7 +63,7 @@ void expect_same(const MeshSequence& in, const MeshSequence& out) {
     const Attribute* b = find(out, a.name);
     ASSERT_NE(b, nullptr);
     EXPECT_EQ(b->kind, a.kind);
-    EXPECT_EQ(b->per_corner, a.per_corner);
+    EXPECT_EQ(b->per_corner(), a.per_corner());
     EXPECT_EQ(b->components, a.components);
     EXPECT_EQ(b->frames, a.frames);
     EXPECT_EQ(b->values, a.values);
@@ -174,7 +174,7 @@ TEST(AlembicOutput, WritesNormalsOnRequest) {
   const MeshSequence out = read_bytes_of_archive(archive_of_scene(scene_of(in), true));
   const Attribute* normals = find(out, "N");
   ASSERT_NE(normals, nullptr);
-  EXPECT_TRUE(normals->per_corner);
+  EXPECT_TRUE(normals->per_corner());
   EXPECT_EQ(normals->values.size(), in.polygons.corners.size() * 3);
 }
 
