@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/check_file.h"
 
-#include "codec/algebra/task_threads.h"
+#include "codec/parallel/task_threads.h"
 #include "codec/sequence/error.h"
 #include "sdk/clip/clip.h"
 

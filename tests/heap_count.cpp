@@ -3,6 +3,7 @@
 #include "tests/heap_count.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <utility>
@@ -19,6 +20,13 @@ namespace anicodec {
 namespace {
 
 thread_local HeapCount* current = nullptr;
+std::atomic<uint64_t> all_calls = 0;
+std::atomic<uint64_t> first_failure = 0, last_failure = 0;  // numbers of calls; 0: none fails
+
+[[maybe_unused]] bool fails() {
+  const uint64_t call = ++all_calls;
+  return call >= first_failure && call <= last_failure;
+}
 
 }  // namespace
 
@@ -36,6 +44,20 @@ void HeapCount::note(int64_t bytes) {
   current->calls_ += bytes > 0;
   current->held_ += bytes;
   current->peak_ = std::max(current->peak_, current->held_);
+}
+
+HeapFailure::HeapFailure(uint64_t call, bool later_ones) {
+  all_calls = 0;
+  first_failure = call;
+  last_failure = later_ones ? UINT64_MAX : call;
+}
+
+HeapFailure::~HeapFailure() {
+  last_failure = 0;
+}
+
+uint64_t HeapFailure::calls() const {
+  return all_calls;
 }
 
 HeapPause::HeapPause() : count_(std::exchange(current, nullptr)) {}
@@ -83,6 +105,8 @@ void __libc_free(void* memory);
 
 namespace {
 
+using anicodec::fails;
+
 void* noted(void* memory) {
   if (memory)
     HeapCount::note(static_cast<int64_t>(malloc_usable_size(memory)));
@@ -99,28 +123,30 @@ void note_release(void* memory) {
 extern "C" {
 
 void* malloc(size_t size) noexcept {
-  return noted(__libc_malloc(size));
+  return fails() ? nullptr : noted(__libc_malloc(size));
 }
 
 void* calloc(size_t count, size_t size) noexcept {
-  return noted(__libc_calloc(count, size));
+  return fails() ? nullptr : noted(__libc_calloc(count, size));
 }
 
 void* realloc(void* memory, size_t size) noexcept {
+  if (fails())
+    return nullptr;
   note_release(memory);
   return noted(__libc_realloc(memory, size));
 }
 
 void* memalign(size_t alignment, size_t size) noexcept {
-  return noted(__libc_memalign(alignment, size));
+  return fails() ? nullptr : noted(__libc_memalign(alignment, size));
 }
 
 void* aligned_alloc(size_t alignment, size_t size) noexcept {
-  return noted(__libc_memalign(alignment, size));
+  return fails() ? nullptr : noted(__libc_memalign(alignment, size));
 }
 
 int posix_memalign(void** out, size_t alignment, size_t size) noexcept {
-  *out = noted(__libc_memalign(alignment, size));
+  *out = fails() ? nullptr : noted(__libc_memalign(alignment, size));
   return *out ? 0 : ENOMEM;
 }
 

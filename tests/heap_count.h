@@ -48,6 +48,19 @@ class HeapPause {
   HeapCount* count_;
 };
 
+/// While it lives, counts what all threads take from the heap, and lets that fail: the call of this number, or it and
+/// all later ones. Nothing fails under sanitizers.
+class HeapFailure {
+ public:
+  explicit HeapFailure(uint64_t call, bool later_ones = false);
+  ~HeapFailure();
+  HeapFailure(const HeapFailure&) = delete;
+  HeapFailure& operator=(const HeapFailure&) = delete;
+
+  /// How often memory was asked for.
+  uint64_t calls() const;
+};
+
 }  // namespace anicodec
 
 #endif  // ANICODEC_TESTS_HEAP_COUNT_H_

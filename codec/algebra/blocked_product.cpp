@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/algebra/blocked_product.h"
 
+#include "codec/parallel/parallel.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
 #include <vector>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -102,7 +102,7 @@ void run(const TileProduct& product) {
 void pack(const MatrixView& a, Index first, Index depth, std::vector<double>& strips) {
   const Index count = (a.cols() + kStrip - 1) / kStrip;
   strips.resize(static_cast<size_t>(count * kStrip * depth));
-  tbb::parallel_for(Index{0}, count, [&](Index s) {
+  parallel_for(Index{0}, count, [&](Index s) {
     double* to = strips.data() + s * kStrip * depth;
     const Index columns = std::min(kStrip, a.cols() - s * kStrip);
     if (columns < kStrip)
@@ -120,7 +120,7 @@ void add_tiles(const MatrixView& a, const MatrixView& b, const Tiles& tiles, Eig
   for (Index d = 0; d < a.rows(); d += kProductDepth) {
     const Index depth = std::min(kProductDepth, a.rows() - d);
     pack(a, d, depth, strips);
-    tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t t) {
+    parallel_for(size_t{0}, tiles.size(), [&](size_t t) {
       const auto [row, column] = tiles[t];
       TileProduct p;
       p.a = strips.data() + row * depth;
@@ -167,7 +167,7 @@ void add_self_products(const MatrixView& a, Eigen::MatrixXd& sums) {
 Eigen::MatrixXd product(const MatrixView& a, const MatrixView& b) {
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(a.rows(), b.cols());
   constexpr Index kRows = 32 * kStrip;
-  tbb::parallel_for(Index{0}, (a.rows() + kRows - 1) / kRows, [&](Index t) {
+  parallel_for(Index{0}, (a.rows() + kRows - 1) / kRows, [&](Index t) {
     const Index first = t * kRows, rows = std::min(kRows, a.rows() - first);
     const Index whole = rows / kStrip * kStrip, rest = rows - whole;
     double last[kProductDepth * kStrip];  // rows that do not fill a strip

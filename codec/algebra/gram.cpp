@@ -3,13 +3,13 @@
 #include "codec/algebra/gram.h"
 
 #include "codec/algebra/blocked_product.h"
+#include "codec/parallel/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 
@@ -33,7 +33,7 @@ double rmse(double squared_error, size_t vertices, size_t frames) {
 
 Centroids frame_centroids(const FrameView& clip) {
   Centroids centroids(static_cast<Index>(clip.frame_count), 3);
-  tbb::parallel_for(size_t{0}, clip.frame_count, [&](size_t f) {
+  parallel_for(size_t{0}, clip.frame_count, [&](size_t f) {
     const float* p = clip.frame(f);
     RowVector3d sum = RowVector3d::Zero();
     for (size_t v = 0; v < clip.vertex_count; v++, p += 3) {
@@ -52,7 +52,7 @@ FrameGram frame_gram(const FrameView& clip, std::span<const Matrix3d> rotations)
   for (size_t first = 0; first < clip.vertex_count; first += block) {
     const size_t count = std::min(block, clip.vertex_count - first);
     panel.resize(static_cast<Index>(3 * count), frames);
-    tbb::parallel_for(Index{0}, frames, [&](Index f) {
+    parallel_for(Index{0}, frames, [&](Index f) {
       const float* p = clip.frame(static_cast<size_t>(f)) + 3 * first;
       double* out = panel.col(f).data();
       const RowVector3d c = gram.centroids.row(f);
@@ -132,7 +132,7 @@ void CrossProducts::require(std::span<const uint32_t> frames, size_t max_columns
     const size_t count = std::min(block, clip_.vertex_count - first);
     all.resize(static_cast<Index>(count), rows);
     some.resize(static_cast<Index>(count), columns);
-    tbb::parallel_for(size_t{0}, clip_.frame_count, [&](size_t f) {
+    parallel_for(size_t{0}, clip_.frame_count, [&](size_t f) {
       load(first, count, static_cast<uint32_t>(f), static_cast<Index>(3 * f), all);
     });
     for (size_t j = 0; j < missing.size(); j++) {

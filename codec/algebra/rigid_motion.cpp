@@ -2,12 +2,13 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/algebra/rigid_motion.h"
 
+#include "codec/parallel/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -38,7 +39,7 @@ Shape mean_shape(const FrameView& clip, const Centroids& centroids,
                  const std::vector<Matrix3d>& rotations) {
   Shape mean(3, static_cast<Index>(clip.vertex_count));
   const size_t blocks = (clip.vertex_count + kVertexBlock - 1) / kVertexBlock;
-  tbb::parallel_for(size_t{0}, blocks, [&](size_t b) {
+  parallel_for(size_t{0}, blocks, [&](size_t b) {
     const size_t first = b * kVertexBlock;
     const size_t count = std::min(kVertexBlock, clip.vertex_count - first);
     auto out = mean.middleCols(static_cast<Index>(first), static_cast<Index>(count));
@@ -60,7 +61,7 @@ Shape mean_shape(const FrameView& clip, const Centroids& centroids,
 double turn_onto(const Shape& shape, const FrameView& clip, const Centroids& centroids,
                  std::vector<Matrix3d>& rotations) {
   std::vector<double> change(clip.frame_count);
-  tbb::parallel_for(size_t{0}, clip.frame_count, [&](size_t f) {
+  parallel_for(size_t{0}, clip.frame_count, [&](size_t f) {
     const Vector3d c = centroids.row(static_cast<Index>(f)).transpose();
     const float* p = clip.frame(f);
     Matrix3d products = Matrix3d::Zero();

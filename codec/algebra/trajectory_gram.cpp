@@ -3,10 +3,9 @@
 #include "codec/algebra/trajectory_gram.h"
 
 #include "codec/algebra/blocked_product.h"
+#include "codec/parallel/parallel.h"
 
 #include <algorithm>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 
@@ -79,7 +78,7 @@ void combine_rows(const FrameView& clip, const Vector3d& origin, const MatrixXd&
   constexpr size_t kVertices = 96;
   const bool frames = weights.rows() == static_cast<Index>(clip.frame_count);
   const size_t blocks = (clip.vertex_count + kVertices - 1) / kVertices;
-  tbb::parallel_for(size_t{0}, blocks, [&](size_t b) {
+  parallel_for(size_t{0}, blocks, [&](size_t b) {
     const size_t first = b * kVertices, count = std::min(kVertices, clip.vertex_count - first);
     MatrixXd panel;
     if (frames)

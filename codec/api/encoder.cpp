@@ -4,6 +4,7 @@
 // The functions of encode.h.
 #include "codec/api/encoder_objects.h"
 #include "codec/encode_scene.h"
+#include "codec/parallel/thread_count.h"
 #include "codec/sequence/error.h"
 #include "sdk/api/versioned.h"
 
@@ -12,8 +13,6 @@
 #include <new>
 #include <numeric>
 #include <stdexcept>
-
-#include <tbb/task_arena.h>
 
 namespace anicodec {
 namespace {
@@ -177,9 +176,8 @@ void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_e
   encoder->result = {};
   MassageVerdict verdict;
   const Progress progress = progress_of(host.progress);
-  tbb::task_arena arena(host.threads > 0 ? static_cast<int>(host.threads)
-                                         : tbb::task_arena::automatic);
-  arena.execute([&] { encoder->result = encode_meshes(*encoder, plan, progress, &verdict); });
+  with_threads(host.threads,
+               [&] { encoder->result = encode_meshes(*encoder, plan, progress, &verdict); });
   EncodeResult& result = encoder->result;
   deliver(result.file, host.writer);
   out->size = result.file.size();

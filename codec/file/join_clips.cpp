@@ -161,14 +161,10 @@ void add_chunk(const OpenPart& part, const Chunk& chunk, uint16_t mesh, uint32_t
          "a chunk " + chunk_name(chunk.type) + " cannot be joined");
 }
 
-void verify(const Bytes& file) {
+Failure verified(ByteView file) {
   Clip clip;
   Failure failure = clip.open(file);
-  if (failure.ok())
-    failure = clip.check_hashes();
-  if (!failure.ok())
-    throw Error(ErrorKind::kInternal,
-                std::string("the joined file is not valid: ") + status_string(failure.status));
+  return failure.ok() ? clip.check_hashes() : failure;
 }
 
 /// An opened part, and where it goes.
@@ -270,8 +266,14 @@ Bytes join(const std::vector<PlacedMesh>& parts, uint32_t frames, ClipsRecord re
   add_segments(ChunkPlace::kWithSegment);
   add_segments(ChunkPlace::kBehindSegments);
   Bytes bytes = file.finish(limits.features());
-  verify(bytes);
-  return bytes;
+  const Failure failure = verified(bytes);
+  if (failure.ok())
+    return bytes;
+  // The payloads are copied: a part that is not valid shows only now.
+  for (const PlacedMesh& placed : parts)
+    placed.part->check(verified(placed.part->part.file));
+  throw Error(ErrorKind::kInternal,
+              std::string("the joined file is not valid: ") + status_string(failure.status));
 }
 
 }  // namespace

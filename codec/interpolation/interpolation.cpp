@@ -3,7 +3,7 @@
 #include "codec/interpolation/interpolation.h"
 
 #include "codec/algebra/rigid_motion.h"
-#include "codec/algebra/task_threads.h"
+#include "codec/parallel/task_threads.h"
 #include "codec/interpolation/deformation_gradients.h"
 #include "codec/interpolation/edge_refinement.h"
 #include "codec/interpolation/resting_parts.h"

@@ -6,6 +6,7 @@
 #include "codec/algebra/pivoted_cholesky.h"
 #include "codec/keyframes/keyframe_weights.h"
 #include "codec/keyframes/neural_gas.h"
+#include "codec/parallel/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,6 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -97,7 +97,7 @@ std::vector<uint32_t> gas_frames(const MatrixXd& gram, size_t count, KeyframeSpa
       span == KeyframeSpan::kAffine ? WeightConstraint::kSumToOne : WeightConstraint::kNone;
   std::array<std::vector<uint32_t>, kGasStarts> frames;
   std::array<double, kGasStarts> errors;
-  tbb::parallel_for(size_t{0}, kGasStarts, [&](size_t start) {
+  parallel_for(size_t{0}, kGasStarts, [&](size_t start) {
     NeuralGasOptions options;
     options.seed = start;
     frames[start] = prototype_frames(neural_gas(gram, count, options), gram);

@@ -4,6 +4,7 @@
 
 #include "codec/algebra/symmetric_solve.h"
 #include "codec/interpolation/interpolation.h"
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 #include "sdk/msgi/msgi.h"
 
@@ -16,8 +17,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -192,7 +191,7 @@ class KeyframeMsgi {
   double start_error() const {
     const size_t count = std::min(clip_.frame_count, kTried);
     std::vector<double> errors(count);
-    tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+    parallel_for(size_t{0}, count, [&](size_t i) {
       const size_t f = i * clip_.frame_count / count;
       FrameFit frame(msgi_, clip_, f);
       errors[i] = std::min(frame.residual(weights(f)).squaredNorm(),
@@ -206,7 +205,7 @@ class KeyframeMsgi {
 
   /// Weights, motions and errors of all frames.
   void improve_into(KeyframeFit& result) const {
-    tbb::parallel_for(size_t{0}, clip_.frame_count, [&](size_t f) {
+    parallel_for(size_t{0}, clip_.frame_count, [&](size_t f) {
       const auto row = static_cast<Index>(f);
       FrameFit frame(msgi_, clip_, f);
       VectorXd w = weights(f);
@@ -274,7 +273,7 @@ std::optional<double> msgi_error_between(const FrameView& clip, std::span<const 
                 inputs.data(), inputs.size(), {}) != Status::kOk)
     return std::nullopt;
   std::vector<double> errors(std::min(between.size(), kTried));
-  tbb::parallel_for(size_t{0}, errors.size(), [&](size_t i) {
+  parallel_for(size_t{0}, errors.size(), [&](size_t i) {
     const uint32_t f = between[(2 * i + 1) * between.size() / (2 * errors.size())];
     errors[i] = FrameFit(msgi, clip, f).residual(by_time(keyframes, f)).squaredNorm();
   });

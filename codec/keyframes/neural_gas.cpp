@@ -3,6 +3,7 @@
 #include "codec/keyframes/neural_gas.h"
 
 #include "codec/algebra/gram.h"
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/random.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 #include <numeric>
 #include <tuple>
 #include <utility>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -51,7 +50,7 @@ void measure_distances(const MatrixXd& gram, const MatrixXd& prototypes, MatrixX
   const Index count = prototypes.rows();
   const Index tiles = (gram.cols() + kGasTile - 1) / kGasTile;
   MatrixXd& products = distances;
-  tbb::parallel_for(Index{0}, tiles, [&](Index t) {
+  parallel_for(Index{0}, tiles, [&](Index t) {
     const Index first = t * kGasTile;
     const Index width = std::min(kGasTile, gram.cols() - first);
     products.middleCols(first, width).noalias() = prototypes * gram.middleCols(first, width);
@@ -60,7 +59,7 @@ void measure_distances(const MatrixXd& gram, const MatrixXd& prototypes, MatrixX
   for (Index i = 0; i < count; i++) {
     norms[i] = products.row(i).dot(prototypes.row(i));
   }
-  tbb::parallel_for(Index{0}, gram.cols(), [&](Index f) {
+  parallel_for(Index{0}, gram.cols(), [&](Index f) {
     auto column = distances.col(f).array();
     column = (norms.array() - 2 * column + gram(f, f)).max(0.0);
   });
@@ -78,7 +77,7 @@ bool move_prototypes(const MatrixXd& distances, double neighbourhood, MatrixXd& 
     weight[r] = std::exp(-static_cast<double>(r) / neighbourhood);
   }
   MatrixXd moved = MatrixXd::Zero(count, frames);
-  tbb::parallel_for(Index{0}, frames, [&](Index f) {
+  parallel_for(Index{0}, frames, [&](Index f) {
     std::vector<std::pair<double, Index>> order(static_cast<size_t>(count));
     for (Index i = 0; i < count; i++) {
       order[static_cast<size_t>(i)] = {distances(i, f), i};

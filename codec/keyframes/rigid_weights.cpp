@@ -3,11 +3,10 @@
 #include "codec/keyframes/rigid_weights.h"
 
 #include "codec/algebra/rigid_motion.h"
+#include "codec/parallel/parallel.h"
 
 #include <algorithm>
 #include <limits>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -52,7 +51,7 @@ class RigidFitter {
     }
     key_gram = (key_gram + key_gram.transpose().eval()) / 2;
     const WeightSolver solver(key_gram, constraint_, noise_);
-    tbb::parallel_for(Index{0}, shape_gram_.rows(), [&](Index f) {
+    parallel_for(Index{0}, shape_gram_.rows(), [&](Index f) {
       const Index key = keyframe_of_[static_cast<size_t>(f)];
       if (key >= 0) {
         fit_.weights.row(f) = Eigen::RowVectorXd::Unit(keys, key);

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/massage/correspondence.h"
 
+#include "codec/parallel/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace anicodec {
 namespace {
@@ -38,14 +38,14 @@ void Correspondences::update(const Positions& v, bool by_index) {
   if (by_index)
     moving.build_index();
   // Isolated: a caller that works on several frames at once must not be entered again meanwhile.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(size_t{0}, from_mesh_.size(), [&](size_t r) {
+  isolated([&] {
+    parallel_for(size_t{0}, from_mesh_.size(), [&](size_t r) {
       if (r < mesh_->vertex_count)
         draw_vertex(static_cast<uint32_t>(r), v, moving.normals(), by_index);
       else
         draw_centre(static_cast<uint32_t>(r - mesh_->vertex_count), v, by_index);
     });
-    tbb::parallel_for(size_t{0}, from_surface_.size(), [&](size_t j) {
+    parallel_for(size_t{0}, from_surface_.size(), [&](size_t j) {
       if (!surface_->topology().star[j].empty())
         draw_to_vertex(static_cast<uint32_t>(j), moving, by_index);
     });

@@ -5,6 +5,7 @@
 #include "codec/massage/normal_fit.h"
 #include "codec/massage/patch_filter.h"
 #include "codec/massage/sequence_filter.h"
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/frame_view.h"
 
 #include <algorithm>
@@ -15,8 +16,6 @@
 #include <span>
 #include <utility>
 #include <vector>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -75,7 +74,7 @@ class DenoiseRun {
         first_(first),
         count_(count),
         massaged_(*massaged) {
-    tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) {
+    parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) {
       samples_[k].emplace(clip_.topology, clip_.frame(source_.frame(first_ + sampled(k))));
     });
   }
@@ -101,7 +100,7 @@ class DenoiseRun {
   /// Calls with the surface of every frame and its vertices as they are now.
   template <class Visit>
   void for_frames(const Visit& visit) {
-    tbb::parallel_for(first_, first_ + count_, [&](uint32_t f) {
+    parallel_for(first_, first_ + count_, [&](uint32_t f) {
       const Surface surface(clip_.topology, clip_.frame(source_.frame(f)));
       Positions v = clip_.frame(std::as_const(massaged_).frame(f));
       visit(surface, &v);
@@ -197,7 +196,7 @@ class DenoiseRun {
   template <class Value>
   static double sample_mean(const Value& value) {
     double values[kSamples];
-    tbb::parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) { values[k] = value(k); });
+    parallel_for(uint32_t{0}, kSamples, [&](uint32_t k) { values[k] = value(k); });
     return std::accumulate(values, values + kSamples, 0.0) / kSamples;
   }
 

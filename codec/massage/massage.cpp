@@ -8,15 +8,13 @@
 #include "codec/massage/shape_weights.h"
 #include "codec/massage/untangle.h"
 #include "codec/massage/welded_surface.h"
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
-
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -49,7 +47,7 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
   fitting.rounds = kFittingRounds;
   const double tolerance =
       options.tolerance > 0 ? options.tolerance : std::numeric_limits<double>::infinity();
-  tbb::enumerable_thread_specific<ShapeFit> fitters([&] { return ShapeFit(clip.topology, shape); });
+  PerThread<ShapeFit> fitters([&] { return ShapeFit(clip.topology, shape); });
   const bool settles = options.remove_noise && can_denoise(sequence);
   auto massage_frame = [&](uint32_t f) {
     if (f == options.reference)
@@ -68,7 +66,7 @@ MassageResult massage(const MeshSequence& sequence, const MassageOptions& option
     for (uint32_t first = 0; first < sequence.frame_count; first += kFramesAtOnce) {
       if (progress)
         progress(stage, static_cast<double>(first) / sequence.frame_count);
-      tbb::parallel_for(first, std::min(sequence.frame_count, first + kFramesAtOnce), work);
+      parallel_for(first, std::min(sequence.frame_count, first + kFramesAtOnce), work);
     }
   };
   in_parallel("massaging", massage_frame);

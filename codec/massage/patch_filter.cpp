@@ -5,13 +5,12 @@
 #include "codec/algebra/gram.h"
 #include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/rigid_motion.h"
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/frame_view.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -154,7 +153,7 @@ double PatchFilter::run(double level, std::span<const uint32_t> vertices, uint32
     const size_t end = std::min(begin + kPatchesAtOnce, patches_.size());
     std::vector<std::vector<float>> moves(end - begin);
     std::vector<double> kept(end - begin);
-    tbb::parallel_for(begin, end, [&](size_t p) {
+    parallel_for(begin, end, [&](size_t p) {
       std::vector<uint32_t> source;
       for (uint32_t v : patches_[p].vertices)
         source.push_back(vertices[v]);

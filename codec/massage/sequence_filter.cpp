@@ -4,12 +4,11 @@
 
 #include "codec/algebra/gram.h"
 #include "codec/algebra/leading_eigenpairs.h"
+#include "codec/parallel/parallel.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -62,7 +61,7 @@ std::vector<float> combination(const FrameView& clip, const Eigen::RowVectorXd& 
 void play_frames(const Eigen::MatrixXd& weights, uint32_t first, MeshSequence* sequence) {
   const size_t size = size_t{3} * sequence->vertex_count;
   const FrameView clip = FrameView(*sequence).frames(first, static_cast<size_t>(weights.rows()));
-  tbb::parallel_for(size_t{0}, (size + kBlock - 1) / kBlock, [&](size_t b) {
+  parallel_for(size_t{0}, (size + kBlock - 1) / kBlock, [&](size_t b) {
     const size_t begin = b * kBlock, count = std::min(kBlock, size - begin);
     std::vector<double> block(count * clip.frame_count);
     for (size_t f = 0; f < clip.frame_count; ++f)

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/metrics/hausdorff.h"
 
+#include "codec/parallel/task_threads.h"
 #include "codec/sequence/error.h"
 #include "codec/surface/closest_point.h"
 #include "sdk/mesh/half_edges.h"
@@ -11,8 +12,6 @@
 #include <string>
 
 #include <Eigen/Geometry>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -126,8 +125,8 @@ std::vector<double> Sampling::weights(std::span<const float> positions) const {
 SurfaceDistance Sampling::distance(std::span<const float> positions,
                                    const ClosestPointQuery& target) const {
   std::vector<double> squares(samples(positions.size() / 3));
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, squares.size(), 256), [&](const auto& range) {
-    for (size_t i = range.begin(); i != range.end(); ++i)
+  for_ranges(task_threads(), squares.size(), 256, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i)
       squares[i] = target(sample(i, positions)).square_distance;
   });
   std::vector<double> weight = weights(positions);

@@ -3,12 +3,10 @@
 #include "codec/metrics/sted.h"
 
 #include "codec/metrics/diameter.h"
+#include "codec/parallel/task_threads.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -30,8 +28,8 @@ double square_distance(const float* p, const float* q) {
 
 template <class Body>
 void parallel_over(size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 2048), [&](const auto& range) {
-    for (size_t i = range.begin(); i != range.end(); ++i)
+  for_ranges(task_threads(), count, 2048, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i)
       body(i);
   });
 }

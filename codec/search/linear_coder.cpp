@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/linear_coder.h"
 
+#include "codec/parallel/parallel.h"
+#include "codec/parallel/thread_count.h"
 #include "codec/search/bound_search.h"
 #include "codec/search/opening_time.h"
 #include "codec/sequence/error.h"
@@ -12,10 +14,6 @@
 #include <ranges>
 #include <string>
 #include <utility>
-
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-#include <tbb/task_arena.h>
 
 namespace anicodec {
 namespace {
@@ -105,15 +103,18 @@ LinearCoder::MadeBasis& LinearCoder::made_basis(const LinearChoice& choice, size
   while (most < std::min(wanted, kMostComponents))
     most *= 2;
   const std::scoped_lock lock(bases_->mutex);
-  const auto [found, fresh] =
-      bases_->made.try_emplace({choice.pose, choice.base, choice.regions, most});
-  if (fresh) {
+  const std::tuple key{choice.pose, choice.base, choice.regions, most};
+  auto found = bases_->made.find(key);
+  if (found == bases_->made.end()) {
+    LinearBasis basis;
     // A thread that waits for others here must not take a task that waits for the lock.
-    tbb::this_task_arena::isolate([&, &basis = found->second.basis] {
+    isolated([&] {
       basis = choice.regions == 1
                   ? analysis_.basis(kind_, choice.pose, choice.base, most, 0, given())
                   : analysis_of(choice.regions).basis(analysis_, choice.pose, most, given());
     });
+    found = bases_->made.try_emplace(key).first;
+    found->second.basis = std::move(basis);
   }
   return found->second;
 }
@@ -194,9 +195,7 @@ std::vector<LinearCoder::Measured> LinearCoder::measured(const std::vector<Linea
   std::vector<Measured> trials(choices.size());
   for (size_t i = 0; i < choices.size(); ++i)
     input_.begin_trial();
-  tbb::parallel_for(
-      size_t{0}, choices.size(), [&](size_t i) { trials[i] = trial(choices[i], rmse); },
-      tbb::simple_partitioner());
+  parallel_tasks(choices.size(), [&](size_t i) { trials[i] = trial(choices[i], rmse); });
   return trials;
 }
 
@@ -324,8 +323,7 @@ void LinearCoder::try_regions(double rmse) {
       regions_[regions];  // its place
     }
   }
-  tbb::parallel_for(size_t{0}, counts.size(), [&](size_t i) { analysis_of(counts[i]); },
-                    tbb::simple_partitioner());
+  parallel_tasks(counts.size(), [&](size_t i) { analysis_of(counts[i]); });
   for (const uint32_t regions : counts) {
     LinearChoice cut = choice_;
     cut.regions = regions;
@@ -337,20 +335,17 @@ void LinearCoder::try_regions(double rmse) {
     return;
   std::vector<Measured> trials = measured(cuts, rmse);
   const double least = std::ranges::min(trials, {}, &Measured::bytes).bytes;
-  tbb::parallel_for(
-      size_t{0}, cuts.size(),
-      [&](size_t i) {
-        LinearChoice& cut = cuts[i];
-        Measured& trial = trials[i];
-        learn(trial, rmse, cut);
-        if (std::abs(trial.rmse / rmse - 1) > kNear &&
-            trial.bytes < kFarFromBest * std::min(least, probed_.bytes)) {
-          cut = started(cut, rmse);
-          trial = measured(cut, rmse);
-          learn(trial, rmse, cut);
-        }
-      },
-      tbb::simple_partitioner());
+  parallel_tasks(cuts.size(), [&](size_t i) {
+    LinearChoice& cut = cuts[i];
+    Measured& trial = trials[i];
+    learn(trial, rmse, cut);
+    if (std::abs(trial.rmse / rmse - 1) > kNear &&
+        trial.bytes < kFarFromBest * std::min(least, probed_.bytes)) {
+      cut = started(cut, rmse);
+      trial = measured(cut, rmse);
+      learn(trial, rmse, cut);
+    }
+  });
   for (size_t i = 0; i < cuts.size(); ++i) {
     LinearChoice& cut = cuts[i];
     const Measured& trial = trials[i];
@@ -386,7 +381,7 @@ void LinearCoder::choose_settings(double rmse) {
 /// Keeps the changes of the settings that help, each made to what those before it left. As many as
 /// there are threads are tried at a time: those after one that helps are then tried again.
 bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse, double* least) {
-  const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
+  const auto threads = thread_count();
   bool changes = false;
   while (!steps.empty()) {
     std::vector<LinearChoice> changed;
@@ -420,8 +415,8 @@ std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   const bool thorough = thorough_;
   std::optional<CodedPart> best, ahead;
   LinearChoice choice_ahead;
-  const bool looks_ahead = !earlier_.empty() && tbb::this_task_arena::max_concurrency() > 1;
-  tbb::parallel_invoke([&] { best = reached(choice_, rmse); },
+  const bool looks_ahead = !earlier_.empty() && thread_count() > 1;
+  parallel_invoke([&] { best = reached(choice_, rmse); },
                        [&] {
                          if (!looks_ahead)
                            return;

@@ -2,14 +2,13 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/rate_control.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/search/time_segmentation.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <string>
 #include <utility>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -198,9 +197,7 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
     double rmse = search_.typical_rmse(*coders[0]);
     std::vector<double> bytes(2);
     const auto probe = [&](double (LinearCoder::*by)(double)) {
-      tbb::parallel_for(
-          size_t{0}, coders.size(), [&](size_t i) { bytes[i] = (*coders[i].*by)(rmse); },
-          tbb::simple_partitioner());
+      parallel_tasks(coders.size(), [&](size_t i) { bytes[i] = (*coders[i].*by)(rmse); });
       if (coders.size() == 2 && bytes[1] < bytes[0]) {
         std::swap(coders[0], coders[1]);
         std::swap(bytes[0], bytes[1]);

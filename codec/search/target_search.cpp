@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/target_search.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/search/clip_bounds.h"
 #include "codec/search/motion_error.h"
 #include "codec/sequence/error.h"
@@ -12,8 +13,6 @@
 #include <limits>
 #include <map>
 #include <utility>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -231,10 +230,9 @@ std::optional<Solution> TargetSearch::best_of(std::span<SegmentCoder* const> cod
   const std::optional<double> rmse = rmse_asked();
   std::vector<std::optional<CodedPart>> parts(coders.size());
   if (rmse)
-    tbb::parallel_for(
-        size_t{0}, coders.size(),
-        [&](size_t i) { parts[i] = within_bounds(*coders[i], input_, 0, *rmse); },
-        tbb::simple_partitioner());
+    parallel_tasks(coders.size(), [&](size_t i) {
+      parts[i] = within_bounds(*coders[i], input_, 0, *rmse);
+    });
   std::optional<Solution> best;
   for (size_t i = 0; i < coders.size(); ++i) {
     keep_better(rmse ? listed(std::move(parts[i])) : reach(*coders[i], best ? &*best : nullptr),

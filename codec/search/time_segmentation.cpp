@@ -2,12 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/time_segmentation.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/search/clip_bounds.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include <tbb/parallel_invoke.h>
 
 namespace anicodec {
 namespace {
@@ -78,7 +77,7 @@ void TimeSegmentation::split(const FrameRun& range, double bytes, std::vector<Fr
     FrameRun left{range.first, *cut - range.first};
     FrameRun right{*cut, range.first + range.count - *cut};
     double of_left = 0, of_right = 0;
-    tbb::parallel_invoke([&] { of_left = probed(left); }, [&] { of_right = probed(right); });
+    parallel_invoke([&] { of_left = probed(left); }, [&] { of_right = probed(right); });
     if (of_left + of_right < kWorthIt * bytes) {
       split(left, of_left, out);
       split(right, of_right, out);

@@ -2,15 +2,12 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/coefficient_encoder.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-#include <tbb/task_arena.h>
 
 namespace anicodec {
 namespace {
@@ -143,8 +140,8 @@ bool CoefficientEncoder::round_together() {
   bool is_coded = false;
   // The first rehearsal does not need what the weights become. Isolated, so that a thread that waits
   // does not begin another trial.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_invoke(
+  isolated([&] {
+    parallel_invoke(
         [&] {
           write_chosen();
           rehearsed_ = model_;
@@ -231,7 +228,7 @@ std::optional<CoefficientEncoder::Component> CoefficientEncoder::code(size_t j) 
   component.wide =
       largest * (1 << kFewestFractionBits) > INT16_MAX || largest_residual > INT16_MAX;
   component.omega = omega_byte(energy / (static_cast<double>(n) * channels_));
-  tbb::parallel_for(size_t{0}, predictor_.block_count(),
+  parallel_for(size_t{0}, predictor_.block_count(),
                     [&](size_t b) { predictor_.update(b, b + 1, component.omega); });
   new_weights_ = predictor_.refits();
   predictor_.next_component();

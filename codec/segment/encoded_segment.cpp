@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/encoded_segment.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 #include "format/status.h"
 #include "sdk/play/play.h"
@@ -12,8 +13,6 @@
 #include <numeric>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
 namespace anicodec {
 namespace {
 
@@ -22,7 +21,7 @@ template <class Visit>
 void for_each_frame(const Segment& segment, Visit visit) {
   constexpr uint32_t kFrames = 8;
   uint32_t tasks = (segment.frames + kFrames - 1) / kFrames;
-  tbb::parallel_for(uint32_t{0}, tasks, [&](uint32_t task) {
+  parallel_for(uint32_t{0}, tasks, [&](uint32_t task) {
     std::vector<float> decoded(size_t{3} * segment.vertices);
     std::vector<float> shape(shape_size(segment)), scratch(shape_scratch_size(segment));
     for (uint32_t f = task * kFrames; f < std::min(segment.frames, (task + 1) * kFrames); ++f) {
@@ -117,7 +116,7 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   Status status = open_segment(record, context, &segment);
   encoded.decoded.reset();
   if (status == Status::kNonFinite)
-    throw Error(ErrorKind::kUsage, "the coordinates are too large");
+    throw Error(ErrorKind::kInput, "the coordinates are too large");
   if (status == Status::kLimit)
     throw Error(ErrorKind::kUsage,
                 "geometry interpolation of this mesh takes more memory than decoders allow");

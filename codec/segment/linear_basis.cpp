@@ -5,10 +5,10 @@
 #include "codec/algebra/gram.h"
 #include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/trajectory_gram.h"
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 
 #include <Eigen/Eigenvalues>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -210,7 +210,7 @@ LinearBasis LinearAnalysis::basis(BasisKind kind, ReferencePose pose, Base base,
 RegionAnalysis::RegionAnalysis(std::shared_ptr<const RegionClips> clips)
     : clips_(std::move(clips)) {
   analyses_.resize(clips_->count());
-  tbb::parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
+  parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
     analyses_[r] = std::make_unique<const LinearAnalysis>(clips_->clip(r));
   });
 }
@@ -224,7 +224,7 @@ LinearBasis RegionAnalysis::basis(const LinearAnalysis& whole, ReferencePose pos
   const bool by_region = pose == ReferencePose::kRankThree;
   out.pose = whole.pose(by_region ? ReferencePose::kFrame : pose, given_pose);
   out.regions.resize(analyses_.size());
-  tbb::parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
+  parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
     const MatrixXd rows = out.pose(clips_->vertices(r), Eigen::all);
     out.regions[r] = analyses_[r]->basis(BasisKind::kEigentrajectories,
                                          by_region ? pose : ReferencePose::kGiven, Base::kAffine,

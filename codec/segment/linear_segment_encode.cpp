@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/linear_segment_encode.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/segment/basis_fit.h"
 #include "codec/segment/coefficient_encoder.h"
 #include "codec/sequence/error.h"
@@ -14,9 +15,6 @@
 #include <functional>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 namespace anicodec {
 namespace {
 
@@ -26,8 +24,7 @@ using Eigen::VectorXd;
 
 // Isolated: a thread that waits here must not begin another trial meanwhile, which takes long.
 void run_together(size_t count, const std::function<void(size_t)>& task) {
-  tbb::this_task_arena::isolate(
-      [&] { tbb::parallel_for(size_t{0}, count, task, tbb::simple_partitioner()); });
+  isolated([&] { parallel_tasks(count, task); });
 }
 
 /// Codes the columns of `weights` as time components of `channels` channels (row channels * f + c)

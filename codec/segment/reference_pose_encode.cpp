@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/reference_pose_encode.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/segment/pose_partners.h"
 #include "sdk/pose/dependent_steps.h"
 #include "sdk/pose/exact_pose.h"
@@ -13,9 +14,6 @@
 #include <limits>
 #include <utility>
 #include <vector>
-
-#include <tbb/parallel_invoke.h>
-#include <tbb/task_arena.h>
 
 namespace anicodec {
 namespace {
@@ -150,9 +148,9 @@ std::shared_ptr<const EncodedPose> ReferencePoseEncoder::at_step(double step) co
   const PosePartners* by = repeats ? &partners_ : nullptr;
   std::shared_ptr<const EncodedPose> best, other;
   // Isolated: a thread that waits here must not begin another trial meanwhile, which takes long.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_invoke([&] { best = coded(by); },
-                         [&] { other = repeats ? coded(nullptr) : exactly(nullptr); });
+  isolated([&] {
+    parallel_invoke([&] { best = coded(by); },
+                    [&] { other = repeats ? coded(nullptr) : exactly(nullptr); });
   });
   if (repeats) {
     if (cost(*other, false) <= cost(*best, true)) {

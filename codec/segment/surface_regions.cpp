@@ -5,14 +5,13 @@
 #include "codec/algebra/blocked_product.h"
 #include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/symmetric_solve.h"
+#include "codec/parallel/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
 #include <utility>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -41,7 +40,7 @@ struct Trajectories {
     const FrameView some = clip.frames(0, (clip.frame_count + step - 1) / step, step);
     motion.resize(static_cast<Index>(n), static_cast<Index>(3 * some.frame_count));
     base.resize(static_cast<Index>(n), 4);
-    tbb::parallel_for(size_t{0}, n, [&](size_t v) {
+    parallel_for(size_t{0}, n, [&](size_t v) {
       const auto row = static_cast<Index>(v);
       double mean[3] = {};
       for (size_t f = 0; f < some.frame_count; ++f) {
@@ -202,7 +201,7 @@ class RegionSearch {
       price.push_back(std::pow(static_cast<double>(vertices.size()) / mean, kSizePower));
     }
     std::vector<uint8_t> wanted(regions_.begin(), regions_.end());
-    tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(size()), [&](uint32_t v) {
+    parallel_for(uint32_t{0}, static_cast<uint32_t>(size()), [&](uint32_t v) {
       uint32_t near = 0;
       around(v, [&](uint32_t u) { near |= 1U << regions_[u]; });
       const uint32_t own = regions_[v];

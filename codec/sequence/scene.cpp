@@ -69,12 +69,13 @@ std::vector<FrameRun> frames_shown(const MeshSequence& sequence,
   return runs;
 }
 
-SceneMesh taken(const MeshSequence& whole, const PartMembers& members) {
+/// `number`: room for a number of each vertex of the whole.
+SceneMesh taken(const MeshSequence& whole, const PartMembers& members,
+                std::vector<uint32_t>& number) {
   SceneMesh mesh;
   MeshSequence& out = mesh.sequence;
   if (members.part != kNoLabel)
     out.mesh_name = whole.parts.names[members.part];
-  std::vector<uint32_t> number(whole.vertex_count);
   for (uint32_t v : members.vertices)
     number[v] = out.vertex_count++;
   std::vector<uint32_t> polygon;
@@ -95,12 +96,15 @@ SceneMesh taken(const MeshSequence& whole, const PartMembers& members) {
   }
   out.frame_count = static_cast<uint32_t>(frames.size());
   for (const Attribute& attribute : whole.attributes) {
-    Attribute& mesh_attribute = out.attributes.emplace_back(attribute);
+    Attribute& mesh_attribute = out.attributes.emplace_back(Attribute{.kind = attribute.kind,
+                                                                    .name = attribute.name,
+                                                                    .domain = attribute.domain,
+                                                                    .components = attribute.components,
+                                                                    .values = {}});
     const std::vector<uint32_t>& rows = attribute.per_corner()   ? members.corners
                                         : attribute.per_vertex() ? members.vertices
                                                                  : members.polygons;
     const size_t elements = element_count(whole, attribute.domain);
-    mesh_attribute.values.clear();
     for (uint32_t f : attribute.frames == 1 ? std::vector<uint32_t>{0} : frames) {
       for (uint32_t row : rows) {
         const float* values =
@@ -121,8 +125,10 @@ SceneMesh taken(const MeshSequence& whole, const PartMembers& members) {
   return mesh;
 }
 
-/// Adds the labels of a mesh to those of the meshes before it, names that are the same once.
-void append(const PolygonLabels& labels, size_t polygons, PolygonLabels& out) {
+/// Adds the labels of a mesh to those of the meshes before it, names that are the same once. `numbers`: of
+/// the names so far.
+void append(const PolygonLabels& labels, size_t polygons, std::map<std::string, uint32_t>& numbers,
+            PolygonLabels& out) {
   if (labels.of_polygon.empty()) {
     out.of_polygon.insert(out.of_polygon.end(), polygons, kNoLabel);
     return;
@@ -132,9 +138,10 @@ void append(const PolygonLabels& labels, size_t polygons, PolygonLabels& out) {
       out.of_polygon.push_back(kNoLabel);
       continue;
     }
-    const auto name = std::find(out.names.begin(), out.names.end(), labels.names[label]);
-    out.of_polygon.push_back(static_cast<uint32_t>(name - out.names.begin()));
-    if (name == out.names.end())
+    const auto [number, is_new] =
+        numbers.try_emplace(labels.names[label], static_cast<uint32_t>(out.names.size()));
+    out.of_polygon.push_back(number->second);
+    if (is_new)
       append_name(labels, label, out);
   }
 }
@@ -204,13 +211,15 @@ Scene split_parts(MeshSequence sequence) {
     scene.meshes.push_back({std::move(sequence), {{0, clip.frame_count}}});
     return scene;
   }
+  std::vector<uint32_t> number(sequence.vertex_count);
   for (const PartMembers& members : members_of_parts(sequence))
-    scene.meshes.push_back(taken(sequence, members));
+    scene.meshes.push_back(taken(sequence, members, number));
   return scene;
 }
 
 MeshSequence merge_meshes(std::span<const MeshSequence> meshes) {
   MeshSequence out;
+  std::map<std::string, uint32_t> part_numbers, material_numbers;
   bool knows_hard_edges = false, has_materials = false;
   for (const MeshSequence& mesh : meshes) {
     knows_hard_edges |= !mesh.shared_normals.empty();
@@ -223,9 +232,10 @@ MeshSequence merge_meshes(std::span<const MeshSequence> meshes) {
     for (size_t c = first_corner; c < out.polygons.corners.size(); ++c)
       out.polygons.corners[c] += out.vertex_count;
     const PolygonLabels name{{mesh.mesh_name}, std::vector<uint32_t>(mesh.polygons.size(), 0)};
-    append(mesh.mesh_name.empty() ? mesh.parts : name, mesh.polygons.size(), out.parts);
+    append(mesh.mesh_name.empty() ? mesh.parts : name, mesh.polygons.size(), part_numbers,
+           out.parts);
     if (has_materials)
-      append(mesh.materials, mesh.polygons.size(), out.materials);
+      append(mesh.materials, mesh.polygons.size(), material_numbers, out.materials);
     if (knows_hard_edges) {
       out.shared_normals.insert(out.shared_normals.end(), mesh.shared_normals.begin(),
                                 mesh.shared_normals.end());

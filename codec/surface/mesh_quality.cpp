@@ -2,12 +2,13 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/surface/mesh_quality.h"
 
+#include "codec/parallel/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -61,7 +62,7 @@ bool faces_against(const SurfaceTopology& topology, const Positions& positions, 
 template <class Turned>
 std::vector<uint32_t> all_turned(const SurfaceTopology& topology, const Turned& is_turned) {
   std::vector<uint8_t> turned(topology.triangles.size(), 0);
-  tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(turned.size()),
+  parallel_for(uint32_t{0}, static_cast<uint32_t>(turned.size()),
                     [&](uint32_t t) { turned[t] = is_turned(t); });
   std::vector<uint32_t> list;
   for (uint32_t t = 0; t < turned.size(); ++t) {
@@ -130,7 +131,7 @@ std::vector<uint32_t> triangles_below(const SurfaceTopology& topology, const Pos
                                       const Surface& surface) {
   const auto count = static_cast<uint32_t>(topology.triangles.size());
   std::vector<uint32_t> below(count);
-  tbb::parallel_for(uint32_t{0}, count, [&](uint32_t t) {
+  parallel_for(uint32_t{0}, count, [&](uint32_t t) {
     below[t] = surface.closest(centre(positions, topology.triangles[t])).triangle;
   });
   std::vector<bool> against(count);

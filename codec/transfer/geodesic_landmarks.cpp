@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/transfer/geodesic_landmarks.h"
 
+#include "codec/parallel/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,7 +12,6 @@
 #include <utility>
 
 #include <Eigen/Geometry>
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 namespace {
@@ -254,7 +255,7 @@ std::vector<Landmark> geodesic_landmarks(const GeodesicGraph& mesh,
   places = consistent(std::move(places), edge);
   for (int round = 0; round < rounds; ++round) {
     std::vector<uint32_t> found(vertices.size());
-    tbb::parallel_for(size_t{0}, vertices.size(), [&](size_t k) {
+    parallel_for(size_t{0}, vertices.size(), [&](size_t k) {
       found[k] = find_place(vertices[k], places, v, edge, apart);
     });
     places = {};

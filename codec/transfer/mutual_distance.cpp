@@ -2,10 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/transfer/mutual_distance.h"
 
-#include <cmath>
+#include "codec/parallel/parallel.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <cmath>
 
 namespace anicodec {
 namespace {
@@ -51,8 +50,8 @@ void MutualDistance::update(const Positions& v, bool by_index) {
     moving.build_index();
   from_mesh.shares = sample_shares(mesh_, from_mesh.samples, v);
   // Isolated: a caller that works on several frames at once must not be entered again meanwhile.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(size_t{0}, from_mesh.samples.size(), [&](size_t s) {
+  isolated([&] {
+    parallel_for(size_t{0}, from_mesh.samples.size(), [&](size_t s) {
       const SurfaceSample& sample = from_mesh.samples[s];
       SamplePair& pair = from_mesh.pairs[s];
       pair.on_mesh = {sample.triangle, sample.weights, sample_point(mesh_, sample, v), 0};
@@ -61,7 +60,7 @@ void MutualDistance::update(const Positions& v, bool by_index) {
       pair.target = found.position;
       set_direction(found.triangle, &pair);
     });
-    tbb::parallel_for(size_t{0}, from_surface.samples.size(), [&](size_t s) {
+    parallel_for(size_t{0}, from_surface.samples.size(), [&](size_t s) {
       const SurfaceSample& sample = from_surface.samples[s];
       SamplePair& pair = from_surface.pairs[s];
       pair.target = sample_point(surface_.topology(), sample, surface_.positions());

@@ -118,6 +118,8 @@ Status check_output(const anic_output* host, uint32_t count, VertexOutput* resul
   if (count > 0 &&
       (out->size < element || (out->size - element) / result->stride < size_t{count} - 1))
     return Status::kBufferSize;
+  if (count <= 1)
+    result->stride = element;  // no step is taken: a huge one would lead past every address
   return Status::kOk;
 }
 

@@ -66,6 +66,8 @@ Status ValueOutput::make(const anic_value_output& out, uint32_t components, uint
   if (count > 0 &&
       (out.size < element || (out.size - element) / result->stride_ < size_t{count} - 1))
     return Status::kBufferSize;
+  if (count <= 1)
+    result->stride_ = element;  // no step is taken: a huge one would lead past every address
   result->at_ = static_cast<unsigned char*>(out.data);
   return Status::kOk;
 }

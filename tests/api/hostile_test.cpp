@@ -48,9 +48,10 @@ anic_status read_unopened(const Bytes& file) {
   size_t bytes;
   anic_box box;
   anic_status status = anic_read_metadata(file.data(), file.size(), &text, &bytes);
-  if (status == ANIC_OK || status == ANIC_E_ABSENT)
-    status = anic_read_bounds(file.data(), file.size(), 0, 0, 0, &box);
-  return status == ANIC_E_ABSENT ? ANIC_OK : status;
+  const auto is_well = [&] { return status == ANIC_OK || status == ANIC_E_ABSENT; };
+  for (uint32_t mesh = 0; is_well(); ++mesh)
+    status = anic_read_bounds(file.data(), file.size(), mesh, 0, 0, &box);
+  return status == ANIC_E_ARGUMENT ? ANIC_OK : status;  // there is no such mesh
 }
 
 /// Opens and compares hashes; what opens is played. Nothing is kept.
@@ -154,9 +155,24 @@ size_t step_of(const Entry& entry) {
   return entry.bytes.size() / kChanges + 1;
 }
 
+/// Whether a byte lies in a chunk that nobody reads, for its type is not known.
+bool is_skipped(const Bytes& file, size_t at) {
+  ContainerReader reader;
+  if (!reader.open(file).ok())
+    return false;
+  for (const Chunk& chunk : reader.chunks()) {
+    if (at >= chunk.offset && at - chunk.offset < chunk.size)
+      return !chunk.required && chunk.type != chunk_type("META") &&
+             chunk.type != chunk_type("BNDS") && chunk.type != chunk_type("ATTR");
+  }
+  return false;
+}
+
 TEST(SlowHostile, ChangedBytesAreNoticed) {
   for (Entry& entry : listed("valid")) {
     for (size_t i = 0; i < entry.bytes.size(); i += step_of(entry)) {
+      if (is_skipped(entry.bytes, i))
+        continue;
       uint8_t& byte = entry.bytes[i];
       const uint8_t old = byte;
       byte = static_cast<uint8_t>(old ^ 0x20);

@@ -249,3 +249,10 @@ def test_root_motion_and_events(tmp_path):
     assert np.abs(still.at(1.0)[:, 0] - positions[10][:, 0]).max() > 1
     with pytest.raises(anicodec.InputError):
         anicodec.encode(positions, faces, events=[("late", 1000.0)])
+
+
+def test_frames_that_memory_does_not_hold_are_refused(clip):
+    small = anicodec.open(clip.data, max_bytes=10**7)
+    assert len(small[:]) == len(small)
+    with pytest.raises(anicodec.LimitError, match="frames take"):
+        small.frames([0] * (10**7 // (12 * small.vertex_count) + 1))

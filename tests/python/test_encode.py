@@ -220,7 +220,7 @@ GOOD = np.random.default_rng(2).random((3, 4, 3))
     (GOOD, None, {"fps": 0}, "fps must be greater than 0"),
     (GOOD, None, {"unit": "parsec"}, "not 'parsec'"),
     (GOOD, None, {"up": "x"}, "not 'x'"),
-    (GOOD, None, {"uv": GOOD[0]}, "uv must be 4 vertices or 0 corners x 2, not 4 x 3"),
+    (GOOD, None, {"uv": GOOD[0]}, "uv must be 4 vertices, 0 corners or 0 polygons x 2, not 4 x 3"),
     (GOOD, None, {"times": [0, 2, 1]}, "ascend"),
     (GOOD, [(0, 1, 2)], {"materials": (["a"], [1])}, "label 2 of 1"),
 ])
@@ -260,3 +260,24 @@ print(anicodec.open("a.anic"))
     result = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True)
     assert result.returncode == 0 and result.stderr == "", result.stderr
     assert result.stdout.startswith("<anicodec.Clip: 5 vertices, 4 frames at 24 per second, ")
+
+
+def test_broadcast_arrays_are_refused_before_they_are_converted():
+    faces = np.broadcast_to(np.arange(3), (2**31 - 1, 3))
+    with pytest.raises(anicodec.LimitError, match="faces take"):
+        anicodec.encode(GOOD, faces, max_bytes=10**9)
+    with pytest.raises(anicodec.InputError, match="too many corners"):
+        anicodec.encode(GOOD, faces)
+    with pytest.raises(anicodec.LimitError, match="positions take"):
+        anicodec.encode(np.broadcast_to(np.int8(1), (2**20, 2**20, 3)), max_bytes=10**9)
+    with pytest.raises(anicodec.LimitError, match="uv take"):
+        anicodec.encode(GOOD, uv=np.broadcast_to(np.int8(1), (2**30, 2)), max_bytes=10**9)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 4])
+def test_no_coordinates_end_the_interpreter(threads):
+    corners = np.array([[0, 0, 0], [1e20, 0, 0], [0, 1e20, 3]], np.float32)
+    for scale in (1, 1e18, np.nan, np.inf):
+        for _ in range(25):
+            with pytest.raises(anicodec.InputError):
+                anicodec.encode(corners[None] * np.float32(scale), [[0, 1, 2]], threads=threads)

@@ -466,17 +466,18 @@ def segment_rules(files):
 
 def stream_rules(files, status_of):
     """(status, name, file, what) of streams whose symbols make no sense: bytes whose change causes it."""
-    for name, kind, status, count in (("polygons_all", "FMAP", 44, 16), ("polygons_all", "VMAP", 44, 12), ("tangle", "FMAP", 44, 6), ("tangle", "VMAP", 44, 3),
+    for name, kind, status, count, *flip in (("polygons_all", "FMAP", 44, 16), ("polygons_all", "VMAP", 44, 12), ("tangle", "FMAP", 44, 6), ("tangle", "VMAP", 44, 3),
                                       ("tangle", "MESH", 43, 3), ("tangle", "MESH", 44, 2), ("heated", "ATTR", 41, 1),
                                       ("quad_box_corrected", "BASI", 41, 1), ("quad_box_corrected", "CORR", 41, 2),
-                                      ("limb_small", "POSE", 41, 1), ("soup", "SEGM", 41, 1), ("regions", "SEGM", 41, 3), ("regions", "SEGM", 45, 1)):
+                                      ("limb_small", "POSE", 41, 1), ("soup", "SEGM", 41, 1), ("regions", "SEGM", 41, 3), ("regions", "SEGM", 45, 1),
+                                      ("self_meeting", "MESH", 43, 9, 2)):
         chunks, found = files(name).chunks(), []
         chunk = next(c for c in chunks if c.type == kind)
         good = chunk.payload
         for part in range(count):  # spread over the stream
             for at in range(len(good) * part // count, len(good)):
-                chunk.payload = good[:at] + bytes([good[at] ^ 1]) + good[at + 1:]
-                data = anic_file.write_chunks(chunks)
+                chunk.payload = good[:at] + bytes([good[at] ^ (flip[0] if flip else 1)]) + good[at + 1:]
+                data = files(name).of(chunks)
                 if status_of(data) == status and data not in found:
                     found.append(data)
                     yield status, f"stream_{name}_{kind.lower()}_{len(found)}", data, f"byte {at} of {kind} of {name}.anic changed"

@@ -25,14 +25,17 @@ ALLOWED = {
     "sdk/web": ["<anicodec/", "<stdlib.h>", "<string.h>"],
     "sdk/engines/ogre": ['"sdk/engines/ogre/', "<anicodec/", "<Ogre"],
     "sdk/python": ['"sdk/python/', '"codec/', '"tools/commands/command_line.h"', "<anicodec/", "<nanobind/"],
-    "codec": ['"codec/', '"sdk/', '"format/', "<anicodec/", "<Eigen/", "<unsupported/Eigen/BVH>", "<tbb/"],
+    "codec": ['"codec/', '"sdk/', '"format/', "<anicodec/", "<Eigen/", "<unsupported/Eigen/BVH>"],
+    # All parallel work: nobody calls TBB past it, which leaves out bodies without a word.
+    "codec/parallel": ['"codec/parallel/', '"sdk/base/', "<tbb/"],
     # Frames that the memory does not hold lie in files.
     "codec/sequence": ['"codec/sequence/', '"sdk/', '"format/', "<fcntl.h>", "<sys/mman.h>", "<unistd.h>"],
     "corpus": ['"corpus/', '"codec/', "<xxhash.h>"],
     "tools": ['"tools/', '"corpus/', '"codec/', '"sdk/', '"format/', "<anicodec/",
-              "<fmt/", "<nlohmann/", "<tbb/", *POSIX],
-    # Importers and exporters need no encoder: of codec/, only what a mesh in motion is.
-    "tools/io": ['"tools/io/', '"codec/sequence/', '"sdk/', '"format/', "<fmt/", "<nlohmann/", "<tbb/", *POSIX],
+              "<fmt/", "<nlohmann/", *POSIX],
+    # Importers and exporters need no encoder: of codec/, only what a mesh in motion is,
+    # and the threads.
+    "tools/io": ['"tools/io/', '"codec/sequence/', '"codec/parallel/', '"sdk/', '"format/', "<fmt/", "<nlohmann/", *POSIX],
 }
 # Rooms, each with the rooms of its module that it may include: only rooms that stand above it, so that all
 # arrows point one way. A folder with sources is a room and has a README.md.
@@ -52,24 +55,29 @@ ROOMS = {
     "sdk/api": ["sdk/base", "sdk/msgi", "sdk/play", "sdk/clip"],
     "sdk/engines/ogre": [],
     "codec/sequence": [],
-    "codec/algebra": ["codec/sequence"],
-    "codec/surface": ["codec/sequence"],
-    "codec/metrics": ["codec/sequence", "codec/surface"],
+    "codec/parallel": [],
+    "codec/algebra": ["codec/sequence", "codec/parallel"],
+    "codec/surface": ["codec/sequence", "codec/parallel"],
+    "codec/metrics": ["codec/sequence", "codec/parallel", "codec/surface"],
     "codec/connectivity": ["codec/sequence"],
-    "codec/massage": ["codec/sequence", "codec/algebra", "codec/surface", "codec/connectivity"],
-    "codec/transfer": ["codec/sequence", "codec/algebra", "codec/surface", "codec/metrics", "codec/massage"],
+    "codec/massage": ["codec/sequence", "codec/parallel", "codec/algebra", "codec/surface", "codec/connectivity"],
+    "codec/transfer": ["codec/sequence", "codec/parallel", "codec/algebra", "codec/surface", "codec/metrics",
+                       "codec/massage"],
     "codec/remesh": ["codec/sequence", "codec/surface", "codec/connectivity", "codec/transfer"],
-    "codec/interpolation": ["codec/sequence", "codec/algebra", "codec/surface"],
-    "codec/keyframes": ["codec/sequence", "codec/algebra", "codec/interpolation"],
+    "codec/interpolation": ["codec/sequence", "codec/parallel", "codec/algebra", "codec/surface"],
+    "codec/keyframes": ["codec/sequence", "codec/parallel", "codec/algebra", "codec/interpolation"],
     "codec/studies": ["codec/sequence", "codec/algebra", "codec/surface", "codec/connectivity",
                       "codec/interpolation", "codec/keyframes"],
-    "codec/segment": ["codec/sequence", "codec/surface", "codec/algebra", "codec/connectivity", "codec/keyframes"],
+    "codec/segment": ["codec/sequence", "codec/parallel", "codec/surface", "codec/algebra", "codec/connectivity",
+                      "codec/keyframes"],
     "codec/file": ["codec/sequence", "codec/connectivity", "codec/keyframes", "codec/segment"],
-    "codec/search": ["codec/sequence", "codec/algebra", "codec/metrics", "codec/connectivity", "codec/keyframes",
+    "codec/search": ["codec/sequence", "codec/parallel", "codec/algebra", "codec/metrics", "codec/connectivity",
+                     "codec/keyframes",
                      "codec/segment", "codec/file"],
-    "codec": ["codec/sequence", "codec/algebra", "codec/connectivity", "codec/metrics", "codec/massage", "codec/segment",
+    "codec": ["codec/sequence", "codec/parallel", "codec/algebra", "codec/connectivity", "codec/metrics",
+              "codec/massage", "codec/segment",
               "codec/file", "codec/search"],
-    "codec/api": ["codec/sequence", "codec/massage", "codec/file", "codec"],
+    "codec/api": ["codec/sequence", "codec/parallel", "codec/massage", "codec/file", "codec"],
     "tools/io/base": [],
     "tools/words": [],
     "tools/options": ["tools/words"],
@@ -150,6 +158,10 @@ def module_of(name):
     return max((m for m in ALLOWED if name.startswith(m + "/")), key=len)
 
 
+# Work in parallel by other means than codec/parallel: the standard's algorithms, or compilers' own.
+PAST_PARALLEL = re.compile(r"\btbb::|\bstd::execution\b|#\s*pragma\s+omp\b")
+
+
 def include_faults(checkout):
     found_any = False
     for module in MODULES:
@@ -168,6 +180,8 @@ def include_faults(checkout):
                     target.split("/")[0] == module and target not in ROOMS[room]
                 if streams or back or not (STANDARD.match(header) or any(header.startswith(p) for p in allowed)):
                     yield f"{name} must not include {header}"
+            if not name.startswith("codec/parallel/") and PAST_PARALLEL.search(text):
+                yield f"{name} must work in parallel by codec/parallel"
             if module in NO_THROW and name not in THROWS and not name.startswith(THROWING) and THROW.search(text):
                 yield f"{name} must not throw"
     if not found_any:

@@ -29,14 +29,20 @@ TEST(Layering, FindsWhatPointsUpwards) {
   folder.write("sdk/b.cpp", "#include <iostream>\nvoid f() { throw 1; }\n");
   folder.write("codec/c.cpp", "# include <draco/core/status.h>\n#include \"tools/version.h\"\n");
   folder.write("sdk/mesh/draco_poses.cpp", "#include <draco/core/status.h>\n");
+  folder.write("codec/parallel/p.h", "#include <tbb/parallel_for.h>\n");
+  folder.write("codec/search/t.cpp", "#include <tbb/parallel_for.h>\n");
+  folder.write("tools/u.cpp", "int v = std::reduce(std::execution::par, a, b);\n");
   Outcome outcome = check_layering(folder / "");
   EXPECT_EQ(outcome.status, 1);
   for (const char* fault :
        {"format/a.h must not include \"sdk/clip.h\"", "sdk/b.cpp must not include <iostream>",
         "sdk/b.cpp must not throw", "codec/c.cpp must not include <draco/core/status.h>",
-        "codec/c.cpp must not include \"tools/version.h\""})
+        "codec/c.cpp must not include \"tools/version.h\"",
+        "codec/search/t.cpp must not include <tbb/parallel_for.h>",
+        "tools/u.cpp must work in parallel by codec/parallel"})
     EXPECT_THAT(outcome.out, HasSubstr(fault));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("draco_poses")));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("codec/parallel/p.h")));
 }
 
 TEST(Layering, FindsArrowsBetweenRoomsThatPointBack) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/sequence/error.h"
+#include "codec/sequence/machine_memory.h"
 #include "tools/inputs/clip_input.h"
 #include "tools/inputs/compared_clip.h"
 #include "tools/io/files/atomic_file.h"
@@ -131,6 +132,9 @@ class Drawing {
   }
 
   uint32_t frame_count() const { return range_.size(); }
+
+  /// Bytes of all pictures.
+  uint64_t bytes() const { return uint64_t{4} * width_ * views_.size() * height_ * range_.size(); }
 
   double seconds_per_frame() const { return range_.step / clip_->sequence().rate.value(); }
 
@@ -322,6 +326,12 @@ void run(const RenderCommand& command, const CommonOptions& common) {
     throw Error(ErrorKind::kUsage,
                 command.output + ": is of unknown kind; .png, .gif, .mp4 and .html can be written");
   Drawing drawing(command, progress);
+  // A file of few bytes may announce frames that nobody waits for.
+  constexpr uint32_t kMostPictures = 100'000;
+  if (pictures ? drawing.frame_count() > kMostPictures : drawing.bytes() > half_of_machine())
+    throw Error(ErrorKind::kInput,
+                fmt::format("{}: {} frames are too many to draw at once; --frames takes some",
+                            command.input, drawing.frame_count()));
   OutputFolder folder(command.output);
   (pictures ? write_pictures : write_animation)(command.output, common.overwrite, drawing,
                                                 progress);

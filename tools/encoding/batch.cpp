@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/encoding/batch.h"
 
+#include "codec/parallel/thread_count.h"
 #include "codec/sequence/error.h"
 #include "format/checksum.h"
 #include "tools/io/files/atomic_file.h"
@@ -16,6 +17,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <mutex>
 #include <new>
@@ -26,7 +28,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <tbb/task_arena.h>
 #include <unistd.h>
 
 namespace anicodec::tools {
@@ -178,20 +179,20 @@ class Batch {
 
   void run() {
     recover();
-    std::vector<std::thread> workers;
+    std::vector<std::future<void>> workers;  // which are waited for, also if one cannot be begun
     const unsigned jobs = std::min<unsigned>(options_.jobs, static_cast<unsigned>(clips_.size()));
     const unsigned all = std::max(1U, std::thread::hardware_concurrency());
     for (unsigned i = 0; i < jobs; ++i) {
-      workers.emplace_back([this, threads = std::max(1U, all / jobs)] {
-        tbb::task_arena arena(static_cast<int>(threads));
-        arena.execute([this] {
-          for (size_t clip = next_++; clip < clips_.size(); clip = next_++)
-            run_clip(clip);
-        });
-      });
+      workers.push_back(
+          std::async(std::launch::async, [this, threads = std::max(1U, all / jobs)] {
+            with_threads(threads, [this] {
+              for (size_t clip = next_++; clip < clips_.size(); clip = next_++)
+                run_clip(clip);
+            });
+          }));
     }
-    for (std::thread& worker : workers)
-      worker.join();
+    for (std::future<void>& worker : workers)
+      worker.get();
     summarise();
   }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/program/command.h"
 
+#include "codec/parallel/thread_count.h"
 #include "codec/sequence/error.h"
 #include "tools/options/help_text.h"
 #include "tools/options/nearest_word.h"
@@ -21,7 +22,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <tbb/global_control.h>
 
 namespace anicodec::tools {
 namespace {
@@ -95,11 +95,7 @@ void run_command(const Program& program, const Commands& commands, Command& comm
     return print_help(program, commands, command);
   if (command.asks_version)
     return print_version(program);
-  using tbb::global_control;
-  const size_t threads =
-      common.threads > 0 ? static_cast<size_t>(common.threads)
-                         : global_control::active_value(global_control::max_allowed_parallelism);
-  global_control limit(global_control::max_allowed_parallelism, threads);
+  const ThreadLimit limit(static_cast<size_t>(std::max(common.threads, 0)));
   command.run();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/render/shaded_view.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/frame_normals.h"
 #include "codec/sequence/shared_normals.h"
@@ -12,7 +13,6 @@
 #include <numbers>
 
 #include <Eigen/Geometry>
-#include <tbb/parallel_for.h>
 
 namespace anicodec::tools {
 namespace {
@@ -249,7 +249,7 @@ Image ShadedView::draw(std::span<const float> positions, const Camera& camera,
 
   Image image(s.width, s.height);
   constexpr uint32_t kRows = 16;  // of pixels that a task draws
-  tbb::parallel_for(uint32_t{0}, (s.height + kRows - 1) / kRows, [&](uint32_t task) {
+  parallel_for(uint32_t{0}, (s.height + kRows - 1) / kRows, [&](uint32_t task) {
     const uint32_t first = task * kRows, rows = std::min(kRows, s.height - first);
     Raster raster(kSamples * s.width, kSamples * first, kSamples * rows);
     for (uint32_t t = 0; t < s.triangles.size() / 3; ++t) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode.h"
 #include "codec/keyframes/keyframe_fit.h"
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/frame_source.h"
 #include "codec/surface/closest_point.h"
@@ -23,12 +24,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <span>
+#include <vector>
 
 #include <fmt/format.h>
-#include <tbb/task_group.h>
 
 namespace anicodec::tools {
 namespace {
@@ -55,12 +57,12 @@ class ReportMaker {
     report_.frames = sequence_.frame_count;
     report_.rate = sequence_.rate;
     report_.diagonal = diagonal(sequence_);
-    tbb::task_group stages;
+    Stages stages;
     for (double kg : options_.full ? std::span<const double>(kLinearTargets) : kQuickTargets)
-      stages.run([=, this] { add_encoding("anicodec", BasisChoice::kAuto, kg); });
+      stages.push_back([=, this] { add_encoding("anicodec", BasisChoice::kAuto, kg); });
     if (options_.full)
       measure_others(stages);
-    stages.wait();
+    parallel_tasks(stages.size(), [&](size_t i) { stages[i](); });
     // Curves want their points in order.
     std::ranges::stable_sort(report_.rates, [](const RatePoint& a, const RatePoint& b) {
       const bool own = is_own(a.codec);
@@ -80,20 +82,23 @@ class ReportMaker {
   }
 
  private:
-  void measure_others(tbb::task_group& stages) {
+  using Stages = std::vector<std::function<void()>>;
+
+  void measure_others(Stages& stages) {
     for (double kg : kKeyframeTargets)
-      stages.run([=, this] { add_encoding("anicodec, key-frames", BasisChoice::kKeyframes, kg); });
+      stages.push_back(
+          [=, this] { add_encoding("anicodec, key-frames", BasisChoice::kKeyframes, kg); });
     for (double kg : kPeerTargets)
-      stages.run([=, this] { add_peers(kg); });
+      stages.push_back([=, this] { add_peers(kg); });
     if (peers::gltfpack_version().empty()) {
       report_.missing.push_back("gltfpack");
     } else {
-      stages.run([this] {  // one after the other: each holds the clip several times
+      stages.push_back([this] {  // one after the other: each holds the clip several times
         for (double kg : kPeerTargets)
           add_gltfpack(kg);
       });
     }
-    stages.run([this] { add_raw_cache(); });
+    stages.push_back([this] { add_raw_cache(); });
   }
 
   void begin(const char* stage) {

@@ -7,7 +7,7 @@ from typing import Any, Optional, Tuple
 
 import numpy as np
 
-from .errors import InputError
+from .errors import InputError, LimitError
 
 
 def numbers(values: Any, name: str) -> np.ndarray:
@@ -58,6 +58,13 @@ def indices(values: Any, name: str) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
+def check_size(values: Any, name: str, max_bytes: int) -> None:
+    """Raises LimitError for an array that takes more than max_bytes as 32-bit numbers; 0: any may. A broadcast one,
+    which takes nothing yet, would be converted to all that it shows."""
+    if max_bytes > 0 and isinstance(values, np.ndarray) and 4 * values.size > max_bytes:
+        raise LimitError(f"{name} take {4 * values.size} bytes of at most {max_bytes}")
+
+
 def polygons(faces: Any) -> Tuple[np.ndarray, np.ndarray]:
     """Offsets and corners of faces: an array polygons x corners, a pair (offsets, corners), a list of polygons of any
     length, or None."""
@@ -78,9 +85,9 @@ def polygons(faces: Any) -> Tuple[np.ndarray, np.ndarray]:
         faces = np.asarray(faces) if faces else np.zeros((0, 3), np.uint32)
     if faces.ndim != 2:
         raise InputError(f"faces must be polygons x corners, not {shape_text(faces)}")
-    offsets = np.arange(faces.shape[0] + 1, dtype=np.uint64) * faces.shape[1]
-    if int(offsets[-1]) >= 2**32:
+    if faces.shape[0] >= 2**31 or faces.shape[0] * faces.shape[1] >= 2**32:
         raise InputError("there are too many corners")
+    offsets = np.arange(faces.shape[0] + 1, dtype=np.uint64) * faces.shape[1]
     return offsets.astype(np.uint32), indices(faces, "faces").ravel()
 
 

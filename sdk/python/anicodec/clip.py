@@ -6,6 +6,7 @@ from __future__ import annotations
 import builtins
 import json
 import os
+import sys
 from fractions import Fraction
 from typing import Any, Dict, Iterator, NamedTuple, Optional, Sequence, Tuple, Union
 
@@ -13,7 +14,7 @@ import numpy as np
 
 from . import _anicodec, _arrays, _page
 from ._convert import to_package
-from .errors import CorruptError, FrameError, InputError
+from .errors import CorruptError, FrameError, InputError, LimitError
 from .material import Material, from_file
 
 _SAMPLING = {"step": 0, "linear": 1, "cubic": 2}
@@ -74,6 +75,18 @@ class ClipInfo(NamedTuple):
     def frames(self) -> slice:
         """Its frames: `clip[info.frames]`."""
         return slice(self.first_frame, self.first_frame + self.frame_count)
+
+
+#: Frames whose numbers are handed over in one list.
+_FRAMES_AT_ONCE = 4096
+
+
+def _memory() -> int:
+    """Bytes of memory that the machine has, if it tells."""
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError):
+        return sys.maxsize
 
 
 class Mesh:
@@ -138,11 +151,12 @@ class Mesh:
     def frames(self, frames: Union[int, slice, Any], out: Optional[np.ndarray] = None) -> np.ndarray:
         """Positions of a frame, vertices x 3, or of a slice or list of frames, frames x vertices x 3; float32.
 
-        out: an array to fill instead of a new one. Raises FrameError (an IndexError), AbsentError.
+        out: an array to fill instead of a new one, which may take at most the max_bytes of open(), or the machine's
+        memory. Raises FrameError (an IndexError), AbsentError, LimitError.
         """
         vertices = self.vertex_count
         if isinstance(frames, slice):
-            chosen_frames = list(range(len(self))[frames])
+            chosen_frames: Sequence[int] = range(len(self))[frames]
         elif np.ndim(frames) == 0:
             try:
                 number = range(len(self))[frames]
@@ -156,8 +170,14 @@ class Mesh:
                 chosen_frames = [range(len(self))[int(frame)] for frame in frames]
             except IndexError:
                 raise FrameError(f"there are only {len(self)} frames") from None
+        # A file of few bytes may announce frames that no memory holds.
+        size, limit = 12 * vertices * len(chosen_frames), self._clip._arguments[1] or _memory()
+        if out is None and size > limit:
+            raise LimitError(f"{len(chosen_frames)} frames take {size} bytes of at most {limit}")
         result = _arrays.output(out, (len(chosen_frames), vertices, 3))
-        self._asset.frames(self._number, chosen_frames, result)
+        for first in range(0, len(chosen_frames), _FRAMES_AT_ONCE):
+            some = slice(first, first + _FRAMES_AT_ONCE)
+            self._asset.frames(self._number, list(chosen_frames[some]), result[some])
         return result
 
     def at(self, seconds: float, loop: bool = False, sampling: str = "linear", wrap: Optional[str] = None,

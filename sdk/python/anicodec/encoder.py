@@ -165,9 +165,11 @@ def _named(values: Any) -> Dict[str, Any]:
 class _Adder:
     """Adds a mesh and its attributes to an encoder."""
 
-    def __init__(self, encoder: Any, number: int, mesh: SourceMesh, frame_count: int):
-        self._encoder, self._number = encoder, number
+    def __init__(self, encoder: Any, number: int, mesh: SourceMesh, frame_count: int, max_bytes: int):
+        self._encoder, self._number, self._max_bytes = encoder, number, max_bytes
         self._frames = sum(count for _, count in mesh.runs) if mesh.runs else frame_count
+        for part in mesh.faces if isinstance(mesh.faces, tuple) else (mesh.faces,):
+            _arrays.check_size(part, "faces", max_bytes)
         self._offsets, self._corners = _arrays.polygons(mesh.faces)
         positions: Any = mesh.positions
         if callable(positions):
@@ -183,6 +185,7 @@ class _Adder:
                                      f"not {_arrays.shape_text(array)}")
                 return array
         else:
+            _arrays.check_size(positions, "positions", max_bytes)
             positions = _arrays.frames(positions)
             vertices = positions.shape[1]
             if positions.shape[0] != self._frames:
@@ -203,14 +206,15 @@ class _Adder:
 
     def _values(self, name: str, kind: str, given: Any, components: Tuple[int, ...]) -> None:
         what = f"{kind} {name!r}" if name else kind
+        _arrays.check_size(given, what, self._max_bytes)
         values = _arrays.floats(given, what)
         moving = values.ndim == 3
         frames = values.shape[0] if moving else 1
         elements = values.shape[1 if moving else 0] if values.ndim in (2, 3) else -1
         if elements not in self._counts or values.shape[-1] not in components:
             wanted = " or ".join(map(str, components)) if len(components) < 5 else "1 to 16"
-            domains = ", ".join(f"{count} {domain}" for count, domain in zip(self._counts, DOMAINS))
-            raise InputError(f"{what} must be one of {domains} x {wanted}, not {_arrays.shape_text(values)}")
+            domains = [f"{count} {domain}" for count, domain in zip(self._counts, DOMAINS)]
+            raise InputError(f"{what} must be {', '.join(domains[:-1])} or {domains[-1]} x {wanted}, not {_arrays.shape_text(values)}")
         domain = self._counts.index(elements)  # the first of those with as many elements
         self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, values.shape[-1], frames, values,
                                     None, [], [])
@@ -280,7 +284,7 @@ def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = 
         clips = [SourceClip(name, frame_count, start_time=start_time, times=times, events=events)]
     encoder = _anicodec.Encoder()
     _add_clips(encoder, clips, frame_count, fps, loop, UP.index(up), metres)
-    keep: List[_Adder] = [_Adder(encoder, i, mesh, frame_count) for i, mesh in enumerate(meshes)]
+    keep: List[_Adder] = [_Adder(encoder, i, mesh, frame_count, choices.get("max_bytes", 0)) for i, mesh in enumerate(meshes)]
     data, measured = encoder.encode(choices, progress)
     del keep
     result = Encoded(data)
@@ -320,5 +324,6 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     mesh = SourceMesh(positions, faces, vertex_count=vertex_count, uv=uv, colours=colours, normals=normals,
                       custom=custom or {}, materials=materials, parts=parts)
     if not callable(positions):
+        _arrays.check_size(positions, "positions", options.get("max_bytes", 0))
         mesh.positions = _arrays.frames(positions)
     return encode_meshes([mesh], **options)

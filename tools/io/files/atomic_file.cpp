@@ -49,6 +49,8 @@ void check_output(const std::string& path, bool overwrite) {
       fail_usage(path, fs::is_directory(status) ? "is a directory" : "is not a regular file");
     if (!overwrite)
       fail_usage(path, "the file exists already");
+  } else if (error == std::errc::filename_too_long) {
+    throw Error(ErrorKind::kInput, path + ": the name is too long");
   } else if (fs::is_symlink(fs::symlink_status(path, error))) {
     fail_usage(path, "is a symbolic link to nothing");
   }

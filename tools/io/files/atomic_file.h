@@ -16,7 +16,7 @@ namespace anicodec::tools {
 struct Replacement;
 
 /// Throws Error(kUsage) when the path exists and overwrite is false or is not a regular file. Lets
-/// a long computation fail before it starts.
+/// a long computation fail before it starts. Throws Error(kInput) when the name is too long.
 void check_output(const std::string& path, bool overwrite);
 
 /// An output that appears under its name whole or not at all: written to a hidden folder beside it,

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/gltf/gltf_bake.h"
 
+#include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/shared_normals.h"
 #include "tools/io/base/mesh.h"
@@ -18,7 +19,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <tbb/parallel_for.h>
 
 namespace anicodec::tools {
 namespace {
@@ -545,7 +545,7 @@ void GltfBake::add_normals(const GltfPose& pose, const Worlds& worlds, MeshSeque
 }
 
 void GltfBake::move_attributes(uint32_t frames, const std::function<GltfPose(uint32_t)>& pose_of,
-                               MeshSequence& out) const {
+                               uint64_t memory_left, MeshSequence& out) const {
   for (Attribute& attribute : out.attributes) {
     auto added = [&](const GltfVectors& target) -> const std::vector<float>* {
       const auto found = target.sets.find(attribute.name);
@@ -557,11 +557,12 @@ void GltfBake::move_attributes(uint32_t frames, const std::function<GltfPose(uin
     if (!moves)
       continue;
     const size_t n = attribute.components, row = attribute.values.size();
-    if (row > options_.memory_limit / sizeof(float) / frames)
+    if (row > memory_left / sizeof(float) / frames)
       fail_input(document_.name, shown(attribute.name) + " in " + std::to_string(frames) +
-                                     " frames takes more than the " +
-                                     std::to_string(options_.memory_limit) +
-                                     " bytes of memory that are allowed");
+                                     " frames takes more than the " + std::to_string(memory_left) +
+                                     " bytes of memory that are left of the " +
+                                     std::to_string(options_.memory_limit) + " that are allowed");
+    memory_left -= sizeof(float) * row * frames;
     const FrameArray base = attribute.values;
     attribute.values.resize(row * frames);
     attribute.frames = frames;
@@ -721,7 +722,7 @@ void GltfBake::add_frames(const GltfClip* clip, const std::vector<uint32_t>& tic
       clip->apply(clip->first_time() + ticks[f] * gap, kTolerance * gap, pose);
     return pose;
   };
-  tbb::parallel_for(uint32_t{0}, frames, [&](uint32_t f) {
+  parallel_for(uint32_t{0}, frames, [&](uint32_t f) {
     const GltfPose pose = pose_of(f);
     const Worlds worlds = worlds_of(pose);
     for (const Piece& piece : pieces_) {
@@ -735,7 +736,7 @@ void GltfBake::add_frames(const GltfClip* clip, const std::vector<uint32_t>& tic
                                      std::to_string(i / 3 % out.vertex_count) +
                                      ": the position is not finite");
   }
-  move_attributes(frames, pose_of, out);
+  move_attributes(frames, pose_of, options.memory_limit - bytes, out);
   const GltfPose pose = pose_of(0);
   add_normals(pose, worlds_of(pose), out);
   add_hard_edges(out);

@@ -74,7 +74,7 @@ class GltfBake {
   Worlds worlds_of(const GltfPose& pose) const;
   void move(const Piece& piece, const GltfPose& pose, const Worlds& worlds, float* positions) const;
   void move_attributes(uint32_t frames, const std::function<GltfPose(uint32_t)>& pose_of,
-                       MeshSequence& out) const;
+                       uint64_t memory_left, MeshSequence& out) const;
   std::vector<float> positions_in(const GltfPose& pose) const;
   void add_hard_edges(MeshSequence& out) const;
   void add_normals(const GltfPose& pose, const Worlds& worlds, MeshSequence& out) const;

@@ -8,6 +8,7 @@
 #include "tools/io/load_sequence.h"
 
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <numbers>
 
@@ -659,6 +660,36 @@ TEST(GltfFaults, NameBuffersOutsideTheFolder) {
     return std::string("x");
   });
   EXPECT_EQ(opened, "a.bin");
+}
+
+/// A triangle shown by the last of a chain of nodes, with as many primitives, morph targets and materials.
+GltfScene large_scene(size_t count) {
+  GltfScene scene = triangle_scene();
+  nlohmann::json& mesh = scene.document["meshes"][0];
+  const nlohmann::json primitive = mesh["primitives"][0];
+  mesh["primitives"] = nlohmann::json(count, primitive);
+  nlohmann::json& nodes = scene.document["nodes"];
+  nodes = nlohmann::json::array();
+  for (size_t n = 0; n + 1 < count; ++n)
+    nodes.push_back({{"children", nlohmann::json::array({n + 1})}});
+  nodes.push_back({{"mesh", 0}});
+  scene.document["materials"] = nlohmann::json(count, nlohmann::json::object({{"name", "paint"}}));
+  nlohmann::json morphed = primitive;
+  morphed["targets"] = nlohmann::json(
+      count, nlohmann::json::object({{"POSITION", primitive["attributes"]["POSITION"]}}));
+  scene.document["meshes"].push_back({{"primitives", nlohmann::json::array({morphed})}});
+  nodes.push_back({{"mesh", 1}});
+  scene.document["scenes"] = nlohmann::json::array({{{"nodes", nlohmann::json::array({0, count})}}});
+  scene.document["scene"] = 0;
+  return scene;
+}
+
+TEST(Gltf, CostsAreLinearInAllCounts) {
+  constexpr size_t kCount = 200'000;
+  const std::clock_t before = std::clock();
+  const MeshSequence sequence = parse(large_scene(kCount));
+  EXPECT_EQ(sequence.polygons.size(), kCount + 1);
+  EXPECT_LT(std::clock() - before, 60 * CLOCKS_PER_SEC);  // the square would be half an hour
 }
 
 }  // namespace

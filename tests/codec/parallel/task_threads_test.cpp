@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "codec/algebra/task_threads.h"
+#include "codec/parallel/task_threads.h"
 
 #include <vector>
 

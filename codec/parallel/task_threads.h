@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#ifndef ANICODEC_CODEC_ALGEBRA_TASK_THREADS_H_
-#define ANICODEC_CODEC_ALGEBRA_TASK_THREADS_H_
+#ifndef ANICODEC_CODEC_PARALLEL_TASK_THREADS_H_
+#define ANICODEC_CODEC_PARALLEL_TASK_THREADS_H_
 
+#include "codec/parallel/parallel.h"
 #include "sdk/base/parallel_for.h"
 
 #include <cstddef>
-
-#include <tbb/parallel_for.h>
 
 namespace anicodec {
 
@@ -15,11 +14,11 @@ namespace anicodec {
 inline HostThreads task_threads() {
   HostThreads threads;
   threads.run = [](void*, size_t count, void (*body)(void*, size_t), void* context) {
-    tbb::parallel_for(size_t{0}, count, [=](size_t i) { body(context, i); });
+    parallel_for(size_t{0}, count, [=](size_t i) { body(context, i); });
   };
   return threads;
 }
 
 }  // namespace anicodec
 
-#endif  // ANICODEC_CODEC_ALGEBRA_TASK_THREADS_H_
+#endif  // ANICODEC_CODEC_PARALLEL_TASK_THREADS_H_
