@@ -420,8 +420,10 @@ void print_text(const std::string& path, const Contents& c) {
           : fmt::format("{} vertices ({} coded), {} faces", mesh.source_vertices,
                         mesh.coded_vertices, mesh.polygons);
   row(several ? "clips" : "clip",
-      several ? fmt::format("{}, {} clips, {} frames", what, c.clip.clips().size(), limits.frames)
-              : fmt::format("{}, {} frames at {}", what, limits.frames, rate_text(record)));
+      several ? fmt::format("{}, {} clips, {}", what, c.clip.clips().size(),
+                            counted(limits.frames, "frame"))
+              : fmt::format("{}, {} at {}", what, counted(limits.frames, "frame"),
+                            rate_text(record)));
   row("", fmt::format(
               "up {}, unit {}{}", up_name(all.up),
               all.metres_per_unit > 0 ? fmt::format("{:.6g} m", all.metres_per_unit) : "unknown",

@@ -303,11 +303,9 @@ void write_page(const RenderCommand& command, const CommonOptions& common) {
   for (size_t i = 0; i < names.size(); ++i)
     clips.push_back({std::filesystem::path(names[i]).filename().string(), files[i]});
   const std::string page = viewer_page(load_viewer(), clips);
-  OutputFolder folder(command.output);
   AtomicFile file(command.output, common.overwrite);
   file.write(page);
   file.commit();
-  folder.keep();
   if (common.json)
     return print_json(
         {{"file", command.output}, {"bytes", page.size()}, {"clip_bytes", files.back().size()}});
@@ -343,7 +341,7 @@ void run(const RenderCommand& command, const CommonOptions& common) {
                        {"largest_error", drawing.largest_error()}});
   if (common.quiet)
     return;
-  print_line("{}: {} frames", command.output, drawing.frame_count());
+  print_line("{}: {}", command.output, counted(drawing.frame_count(), "frame"));
   if (drawing.largest_error() > 0)
     fmt::print("black is an error of {:.4g}\n", drawing.largest_error());
 }

@@ -281,7 +281,6 @@ class Batch {
             {{"clip", clip.name}, {"file", path}, {"bytes", before.size()}, {"done_before", true}}};
       }
     }
-    OutputFolder folder(path);
     AtomicFile output(path, options_.overwrite || journal_.knows(clip.name));
     const EncodeResult result = encode_(clip, std::move(sequence));
     const std::string_view file(reinterpret_cast<const char*>(result.file.data()),
@@ -291,7 +290,6 @@ class Batch {
     // First: a run that is killed in between must not take its own output for a stranger's.
     journal_.add(clip.name, hashes(content, hash_of(file)));
     output.commit();
-    folder.keep();
     ++encoded_;
     output_bytes_ += file.size();
     const double ratio = static_cast<double>(bytes) / static_cast<double>(file.size());

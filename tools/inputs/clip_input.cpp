@@ -95,6 +95,9 @@ ErrorKind error_kind(Status status) {
 }
 
 void fail_clip(const std::string& path, const Failure& failure) {
+  if (failure.status == Status::kMagic && kind_of(path) != FileKind::kUnknown)
+    throw Error(ErrorKind::kInput,
+                path + ": is no .anic file; encode makes one of a scene, or of a mesh and its frames");
   std::string text = path + ": ";
   if (failure.status != Status::kMagic)
     text += fmt::format("offset {:#x}", failure.offset);

@@ -142,9 +142,13 @@ void run_completion(const Program& program, const Commands& commands,
 void parse_and_run(const Program& program, CommonOptions& common, std::vector<std::string> words) {
   Commands commands;
   program.declare(commands, common);
-  if (words.empty())
-    throw Error(ErrorKind::kUsage,
-                fmt::format("a command is missing; see {} --help", program.name));
+  if (words.empty()) {
+    std::string names;
+    for (const Command& command : commands)
+      names += (names.empty() ? "" : ", ") + std::string(command.help.name);
+    throw Error(ErrorKind::kUsage, fmt::format("a command is missing: one of {}; see {} --help",
+                                               names, program.name));
+  }
   if (begins_with(words, {"help", "-h", "--help"})) {
     run_help(program, commands, {words.begin() + 1, words.end()});
   } else if (begins_with(words, {"version", "-V", "--version"})) {

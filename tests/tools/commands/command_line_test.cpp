@@ -119,6 +119,7 @@ TEST(CommandLine, EscapesNamesWhereverItPrintsThem) {
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_usage_error(anicodec({}));
+  EXPECT_THAT(anicodec({}).err, HasSubstr("one of encode, decode, "));
   expect_usage_error(anicodec({"compress"}));
   expect_usage_error(anicodec({"info", "a.anic", "--colour"}));
   expect_usage_error(anicodec({"info"}));
@@ -158,6 +159,9 @@ TEST(CommandLine, MakesTheFoldersOfItsOutput) {
   EXPECT_THAT(folder.read("a/b/frame_0000.ply"), StartsWith("ply"));
   EXPECT_EQ(anicodec({"corpus", "limb", "-o", folder / "c/d/no_number.ply"}).status, 1);
   EXPECT_EQ(folder.files(), std::vector<std::string>{"a"});
+  const std::string frame = folder / "a/b/frame_0000.ply";
+  EXPECT_EQ(anicodec({"encode", frame, "-o", folder / "e/f.anic"}).status, 0);
+  EXPECT_THAT(anicodec({"info", folder / "e/f.anic"}).out, HasSubstr(", 1 frame at"));
 }
 
 }  // namespace

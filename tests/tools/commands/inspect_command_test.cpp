@@ -173,7 +173,13 @@ TEST_F(InspectCommand, AnotherVersionIsUnsupported) {
 }
 
 TEST_F(InspectCommand, AnotherFormatIsNamed) {
-  Outcome outcome = anicodec({"verify", folder_ / "a.obj"});
+  for (const char* command : {"verify", "info", "dump"}) {
+    const Outcome outcome = anicodec({command, folder_ / "a.obj"});
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_THAT(outcome.err, HasSubstr("is no .anic file; encode makes one of a scene")) << command;
+  }
+  folder_.write("b.anic", "no clip at all");
+  const Outcome outcome = anicodec({"verify", folder_ / "b.anic"});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("not an anicodec file"));
 }

@@ -75,6 +75,7 @@ AtomicFile::AtomicFile(const std::string& path, bool overwrite)
   check_output(path, overwrite);
   if (std::error_code error; fs::exists(path, error))
     target_ = fs::canonical(path).string();
+  folder_ = std::make_unique<OutputFolder>(target_);
   try {
     staging_ = Staging::in(fs::path(target_).parent_path().string());
   } catch (const std::system_error& e) {

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_TOOLS_IO_FILES_ATOMIC_FILE_H_
 #define ANICODEC_TOOLS_IO_FILES_ATOMIC_FILE_H_
 
+#include "tools/io/files/output_folder.h"
 #include "tools/io/files/staging.h"
 
 #include <cstdint>
@@ -19,13 +20,13 @@ struct Replacement;
 /// a long computation fail before it starts. Throws Error(kInput) when the name is too long.
 void check_output(const std::string& path, bool overwrite);
 
-/// An output that appears under its name whole or not at all: written to a hidden folder beside it,
-/// renamed by commit() once the disk has it, removed by the destructor otherwise and by signals
+/// An output that appears under its name whole or not at all, and with it the folders that it lies in: written to a
+/// hidden folder beside it, renamed by commit() once the disk has it, removed by the destructor otherwise and by signals
 /// (install_cleanup_on_signal). The file that it replaces stays until then, and its mode is kept. Writes
 /// through symbolic links.
 class AtomicFile {
  public:
-  /// Throws like check_output, and Error(kUsage) when the file cannot be created.
+  /// Throws like check_output, and Error(kUsage) when the file or its folder cannot be created.
   AtomicFile(const std::string& path, bool overwrite);
   AtomicFile(AtomicFile&&) noexcept;
   AtomicFile& operator=(AtomicFile&&) = delete;
@@ -60,6 +61,7 @@ class AtomicFile {
   std::string target_;     ///< behind symbolic links
   std::string temporary_;  ///< empty when renamed or moved from
   bool overwrite_;
+  std::unique_ptr<OutputFolder> folder_;  ///< goes last, and stays where a file is in it
   std::shared_ptr<Staging> staging_;
   uint32_t number_ = 0;
   struct Descriptor;

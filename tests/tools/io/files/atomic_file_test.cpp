@@ -73,8 +73,19 @@ TEST(AtomicFile, RefusesWhatIsNoRegularFile) {
               HasSubstr("is a directory"));
   EXPECT_THAT(fault([] { AtomicFile("/dev/null", true); }, ErrorKind::kUsage),
               HasSubstr("is not a regular file"));
-  EXPECT_THAT(fault([&] { AtomicFile(folder / "none/a", false); }, ErrorKind::kUsage),
-              HasSubstr("none/a: cannot be created: No such file"));
+  folder.write("file", "");
+  EXPECT_THAT(fault([&] { AtomicFile(folder / "file/a", false); }, ErrorKind::kUsage),
+              HasSubstr("file cannot be made"));
+}
+
+TEST(AtomicFile, MakesItsFoldersWhichGoWithoutCommit) {
+  TemporaryFolder folder;
+  { AtomicFile file(folder / "new/inner/a", false); }
+  EXPECT_THAT(folder.files(), IsEmpty());
+  AtomicFile file(folder / "new/inner/a", false);
+  file.write("b");
+  file.commit();
+  EXPECT_EQ(folder.read("new/inner/a"), "b");
 }
 
 TEST(AtomicFile, WritesThroughSymbolicLinks) {
