@@ -6,7 +6,7 @@
 usage: generate.py [--seed FIRST] BUILD COUNT FOLDER [COMMAND...]
 BUILD is a folder that random_vectors and reference_decoder have been built in, as build/dev. File number i is that of
 seed FIRST + i, the same whenever it is made.
-With COMMAND run.py runs that on them.
+With COMMAND run.py runs that on them; options of run.py may come first.
 """
 import argparse
 import hashlib
@@ -18,6 +18,7 @@ import tempfile
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "scripts"))
 import conformance_facts  # pylint: disable=wrong-import-position
+import conformance_parts  # pylint: disable=wrong-import-position
 
 
 def main():
@@ -38,7 +39,9 @@ def main():
                 if subprocess.run(command, check=False).returncode != 0:
                     sys.exit(f"seed {seed}: {command[0].name} failed")
             conformance_facts.write(conformance_facts.facts_of(out), arguments.folder / "facts" / f"{file.stem}.json")
-            lines.append(f"valid {file.name} {hashlib.sha256(file.read_bytes()).hexdigest()}\n")
+            data = file.read_bytes()
+            words = ["valid", file.name, hashlib.sha256(data).hexdigest(), *conformance_parts.needs(conformance_parts.parts_of(data))]
+            lines.append(" ".join(words) + "\n")
     (arguments.folder / "MANIFEST").write_text("".join(lines), encoding="utf-8")
     if arguments.command:
         run = pathlib.Path(__file__).resolve().parent / "run.py"

@@ -22,6 +22,7 @@ import anic_file
 import broken_rules
 import conformance_facts
 import traces
+from conformance_parts import features_of, needs, parts_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests" / "conformance"
@@ -68,8 +69,6 @@ OPTIONAL_RULES = {"attr_": "attributes", "attr_not_announced": "", "look_": "att
                   "hash": "hashes", "diff_axes": "exact", "diff_errs": "exact", "diff_noise": "exact", "diff_origin": "exact",
                   "diff_step": "exact", "diff_points": "exact", "diff_many_points": "exact", "diff_more": "exact",
                   "diff_short": "exact", "bnds_": "bounds", "meta_": "metadata"}
-FEATURES = {1: "draco", 2: "interpolation"}  # bits of the header
-PARTS_OF_CHUNKS = {"ATTR": "attributes", "DIFF": "exact", "BNDS": "bounds", "META": "metadata"}
 
 
 def listing(command, path):
@@ -86,23 +85,6 @@ def listing(command, path):
             lines.append(f"{at:04x}  {part:<24} {text if at == start else ''}".rstrip(" ")
                          if at == start else f"{at:04x}  {part:<24} ...")
     return "\n".join(lines)
-
-
-def needs(parts):
-    """The field of MANIFEST for parts that a decoder may lack."""
-    return [f"needs={','.join(parts)}"] if parts else []
-
-
-def features_of(data):
-    """Those parts that the header names."""
-    bits = struct.unpack_from("<Q", data, 16)[0] if len(data) >= 24 else 0
-    return [part for bit, part in FEATURES.items() if bits >> bit & 1]
-
-
-def parts_of(data):
-    """Those that a good file needs to be shown in full."""
-    kinds = {chunk.type for chunk in anic_file.read_chunks(data)}
-    return features_of(data) + [part for kind, part in PARTS_OF_CHUNKS.items() if kind in kinds]
 
 
 def parts_of_rule(name, data):
