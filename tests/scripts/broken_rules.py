@@ -466,7 +466,7 @@ def segment_rules(files):
 
 def stream_rules(files, status_of):
     """(status, name, file, what) of streams whose symbols make no sense: bytes whose change causes it."""
-    for name, kind, status, count, *flip in (("polygons_all", "FMAP", 44, 16), ("polygons_all", "VMAP", 44, 12), ("tangle", "FMAP", 44, 6), ("tangle", "VMAP", 44, 3),
+    for name, kind, status, count, *flip in (("polygons_all", "FMAP", 44, 22), ("polygons_all", "VMAP", 44, 12), ("tangle", "FMAP", 44, 6), ("tangle", "VMAP", 44, 3),
                                       ("tangle", "MESH", 43, 3), ("tangle", "MESH", 44, 2), ("heated", "ATTR", 41, 1),
                                       ("quad_box_corrected", "BASI", 41, 1), ("quad_box_corrected", "CORR", 41, 2),
                                       ("limb_small", "POSE", 41, 1), ("soup", "SEGM", 41, 1), ("regions", "SEGM", 41, 3), ("regions", "SEGM", 45, 1),
