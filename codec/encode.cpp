@@ -125,7 +125,7 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
 EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
   check(sequence);
   const double whole_diagonal = diagonal(sequence);
-  const std::vector<ClipGoal> asked = clip_goals(options.target, options.cap, clip_diagonals(sequence));
+  const std::vector<ClipGoal> asked = clip_goals(options.target, options.cap, clip_diagonals(sequence), whole_diagonal);
   const Target target = largest_target(asked);
   const bool lossless = is_lossless(options.target);
   if (lossless && options.surface_change)

@@ -194,7 +194,7 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
                              : 100 * std::sqrt(squared / (spread.squared > 0 ? spread.squared : 1));
 
   ClipsRecord record =
-      clips_record(scene.clip, options, clip_goals(options.target, options.cap, {length}));
+      clips_record(scene.clip, options, clip_goals(options.target, options.cap, {length}, length));
   ClipRecord& clip = record.clips[0];
   clip.max_error = all.max_error;
   clip.max_displacement_error = all.max_displacement_error;

@@ -23,12 +23,14 @@ Target in_scene_units(Target target, double diagonal) {
 }
 
 std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Target>& cap,
-                                 const std::vector<double>& diagonals) {
+                                 const std::vector<double>& diagonals, double whole) {
   double smallest = 0;
   for (double d : diagonals) {
     if (d > 0 && (smallest == 0 || d < smallest))
       smallest = d;
   }
+  if (smallest == 0)
+    smallest = whole;
   std::vector<ClipGoal> goals;
   for (double d : diagonals) {
     const double length = d > 0 ? d : smallest;

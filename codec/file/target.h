@@ -31,9 +31,9 @@ struct ClipGoal {
 };
 
 /// The goals of clips with these diagonals, each of which takes a percentage of its own. Clips that are a single point
-/// take that of the smallest other. Throws Error(kUsage) for values that make no sense.
+/// take that of the smallest other, or where all are points that of the box around them, `whole`. Throws Error(kUsage) for values that make no sense.
 std::vector<ClipGoal> clip_goals(const Target& target, const std::optional<Target>& cap,
-                                 const std::vector<double>& diagonals);
+                                 const std::vector<double>& diagonals, double whole);
 
 /// The largest of the targets of clips, which are of one metric.
 const Target& largest_target(const std::vector<ClipGoal>& goals);

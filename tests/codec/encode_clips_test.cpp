@@ -94,6 +94,23 @@ TEST(EncodeClips, ACapInPerCentIsOfEachClip) {
   }
 }
 
+TEST(EncodeClips, ClipsThatAreAllPointsTakeTheBoundOfTheWhole) {
+  MeshSequence source;
+  source.vertex_count = 1;
+  source.frame_count = 3;
+  source.positions = {-1494.75F, 17486.25F, 1900, -1494.75F, 8002.5F, 1900, -1494.75F, 8002.5F, 1900};
+  for (const uint32_t frames : {1U, 2U}) {
+    ClipTiming& clip = source.clips.emplace_back();
+    clip.name = std::to_string(frames);
+    clip.frame_count = frames;
+  }
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, 0.5, true};
+  const EncodeResult result = encode(source, options);
+  for (const ClipResult& clip : result.clips)
+    EXPECT_LE(clip.max_error, 0.005 * diagonal(source)) << clip.name;
+}
+
 TEST(EncodeClips, ALengthInSceneUnitsIsTheSameForAll) {
   const MeshSequence source = small_and_large(20);
   EncodeOptions options;
