@@ -107,6 +107,8 @@ MeshSequence read_clip(MessageReader& in) {
     attribute.kind = in.one<AttributeKind>();
     attribute.name = in.text();
     attribute.domain = in.one<AttributeDomain>();
+    if (attribute.kind > AttributeKind::kPart || attribute.domain > AttributeDomain::kPolygon)
+      in.fail();
     attribute.components = in.one<uint32_t>();
     in.values(attribute.values);
   }
