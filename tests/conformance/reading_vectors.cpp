@@ -519,12 +519,18 @@ class SingularRefits {
   std::vector<int32_t> residuals_;
 };
 
-Bytes singular() {
+/// A triangle that shakes.
+MeshSequence triangle(const char* name, uint32_t frames) {
   MeshSequence clip;
-  clip.name = "singular";
+  clip.name = name;
   clip.vertex_count = 3;
   clip.polygons.add(std::vector<uint32_t>{0, 1, 2});
-  shake(&clip, {0, 0, 0, 1, 0, 0, 0.4F, 0.9F, 0}, 60);
+  shake(&clip, {0, 0, 0, 1, 0, 0, 0.4F, 0.9F, 0}, frames);
+  return clip;
+}
+
+Bytes singular() {
+  const MeshSequence clip = triangle("singular", 60);
   Recipe r = recipe(60, BasisKind::kEigenshapes, 0.0001, 8, 1, 12, RefitSchedule::kMedium);
   r.settings.components = {SingularRefits::kComponents};
   r.change = [](EncodedSegment& segment, const EncoderInput& input) {
@@ -577,11 +583,7 @@ Bytes long_run() {
 
 /// One component that is 0 everywhere: a stream of fewer decisions than it has states.
 Bytes quiet() {
-  MeshSequence clip;
-  clip.name = "quiet";
-  clip.vertex_count = 3;
-  clip.polygons.add(std::vector<uint32_t>{0, 1, 2});
-  shake(&clip, {0, 0, 0, 1, 0, 0, 0.4F, 0.9F, 0}, 3);
+  const MeshSequence clip = triangle("quiet", 3);
   Recipe r = recipe(3, BasisKind::kEigenshapes, 0.001, 8, 1, 12, RefitSchedule::kNone);
   r.settings.components = {1};
   r.change = with_residuals([](uint32_t, uint32_t, uint32_t) { return 0; }, [](uint32_t) { return uint8_t{128}; });

@@ -3,6 +3,7 @@
 #include "format/continuation.h"
 
 #include "format/records.h"
+#include "tests/format/three_frames.h"
 
 #include <algorithm>
 
@@ -15,22 +16,9 @@ Bytes of_text(const char* s) {
   return {s, s + std::char_traits<char>::length(s)};
 }
 
-Bytes small_limits() {
-  Limits limits;
-  limits.frames = 3;
-  Limits::Mesh mesh;
-  mesh.source_vertices = mesh.coded_vertices = 4;
-  limits.meshes.push_back(mesh);
-  Limits::Segment segment;
-  segment.kind = BasisKind::kEigentrajectories;
-  segment.frames = 3;
-  limits.segments.push_back(segment);
-  return limits.write();
-}
-
 Bytes two_poses() {
   ContainerWriter writer;
-  writer.add("LIMI", true, kNoMesh, kNoSegment, small_limits());
+  writer.add("LIMI", true, kNoMesh, kNoSegment, three_frames().write());
   writer.add("note", false, kNoMesh, kNoSegment, {});
   writer.add("MESH", true, 0, kNoSegment, of_text("a mesh of some length"));
   writer.add("POSE", true, 0, kNoSegment, of_text("its pose"));
@@ -70,7 +58,7 @@ TEST(Continuation, SaysWhichMeshesItFollows) {
   EXPECT_EQ(limits.continued_meshes, mesh_hash(file));
   // Every chunk of a mesh counts, chunks of segments do not.
   ContainerWriter other;
-  other.add("LIMI", true, kNoMesh, kNoSegment, small_limits());
+  other.add("LIMI", true, kNoMesh, kNoSegment, three_frames().write());
   other.add("MESH", true, 0, kNoSegment, of_text("a mesh of some length"));
   other.add("POSE", true, 0, kNoSegment, of_text("its pose"));
   Bytes same = other.finish();

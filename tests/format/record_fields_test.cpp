@@ -3,6 +3,7 @@
 #include "format/record_fields.h"
 
 #include "format/records.h"
+#include "tests/format/three_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -26,19 +27,6 @@ TEST(RecordFields, AscendAndEndWithinTheRecord) {
   EXPECT_FALSE(skips({5, 1, 7, 4, 0}));
   EXPECT_FALSE(skips({5, 2, 7}));  // longer than the record
   EXPECT_FALSE(skips({5}));
-}
-
-Limits three_frames() {
-  Limits limits;
-  limits.frames = 3;
-  Limits::Mesh mesh;
-  mesh.source_vertices = mesh.coded_vertices = 4;
-  limits.meshes.push_back(mesh);
-  Limits::Segment segment;
-  segment.kind = BasisKind::kEigentrajectories;
-  segment.frames = 3;
-  limits.segments.push_back(segment);
-  return limits;
 }
 
 TEST(RecordFields, OfLimitsSayWhatAContinuationFollows) {
