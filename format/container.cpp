@@ -21,7 +21,7 @@ constexpr uint8_t kRequired = 1, kOfMesh = 2, kOfSegment = 4, kCopied = 8;
 
 constexpr uint64_t kKnownFeatures = kContinuation | kDracoFeature | kMsgiFeature;
 
-/// What a failure says of each feature that is not known.
+/// The texts of failures, one for each feature that is not known.
 constexpr auto kUnknownFeature = [] {
   constexpr char kText[] = "the file needs feature 00, which this decoder does not know";
   constexpr size_t kNumberAt = 23;

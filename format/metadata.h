@@ -10,7 +10,7 @@
 
 namespace anicodec {
 
-/// Of the JSON text in chunk META (spec/06-chunks.md, section 14).
+/// The longest JSON text in chunk META (spec/06-chunks.md, section 14).
 inline constexpr size_t kMaxMetadataBytes = size_t{1} << 20;
 /// Objects and arrays in one another: programs that read JSON recurse.
 inline constexpr uint32_t kMaxMetadataNesting = 32;

@@ -27,7 +27,7 @@ inline constexpr uint32_t kMaxAttributeComponents = 16;
 /// In place of an attribute's number: the positions.
 inline constexpr uint32_t kPositions = UINT32_MAX;
 
-/// What an attribute has a value for each of.
+/// The elements of a mesh that have a value of an attribute each.
 enum class AttributeDomain : uint8_t { kVertex = 0, kCorner = 1, kPolygon = 2 };
 
 enum class BasisKind : uint8_t { kKeyframes = 0, kEigenshapes = 1, kEigentrajectories = 2 };

@@ -17,7 +17,7 @@ Bytes pose_record(const EncodedPose& pose) {
   return record.write();
 }
 
-/// Of a segment whose boxes are not measured yet: as many bytes as it will have.
+/// The boxes of a segment before they are measured: as many bytes as it will have.
 Bytes bounds_record(const EncodedSegment& segment) {
   BoundsRecord record = segment.bounds;
   if (record.is_empty())

@@ -19,7 +19,7 @@ namespace anicodec {
 /// The chunks that a mesh has once.
 inline constexpr const char (*kMeshChunks[])[5] = {&"MESH", &"VMAP", &"FMAP", &"ATTR", &"POSE"};
 
-/// Where a chunk of a segment stands (spec/05-file-layout.md, section 6): boxes come before all meshes, what refines all that
+/// The place of a chunk of a segment (spec/05-file-layout.md, section 6): boxes come before all meshes, what refines all that
 /// plays behind all segments.
 enum class ChunkPlace : uint8_t { kBeforeMeshes, kWithSegment, kBehindSegments };
 

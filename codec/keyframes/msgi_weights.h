@@ -30,7 +30,7 @@ struct MsgiFit {
 MsgiFit fit_msgi_weights(const FrameView& clip, std::span<const uint32_t> triangles,
                          std::span<const KeyframeFit> rigid_fits);
 
-/// What MSGI may be hoped to do for a clip: the root mean square error of up to 24 frames between `count`
+/// The best that MSGI may do for a clip: the root mean square error of up to 24 frames between `count`
 /// key-frames, two at least, that are spread evenly, with weights by time and moved rigidly. Nothing
 /// where the mesh cannot be interpolated. Cost: Msgi::init() and as many evaluations.
 std::optional<double> msgi_error_between(const FrameView& clip, std::span<const uint32_t> triangles,

@@ -25,7 +25,7 @@ constexpr double kClearly = 0.9;
 // fewer are believed, the more key-frames are tried.
 constexpr double kBitsOfMsgi = 2;
 constexpr size_t kMostMsgiKeyframes = 48;
-// What the weights and the choice of key-frames win on evenly spread ones, at most.
+// The most that weights and a choice of key-frames win on evenly spread ones.
 constexpr double kHopelessMsgi = 8;
 
 }  // namespace

@@ -36,7 +36,7 @@ class RateControl {
 
   const std::vector<Trial>& trials() const { return search_.files().trials(); }
 
-  /// What was left alone, and why.
+  /// A kind of basis that was left alone, and why.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

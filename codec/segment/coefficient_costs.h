@@ -73,10 +73,10 @@ class CoefficientCosts {
 
   void end_component() { model_.end_component(); }
 
-  /// Those of the component at hand, as far as it is coded.
+  /// Costs of the batches of the component at hand, as far as it is coded.
   const std::vector<BatchCosts>& batches() const { return batches_; }
 
-  /// Of residuals of channel c of rank v. @pre code() is next for it
+  /// The costs of residuals of channel c of rank v. @pre code() is next for it
   ResidualCosts costs(uint32_t v, uint32_t c) {
     begin_vertex(v);
     uint32_t sum = 0;

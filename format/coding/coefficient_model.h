@@ -185,7 +185,7 @@ class CoefficientModel {
       std::fill_n(q + size_t{c} * ranks_ + first, count, Residual{0});
   }
 
-  /// What foretells the magnitude of a vertex: magnitudes around it, its own means, that of the batches
+  /// The context of a vertex: magnitudes around it, its own means, that of the batches
   /// before, and its own by how large its neighbours are now and were.
   void set_features(uint32_t r, size_t stride, int16_t* to) const {
     const uint32_t near = near_of(r);

@@ -251,7 +251,7 @@ uint32_t TimeWeightModel::State::previous(const Trace& trace, int64_t f, int rea
   return static_cast<uint32_t>(sum / weight);
 }
 
-/// Where an earlier component is not 0: bit 0 before f, bit 1 there, bit 2 behind it.
+/// Frames at which an earlier component is not 0: bit 0 before f, bit 1 f, bit 2 behind it.
 uint32_t TimeWeightModel::State::pattern(const Trace& trace, uint32_t f) const {
   if (trace.channels == 0)
     return 0;
@@ -259,7 +259,7 @@ uint32_t TimeWeightModel::State::pattern(const Trace& trace, uint32_t f) const {
   return (f > 0 ? any[-1] : 0U) | any[0] * 2U | (f + 1 < frames_ ? any[1] * 4U : 0U);
 }
 
-/// What is known around the value at `index`, but for what is expected from it and of its sign. first:
+/// The surroundings of the value at `index`, without `expected` and what tells its sign. first:
 /// what stands for magnitudes before index 0.
 WeightSurroundings TimeWeightModel::State::surroundings(uint32_t channels, uint32_t c,
                                                         uint32_t index, uint32_t before,

@@ -19,7 +19,7 @@ constexpr int kWeightUnitBits = 6;
 /// Magnitudes around a value are in 1/64.
 constexpr uint32_t kWeightUnit = 1U << kWeightUnitBits;
 
-/// What is known around an integer that is to be coded. Magnitudes are in 1/kWeightUnit.
+/// The surroundings of an integer that is to be coded. Magnitudes are in 1/kWeightUnit.
 struct WeightSurroundings {
   uint32_t recent;    ///< the last two of the channel
   uint32_t slow;      ///< their running mean

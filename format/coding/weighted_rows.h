@@ -17,7 +17,7 @@ namespace anicodec {
 
 using FourRows = std::array<SymbolRow*, 4>;
 
-/// What each of four rows is trusted with, in 1/32768, together about 1.
+/// The weights of four rows, in 1/32768, together about 1.
 struct RowWeights {
   uint16_t w[4] = {8192, 8192, 8192, 8192};
 };

@@ -166,7 +166,7 @@ anic_status anic_write_texture(const anic_asset* asset, uint32_t segment, anic_t
     return ANIC_E_ARGUMENT;
   if (size < row || (size - row) / stride < size_t{height} - 1)
     return ANIC_E_BUFFER_SIZE;
-  // Of one row no step is taken: a huge one would lead past every address.
+  // A single row takes no step: a huge one would lead past every address.
   write_texture(*found, which, ours, height == 1 ? row : stride, out);
   return ANIC_OK;
 }

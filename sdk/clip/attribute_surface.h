@@ -9,7 +9,7 @@
 
 namespace anicodec {
 
-/// What the segments of an attribute are coded over in place of the mesh (spec/09a-segments.md, section 8): its
+/// The surface that the segments of an attribute are coded over in place of the mesh (spec/09a-segments.md, section 8): its
 /// entries are the coded vertices, its elements the vertices. Triangles a, b, b link entries that follow one another
 /// around a polygon, or of polygons those across an edge. Has no polygons. O(corners).
 Topology attribute_surface(const CornerGraph& graph, AttributeDomain domain, AttributeEntries entries);

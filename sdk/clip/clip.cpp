@@ -412,7 +412,7 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
   return {};
 }
 
-/// What the segments of an attribute share, made for the first of them. kIndexRange: there is no such attribute;
+/// The work that the segments of an attribute share, made for the first. kIndexRange: there is no such attribute;
 /// kChunkMissing: the mesh has no pose.
 Status Clip::attribute_work(const Limits::Segment& sizes, AttributeWork** out) {
   const Mesh& mesh = meshes_[sizes.mesh];

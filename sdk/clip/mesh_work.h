@@ -20,7 +20,7 @@ struct MeshPose {
   SharedOrder order;
 };
 
-/// What the segments of an attribute share until they are open.
+/// Work that the segments of an attribute share until they are open.
 struct AttributeWork {
   uint32_t attribute = 0;
   Limits::Mesh sizes;

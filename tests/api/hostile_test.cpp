@@ -42,7 +42,7 @@ std::vector<Entry> listed(const std::string& wanted) {
   return result;
 }
 
-/// What is read without opening: a file may lack it.
+/// Reads metadata and boxes without opening; a file may lack them.
 anic_status read_unopened(const Bytes& file) {
   const char* text;
   size_t bytes;

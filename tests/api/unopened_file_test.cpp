@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What a file says without being opened: metadata and boxes.
+// Metadata and boxes are read from a file that is not opened.
 #include "tests/api/opened.h"
 
 #include <algorithm>

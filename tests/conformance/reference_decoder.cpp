@@ -268,7 +268,7 @@ std::string clip_facts(const Clip& clip, uint32_t of, const ClipRecord& r) {
   return out.str();
 }
 
-/// What the files of a stream promise as one clip (spec/05-file-layout.md, section 8).
+/// The promise of the files of a stream as one clip (spec/05-file-layout.md, section 8).
 ClipRecord joined(const std::vector<OpenFile>& files) {
   ClipRecord all = files[0].clip.clips()[0];
   double squares = 0, scaled = 0, before = 0;

@@ -7,7 +7,7 @@ usage: check_promise.py ANICODEC [--clips N] [--seed S]
 Combination i of seed S is the one of seed S + i, so that `--clips 1 --seed K` repeats a single one. A clip becomes a
 file by `encode`, as several clips, by `add`, by `join` of parts, or by `encode --live`. Checked are: every target asked for
 against the frames that come back, what the file says it measured, bits of `--lossless`, texture coordinates, how far
-Mesh Massage moves the surface, and `anicodec verify`. What the encoder refuses is counted with its reason. Exit
+Mesh Massage moves the surface, and `anicodec verify`. Refusals of the encoder are counted with their reasons. Exit
 status 1 if a promise is broken, or something ends by a signal.
 """
 import argparse
@@ -29,7 +29,7 @@ import surface_distance  # pylint: disable=wrong-import-position
 
 ROUNDING = 1e-5  # of the error, or of float32 at the largest coordinate: what two ways of measuring may differ by
 QUALITIES = {"good": 0.05, "better": 0.02, "best": 0.01}
-#: What --max-error is where no target is asked for.
+#: The --max-error of a command without a target.
 USUAL = "0.05%"
 
 

@@ -329,7 +329,7 @@ test('the graphics card plays instances as the CPU does', { skip }, async (t) =>
         const [x, y] = [b, c].map((p) => p.map((value, axis) => value - a[axis]));
         return [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
       };
-      // Of a sliver, far from the origin, rounding is all.
+      // Far from the origin, the area of a sliver is rounding alone.
       const rounding = ([a, ...others]) =>
         2 ** -16 * Math.max(...a.map(Math.abs)) * Math.max(...others.map((p) => Math.hypot(...p.map((value, axis) => value - a[axis]))));
       const cancel = (triangles) => {

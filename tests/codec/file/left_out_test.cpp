@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What editors keep of chunks that they do not know, and say of what they leave out.
+// Editors keep chunks that they do not know, or name those that they leave out.
 #include "codec/file/left_out.h"
 
 #include "codec/encode.h"

@@ -47,7 +47,7 @@ std::string attribute_of_tag(std::string_view text, size_t tag, std::string_view
                                : "";
 }
 
-/// What assimp makes of Collada that is not in it: it takes the shapes of a morph controller for no mesh, and keys of
+/// Notes on what assimp makes of Collada that is not in it: it takes the shapes of a morph controller for no mesh, and keys of
 /// every kind for linear ones.
 void check_collada(const std::string& path, const GltfOptions& options) {
   std::string text;

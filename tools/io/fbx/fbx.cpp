@@ -62,7 +62,7 @@ class FbxReader {
     return message_.finish();
   }
 
-  /// Those named, or all that move anything; with no name and nothing that moves, one frame.
+  /// The takes that are named, or all that move anything; with no name and nothing that moves, one frame.
   std::string read_clips(const std::vector<std::string>& names) {
     if (!names.empty() && names != std::vector<std::string>{"all"}) {
       for (const std::string& name : names)

@@ -39,7 +39,7 @@ class FbxMessage {
   std::vector<std::string> notes_;
 };
 
-/// What a message holds.
+/// The clips and notes of a message.
 struct FbxResult {
   std::vector<MeshSequence> clips;
   std::vector<std::string> notes;

@@ -280,7 +280,7 @@ void GltfBake::add_node(uint32_t n) {
   }
 }
 
-/// Of several nodes without a name each is a part by its number; one is what is in no part.
+/// Several nodes without a name are parts by their numbers; a single one is in no part.
 void GltfBake::name_parts() {
   if (std::ranges::count(parts_.names, "") == 1) {
     const auto nameless = std::ranges::find(parts_.names, "");
@@ -687,7 +687,7 @@ std::vector<uint32_t> GltfBake::needed_ticks(const GltfClip& clip, uint32_t tick
   return needed;
 }
 
-/// Of what has no normals every face is flat (glTF 2.0, section 3.7.2.1).
+/// A primitive without normals has flat faces (glTF 2.0, section 3.7.2.1).
 void GltfBake::add_hard_edges(MeshSequence& out) const {
   std::vector<bool> flat;
   for (const Piece& piece : pieces_)

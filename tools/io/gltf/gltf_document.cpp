@@ -28,7 +28,7 @@ std::optional<JsonNode> extension(const JsonNode& node, const char* name) {
   return extensions ? extensions->find(name) : std::nullopt;
 }
 
-/// What a buffer or a view of it says of its compression by meshoptimizer.
+/// The extension by which a buffer or a view names its compression by meshoptimizer.
 std::optional<JsonNode> meshopt_extension(const JsonNode& node) {
   for (const char* name : kMeshoptExtensions) {
     if (std::optional<JsonNode> found = extension(node, name))

@@ -33,7 +33,7 @@ struct TextureTransform {
 struct GltfMaterial {
   std::string name;
   MaterialLook look;
-  /// Of a set of texture coordinates that is moved, that of the first texture that uses it.
+  /// The transform of a set of texture coordinates: that of the first texture that uses it.
   std::map<uint32_t, TextureTransform> transforms = {};
 };
 
