@@ -590,6 +590,25 @@ Bytes quiet() {
   return file_of(clip, {r});
 }
 
+/// Exact coordinates of a pose of many parts, with partners: those of the first vertex of a part follow
+/// another one without a neighbour that is known.
+Bytes islands() {
+  constexpr uint32_t kParts = 80;
+  MeshSequence clip;
+  clip.name = "islands";
+  std::vector<float> rest;
+  for (uint32_t part = 0; part < kParts; ++part) {
+    const auto x = static_cast<float>(3 * (part % 10)), y = static_cast<float>(3 * (part / 10));
+    rest.insert(rest.end(), {x, y, 0, x + 1, y, 0, x, y + 2, 1});
+    clip.polygons.add(std::vector<uint32_t>{3 * part, 3 * part + 1, 3 * part + 2});
+  }
+  clip.vertex_count = 3 * kParts;
+  shake(&clip, rest, 4);
+  Recipe r = recipe(4, BasisKind::kEigenshapes, 0.05, 8, 1, 12, RefitSchedule::kNone);
+  r.change = exactly_with_partners;
+  return file_of(clip, {r});
+}
+
 }  // namespace
 
 const std::vector<SpecialVector>& reading_vectors() {
@@ -606,7 +625,8 @@ const std::vector<SpecialVector>& reading_vectors() {
                                                  {"self_meeting", self_meeting},
                                                  {"singular", singular},
                                                  {"long_run", long_run},
-                                                 {"quiet", quiet}};
+                                                 {"quiet", quiet},
+                                                 {"islands", islands}};
   return all;
 }
 

@@ -107,7 +107,7 @@ Bytes cliques_of_vertices() {
 }
 
 Bytes partners() {
-  const MeshSequence clip = corpus::make_scaled("limb", 700, 12);
+  const MeshSequence clip = corpus::make_scaled("limb", 1600, 12);
   const double step = 0.004 * diagonal(clip);
   Recipe named = recipe(6, BasisKind::kEigentrajectories, step, 12, 1, 12, RefitSchedule::kSparse);
   named.change = with_partners;

@@ -31,6 +31,7 @@ VECTORS = [
     ("nonmanifold_keyframes.anic", "nonmanifold", "--kg 0.5 --basis keyframes --keyframe-coder draco"),
     ("polygons_all.anic", "polygons", "--kg 0.2 --order all --basis eigenshapes"),
     ("quad_box_corrected.anic", "quad_box", "--kg 1 --max-error 0.5% --basis eigentrajectories"),
+    ("turned_keyframes.anic", "moebius", "--kg 0.5 --basis keyframes --keyframe-coder draco"),
     ("soup.anic", "soup", "--kg 0.5 --basis eigentrajectories"),
     ("limb_effort9.anic", "limb", "--kg 0.2 --effort 9 --basis eigenshapes"),
     ("limb_small.anic", "limb --vertices 100 --frame-count 8", "--kg 0.5 --effort 9 --basis eigenshapes"),
