@@ -147,7 +147,7 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   }
   ByteReader header({file.data, std::min(file.size, kHeaderBytes)});
   header.raw(sizeof kMagic);
-  uint16_t major = header.u16(), minor = header.u16();
+  const uint16_t major = header.u16(), minor = header.u16();
   uint32_t count = header.u32();
   const uint64_t features = header.u64();
   uint64_t size = header.u64();
@@ -155,8 +155,10 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   header.u32();  // of the table, see head_bytes()
   if (!header.ok())
     return failure(Status::kTruncated, file.size, "the file ends inside the header");
-  if (!reads_version(major, minor))
-    return failure(Status::kVersion, 8, "the file is of another format version");
+  if (major != kVersionMajor)
+    return failure(Status::kVersion, 8,
+                   major == 0 ? "the file is a draft of the format, 0.x, which is no longer read: encode its source again"
+                              : "the file is of a later major version of the format");
   uint64_t table_end = head_bytes(file);
   if (table_end > file.size)
     return failure(size > file.size ? Status::kTruncated : Status::kHeader, file.size,

@@ -17,20 +17,14 @@
 namespace anicodec {
 
 inline constexpr uint8_t kMagic[8] = {0x89, 'A', 'N', 'I', '\r', '\n', 0x1A, '\n'};
-inline constexpr uint16_t kVersionMajor = 0;
-inline constexpr uint16_t kVersionMinor = 9;
+inline constexpr uint16_t kVersionMajor = 1;
+inline constexpr uint16_t kVersionMinor = 0;
 inline constexpr size_t kHeaderBytes = 40;
 inline constexpr size_t kLeastEntryBytes = 10;  // without mesh and segment, of a short payload
 
 /// Features, as bits of the header (spec/13-extending.md, section 2). The meshes of a continuation are
 /// those of a file before it in a live stream; the other two are the optional profile.
 inline constexpr uint64_t kContinuation = 1, kDracoFeature = 2, kMsgiFeature = 4;
-
-/// Whether this library reads files of a version: drafts (0.x) of its own alone, from 1.0 on every minor
-/// version (spec/13-extending.md, section 1).
-constexpr bool reads_version(uint16_t major, uint16_t minor) {
-  return major == kVersionMajor && (major > 0 || minor == kVersionMinor);
-}
 
 /// Chunk types are four ASCII characters, the first one in the lowest byte.
 constexpr uint32_t chunk_type(const char (&name)[5]) {

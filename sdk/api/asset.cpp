@@ -39,7 +39,7 @@ anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
     return ANIC_E_ARGUMENT;
   const Clip& clip = asset->clip;
   anic_clip first = ANIC_INIT(anic_clip);
-  anic_clip_info(asset, 0, &first);
+  anic_get_clip(asset, 0, &first);
   anic_asset_info filled = ANIC_INIT(anic_asset_info);
   filled.mesh_count = static_cast<uint32_t>(clip.meshes().size());
   filled.segment_count = static_cast<uint32_t>(clip.segments().size());
@@ -73,12 +73,12 @@ anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
   return ANIC_OK;
 }
 
-uint32_t anic_clip_count(const anic_asset* asset) {
+uint32_t anic_get_clip_count(const anic_asset* asset) {
   return asset ? static_cast<uint32_t>(asset->clip.clips().size()) : 0;
 }
 
-anic_status anic_clip_info(const anic_asset* asset, uint32_t clip, anic_clip* out) {
-  if (clip >= anic_clip_count(asset) || !is_sized(out))
+anic_status anic_get_clip(const anic_asset* asset, uint32_t clip, anic_clip* out) {
+  if (clip >= anic_get_clip_count(asset) || !is_sized(out))
     return ANIC_E_ARGUMENT;
   const ClipRecord& record = asset->clip.clips()[clip];
   const Clock clock(record);
@@ -112,18 +112,18 @@ anic_status anic_find_clip(const anic_asset* asset, const char* name, uint32_t* 
   if (!asset || !name || !out)
     return ANIC_E_ARGUMENT;
   *out = static_cast<uint32_t>(asset->clip.record().find(name));
-  return *out < anic_clip_count(asset) ? ANIC_OK : ANIC_E_ABSENT;
+  return *out < anic_get_clip_count(asset) ? ANIC_OK : ANIC_E_ABSENT;
 }
 
-uint32_t anic_event_count(const anic_asset* asset, uint32_t clip) {
-  return clip < anic_clip_count(asset)
+uint32_t anic_get_event_count(const anic_asset* asset, uint32_t clip) {
+  return clip < anic_get_clip_count(asset)
              ? static_cast<uint32_t>(asset->clip.clips()[clip].events.size())
              : 0;
 }
 
-anic_status anic_event_info(const anic_asset* asset, uint32_t clip, uint32_t event,
+anic_status anic_get_event(const anic_asset* asset, uint32_t clip, uint32_t event,
                             anic_event* out) {
-  if (event >= anic_event_count(asset, clip) || !is_sized(out))
+  if (event >= anic_get_event_count(asset, clip) || !is_sized(out))
     return ANIC_E_ARGUMENT;
   const ClipEvent& of_file = asset->clip.clips()[clip].events[event];
   anic_event filled = ANIC_INIT(anic_event);

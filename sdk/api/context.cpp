@@ -262,7 +262,7 @@ anic_status anic_forget_previous(anic_context* context) {
 
 anic_status anic_get_root_motion(const anic_asset* asset, uint32_t clip, double seconds,
                                  anic_sampling sampling, anic_wrap wrap, anic_root_motion* out) {
-  if (clip >= anic_clip_count(asset) || !is_sized(out) || !is_time(seconds, sampling, wrap))
+  if (clip >= anic_get_clip_count(asset) || !is_sized(out) || !is_time(seconds, sampling, wrap))
     return ANIC_E_ARGUMENT;
   const Clip& file = asset->clip;
   if (!asset->has_clip(clip))
@@ -275,7 +275,7 @@ anic_status anic_get_root_motion(const anic_asset* asset, uint32_t clip, double 
 anic_status anic_get_root_step(const anic_asset* asset, uint32_t clip, double from, double to,
                                anic_sampling sampling, anic_wrap wrap, anic_root_motion* out) {
   constexpr double kMostTurns = 4503599627370496;  // 2^52
-  if (clip >= anic_clip_count(asset) || !is_sized(out) || !is_time(from, sampling, wrap) ||
+  if (clip >= anic_get_clip_count(asset) || !is_sized(out) || !is_time(from, sampling, wrap) ||
       !is_time(to, sampling, wrap))
     return ANIC_E_ARGUMENT;
   const Clip& file = asset->clip;

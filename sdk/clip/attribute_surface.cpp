@@ -7,8 +7,9 @@
 namespace anicodec {
 namespace {
 
+/// The mean, rounded down; 0 of none, as a polygon without corners has it.
 int32_t floor_of(int64_t sum, int64_t count) {
-  return static_cast<int32_t>(sum / count - (sum % count < 0));
+  return count == 0 ? 0 : static_cast<int32_t>(sum / count - (sum % count < 0));
 }
 
 }  // namespace

@@ -369,7 +369,7 @@ static void place_instance(Instance* instance, uint32_t i, uint32_t count) {
 /* Box of the frames around a time of a clip; the whole clip where frames are not even. */
 static void add_frames(const Model* model, uint32_t clip, double seconds, anic_box* box) {
   anic_clip info = ANIC_INIT(anic_clip);
-  check(anic_clip_info(model->asset, clip, &info), "clip");
+  check(anic_get_clip(model->asset, clip, &info), "clip");
   if (info.uneven) {
     *box = model->box;
     return;
@@ -767,7 +767,7 @@ int main(int argc, char** argv) {
     Instance* instance = &instances[i];
     instance->model = (i + i / 7) % model_count;
     const Model* model = &models[instance->model];
-    const uint32_t clips = anic_clip_count(model->asset);
+    const uint32_t clips = anic_get_clip_count(model->asset);
     check(anic_create_context(model->asset, NULL, &instance->context), "context");
     instance->clip = i / model_count % clips;
     instance->other = (instance->clip + 1) % clips;

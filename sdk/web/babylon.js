@@ -66,7 +66,7 @@ export class AnicPlayer extends TransformNode {
 
   set current(clip) { this.#current = this.clip.find(clip).index; }
 
-  /** 'step', 'linear' or 'cubic', and 'clamp', 'loop' or 'pingpong'. */
+  /** 'step', 'linear' or 'cubic', and 'clamp', 'loop' or 'ping-pong'. */
   set sampling(sampling) { this.#options = { ...this.#options, sampling }; }
 
   set wrap(wrap) { this.#options = { ...this.#options, wrap }; }

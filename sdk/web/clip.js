@@ -3,7 +3,7 @@
 import { AnicError } from './status.js';
 
 const SAMPLING = { step: 0, linear: 1, cubic: 2 };
-const WRAP = { clamp: 0, loop: 1, pingpong: 2 };
+const WRAP = { clamp: 0, loop: 1, 'ping-pong': 2 };
 const KINDS = ['uv', 'normal', 'tangent', 'colour', 'custom', 'material', 'part'];
 const DOMAINS = ['vertex', 'corner', 'polygon'];
 const ABSENT = 'ANIC_E_ABSENT';

@@ -44,7 +44,7 @@ export interface OpenOptions {
 /** How times become positions. The default of wrap is what the file says: 'loop' or 'clamp'. */
 export interface SampleOptions {
   sampling?: 'step' | 'linear' | 'cubic';
-  wrap?: 'clamp' | 'loop' | 'pingpong';
+  wrap?: 'clamp' | 'loop' | 'ping-pong';
   /** The clip that the time is of, by its name or number. Default: the first one that is open. */
   clip?: string | number;
   /** Moments that are faded in, one after the other: what is shown then counts 1 - weight. */
@@ -278,10 +278,10 @@ export declare class Clip {
   /** Time of a frame of the file, in seconds from the first one of its clip. */
   frameTime(frame: number): number;
   /** The motion of the whole at a time, part of the positions or not (OpenOptions.inPlace); none where it is not apart. */
-  rootMotion(time: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'pingpong' }): RootMotion;
+  rootMotion(time: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'ping-pong' }): RootMotion;
   /** What moves a character on from one time to another, through any number of turns of a loop: a turn, and a move in the axes
    * that it has at `from`; no pivot. */
-  rootStep(from: number, to: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'pingpong' }): RootMotion;
+  rootStep(from: number, to: number, options?: { clip?: string | number; sampling?: 'step' | 'linear' | 'cubic'; wrap?: 'clamp' | 'loop' | 'ping-pong' }): RootMotion;
   verify(): void;
   basis(segment: number): Basis;
   close(): void;

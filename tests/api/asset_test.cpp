@@ -55,7 +55,7 @@ TEST(Statuses, HaveTheNumbersOfTheFormat) {
     EXPECT_STRNE(anic_get_status_text(c), "unknown status");
   }
   EXPECT_STREQ(anic_get_status_text(static_cast<anic_status>(12345)), "unknown status");
-  EXPECT_EQ(anic_get_version(), 0x000100U);
+  EXPECT_EQ(anic_get_version(), 0x010000U);
 }
 
 TEST(AnicAsset, TellsWhatIsInIt) {

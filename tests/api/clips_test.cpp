@@ -63,13 +63,13 @@ const BasisChoice kBases[] = {BasisChoice::kEigenshapes, BasisChoice::kEigentraj
 TEST(AnicClips, EachHasItsNameClockAndPromise) {
   for (BasisChoice basis : kBases) {
     const Asset asset = open(encoded_limbs(basis).file);
-    ASSERT_EQ(anic_clip_count(asset.get()), 3U);
+    ASSERT_EQ(anic_get_clip_count(asset.get()), 3U);
     EXPECT_EQ(info_of(asset).frame_count, 60U);
     EXPECT_STREQ(info_of(asset).name, "walk");
     uint32_t first = 0;
     for (uint32_t c = 0; c < 3; ++c) {
       anic_clip clip = ANIC_INIT(anic_clip);
-      ASSERT_EQ(anic_clip_info(asset.get(), c, &clip), ANIC_OK);
+      ASSERT_EQ(anic_get_clip(asset.get(), c, &clip), ANIC_OK);
       EXPECT_STREQ(clip.name, kNames[c]);
       EXPECT_EQ(clip.first_frame, first);
       EXPECT_EQ(clip.frame_count, kFrameCounts[c]);
@@ -90,8 +90,8 @@ TEST(AnicClips, EachHasItsNameClockAndPromise) {
     uint32_t found = 0;
     EXPECT_EQ(anic_find_clip(asset.get(), "fly", &found), ANIC_E_ABSENT);
     anic_clip clip = ANIC_INIT(anic_clip);
-    EXPECT_EQ(anic_clip_info(asset.get(), 3, &clip), ANIC_E_ARGUMENT);
-    EXPECT_EQ(anic_clip_count(nullptr), 0U);
+    EXPECT_EQ(anic_get_clip(asset.get(), 3, &clip), ANIC_E_ARGUMENT);
+    EXPECT_EQ(anic_get_clip_count(nullptr), 0U);
   }
 }
 
@@ -118,7 +118,7 @@ TEST(AnicClips, TimesAreOfTheChosenClip) {
     uint32_t first = 0;
     for (uint32_t c = 0; c < 3; ++c) {
       anic_clip clip = ANIC_INIT(anic_clip);
-      anic_clip_info(asset.get(), c, &clip);
+      anic_get_clip(asset.get(), c, &clip);
       ASSERT_EQ(anic_set_clip(context.get(), c), ANIC_OK);
       EXPECT_EQ(shown(0, ANIC_WRAP_CLAMP), frame(first));
       EXPECT_EQ(shown(-1, ANIC_WRAP_CLAMP), frame(first));
@@ -194,7 +194,7 @@ TEST(AnicClips, SomeCanBeOpenedAlone) {
       EXPECT_EQ(anic_set_clip(context.get(), 0), ANIC_E_ABSENT);
       EXPECT_EQ(anic_set_clip(context.get(), 2), ANIC_OK);
       anic_clip clip = ANIC_INIT(anic_clip);
-      anic_clip_info(some.get(), 0, &clip);
+      anic_get_clip(some.get(), 0, &clip);
       EXPECT_FALSE(clip.open);
       for (uint32_t f = count == 1 ? 51 : 20; f < 60; ++f) {
         ASSERT_EQ(anic_seek_frame(of_all.get(), f), ANIC_OK);
@@ -249,14 +249,14 @@ TEST(AnicShare, AssetsOfOneFileShareItsMemory) {
   anic_clip clip = ANIC_INIT(anic_clip);
   uint32_t jump = 0;
   ASSERT_EQ(anic_find_clip(some.get(), "jump", &jump), ANIC_OK);
-  for (uint32_t c = 0; c < anic_clip_count(some.get()); ++c) {
-    ASSERT_EQ(anic_clip_info(some.get(), c, &clip), ANIC_OK);
+  for (uint32_t c = 0; c < anic_get_clip_count(some.get()); ++c) {
+    ASSERT_EQ(anic_get_clip(some.get(), c, &clip), ANIC_OK);
     EXPECT_EQ(clip.open, c == jump) << c;
   }
   const Context context = context_of(some);
   const uint32_t other = jump == 0 ? 1 : 0;
   EXPECT_EQ(anic_set_clip(context.get(), other), ANIC_E_ABSENT);
-  ASSERT_EQ(anic_clip_info(some.get(), other, &clip), ANIC_OK);
+  ASSERT_EQ(anic_get_clip(some.get(), other, &clip), ANIC_OK);
   anic_box box;
   ASSERT_EQ(anic_seek_frame(context.get(), clip.first_frame), ANIC_OK);
   EXPECT_EQ(anic_compute_bounds(context.get(), 0, ANIC_WHEN_CURRENT, &box), ANIC_E_ABSENT);

@@ -70,7 +70,7 @@ class AnicEncoder : public testing::Test {
     EncodeOptions options;
     options.target = {ErrorMetric::kMaxError, 1, true};
     options.effort = 1;
-    options.encoder = "anicodec 0.1.0";
+    options.encoder = "anicodec 1.0.0";
     const Bytes bytes = anicodec::encode(plain, options).file;
     return {bytes.begin(), bytes.end()};
   }
@@ -263,7 +263,7 @@ TEST_F(AnicEncoder, EncodesSeveralClipsOfAMesh) {
   EncodeOptions options;
   options.target = {ErrorMetric::kMaxError, 1, true};
   options.effort = 1;
-  options.encoder = "anicodec 0.1.0";
+  options.encoder = "anicodec 1.0.0";
   const Bytes bytes = anicodec::encode(both, options).file;
 
   anic_source_clip next = ANIC_INIT(anic_source_clip);

@@ -52,7 +52,7 @@ void expect_file(const Stream& stream, size_t number, const Bytes& whole) {
   for (uint32_t f = 0; f < 8; ++f)
     EXPECT_EQ(frame(asset, f), frame(expected, f));
   anic_clip clip = ANIC_INIT(anic_clip);
-  ASSERT_EQ(anic_clip_info(asset.get(), 0, &clip), ANIC_OK);
+  ASSERT_EQ(anic_get_clip(asset.get(), 0, &clip), ANIC_OK);
   EXPECT_NEAR(clip.start_time, static_cast<double>(8 * number) / 24, 1e-9);
 }
 

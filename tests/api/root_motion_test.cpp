@@ -241,15 +241,15 @@ TEST(AnicRootStep, GoesFromOneTimeToAnotherAndOnThroughLoops) {
 
 TEST(AnicEvents, AreListedByTime) {
   const Asset asset = open(encoded(UpAxis::kY, BasisChoice::kEigenshapes));
-  ASSERT_EQ(anic_event_count(asset.get(), 0), 2U);
-  EXPECT_EQ(anic_event_count(asset.get(), 1), 0U);
-  EXPECT_EQ(anic_event_count(asset.get(), 9), 0U);
-  EXPECT_EQ(anic_event_count(nullptr, 0), 0U);
+  ASSERT_EQ(anic_get_event_count(asset.get(), 0), 2U);
+  EXPECT_EQ(anic_get_event_count(asset.get(), 1), 0U);
+  EXPECT_EQ(anic_get_event_count(asset.get(), 9), 0U);
+  EXPECT_EQ(anic_get_event_count(nullptr, 0), 0U);
   anic_event event = ANIC_INIT(anic_event);
-  ASSERT_EQ(anic_event_info(asset.get(), 0, 1, &event), ANIC_OK);
+  ASSERT_EQ(anic_get_event(asset.get(), 0, 1, &event), ANIC_OK);
   EXPECT_STREQ(event.name, "right");
   EXPECT_EQ(event.seconds, 0.7);
-  EXPECT_EQ(anic_event_info(asset.get(), 0, 2, &event), ANIC_E_ARGUMENT);
+  EXPECT_EQ(anic_get_event(asset.get(), 0, 2, &event), ANIC_E_ARGUMENT);
 }
 
 }  // namespace

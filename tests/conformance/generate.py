@@ -4,7 +4,7 @@
 """Makes random valid files beside the fixed ones, in a folder that run.py takes.
 
 usage: generate.py [--seed FIRST] BUILD COUNT FOLDER [COMMAND...]
-BUILD is a folder that random_vectors and reference_decoder have been built in, as build/dev. File number i is that of
+BUILD is a folder that random_vectors and sdk_decoder have been built in, as build/dev. File number i is that of
 seed FIRST + i, the same whenever it is made.
 With COMMAND run.py runs that on them; options of run.py may come first.
 """
@@ -35,7 +35,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for seed in range(arguments.seed, arguments.seed + arguments.count):
             file, out = arguments.folder / f"random_{seed}.anic", pathlib.Path(scratch) / f"random_{seed}"
-            for command in ([programs / "random_vectors", str(seed), file], [programs / "reference_decoder", file, out]):
+            for command in ([programs / "random_vectors", str(seed), file], [programs / "sdk_decoder", file, out]):
                 if subprocess.run(command, check=False).returncode != 0:
                     sys.exit(f"seed {seed}: {command[0].name} failed")
             conformance_facts.write(conformance_facts.facts_of(out), arguments.folder / "facts" / f"{file.stem}.json")

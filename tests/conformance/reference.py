@@ -15,10 +15,11 @@ DECODER = HERE.parents[1] / "spec" / "reference" / "decode.py"
 LACKS = ["--without", "draco", "--without", "interpolation"]
 
 
-def python_with_numpy():
+def decoder(file, out):
+    """The command that decodes a file or a stream; exits if there is no Python with numpy."""
     for python in (sys.executable, "/usr/bin/python3"):
         if subprocess.run([python, "-c", "import numpy"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
-            return python
+            return [python, "-B", DECODER, "--stream", file, "-o", out]
     print("skipped: there is no Python with numpy")
     sys.exit(77)
 
@@ -26,9 +27,9 @@ def python_with_numpy():
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
-    decoder = [python_with_numpy(), "-B", DECODER, "--stream", "{file}", "-o", "{out}"]
-    fixed = subprocess.run([sys.executable, HERE / "run.py", *LACKS, *decoder], check=False)
-    made = subprocess.run([sys.executable, HERE / "generate.py", *sys.argv[1:], *LACKS, *decoder], check=False)
+    command = decoder("{file}", "{out}")
+    fixed = subprocess.run([sys.executable, HERE / "run.py", *LACKS, *command], check=False)
+    made = subprocess.run([sys.executable, HERE / "generate.py", *sys.argv[1:], *LACKS, *command], check=False)
     sys.exit(fixed.returncode or made.returncode)
 
 

@@ -38,7 +38,6 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "scripts"))
 import clip_output  # pylint: disable=wrong-import-position
 
 SECONDS = 60  # of a slow machine
@@ -154,7 +153,7 @@ def check_valid(decoder, file, facts, folder, without):
         for number, mesh in enumerate(meshes):
             yield from mesh_faults(out, number, mesh)
         if (told := pathlib.Path(f"{out}.json")).exists():
-            yield from fact_faults(json.loads(told.read_text(encoding="utf-8").replace("nan", "null")), facts, without)
+            yield from fact_faults(json.loads(told.read_text(encoding="utf-8")), facts, without)
     except (OSError, ValueError, KeyError, TypeError) as error:
         yield f"what was written cannot be read: {error}"
 

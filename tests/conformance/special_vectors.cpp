@@ -620,7 +620,8 @@ Bytes exact() {
 /// A shell of quadrangles, triangles and a vertex in no face whose attributes move, in the source's order: texture
 /// coordinates of corners that scroll but for one corner of a fan that turns on its own, four numbers of each
 /// polygon, one of each vertex that differs in copies, and colours of polygons that rest.
-Bytes domains() {
+/// `empty`: and a polygon without corners, whose numbers move like those of the others.
+Bytes domains_of(bool empty) {
   constexpr uint32_t kSide = 5, kFrames = 7, kVertices = kSide * kSide + 3;
   MeshSequence clip;
   clip.vertex_count = kVertices;
@@ -637,6 +638,8 @@ Bytes domains() {
     }
   }
   clip.polygons.add(std::vector<uint32_t>{kSide * kSide, kSide * kSide + 1, 7});  // copies of the first two
+  if (empty)
+    clip.polygons.add(std::vector<uint32_t>{});
   for (uint32_t f = 0; f < kFrames; ++f) {
     for (uint32_t v = 0; v < kVertices; ++v) {
       const uint32_t of = v == kSide * kSide ? 0 : v == kSide * kSide + 1 ? 1 : v;
@@ -676,6 +679,14 @@ Bytes domains() {
   return encode(clip, options).file;
 }
 
+Bytes domains() {
+  return domains_of(false);
+}
+
+Bytes empty_polygon() {
+  return domains_of(true);
+}
+
 constexpr SpecialVector kVectors[] = {{"schedules", schedules},
                                {"alike", alike},
                                {"vertex_order", vertex_order},
@@ -686,6 +697,7 @@ constexpr SpecialVector kVectors[] = {{"schedules", schedules},
                                {"walk_y_up", walk_y_up},
                                {"exact", exact},
                                {"domains", domains},
+                               {"empty_polygon", empty_polygon},
                                {"saturated", saturated},
                                {"layers", layers},
                                {"regions", regions},

@@ -232,11 +232,11 @@ inline void sample(const anic_asset* asset, CappedMemory* memory, Script script)
 inline void look(const anic_asset* asset, Script script) {
   anic_asset_info info = ANIC_INIT(anic_asset_info);
   anic_get_asset_info(asset, &info);
-  for (uint32_t c = 0; c < anic_clip_count(asset); ++c) {
+  for (uint32_t c = 0; c < anic_get_clip_count(asset); ++c) {
     double before = 0;
-    for (uint32_t e = 0; e < anic_event_count(asset, c); ++e) {
+    for (uint32_t e = 0; e < anic_get_event_count(asset, c); ++e) {
       anic_event event = ANIC_INIT(anic_event);
-      require(anic_event_info(asset, c, e, &event) == ANIC_OK && event.name != nullptr);
+      require(anic_get_event(asset, c, e, &event) == ANIC_OK && event.name != nullptr);
       require(event.seconds >= before);
       before = event.seconds;
     }

@@ -28,7 +28,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FLAGS = "-std=c++17 -O1 -ffp-contract=off -Wno-psabi -DANICODEC_LANES=1 -DXXH_INLINE_ALL".split()
 LIBRARIES = "-ldraco -lzstd".split()
-MAIN = "tests/conformance/reference_decoder.cpp"
+MAIN = "tests/conformance/sdk_decoder.cpp"
 
 
 def sources():
@@ -138,7 +138,7 @@ class Nursery:
         for name in self.names:
             for used in uses(name, self.base):
                 self.users.setdefault(used, []).append(name)
-        program = work / "reference_decoder"
+        program = work / "sdk_decoder"
         if not linked(self.objects(), program):
             sys.exit("the decoder cannot be linked")
         if fault := conforms(self.on(program)):

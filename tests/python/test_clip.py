@@ -39,7 +39,7 @@ def test_faces(wave, clip):
     assert clip.faces.shape == wave[1].shape
     assert {frozenset(face) for face in clip.faces.tolist()} == {frozenset(face) for face in wave[1].tolist()}
     assert clip.triangles.shape == (242, 3)
-    mixed = anicodec.open(anicodec.encode(wave[0], [(0, 1, 2), (1, 2, 3, 4)], order="faces", effort=1))
+    mixed = anicodec.open(anicodec.encode(wave[0], [(0, 1, 2), (1, 2, 3, 4)], order="all", effort=1))
     offsets, corners = mixed.faces
     assert offsets.tolist() == [0, 3, 7] and corners.tolist() == [0, 1, 2, 1, 2, 3, 4]
     assert anicodec.encode(mixed[:], mixed.faces, effort=1)
@@ -89,7 +89,7 @@ def test_attributes_of_corners_and_polygons_that_move(wave):
     frames, turns = np.arange(len(positions))[:, None, None], np.arange(faces.size)[:, None] % 3
     uv = (np.random.default_rng(1).random((faces.size, 2)) + 0.01 * frames + 0.02 * turns * np.sin(frames)).astype(np.float32)
     pressure = (np.sin(0.2 * np.arange(len(faces))[:, None] + 0.1 * frames) * [1, 2, 3, 4]).astype(np.float32)
-    clip = anicodec.open(anicodec.encode(positions, faces, uv=uv, custom={"pressure": pressure}, order="faces", effort=1))
+    clip = anicodec.open(anicodec.encode(positions, faces, uv=uv, custom={"pressure": pressure}, order="all", effort=1))
     for number, values in enumerate((uv, pressure)):
         attribute = clip.attributes[number]
         assert attribute.moves and attribute.domain == ("corners", "polygons")[number]

@@ -90,7 +90,7 @@ def test_attributes_and_labels_come_back(wave):
     uv = positions[0, :, :2]
     colours = np.broadcast_to(uv[None, :, :1], (len(positions), len(uv), 3))
     materials = (["skin", "cloth"], np.arange(len(faces)) % 3 - 1)
-    data = anicodec.encode(positions, faces, uv=uv, colours={"tint": colours}, materials=materials, order="faces",
+    data = anicodec.encode(positions, faces, uv=uv, colours={"tint": colours}, materials=materials, order="all",
                            custom={"heat": positions[0, :, :1]}, effort=1)
     by_kind = {attribute.kind: attribute for attribute in anicodec.open(data).attributes}
     assert np.abs(by_kind["uv"].values - uv).max() < 2**-12
@@ -99,7 +99,7 @@ def test_attributes_and_labels_come_back(wave):
     assert by_kind["material"].labels == ("skin", "cloth")
     assert np.array_equal(by_kind["material"].values, np.arange(len(faces)) % 3)
     corners = np.random.default_rng(1).random((faces.size, 2))
-    found = anicodec.open(anicodec.encode(positions, faces, uv=corners, order="faces", effort=1)).attributes[0]
+    found = anicodec.open(anicodec.encode(positions, faces, uv=corners, order="all", effort=1)).attributes[0]
     assert found.domain == "corners" and np.abs(found.values - corners).max() < 2**-12
 
 

@@ -48,7 +48,7 @@ def stage(wave):
 
 def test_a_stage_becomes_a_clip(wave, stage):
     positions, _ = wave
-    data = usd.encode(stage, "/group/sheet", order="faces", effort=1)
+    data = usd.encode(stage, "/group/sheet", order="all", effort=1)
     clip = anicodec.open(data)
     assert clip.fps == 30 and clip.frame_count == 24 and clip.info["up"] == "z"
     assert clip.info["metres_per_unit"] == pytest.approx(0.01) and clip.info["start_time"] == pytest.approx(101 / 30)
@@ -61,7 +61,7 @@ def test_a_stage_becomes_a_clip(wave, stage):
 
 
 def test_meshes_come_and_go_and_are_written_back(stage, tmp_path):
-    clip = anicodec.open(usd.encode(stage, effort=1, order="faces"))
+    clip = anicodec.open(usd.encode(stage, effort=1, order="all"))
     named = {mesh.name: mesh for mesh in clip.meshes}
     assert [f for f in range(24) if named["guest"].shown_in(f)] == [4, 5, 6, 7, 8, 9]
     path = tmp_path / "back.usdc"
@@ -81,7 +81,7 @@ def test_meshes_come_and_go_and_are_written_back(stage, tmp_path):
 
 def test_left_handed_faces_are_turned(wave, stage):
     UsdGeom.Mesh(stage.GetPrimAtPath("/group/sheet")).CreateOrientationAttr("leftHanded")
-    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="faces", effort=1))
+    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="all", effort=1))
     assert np.array_equal(clip.faces, wave[1][:, ::-1])
     uv = next(attribute for attribute in clip.attributes if attribute.kind == "uv")
     assert np.allclose(uv.values, wave[0][0][clip.faces.ravel(), :2], atol=2**-11)
@@ -128,7 +128,7 @@ def test_transforms_that_mirror_turn_faces():
 def test_faces_that_are_holes_are_left_out(wave, stage):
     mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/group/sheet"))
     mesh.CreateHoleIndicesAttr([1, 7])
-    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="faces", effort=1))
+    clip = anicodec.open(usd.encode(stage, "/group/sheet", order="all", effort=1))
     kept = np.delete(np.arange(121), [1, 7])
     assert np.array_equal(clip.polygons[1].reshape(-1, 4), wave[1][kept])
     kinds = {attribute.kind: attribute for attribute in clip.attributes}

@@ -147,7 +147,7 @@ def entry(chunk, size=None):
     return struct.pack("<4sIB", chunk.type.encode("latin-1"), xxh64(chunk.payload) & 0xFFFFFFFF, flags) + varints(numbers)
 
 
-def write_table(chunks, table, version=(0, 9), needs=0):
+def write_table(chunks, table, version=(1, 0), needs=0):
     """A file of chunks with any table. `needs`: its feature bits."""
     body = b"".join(chunk.payload for chunk in chunks)
     header = struct.pack("<8sHHIQQII", b"\x89ANI\r\n\x1a\n", *version, len(chunks), needs, HEADER_BYTES + len(table) + len(body), 0,
@@ -155,7 +155,7 @@ def write_table(chunks, table, version=(0, 9), needs=0):
     return checked_header(header + table + body)
 
 
-def write_chunks(chunks, version=(0, 9), needs=0):
+def write_chunks(chunks, version=(1, 0), needs=0):
     """A file of these chunks, all checksums right. `needs`: its feature bits."""
     return write_table(chunks, b"".join(map(entry, chunks)), version, needs)
 

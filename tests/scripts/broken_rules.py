@@ -447,6 +447,7 @@ def segment_rules(files):
     yield 26, "corrections_empty", corrected.put("CORR data", b""), "corrections without a byte"
     yield 41, "corrections_more", corrected.end("CORR", b"\1"), "bytes after the corrections"
     yield 41, "weights_more", far.grown("SEGM weights"), "bytes after the weights"
+    yield 41, "weights_without_base", shapes.grown("SEGM weights"), "weights of a base that is not affine"
     yield 41, "motions_more", far.grown("SEGM motion"), "bytes after the motions"
     yield 40, "motion_of_shapes", shapes.grown("SEGM motion"), "eigenshapes with a motion"
     cut = files("regions")

@@ -22,6 +22,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "conformance"))
 import clip_output  # pylint: disable=wrong-import-position
 import compare  # pylint: disable=wrong-import-position
 import random_clip  # pylint: disable=wrong-import-position

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""What tests/conformance/run.py compares a decoder's output with, made from the output of the reference decoder."""
+"""What tests/conformance/run.py compares a decoder's output with, made from the output of a decoder."""
 import json
 import math
 import pathlib
+import sys
 
-import clip_output
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "conformance"))
+import clip_output  # pylint: disable=wrong-import-position
 
 POINTS = 24  # of each mesh
 SAMPLES = 12  # of each attribute
@@ -64,8 +66,18 @@ def facts_of(out):
     return {"clip": {key: value for key, value in told.items() if key != "meshes"}, "meshes": meshes}
 
 
+def _rounded(value):
+    """Numbers to nine digits, which tell any binary32."""
+    if isinstance(value, float):
+        return float(f"{value:.9g}")
+    if isinstance(value, list):
+        return [_rounded(x) for x in value]
+    return {key: _rounded(x) for key, x in value.items()} if isinstance(value, dict) else value
+
+
 def write(facts, path):
     """One line for each entry of a list or an object that is not short, so that changes can be read."""
+    facts = _rounded(facts)
     lines = ["{", f' "clip": {json.dumps(facts["clip"], sort_keys=True)},', ' "meshes": [']
     for number, mesh in enumerate(facts["meshes"]):
         entries = ",\n   ".join(f"{json.dumps(key)}: {json.dumps(mesh[key], sort_keys=True)}" for key in sorted(mesh))

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Makes tests/conformance/ and the listing of spec/A-examples.md anew, after the format has changed.
+"""Makes the files of tests/conformance/ that MANIFEST does not list yet, with their facts and traces.
 
 usage: update_conformance.py BUILD
   a folder that all has been built in, as build/dev
+What MANIFEST lists stays as it is: the format is frozen. Facts are what spec/reference shows of a file; of the optional
+profile, which it lacks, what the SDK does.
 """
 import ctypes
 import hashlib
 import json
-import os
 import pathlib
 import re
-import shutil
 import struct
 import subprocess
 import sys
@@ -26,6 +26,8 @@ from conformance_parts import features_of, needs, parts_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests" / "conformance"
+sys.path.insert(0, str(FOLDER))
+import reference  # pylint: disable=wrong-import-position
 VECTORS = [
     ("triangle.anic", "one_triangle", "--kg 0.1 --order free --basis keyframes"),
     ("nonmanifold_keyframes.anic", "nonmanifold", "--kg 0.5 --basis keyframes --keyframe-coder draco"),
@@ -45,6 +47,7 @@ VECTORS = [
     ("limb_native.anic", "limb --vertices 200 --frame-count 12", "--keyframes 4"),
     ("exact_keyframes.anic", "limb --vertices 100 --frame-count 6", "--lossless --basis keyframes --keyframe-coder draco"),
     ("exact_interpolated.anic", "limb --vertices 100 --frame-count 6", "--lossless --basis keyframes --interpolation msgi"),
+    ("exact_moving.anic", "limb --vertices 100 --frame-count 8", "--lossless --root-motion --up z"),
     ("lossless.anic", "limb --vertices 100 --frame-count 8", "--lossless --basis eigenshapes"),
     ("painted_box.anic", "painted_box", "--kg 0.5 --order all --basis keyframes"),
     ("heated.anic", "heated", "--kg 0.5 --fps 24 --basis eigenshapes --effort 1"),
@@ -132,7 +135,7 @@ class Library:
 
 
 def grown_file():
-    """One with optional fields, and with chunks of types that nobody knows."""
+    """One of a later minor version, with optional fields, and with chunks of types that nobody knows."""
     chunks = anic_file.read_chunks((FOLDER / "limb_small.anic").read_bytes())
     for chunk in chunks:
         if chunk.type == "LIMI":  # without meaning in a file that is no continuation
@@ -144,7 +147,7 @@ def grown_file():
         ("NEWS", anic_file.COPIED, none, 3), ("NEWS", anic_file.COPIED, none, 0), ("news", 0, none, 1),
         ("x0Yz", anic_file.COPIED, (0, anic_file.NO_SEGMENT), 5), ("x0Yz", 0, (40, anic_file.NO_SEGMENT), 2),
         ("seg1", anic_file.COPIED, segment, 20), ("seg2", 0, (0, 3000), 1))]
-    return anic_file.write_chunks(chunks[:2] + unknown[:1] + chunks[2:4] + unknown[1:5] + chunks[4:] + unknown[5:])
+    return anic_file.write_chunks(chunks[:2] + unknown[:1] + chunks[2:4] + unknown[1:5] + chunks[4:] + unknown[5:], version=(1, 7))
 
 
 def told_file():
@@ -199,7 +202,7 @@ def broken_containers(data):
     *_, offset, size = list(anic_file.entries(data))[1]
     table = b"".join(map(anic_file.entry, chunks[:-1]))
     yield 10, with_bytes(1, b"ANJ", False)
-    yield 11, with_bytes(8, struct.pack("<HH", 1, 0))
+    yield 11, with_bytes(8, struct.pack("<HH", 2, 0))
     yield 12, with_bytes(16, struct.pack("<Q", 1 << 63))
     yield 20, data[:-1]
     yield 21, with_bytes(8 + anic_file.HEADER_BYTES, b"\x80")
@@ -272,110 +275,136 @@ def greedy_files(data):
     limits.payload = good
 
 
+class Suite:
+    """The files, and their lines in MANIFEST."""
+    KINDS = ("valid", "stream", "invalid", "invalid_stream", "limit")
+
+    def __init__(self, decoder):
+        self.decoder = decoder
+        lines = (FOLDER / "MANIFEST").read_text(encoding="utf-8").splitlines()
+        self.lines = {line.split(" ", 2)[1]: line for line in lines}
+
+    def lists(self, name):
+        """Whether a file is there already."""
+        return name in self.lines
+
+    def add(self, kind, name, *fields):
+        """A file that was made just now."""
+        self.lines[name] = " ".join([kind, name, hashlib.sha256((FOLDER / name).read_bytes()).hexdigest(), *fields])
+
+    def add_decoded(self, kind, name, parts):
+        """The same, with its facts."""
+        path = FOLDER / name
+        (FOLDER / "facts").mkdir(exist_ok=True)
+        with tempfile.TemporaryDirectory() as scratch:
+            out = pathlib.Path(scratch) / "decoded"
+            if subprocess.run(reference.decoder(path, out), check=False, capture_output=True).returncode != 0:
+                subprocess.run([self.decoder, path, out], check=True)
+            conformance_facts.write(conformance_facts.facts_of(out), FOLDER / "facts" / f"{path.stem}.json")
+        self.add(kind, name, *needs(parts))
+
+    def add_refused(self, kind, folder, status, what, data, parts, text):
+        """One that is refused, unless it is there."""
+        name = f"{folder}/{status}_{what}.anic" if kind != "limit" else f"{folder}/{what}.anic"
+        if not self.lists(name):
+            (FOLDER / name).parent.mkdir(parents=True, exist_ok=True)
+            (FOLDER / name).write_bytes(data)
+            self.add(kind, name, str(status), CODES[str(status)], *needs(parts), text)
+
+    def write(self):
+        """MANIFEST."""
+        lines = sorted(self.lines.values(), key=lambda line: self.KINDS.index(line.split(" ", 1)[0]))
+        (FOLDER / "MANIFEST").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def make_encoded(command, path, clip, options):
+    """A file that the encoder makes of a clip of the corpus."""
+    with tempfile.TemporaryDirectory() as scratch:
+        cache = pathlib.Path(scratch) / (path.stem + (".mdd" if clip in TIMED else ".pc2"))
+        inputs = [cache.with_suffix(".obj"), cache]
+        if clip in MOVING:
+            cache, inputs = pathlib.Path(scratch) / (clip + "_%03d.ply"), [pathlib.Path(scratch) / (clip + "_*.ply")]
+        subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
+        subprocess.run([command, "encode", "-q", "-f", *inputs, "-o", path, *options.split()], check=True)
+
+
+def make_stream(command, path, clip, frames, all_options):
+    """A live stream; with several options one stream after the other."""
+    with tempfile.TemporaryDirectory() as scratch:
+        cache, part = pathlib.Path(scratch) / "live.pc2", pathlib.Path(scratch) / "part.anic"
+        subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
+        stream = b""
+        for options in all_options:
+            subprocess.run([command, "encode", "-q", "-f", "--live", cache.with_suffix(".obj"), "--fps", str(frames), "-o", part,
+                            *options.split()], check=True, input=cache.read_bytes()[32:])
+            stream += part.read_bytes()
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(stream)
+
+
+def add_good(suite, command, special):
+    """Files that decode."""
+    for name, clip, options in VECTORS:
+        if not suite.lists(name):
+            make_encoded(command, FOLDER / name, clip, options)
+            suite.add_decoded("valid", name, parts_of((FOLDER / name).read_bytes()))
+    for what in subprocess.run([special], check=True, capture_output=True, text=True).stdout.split():
+        if not suite.lists(f"{what}.anic"):
+            subprocess.run([special, what, FOLDER / f"{what}.anic"], check=True)
+            suite.add_decoded("valid", f"{what}.anic", parts_of((FOLDER / f"{what}.anic").read_bytes()))
+    for what, data in unusual_files():
+        if not suite.lists(f"{what}.anic"):
+            (FOLDER / f"{what}.anic").write_bytes(data)
+            suite.add_decoded("valid", f"{what}.anic", parts_of(data))
+    for name, clip, frames, *all_options in (STREAM, TWO_BASES):
+        if not suite.lists(name):
+            make_stream(command, FOLDER / name, clip, frames, all_options)
+            suite.add_decoded("stream", name, ["streams"])
+
+
+def add_bad(suite, command, library):
+    """Files that are refused."""
+    def add(status, what, data, text):
+        seen, detail = library.status(data)
+        if seen != status:
+            sys.exit(f"{what} is answered with {seen}: {detail}")
+        suite.add_refused("invalid", "invalid", status, what, data, parts_of_rule(what, data), text or detail)
+
+    files = [(name, (FOLDER / name).read_bytes()) for name, _, _ in VECTORS]
+    for status, data in broken_containers(files[0][1]):
+        add(status, CODES[str(status)].lower(), data, "")
+    rest = {int(code) for code in CODES if 10 <= int(code) < 60 and int(code) != MESHES and
+            not suite.lists(f"invalid/{code}_{CODES[code].lower()}.anic")}
+    for status, data, what in broken_payloads(sorted(files, key=lambda f: len(f[1])), library, rest) if rest else ():
+        add(status, CODES[str(status)].lower(), data, what)
+        rest.discard(status)
+    if rest:
+        print("no single byte causes " + ", ".join(CODES[str(code)] for code in sorted(rest)))
+    stream = (FOLDER / STREAM[0]).read_bytes()
+    second = stream[anic_file.file_size(stream):]
+    chunks = anic_file.read_chunks(files[0][1])
+    add(11, "draft", anic_file.write_chunks(chunks, version=(0, 9)), "")
+    add(11, "largest", anic_file.write_chunks(chunks, version=(65535, 0)), "")
+    add(12, "continuation", second[:anic_file.file_size(second)], "a continuation without the file that it continues")
+    for status, what, data, text in broken_rules.broken_rules(command, FOLDER, lambda file: library.status(file)[0]):
+        add(status, what, data, text)
+    for status, what, data, text in broken_streams(stream, (FOLDER / TWO_BASES[0]).read_bytes()):
+        suite.add_refused("invalid_stream", "invalid/streams", status, what, data, ["streams"], text)
+    for what, data in greedy_files(files[0][1]):
+        status, detail = library.status(data)
+        suite.add_refused("limit", "limits", status, what, data, [], detail)
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     build = pathlib.Path(sys.argv[1]).resolve()
     command, library = str(build / "tools/anicodec"), Library(build / "sdk/package/libanicodec.so")
-    decoder, special = build / "tests/reference_decoder", build / "tests/special_vectors"
-    lines = []
-
-    def add(kind, path, *fields):
-        digest = hashlib.sha256(path.read_bytes()).hexdigest()
-        lines.append(" ".join([kind, path.relative_to(FOLDER).as_posix(), digest, *fields]))
-
-    def add_facts(path, out):
-        for old in out.parent.glob(out.name + ".*"):
-            old.unlink()
-        subprocess.run([decoder, path, out], check=True)
-        conformance_facts.write(conformance_facts.facts_of(out), FOLDER / "facts" / f"{path.stem}.json")
-
-    def add_valid(path, out):
-        add_facts(path, out)
-        add("valid", path, *needs(parts_of(path.read_bytes())))
-
-    shutil.rmtree(FOLDER / "facts", ignore_errors=True)
-    (FOLDER / "facts").mkdir()
-    with tempfile.TemporaryDirectory() as name:
-        for file, clip, options in VECTORS:
-            cache = pathlib.Path(name) / (pathlib.Path(file).stem + (".mdd" if clip in TIMED else ".pc2"))
-            inputs = [cache.with_suffix(".obj"), cache]
-            if clip in MOVING:
-                subprocess.run([command, "corpus", clip, "-q", "-f", "-o",
-                                pathlib.Path(name) / (clip + "_%03d.ply")], check=True)
-                inputs = [pathlib.Path(name) / (clip + "_*.ply")]
-            else:
-                subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
-            subprocess.run([command, "encode", "-q", "-f", *inputs, "-o", FOLDER / file] + options.split(),
-                           check=True)
-            add_valid(FOLDER / file, pathlib.Path(name) / "decoded")
-        for what in subprocess.run([special], check=True, capture_output=True, text=True).stdout.split():
-            subprocess.run([special, what, FOLDER / f"{what}.anic"], check=True)
-            add_valid(FOLDER / f"{what}.anic", pathlib.Path(name) / "decoded")
-
-        for what, data in unusual_files():
-            (FOLDER / f"{what}.anic").write_bytes(data)
-            add_valid(FOLDER / f"{what}.anic", pathlib.Path(name) / "decoded")
-
-        (FOLDER / "streams").mkdir(exist_ok=True)
-        for file, clip, frames, *all_options in (STREAM, TWO_BASES):
-            cache, part = pathlib.Path(name) / "live.pc2", pathlib.Path(name) / "part.anic"
-            subprocess.run([command, "corpus", *clip.split(), "-q", "-f", "-o", cache], check=True)
-            stream = b""
-            for options in all_options:
-                subprocess.run([command, "encode", "-q", "-f", "--live", cache.with_suffix(".obj"), "--fps", str(frames), "-o",
-                                part] + options.split(), check=True, input=cache.read_bytes()[32:])
-                stream += part.read_bytes()
-            (FOLDER / file).write_bytes(stream)
-            add_facts(FOLDER / file, pathlib.Path(name) / "decoded")
-            add("stream", FOLDER / file, *needs(["streams"]))
-
-    for folder in ("invalid", "limits"):
-        shutil.rmtree(FOLDER / folder, ignore_errors=True)
-        (FOLDER / folder).mkdir()
-    files = [(file, (FOLDER / file).read_bytes()) for file, _, _ in VECTORS]
-    broken = {}
-    for status, data in broken_containers(files[0][1]):
-        broken[status] = (data, "")
-    rest = {int(code) for code in CODES if 10 <= int(code) < 60} - set(broken) - {MESHES}
-    for status, data, what in broken_payloads(sorted(files, key=lambda f: len(f[1])), library, rest):
-        broken[status] = (data, what)
-        rest.discard(status)
-    for status, (data, what) in sorted(broken.items()):
-        seen, detail = library.status(data)
-        if seen != status:
-            sys.exit(f"{CODES[str(status)]} is answered with {seen}: {detail}")
-        path = FOLDER / "invalid" / f"{status}_{CODES[str(status)].lower()}.anic"
-        path.write_bytes(data)
-        add("invalid", path, str(status), CODES[str(status)], *needs(parts_of_rule(CODES[str(status)].lower(), data)),
-            what or detail)
-    stream = (FOLDER / STREAM[0]).read_bytes()
-    second = stream[anic_file.file_size(stream):]
-    alone = [(12, "continuation", second[:anic_file.file_size(second)], "a continuation without the file that it continues")]
-    for status, what, data, text in [*alone, *broken_rules.broken_rules(command, FOLDER, lambda file: library.status(file)[0])]:
-        seen, detail = library.status(data)
-        if seen != status:
-            sys.exit(f"{what} is answered with {seen}: {detail}")
-        path = FOLDER / "invalid" / f"{status}_{what}.anic"
-        path.write_bytes(data)
-        add("invalid", path, str(status), CODES[str(status)], *needs(parts_of_rule(what, data)), text)
-    (FOLDER / "invalid" / "streams").mkdir()
-    for status, what, data, text in broken_streams(stream, (FOLDER / TWO_BASES[0]).read_bytes()):
-        path = FOLDER / "invalid" / "streams" / f"{status}_{what}.anic"
-        path.write_bytes(data)
-        seen = subprocess.run([decoder, path, os.devnull], check=False, stderr=subprocess.DEVNULL).returncode
-        if seen != status:
-            sys.exit(f"{what} is answered with {seen}")
-        add("invalid_stream", path, str(status), CODES[str(status)], *needs(["streams"]), text)
-    for what, data in greedy_files(files[0][1]):
-        path = FOLDER / "limits" / f"{what}.anic"
-        path.write_bytes(data)
-        status, detail = library.status(data)
-        add("limit", path, str(status), CODES[str(status)], detail)
-    if rest:
-        print("no single byte causes " + ", ".join(CODES[str(code)] for code in sorted(rest)))
-    (FOLDER / "MANIFEST").write_text("\n".join(lines) + "\n")
-    traces.write(build / "tests" / "trace_decoder")
+    suite = Suite(build / "tests/sdk_decoder")
+    add_good(suite, command, build / "tests/special_vectors")
+    add_bad(suite, command, library)
+    suite.write()
+    traces.write(build / "tests/trace_decoder", FOLDER)
 
     page = ROOT / "spec" / "A-examples.md"
     text = page.read_text()

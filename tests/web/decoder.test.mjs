@@ -160,7 +160,7 @@ test('positions, normals and values of render vertices', async () => {
   assert.equal(mesh.positions(0.1, out), out);
   assert.deepEqual(out, p);
   assert.throws(() => mesh.positions(0.1, new Float32Array(3)), { status: 'ANIC_E_BUFFER_SIZE' });
-  assert.throws(() => mesh.positions(0.1, undefined, { wrap: 'round' }), /clamp, loop, pingpong/);
+  assert.throws(() => mesh.positions(0.1, undefined, { wrap: 'round' }), /clamp, loop, ping-pong/);
   assert.throws(() => clip.positions(NaN), { status: 'ANIC_E_ARGUMENT' });
   clip.close();
   clip.close();

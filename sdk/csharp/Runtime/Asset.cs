@@ -125,7 +125,7 @@ namespace Anicodec
         /// <summary>Of all clips.</summary>
         public int FrameCount { get { return (int)info.frame_count; } }
 
-        public int ClipCount { get { return (int)Native.anic_clip_count(handle); } }
+        public int ClipCount { get { return (int)Native.anic_get_clip_count(handle); } }
         public UpAxis Up { get { return info.up; } }
         public VertexOrder Order { get { return info.order; } }
 
@@ -152,7 +152,7 @@ namespace Anicodec
         {
             Native.anic_clip c = default(Native.anic_clip);
             c.struct_size = (UIntPtr)sizeof(Native.anic_clip);
-            Native.Check(Native.anic_clip_info(handle, (uint)clip, &c));
+            Native.Check(Native.anic_get_clip(handle, (uint)clip, &c));
             return new ClipInfo
             {
                 Name = Native.Text(c.name), FirstFrame = (int)c.first_frame, FrameCount = (int)c.frame_count,
@@ -174,12 +174,12 @@ namespace Anicodec
         /// <summary>The events of a clip, ascending by time.</summary>
         public ClipEvent[] GetEvents(int clip)
         {
-            ClipEvent[] events = new ClipEvent[Native.anic_event_count(handle, (uint)clip)];
+            ClipEvent[] events = new ClipEvent[Native.anic_get_event_count(handle, (uint)clip)];
             for (int i = 0; i < events.Length; ++i)
             {
                 Native.anic_event e = default(Native.anic_event);
                 e.struct_size = (UIntPtr)sizeof(Native.anic_event);
-                Native.Check(Native.anic_event_info(handle, (uint)clip, (uint)i, &e));
+                Native.Check(Native.anic_get_event(handle, (uint)clip, (uint)i, &e));
                 events[i] = new ClipEvent { Name = Native.Text(e.name), Seconds = e.seconds };
             }
             return events;

@@ -403,11 +403,11 @@ namespace Anicodec
         [DllImport(Library)] public static extern void anic_close_asset(IntPtr asset);
         [DllImport(Library)] public static extern Status anic_verify_asset(AssetHandle asset);
         [DllImport(Library)] public static extern Status anic_get_asset_info(AssetHandle asset, anic_asset_info* result);
-        [DllImport(Library)] public static extern uint anic_clip_count(AssetHandle asset);
-        [DllImport(Library)] public static extern Status anic_clip_info(AssetHandle asset, uint clip, anic_clip* result);
+        [DllImport(Library)] public static extern uint anic_get_clip_count(AssetHandle asset);
+        [DllImport(Library)] public static extern Status anic_get_clip(AssetHandle asset, uint clip, anic_clip* result);
         [DllImport(Library)] public static extern Status anic_find_clip(AssetHandle asset, byte* name, uint* result);
-        [DllImport(Library)] public static extern uint anic_event_count(AssetHandle asset, uint clip);
-        [DllImport(Library)] public static extern Status anic_event_info(AssetHandle asset, uint clip, uint number, anic_event* result);
+        [DllImport(Library)] public static extern uint anic_get_event_count(AssetHandle asset, uint clip);
+        [DllImport(Library)] public static extern Status anic_get_event(AssetHandle asset, uint clip, uint number, anic_event* result);
         [DllImport(Library)] public static extern Status anic_get_mesh(AssetHandle asset, uint mesh, anic_mesh* result);
         [DllImport(Library)] public static extern Status anic_get_polygons(AssetHandle asset, uint mesh, anic_polygons* result);
         [DllImport(Library)] public static extern Status anic_write_indices(AssetHandle asset, uint mesh, uint index_bytes, void* result, UIntPtr size);

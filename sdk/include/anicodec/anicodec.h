@@ -103,8 +103,8 @@ extern "C" {
 
 /* ---- version --------------------------------------------------------------------------------- */
 
-#define ANIC_VERSION_MAJOR 0
-#define ANIC_VERSION_MINOR 1
+#define ANIC_VERSION_MAJOR 1
+#define ANIC_VERSION_MINOR 0
 #define ANIC_VERSION_PATCH 0
 
 /** Version of the library that is linked: major << 16 | minor << 8 | patch. */
@@ -422,7 +422,7 @@ enum anic_order ANIC_INT32 {
   ANIC_ORDER_ALL = 2       /**< vertices, polygons and their first corners as in the source */
 };
 
-/** Name, clock and promise are those of clip 0: anic_clip_info() has those of each clip. Spec: 04
+/** Name, clock and promise are those of clip 0: anic_get_clip() has those of each clip. Spec: 04
  * (time, coordinates, promise), 06 section 3. Strings belong to the asset. */
 typedef struct anic_asset_info {
   size_t struct_size;
@@ -490,10 +490,10 @@ typedef struct anic_clip {
 } anic_clip;
 
 /** How many clips the file has; 0 for NULL. */
-ANIC_API uint32_t anic_clip_count(const anic_asset* asset);
+ANIC_API uint32_t anic_get_clip_count(const anic_asset* asset);
 
 /** - Errors: ANIC_E_ARGUMENT: there is no such clip, too */
-ANIC_API anic_status anic_clip_info(const anic_asset* asset, uint32_t clip, anic_clip* out);
+ANIC_API anic_status anic_get_clip(const anic_asset* asset, uint32_t clip, anic_clip* out);
 
 /**
  * Finds a clip by its name.
@@ -511,14 +511,14 @@ typedef struct anic_event {
 } anic_event;
 
 /** How many events a clip has; 0 for NULL and for clips that are not there. */
-ANIC_API uint32_t anic_event_count(const anic_asset* asset, uint32_t clip);
+ANIC_API uint32_t anic_get_event_count(const anic_asset* asset, uint32_t clip);
 
 /**
  * An event of a clip, open or not; they ascend by time.
  *
  * - Errors: ANIC_E_ARGUMENT: there is no such clip or event, too
  */
-ANIC_API anic_status anic_event_info(const anic_asset* asset, uint32_t clip, uint32_t event,
+ANIC_API anic_status anic_get_event(const anic_asset* asset, uint32_t clip, uint32_t event,
                                      anic_event* out);
 
 /** A mesh. The string belongs to the asset. */

@@ -23,7 +23,7 @@ _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentraject
             "interpolation": {"linear": 1, "msgi": 2, "auto": 3},
             "keyframe_coder": {"native": 0, "draco": 1, "auto": 2},
             "massage": {"off": 0, "on": 1, "auto": 2},
-            "order": {"vertices": 0, "none": 1, "faces": 2}}
+            "order": {"vertices": 0, "free": 1, "all": 2}}
 _NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
             "massage_tolerance", "normal_error")
 _UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
@@ -312,7 +312,7 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     clips: several SourceClip in one file that share what they can; positions have their frames, one after the other.
     basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
         interpolation ("linear", "msgi", "auto"), keyframe_coder ("native", "draco", "auto"), massage ("off", "on",
-        "auto"), massage_strength, massage_tolerance, order ("vertices", "none", "faces"), effort (1 to 9), smallest
+        "auto"), massage_strength, massage_tolerance, order ("vertices", "free", "all"), effort (1 to 9), smallest
         (whatever opening takes), uv_bits, colour_bits, attribute_error, normal_error (degrees), no_attributes: as of the
         command.
     threads: 0 for all. max_bytes: of memory, else LimitError.

@@ -271,9 +271,9 @@ class Asset {
   /// The clips of the file, a dictionary for each.
   nb::list clips() const {
     nb::list all;
-    for (uint32_t i = 0; i < anic_clip_count(asset_.get()); ++i) {
+    for (uint32_t i = 0; i < anic_get_clip_count(asset_.get()); ++i) {
       anic_clip clip = ANIC_INIT(anic_clip);
-      check_status(anic_clip_info(asset_.get(), i, &clip));
+      check_status(anic_get_clip(asset_.get(), i, &clip));
       nb::dict d;
       d["name"] = clip.name;
       d["first_frame"] = clip.first_frame;
@@ -289,9 +289,9 @@ class Asset {
       d["max_displacement_error"] = clip.max_displacement_error;
       d["opened"] = clip.open != 0;
       nb::list events;
-      for (uint32_t e = 0; e < anic_event_count(asset_.get(), i); ++e) {
+      for (uint32_t e = 0; e < anic_get_event_count(asset_.get(), i); ++e) {
         anic_event event = ANIC_INIT(anic_event);
-        check_status(anic_event_info(asset_.get(), i, e, &event));
+        check_status(anic_get_event(asset_.get(), i, e, &event));
         events.append(nb::make_tuple(event.name, event.seconds));
       }
       d["events"] = nb::tuple(events);

@@ -245,12 +245,12 @@ EXPORT(name) const char* web_name(void) {
 }
 
 EXPORT(clip_count) uint32_t web_clip_count(void) {
-  return anic_clip_count(asset);
+  return anic_get_clip_count(asset);
 }
 
 EXPORT(clip) int web_clip(uint32_t clip) {
   anic_clip info = ANIC_INIT(anic_clip);
-  const anic_status status = anic_clip_info(asset, clip, &info);
+  const anic_status status = anic_get_clip(asset, clip, &info);
   const double all[] = {
       address(info.name),
       info.first_frame,
@@ -274,12 +274,12 @@ EXPORT(clip) int web_clip(uint32_t clip) {
 }
 
 EXPORT(event_count) uint32_t web_event_count(uint32_t clip) {
-  return anic_event_count(asset, clip);
+  return anic_get_event_count(asset, clip);
 }
 
 EXPORT(event) int web_event(uint32_t clip, uint32_t event) {
   anic_event info = ANIC_INIT(anic_event);
-  const anic_status status = anic_event_info(asset, clip, event, &info);
+  const anic_status status = anic_get_event(asset, clip, event, &info);
   const double all[] = {address(info.name), info.seconds};
   memcpy(numbers, all, sizeof all);
   return status;

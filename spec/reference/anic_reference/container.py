@@ -4,7 +4,7 @@ from collections import namedtuple
 from .common import AnicError, Reader, checksum, need, xxh64
 
 MAGIC = b'\x89ANI\r\n\x1a\n'
-VERSION = (0, 9)
+MAJOR = 1
 FEATURES = 0                                         # no feature: Draco, interpolation and continuations are refused
 REQUIRED, OF_MESH, OF_SEGMENT, COPIED = 1, 2, 4, 8
 KNOWN = {'LIMI': REQUIRED, 'CLIP': REQUIRED, 'MESH': REQUIRED, 'VMAP': REQUIRED, 'FMAP': REQUIRED, 'POSE': REQUIRED,
@@ -27,7 +27,7 @@ class Container:
         r = Reader(data[8:40])
         version = (r.u16(), r.u16())
         count, self.features, self.size, stated, table_bytes = r.u32(), r.u64(), r.u64(), r.u32(), r.u32()
-        need(version == VERSION, 'VERSION')
+        need(version[0] == MAJOR, 'VERSION')
         end = 40 + table_bytes
         if end > length:
             raise AnicError('TRUNCATED' if self.size > length else 'HEADER')

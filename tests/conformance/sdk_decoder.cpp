@@ -4,7 +4,7 @@
 // Decodes a file or a live stream for tests/conformance/run.py: positions and faces of each mesh, and all
 // else that it holds as JSON; a stream as one clip. The exit status of a file that is refused is its code.
 //
-// usage: reference_decoder FILE.anic OUT
+// usage: sdk_decoder FILE.anic OUT
 #include "format/bounds_record.h"
 #include "format/container.h"
 #include "format/continuation.h"
@@ -29,6 +29,8 @@ namespace {
 using Positions = std::vector<std::vector<float>>;  // by frame
 
 std::string number(double value) {
+  if (std::isnan(value))
+    return "null";
   char text[40];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
@@ -405,6 +407,6 @@ int decode(const char* path, const std::string& out) {
 
 int main(int argc, char** argv) {
   if (argc != 3)
-    return std::fprintf(stderr, "usage: reference_decoder FILE.anic OUT\n"), 2;
+    return std::fprintf(stderr, "usage: sdk_decoder FILE.anic OUT\n"), 2;
   return anicodec::decode(argv[1], argv[2]);
 }
