@@ -20,6 +20,9 @@ constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 
 /// Optional fields of the limits.
 constexpr uint32_t kContinuedMeshes = 1;
 
+/// Those of the clips.
+constexpr uint32_t kOrigin = 1;
+
 /// Flags of a segment in the limits.
 constexpr uint8_t kExact = 1, kRegions = 2, kOfAttribute = 4, kDraco = 8;
 constexpr uint64_t kMaxAttributeNumbers = uint64_t{1} << 46;
@@ -390,6 +393,24 @@ bool read_clip(ByteReader& r, ClipRecord* out) {
          std::isfinite(out->start_time) && asked <= static_cast<uint8_t>(ErrorMetric::kSted);
 }
 
+/// Reads the optional fields at the end. False: one is malformed.
+bool read_clip_fields(ByteReader& r, ClipsRecord* out) {
+  RecordField field;
+  while (read_field(r, &field)) {
+    if (field.tag != kOrigin)
+      continue;
+    if (field.value.size != sizeof out->origin)
+      return false;
+    ByteReader value(field.value);
+    for (double& x : out->origin) {
+      x = value.f64();
+      if (!std::isfinite(x))
+        return false;
+    }
+  }
+  return r.finished();
+}
+
 }  // namespace
 
 size_t ClipsRecord::find(const char* name) const {
@@ -414,11 +435,18 @@ Bytes ClipsRecord::write() const {
   w.f32(static_cast<float>(metres_per_unit));
   for (const ClipRecord& clip : clips)
     write_clip(clip, w);
+  if (has_origin()) {
+    ByteWriter value;
+    for (double x : origin)
+      value.f64(x);
+    write_field(w, kOrigin, value.bytes());
+  }
   return std::move(w.bytes());
 }
 
 Status ClipsRecord::read(ByteView view, const Limits& limits, ClipsRecord* out) {
   ByteReader r(view);
+  std::fill_n(out->origin, 3, 0.0);
   out->encoder = r.text();
   out->up = r.u8();
   const uint8_t order = r.u8();
@@ -435,7 +463,7 @@ Status ClipsRecord::read(ByteView view, const Limits& limits, ClipsRecord* out) 
       return Status::kRecord;
   }
   out->place();
-  return skip_fields(r) ? Status::kOk : Status::kRecord;
+  return read_clip_fields(r, out) ? Status::kOk : Status::kRecord;
 }
 
 Bytes MeshRecord::write() const {

@@ -178,10 +178,18 @@ struct ClipsRecord {
   uint8_t up = 0;  ///< 0 unknown, 1 y, 2 z
   OrderMode order = OrderMode::kVertices;
   double metres_per_unit = 0;                        ///< 0 unknown
+  double origin[3] = {0, 0, 0};                      ///< to be added to all positions
   Vector<ClipRecord> clips = Vector<ClipRecord>(1);  ///< in the order of their frames, at least one
 
   /// Number of the first clip of a name; clips.size() if there is none.
   size_t find(const char* name) const;
+
+  bool has_origin() const { return origin[0] != 0 || origin[1] != 0 || origin[2] != 0; }
+
+  bool same_origin(const ClipsRecord& other) const {
+    return origin[0] == other.origin[0] && origin[1] == other.origin[1] &&
+           origin[2] == other.origin[2];
+  }
 
   /// Makes the clips follow one another from frame 0 on, by how many frames each has.
   void place();

@@ -6,6 +6,7 @@
 #include "codec/encode_scene.h"
 #include "codec/parallel/thread_count.h"
 #include "codec/sequence/error.h"
+#include "codec/sequence/position_box.h"
 #include "sdk/api/versioned.h"
 
 #include <algorithm>
@@ -105,14 +106,16 @@ Progress progress_of(const anic_encode_progress& host) {
   };
 }
 
-/// A copy of the meshes with their positions.
-std::vector<SceneMesh> read_meshes(const anic_encoder& encoder, const Progress& progress) {
+/// A copy of the meshes with their positions from an origin.
+std::vector<SceneMesh> read_meshes(const anic_encoder& encoder, const Point& origin,
+                                   const Progress& progress) {
   double frames = 0, read = 0;
   for (const SourceMesh& source : encoder.meshes)
     frames += source.mesh.sequence.frame_count;
   std::vector<SceneMesh> meshes;
   for (const SourceMesh& source : encoder.meshes) {
     SceneMesh mesh = source.mesh;
+    mesh.sequence.origin = origin;
     read_positions(
         source,
         [&](uint32_t) {
@@ -125,6 +128,24 @@ std::vector<SceneMesh> read_meshes(const anic_encoder& encoder, const Progress& 
   return meshes;
 }
 
+/// The meshes from the origin of the clip, which is found if the host wants that.
+std::vector<SceneMesh> read_near(const anic_encoder& encoder, const Progress& progress,
+                                 MeshSequence* clip) {
+  std::vector<SceneMesh> meshes = read_meshes(encoder, clip->origin, progress);
+  const bool at_addresses = std::ranges::none_of(
+      encoder.meshes, [](const SourceMesh& source) { return source.host.read; });
+  if (!encoder.find_origin || !at_addresses)
+    return meshes;
+  PositionBox box;
+  for (const SceneMesh& mesh : meshes)
+    box.add(mesh.sequence.positions);
+  if (!box.is_far())
+    return meshes;
+  clip->origin = box.middle();
+  meshes.clear();
+  return read_meshes(encoder, clip->origin, progress);
+}
+
 /// Timing, axes and units of the clip for a mesh that is there in all of it.
 void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
   mesh->name = clip.name;
@@ -133,6 +154,7 @@ void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
   mesh->times = clip.times;
   mesh->up = clip.up;
   mesh->metres_per_unit = clip.metres_per_unit;
+  mesh->origin = clip.origin;
   mesh->loop = clip.loop;
   mesh->events = clip.events;
   mesh->clips = clip.clips;
@@ -141,17 +163,18 @@ void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
 /// Encodes what was added by the entry points that the command uses.
 EncodeResult encode_meshes(const anic_encoder& encoder, const EncodingPlan& plan,
                            const Progress& progress, MassageVerdict* verdict) {
-  std::vector<SceneMesh> meshes = read_meshes(encoder, progress);
+  MeshSequence clip = encoder.clip;
+  std::vector<SceneMesh> meshes = read_near(encoder, progress, &clip);
   const bool several =
       meshes.size() > 1 || meshes[0].sequence.frame_count < encoder.clip.frame_count;
   if (!several) {
     MeshSequence mesh = std::move(meshes[0].sequence);
-    set_timing(encoder.clip, &mesh);
+    set_timing(clip, &mesh);
     return encode_massaged(std::move(mesh), plan.mode, plan.massage, plan.options, verdict,
                            progress);
   }
   check_argument(plan.mode == MassageMode::kOff, "massage is for one mesh that is always there");
-  Scene scene{encoder.clip, std::move(meshes)};
+  Scene scene{std::move(clip), std::move(meshes)};
   return encode_scene(std::move(scene), plan.options, progress);
 }
 
@@ -216,6 +239,11 @@ MeshSequence clip_of(const anic_source_clip& host) {
   clip.start_time = host.start_time;
   clip.up = static_cast<UpAxis>(host.up);
   clip.metres_per_unit = host.metres_per_unit;
+  for (size_t k = 0; k < 3; ++k) {
+    check_argument(std::isfinite(host.origin[k]) && (host.origin[k] == 0 || !host.find_origin),
+                   "the origin is not finite, or is to be found and given");
+    clip.origin[k] = host.origin[k];
+  }
   clip.loop = host.loop;
   if (host.times) {
     clip.times.assign(host.times, host.times + host.frame_count);
@@ -245,8 +273,9 @@ ClipTiming timing_of(const MeshSequence& clip) {
 
 /// Appends a clip to those of a file.
 void append_clip(const MeshSequence& next, MeshSequence* clip) {
-  check_argument(next.up == clip->up && next.metres_per_unit == clip->metres_per_unit,
-                 "a clip has another up axis or unit than the first");
+  check_argument(next.up == clip->up && next.metres_per_unit == clip->metres_per_unit &&
+                     next.origin == clip->origin,
+                 "a clip has another up axis, unit or origin than the first");
   check_argument(clip->frame_count + next.frame_count <= kMostFrames,
                  "at most 2^24 - 1 frames are possible");
   if (clip->clips.empty())
@@ -285,7 +314,9 @@ anic_status anic_set_source_clip(anic_encoder* encoder, const anic_source_clip* 
     return ANIC_E_ARGUMENT;
   return guarded(encoder, [&] {
     check_argument(clip, "there is no clip");
-    encoder->clip = clip_of(taken(clip, "anic_source_clip"));
+    const anic_source_clip host = taken(clip, "anic_source_clip");
+    encoder->clip = clip_of(host);
+    encoder->find_origin = host.find_origin;
     encoder->meshes.clear();
   });
 }

@@ -54,7 +54,7 @@ SourceMesh take_mesh(const anic_source_mesh& host, uint32_t clip_frames);
 /// Adds an attribute to a mesh. Throws EncoderFailure(ANIC_E_ARGUMENT).
 void take_attribute(const anic_source_attribute& host, MeshSequence* mesh);
 
-/// Reads all positions of a mesh from the host. `before_frame` is called with the number of each.
+/// Reads all positions of a mesh from the host, from the origin of the mesh. `before_frame` is called with the number of each.
 /// Throws EncoderFailure: ANIC_E_READ, ANIC_E_NON_FINITE.
 void read_positions(const SourceMesh& source, const std::function<void(uint32_t)>& before_frame,
                     MeshSequence* mesh);
@@ -64,6 +64,7 @@ void read_positions(const SourceMesh& source, const std::function<void(uint32_t)
 /// Behind the handle.
 struct anic_encoder {
   anicodec::MeshSequence clip;  ///< timing alone
+  bool find_origin = false;
   std::vector<anicodec::SourceMesh> meshes;
   anicodec::EncodeResult result;
   std::string text;

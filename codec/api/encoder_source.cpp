@@ -69,24 +69,26 @@ std::vector<FrameRun> runs_of(const anic_source_mesh& host, uint32_t clip_frames
 }
 
 template <class Scalar>
-void copy_frame(const unsigned char* from, ptrdiff_t stride, std::span<float> to) {
+void copy_frame(const unsigned char* from, ptrdiff_t stride, const Point& origin,
+                std::span<float> to) {
   for (size_t i = 0; i < to.size(); i += 3, from += stride) {
     Scalar point[3];
     std::memcpy(point, from, sizeof point);
     for (size_t c = 0; c < 3; ++c)
-      to[i + c] = static_cast<float>(point[c]);
+      to[i + c] = static_cast<float>(static_cast<double>(point[c]) - origin[c]);
   }
 }
 
-void copy_frame(const anic_source_mesh& host, uint32_t frame, std::span<float> to) {
+void copy_frame(const anic_source_mesh& host, uint32_t frame, const Point& origin,
+                std::span<float> to) {
   const auto* from = static_cast<const unsigned char*>(host.positions) +
                      static_cast<ptrdiff_t>(frame) * host.frame_stride;
   if (host.scalar == ANIC_SCALAR_FLOAT64)
-    copy_frame<double>(from, host.vertex_stride, to);
-  else if (host.vertex_stride == ptrdiff_t{3 * sizeof(float)})
+    copy_frame<double>(from, host.vertex_stride, origin, to);
+  else if (host.vertex_stride == ptrdiff_t{3 * sizeof(float)} && origin == Point())
     std::memcpy(to.data(), from, to.size_bytes());
   else
-    copy_frame<float>(from, host.vertex_stride, to);
+    copy_frame<float>(from, host.vertex_stride, origin, to);
 }
 
 size_t elements_of(const anic_source_attribute& host, const MeshSequence& mesh) {
@@ -239,7 +241,7 @@ void read_positions(const SourceMesh& source, const std::function<void(uint32_t)
       before_frame(number);
       const std::span<float> to = mesh->frame(number);
       if (!source.host.read)
-        copy_frame(source.host, number, to);
+        copy_frame(source.host, number, mesh->origin, to);
       else if (source.host.read(source.host.user, number, to.data()) != 0)
         fail(ANIC_E_READ, "frame " + std::to_string(f) + ": the callback gave no positions");
       const auto bad = std::ranges::find_if(to, [](float x) { return !std::isfinite(x); });

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/file/clip_record.h"
 
+#include <algorithm>
+
 namespace anicodec {
 
 ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& options,
@@ -11,6 +13,7 @@ ClipsRecord clips_record(const MeshSequence& sequence, const EncodeOptions& opti
   record.up = static_cast<uint8_t>(sequence.up);
   record.order = options.order;
   record.metres_per_unit = sequence.metres_per_unit;
+  std::copy(sequence.origin.begin(), sequence.origin.end(), record.origin);
   record.clips.clear();
   for (const ClipTiming& timing : clips_of(sequence)) {
     const ClipGoal& goal = goals[record.clips.size()];

@@ -196,6 +196,7 @@ ClipHome clip_home(const ClipPart& part) {
   home.order = file.record.order;
   home.up = file.record.up;
   home.metres_per_unit = file.record.metres_per_unit;
+  std::copy_n(file.record.origin, 3, home.origin.begin());
   home.asked = file.record.clips.back().asked;
   home.asked_value = file.record.clips.back().asked_value;
   for (const ClipRecord& clip : file.record.clips)
@@ -224,6 +225,8 @@ Bytes add_clips(const ClipPart& file, const ClipPart& added) {
   }
   if (more.limits.frames > kMaxFrames - base.limits.frames)
     fail(file, ErrorKind::kInput, "together there are more than 2^24 - 1 frames");
+  if (!base.record.same_origin(more.record))
+    fail(added, ErrorKind::kInput, "counts positions from another origin than " + file.name);
   const Limits::Mesh &a = base.limits.meshes[0], &b = more.limits.meshes[0];
   bool same = a.source_vertices == b.source_vertices && a.polygons == b.polygons &&
               base.record.order == more.record.order;

@@ -20,6 +20,7 @@ struct ClipHome {
   OrderMode order = OrderMode::kVertices;
   uint8_t up = 0;
   double metres_per_unit = 0;
+  Point origin{};
   ErrorMetric asked = ErrorMetric::kNone;  ///< of the last clip
   double asked_value = 0;
   std::vector<std::string> names;           ///< of the clips that are there

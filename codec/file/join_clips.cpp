@@ -78,6 +78,9 @@ void check_same_mesh(const OpenPart& first, const OpenPart& next) {
          "has " + counts(b) + ", but " + first.part.name + " has " + counts(a));
   if (first.record.order != next.record.order)
     fail(next.part, ErrorKind::kInput, "keeps another order of vertices than " + first.part.name);
+  if (!first.record.same_origin(next.record))
+    fail(next.part, ErrorKind::kInput,
+         "counts positions from another origin than " + first.part.name + ", see --origin");
   for (const char(*type)[5] : kMeshChunks) {
     if (!equal(first.of_mesh(*type), next.of_mesh(*type)))
       fail(next.part, ErrorKind::kInput,

@@ -56,6 +56,7 @@ MeshSequence subdivide(const MeshSequence& sequence, uint32_t levels) {
   result.times = sequence.times;
   result.up = sequence.up;
   result.metres_per_unit = sequence.metres_per_unit;
+  result.origin = sequence.origin;
   result.loop = sequence.loop;
   for (uint32_t f = 0; f < sequence.frame_count; ++f) {
     const TriMesh mesh = subdivided(sound, sound.frame(sequence.frame(f)), levels);

@@ -21,8 +21,9 @@ void check_fits(const MeshSequence& first, const MeshSequence& next) {
                      "' has " + std::to_string(first.vertex_count));
   if (next.polygons != first.polygons)
     refuse(next, "has other faces than '" + first.name + "'");
-  if (next.up != first.up || next.metres_per_unit != first.metres_per_unit)
-    refuse(next, "has another up axis or unit than '" + first.name + "'");
+  if (next.up != first.up || next.metres_per_unit != first.metres_per_unit ||
+      next.origin != first.origin)
+    refuse(next, "has another up axis, unit or origin than '" + first.name + "'");
   const bool fits = std::ranges::equal(
       next.attributes, first.attributes, [](const Attribute& a, const Attribute& b) {
         return a.kind == b.kind && a.name == b.name && a.domain == b.domain &&

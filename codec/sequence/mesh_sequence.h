@@ -6,6 +6,7 @@
 #include "codec/sequence/frame_array.h"
 #include "format/attribute_record.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,6 +42,9 @@ struct FrameRate {
 
   double value() const { return static_cast<double>(numerator) / denominator; }
 };
+
+/// x, y, z in the units of a clip.
+using Point = std::array<double, 3>;
 
 enum class UpAxis : uint8_t { kUnknown = 0, kY = 1, kZ = 2 };
 
@@ -112,6 +116,7 @@ struct MeshSequence : MeshDetails {
       times;  ///< frame_count seconds from start_time for uneven sampling, else empty
   UpAxis up = UpAxis::kUnknown;
   double metres_per_unit = 0;  ///< 0: unknown
+  Point origin{};              ///< where positions count from, in the coordinates of the source
   bool loop = false;           ///< meant to be repeated
   std::vector<NamedTime> events;  ///< ascending by time
   /// Several clips, one after the other: all frames together; name, rate, start, times, loop and events of

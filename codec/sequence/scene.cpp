@@ -206,6 +206,7 @@ Scene split_parts(MeshSequence sequence) {
   clip.clips = std::exchange(sequence.clips, {});
   clip.up = sequence.up;
   clip.metres_per_unit = sequence.metres_per_unit;
+  clip.origin = sequence.origin;
   clip.loop = sequence.loop;
   if (sequence.parts.of_polygon.empty() || sequence.polygons.corners.empty()) {
     scene.meshes.push_back({std::move(sequence), {{0, clip.frame_count}}});

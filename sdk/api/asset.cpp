@@ -58,6 +58,7 @@ anic_status anic_get_asset_info(const anic_asset* asset, anic_asset_info* out) {
   filled.duration = first.duration;
   filled.loop_duration = first.loop_duration;
   filled.metres_per_unit = clip.record().metres_per_unit;
+  std::copy_n(clip.record().origin, 3, filled.origin);
   filled.diagonal = first.diagonal;
   filled.max_error = first.max_error;
   filled.rmse = first.rmse;

@@ -36,11 +36,11 @@ export class Clip {
     this.#seeked = undefined;
     decoder.call('info');
     const [meshes, segments, frames, rate, up, rateAssumed, uneven, loop, closedLoop, partial, startTime, duration, loopDuration,
-      metresPerUnit, diagonal, maxError, rmse, kg, maxDisplacementError, residentBytes, contextBytes] = decoder.numbers(21);
+      metresPerUnit, diagonal, maxError, rmse, kg, maxDisplacementError, residentBytes, contextBytes, ...origin] = decoder.numbers(24);
     this.info = Object.freeze({
       name: decoder.string(decoder.run('name')), frames, rate, rateAssumed: !!rateAssumed, uneven: !!uneven, loop: !!loop,
       closedLoop: !!closedLoop, partial: !!partial, startTime, duration, loopDuration, up: [undefined, 'y', 'z'][up],
-      metresPerUnit: metresPerUnit || undefined, diagonal, maxError, rmse, kg, maxDisplacementError, segments, residentBytes, contextBytes,
+      metresPerUnit: metresPerUnit || undefined, origin: Object.freeze(origin), diagonal, maxError, rmse, kg, maxDisplacementError, segments, residentBytes, contextBytes,
     });
     this.clips = Object.freeze(Array.from({ length: decoder.run('clip_count') }, (_, i) => this.#clipInfo(i)));
     this.#first = this.clips.find(({ isOpen }) => isOpen);

@@ -121,6 +121,11 @@ export interface ClipInfo {
   readonly loopDuration: number;
   readonly up: 'y' | 'z' | undefined;
   readonly metresPerUnit: number | undefined;
+  /**
+   * Point that positions count from: added in double precision, it gives the source's coordinates, which may be too far
+   * from zero for float32.
+   */
+  readonly origin: readonly [number, number, number];
   /** Of the box around all frames of the source. */
   readonly diagonal: number;
   /** Largest distance of a vertex from its place in the source. */

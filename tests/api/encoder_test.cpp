@@ -58,8 +58,9 @@ class AnicEncoder : public testing::Test {
   std::string file() const { return {static_cast<const char*>(result_.file), result_.size}; }
 
   /// The file that codec/ makes of the same clip, without attributes.
-  std::string expected() const {
+  std::string expected(const Point& origin = {}) const {
     MeshSequence plain;
+    plain.origin = origin;
     plain.name = sequence_.name;
     plain.polygons = sequence_.polygons;
     plain.vertex_count = sequence_.vertex_count;
@@ -278,7 +279,7 @@ TEST_F(AnicEncoder, EncodesSeveralClipsOfAMesh) {
   ASSERT_EQ(anic_set_source_clip(encoder_, &clip_), ANIC_OK) << text();
   next.up = clip_.up == ANIC_UP_Z ? ANIC_UP_Y : ANIC_UP_Z;
   EXPECT_EQ(anic_add_source_clip(encoder_, &next), ANIC_E_ARGUMENT);
-  EXPECT_EQ(text(), "a clip has another up axis or unit than the first");
+  EXPECT_EQ(text(), "a clip has another up axis, unit or origin than the first");
   next.up = clip_.up;
   next.metres_per_unit = clip_.metres_per_unit;
   ASSERT_EQ(anic_add_source_clip(encoder_, &next), ANIC_OK) << text();
@@ -287,6 +288,34 @@ TEST_F(AnicEncoder, EncodesSeveralClipsOfAMesh) {
   EXPECT_EQ(anic_add_source_clip(encoder_, &next), ANIC_E_STATE) << "meshes were added";
   ASSERT_EQ(encode(), ANIC_OK) << text();
   EXPECT_EQ(file(), (std::string{bytes.begin(), bytes.end()}));
+}
+
+TEST_F(AnicEncoder, CountsPositionsFromAnOriginThatIsGivenOrFound) {
+  const Point place{0x1p30, -0x1p22, 0};
+  std::vector<double> far(sequence_.positions.begin(), sequence_.positions.end());
+  for (size_t i = 0; i < far.size(); ++i)
+    far[i] += place[i % 3];
+  mesh_.scalar = ANIC_SCALAR_FLOAT64;
+  mesh_.positions = far.data();
+  std::copy_n(place.begin(), 3, clip_.origin);
+  add();
+  ASSERT_EQ(encode(), ANIC_OK) << text();
+  EXPECT_EQ(file(), expected(place));
+
+  clip_.find_origin = 1;
+  EXPECT_EQ(anic_set_source_clip(encoder_, &clip_), ANIC_E_ARGUMENT);
+  std::fill_n(clip_.origin, 3, 0.0);
+  add();
+  ASSERT_EQ(encode(), ANIC_OK) << text();
+  anic_asset* asset = nullptr;
+  ASSERT_EQ(anic_open_asset(file().data(), file().size(), nullptr, &asset, nullptr), ANIC_OK);
+  anic_asset_info info = ANIC_INIT(anic_asset_info);
+  ASSERT_EQ(anic_get_asset_info(asset, &info), ANIC_OK);
+  anic_close_asset(asset);
+  for (size_t k = 0; k < 3; ++k)
+    EXPECT_LE(std::abs(info.origin[k] - place[k]), 2 * info.diagonal + 10);
+  EXPECT_NEAR(info.diagonal, diagonal(sequence_), 1e-4 * info.diagonal);
+  EXPECT_LE(info.max_error, 0.01 * info.diagonal);
 }
 
 TEST_F(AnicEncoder, TellsWhatIsWrong) {

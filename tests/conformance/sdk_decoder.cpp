@@ -36,6 +36,13 @@ std::string number(double value) {
   return text;
 }
 
+/// With all its digits.
+std::string exact(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
 /// Bytes that are not ASCII are written as the characters of the same number.
 std::string quoted(const String& text) {
   std::string out = "\"";
@@ -299,6 +306,8 @@ std::string facts(const std::vector<OpenFile>& files, const std::vector<Position
   out.add("up", integer(clip.record().up));
   out.add("order", integer(static_cast<uint64_t>(clip.record().order)));
   out.add("metres_per_unit", number(clip.record().metres_per_unit));
+  if (clip.record().has_origin())
+    out.add("origin", list(clip.record().origin, [](double x) { return exact(x); }));
   if (!files[0].metadata.empty())
     out.add("metadata", files[0].metadata);
   std::vector<std::string> clips;

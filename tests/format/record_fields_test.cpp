@@ -5,6 +5,9 @@
 #include "format/records.h"
 #include "tests/format/three_frames.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace anicodec {
@@ -52,6 +55,31 @@ TEST(RecordFields, OfAKnownTagHaveTheirSize) {
     bytes.resize(bytes.size() + size);
     Limits read;
     EXPECT_EQ(Limits::read(bytes, &read), Status::kRecord);
+  }
+}
+
+TEST(RecordFields, OfClipsSayWherePositionsCountFrom) {
+  Limits limits;
+  limits.clip_frames = {3};
+  ClipsRecord clips, read;
+  const Bytes none = clips.write();
+  clips.origin[1] = -0.1;
+  const Bytes bytes = clips.write();
+  EXPECT_EQ(bytes.size(), none.size() + 26) << "tag, size, three numbers";
+  ASSERT_EQ(ClipsRecord::read(bytes, limits, &read), Status::kOk);
+  EXPECT_TRUE(read.has_origin());
+  EXPECT_TRUE(read.same_origin(clips));
+  ASSERT_EQ(ClipsRecord::read(none, limits, &read), Status::kOk);
+  EXPECT_FALSE(read.has_origin());
+  for (const uint8_t size : {uint8_t{0}, uint8_t{23}, uint8_t{25}}) {
+    Bytes other = none;
+    other.insert(other.end(), {1, size});
+    other.resize(other.size() + size);
+    EXPECT_EQ(ClipsRecord::read(other, limits, &read), Status::kRecord);
+  }
+  for (const double x : {std::nan(""), -std::numeric_limits<double>::infinity()}) {
+    clips.origin[2] = x;
+    EXPECT_EQ(ClipsRecord::read(clips.write(), limits, &read), Status::kRecord);
   }
 }
 

@@ -9,7 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   // Zeroes of either sign are one place, so a welded mesh is compared with itself after one trip.
   auto parse = [](std::string_view bytes, std::string_view name, Mesh& mesh) {
     std::vector<float> soup;
-    parse_stl(bytes, name, soup);
+    LocalOrigin origin;
+    parse_stl(bytes, name, soup, origin);
     StlWeld weld(soup, std::string(name), true);
     mesh.clear();
     mesh.polygons = weld.polygons();

@@ -281,3 +281,21 @@ def test_no_coordinates_end_the_interpreter(threads):
         for _ in range(25):
             with pytest.raises(anicodec.InputError):
                 anicodec.encode(corners[None] * np.float32(scale), [[0, 1, 2]], threads=threads)
+
+
+def test_positions_count_from_an_origin_where_they_are_far_from_zero(wave):
+    positions, faces = wave
+    place = np.array([500000, 4649776, 120])
+    far = positions.astype(np.float64) + place
+    data = anicodec.encode(far, faces, effort=1)
+    clip = anicodec.open(data)
+    origin = np.array(clip.info["origin"])
+    assert np.abs(origin - place).max() < 2 * clip.info["diagonal"]
+    assert np.linalg.norm(clip[3] + origin - far[3], axis=1).max() <= clip.info["max_error"] * 1.01 + 1e-6
+    assert anicodec.open(anicodec.encode(far, faces, effort=1, origin=(1, 2, 3))).info["origin"] == (1, 2, 3)
+    assert anicodec.open(anicodec.encode(positions, faces, effort=1)).info["origin"] == (0, 0, 0)
+    with pytest.raises(anicodec.InputError, match="the maximum error is below what float32 keeps"):
+        anicodec.encode(far, faces, effort=1, origin="none")
+    for origin in ("here", (1, 2), 5):
+        with pytest.raises(anicodec.InputError, match="origin is"):
+            anicodec.encode(far, faces, origin=origin)

@@ -209,3 +209,17 @@ def test_the_command_reads_stages(stage, tmp_path, command):
     again = subprocess.run([sys.executable, "-m", "anicodec", "encode", tmp_path / "shot.usda", "-o",
                             tmp_path / "shot.anic"], capture_output=True, text=True)
     assert again.returncode == 1 and "exists" in again.stderr
+
+
+def test_a_stage_far_from_zero_keeps_its_digits(stage, tmp_path):
+    UsdGeom.Xform(stage.GetPrimAtPath("/group")).AddTranslateOp(opSuffix="place").Set(Gf.Vec3d(500000.125, 4649776.25, -7))
+    clip = anicodec.open(usd.encode(stage, "/group/sheet", effort=1, order="faces"))
+    assert max(clip.info["origin"]) > 4e6
+    back = usd.decode(clip, tmp_path / "back.usdc")
+    for code, frame in ((101, 0), (124, 23)):
+        worlds = []
+        for file, at in ((stage, code), (back, frame)):
+            mesh = next(UsdGeom.Mesh(prim) for prim in file.Traverse() if prim.IsA(UsdGeom.Mesh) and prim.GetName() == "sheet")
+            world = np.array(UsdGeom.XformCache(at).GetLocalToWorldTransform(mesh.GetPrim()))
+            worlds.append(np.array(mesh.GetPointsAttr().Get(at), float) @ world[:3, :3] + world[3, :3])
+        assert np.linalg.norm(worlds[0] - worlds[1], axis=1).max() <= clip.info["max_error"] * 1.01 + 1e-6

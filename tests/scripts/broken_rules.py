@@ -210,6 +210,11 @@ def told_rules(files):
             yield 40, f"{kind.lower()}_field_{what}", boxes.end(kind, bytes_), f"{kind} with {text}"
     yield 40, "limi_hash_short", triangle.end("LIMI", anic_file.field(1, bytes(7))), "a mesh hash of 7 bytes"
     yield 40, "limi_hash_long", triangle.end("LIMI", anic_file.field(1, bytes(9))), "a mesh hash of 9 bytes"
+    place = struct.pack("<3d", 1, 2, 3)
+    for name, value, what in (("short", place[:23], "of 23 bytes"), ("long", place + b"\0", "of 25 bytes"), ("empty", b"", "of no bytes"),
+                              ("nan", place[:16] + struct.pack("<d", float("nan")), "that is not a number"),
+                              ("infinite", struct.pack("<d", float("-inf")) + place[8:], "that is not finite")):
+        yield 40, f"clip_origin_{name}", triangle.end("CLIP", anic_file.field(1, value)), f"an origin {what}"
     for name, label, value in (("every", "frames of a box", b"\x09"), ("low", "low y", struct.pack("<f", float("nan"))),
                                ("high", "high z", struct.pack("<f", float("inf"))), ("turned", "high x", struct.pack("<f", -1e30))):
         yield 40, f"bnds_{name}", boxes.put(f"BNDS {label}", value), f"BNDS {label} that is out of range"

@@ -67,12 +67,14 @@ def facts_of(out):
 
 
 def _rounded(value):
-    """Numbers to nine digits, which tell any binary32."""
+    """Numbers to nine digits, which tell any binary32; the origin has more."""
     if isinstance(value, float):
         return float(f"{value:.9g}")
     if isinstance(value, list):
         return [_rounded(x) for x in value]
-    return {key: _rounded(x) for key, x in value.items()} if isinstance(value, dict) else value
+    if isinstance(value, dict):
+        return {key: x if key == "origin" else _rounded(x) for key, x in value.items()}
+    return value
 
 
 def write(facts, path):

@@ -20,7 +20,7 @@ def features_of(data):
     return [part for bit, part in FEATURES.items() if bits >> bit & 1]
 
 
-def parts_of(data):
-    """Those that a good file needs to be shown in full."""
+def parts_of(data, *parts):
+    """Those that a good file needs to be shown in full; parts are those of fields."""
     kinds = {chunk.type for chunk in anic_file.read_chunks(data)}
-    return features_of(data) + [part for kind, part in PARTS_OF_CHUNKS.items() if kind in kinds]
+    return features_of(data) + [part for kind, part in PARTS_OF_CHUNKS.items() if kind in kinds] + list(parts)

@@ -72,7 +72,7 @@ OPTIONAL_RULES = {"attr_": "attributes", "attr_not_announced": "", "look_": "att
                   "attribute_component": "attributes", "stream_heated_attr": "attributes", "diff_hash": "exact,hashes",
                   "hash": "hashes", "diff_axes": "exact", "diff_errs": "exact", "diff_noise": "exact", "diff_origin": "exact",
                   "diff_step": "exact", "diff_points": "exact", "diff_many_points": "exact", "diff_more": "exact",
-                  "diff_short": "exact", "bnds_": "bounds", "meta_": "metadata"}
+                  "diff_short": "exact", "bnds_": "bounds", "meta_": "metadata", "clip_origin": "origin"}
 
 
 def listing(command, path):
@@ -163,10 +163,19 @@ def told_file():
     return anic_file.write_chunks(chunks[:2] + told + chunks[2:])
 
 
+def placed_file():
+    """One whose positions count from an origin, with a field that nobody knows behind it."""
+    chunks = anic_file.read_chunks((FOLDER / "limb_small.anic").read_bytes())
+    fields = anic_file.field(1, struct.pack("<3d", 4649776.0625, -0.1, 1e-300)) + anic_file.field(2, b"\0")
+    next(chunk for chunk in chunks if chunk.type == "CLIP").payload += fields
+    return anic_file.write_chunks(chunks)
+
+
 def unusual_files():
-    """(name, file) of good ones that no encoder writes, made of others."""
+    """(name, file, parts of its fields) of good ones that no encoder writes, made of others."""
     yield "grown", grown_file()
     yield "boxes_and_metadata", told_file()
+    yield "placed", placed_file(), "origin"
     chunks = anic_file.read_chunks((FOLDER / "limb_small.anic").read_bytes())
     first = next(i for i, chunk in enumerate(chunks) if chunk.type == "BASI")
     empty = anic_file.Chunk("BASI", 1, chunks[first].mesh, chunks[first].segment, b"\0\0")
@@ -352,10 +361,10 @@ def add_good(suite, command, special):
         if not suite.lists(f"{what}.anic"):
             subprocess.run([special, what, FOLDER / f"{what}.anic"], check=True)
             suite.add_decoded("valid", f"{what}.anic", parts_of((FOLDER / f"{what}.anic").read_bytes()))
-    for what, data in unusual_files():
+    for what, data, *parts in unusual_files():
         if not suite.lists(f"{what}.anic"):
             (FOLDER / f"{what}.anic").write_bytes(data)
-            suite.add_decoded("valid", f"{what}.anic", parts_of(data))
+            suite.add_decoded("valid", f"{what}.anic", parts_of(data, *parts))
     for name, clip, frames, *all_options in (STREAM, TWO_BASES):
         if not suite.lists(name):
             make_stream(command, FOLDER / name, clip, frames, all_options)

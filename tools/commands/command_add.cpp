@@ -94,7 +94,9 @@ void add(EncodeArguments command, const CommonOptions& common) {
   options.attributes.keep = false;
   ProgressLine line(common.quiet);
   const Progress progress = line.callback();
-  MeshSequence sequence = load_sequence(command.inputs, load_options(command, progress));
+  LoadOptions load = load_options(command, progress);
+  load.origin = home.origin;
+  MeshSequence sequence = load_sequence(command.inputs, load);
   set_metadata(command, sequence);
   check_agrees(command.inputs[0], home, &sequence);
   if (has_target(command))

@@ -109,22 +109,30 @@ SignedAxes parse_axes(const std::string& text) {
 }
 
 /// The turn of B to the axes of A.
-std::optional<SignedAxes> axes_of(const CompareCommand& command, UpAxis a, UpAxis b) {
+SignedAxes axes_of(const CompareCommand& command, UpAxis a, UpAxis b) {
   if (!command.axes.empty())
     return parse_axes(command.axes);
   if (a == b || a == UpAxis::kUnknown || b == UpAxis::kUnknown)
-    return std::nullopt;
+    return kSameAxes;
   return parse_axes(b == UpAxis::kZ ? "x,z,-y" : "x,-z,y");
 }
 
-FrameSource turned(FrameSource frames, const SignedAxes& axes) {
+/// Frames of B with the axes and the origin of A.
+FrameSource brought(FrameSource frames, const SignedAxes& axes, const Point& from,
+                    const Point& to) {
+  Point move{};
+  for (size_t k = 0; k < 3; ++k)
+    move[k] = static_cast<double>(axes[k].sign) * from[axes[k].axis] - to[k];
+  if (axes == kSameAxes && move == Point())
+    return frames;
   auto positions = std::make_shared<std::vector<float>>();
-  return [frames = std::move(frames), axes, positions](uint32_t f) -> std::span<const float> {
+  return [frames = std::move(frames), axes, move, positions](uint32_t f) -> std::span<const float> {
     const std::span<const float> source = frames(f);
     positions->resize(source.size());
     for (size_t i = 0; i + 2 < source.size(); i += 3) {
       for (size_t k = 0; k < 3; ++k)
-        (*positions)[i + k] = axes[k].sign * source[i + axes[k].axis];
+        (*positions)[i + k] = static_cast<float>(
+            static_cast<double>(axes[k].sign * source[i + axes[k].axis]) + move[k]);
     }
     return *positions;
   };
@@ -149,8 +157,8 @@ Measured measure(const ComparedClip& a, const ComparedClip& b, const CompareComm
     m.note = "the faces differ: the vertices are compared by their number";
 
   uint32_t frames = p.frame_count;
-  const std::optional<SignedAxes> axes = axes_of(command, p.up, q.up);
-  auto frames_of_b = [&] { return axes ? turned(b.frames(), *axes) : b.frames(); };
+  const SignedAxes axes = axes_of(command, p.up, q.up);
+  auto frames_of_b = [&] { return brought(b.frames(), axes, q.origin, p.origin); };
   if (by_vertex) {
     CompareOptions options;
     options.sted = !command.no_sted;

@@ -212,6 +212,7 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
       description.clips = clip_timings(clip);
     options.first_number = command.start + (own.first - range.first) / range.step;
     turn.turn(description.attributes);
+    description.origin = turn.turned(description.origin);
     FrameSource all = turn.turned(play(paths.input, clip, meshes));
     options.attributes = {};
     if (auto attributes = play_attributes(clip, meshes))
@@ -222,7 +223,8 @@ void decode(const DecodeCommand& command, const DecodePaths& paths, const Common
         paths.output, description,
         [&all, frames = own](uint32_t f) { return all(frames.first + f * frames.step); }, options);
     written.push_back({paths.output, description.frame_count, description.vertex_count,
-                       description.polygons.size()});
+                       description.polygons.size(),
+                       keeps_origin(paths.output, command.ascii) ? Point() : description.origin});
   }
   line.clear();
   for (const Written& run : written)

@@ -43,14 +43,14 @@ resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at 
 for each instance), format, encoder, name, vertices, coded_vertices, faces (of the first mesh),
 meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of those that show
 it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats the first), up,
-metres_per_unit, order, diagonal, asked (metric, value), max_error, max_error_percent, rmse, kg,
-massaged, surface_error, surface_error_mean (those of a clip, of the first one), clips (name,
-first_frame, frames, fps, fps_assumed, start_time, loop, closed, diagonal, asked, max_error,
-max_error_percent, rmse, kg), attributes (mesh, kind, of, name, components, labels, looks, moves; of
-those that move, bytes, max_error, rmse in units of their values), segments (mesh, basis, of,
-reconstruction, first_frame, frames, components, regions, corrections; coder of key-frames), chunks
-(type, offset, size, required, mesh, segment). Lengths are in scene units, errors those the encoder
-measured.)";
+metres_per_unit, origin (positions count from it), order, diagonal, asked (metric, value),
+max_error, max_error_percent, rmse, kg, massaged, surface_error, surface_error_mean (those of a
+clip, of the first one), clips (name, first_frame, frames, fps, fps_assumed, start_time, loop,
+closed, diagonal, asked, max_error, max_error_percent, rmse, kg), attributes (mesh, kind, of, name,
+components, labels, looks, moves; of those that move, bytes, max_error, rmse in units of their
+values), segments (mesh, basis, of, reconstruction, first_frame, frames, components, regions,
+corrections; coder of key-frames), chunks (type, offset, size, required, mesh, segment). Lengths are
+in scene units, errors those the encoder measured.)";
 
 struct Contents {
   uint64_t bytes = 0;
@@ -175,6 +175,7 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
   json["metres_per_unit"] = nullptr;
   if (c.clip.record().metres_per_unit > 0)
     json["metres_per_unit"] = c.clip.record().metres_per_unit;
+  json["origin"] = c.clip.record().origin;
   json["order"] = name_of(c.clip.record().order);
   json["diagonal"] = record.diagonal;
   json["asked"] = {{"metric", name_of(record.asked)}, {"value", record.asked_value}};
@@ -428,6 +429,8 @@ void print_text(const std::string& path, const Contents& c) {
               "up {}, unit {}{}", up_name(all.up),
               all.metres_per_unit > 0 ? fmt::format("{:.6g} m", all.metres_per_unit) : "unknown",
               several ? "" : traits_of(record)));
+  if (all.has_origin())
+    row("origin", fmt::format("{}: positions count from it", fmt::join(all.origin, ",")));
   print_meshes(c);
   row("order", name_of(all.order));
   row("size", fmt::format("{} bytes, {:.1f} : 1, {:.3f} bpfv", grouped(c.bytes),

@@ -374,6 +374,7 @@ uint64_t content_hash(const MeshSequence& sequence) {
   hash.add(sequence.times);
   hash.add_value(sequence.up);
   hash.add_value(sequence.metres_per_unit);
+  hash.add_value(sequence.origin);
   hash.add_value(sequence.loop);
   for (const ClipTiming& clip : sequence.clips) {
     hash.add(clip.name);

@@ -209,6 +209,7 @@ MeshSequence describe_clip(const Clip& clip, const std::vector<uint32_t>& meshes
     sequence.times.assign(record.times.begin(), record.times.end());
   sequence.up = static_cast<UpAxis>(clip.record().up);
   sequence.metres_per_unit = clip.record().metres_per_unit;
+  std::copy_n(clip.record().origin, 3, sequence.origin.begin());
   return sequence;
 }
 

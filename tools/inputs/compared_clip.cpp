@@ -45,6 +45,7 @@ ComparedClip::ComparedClip(const std::string& path, const std::string& mesh,
   } else {
     LoadOptions options;
     options.progress = progress;
+    options.origin.reset();
     options.rate = part.rate;
     if (is_cache(kind_of(path)))
       options.mesh = mesh;

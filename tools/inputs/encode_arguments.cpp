@@ -301,6 +301,10 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.flag("--allow-outside", a.allow_outside,
                "Let a scene name files outside its folder: those of strangers then choose what is "
                "read");
+  options.option("--origin", a.origin, "auto|none|X,Y,Z",
+                 "Point that positions are kept from, as float32 has few digits for a small mesh "
+                 "far from zero; decode adds it "
+                 "(default auto: amid such a mesh, else none)");
   options.flag("--no-weld", a.no_weld, "Take every corner of STL files as a vertex: corners at one place may part later");
   options.flag("--live", a.live,
                "INPUT is a mesh, its frames come from the standard input: float32 x, y, z of each vertex, little-endian");
@@ -387,6 +391,31 @@ void set_target(const EncodeArguments& command, double metres_per_unit, EncodeOp
   set_target(command, std::optional(metres_per_unit), *options);
 }
 
+namespace {
+
+/// Empty: the importer finds one.
+std::optional<Point> origin_of(const EncodeArguments& command) {
+  const bool moves = !command.live && kind_of(command.output) != FileKind::kGlb;
+  if (command.origin.empty() || command.origin == "auto")
+    return moves ? std::nullopt : std::optional(Point());
+  if (command.origin == "none")
+    return Point();
+  if (!moves)
+    throw Error(ErrorKind::kUsage, "--origin goes without --live and .glb outputs");
+  Point point{};
+  const std::vector<std::string> numbers = split_at_commas(command.origin);
+  for (size_t k = 0; k < 3; ++k) {
+    const char* end = numbers.size() == 3 ? numbers[k].data() + numbers[k].size() : nullptr;
+    if (!end || std::from_chars(numbers[k].data(), end, point[k]).ptr != end ||
+        !std::isfinite(point[k]))
+      throw Error(ErrorKind::kUsage,
+                  "--origin: '" + command.origin + "' is neither auto, none nor X,Y,Z");
+  }
+  return point;
+}
+
+}  // namespace
+
 LoadOptions load_options(const EncodeArguments& command, const Progress& progress) {
   LoadOptions options;
   options.mesh = command.mesh;
@@ -395,6 +424,8 @@ LoadOptions load_options(const EncodeArguments& command, const Progress& progres
   options.progress = progress;
   options.allow_outside = command.allow_outside;
   options.weld_stl = !command.no_weld;
+  options.measures_rounding = command.lossless;
+  options.origin = origin_of(command);
   options.scene_stays = kind_of(command.output) == FileKind::kGlb;
   if (!command.memory.empty() && command.batch.empty())
     options.memory = parse_size(command.memory, "--memory");
@@ -437,6 +468,7 @@ std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) 
         static_cast<int>(c.split_objects)})
     settings.push_back(choice);
   settings.push_back(c.massage_strength);
+  settings.push_back(c.origin);
   settings.push_back(c.massage_tolerance);
   settings.push_back(c.attribute_error);
   settings.push_back(c.normal_error);

@@ -60,6 +60,7 @@ struct EncodeArguments {
   bool root_motion = false;
   bool allow_outside = false;
   bool no_weld = false;
+  std::string origin;  ///< "auto", "none" or "X,Y,Z"; empty: auto
   bool no_attributes = false;
   AttributeOptions attributes;
   std::string attribute_error, normal_error;

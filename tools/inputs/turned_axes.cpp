@@ -47,6 +47,11 @@ void AxisTurn::turn(std::vector<Attribute>& attributes) const {
   }
 }
 
+Point AxisTurn::turned(const Point& point) const {
+  const auto sign = static_cast<double>(sign_);
+  return turns() ? Point{point[0], sign * point[2], -sign * point[1]} : point;
+}
+
 FrameSource AxisTurn::turned(FrameSource frames) const {
   if (!turns())
     return frames;

@@ -26,6 +26,7 @@ class AxisTurn {
   bool turns() const { return sign_ != 0; }
 
   void turn(std::vector<Attribute>& attributes) const;
+  Point turned(const Point& point) const;
   FrameSource turned(FrameSource frames) const;
   AttributeSource turned(AttributeSource attributes) const;
 

@@ -4,6 +4,7 @@
 
 #include "codec/sequence/clip_library.h"
 #include "codec/sequence/error.h"
+#include "codec/sequence/position_box.h"
 #include "tools/io/alembic/alembic.h"
 #include "tools/io/assimp/assimp_scene.h"
 #include "tools/io/base/file_kind.h"
@@ -93,6 +94,10 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
 /// Parses one mesh after the other with the same memory.
 class MeshReader {
  public:
+  explicit MeshReader(const LocalOrigin& origin) { mesh_.origin = origin; }
+
+  const LocalOrigin& origin() const { return mesh_.origin; }
+
   /// `details`, where given, receives what stands beside the positions.
   const Mesh& read(const std::string& path, MeshDetails* details = nullptr) {
     read_file(path, bytes_);
@@ -224,9 +229,28 @@ void report(const Progress& progress, size_t done, size_t all) {
     progress("reading", static_cast<double>(done) / static_cast<double>(all));
 }
 
+/// Tells what float32 took from the coordinates of the source, where that was measured.
+void note_rounding(const std::string& path, const LocalOrigin& origin, const LoadOptions& options) {
+  if (options.note && origin.rounding > 0 && options.measures_rounding)
+    options.note(
+        fmt::format("{}: float32 takes up to {:.2g} from the coordinates", path, origin.rounding));
+}
+
+/// What readers of meshes take from coordinates.
+LocalOrigin origin_of(const LoadOptions& options) {
+  return {.at = options.origin.value_or(Point()), .measures = options.measures_rounding};
+}
+
+/// Moves positions that a file has as floats.
+void take_origin(const LoadOptions& options, std::span<float> positions) {
+  LocalOrigin origin = origin_of(options);
+  for (size_t i = 0; i < positions.size(); ++i)
+    positions[i] = origin.rounded(static_cast<double>(positions[i]), i % 3);
+}
+
 void load_frames(const std::vector<std::string>& paths, const LoadOptions& options,
                  MeshSequence& sequence) {
-  MeshReader reader;
+  MeshReader reader(origin_of(options));
   MeshDetails details;
   ChangesOfFrames changes(options);
   for (size_t f = 0; f < paths.size(); ++f) {
@@ -247,6 +271,7 @@ void load_frames(const std::vector<std::string>& paths, const LoadOptions& optio
                               mesh.positions.end());
     report(options.progress, f + 1, paths.size());
   }
+  note_rounding(paths[0], reader.origin(), options);
 }
 
 void load_stl_frames(const std::vector<std::string>& paths, const LoadOptions& options,
@@ -254,9 +279,10 @@ void load_stl_frames(const std::vector<std::string>& paths, const LoadOptions& o
   std::string bytes;
   std::vector<float> soup;
   std::optional<StlWeld> weld;
+  LocalOrigin origin = origin_of(options);
   for (size_t f = 0; f < paths.size(); ++f) {
     read_file(paths[f], bytes);
-    parse_stl(bytes, paths[f], soup);
+    parse_stl(bytes, paths[f], soup, origin);
     if (f == 0) {
       weld.emplace(soup, paths[0], options.weld_stl);
       sequence.vertex_count = weld->vertex_count();
@@ -266,6 +292,7 @@ void load_stl_frames(const std::vector<std::string>& paths, const LoadOptions& o
     weld->append_vertices(soup, paths[f], sequence.positions);
     report(options.progress, f + 1, paths.size());
   }
+  note_rounding(paths[0], origin, options);
 }
 
 /// The mesh of a lone cache.
@@ -358,7 +385,7 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
   VertexCache cache = kind_of(cache_path) == FileKind::kPc2 ? open_pc2(source) : open_mdd(source);
   FrameArray surface;
   {
-    MeshReader reader;
+    MeshReader reader(origin_of(options));
     const Mesh& mesh = reader.read(mesh_path, &sequence);
     if (mesh.vertex_count() != cache.vertex_count)
       fail_input(cache_path, std::to_string(cache.vertex_count) + " vertices, but the mesh " +
@@ -372,6 +399,7 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
   reserve(sequence, cache.frame_count, cache_path);
   sequence.positions.resize(size_t{cache.vertex_count} * 3 * cache.frame_count);
   read_positions(cache, source, sequence.positions, options.progress);
+  take_origin(options, sequence.positions);
   if (cache.frame_count > 0)
     compare_axes(cache_path, surface, options, sequence);
   if (kind_of(cache_path) == FileKind::kPc2) {
@@ -389,6 +417,7 @@ GltfOptions scene_options(const LoadOptions& options) {
   scene.memory_limit = options.memory;
   scene.allow_outside = options.allow_outside;
   scene.scene_stays = options.scene_stays;
+  scene.origin = options.origin.value_or(Point());
   scene.progress = options.progress;
   scene.note = options.note;
   return scene;
@@ -443,6 +472,7 @@ void load_scene(const std::string& path, const LoadOptions& options, MeshSequenc
 AlembicOptions alembic_options(const LoadOptions& options) {
   AlembicOptions archive{.rate = options.rate, .mesh = options.mesh};
   archive.memory_limit = options.memory;
+  archive.origin = options.origin.value_or(Point());
   archive.progress = options.progress;
   archive.note = options.note;
   return archive;
@@ -461,13 +491,13 @@ void load_md3(const std::string& path, const LoadOptions& options, MeshSequence&
   std::string bytes;
   read_file(path, bytes);
   sequence = parse_md3(bytes, path, options.note);
+  take_origin(options, sequence.positions);
   sequence.name = stem;
 }
 
 /// A scene or one mesh from the standard input, told apart by how it begins.
-void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
-  std::string bytes;
-  read_standard_input(bytes);
+void load_standard_input(const std::string& bytes, const LoadOptions& options,
+                         MeshSequence& sequence) {
   const size_t begin = bytes.find_first_not_of(" \t\r\n");
   if (bytes.starts_with("glTF") || (begin != std::string::npos && bytes[begin] == '{')) {
     const GltfOptions scene = scene_options(options);
@@ -484,6 +514,7 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
     return;
   }
   Mesh mesh;
+  mesh.origin = origin_of(options);
   std::vector<std::string> left_out;
   if (bytes.starts_with("ply"))
     parse_ply(bytes, "-", mesh, &sequence, &left_out);
@@ -495,6 +526,7 @@ void load_standard_input(const LoadOptions& options, MeshSequence& sequence) {
   sequence.frame_count = 1;
   sequence.polygons = std::move(mesh.polygons);
   sequence.positions = std::move(mesh.positions);
+  note_rounding("-", mesh.origin, options);
   if (options.note && !left_out.empty())
     options.note(fmt::format("-: left out: {}", fmt::join(left_out, ", ")));
 }
@@ -585,51 +617,51 @@ void load(const std::vector<std::string>& paths, const LoadOptions& options,
     load_frames(meshes, options, sequence);
 }
 
-/// Tells of coordinates so far from the origin that float32 is coarse for the mesh around them.
-void note_coarse(const std::string& input, const MeshSequence& sequence,
-                 const LoadOptions& options) {
-  if (!options.note || sequence.frame_count == 0)
+/// Tells of coordinates so far from zero that float32 is coarse for the mesh around them.
+void note_far(const std::string& input, const PositionBox& box, const LoadOptions& options) {
+  if (!options.note || !box.is_far())
     return;
-  const std::span<const float> frame = sequence.frame(0);
-  constexpr double kCoarse = 1e-4;  // of the diagonal: a fifth of the usual bound
-  double least[3] = {}, most[3] = {}, squares = 0;
-  float largest = 0;
-  for (size_t i = 0; i < frame.size(); ++i) {
-    const auto x = static_cast<double>(frame[i]);
-    least[i % 3] = i < 3 ? x : std::min(least[i % 3], x);
-    most[i % 3] = i < 3 ? x : std::max(most[i % 3], x);
-    largest = std::max(largest, std::abs(frame[i]));
-  }
-  for (size_t k = 0; k < 3; ++k)
-    squares += (most[k] - least[k]) * (most[k] - least[k]);
-  const double size = std::sqrt(squares);
-  const double rounding = static_cast<double>(largest - std::nextafter(largest, 0.F)) / 2;
-  if (size > 0 && rounding > kCoarse * size)
+  const std::string text = fmt::format("{}: coordinates up to {:.7g} of a mesh of {:.3g}", input,
+                                       box.farthest(), box.size());
+  if (options.origin)
     options.note(fmt::format(
-        "{}: coordinates up to {:.7g} of a mesh of {:.3g}: float32 rounds them by up to {:.2g}; "
-        "move the source near its origin to keep more",
-        input, largest, size, rounding));
+        "{}: float32 rounds them by up to {:.2g}; a local origin (encode --origin) keeps more",
+        text, box.rounding()));
+  else
+    options.note(
+        fmt::format("{}: they are kept from the origin {}", text, fmt::join(box.middle(), ",")));
 }
 
-}  // namespace
-
-bool is_sequence_input(const std::string& path) {
-  return kind_of(path) != FileKind::kUnknown;
+/// Loads from the origin of the options; without one from zero, and once more where the mesh is far from it.
+template <typename Load>
+auto load_near(const std::string& input, const LoadOptions& options, const Load& load) {
+  LoadOptions own = options;
+  own.origin = options.origin.value_or(Point());
+  std::vector<std::string> notes;
+  if (options.note && !options.origin)
+    own.note = [&](const std::string& text) { notes.push_back(text); };
+  PositionBox box;
+  auto loaded = load(own, &box);
+  if (!options.origin && box.is_far()) {
+    loaded = {};
+    own.origin = box.middle();
+    notes.clear();
+    PositionBox near;
+    loaded = load(own, &near);
+  }
+  for (const std::string& text : notes)
+    options.note(text);
+  note_far(input, box, options);
+  return loaded;
 }
 
-std::vector<std::string> sequence_files(std::span<const std::string> inputs) {
-  if (inputs.empty())
-    fail_usage("no input is given");
-  return expand(inputs);
-}
-
-MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options) {
-  if (inputs.empty())
-    fail_usage("no input is given");
+/// `standard_input`: its bytes, where it is the input.
+MeshSequence load_from(std::span<const std::string> inputs, const std::string& standard_input,
+                       const LoadOptions& options) {
   MeshSequence sequence;
   bool has_rate = false;  // that a PC2 makes of the one given
   if (inputs.size() == 1 && inputs[0] == "-") {
-    load_standard_input(options, sequence);
+    load_standard_input(standard_input, options, sequence);
   } else {
     std::vector<std::string> paths = expand(inputs);
     sequence.name = fs::path(paths[0]).stem().string();
@@ -643,13 +675,11 @@ MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOption
     for (ClipTiming& clip : sequence.clips)
       clip.rate = sequence.rate;
   }
-  note_coarse(inputs[0], sequence, options);
+  sequence.origin = *options.origin;
   return sequence;
 }
 
-Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& options) {
-  if (inputs.empty())
-    fail_usage("no input is given");
+Scene load_topologies_from(std::span<const std::string> inputs, const LoadOptions& options) {
   const std::vector<std::string> paths = expand(inputs);
   const FileKind kind = kind_of(paths[0]);
   if (paths.size() > kMaxFrames)
@@ -659,11 +689,13 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
       fail_usage(paths[1] + ": is a second input, but " + paths[0] + " is a whole clip");
     Scene scene = read_alembic_meshes(file_source(paths[0]), alembic_options(options));
     scene.clip.name = fs::path(paths[0]).stem().string();
+    scene.clip.origin = *options.origin;
     return scene;
   }
-  MeshReader reader;
+  MeshReader reader(origin_of(options));
   ChangesOfFrames changes(options);
   Scene scene;
+  scene.clip.origin = *options.origin;
   scene.clip.name = fs::path(paths[0]).stem().string();
   if (options.rate) {
     scene.clip.rate = *options.rate;
@@ -698,7 +730,44 @@ Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& op
     ++runs.back().present_in[0].count;
     report(options.progress, f + 1, paths.size());
   }
+  note_rounding(paths[0], reader.origin(), options);
   return scene;
+}
+
+}  // namespace
+
+bool is_sequence_input(const std::string& path) {
+  return kind_of(path) != FileKind::kUnknown;
+}
+
+std::vector<std::string> sequence_files(std::span<const std::string> inputs) {
+  if (inputs.empty())
+    fail_usage("no input is given");
+  return expand(inputs);
+}
+
+MeshSequence load_sequence(std::span<const std::string> inputs, const LoadOptions& options) {
+  if (inputs.empty())
+    fail_usage("no input is given");
+  std::string standard_input;
+  if (inputs.size() == 1 && inputs[0] == "-")
+    read_standard_input(standard_input);
+  return load_near(inputs[0], options, [&](const LoadOptions& own, PositionBox* box) {
+    MeshSequence sequence = load_from(inputs, standard_input, own);
+    box->add(sequence.positions);
+    return sequence;
+  });
+}
+
+Scene load_topologies(std::span<const std::string> inputs, const LoadOptions& options) {
+  if (inputs.empty())
+    fail_usage("no input is given");
+  return load_near(inputs[0], options, [&](const LoadOptions& own, PositionBox* box) {
+    Scene scene = load_topologies_from(inputs, own);
+    for (const SceneMesh& mesh : scene.meshes)
+      box->add(mesh.sequence.positions);
+    return scene;
+  });
 }
 
 std::string carry_clip(const std::string& scene, const LoadOptions& options,

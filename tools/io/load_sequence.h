@@ -35,6 +35,11 @@ struct LoadOptions {
   /// Without `clip` and `clips`, several takes of what moves in a scene are clips of the sequence; else
   /// the first is taken, and the others noted.
   bool takes = false;
+  /// Taken from all positions before they are rounded to float32. Empty: where the mesh is far from zero, a point
+  /// near it, for which it is loaded twice, else zero.
+  std::optional<Point> origin = Point();
+  /// What float32 takes from the coordinates of meshes is noted, however little.
+  bool measures_rounding = false;
   /// Corners of an STL at one place are one vertex, see StlWeld.
   bool weld_stl = true;
   /// Most bytes that may be taken for what a file announces and does not hold: decompressed data,

@@ -30,17 +30,17 @@ namespace anicodec::tools {
 namespace {
 
 void append_mesh(FileKind kind, const Polygons& polygons, std::span<const float> positions,
-                 bool ascii, const ObjDetails* details, const PlyProperties* properties,
-                 std::string& out) {
+                 const Point& origin, bool ascii, const ObjDetails* details,
+                 const PlyProperties* properties, std::string& out) {
   switch (kind) {
     case FileKind::kPly:
-      return append_ply(polygons, positions, ascii, out, properties);
+      return append_ply(polygons, positions, ascii, out, properties, origin);
     case FileKind::kOff:
-      return append_off(polygons, positions, out);
+      return append_off(polygons, positions, out, origin);
     case FileKind::kStl:
-      return append_stl(polygons, positions, ascii, out);
+      return append_stl(polygons, positions, ascii, out, origin);
     default:
-      return append_obj(polygons, positions, out, details);
+      return append_obj(polygons, positions, out, details, origin);
   }
 }
 
@@ -208,8 +208,8 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
       if (details)
         details->set_attributes(attributes);
     }
-    append_mesh(kind, kind == FileKind::kStl ? triangles : clip.polygons, frames(f), options.ascii,
-                details ? &*details : nullptr, &properties, bytes);
+    append_mesh(kind, kind == FileKind::kStl ? triangles : clip.polygons, frames(f), clip.origin,
+                options.ascii, details ? &*details : nullptr, &properties, bytes);
     file.write(bytes);
     file.close();
     bytes.clear();
@@ -218,6 +218,11 @@ void write_frames(const NamePattern& pattern, FileKind kind, const MeshSequence&
 }
 
 }  // namespace
+
+bool keeps_origin(const std::string& path, bool ascii) {
+  const FileKind kind = kind_of(path);
+  return !is_cache(kind) && (kind != FileKind::kStl || ascii);
+}
 
 void check_sequence_output(const std::string& path, uint32_t frame_count,
                            const WriteOptions& options) {

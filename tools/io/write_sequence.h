@@ -44,6 +44,9 @@ struct WriteOptions {
 void write_sequence(const std::string& path, const MeshSequence& clip, const FrameSource& frames,
                     const WriteOptions& options);
 
+/// Whether such an output gets positions with the local origin of the clip; others count from it as the clip does.
+bool keeps_origin(const std::string& path, bool ascii);
+
 /// The same for a clip that is in memory.
 void write_sequence(const std::string& path, const MeshSequence& clip,
                     const WriteOptions& options = {});

@@ -14,14 +14,22 @@ void print_json(const nlohmann::ordered_json& json) {
 }
 
 void print_written(const Written& written, const CommonOptions& common) {
-  if (common.json)
-    print_json({{"file", written.path},
-                {"frames", written.frames},
-                {"vertices", written.vertices},
-                {"faces", written.faces}});
-  else if (!common.quiet)
+  const bool has_origin = written.origin != std::array<double, 3>{};
+  if (common.json) {
+    nlohmann::ordered_json json{{"file", written.path},
+                                {"frames", written.frames},
+                                {"vertices", written.vertices},
+                                {"faces", written.faces}};
+    if (has_origin)
+      json["origin"] = written.origin;
+    print_json(json);
+  } else if (!common.quiet) {
     print_line("{}: {} of {} and {}", written.path, counted(written.frames, "frame"),
                counted(written.vertices, "vertex", "vertices"), counted(written.faces, "face"));
+    if (has_origin)
+      print_line("its positions count from {}; .obj, .ply, .off, .glb and .abc have room for that",
+                 fmt::join(written.origin, ","));
+  }
 }
 
 }  // namespace anicodec::tools

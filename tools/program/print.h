@@ -41,6 +41,7 @@ struct Written {
   std::string path;
   uint32_t frames = 0, vertices = 0;
   size_t faces = 0;
+  std::array<double, 3> origin{};  ///< that positions count from, where the file has no room for it
 };
 
 /// Says so: as an object, or as a line unless quiet.

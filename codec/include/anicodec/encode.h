@@ -82,6 +82,12 @@ typedef struct anic_source_clip {
   const char* const* event_names; /**< UTF-8, of events: named times */
   const double* event_seconds;    /**< of each event, from frame 0 on, within the clip */
   uint32_t event_count;
+  double
+      origin[3]; /**< finite: taken in double from positions at addresses before they are rounded to
+                       float32; those that read() gives count from it */
+  uint8_t
+      find_origin; /**< where meshes at addresses alone are small and far from zero, the origin is a
+                          point amid them instead, and the positions are read twice */
 } anic_source_clip;
 
 /**
@@ -93,7 +99,7 @@ ANIC_API anic_status anic_set_source_clip(anic_encoder* encoder, const anic_sour
 
 /**
  * Adds a clip to a file of several: its frames come behind those that are there, and every mesh has the
- * frames of all clips, one after the other. Names differ; axis and unit are those of the first clip. To
+ * frames of all clips, one after the other. Names differ; axis, unit and origin are those of the first clip. To
  * be called before meshes are added, of which such a file has one, shown in all frames.
  *
  * - Errors: ANIC_E_STATE: anic_set_source_clip() comes first, meshes later; ANIC_E_ARGUMENT;

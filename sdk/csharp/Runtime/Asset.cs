@@ -135,6 +135,17 @@ namespace Anicodec
         /// <summary>0: unknown.</summary>
         public double MetresPerUnit { get { return info.metres_per_unit; } }
 
+        /// <summary>Point that positions count from: added in double, it gives the source's coordinates, which may be too
+        /// far from zero for floats.</summary>
+        public unsafe double[] Origin
+        {
+            get
+            {
+                fixed (double* origin = info.origin)
+                    return new[] { origin[0], origin[1], origin[2] };
+            }
+        }
+
         /// <summary>Of the box around all frames of the source.</summary>
         public double Diagonal { get { return info.diagonal; } }
 

@@ -176,6 +176,7 @@ namespace Anicodec
                 surface_error_mean;
             public ulong resident_bytes, context_bytes;
             public double max_displacement_error;
+            public fixed double origin[3];
         }
 
         [StructLayout(LayoutKind.Sequential)]

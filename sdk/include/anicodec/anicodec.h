@@ -457,6 +457,9 @@ typedef struct anic_asset_info {
   uint64_t resident_bytes;   /**< held by this asset */
   uint64_t context_bytes;    /**< held by each context */
   double max_displacement_error; /**< largest error of a vertex's move from frame to frame */
+  double origin
+      [3]; /**< where the positions of this interface count from, as the source has it: added in double, it
+                       gives the source's coordinates, which may be too far from zero for float32 */
 } anic_asset_info;
 
 /** - Errors: ANIC_E_ARGUMENT */

@@ -19,6 +19,9 @@ def to_package(mesh: Any, frame: int, package: str) -> Any:
     except ImportError as error:
         raise ImportError(f"{package} is missing: pip install 'anicodec[{package}]'") from error
     positions = mesh[frame]
+    origin = np.asarray(mesh._clip.info["origin"])
+    if origin.any():
+        positions = positions + origin  # float64
     if package == "trimesh":
         return module.Trimesh(positions, mesh.triangles.astype(np.int64), process=False)
     offsets, corners = mesh.polygons

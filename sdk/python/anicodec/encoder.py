@@ -239,8 +239,19 @@ def _clock(clip: SourceClip, fps: Any, loop: bool) -> Tuple[int, int, bool, floa
             table)
 
 
+def _origin(value: Any) -> Optional[Tuple[float, float, float]]:
+    """A point, or None for one that is found."""
+    if isinstance(value, str) and value in ("auto", "none"):
+        return None if value == "auto" else (0.0, 0.0, 0.0)
+    try:
+        x, y, z = map(float, value)
+    except (TypeError, ValueError):
+        raise InputError(f"origin is 'auto', 'none' or three numbers, not {value!r}") from None
+    return x, y, z
+
+
 def _add_clips(encoder: Any, clips: Sequence[SourceClip], frame_count: int, fps: Any, loop: bool, up: int,
-               metres: float) -> None:
+               metres: float, origin: Any) -> None:
     for clip in clips:
         if clip.frame_count < 1:
             raise InputError(f"clip {clip.name!r} has no frame")
@@ -250,13 +261,14 @@ def _add_clips(encoder: Any, clips: Sequence[SourceClip], frame_count: int, fps:
     for clip in clips:
         numerator, denominator, loops, start, table = _clock(clip, fps, loop)
         events = [(str(event), float(seconds)) for event, seconds in clip.events]
-        encoder.add_clip(clip.name, clip.frame_count, numerator, denominator, up, loops, start, metres, table, events)
+        encoder.add_clip(clip.name, clip.frame_count, numerator, denominator, up, loops, start, metres, table, events,
+                         _origin(origin))
 
 
 def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = None, fps: Any = None, name: str = "",
                   times: Any = None, start_time: float = 0, up: Optional[str] = None,
                   unit: Union[None, float, str] = None, loop: bool = False,
-                  clips: Optional[Sequence[SourceClip]] = None, events: Sequence[Tuple[str, float]] = (), progress: Optional[Progress] = None,
+                  origin: Any = "auto", clips: Optional[Sequence[SourceClip]] = None, events: Sequence[Tuple[str, float]] = (), progress: Optional[Progress] = None,
                   **options: Any) -> Encoded:
     """Encodes several meshes to one file; arguments and options are those of encode().
 
@@ -283,7 +295,7 @@ def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = 
     if clips is None:
         clips = [SourceClip(name, frame_count, start_time=start_time, times=times, events=events)]
     encoder = _anicodec.Encoder()
-    _add_clips(encoder, clips, frame_count, fps, loop, UP.index(up), metres)
+    _add_clips(encoder, clips, frame_count, fps, loop, UP.index(up), metres, origin)
     keep: List[_Adder] = [_Adder(encoder, i, mesh, frame_count, choices.get("max_bytes", 0)) for i, mesh in enumerate(meshes)]
     data, measured = encoder.encode(choices, progress)
     del keep
@@ -307,6 +319,9 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
         or lossless=True: positions, as float32, come back bit for bit.
     uv, colours, normals, custom, materials, parts: see SourceMesh.
     fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop, events (pairs of a name and seconds): stored.
+    origin: a point that positions count from, as float32 has few digits for a small mesh far from zero: three numbers, "none",
+        or "auto" for one amid such a mesh where positions are arrays. It is taken from arrays in double, not from what a
+        function returns. Clip.info["origin"] has it.
     metadata: a mapping that the file keeps as JSON, for instance author, licence, source: Clip.metadata.
     root_motion: keep the motion of the whole along the ground, and its turn about the up axis, apart.
     clips: several SourceClip in one file that share what they can; positions have their frames, one after the other.

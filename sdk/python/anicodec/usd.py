@@ -142,7 +142,7 @@ class _MeshReader:
             if run is None:
                 run = {"faces": faces, "mirrored": mirrored, "positions": [], "frames": []}
                 runs.append(run)
-            run["positions"].append(positions.astype(np.float32))
+            run["positions"].append(positions)
             run["frames"].append(frame)
         return [self._source(run) for run in runs]
 
@@ -253,7 +253,8 @@ def _runs(frames: List[int], count: int) -> List[Tuple[int, int]]:
 
 def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage]) -> Usd.Stage:
     """Writes a clip (or what open() takes) to a stage, or to a new one at a path, which is saved: a mesh for each of
-    the clip, with points at the time code of each frame, frame 0 at 0. Returns the stage."""
+    the clip, with points at the time code of each frame, frame 0 at 0, below a prim that is at the origin of the clip. Returns
+    the stage."""
     source = clip if isinstance(clip, Clip) else open_clip(clip)
     stage = target if isinstance(target, Usd.Stage) else Usd.Stage.CreateNew(os.fspath(target))
     rate = float(source.fps)
@@ -266,6 +267,8 @@ def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage]) -> Usd.Stage:
         UsdGeom.SetStageMetersPerUnit(stage, source.info["metres_per_unit"])
     root = UsdGeom.Xform.Define(stage, "/" + _identifier(source.name or "clip"))
     stage.SetDefaultPrim(root.GetPrim())
+    if any(source.info["origin"]):
+        root.AddTranslateOp(UsdGeom.XformOp.PrecisionDouble).Set(Gf.Vec3d(*source.info["origin"]))
     taken: set = set()
     for number, mesh in enumerate(source.meshes):
         name = _identifier(mesh.name or "mesh")

@@ -105,6 +105,7 @@ class Asset {
     d["duration"] = info_.duration;
     d["loop_duration"] = info_.loop_duration;
     d["metres_per_unit"] = info_.metres_per_unit;
+    d["origin"] = nb::make_tuple(info_.origin[0], info_.origin[1], info_.origin[2]);
     d["diagonal"] = info_.diagonal;
     d["max_error"] = info_.max_error;
     d["rmse"] = info_.rmse;

@@ -96,11 +96,12 @@ class Encoder {
     encoder_.reset(encoder);
   }
 
-  /// The first, or one more.
+  /// The first, or one more. `origin`: none for one that is found.
   void add_clip(const std::string& name, uint32_t frames, uint32_t numerator, uint32_t denominator,
                 int up, bool loop, double start, double unit,
                 const std::optional<Array<double>>& times,
-                const std::vector<std::pair<std::string, double>>& events) {
+                const std::vector<std::pair<std::string, double>>& events,
+                const std::optional<std::array<double, 3>>& origin) {
     anic_source_clip clip = ANIC_INIT(anic_source_clip);
     clip.name = name.c_str();
     clip.frame_count = frames;
@@ -110,6 +111,9 @@ class Encoder {
     clip.loop = loop;
     clip.start_time = start;
     clip.metres_per_unit = unit;
+    clip.find_origin = !origin;
+    if (origin)
+      std::copy_n(origin->begin(), 3, clip.origin);
     clip.times = times ? times->data() : nullptr;
     std::vector<const char*> names;
     std::vector<double> seconds;
@@ -277,7 +281,7 @@ void bind_encoder(nb::module_& module) {
       .def(nb::init<>())
       .def("add_clip", &Encoder::add_clip, nb::arg("name"), nb::arg("frames"), nb::arg("numerator"),
            nb::arg("denominator"), nb::arg("up"), nb::arg("loop"), nb::arg("start"),
-           nb::arg("unit"), nb::arg("times").none(), nb::arg("events"))
+           nb::arg("unit"), nb::arg("times").none(), nb::arg("events"), nb::arg("origin").none())
       .def("add_mesh", &Encoder::add_mesh)
       .def("add_attribute", &Encoder::add_attribute, nb::arg("mesh"), nb::arg("name"),
            nb::arg("kind"), nb::arg("domain"), nb::arg("components"), nb::arg("frames"),

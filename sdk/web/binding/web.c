@@ -234,7 +234,10 @@ EXPORT(info) int web_info(void) {
       info.kg,
       info.max_displacement_error,
       (double)info.resident_bytes,
-      (double)info.context_bytes};
+      (double)info.context_bytes,
+      info.origin[0],
+      info.origin[1],
+      info.origin[2]};
   memcpy(numbers, all, sizeof all);
   return status;
 }

@@ -114,6 +114,8 @@ def write(files, out):
             start += c.frames
     if len(files) > 1:
         told['clips'] = [joined_clip(told['clips'])]
+    if any(first.clip.origin):
+        told['origin'] = first.clip.origin
     if first.container.has('META'):
         told['metadata'] = json.loads(first.container.chunk('META'))
     for m, mesh in enumerate(first.meshes):

@@ -111,7 +111,8 @@ def read_clip(data, limi):
     clip.metres_per_unit = r.finite(0, 'f32')
     need(61 * len(limi.clip_frames) <= r.left(), 'RECORD', 'clips')
     clip.clips = [_read_one_clip(r, frames) for frames in limi.clip_frames]
-    optional_fields(r, {})
+    origin = Reader(optional_fields(r, {1: 24}).get(1, bytes(24)))
+    clip.origin = [origin.finite() for _ in range(3)]
     return clip
 
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +46,71 @@ TEST_F(EncodeCommand, PromisesATwentiethPerCentByDefault) {
   nlohmann::json info = anicodec({"info", folder_ / "a.anic", "--json"}).json();
   EXPECT_EQ(info["asked"]["metric"], "max_error");
   EXPECT_NEAR(info["asked"]["value"], 0.0005 * double(info["diagonal"]), 1e-9);
+}
+
+/// Frames of a mesh of 2 m in coordinates of a survey.
+std::string survey_frame(double t) {
+  std::string text;
+  for (int v = 0; v < 9; ++v)
+    text += fmt::format("v {:.4f} {:.4f} {:.4f}\n", 500000 + v % 3 + t, 4649776 + v / 3 + t * v / 9,
+                        120 + v * 0.01 + t);
+  for (const char* face : {"1 2 5 4", "2 3 6 5", "4 5 8 7", "5 6 9 8"})
+    text += std::string("f ") + face + "\n";
+  return text;
+}
+
+TEST_F(EncodeCommand, KeepsTheDigitsOfSurveyCoordinates) {
+  for (int f = 0; f < 3; ++f)
+    folder_.write(fmt::format("s{}.obj", f), survey_frame(f * 0.1234));
+  const std::string source = folder_ / "s*.obj", file = folder_ / "s.anic";
+  for (const bool lossless : {false, true}) {
+    std::vector<std::string> command{"encode", source, "-o", file, "-f"};
+    if (lossless)
+      command.emplace_back("--lossless");
+    const Outcome outcome = anicodec(command);
+    ASSERT_EQ(outcome.status, 0) << outcome;
+    EXPECT_THAT(outcome.err, HasSubstr("coordinates up to 4649778 of a mesh of 3.03"));
+    EXPECT_EQ(outcome.err.find("float32 takes up to") != std::string::npos, lossless) << outcome;
+    const nlohmann::json info = anicodec({"info", file, "--json"}).json();
+    EXPECT_EQ(info["origin"], nlohmann::json({500000, 4649776, 120}));
+    ASSERT_EQ(anicodec({"decode", file, "-o", folder_ / "d%d.obj", "-f"}).status, 0);
+    const nlohmann::json errors =
+        anicodec({"compare", source, folder_ / "d*.obj", "--json"}).json();
+    EXPECT_LE(errors["max_error"], lossless ? 0 : 0.0005 * double(info["diagonal"]));
+    EXPECT_LE(anicodec({"compare", source, file, "--json"}).json()["max_error"],
+              lossless ? 0 : 0.0005 * double(info["diagonal"]));
+  }
+  EXPECT_THAT(anicodec({"info", file}).out,
+              HasSubstr("origin     500000,4649776,120: positions count from it"));
+  EXPECT_THAT(anicodec({"decode", file, "-o", folder_ / "d.pc2"}).out,
+              HasSubstr("its positions count from 500000,4649776,120; .obj"));
+  EXPECT_EQ(anicodec({"decode", file, "-o", folder_ / "d.pc2", "-f", "--json"}).json()["origin"],
+            nlohmann::json({500000, 4649776, 120}));
+  EXPECT_THAT(anicodec({"encode", source, "-o", file, "-f", "--origin", "none"}).err,
+              HasSubstr("a local origin (encode --origin) keeps more"));
+  for (const char* origin : {"1,2", "1,2,x", "1,2,inf", "here"})
+    EXPECT_EQ(anicodec({"encode", source, "-o", file, "-f", "--origin", origin}).status, 1)
+        << origin;
+  // Parts count from one point; a clip that is added counts from that of the file.
+  ASSERT_EQ(anicodec({"encode", source, "-o", folder_ / "p0.anic", "--part", "0:2"}).status, 0);
+  ASSERT_EQ(anicodec({"encode", source, "-o", folder_ / "p1.anic", "--part", "2:3"}).status, 0);
+  EXPECT_EQ(
+      anicodec({"join", folder_ / "p0.anic", folder_ / "p1.anic", "-o", folder_ / "p.anic"}).status,
+      0);
+  ASSERT_EQ(anicodec({"encode", source, "-o", folder_ / "p1.anic", "-f", "--part", "2:3",
+                      "--origin", "500000,4649777,120"})
+                .status,
+            0);
+  EXPECT_THAT(
+      anicodec({"join", folder_ / "p0.anic", folder_ / "p1.anic", "-o", folder_ / "p.anic", "-f"})
+          .err,
+      HasSubstr("counts positions from another origin than"));
+  folder_.write("t.obj", survey_frame(64));
+  ASSERT_EQ(anicodec({"add", file, folder_ / "t.obj", "--name", "more"}).status, 0);
+  ASSERT_EQ(anicodec({"decode", file, "-o", folder_ / "t2.obj", "--clip", "more"}).status, 0);
+  EXPECT_LE(
+      anicodec({"compare", folder_ / "t.obj", folder_ / "t2.obj", "--json"}).json()["max_error"],
+      2e-3);
 }
 
 TEST_F(EncodeCommand, GivesEveryBitBackWithoutLoss) {

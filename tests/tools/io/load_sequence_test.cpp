@@ -324,24 +324,6 @@ TEST(LoadSequence, TakesTheRateOfMddUnlessOneIsGiven) {
   EXPECT_EQ(load_clip({path}, {.rate = parse_frame_rate("24")}).rate.numerator, 24U);
 }
 
-TEST(LoadSequence, TellsWhereFloat32IsCoarseForTheMesh) {
-  TemporaryFolder folder;
-  std::string notes;
-  LoadOptions options;
-  options.note = [&](const std::string& text) { notes += text; };
-  // 2^22 is exact, and numbers above are whole halves: a quarter is rounded away.
-  folder.write("far.obj", "v 4194304 0 0\nv 4194307 4 0\nv 4194304 4 0\nf 1 2 3\n");
-  load_sequence(std::vector<std::string>{folder / "far.obj"}, options);
-  EXPECT_EQ(notes,
-            folder /
-                "far.obj: coordinates up to 4194307 of a mesh of 5: float32 rounds them by up to "
-                "0.25; move the source near its origin to keep more");
-  notes.clear();
-  folder.write("near.obj", "v 1000 0 0\nv 1003 4 0\nv 1000 4 0\nf 1 2 3\n");
-  load_sequence(std::vector<std::string>{folder / "near.obj"}, options);
-  EXPECT_EQ(notes, "");
-}
-
 TEST(LoadSequence, ReportsProgressAndCanBeCancelled) {
   TemporaryFolder folder;
   folder.write("a.obj", triangle("0"));

@@ -42,6 +42,8 @@ class ImportAnic(bpy.types.Operator, ImportHelper):
         except (OSError, anicodec.AnicodecError) as error:
             self.report({"ERROR"}, f"{self.filepath}: {error}")
             return {"CANCELLED"}
+        if any(clip.info["origin"]):
+            self.report({"INFO"}, f"Positions count from {clip.info['origin']}, which Blender's float32 has no digits for")
         return {"FINISHED"}
 
 

@@ -114,7 +114,7 @@ void fill_frame(AlembicBake& bake, size_t frame, std::span<float> positions) {
       bake.read_positions(shown, places[shown.node], frame, own);
       continue;
     }
-    const Eigen::Vector3f origin = places[shown.node].world.col(3).cast<float>();
+    const Eigen::Vector3f origin = (places[shown.node].world.col(3) - bake.origin()).cast<float>();
     const bool finite = origin.allFinite();
     for (size_t i = 0; i < own.size(); ++i)
       own[i] = finite ? origin[static_cast<Eigen::Index>(i % 3)] : 0.0F;

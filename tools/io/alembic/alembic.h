@@ -21,6 +21,8 @@ struct AlembicOptions {
   /// Path of the mesh to take ("/rig/body"), or of an object above several, or the last name of
   /// such a path; empty: all meshes.
   std::string mesh = {};
+  /// Taken from the positions before they are rounded to float.
+  Point origin = {};
   /// Most bytes that positions may take.
   uint64_t memory_limit = uint64_t{1} << 36;
   /// Stage "reading".

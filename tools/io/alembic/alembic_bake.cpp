@@ -91,6 +91,7 @@ AbcNote AlembicBake::note_once(const AlembicOptions& options) {
 AlembicBake::AlembicBake(const ByteSource& source, const AlembicOptions& options)
     : name_(source.name),
       memory_limit_(options.memory_limit),
+      origin_(options.origin.data()),
       note_(note_once(options)),
       archive_(source),
       scene_(archive_, note_) {
@@ -242,10 +243,11 @@ void AlembicBake::read_positions(const AbcShown& shown, const AbcPlace& place, s
   bool finite = true;
   for (float x : out)
     finite &= std::isfinite(x);
-  if (finite && place.world != identity_transform()) {
+  if (finite && (place.world != identity_transform() || !origin_.isZero(0))) {
     for (size_t i = 0; i < out.size(); i += 3) {
       Eigen::Map<Eigen::Vector3f> p(&out[i]);
-      p = (place.world.leftCols<3>() * p.cast<double>() + place.world.col(3)).cast<float>();
+      p = (place.world.leftCols<3>() * p.cast<double>() + place.world.col(3) - origin_)
+              .cast<float>();
       finite &= p.allFinite();
     }
   }

@@ -57,6 +57,9 @@ class AlembicBake {
   std::vector<Attribute> moving_attributes(const AbcShown& shown, size_t frame) const;
   static bool has_moving_attributes(const AbcShown& shown);
 
+  /// Where the local origin is.
+  const Eigen::Vector3d& origin() const { return origin_; }
+
   /// Positions of a mesh in a frame that shows it, vertices x 3.
   void read_positions(const AbcShown& shown, const AbcPlace& place, size_t frame,
                       std::span<float> out) const;
@@ -73,6 +76,7 @@ class AlembicBake {
 
   std::string name_;
   uint64_t memory_limit_;
+  Eigen::Vector3d origin_;
   AbcNote note_;
   AbcArchive archive_;
   AbcScene scene_;

@@ -45,15 +45,30 @@ AbcObjectOutput& add_xform(AbcObjectOutput& parent, std::string name) {
   return object;
 }
 
-/// An Xform that turns what has Z up.
-AbcObjectOutput& add_turn(AbcObjectOutput& parent) {
-  AbcObjectOutput& object =
-      parent.child("y_up", "schema=AbcGeom_Xform_v3;schemaObjTitle=AbcGeom_Xform_v3:.xform");
+/// The object that all others go below: an Xform where positions count from a local origin, or Z is up.
+AbcObjectOutput& placed(AbcObjectOutput& top, const MeshSequence& clip) {
+  const bool turns = clip.up == UpAxis::kZ, moves = clip.origin != Point();
+  if (!turns && !moves)
+    return top;
+  constexpr uint8_t kTranslate = 1 << 4, kRotateX = 4 << 4;
+  std::vector<uint8_t> operations;  // the last comes first
+  std::vector<double> values;
+  if (turns) {
+    operations.push_back(kRotateX);
+    values.push_back(-90);
+  }
+  if (moves) {
+    operations.push_back(kTranslate);
+    values.insert(values.end(), clip.origin.begin(), clip.origin.end());
+  }
+  AbcObjectOutput& object = top.child(
+      turns ? "y_up" : "origin", "schema=AbcGeom_Xform_v3;schemaObjTitle=AbcGeom_Xform_v3:.xform");
   AbcCompoundOutput& xform = object.properties().compound(".xform", "schema=AbcGeom_Xform_v3");
-  constexpr uint8_t kRotateX = 4 << 4;
   xform.scalar(".inherits", "", AbcType::kBool, 1, 0).add_one(uint8_t{1});
-  xform.scalar(".ops", "", AbcType::kUint8, 1, 0).add_one(kRotateX);
-  xform.scalar(".vals", "", AbcType::kFloat64, 1, 0).add_one(-90.0);
+  xform.scalar(".ops", "", AbcType::kUint8, static_cast<uint32_t>(operations.size()), 0)
+      .add(std::span<const uint8_t>(operations));
+  xform.scalar(".vals", "", AbcType::kFloat64, static_cast<uint32_t>(values.size()), 0)
+      .add(std::span<const double>(values));
   xform.scalar("isNotConstantIdentity", "", AbcType::kBool, 1, 0).add_one(uint8_t{1});
   return object;
 }
@@ -196,7 +211,7 @@ std::vector<std::unique_ptr<PolyMeshOutput>> create(const MeshSequence& clip,
                                                     AbcArchiveOutput& archive) {
   const uint32_t sampling =
       clip.frame_count == 1 && clip.start_time == 0 ? 0 : archive.shared().sampling(time_of(clip));
-  AbcObjectOutput& top = clip.up == UpAxis::kZ ? add_turn(archive.top()) : archive.top();
+  AbcObjectOutput& top = placed(archive.top(), clip);
   std::vector<std::unique_ptr<PolyMeshOutput>> objects;
   for (Plan& p : plans) {
     uint64_t frames = 0;

@@ -33,8 +33,8 @@ struct AlembicWriteOptions {
 /// one object of changing connectivity, empty where none is there; `visible` tells these frames,
 /// too. Faces turn clockwise, as the format asks for; materials are face sets, the first texture
 /// coordinates `uv`, further ones, colours and numbers of vertices are in `.arbGeomParams`.
-/// Positions are stored as they are; a clip with Z up stands below an Xform that turns it. `clip`
-/// gives name, number and timing of the frames, and axes.
+/// Positions are stored as they are; a clip with Z up or a local origin stands below an Xform that turns and moves it.
+/// `clip` gives name, number and timing of the frames, axes and origin.
 void write_alembic(const AbcSink& sink, const MeshSequence& clip,
                    std::span<const AlembicTrack> tracks, const AlembicWriteOptions& options = {});
 

@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_IO_BASE_MESH_H_
 
 #include "codec/sequence/mesh_sequence.h"
+#include "tools/io/base/local_origin.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,7 @@ namespace anicodec::tools {
 struct Mesh {
   Polygons polygons;
   FrameArray positions;  ///< vertices x 3, row-major
+  LocalOrigin origin;    ///< of the positions
 
   size_t vertex_count() const { return positions.size() / 3; }
 

@@ -3,6 +3,8 @@
 #ifndef ANICODEC_TOOLS_IO_BASE_TEXT_CURSOR_H_
 #define ANICODEC_TOOLS_IO_BASE_TEXT_CURSOR_H_
 
+#include "tools/io/base/local_origin.h"
+
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -65,6 +67,16 @@ class TextCursor {
       return x;
     }
     return difficult_coordinate(vertex);
+  }
+
+  /// The same from a local origin.
+  float coordinate(size_t vertex, size_t axis, LocalOrigin& origin) {
+    if (origin.is_plain(axis) || at_line_end())
+      return coordinate(vertex);
+    double exact = 0;
+    const bool is_number = std::from_chars(after_plus(), end_, exact).ec == std::errc();
+    const float x = coordinate(vertex);
+    return origin.rounded(is_number ? exact : static_cast<double>(x), axis);
   }
 
   /// A number of any size, "nan" and "inf" included; one that no double holds is not a number.

@@ -302,7 +302,7 @@ void FbxTake::move(const Piece& piece, const ufbx_scene& scene, uint32_t frame, 
   const ufbx_mesh& mesh = *node.mesh;
   const auto put = [&](size_t vertex, const ufbx_vec3& p) {
     for (size_t k = 0; k < 3; ++k)
-      out[3 * vertex + k] = static_cast<float>(p.v[k]);
+      out[3 * vertex + k] = static_cast<float>(p.v[k] - options_.origin[k]);
   };
   const State own = piece.mirrored ? State::kMirrored : State::kPlain;
   if (states_[piece.node][frame] != own) {

@@ -162,8 +162,8 @@ class ObjParser {
  private:
   void vertex() {
     size_t index = mesh_.vertex_count();
-    for (int k = 0; k < 3; ++k)
-      mesh_.positions.push_back(in_.coordinate(index));
+    for (size_t k = 0; k < 3; ++k)
+      mesh_.positions.push_back(in_.coordinate(index, k, mesh_.origin));
     int extra = 0;
     float numbers[3];
     for (; !in_.at_line_end(); ++extra) {
@@ -352,14 +352,14 @@ ObjDetails::Names ObjDetails::names(const char* keyword, const PolygonLabels& la
 }
 
 void append_obj(const Polygons& polygons, std::span<const float> positions, std::string& out,
-                const ObjDetails* details) {
+                const ObjDetails* details, const Point& origin) {
   if (details)
     out += details->library_;
   const bool has_uv = details && !details->uv_.empty();
   const bool has_normals = details && details->normals_.has_value();
   for (size_t i = 0; i + 2 < positions.size(); i += 3) {
     out += "v ";
-    append_floats(positions.subspan(i, 3), out);
+    append_position(&positions[i], origin, out);
     if (details && !details->colours_.empty()) {
       out += ' ';
       append_floats({details->colours_.data() + i, 3}, out);

@@ -40,7 +40,8 @@ class ObjDetails {
   void set_attributes(const std::vector<Attribute>& attributes);
 
  private:
-  friend void append_obj(const Polygons&, std::span<const float>, std::string&, const ObjDetails*);
+  friend void append_obj(const Polygons&, std::span<const float>, std::string&, const ObjDetails*,
+                         const Point&);
 
   struct Names {
     std::vector<std::string> lines;    ///< "usemtl NAME"
@@ -62,10 +63,10 @@ class ObjDetails {
   Names objects_, materials_;
 };
 
-/// Appends an OBJ of one frame; coordinates read back to the same floats. Normals are those of the
-/// frame.
+/// Appends an OBJ of one frame, its positions from a local origin; coordinates read back to the same floats. Normals
+/// are those of the frame.
 void append_obj(const Polygons& polygons, std::span<const float> positions, std::string& out,
-                const ObjDetails* details = nullptr);
+                const ObjDetails* details = nullptr, const Point& origin = {});
 
 }  // namespace anicodec::tools
 

@@ -66,8 +66,8 @@ int skip_numbers(TextCursor& in) {
 }
 
 void parse_vertex(TextCursor& in, size_t index, Extras extras, Mesh& mesh) {
-  for (int k = 0; k < 3; ++k)
-    mesh.positions.push_back(in.coordinate(index));
+  for (size_t k = 0; k < 3; ++k)
+    mesh.positions.push_back(in.coordinate(index, k, mesh.origin));
   int extra = skip_numbers(in);
   if (extra < extras.least || extra > extras.most)
     in.fail("vertex " + std::to_string(index) + " has " + std::to_string(3 + extra) +
@@ -121,11 +121,12 @@ void parse_off(std::string_view text, std::string_view name, Mesh& mesh) {
   check_size(mesh, name);
 }
 
-void append_off(const Polygons& polygons, std::span<const float> positions, std::string& out) {
+void append_off(const Polygons& polygons, std::span<const float> positions, std::string& out,
+                const Point& origin) {
   out += "OFF\n" + std::to_string(positions.size() / 3) + " " + std::to_string(polygons.size()) +
          " 0\n";
   for (size_t i = 0; i + 2 < positions.size(); i += 3) {
-    append_floats(positions.subspan(i, 3), out);
+    append_position(&positions[i], origin, out);
     out += '\n';
   }
   for (size_t p = 0; p < polygons.size(); ++p) {

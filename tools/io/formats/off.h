@@ -17,8 +17,9 @@ namespace anicodec::tools {
 /// 4OFF, nOFF and binary OFF are refused. Throws Error(kInput) "name:line: reason".
 void parse_off(std::string_view text, std::string_view name, Mesh& mesh);
 
-/// Appends an OFF of one frame; coordinates read back to the same floats.
-void append_off(const Polygons& polygons, std::span<const float> positions, std::string& out);
+/// Appends an OFF of one frame, its positions from a local origin; coordinates read back to the same floats.
+void append_off(const Polygons& polygons, std::span<const float> positions, std::string& out,
+                const Point& origin = {});
 
 }  // namespace anicodec::tools
 

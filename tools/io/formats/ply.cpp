@@ -33,7 +33,9 @@ class AsciiBody {
 
   void end_element() { in_.end_line(); }
 
-  float coordinate(PlyType, size_t vertex) { return in_.coordinate(vertex); }
+  float coordinate(PlyType, size_t vertex, size_t axis, LocalOrigin& origin) {
+    return in_.coordinate(vertex, axis, origin);
+  }
 
   int64_t integer(PlyType, const char* what) { return in_.integer(what); }
 
@@ -71,13 +73,14 @@ class BinaryBody {
 
   void end_element() {}
 
-  float coordinate(PlyType type, size_t vertex) {
+  float coordinate(PlyType type, size_t vertex, size_t axis, LocalOrigin& origin) {
     double x = type == PlyType::kFloat32   ? static_cast<double>(take<float>())
                : type == PlyType::kFloat64 ? take<double>()
                                            : static_cast<double>(integer(type, "coordinate"));
-    float rounded = std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max())
-                        ? static_cast<float>(x)
-                        : std::numeric_limits<float>::quiet_NaN();
+    float rounded =
+        std::abs(x - origin.at[axis]) <= static_cast<double>(std::numeric_limits<float>::max())
+            ? origin.rounded(x, axis)
+            : std::numeric_limits<float>::quiet_NaN();
     if (!std::isfinite(rounded))
       fail_input(name_, "a coordinate of vertex " + std::to_string(vertex) +
                             (std::isfinite(x) ? " exceeds the range of 32-bit numbers"
@@ -194,7 +197,8 @@ void read_vertices(const PlyElement& element, std::string_view name, Body& body,
     body.begin_element(element, v);
     for (size_t i = 0; i < axis_of.size(); ++i) {
       if (axis_of[i] != kNone)
-        mesh.positions[v * 3 + axis_of[i]] = body.coordinate(element.properties[i].type, v);
+        mesh.positions[v * 3 + axis_of[i]] =
+            body.coordinate(element.properties[i].type, v, axis_of[i], mesh.origin);
       else if (attributes.takes(i))
         attributes.add(v, i, body.value(element.properties[i].type));
       else
@@ -315,21 +319,23 @@ void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh, MeshDe
 }
 
 void append_ply(const Polygons& polygons, std::span<const float> positions, bool ascii,
-                std::string& out, const PlyProperties* properties) {
+                std::string& out, const PlyProperties* properties, const Point& origin) {
   size_t largest = 0;
   for (size_t p = 0; p < polygons.size(); ++p)
     largest = std::max(largest, polygons[p].size());
   bool narrow = largest <= 255;
   out += std::string("ply\nformat ") + (ascii ? "ascii" : "binary_little_endian") + " 1.0\n";
-  out += "element vertex " + std::to_string(positions.size() / 3) +
-         "\nproperty float x\nproperty float y\nproperty float z\n";
+  out += "element vertex " + std::to_string(positions.size() / 3) + "\n";
+  const bool wide = origin != Point();
+  for (const char* axis : {"x", "y", "z"})
+    out += std::string("property ") + (wide ? "double " : "float ") + axis + "\n";
   if (properties)
     out += properties->declarations();
   out += "element face " + std::to_string(polygons.size()) + "\nproperty list " +
          (narrow ? "uchar" : "uint") + " int vertex_indices\nend_header\n";
   if (ascii) {
     for (size_t i = 0; i + 2 < positions.size(); i += 3) {
-      append_floats(positions.subspan(i, 3), out);
+      append_position(&positions[i], origin, out);
       if (properties)
         properties->append(i / 3, ascii, out);
       out += '\n';
@@ -345,8 +351,12 @@ void append_ply(const Polygons& polygons, std::span<const float> positions, bool
     return;
   }
   for (size_t i = 0; i + 2 < positions.size(); i += 3) {
-    for (float x : positions.subspan(i, 3))
-      append(x, std::endian::little, out);
+    for (size_t k = 0; k < 3; ++k) {
+      if (wide)
+        append(origin[k] + static_cast<double>(positions[i + k]), std::endian::little, out);
+      else
+        append(positions[i + k], std::endian::little, out);
+    }
     if (properties)
       properties->append(i / 3, ascii, out);
   }

@@ -25,9 +25,10 @@ void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh,
                MeshDetails* details = nullptr, std::vector<std::string>* left_out = nullptr);
 
 /// Appends a PLY of one frame, binary_little_endian or ascii; coordinates read back to the same
-/// floats. `properties`, where given, are those of the vertices beside their positions.
+/// floats. `properties`, where given, are those of the vertices beside their positions, which are of double from an `origin`.
 void append_ply(const Polygons& polygons, std::span<const float> positions, bool ascii,
-                std::string& out, const PlyProperties* properties = nullptr);
+                std::string& out, const PlyProperties* properties = nullptr,
+                const Point& origin = {});
 
 }  // namespace anicodec::tools
 

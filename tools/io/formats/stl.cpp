@@ -45,7 +45,7 @@ class StlText {
   TextCursor in_;
 };
 
-void parse_facet(StlText& text, std::vector<float>& soup) {
+void parse_facet(StlText& text, std::vector<float>& soup, LocalOrigin& origin) {
   text.expect("normal");
   // Exporters write all kinds of "not a number" as the normal of a degenerate triangle.
   for (int k = 0; k < 3; ++k)
@@ -54,16 +54,17 @@ void parse_facet(StlText& text, std::vector<float>& soup) {
   text.expect("loop");
   for (int corner = 0; corner < 3; ++corner) {
     text.expect("vertex");
-    for (int k = 0; k < 3; ++k) {
+    for (size_t k = 0; k < 3; ++k) {
       text.in().next_line();
-      soup.push_back(text.in().coordinate(soup.size() / 3));
+      soup.push_back(text.in().coordinate(soup.size() / 3, k, origin));
     }
   }
   text.expect("endloop");
   text.expect("endfacet");
 }
 
-void parse_ascii(std::string_view bytes, std::string_view name, std::vector<float>& soup) {
+void parse_ascii(std::string_view bytes, std::string_view name, std::vector<float>& soup,
+                 LocalOrigin& origin) {
   StlText text(bytes, name);
   while (!text.at_end()) {
     text.expect("solid");
@@ -74,13 +75,14 @@ void parse_ascii(std::string_view bytes, std::string_view name, std::vector<floa
         break;
       if (keyword != "facet")
         text.in().fail("'" + shown(keyword) + "' stands where facet or endsolid is expected");
-      parse_facet(text, soup);
+      parse_facet(text, soup, origin);
     }
     text.in().skip_line();
   }
 }
 
-void parse_binary(std::string_view bytes, std::string_view name, std::vector<float>& soup) {
+void parse_binary(std::string_view bytes, std::string_view name, std::vector<float>& soup,
+                  LocalOrigin& origin) {
   size_t triangles = (bytes.size() - kHeaderSize) / kTriangleSize;
   soup.reserve(triangles * 9);
   for (size_t t = 0; t < triangles; ++t) {
@@ -90,7 +92,7 @@ void parse_binary(std::string_view bytes, std::string_view name, std::vector<flo
       if (!std::isfinite(x))
         fail_input(name, "corner " + std::to_string(i / 3) + " of triangle " + std::to_string(t) +
                              ": the position is not finite");
-      soup.push_back(x);
+      soup.push_back(origin.rounded(static_cast<double>(x), i % 3));
     }
   }
 }
@@ -119,7 +121,7 @@ std::array<float, 3> unit_normal(std::span<const float> positions,
 }
 
 void append_triangle(std::span<const float> positions, std::array<uint32_t, 3> corners, bool ascii,
-                     std::string& out) {
+                     const Point& origin, std::string& out) {
   std::array<float, 3> normal = unit_normal(positions, corners);
   if (ascii) {
     out += "facet normal ";
@@ -127,7 +129,7 @@ void append_triangle(std::span<const float> positions, std::array<uint32_t, 3> c
     out += "\nouter loop\n";
     for (uint32_t v : corners) {
       out += "vertex ";
-      append_floats(positions.subspan(v * size_t{3}, 3), out);
+      append_position(&positions[v * size_t{3}], origin, out);
       out += '\n';
     }
     out += "endloop\nendfacet\n";
@@ -144,7 +146,8 @@ void append_triangle(std::span<const float> positions, std::array<uint32_t, 3> c
 
 }  // namespace
 
-void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>& soup) {
+void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>& soup,
+               LocalOrigin& origin) {
   soup.clear();
   if (bytes.empty())
     fail_input(name, "the file is empty");
@@ -157,9 +160,9 @@ void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>
   bool text = (start == "solid" || start == "SOLID" || start == "Solid") &&
               bytes.substr(0, kHeaderSize).find('\0') == std::string_view::npos;
   if (expected == bytes.size())
-    parse_binary(bytes, name, soup);
+    parse_binary(bytes, name, soup, origin);
   else if (text)
-    parse_ascii(bytes, name, soup);
+    parse_ascii(bytes, name, soup, origin);
   else if (expected == 0)
     fail_input(name, "is not an STL file: neither text nor a binary header of 84 bytes");
   else
@@ -173,7 +176,7 @@ void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>
 }
 
 void append_stl(const Polygons& polygons, std::span<const float> positions, bool ascii,
-                std::string& out) {
+                std::string& out, const Point& origin) {
   size_t triangles = 0;
   for (size_t p = 0; p < polygons.size(); ++p)
     triangles += std::max<size_t>(polygons[p].size(), 2) - 2;
@@ -186,7 +189,7 @@ void append_stl(const Polygons& polygons, std::span<const float> positions, bool
   for (size_t p = 0; p < polygons.size(); ++p) {
     std::span<const uint32_t> polygon = polygons[p];
     for (size_t i = 2; i < polygon.size(); ++i)
-      append_triangle(positions, {polygon[0], polygon[i - 1], polygon[i]}, ascii, out);
+      append_triangle(positions, {polygon[0], polygon[i - 1], polygon[i]}, ascii, origin, out);
   }
   if (ascii)
     out += "endsolid anicodec\n";

@@ -16,12 +16,13 @@ namespace anicodec::tools {
 /// Reads STL, binary or ascii (several solids are one mesh), as a soup: triangles x 3 corners x 3
 /// floats, degenerate ones included. Normals and attribute bytes are dropped. A file is binary when
 /// its size fits the count of triangles in its header, else ascii. Throws Error(kInput).
-void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>& soup);
+void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>& soup,
+               LocalOrigin& origin);
 
 /// Appends a binary or ascii STL of one frame: polygons, triangles best, as fans from their first
-/// corner, unit normals (zero for degenerate triangles). Unused vertices are lost.
+/// corner, unit normals (zero for degenerate triangles). Unused vertices are lost. Ascii has positions from a local origin.
 void append_stl(const Polygons& polygons, std::span<const float> positions, bool ascii,
-                std::string& out);
+                std::string& out, const Point& origin = {});
 
 /// Makes shared vertices of the corners of an STL sequence. Corners at exactly the same place in
 /// frame 0 are one vertex, numbered by first occurrence, and must stay together in all other

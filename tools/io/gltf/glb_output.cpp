@@ -191,6 +191,12 @@ class GlbOutput::Writer {
       root["rotation"] = {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
     if (const double unit = clip_.metres_per_unit; unit > 0 && unit != 1)
       root["scale"] = {unit, unit, unit};
+    if (clip_.origin != Point()) {
+      const double unit = clip_.metres_per_unit > 0 ? clip_.metres_per_unit : 1;
+      const auto& [x, y, z] = clip_.origin;
+      const Point place = clip_.up == UpAxis::kZ ? Point{x, z, -y} : clip_.origin;
+      root["translation"] = {unit * place[0], unit * place[1], unit * place[2]};
+    }
     return nodes;
   }
 

@@ -26,6 +26,8 @@ struct GltfOptions {
   /// Name or number of the animation, or several with "+" between them that are played together; "none"
   /// for the pose without; empty: the first that moves something, and those that move something else.
   std::string clip = {};
+  /// Taken from the positions before they are rounded to float.
+  Point origin = {};
   /// Most bytes that decompressed buffers, keys, geometry, and frames may take, each.
   uint64_t memory_limit = uint64_t{1} << 36;
   /// Buffers may stand outside the folder of the file, by URIs that climb with "..".

@@ -485,10 +485,11 @@ Transform blended(const GltfVertices& vertices, const std::vector<Transform>& jo
 void GltfBake::move(const Piece& piece, const GltfPose& pose, const Worlds& worlds,
                     float* positions) const {
   const GltfVertices& vertices = piece.geometry->vertices;
+  const Eigen::Map<const Eigen::Vector3d> origin(options_.origin.data());
   if (!worlds.visible[piece.node] ||
       (piece.in_turn && worlds.mirrored[piece.node] != piece.shown_while_mirrored)) {
     Eigen::Map<Eigen::Matrix3Xf>(positions, 3, vertices.count).colwise() =
-        worlds.nodes[piece.node].col(3).cast<float>();
+        (worlds.nodes[piece.node].col(3) - origin).cast<float>();
     return;
   }
   const std::vector<double> base =
@@ -500,7 +501,7 @@ void GltfBake::move(const Piece& piece, const GltfPose& pose, const Worlds& worl
         skinned ? blended(vertices, worlds.joints[document_.nodes[piece.node].skin], v) : world;
     const Eigen::Vector3d p =
         m.leftCols<3>() * Eigen::Map<const Eigen::Vector3d>(base.data() + 3 * v) + m.col(3);
-    Eigen::Map<Eigen::Vector3f>(positions + 3 * v) = p.cast<float>();
+    Eigen::Map<Eigen::Vector3f>(positions + 3 * v) = (p - origin).cast<float>();
   }
 }
 

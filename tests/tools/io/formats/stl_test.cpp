@@ -15,7 +15,8 @@ using testing::HasSubstr;
 
 std::vector<float> parse_stl_bytes(std::string_view bytes) {
   std::vector<float> soup;
-  parse_stl(bytes, "a.stl", soup);
+  LocalOrigin origin;
+  parse_stl(bytes, "a.stl", soup, origin);
   return soup;
 }
 
