@@ -314,6 +314,11 @@ void add_arguments(Options& options, EncodeArguments& a) {
   add_massage_options(options, a);
   add_attributes(options, a);
   add_metadata(options, a);
+  options.watch([&a](const Option& option, const std::string& value) {
+    const std::string name = option.long_name();
+    if (!option.is_argument() && name != "--output" && name != "--batch" && name != "--memory")
+      a.given.push_back(name + "=" + value);
+  });
 }
 
 void add_clip_arguments(Options& options, EncodeArguments& a) {
@@ -459,26 +464,7 @@ void set_metadata(const EncodeArguments& command, MeshSequence& sequence) {
 }
 
 std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) {
-  nlohmann::ordered_json settings{c.kg,   c.max_error, c.rmse, c.displacement, c.sted, c.quality ? sted_of(*c.quality) : 0, c.size,
-                                  c.bpfv, c.keyframes, c.effort, options.encoder};
-  for (int choice :
-       {static_cast<int>(c.basis), static_cast<int>(c.selection), static_cast<int>(c.order),
-        c.interpolation ? static_cast<int>(*c.interpolation) : -1, static_cast<int>(c.massage),
-        static_cast<int>(c.smallest), static_cast<int>(c.keyframe_coder),
-        static_cast<int>(c.split_objects)})
-    settings.push_back(choice);
-  settings.push_back(c.massage_strength);
-  settings.push_back(c.origin);
-  settings.push_back(c.massage_tolerance);
-  settings.push_back(c.attribute_error);
-  settings.push_back(c.normal_error);
-  settings.push_back(c.root_motion);
-  settings.push_back(c.events);
-  settings.push_back(options.metadata);
-  for (uint32_t number : {uint32_t{options.attributes.keep}, options.attributes.uv_bits,
-                          options.attributes.colour_bits})
-    settings.push_back(number);
-  return settings.dump();
+  return nlohmann::ordered_json{c.given, options.encoder, options.metadata}.dump();
 }
 
 }  // namespace anicodec::tools

@@ -55,6 +55,7 @@ struct EncodeArguments {
   bool live = false;
   double piece = 1;                 ///< of a live stream, seconds
   std::vector<std::string> events;    ///< [CLIP:]NAME=SECONDS
+  std::vector<std::string> given;     ///< "--option=value" for all that an output depends on beside its clip
   std::vector<std::string> metadata;  ///< KEY=VALUE
   std::string metadata_file;          ///< a JSON object
   bool root_motion = false;

@@ -139,4 +139,13 @@ Option& Options::one_of(const std::string& names, std::vector<std::string> words
   return option;
 }
 
+void Options::watch(const std::function<void(const Option&, const std::string&)>& seen) {
+  for (Option& option : options_) {
+    option.read = [&option, seen, read = option.read](const std::string& value) {
+      seen(option, value);
+      read(value);
+    };
+  }
+}
+
 }  // namespace anicodec::tools

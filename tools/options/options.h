@@ -109,6 +109,9 @@ class Options {
   /// At most one of these options may be given; names in full, such as --csv.
   void exclude(std::vector<std::string> names) { excluded_.push_back(std::move(names)); }
 
+  /// Tells each value of the options declared so far, of a flag an empty text, before the option reads it.
+  void watch(const std::function<void(const Option&, const std::string&)>& seen);
+
   const std::deque<Option>& all() const { return options_; }
 
   const std::vector<std::vector<std::string>>& excluded() const { return excluded_; }
