@@ -16,10 +16,11 @@
 namespace anicodec {
 namespace {
 
-Clip opened(const Bytes& file) {
+Clip opened(const Bytes& file, KeptLearning* learning) {
   Clip clip;
   OpenOptions options;
   options.threads = task_threads();
+  options.learning = learning;
   if (Failure failure = clip.open(file, options); !failure.ok())
     throw Error(ErrorKind::kInternal,
                 std::string("the encoded file cannot be opened: ") + status_string(failure.status));
@@ -156,8 +157,8 @@ BoundsRecord bounds_of(const Clip& clip, uint32_t number) {
 
 CheckedFile check_file(const Bytes& file, const EncoderInput& input,
                        const std::vector<StoredAttribute>& stored, uint32_t first_frame,
-                       std::vector<AttributeResult>* attributes) {
-  const Clip clip = opened(file);
+                       KeptLearning* learning, std::vector<AttributeResult>* attributes) {
+  const Clip clip = opened(file, learning);
   CheckedFile checked;
   std::vector<MeasuredClip>& clips = checked.clips;
   for (const InputClip& source : input.clips) {

@@ -28,12 +28,12 @@ struct CheckedFile {
 
 /// Opens a file as a decoder does, plays it and compares each clip with the source: positions, and
 /// the attributes that change over time, whose errors over all clips are filled in. `first_frame`:
-/// the frame of the source that the file begins with. Throws Error(kInternal) for a file that cannot be opened, that
+/// the frame of the source that the file begins with; `learning`: OpenOptions::learning. Throws Error(kInternal) for a file that cannot be opened, that
 /// decodes to other integers, or with an attribute further off than was asked for. Cost: that of
 /// playing all frames.
 CheckedFile check_file(const Bytes& file, const EncoderInput& input,
                        const std::vector<StoredAttribute>& stored, uint32_t first_frame,
-                       std::vector<AttributeResult>* attributes);
+                       KeptLearning* learning, std::vector<AttributeResult>* attributes);
 
 }  // namespace anicodec
 

@@ -12,6 +12,7 @@
 #include "codec/segment/exact_encode.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
+#include "sdk/clip/kept_learning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -196,6 +197,8 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
       throw Error(ErrorKind::kInput, "the reference pose is of another mesh");
     input.pose = options.pose;
   }
+  if (options.learning)
+    input.learning = {true, options.learning->latest(0)};
   input.layout.has_bounds = options.bounds;
   if (!options.metadata.empty())
     input.layout.metadata = checked_metadata(options.metadata);
@@ -210,7 +213,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   const Bytes file = coded.file(record, input.layout);
   std::vector<AttributeResult>& attributes = coded.attributes.results;
   const CheckedFile checked =
-      check_file(file, input, stored, options.part ? options.part->first : 0, &attributes);
+      check_file(file, input, stored, options.part ? options.part->first : 0, options.learning, &attributes);
   const std::vector<MeasuredClip>& measured = checked.clips;
   EncodeResult result = result_of(measured, input);
   for (size_t c = 0; c < measured.size(); ++c) {

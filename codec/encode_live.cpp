@@ -22,8 +22,8 @@ ContainerReader container_of(const Bytes& file) {
 
 }  // namespace
 
-LiveEncoder::LiveEncoder(MeshSequence mesh, const EncodeOptions& options)
-    : mesh_(std::move(mesh)), options_(options) {
+LiveEncoder::LiveEncoder(MeshSequence mesh, const EncodeOptions& options, double key_every)
+    : mesh_(std::move(mesh)), options_(options), key_every_(key_every) {
   options_.effort = options.effort - 1;
   const ErrorMetric metric = options.target.metric;
   if (metric == ErrorMetric::kSize || metric == ErrorMetric::kBpfv || metric == ErrorMetric::kNone ||
@@ -63,8 +63,16 @@ EncodeResult LiveEncoder::encode(FrameArray positions) {
   check(sequence);
   if (base_.empty())
     begin(sequence);
+  const double seconds = sequence.frame_count / mesh_.rate.value();
+  const double half_a_frame = 0.5 / mesh_.rate.value();
+  if (since_key_ + half_a_frame >= key_every_) {
+    learning_.clear();
+    since_key_ = 0;
+  }
+  since_key_ += seconds;
+  options_.learning = key_every_ > 0 ? &learning_ : nullptr;
   EncodeResult result = anicodec::encode(std::move(sequence), options_);
-  mesh_.start_time += result.frames / mesh_.rate.value();
+  mesh_.start_time += seconds;
   if (base_.empty()) {
     base_ = result.file;
     options_.pose = clip_home({"the first file", base_}).pose;

@@ -6,11 +6,15 @@
 #include "codec/file/encode_options.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "format/bytes.h"
+#include "sdk/clip/kept_learning.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace anicodec {
+
+/// Seconds between files of a live stream that begin anew.
+inline constexpr double kKeyEvery = 4;
 
 /// Encodes frames while they come, as a live stream (spec/05-file-layout.md, section 8): a file for each few of
 /// them. Mesh, attributes, order and reference pose are those of the first one, which alone has them.
@@ -18,9 +22,11 @@ class LiveEncoder {
  public:
   /// `mesh`: all but the frames, with the clock of the clip; attributes are kept as they are in it. A largest error
   /// in per cent is one of the diagonal of the first file's frames. Effort 1 takes the first file that keeps the
-  /// target, others search as one less does for a whole clip. Throws Error(kUsage) for what needs all frames:
+  /// target, others search as one less does for a whole clip. Files go on learning where the one before ended; the first
+  /// that starts `key_every` seconds after one that began anew does so again, and whoever joins late or has lost a file
+  /// goes on there; 0: each does. Throws Error(kUsage) for what needs all frames:
   /// sizes, key-frames, lossless files, the motion of the whole.
-  LiveEncoder(MeshSequence mesh, const EncodeOptions& options);
+  LiveEncoder(MeshSequence mesh, const EncodeOptions& options, double key_every = kKeyEvery);
 
   /// The next file of the stream: of frames x vertices x 3 floats, one frame at least. Errors as of encode().
   /// Time and memory do not grow with the stream.
@@ -32,6 +38,9 @@ class LiveEncoder {
   MeshSequence mesh_;  ///< without frames; start_time: of the next file
   EncodeOptions options_;
   Bytes base_;  ///< the file that continuations continue
+  double key_every_;
+  double since_key_ = 0;  ///< seconds of the files since the last one that began anew, this included
+  KeptLearning learning_;
 };
 
 }  // namespace anicodec

@@ -19,7 +19,7 @@ constexpr size_t kTableBytesAt = 36;
 // Flags of an entry.
 constexpr uint8_t kRequired = 1, kOfMesh = 2, kOfSegment = 4, kCopied = 8;
 
-constexpr uint64_t kKnownFeatures = kContinuation | kDracoFeature | kMsgiFeature;
+constexpr uint64_t kKnownFeatures = kContinuation | kDracoFeature | kMsgiFeature | kLearningFeature;
 
 /// The texts of failures, one for each feature that is not known.
 constexpr auto kUnknownFeature = [] {

@@ -23,8 +23,8 @@ inline constexpr size_t kHeaderBytes = 40;
 inline constexpr size_t kLeastEntryBytes = 10;  // without mesh and segment, of a short payload
 
 /// Features, as bits of the header (spec/13-extending.md, section 2). The meshes of a continuation are
-/// those of a file before it in a live stream; the other two are the optional profile.
-inline constexpr uint64_t kContinuation = 1, kDracoFeature = 2, kMsgiFeature = 4;
+/// those of a file before it in a live stream; the other three are the optional profile.
+inline constexpr uint64_t kContinuation = 1, kDracoFeature = 2, kMsgiFeature = 4, kLearningFeature = 8;
 
 /// Chunk types are four ASCII characters, the first one in the lowest byte.
 constexpr uint32_t chunk_type(const char (&name)[5]) {

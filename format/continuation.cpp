@@ -59,6 +59,14 @@ uint64_t mesh_hash(const ContainerReader& file) {
   return xxh64(meshes.bytes());
 }
 
+uint64_t segment_identity(ByteView record, const Vector<ByteView>& layers) {
+  ByteWriter payloads;
+  payloads.u64(xxh64(record));
+  for (ByteView layer : layers)
+    payloads.u64(xxh64(layer));
+  return xxh64(payloads.bytes());
+}
+
 Bytes without_meshes(const ContainerReader& file) {
   Spliced out;
   out.add_if(file, false);

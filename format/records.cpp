@@ -24,7 +24,8 @@ constexpr uint32_t kContinuedMeshes = 1;
 constexpr uint32_t kOrigin = 1;
 
 /// Flags of a segment in the limits.
-constexpr uint8_t kExact = 1, kRegions = 2, kOfAttribute = 4, kDraco = 8;
+constexpr uint8_t kExact = 1, kRegions = 2, kOfAttribute = 4, kDraco = 8, kLearns = 16;
+constexpr uint32_t kContinued = 1;  // tag of a field of SEGM
 constexpr uint64_t kMaxAttributeNumbers = uint64_t{1} << 46;
 
 bool is_length(double x) {
@@ -47,7 +48,7 @@ bool is_supported(uint8_t basis, uint8_t reconstruction, uint8_t flags) {
   return basis <= static_cast<uint8_t>(BasisKind::kEigentrajectories) &&
          (is(reconstruction, Reconstruction::kLinear) ||
           (is(reconstruction, Reconstruction::kMsgi) && keyframes)) &&
-         !(flags & ~(kExact | kRegions | kOfAttribute | kDraco)) &&
+         !(flags & ~(kExact | kRegions | kOfAttribute | kDraco | kLearns)) && (!(flags & kLearns) || !keyframes) &&
          (!(flags & kRegions) || trajectories) && (!(flags & kDraco) || keyframes) &&
          (!(flags & kOfAttribute) || (trajectories && flags == kOfAttribute));
 }
@@ -87,7 +88,7 @@ void write_segment(const Limits::Segment& s, ByteWriter& w) {
   w.u8(static_cast<uint8_t>(s.reconstruction));
   w.u8(static_cast<uint8_t>((s.exact ? kExact : 0) | (s.regions > 1 ? kRegions : 0) |
                             (is_of_attribute(s) ? kOfAttribute : 0) |
-                            (s.draco_bytes > 0 ? kDraco : 0)));
+                            (s.draco_bytes > 0 ? kDraco : 0) | (s.learns ? kLearns : 0)));
   for (uint32_t x : {s.first_frame, s.frames, s.components, s.wide_components, s.corrections})
     w.varint(x);
   if (s.regions > 1)
@@ -129,6 +130,7 @@ Status read_segment(ByteReader& r, size_t meshes, uint32_t frames, Limits::Segme
   s->kind = static_cast<BasisKind>(basis);
   s->reconstruction = static_cast<Reconstruction>(reconstruction);
   s->exact = flags & kExact;
+  s->learns = flags & kLearns;
   s->first_frame = r.varint32(kMaxFrames);
   s->frames = r.varint32(kMaxFrames);
   s->components = r.varint32(kMaxComponents);
@@ -238,7 +240,8 @@ uint64_t Limits::features() const {
   uint64_t features = 0;
   for (const Segment& s : segments)
     features |= (s.draco_bytes > 0 ? kDracoFeature : 0) |
-                (s.reconstruction == Reconstruction::kMsgi ? kMsgiFeature : 0);
+                (s.reconstruction == Reconstruction::kMsgi ? kMsgiFeature : 0) |
+                (s.learns ? kLearningFeature : 0);
   return features;
 }
 
@@ -506,6 +509,11 @@ Bytes SegmentRecord::write() const {
   w.u64(hash);
   for (ByteView part : {parameters, pose, motion, weights})
     w.block(part);
+  if (continued != 0) {
+    ByteWriter value;
+    value.u64(continued);
+    write_field(w, kContinued, value.bytes());
+  }
   return std::move(w.bytes());
 }
 
@@ -514,7 +522,17 @@ Status SegmentRecord::read(ByteView view, SegmentRecord* out) {
   out->hash = r.u64();
   for (ByteView* part : {&out->parameters, &out->pose, &out->motion, &out->weights})
     *part = r.block();
-  return skip_fields(r) ? Status::kOk : Status::kRecord;
+  out->continued = 0;
+  RecordField field;
+  while (read_field(r, &field)) {
+    if (field.tag != kContinued)
+      continue;
+    ByteReader value(field.value);
+    out->continued = value.u64();
+    if (!value.finished() || out->continued == 0)
+      return Status::kRecord;
+  }
+  return r.finished() ? Status::kOk : Status::kRecord;
 }
 
 }  // namespace anicodec

@@ -71,6 +71,7 @@ struct Limits {
     uint32_t draco_bytes = 0;      ///< of the Draco bitstream; 0: the key-frames are native
     Reconstruction reconstruction = Reconstruction::kLinear;
     bool exact = false;  ///< the positions of its frames are there bit for bit (ExactRecord)
+    bool learns = false;  ///< what it learns is kept for one that continues it (SegmentRecord::continued)
     /// The quantity that it moves: positions, or three components of an attribute, in number from
     /// first_component on, a multiple of three.
     uint32_t attribute = kPositions;
@@ -226,6 +227,7 @@ struct SegmentRecord {
   ByteView pose;        ///< key-frames
   ByteView motion;      ///< rigid motion, empty when there is none
   ByteView weights;     ///< time weights
+  uint64_t continued = 0;  ///< segment_identity() of the one that this continues; 0: it begins anew
 
   Bytes write() const;
   static Status read(ByteView view, SegmentRecord* out);

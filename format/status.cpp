@@ -66,6 +66,8 @@ const char* status_string(Status status) {
       return "decoded integers do not match the stored hash";
     case Status::kMeshes:
       return "the file continues a file with other meshes";
+    case Status::kSegmentMissing:
+      return "a segment continues one that is missing";
     case Status::kLimit:
       return "file exceeds the caller's limits";
     case Status::kMemory:

@@ -45,6 +45,7 @@ enum class Status : int32_t {
   kSegment = 48,
   kHash = 49,
   kMeshes = 50,
+  kSegmentMissing = 51,
   // 60-69: limits
   kLimit = 60,
   // 70-79: the host: memory, callbacks

@@ -77,6 +77,7 @@ Bytes clip_file(const ClipsRecord& record, const MeshLayout& layout,
       file.add("POSE", true, kMesh, i, pose_record(*s.reference));
     SegmentRecord segment;
     segment.hash = s.hash;
+    segment.continued = s.continued_identity;
     segment.parameters = s.parameters;
     segment.pose = s.pose;
     segment.motion = s.motion;

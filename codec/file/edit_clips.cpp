@@ -152,6 +152,8 @@ class Edited {
     Failure failure = opened.open(bytes);
     if (failure.ok())
       failure = opened.check_hashes();
+    if (failure.status == Status::kSegmentMissing)
+      fail(base_.file, ErrorKind::kUnsupported, "has a segment that continues one of a clip that would be gone");
     if (!failure.ok())
       fail(base_.file, ErrorKind::kInternal,
            std::string("the file with other clips is not valid: ") + status_string(failure.status));

@@ -19,6 +19,8 @@
 
 namespace anicodec {
 
+class KeptLearning;
+
 enum class BasisChoice : uint8_t { kAuto, kKeyframes, kEigenshapes, kEigentrajectories };
 
 /// How frames are made from key-frames: on straight lines, by multi-scale geometry interpolation
@@ -59,6 +61,9 @@ struct EncodeOptions {
   /// The mesh as it lies in a file that the clip goes to, with its attributes: those of the sequence are left
   /// alone. Null: it is laid out.
   std::shared_ptr<const MeshLayout> layout;
+  /// What the files of a live stream before this one have taught: its segment goes on there, and leaves what it learns
+  /// itself. Null: segments begin anew.
+  KeptLearning* learning = nullptr;
   AttributeOptions attributes;
   int effort = 5;  ///< 1..9: how long to search; 0: the first file that keeps the target is taken
   /// What the search of eigenshapes and eigentrajectories does without, by the names of

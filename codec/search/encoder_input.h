@@ -115,6 +115,8 @@ struct EncoderInput {
   std::vector<float> first_pose;  ///< coded vertices x 3: frame 0 of the source, before any cut
   std::shared_ptr<const EncodedPose> pose;  ///< what a part must refer to, else null
 
+  Learning learning;  ///< of segments of positions that lean on the pose that is given
+
   std::vector<std::string> without;  ///< EncodeOptions::without
 
   /// Whether a search may do what has this name among search_means().

@@ -204,7 +204,7 @@ LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse
   MadeBasis& made = made_basis(choice, most_components(choice.settings));
   std::optional<EncodedSegment> encoded =
       encode_linear(analysis_.clip(), made.basis, choice.settings, input_.layout,
-                    coded_pose(made, choice.settings), runs_);
+                    coded_pose(made, choice.settings), runs_, pose_ ? input_.learning : Learning());
   if (!encoded) {
     m.rmse = m.bytes = std::numeric_limits<double>::infinity();
     return m;

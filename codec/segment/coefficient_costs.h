@@ -61,7 +61,10 @@ class CoefficientCosts {
   /// The arguments of CoefficientModel.
   CoefficientCosts(uint32_t channels, const int32_t* neighbours, uint32_t stride,
                    const Vector<uint32_t>& level_start)
-      : model_(channels, neighbours, stride, level_start), q_(size_t{model_.ranks()} * channels) {}
+      : CoefficientCosts(CoefficientModel(channels, neighbours, stride, level_start)) {}
+
+  explicit CoefficientCosts(CoefficientModel model)
+      : model_(std::move(model)), q_(size_t{model_.ranks()} * model_.channels()) {}
 
   void begin_component() {
     model_.begin_component();

@@ -4,6 +4,7 @@
 
 #include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
+#include "sdk/segment/learnt_segment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,14 +52,14 @@ VertexOrder coefficient_order(const LinearSettings& settings, const MeshLayout& 
 
 CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, VertexOrder order,
                                        const Vector<int32_t>& pose, Coefficients target,
-                                       uint32_t channels)
+                                       uint32_t channels, const LearntSegment* continued)
     : lambda_(settings.lambda),
       joint_lambda_(settings.joint_lambda),
       target_(std::move(target)),
       decoded_(target_.rows(), target_.cols()),
       channels_(channels),
       order_(std::move(order)),
-      model_(fresh_model()),
+      model_(first_model(continued)),
       joint_(order_),
       layers_anew_(settings.layers_anew),
       component_(size_t{ranks()} * channels),
@@ -69,11 +70,17 @@ CoefficientEncoder::CoefficientEncoder(const LinearSettings& settings, VertexOrd
   prediction.schedule = settings.schedule;
   prediction.alike = settings.alike;
   if (predictor_.init(order_, pose.data(), prediction,
-                      static_cast<size_t>(target_.cols()) / channels) != Status::kOk)
+                      static_cast<size_t>(target_.cols()) / channels,
+                      continued ? &continued->prediction : nullptr) != Status::kOk)
     throw Error(ErrorKind::kInternal, "the predictor refuses its parameters");
 }
 
-CoefficientCosts CoefficientEncoder::fresh_model() const {
+CoefficientCosts CoefficientEncoder::first_model(const LearntSegment* continued) const {
+  if (continued) {
+    CoefficientModel model = continued->coefficients[0];
+    model.continue_with(order_.neighbours.data(), order_.level_start);
+    return CoefficientCosts(std::move(model));
+  }
   return {channels_, order_.neighbours.data(), static_cast<uint32_t>(order_.neighbour_count),
           order_.level_start};
 }
@@ -83,7 +90,7 @@ Bytes CoefficientEncoder::finish_layer() {
   Bytes bytes = encoder_.finish();
   encoder_ = RansEncoder();
   if (layers_anew_)
-    model_ = fresh_model();
+    model_ = first_model(nullptr);
   return bytes;
 }
 

@@ -33,9 +33,11 @@ VertexOrder coefficient_order(const LinearSettings& settings, const MeshLayout& 
 /// Predicts, rounds and codes the coefficients of a basis, component by component.
 class CoefficientEncoder {
  public:
-  /// `order`: coefficient_order(); `target`: what the coefficients would best be.
+  /// `order`: coefficient_order(); `target`: what the coefficients would best be; `continued`: where prediction and models
+  /// go on, null: they begin anew.
   CoefficientEncoder(const LinearSettings& settings, VertexOrder order,
-                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels);
+                     const Vector<int32_t>& pose, Coefficients target, uint32_t channels,
+                     const LearntSegment* continued);
 
   struct Component {
     uint8_t omega = 0;  ///< for the next component
@@ -56,7 +58,7 @@ class CoefficientEncoder {
   void take_decoded(DecodedBasis* to) &&;
 
  private:
-  CoefficientCosts fresh_model() const;
+  CoefficientCosts first_model(const LearntSegment* continued) const;
 
   uint32_t ranks() const { return static_cast<uint32_t>(target_.rows()); }
 

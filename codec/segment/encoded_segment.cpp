@@ -111,6 +111,7 @@ Segment open_encoded(EncodedSegment& encoded, const MeshLayout& layout) {
   context.layers.assign(encoded.layers.begin(), encoded.layers.end());
   context.corrections = encoded.corrections;
   context.runs = encoded.runs;
+  context.continued = encoded.continued;
   context.decoded = encoded.decoded ? &*encoded.decoded : nullptr;
   Segment segment;
   Status status = open_segment(record, context, &segment);

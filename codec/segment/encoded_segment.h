@@ -23,6 +23,12 @@ struct EncodedPose {
   Bytes stream;
 };
 
+/// How a segment of a live stream learns for the next one.
+struct Learning {
+  bool hands_on = false;                     ///< whether its decoder keeps what it learns
+  const LearntSegment* continued = nullptr;  ///< where it may go on; null: it begins anew
+};
+
 /// The streams of one segment, ready for the file.
 struct EncodedSegment {
   Limits::Segment sizes;
@@ -37,6 +43,8 @@ struct EncodedSegment {
   std::shared_ptr<const EncodedPose> reference;  ///< of linear bases; segments may share it
   /// What weights and layers decode to, if they were just encoded: opened once without decoding them.
   std::optional<DecodedBasis> decoded;
+  const LearntSegment* continued = nullptr;  ///< what it was coded to go on with, as long as it is opened; may be null
+  uint64_t continued_identity = 0;           ///< SegmentRecord::continued
   uint64_t hash = 0;
 
   /// Bytes in the file but for what the reference pose takes.

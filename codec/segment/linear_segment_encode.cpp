@@ -8,6 +8,7 @@
 #include "codec/sequence/error.h"
 #include "format/coding/time_weights.h"
 #include "sdk/segment/basis_layer.h"
+#include "sdk/segment/learnt_segment.h"
 #include "sdk/segment/region_coding.h"
 
 #include <algorithm>
@@ -86,7 +87,7 @@ class WeightEncoder {
 class LinearEncoder {
  public:
   LinearEncoder(const FrameView& clip, const LinearBasis& basis, const LinearSettings& settings,
-                const MeshLayout& layout, const Vector<uint32_t>& runs)
+                const MeshLayout& layout, const Vector<uint32_t>& runs, const Learning& learning)
       : clip_(clip),
         basis_(basis),
         settings_(settings),
@@ -117,6 +118,10 @@ class LinearEncoder {
     encoded_.sizes.frames = static_cast<uint32_t>(clip.frame_count);
     encoded_.sizes.components = static_cast<uint32_t>(count_);
     encoded_.sizes.regions = parameters_.regions();
+    encoded_.sizes.learns = learning.hands_on && count_ > 0 && !settings.layers_anew &&
+                            settings.neighbours <= kMostLearningNeighbours;
+    if (encoded_.sizes.learns)
+      encoded_.continued = learning.continued;
   }
 
   std::optional<EncodedSegment> run(std::shared_ptr<const EncodedPose> coded_pose) {
@@ -142,9 +147,13 @@ class LinearEncoder {
     });
     if (!is_coded)
       return std::nullopt;
+    if (encoded_.continued && !encoded_.continued->suits(encoded_.sizes.kind, order))
+      encoded_.continued = nullptr;
+    if (encoded_.continued)
+      encoded_.continued_identity = encoded_.continued->identity;
     if (count_ > 0) {
       CoefficientEncoder coefficients(settings_, std::move(order), pose(), std::move(target),
-                                      shapes_ ? 3 : 1);
+                                      shapes_ ? 3 : 1, encoded_.continued);
       if (!code_layers(coefficients))
         return std::nullopt;
       if (settings_.refit_weights)
@@ -368,8 +377,8 @@ std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearB
                                             const LinearSettings& settings,
                                             const MeshLayout& layout,
                                             std::shared_ptr<const EncodedPose> pose,
-                                            const Vector<uint32_t>& runs) {
-  return LinearEncoder(clip, basis, settings, layout, runs).run(std::move(pose));
+                                            const Vector<uint32_t>& runs, const Learning& learning) {
+  return LinearEncoder(clip, basis, settings, layout, runs, learning).run(std::move(pose));
 }
 
 }  // namespace anicodec

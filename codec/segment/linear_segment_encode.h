@@ -33,7 +33,8 @@ std::optional<EncodedSegment> encode_linear(const FrameView& clip, const LinearB
                                             const LinearSettings& settings,
                                             const MeshLayout& layout,
                                             std::shared_ptr<const EncodedPose> pose,
-                                            const Vector<uint32_t>& runs = {});
+                                            const Vector<uint32_t>& runs = {},
+                                            const Learning& learning = {});
 
 }  // namespace anicodec
 

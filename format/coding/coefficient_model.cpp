@@ -61,6 +61,12 @@ CoefficientModel::CoefficientModel(uint32_t channels, const int32_t* neighbours,
       past_rows_[past * kComponents * kStates + i].start(middle(past), 64);
 }
 
+void CoefficientModel::continue_with(const int32_t* neighbours, const Vector<uint32_t>& level_start) {
+  neighbours_ = neighbours;
+  level_start_ = &level_start;
+  component_ = recent_ = 0;
+}
+
 /// Turns the lists of neighbours round: where most residuals are 0, it is less to add each of the
 /// others to the vertices that it concerns than to gather neighbours for all.
 void CoefficientModel::list_dependents() {

@@ -44,6 +44,10 @@ class CoefficientModel {
   CoefficientModel(uint32_t channels, const int32_t* neighbours, uint32_t stride,
                    const Vector<uint32_t>& level_start);
 
+  /// Goes on with the components of a segment that continues the one at hand: the same order of the vertices, in
+  /// arrays that must outlive the model.
+  void continue_with(const int32_t* neighbours, const Vector<uint32_t>& level_start);
+
   uint32_t channels() const { return channels_; }
 
   uint32_t ranks() const { return ranks_; }

@@ -161,7 +161,7 @@ namespace {
 
 /// Opens the file behind an asset.
 Failure open_file(const ContainerReader& container, size_t size, const anic_options& options,
-                  KeptMeshes* kept, OpenedFile* file) {
+                  KeptMeshes* kept, KeptLearning* learning, OpenedFile* file) {
   // The bytes of a stream that have arrived count for the limit.
   OpenOptions opening = open_options(options, size);
   HostProgress progress(options.progress.report, options.progress.user);
@@ -169,6 +169,7 @@ Failure open_file(const ContainerReader& container, size_t size, const anic_opti
   opening.prefix = !container.is_complete();
   opening.progress = &progress;
   opening.kept = kept;
+  opening.learning = learning;
   opening.threads = {options.threads.run, options.threads.user};
   opening.progress_end = boxes ? kShareBeforeBoxes : 1;
   const MemoryScope scope(&memory_of_object(file));
@@ -222,10 +223,10 @@ Failure share_asset(const anic_asset& asset, const anic_options& options, anic_a
 }  // namespace
 
 Failure open_asset(const ContainerReader& container, size_t size, const anic_options& options,
-                   KeptMeshes* kept, anic_asset** out) {
+                   KeptMeshes* kept, KeptLearning* learning, anic_asset** out) {
   OpenedFile* file = create<OpenedFile>(memory_of(&options.allocator), 0);
   try {
-    if (Failure failure = open_file(container, size, options, kept, file); !failure.ok()) {
+    if (Failure failure = open_file(container, size, options, kept, learning, file); !failure.ok()) {
       destroy(file);
       return failure;
     }
@@ -244,7 +245,7 @@ Failure open_asset(ByteView bytes, const anic_options& options, anic_asset** out
   ContainerReader container;
   if (Failure failure = container.open(bytes); !failure.ok())
     return failure;
-  return open_asset(container, bytes.size, options, nullptr, out);
+  return open_asset(container, bytes.size, options, nullptr, nullptr, out);
 }
 
 }  // namespace anicodec

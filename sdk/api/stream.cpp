@@ -5,6 +5,7 @@
 #include "format/continuation.h"
 #include "sdk/api/objects.h"
 #include "sdk/clip/file_checks.h"
+#include "sdk/clip/kept_learning.h"
 #include "sdk/clip/kept_meshes.h"
 
 #include <algorithm>
@@ -20,6 +21,7 @@ struct anic_stream {
   uint64_t mesh_hash = 0;           ///< of that file
   anicodec::ContainerReader file;  ///< the one at hand, with its meshes
   anicodec::KeptMeshes kept;       ///< of the assets that were opened
+  anicodec::KeptLearning learning;
   bool adds_to_meshes = false;     ///< the file at hand is a continuation with chunks of meshes of its own
   bool has_table = false;          ///< header and table are there
   bool has_limits = false;
@@ -95,10 +97,12 @@ Failure read_head(anic_stream* stream) {
     stream->adds_to_meshes = file.is_continuation() &&
                              std::any_of(file.chunks().begin(), file.chunks().end(),
                                          [](const Chunk& chunk) { return is_of_mesh(chunk); });
-    if (file.is_continuation())
+    if (file.is_continuation()) {
       file.add_meshes(stream->meshes, stream->bytes);
-    else
+    } else {
       stream->kept.clear();
+      stream->learning.clear();
+    }
   }
   const Chunk* chunk = file.find("LIMI");
   if (chunk && !file.has(*chunk))
@@ -335,7 +339,7 @@ anic_status anic_open_asset_from_stream(anic_stream* stream, anic_asset** out,
     return report({Status::kState, stream->bytes.size(), 0, "nothing can be played yet"}, failure);
   const size_t size = bytes_at_hand(*stream).size - static_cast<size_t>(stream->info.waiting_bytes);
   Failure what =
-      guarded([&] { return open_asset(stream->file, size, stream->options, kept_of(stream), out); });
+      guarded([&] { return open_asset(stream->file, size, stream->options, kept_of(stream), &stream->learning, out); });
   // A prefix may be too short for what the whole file is allowed.
   if (what.status == Status::kLimit && !stream->info.complete)
     what = {Status::kState, stream->bytes.size(), what.chunk, "too little has arrived"};

@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/clip/clip.h"
 
+#include "format/continuation.h"
 #include "sdk/clip/attribute_surface.h"
 #include "sdk/clip/file_checks.h"
+#include "sdk/clip/kept_learning.h"
 #include "sdk/clip/kept_meshes.h"
 #include "sdk/clip/memory_estimate.h"
 #include "sdk/exact/exact_positions.h"
@@ -52,6 +54,13 @@ FrameRange wanted_frames(const ClipsRecord& record, const Vector<uint8_t>& wante
     }
   }
   return {begin, end > begin ? end - begin : 0};
+}
+
+/// Makes containers that stay when the clip is gone.
+template <class Make>
+auto made_in(Memory* memory, Make make) {
+  const MemoryScope scope(memory);
+  return make();
 }
 
 Failure stopped() {
@@ -399,17 +408,48 @@ Failure Clip::open_segments(const ContainerReader& file, const OpenOptions& opti
     if (Failure f = read_pose(file, *chunk, meshes_[m].topology, work_[m], &pose); !f.ok())
       return f;
   }
+  Vector<LearntSegment> learnt = made_in(options.learning ? options.learning->memory() : MemoryScope::current(),
+                                         [&] { return Vector<LearntSegment>(meshes_.size()); });
+  const Vector<uint8_t> needed = needed_segments(file);
   for (uint32_t i = 0; i < segments_.size(); ++i) {
-    if (wanted_frames(record_, wanted_, limits_.segments[i]).count == 0)
+    if (!needed[i])
       continue;
     if (options.prefix && !has_arrived(file, limits_.segments[i], i)) {
       partial_ = true;
       continue;
     }
-    if (Failure f = open_segment(file, i, layers[i], options); !f.ok())
+    if (Failure f = open_segment(file, i, layers[i], options, &learnt); !f.ok())
       return f;
   }
+  if (options.learning)
+    options.learning->keep(std::move(learnt));
   return {};
+}
+
+/// By segment: whether a wanted clip has frames of it, or a segment that is needed continues it.
+Vector<uint8_t> Clip::needed_segments(const ContainerReader& file) const {
+  constexpr uint32_t kNone = UINT32_MAX;
+  const auto count = static_cast<uint32_t>(segments_.size());
+  Vector<uint32_t> last(limits_.meshes.size(), kNone), before(count);  // that may be continued
+  for (uint32_t i = 0; i < count; ++i) {
+    const Limits::Segment& sizes = limits_.segments[i];
+    before[i] = last[sizes.mesh];
+    if (sizes.learns && sizes.components > 0)
+      last[sizes.mesh] = i;
+  }
+  Vector<uint8_t> needed(count, 0);
+  for (uint32_t i = count; i-- > 0;) {
+    const Limits::Segment& sizes = limits_.segments[i];
+    needed[i] |= static_cast<uint8_t>(wanted_frames(record_, wanted_, sizes).count > 0);
+    if (!needed[i] || !sizes.learns || before[i] == kNone)
+      continue;
+    const Chunk* chunk = file.find("SEGM", sizes.mesh, i);
+    SegmentRecord record;
+    if (chunk && file.has(*chunk) && SegmentRecord::read(file.unchecked(*chunk), &record) == Status::kOk &&
+        record.continued != 0)
+      needed[before[i]] = 1;
+  }
+  return needed;
 }
 
 /// The work that the segments of an attribute share, made for the first. kIndexRange: there is no such attribute;
@@ -444,7 +484,8 @@ Status Clip::attribute_work(const Limits::Segment& sizes, AttributeWork** out) {
 }
 
 Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
-                           const Vector<const Chunk*>& layers, const OpenOptions& options) {
+                           const Vector<const Chunk*>& layers, const OpenOptions& options,
+                           Vector<LearntSegment>* learnt_of_meshes) {
   const Limits::Segment& sizes = limits_.segments[number];
   const Chunk* chunk;
   ByteView payload;
@@ -455,6 +496,19 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
   if (s != Status::kOk)
     return failure_in(*chunk, s, "the segment record is malformed");
   SegmentContext context;
+  LearntSegment learnt =
+      made_in(learnt_of_meshes->get_allocator().memory(), [] { return LearntSegment(); });
+  if (record.continued != 0) {
+    if (!sizes.learns)
+      return failure_in(*chunk, Status::kRecord, "the limits announce no segment that continues another");
+    LearntSegment& last = (*learnt_of_meshes)[sizes.mesh];
+    if (last.identity == record.continued)
+      context.continued = &last;
+    else if (last.identity == 0 && options.learning)
+      context.continued = options.learning->find(sizes.mesh, record.continued);
+    if (!context.continued)
+      return failure_in(*chunk, Status::kSegmentMissing, "the segment continues one that is missing before it");
+  }
   context.sizes = &sizes;
   context.mesh_sizes = &limits_.meshes[sizes.mesh];
   context.topology = &meshes_[sizes.mesh].topology;
@@ -505,6 +559,8 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
       return f;
   }
   partial_ |= context.partial;
+  if (sizes.learns && !context.partial)
+    context.learnt = &learnt;
   context.runs = limits_.runs(sizes.first_frame, sizes.frames);
   context.trace = options.trace;
   context.progress = options.progress;
@@ -513,14 +569,21 @@ Failure Clip::open_segment(const ContainerReader& file, uint32_t number,
     s = work.shared_graph(*context.topology, &context.graph);
   else if (is_predicted(sizes) && work.is_shared())
     context.corners = &work.corner_table(*context.topology);
+  Segment unopened(segments_[number]);
   if (s == Status::kOk)
     s = anicodec::open_segment(record, context, &segments_[number]);
   if (s == Status::kOk && sizes.exact && options.opens_exact()) {
     if (Failure f = open_exact(file, number, context, options); !f.ok())
       return f;
   }
+  if (s == Status::kOk && !learnt.coefficients.empty()) {
+    learnt.identity = segment_identity(payload, context.layers);
+    (*learnt_of_meshes)[sizes.mesh] = std::move(learnt);
+  }
   const FrameRange kept = wanted_frames(record_, wanted_, sizes);
-  if (s == Status::kOk && kept.count < sizes.frames)
+  if (s == Status::kOk && kept.count == 0)
+    segments_[number] = std::move(unopened);
+  else if (s == Status::kOk && kept.count < sizes.frames)
     keep_frames(kept.first, kept.count, &segments_[number]);
   if (s == Status::kCancelled)
     return stopped();

@@ -35,7 +35,9 @@ struct HostLimits {
   uint64_t resident_bytes = uint64_t{16} << 30;  ///< while opening, see estimate_memory()
 };
 
+class KeptLearning;
 class KeptMeshes;
+struct LearntSegment;
 
 /// Whether each clip of a file is among those named; all are where none is. Errors: kAbsent.
 Failure wanted_clips(const ClipsRecord& record, const ClipNames& names, Vector<uint8_t>* out);
@@ -68,6 +70,9 @@ struct OpenOptions {
   DecodingTrace* trace = nullptr;
   /// Meshes and poses from an earlier opening, and for the next one as far as memory allows. Null: none.
   KeptMeshes* kept = nullptr;
+  /// What segments of earlier files of a stream have learnt, and for that of this one. Null: segments continue those of
+  /// the same file alone.
+  KeptLearning* learning = nullptr;
   double progress_end = 1;  ///< share of the host's call that is done once the clip is open
 };
 
@@ -197,8 +202,10 @@ class Clip {
   Failure open_segments(const ContainerReader& file, const OpenOptions& options);
   Failure open_exact(const ContainerReader& file, uint32_t number, const SegmentContext& context,
                      const OpenOptions& options);
+  Vector<uint8_t> needed_segments(const ContainerReader& file) const;
   Failure open_segment(const ContainerReader& file, uint32_t number,
-                       const Vector<const Chunk*>& layers, const OpenOptions& options);
+                       const Vector<const Chunk*>& layers, const OpenOptions& options,
+                       Vector<LearntSegment>* learnt);
 
   Limits limits_;
   ClipsRecord record_;

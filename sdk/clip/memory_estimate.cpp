@@ -6,6 +6,8 @@
 #include "sdk/clip/mesh_work.h"
 #include "sdk/mesh/draco_profile.h"
 #include "sdk/msgi/msgi_memory.h"
+#include "sdk/prediction/prediction_job.h"
+#include "sdk/segment/learnt_segment.h"
 #include "sdk/segment/segment.h"
 
 #include <algorithm>
@@ -57,6 +59,12 @@ uint64_t shared(const Limits::Mesh& m) {
   return uint64_t{36} * m.triangles + uint64_t{80} * m.coded_vertices + order(m);
 }
 
+/// What segments of a mesh learn, three times: of the file before, of the segment before, of the one at hand.
+uint64_t learning(const Limits::Mesh& m) {
+  constexpr uint64_t kOfVertex = 4 * learnt_floats(kMostLearningNeighbours) + 62;
+  return 3 * (kOfVertex * m.coded_vertices + kModels);
+}
+
 /// Exact positions: 24 and 31 bits, and a factor of 12.
 uint64_t exact_bytes(const Limits::Segment& s, const Limits::Mesh& mesh) {
   return uint64_t{12} * s.frames * mesh.coded_vertices;
@@ -73,7 +81,7 @@ uint64_t exact_opening(const Limits::Segment& s, const Limits::Mesh& mesh) {
 /// A segment whose components are those wanted, and its exact positions if they are.
 Limits::Segment coarser(Limits::Segment s, double quality, bool exact) {
   s.exact = s.exact && exact;
-  if (s.kind != BasisKind::kKeyframes)
+  if (s.kind != BasisKind::kKeyframes && !s.learns)
     s.components = wanted_components(quality, s.components);
   s.wide_components = std::min(s.wide_components, s.components);
   return s;
@@ -186,6 +194,11 @@ MemoryEstimate estimate_memory(const Limits& limits, double quality, bool exact)
     largest = std::max({largest, opening(wanted, mesh), exact_opening(wanted, mesh)});
     estimate.draco = std::max(estimate.draco, draco(s, mesh));
   }
+  Vector<uint8_t> learns(limits.meshes.size(), 0);
+  for (const Limits::Segment& s : limits.segments)
+    learns[s.mesh] |= static_cast<uint8_t>(s.learns);
+  for (size_t i = 0; i < limits.meshes.size(); ++i)
+    until_open.add(learns[i] ? learning(limits.meshes[i]) : 0);
   const Vector<uint32_t> order_of_segments = limits.segments_by_frame();
   for (size_t i = 0; i < order_of_segments.size(); ++i) {  // each attribute that moves, once
     const Limits::Segment& s = limits.segments[order_of_segments[i]];

@@ -24,7 +24,8 @@ const EncoderKernels& encoder_kernels() {
 }  // namespace
 
 Status EncoderPredictor::init(const VertexOrder& order, const int32_t* positions,
-                              const PredictionParameters& parameters, size_t components) {
+                              const PredictionParameters& parameters, size_t components,
+                              const Vector<float>* continued) {
   if (Status s = check_prediction(order, parameters); s != Status::kOk)
     return s;
   order_ = &order;
@@ -42,7 +43,9 @@ Status EncoderPredictor::init(const VertexOrder& order, const int32_t* positions
   state_.resize(block_count_ * encoder_block_rows(neighbour_count_) * lanes_);
   y_.assign(static_cast<size_t>(parameters.channels) * (vertices_ + 1), 0.0f);
   const FloatControl control;
-  encoder_kernels().start_blocks(job(0), 0, block_count_);
+  EncoderJob start = job(0);
+  start.continued = continued ? continued->data() : nullptr;
+  encoder_kernels().start_blocks(start, 0, block_count_);
   return Status::kOk;
 }
 

@@ -28,8 +28,10 @@ namespace anicodec {
 class EncoderPredictor {
  public:
   /// order must outlive this object. Arguments and errors as for CoefficientReconstruction::init().
+  /// continued: see PredictionLearning.
   Status init(const VertexOrder& order, const int32_t* positions,
-              const PredictionParameters& parameters, size_t components);
+              const PredictionParameters& parameters, size_t components,
+              const Vector<float>* continued = nullptr);
 
   /// Prediction of one channel of the current component, in steps: rounded to 1/64. All neighbours
   /// of the rank must be committed.

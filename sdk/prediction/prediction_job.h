@@ -32,6 +32,9 @@ struct PredictionJob {
   const int16_t* narrow = nullptr;
   float* y = nullptr;  // (vertices + 1) x stride; the last row is 0
   size_t stride = 0;   // at least samples, a multiple of 8
+  // learnt_floats() x vertices; null: priors come from the positions; nothing is handed on.
+  const float* continued = nullptr;
+  float* learnt = nullptr;
 };
 
 /// The state of the vertices while they are encoded, one component after the other.
@@ -48,9 +51,15 @@ struct EncoderJob {
   bool refit = false;
   bool renew = false;              // the prior, before that
   float alike = 0;                 // as PredictionJob's
+  const float* continued = nullptr;  // as PredictionJob's
   const float* earlier = nullptr;  // if renew: samples of the components before, as y
   size_t earlier_samples = 0;
 };
+
+/// What a vertex' predictions with m neighbours have learnt: prior, g, packed lower triangle of A.
+constexpr size_t learnt_floats(size_t m) {
+  return 2 * m + m * (m + 1) / 2;
+}
 
 /// The decoder's kernel for one instruction set.
 struct PredictionKernels {

@@ -74,22 +74,26 @@ class BatchDecoder {
   void run(size_t first, size_t count) {
     first_ = first;
     count_ = count;
-    solver_.set_prior(job_, first, count);
-    solver_.clear();
+    if (job_.continued) {
+      solver_.continue_from(job_.continued + first, job_.vertices, count);
+    } else {
+      solver_.set_prior(job_, first, count);
+      solver_.clear();
+    }
     size_t next_refit = 0, next_renewal = 0;
     for (size_t begin = 0; begin < job_.samples; begin += kWindow) {
       const size_t end = begin + kWindow < job_.samples ? begin + kWindow : job_.samples;
       gather(begin, end);
       for (size_t s = begin; s < end;) {
         size_t stop = end;
-        const bool learning = next_refit < job_.refit_count;
-        if (learning && job_.refits[next_refit] < end)
+        const bool refits = next_refit < job_.refit_count;
+        if (refits && job_.refits[next_refit] < end)
           stop = job_.refits[next_refit];
         for (size_t t = s; t < stop; ++t)
           reconstruct(t, t - begin);
-        if (learning) {
+        if (refits || job_.learnt) {
           solver_.accumulate(x_ + (s - begin), residual_ + (s - begin), job_.omega + s, stop - s);
-          if (stop == job_.refits[next_refit]) {
+          if (refits && stop == job_.refits[next_refit]) {
             if (next_renewal < job_.renewal_count && stop == job_.renewals[next_renewal]) {
               solver_.renew_prior(job_, first_, count_, x_, y_, stop);
               ++next_renewal;
@@ -102,6 +106,8 @@ class BatchDecoder {
       }
       scatter(begin, end);
     }
+    if (job_.learnt)
+      solver_.hand_on(count, job_.vertices, job_.learnt + first);
   }
 
  private:
@@ -237,8 +243,12 @@ class EncoderBlock {
         state_(job.state + block * encoder_block_rows(M) * W) {}
 
   void start() {
-    solver_.set_prior(prediction_job(), first_, count_);
-    solver_.clear();
+    if (job_.continued) {
+      solver_.continue_from(job_.continued + first_, job_.vertices, count_);
+    } else {
+      solver_.set_prior(prediction_job(), first_, count_);
+      solver_.clear();
+    }
     float* to = state_;
     move<false>(solver_.weights, to);
     move<false>(solver_.prior, to);

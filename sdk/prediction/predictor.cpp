@@ -103,7 +103,8 @@ void ranked_positions(const VertexOrder& order, const int32_t* positions, Vector
 
 Status CoefficientReconstruction::init(const VertexOrder& order, const int32_t* positions,
                                        const PredictionParameters& parameters,
-                                       const PredictionResiduals& residuals, float* y) {
+                                       const PredictionResiduals& residuals, float* y,
+                                       const PredictionLearning& learning) {
   if (Status s = check_prediction(order, parameters); s != Status::kOk)
     return s;
   const size_t n = order.vertex_count();
@@ -139,6 +140,12 @@ Status CoefficientReconstruction::init(const VertexOrder& order, const int32_t* 
   job_.narrow = residuals.narrow;
   job_.y = y;
   job_.stride = coefficient_stride(job_.samples);
+  if (learning.continued)
+    job_.continued = learning.continued->data();
+  if (learning.learnt) {
+    learning.learnt->resize(n * learnt_floats(static_cast<size_t>(order.neighbour_count)));
+    job_.learnt = learning.learnt->data();
+  }
   std::fill_n(y + n * job_.stride, job_.stride, 0.0f);
   return Status::kOk;
 }

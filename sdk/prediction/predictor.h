@@ -77,6 +77,12 @@ struct PredictionResiduals {
   const uint8_t* omega = nullptr;  ///< one byte per component
 };
 
+/// What vertices have learnt: learnt_floats() x ranks. It must outlive who uses it.
+struct PredictionLearning {
+  const Vector<float>* continued = nullptr;  ///< of the segment that this one continues, or null
+  Vector<float>* learnt = nullptr;  ///< receives that of this one, if not null
+};
+
 /// Reconstructs the coefficients of one segment from the decoded integers.
 ///
 /// Call init() once, then run() for all ranks in ascending order of levels. Ranges within one level
@@ -88,10 +94,11 @@ class CoefficientReconstruction {
   /// @param residuals   the decoded integers
   /// @param y           coefficient_buffer_size() floats: receives the coefficients in steps, by
   /// rank order, the integers and y must outlive this object.
+  /// @param learning    of a segment that learns from another one, or for another one
   /// @return kArgument: a parameter out of range
   Status init(const VertexOrder& order, const int32_t* positions,
               const PredictionParameters& parameters, const PredictionResiduals& residuals,
-              float* y);
+              float* y, const PredictionLearning& learning = {});
 
   /// Ranks [first, last) of one level. Sets the floating-point environment it needs and restores
   /// the caller's.

@@ -119,6 +119,45 @@ struct RefitSolver {
         g[a] += (b < a ? A[a][b] : A[b][a]) * before[b];
   }
 
+  /// Begins where `count` vertices of another segment ended, with half the trust in what they have learnt: learnt_floats()
+  /// rows, the next of which begins `stride` floats further.
+  void continue_from(const float* rows, size_t stride, size_t count) {
+    const auto load = [&] {
+      Float value;
+      if (count == W) {
+        __builtin_memcpy(&value, rows, sizeof value);
+      } else {
+        for (size_t l = 0; l < W; ++l)
+          value[l] = rows[l < count ? l : count - 1];
+      }
+      rows += stride;
+      return value;
+    };
+    for (size_t a = 0; a < n; ++a)
+      prior[a] = load();
+    for (size_t a = 0; a < n; ++a)
+      g[a] = 0.5f * load();
+    for (size_t a = 0; a < n; ++a)
+      for (size_t b = 0; b <= a; ++b)
+        A[a][b] = 0.5f * load();
+    refit();
+  }
+
+  /// Writes what continue_from() reads.
+  void hand_on(size_t count, size_t stride, float* rows) const {
+    const auto store = [&](const Float& value) {
+      __builtin_memcpy(rows, &value, count * sizeof(float));
+      rows += stride;
+    };
+    for (size_t a = 0; a < n; ++a)
+      store(prior[a]);
+    for (size_t a = 0; a < n; ++a)
+      store(g[a]);
+    for (size_t a = 0; a < n; ++a)
+      for (size_t b = 0; b <= a; ++b)
+        store(A[a][b]);
+  }
+
   /// weights = prior + (A + ridge)^-1 g.
   void refit() {
     Float trace{};

@@ -7,12 +7,14 @@
 #include "sdk/base/bounded_float.h"
 #include "sdk/segment/affine_functions.h"
 #include "sdk/segment/basis_layer.h"
+#include "sdk/segment/learnt_segment.h"
 #include "sdk/segment/region_coding.h"
 #include "sdk/segment/resident_writer.h"
 #include "sdk/segment/residual_reader.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace anicodec {
@@ -229,8 +231,15 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
   const size_t n = order.vertex_count();
   const uint32_t channels = out->channels();
   const ResidualRoom room = {out->wide_components, out->wide.data(), out->narrow.data()};
+  std::optional<CoefficientModel> model;
+  if (context.continued) {
+    if (!context.continued->suits(out->kind, order))
+      return Status::kSegment;
+    model = context.continued->coefficients[0];
+    model->continue_with(order.neighbours.data(), order.level_start);
+  }
   if (Status s = read_residuals(context, parameters.layers_anew, order, channels, layers,
-                                out->components, room);
+                                out->components, room, &model);
       s != Status::kOk)
     return s;
   if (kTraces && context.trace)
@@ -249,8 +258,18 @@ Status decode_coefficients(const SegmentContext& context, const LinearParameters
   input.omega = parameters.omega.data();
   const size_t samples = size_t{out->components} * channels;
   decoded->coefficients.resize(coefficient_buffer_size(n, samples));
+  PredictionLearning learning;
+  if (context.continued)
+    learning.continued = &context.continued->prediction;
+  if (context.learnt) {
+    const MemoryScope scope(context.learnt->prediction.get_allocator().memory());
+    learning.learnt = &context.learnt->prediction;
+    context.learnt->kind = out->kind;
+    context.learnt->order = LearntSegment::hash_of(order);
+    context.learnt->coefficients.assign(1, *model);
+  }
   CoefficientReconstruction reconstruction;
-  if (Status s = reconstruction.init(order, pose, prediction, input, decoded->coefficients.data());
+  if (Status s = reconstruction.init(order, pose, prediction, input, decoded->coefficients.data(), learning);
       s != Status::kOk)
     return s;
   for (size_t l = 0; l < order.level_count(); ++l) {
@@ -471,13 +490,16 @@ Status open_linear_segment(const SegmentRecord& record, const SegmentContext& co
     return s;
   if (record.motion.size != 0)
     return Status::kRecord;
+  const bool learns = context.sizes->learns;
+  if (learns && (parameters.layers_anew || parameters.neighbours > kMostLearningNeighbours))
+    return Status::kSegment;
   if (!context.pose)
     return Status::kChunkMissing;
   const Topology& topology = *context.topology;
   size_t n = topology.coded_vertices;
   const PoseGrid& pose = *context.pose;
   integers.add("pose", pose.points.data(), pose.points.size());
-  uint32_t wanted = wanted_components(context.quality, components);
+  uint32_t wanted = learns ? components : wanted_components(context.quality, components);
   if (context.partial)
     wanted = std::min(wanted, components_in(context.layers, components));
   MeshGraph own;

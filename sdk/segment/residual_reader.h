@@ -3,6 +3,7 @@
 #ifndef ANICODEC_SDK_SEGMENT_RESIDUAL_READER_H_
 #define ANICODEC_SDK_SEGMENT_RESIDUAL_READER_H_
 
+#include "format/coding/coefficient_model.h"
 #include "format/memory.h"
 #include "format/status.h"
 #include "sdk/prediction/vertex_order.h"
@@ -10,6 +11,7 @@
 #include "sdk/segment/segment.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace anicodec {
 
@@ -22,11 +24,11 @@ struct ResidualRoom {
 };
 
 /// Reads the residuals of a linear segment's coefficients from its layers; stops after `wanted` of the
-/// segment's components. layers_anew: see LinearParameters. Errors: those of the layers;
+/// segment's components. `model`: with which it begins, none: anew; with which it ends. layers_anew: see LinearParameters. Errors: those of the layers;
 /// kEntropy: one does not fit its room; kCancelled by the host.
 Status read_residuals(const SegmentContext& context, bool layers_anew, const VertexOrder& order,
                       uint32_t channels, const Vector<BasisLayer>& layers, uint32_t wanted,
-                      const ResidualRoom& room);
+                      const ResidualRoom& room, std::optional<CoefficientModel>* model);
 
 }  // namespace anicodec
 

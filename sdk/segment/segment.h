@@ -121,6 +121,8 @@ struct SharedOrder {
   }
 };
 
+struct LearntSegment;
+
 /// The surroundings that opening a segment needs besides its own record.
 struct SegmentContext {
   const Limits::Segment* sizes = nullptr;
@@ -138,6 +140,8 @@ struct SegmentContext {
   ByteView corrections;                  ///< chunk CORR, empty when there is none
   /// The segment's frames cut where a clip ends (Limits::runs()); empty: they are one run.
   Vector<uint32_t> runs;
+  const LearntSegment* continued = nullptr;  ///< what the segment that this one continues has learnt; null: it begins anew
+  LearntSegment* learnt = nullptr;  ///< receives what this one learns, in the memory that it was made in; may be null
   double quality = 1;  ///< share of the components wanted
   /// Layers or corrections are still to come: as many components as are there are opened.
   bool partial = false;

@@ -45,6 +45,7 @@ TEST(Statuses, HaveTheNumbersOfTheFormat) {
                                                   {ANIC_E_CANCELLED, Status::kCancelled},
                                                   {ANIC_E_HASH, Status::kHash},
                                                   {ANIC_E_MESHES, Status::kMeshes},
+                                                  {ANIC_E_SEGMENT_MISSING, Status::kSegmentMissing},
                                                   {ANIC_E_LIMIT, Status::kLimit},
                                                   {ANIC_E_MEMORY, Status::kMemory},
                                                   {ANIC_E_READ, Status::kRead},

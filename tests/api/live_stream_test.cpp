@@ -16,23 +16,50 @@
 namespace anicodec {
 namespace {
 
-/// A third of a clip in each file.
+/// A clip in so many files of a third of a second.
+std::vector<Bytes> streamed(uint32_t count, double key_every) {
+  const MeshSequence clip = corpus::make_scaled("limb", 300, 8 * count);
+  MeshSequence mesh = clip;
+  mesh.positions = {};
+  EncodeOptions options;
+  options.target = {ErrorMetric::kMaxError, 0.2, true};
+  options.effort = 1;
+  LiveEncoder encoder(mesh, options, key_every);
+  std::vector<Bytes> all;
+  const auto size = static_cast<ptrdiff_t>(clip.positions.size() / count);
+  for (auto at = clip.positions.begin(); at < clip.positions.end(); at += size)
+    all.push_back(encoder.encode({at, at + size}).file);
+  return all;
+}
+
+/// A third of a clip in each file, which all begin anew.
 const std::vector<Bytes>& files() {
-  static const std::vector<Bytes> made = [] {
-    const MeshSequence clip = corpus::make_scaled("limb", 300, 24);
-    MeshSequence mesh = clip;
-    mesh.positions = {};
-    EncodeOptions options;
-    options.target = {ErrorMetric::kMaxError, 0.2, true};
-    options.effort = 1;
-    LiveEncoder encoder(mesh, options);
-    std::vector<Bytes> all;
-    const auto size = static_cast<ptrdiff_t>(clip.positions.size() / 3);
-    for (auto at = clip.positions.begin(); at < clip.positions.end(); at += size)
-      all.push_back(encoder.encode({at, at + size}).file);
-    return all;
-  }();
+  static const std::vector<Bytes> made = streamed(3, 0);
   return made;
+}
+
+/// Five files of which the first and the fourth begin anew.
+const std::vector<Bytes>& learning_files() {
+  static const std::vector<Bytes> made = streamed(5, 1);
+  return made;
+}
+
+/// Pushes a file of a stream, and turns to it first where there is one before.
+void push_next(const Stream& stream, const Bytes& file) {
+  if (info_of(stream).complete) {
+    ASSERT_EQ(anic_advance_stream(stream.get()), ANIC_OK);
+  }
+  ASSERT_EQ(anic_push_bytes(stream.get(), file.data(), file.size()), ANIC_OK);
+}
+
+/// The status of opening the file at hand, and the positions of its first frame.
+anic_status opened(const Stream& stream, std::vector<float>* positions = nullptr) {
+  anic_asset* made = nullptr;
+  const anic_status status = anic_open_asset_from_stream(stream.get(), &made, nullptr);
+  const Asset asset(made);
+  if (status == ANIC_OK && positions)
+    *positions = frame(asset, 0);
+  return status == ANIC_OK ? anic_verify_asset(asset.get()) : status;
 }
 
 Bytes stream_bytes() {
@@ -103,6 +130,64 @@ TEST(LiveStream, PlaysContinuationsBeforeTheyAreComplete) {
   }
   EXPECT_GT(coarse, 0U);
   EXPECT_FALSE(info_of(open(stream)).partial);
+}
+
+TEST(LiveStream, GoesOnLearning) {
+  const Stream stream = new_stream();
+  size_t number = 0;
+  for (const Bytes& file : learning_files()) {
+    push_next(stream, file);
+    std::vector<float> once, again;
+    EXPECT_EQ(opened(stream, &once), ANIC_OK) << number;
+    EXPECT_EQ(opened(stream, &again), ANIC_OK) << number;  // the file at hand can always be opened
+    EXPECT_EQ(once, again);
+    ++number;
+  }
+  const auto size = [](const std::vector<Bytes>& made, size_t i) { return made[i].size(); };
+  const std::vector<Bytes> anew = streamed(5, 0);
+  for (const size_t i : {1U, 2U, 4U})
+    EXPECT_LT(size(learning_files(), i), size(anew, i)) << i;
+}
+
+TEST(LiveStream, NoticesALostFileAndGoesOnWhereOneBeginsAnew) {
+  const std::vector<Bytes>& all = learning_files();
+  Stream stream = new_stream();
+  const auto expect = [&](size_t file, anic_status status) {
+    push_next(stream, all[file]);
+    EXPECT_EQ(opened(stream), status) << file;
+  };
+  expect(0, ANIC_OK);
+  expect(2, ANIC_E_SEGMENT_MISSING);
+  expect(1, ANIC_OK);  // late, but what it continues is there
+  expect(1, ANIC_OK);  // twice
+  expect(2, ANIC_OK);
+  expect(4, ANIC_E_SEGMENT_MISSING);
+  expect(3, ANIC_OK);
+  expect(4, ANIC_OK);
+
+  stream = new_stream();  // one that joins late has the meshes, and waits
+  push_next(stream, all[0]);
+  push_next(stream, all[2]);
+  EXPECT_EQ(opened(stream), ANIC_E_SEGMENT_MISSING);
+  push_next(stream, all[3]);
+  EXPECT_EQ(opened(stream), ANIC_OK);
+  push_next(stream, all[4]);
+  EXPECT_EQ(opened(stream), ANIC_OK);
+}
+
+TEST(LiveStream, ReadsDamagedFilesThatLearnWithoutHarm) {
+  const std::vector<Bytes>& all = learning_files();
+  for (size_t i = 0; i < all[1].size(); i += 7) {
+    Bytes damaged = all[1];
+    damaged[i] ^= 0x10;
+    const Stream stream = new_stream();
+    push_next(stream, all[0]);
+    EXPECT_EQ(opened(stream), ANIC_OK);
+    ASSERT_EQ(anic_advance_stream(stream.get()), ANIC_OK);
+    if (anic_push_bytes(stream.get(), damaged.data(), damaged.size()) == ANIC_OK) {
+      EXPECT_NE(opened(stream), ANIC_OK) << i;
+    }
+  }
 }
 
 TEST(LiveStream, RefusesWhatIsNone) {

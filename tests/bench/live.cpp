@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode_live.h"
 #include "codec/file/live_stream.h"
+#include "sdk/clip/kept_learning.h"
 #include "sdk/clip/kept_meshes.h"
 #include "tests/bench/bench_clips.h"
 #include "tests/bench/bench_encode.h"
@@ -15,11 +16,11 @@ namespace anicodec::bench {
 namespace {
 
 /// The files of a live stream, each of so many frames.
-std::vector<Bytes> live_files(MeshSequence sequence, size_t frames, const EncodeOptions& options) {
+std::vector<Bytes> live_files(MeshSequence sequence, size_t frames, double key_every, const EncodeOptions& options) {
   const FrameArray positions = std::move(sequence.positions);
   sequence.positions = {};
   const size_t frame = size_t{3} * sequence.vertex_count;
-  LiveEncoder encoder(std::move(sequence), options);
+  LiveEncoder encoder(std::move(sequence), options, key_every);
   std::vector<Bytes> files;
   for (size_t at = 0; at < positions.size(); at += frames * frame) {
     const auto begin = positions.begin() + static_cast<ptrdiff_t>(at);
@@ -31,7 +32,7 @@ std::vector<Bytes> live_files(MeshSequence sequence, size_t frames, const Encode
 
 }  // namespace
 
-Table run_live(const BenchOptions& options, double kg, uint32_t frames, int runs) {
+Table run_live(const BenchOptions& options, double kg, uint32_t frames, double key_every, int runs) {
   Table table({{"clip", "clip", ""},
                {"vertices", "vertices", ""},
                {"frames", "frames a file", ""},
@@ -50,7 +51,7 @@ Table run_live(const BenchOptions& options, double kg, uint32_t frames, int runs
     MeshSequence sequence = load_clip(name);
     const uint32_t vertices = sequence.vertex_count;
     const Stopwatch watch(CLOCK_MONOTONIC);
-    const std::vector<Bytes> files = live_files(std::move(sequence), frames, encoding);
+    const std::vector<Bytes> files = live_files(std::move(sequence), frames, key_every, encoding);
     const double encode_seconds = watch.seconds() / static_cast<double>(files.size());
     Bytes stream;
     for (const Bytes& file : files)
@@ -59,12 +60,18 @@ Table run_live(const BenchOptions& options, double kg, uint32_t frames, int runs
     enum : size_t { kFirst, kNext, kWhole };
     const auto rest = static_cast<double>(std::max<size_t>(files.size(), 2) - 1);
     KeptMeshes kept;
-    OpenOptions keeping;
+    KeptLearning learning, of_whole, after_first;
+    OpenOptions keeping, with_meshes;
     keeping.kept = &kept;
+    keeping.learning = &learning;
+    with_meshes.learning = &after_first;
+    opening_of(whole[0], with_meshes)();
+    with_meshes.learning = &of_whole;
     const Turns turns(
         runs,
         [&] {
           kept.clear();
+          learning.clear();
           opening_of(whole[0], keeping)();
         },
         [&] {
@@ -72,8 +79,9 @@ Table run_live(const BenchOptions& options, double kg, uint32_t frames, int runs
             opening_of(whole[i], keeping)();
         },
         [&] {
+          of_whole = after_first;
           for (size_t i = 1; i < whole.size(); ++i)
-            opening_of(whole[i])();
+            opening_of(whole[i], with_meshes)();
         });
     table.add({{"clip", name},
                {"vertices", vertices},

@@ -104,6 +104,29 @@ TEST(LiveEncoder, KeepsTheErrorInFilesThatMakeOneClip) {
   }
 }
 
+TEST(LiveEncoder, BeginsAnewEverySoManySeconds) {
+  const MeshSequence clip = corpus::make_scaled("limb", 300, 48);
+  MeshSequence mesh = clip;
+  mesh.positions = {};
+  LiveEncoder encoder(mesh, options_of(0.1), 1);
+  std::vector<Bytes> files;
+  for (uint32_t f = 0; f < clip.frame_count; f += 8)
+    files.push_back(encoder.encode(frames_of(clip, f, 8)).file);
+  for (size_t i = 0; i < files.size(); ++i) {
+    ContainerReader reader;
+    ASSERT_TRUE(reader.open_of_stream(files[i]).ok());
+    EXPECT_TRUE(reader.features() & kLearningFeature);
+    SegmentRecord record;
+    ASSERT_EQ(SegmentRecord::read(reader.unchecked(*reader.find("SEGM", 0, 0)), &record), Status::kOk);
+    EXPECT_EQ(record.continued == 0, i % 3 == 0) << i;  // of 24 frames a second
+  }
+  const Bytes whole = joined(files);
+  MeshSequence first = clip;
+  first.frame_count = 8;
+  first.positions = frames_of(clip, 0, 8);
+  EXPECT_LE(largest_error(whole, clip), 0.1 / 100 * diagonal(first) * 1.000001);
+}
+
 // Two vertices that move as one for a while are two.
 TEST(LiveEncoder, DoesNotWeldWhatMayPart) {
   MeshSequence clip = corpus::make_clip("limb");

@@ -19,7 +19,8 @@ Checked are
   limit    every file is refused, and nothing takes longer than a few seconds or more than a gigabyte (--memory 0:
            whatever it takes, for decoders with a sanitizer in them)
 --without PART, once for each: what the decoder lacks, which a decoder may
-  draco, interpolation      files that need them are refused with FEATURE
+  draco, interpolation, learning
+                            files that need them are refused with FEATURE
   attributes, exact         attributes, exact positions: stay closed. Files with exact positions are skipped, and of attributes
                             facts and what is wrong
   bounds, metadata, origin  are not read: facts, and files that are wrong in nothing else, are skipped
@@ -42,9 +43,9 @@ import clip_output  # pylint: disable=wrong-import-position
 
 SECONDS = 60  # of a slow machine
 FEATURE = 12  # the code
-PARTS = ("draco", "interpolation", "attributes", "exact", "bounds", "metadata", "origin", "hashes", "streams")
+PARTS = ("draco", "interpolation", "learning", "attributes", "exact", "bounds", "metadata", "origin", "hashes", "streams")
 TOLD_PARTS = {"attributes", "bounds", "metadata", "origin"}  # without them all else of a valid file is compared
-REFUSED_PARTS = {"draco", "interpolation"}  # they are features of the header
+REFUSED_PARTS = {"draco", "interpolation", "learning"}  # they are features of the header
 EXACT = {"origin"}  # it has the digits that positions have no room for
 ROUNDING = 1e-6  # of numbers that are printed in decimal, relative
 

@@ -11,6 +11,7 @@
 #include "format/metadata.h"
 #include "sdk/clip/clip.h"
 #include "sdk/clip/file_checks.h"
+#include "sdk/clip/kept_learning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -382,6 +383,8 @@ int decode(const char* path, const std::string& out) {
   if (Failure f = files_of(Bytes(std::istreambuf_iterator<char>(file), {}), options, &files); !f.ok())
     return refused(f);
   std::vector<Positions> positions;
+  KeptLearning learning;
+  options.learning = files.size() > 1 ? &learning : nullptr;
   for (OpenFile& part : files) {
     Clip& clip = part.clip;
     if (Failure f = clip.open(part.bytes, options); !f.ok())

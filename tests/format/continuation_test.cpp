@@ -71,6 +71,15 @@ TEST(Continuation, SaysWhichMeshesItFollows) {
   EXPECT_NE(mesh_hash(reader), mesh_hash(file));
 }
 
+TEST(Continuation, IdentifiesSegments) {
+  const Bytes record = of_text("record"), layer = of_text("layer"), other = of_text("other");
+  const uint64_t one = segment_identity(record, {layer, other});
+  EXPECT_EQ(segment_identity(record, {layer, other}), one);
+  EXPECT_NE(segment_identity(record, {other, layer}), one);
+  EXPECT_NE(segment_identity(record, {layer}), one);
+  EXPECT_NE(segment_identity(other, {layer, other}), one);
+}
+
 TEST(Continuation, ReadsLikeTheFileThatItIsWithItsMeshes) {
   const Bytes whole = two_poses();
   ContainerReader file;

@@ -228,9 +228,9 @@ def told_rules(files):
 
 def limit_rules(files):
     """The same for LIMI, section 2."""
-    triangle, corrected, scene, moved, clips, shapes, draco, msgi = (
+    triangle, corrected, scene, moved, clips, shapes, draco, msgi, learning = (
         files(name) for name in ("triangle", "quad_box_corrected", "scene", "heated", "clips", "polygons_all",
-                                 "nonmanifold_keyframes", "nonmanifold_interpolated"))
+                                 "nonmanifold_keyframes", "nonmanifold_interpolated", "learning"))
     yield 40, "limi_clip_frames", clips.put("LIMI clip 1 frames", b"\0"), "a clip without a frame"
     yield 40, "limi_clips_frames", clips.put("LIMI clip 1 frames", varint((1 << 24) - 1)), \
         "clips of more than 2^24 - 1 frames together"
@@ -252,10 +252,11 @@ def limit_rules(files):
     yield 40, "limi_draco_bytes", draco.put("LIMI segment 0 Draco bytes", b"\0"), "Draco without bytes"
     yield 12, "limi_draco_of_shapes", shapes.put("LIMI segment 0 flags", b"\x08"), "eigenshapes by Draco"
     yield 12, "limi_shapes_interpolated", shapes.put("LIMI segment 0 reconstruction", b"\1"), "eigenshapes by geometry interpolation"
-    for name, file, bit in (("draco", draco, 2), ("msgi", msgi, 4)):
+    yield 12, "limi_attribute_learns", moved.put("LIMI segment 1 flags", b"\x14"), "an attribute that learns"
+    for name, file, bit in (("draco", draco, 2), ("msgi", msgi, 4), ("learning", learning, 8)):
         yield 40, f"{name}_not_announced", file.needing(0), f"the feature bit of {name} is clear, and LIMI uses it"
         yield 40, f"{name}_not_used", triangle.needing(bit), f"the feature bit of {name} is set, and LIMI does not use it"
-    yield 12, "first_feature", triangle.needing(8), "the first feature bit that is not assigned"
+    yield 12, "first_feature", triangle.needing(16), "the first feature bit that is not assigned"
     of_attribute = "LIMI segment 1 "
     yield 12, "limi_domain", moved.put(of_attribute + "domain", b"\3"), "a domain that does not exist"
     yield 40, "limi_no_entries", moved.put(of_attribute + "entries", b"\0"), "an attribute without an entry"
@@ -412,7 +413,16 @@ def segment_rules(files):
         files(name) for name in ("triangle", "far_rigid", "quad_box_corrected", "polygons_all", "nonmanifold_interpolated"))
     yield 40, "segm_more", triangle.end("SEGM", b"\0"), "a byte after the last block"
     yield 40, "segm_short", triangle.end("SEGM", less=1), "a block longer than the record"
+    learning, identity = files("learning"), bytes(range(8))
+    for name, file, status, value, what in (
+            ("not_announced", corrected, 40, identity, "a segment that continues another, and does not learn"),
+            ("short", learning, 40, identity[1:], "7 bytes for what a segment continues"),
+            ("none", learning, 40, bytes(8), "a segment that continues 0"),
+            ("nothing", learning, 51, identity, "a first segment that continues another")):
+        yield status, f"continued_{name}", file.end("SEGM", anic_file.field(1, value)), what
     parameters = "SEGM parameters"
+    yield 48, "learning_anew", learning.put(parameters, lambda old: bytes([old[0] | 4]) + old[1:]), "a segment that learns, with models anew"
+    yield 48, "learning_neighbours", learning.put(parameters, set_byte(17, 20)), "a segment that learns, with 20 neighbours"
     yield 45, "parameters_run_step", files("clips").put(parameters, set_byte(25, 65)), "a run step of 65"
     for name, file, status, change, what in (
             ("flags", triangle, 40, set_byte(0, 4), "a reserved flag"),

@@ -5,7 +5,7 @@ import struct
 
 import anic_file
 
-FEATURES = {1: "draco", 2: "interpolation"}  # bits of the header
+FEATURES = {1: "draco", 2: "interpolation", 3: "learning"}  # bits of the header
 PARTS_OF_CHUNKS = {"ATTR": "attributes", "DIFF": "exact", "BNDS": "bounds", "META": "metadata"}
 
 

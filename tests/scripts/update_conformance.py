@@ -57,7 +57,7 @@ MOVING = ["heated"]
 # Clips whose frames have times: they go by MDD.
 TIMED = ["uneven"]
 ABSENT = 5  # the status of what a file does not have
-MESHES = 50  # which no file by itself has
+MESHES, SEGMENT_MISSING = 50, 51  # which damage to a single byte does not cause
 LINE = re.compile(r"([0-9a-f]{8}) +(\d+)  (.*)")
 # Codes that a file can cause, with the names of spec/12-errors.md.
 CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-errors.md").read_text(), re.M))
@@ -65,8 +65,10 @@ CODES = dict(re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", (ROOT / "spec" / "12-error
 
 # Live streams: clip, frames in a second, which are a file, and options, more of which make a second stream of the same
 # frames that follows: a file with meshes, which are others, in the midst of a stream.
-STREAM = ("streams/live.anic", "limb --vertices 100 --frame-count 20", 8, "--kg 0.5 --effort 2")
-TWO_BASES = ("streams/two_bases.anic", "limb --vertices 100 --frame-count 14", 8, "--kg 0.5 --effort 2", "--kg 0.2 --order all")
+STREAM = ("streams/live.anic", "limb --vertices 100 --frame-count 20", 8, "--kg 0.5 --effort 2 --key-every 0")
+TWO_BASES = ("streams/two_bases.anic", "limb --vertices 100 --frame-count 14", 8, "--kg 0.5 --effort 2 --key-every 0",
+             "--kg 0.2 --order all --key-every 0")
+LEARNING = ("streams/goes_on.anic", "limb --vertices 100 --frame-count 32", 8, "--kg 0.2 --effort 2 --key-every 3")
 # Rules that only decoders of a part can find broken, by the beginning of their names; a decoder MAY lack it.
 OPTIONAL_RULES = {"attr_": "attributes", "attr_not_announced": "", "look_": "attributes", "attribute_unknown": "attributes",
                   "attribute_component": "attributes", "stream_heated_attr": "attributes", "diff_hash": "exact,hashes",
@@ -182,7 +184,16 @@ def unusual_files():
     yield "empty_layers", anic_file.write_chunks(chunks[:first] + [empty] + chunks[first:] + [empty])
 
 
-def broken_streams(stream, two_bases):
+def with_meshes(first, continuation):
+    """The file that a continuation stands for."""
+    none = anic_file.NO_SEGMENT
+    meshes = [c for c in anic_file.read_chunks(first) if c.mesh != anic_file.NO_MESH and c.segment == none]
+    chunks = anic_file.read_chunks(continuation)
+    return anic_file.write_chunks([c for c in chunks if c.segment == none] + meshes + [c for c in chunks if c.segment != none],
+                                  needs=anic_file.features(continuation) & ~1)
+
+
+def broken_streams(stream, two_bases, learning):
     """(status, name, stream, what) of live streams that are refused, though each of their files is good."""
     def continued(change):
         first, second = anic_file.split_stream(stream)[:2]
@@ -197,6 +208,9 @@ def broken_streams(stream, two_bases):
         "a continuation with another hash of the meshes"
     yield 40, "no_hash", continued(lambda limits, hash_: limits), "a continuation that does not say which meshes it continues"
     yield 40, "short_hash", continued(lambda limits, hash_: limits + anic_file.field(1, hash_[:7])), "a hash of 7 bytes"
+    first, second, third, last = anic_file.split_stream(learning)
+    yield SEGMENT_MISSING, "lost", first + third + last, "a file that continues one that was lost"
+    yield SEGMENT_MISSING, "other_order", first + third + second + last, "a file before the one that it continues"
     yield 29, "trailing", stream + b"\0", "a byte that begins no file"
     yield 24, "checksum", stream[:-1] + bytes([stream[-1] ^ 1]), "a last chunk with another checksum"
 
@@ -365,10 +379,13 @@ def add_good(suite, command, special):
         if not suite.lists(f"{what}.anic"):
             (FOLDER / f"{what}.anic").write_bytes(data)
             suite.add_decoded("valid", f"{what}.anic", parts_of(data, *parts))
-    for name, clip, frames, *all_options in (STREAM, TWO_BASES):
+    for name, clip, frames, *all_options in (STREAM, TWO_BASES, LEARNING):
         if not suite.lists(name):
             make_stream(command, FOLDER / name, clip, frames, all_options)
-            suite.add_decoded("stream", name, ["streams"])
+            suite.add_decoded("stream", name, features_of((FOLDER / name).read_bytes()) + ["streams"])
+    if not suite.lists("learning.anic"):
+        subprocess.run([command, "join", "-q", "-f", FOLDER / LEARNING[0], "-o", FOLDER / "learning.anic"], check=True)
+        suite.add_decoded("valid", "learning.anic", parts_of((FOLDER / "learning.anic").read_bytes()))
 
 
 def add_bad(suite, command, library):
@@ -382,7 +399,7 @@ def add_bad(suite, command, library):
     files = [(name, (FOLDER / name).read_bytes()) for name, _, _ in VECTORS]
     for status, data in broken_containers(files[0][1]):
         add(status, CODES[str(status)].lower(), data, "")
-    rest = {int(code) for code in CODES if 10 <= int(code) < 60 and int(code) != MESHES and
+    rest = {int(code) for code in CODES if 10 <= int(code) < 60 and int(code) not in (MESHES, SEGMENT_MISSING) and
             not suite.lists(f"invalid/{code}_{CODES[code].lower()}.anic")}
     for status, data, what in broken_payloads(sorted(files, key=lambda f: len(f[1])), library, rest) if rest else ():
         add(status, CODES[str(status)].lower(), data, what)
@@ -394,11 +411,14 @@ def add_bad(suite, command, library):
     chunks = anic_file.read_chunks(files[0][1])
     add(11, "draft", anic_file.write_chunks(chunks, version=(0, 9)), "")
     add(11, "largest", anic_file.write_chunks(chunks, version=(65535, 0)), "")
+    learning = (FOLDER / LEARNING[0]).read_bytes()
+    add(SEGMENT_MISSING, "segment_missing", with_meshes(*anic_file.split_stream(learning)[:2]),
+        "a file with its meshes whose segment continues one of another file")
     add(12, "continuation", second[:anic_file.file_size(second)], "a continuation without the file that it continues")
     for status, what, data, text in broken_rules.broken_rules(command, FOLDER, lambda file: library.status(file)[0]):
         add(status, what, data, text)
-    for status, what, data, text in broken_streams(stream, (FOLDER / TWO_BASES[0]).read_bytes()):
-        suite.add_refused("invalid_stream", "invalid/streams", status, what, data, ["streams"], text)
+    for status, what, data, text in broken_streams(stream, (FOLDER / TWO_BASES[0]).read_bytes(), learning):
+        suite.add_refused("invalid_stream", "invalid/streams", status, what, data, features_of(data) + ["streams"], text)
     for what, data in greedy_files(files[0][1]):
         status, detail = library.status(data)
         suite.add_refused("limit", "limits", status, what, data, [], detail)

@@ -121,7 +121,7 @@ void encode_live(const EncodeArguments& command, const CommonOptions& common) {
   const size_t vertices = mesh.vertex_count;
   const double rate = mesh.rate.value();
   const auto frames = static_cast<size_t>(std::max(1.0, std::round(command.piece * rate)));
-  LiveEncoder encoder(std::move(mesh), options);
+  LiveEncoder encoder(std::move(mesh), options, command.key_every);
   GrowingOutput output(command.output, common.overwrite);
   // Frames are read while those before them are encoded.
   const auto read = [&] { return std::async(std::launch::async, read_frames, frames, vertices); };

@@ -309,6 +309,8 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.flag("--live", a.live,
                "INPUT is a mesh, its frames come from the standard input: float32 x, y, z of each vertex, little-endian");
   options.number("--piece", a.piece, "SECONDS", {0.001, 3600}, "Of --live, what is encoded at a time (default 1)");
+  options.number("--key-every", a.key_every, "SECONDS", {0, 1e6},
+                 "Of --live, a piece that does without those before it (default 4; 0: every one)");
   add_target(options, a);
   add_method(options, a);
   add_massage_options(options, a);

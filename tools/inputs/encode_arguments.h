@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_INPUTS_ENCODE_ARGUMENTS_H_
 
 #include "codec/encode.h"
+#include "codec/encode_live.h"
 #include "codec/encode_massaged.h"
 #include "codec/sequence/mesh_sequence.h"
 #include "tools/io/load_sequence.h"
@@ -54,6 +55,7 @@ struct EncodeArguments {
   bool loop = false;
   bool live = false;
   double piece = 1;                 ///< of a live stream, seconds
+  double key_every = kKeyEvery;     ///< the same
   std::vector<std::string> events;    ///< [CLIP:]NAME=SECONDS
   std::vector<std::string> given;     ///< "--option=value" for all that an output depends on beside its clip
   std::vector<std::string> metadata;  ///< KEY=VALUE

@@ -58,7 +58,7 @@ void list_limits(FieldReader& r) {
     r.explain(
         name_of(static_cast<Reconstruction>(r.u8(fmt::format("segment {} reconstruction", i)))));
     constexpr uint8_t kRegions = 2, kOfAttribute = 4, kDraco = 8;
-    constexpr const char* kFlags[] = {"exact", "regions", "of an attribute", "Draco"};
+    constexpr const char* kFlags[] = {"exact", "regions", "of an attribute", "Draco", "learns"};
     const uint8_t flags = r.u8(fmt::format("segment {} flags", i));
     explain_flags(r, flags, kFlags);
     for (const char* name :

@@ -61,7 +61,8 @@ inline constexpr Word<UpAxis> kUpAxes[] = {{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}}
 
 inline constexpr Word<uint64_t> kFeatures[] = {{kContinuation, "continuation"},
                                                {kDracoFeature, "draco"},
-                                               {kMsgiFeature, "msgi"}};
+                                               {kMsgiFeature, "msgi"},
+                                               {kLearningFeature, "learning"}};
 
 /// The names of the feature bits that are set.
 inline std::vector<std::string> feature_list(uint64_t features) {

@@ -15,7 +15,7 @@ namespace Anicodec
         Truncated = 20, Header = 21, HeaderChecksum = 22, ChunkBounds = 23, ChunkChecksum = 24, ChunkDuplicate = 25,
         ChunkMissing = 26, ChunkUnknown = 27, TrailingBytes = 29, FileSize = 30,
         Record = 40, Entropy = 41, Zstd = 42, Topology = 43, IndexRange = 44, Quantizer = 45, NonFinite = 46, Draco = 47,
-        Segment = 48, Hash = 49, Meshes = 50,
+        Segment = 48, Hash = 49, Meshes = 50, SegmentMissing = 51,
         Limit = 60,
         Memory = 70, Read = 71, Cancelled = 72,
         Internal = 90

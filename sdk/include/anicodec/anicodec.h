@@ -152,6 +152,7 @@ enum anic_status ANIC_INT32 {
   ANIC_E_SEGMENT = 48, /**< a segment contradicts its counts or its mesh */
   ANIC_E_HASH = 49,
   ANIC_E_MESHES = 50, /**< a continuation of a live stream follows a file with other meshes */
+  ANIC_E_SEGMENT_MISSING = 51, /**< a file of a live stream continues one that was lost, or not opened in full */
 
   ANIC_E_LIMIT = 60, /**< more than anic_options allow */
 
@@ -1456,7 +1457,9 @@ ANIC_API anic_status anic_push_bytes(anic_stream* stream, const void* bytes, siz
 /**
  * Turns to the next file of a live stream: what anicodec encode --live writes, a file for each second or so,
  * of which all but the first leave out their meshes. Its clip has the time at which it begins (anic_clip.start_time).
- * Open the file at hand before; the stream gives its bytes up, and keeps those of the meshes.
+ * Open the file at hand before; the stream gives its bytes up, and keeps those of the meshes. Files of a stream that
+ * learns continue those before them: where one was lost, or not opened when it was complete, those that follow are refused
+ * with ANIC_E_SEGMENT_MISSING up to the next that begins anew.
  *
  * - Errors: ANIC_E_STATE: the file is not complete; those of anic_push_bytes(), of the bytes that waited
  * - Cost: O(waiting bytes)
@@ -1480,11 +1483,12 @@ ANIC_API anic_status anic_get_stream_failure(const anic_stream* stream, anic_fai
  * they are: replace them when their contexts can be replaced.
  *
  * A stream that is not complete, or live, keeps the faces, attributes, poses and orders of vertices of the meshes that
- * it opened, where max_bytes allows it, so that the next asset of them opens sooner.
+ * it opened, where max_bytes allows it, so that the next asset of them opens sooner; and what the last complete files
+ * of a live stream have learnt.
  *
  * - Errors: ANIC_E_STATE: nothing is playable yet; others as anic_open_asset()
  * - Memory: that of the asset; until the stream goes, what the asset keeps of its meshes, 12 bytes more for each
- *   triangle, and 113 for each vertex
+ *   triangle, and 113 for each vertex; of a stream that learns, up to 1468 more for each vertex
  * - Cost: that of opening what is there, all layers from the first one on, the meshes once: do it when it is worth it,
  *   not at every push
  */

@@ -39,6 +39,7 @@ def read_limi(data, features):
     limi.mesh_hash = int.from_bytes(fields[1], 'little') if 1 in fields else None
     need(bool(features & 2) == any(s.draco for s in limi.segments), 'RECORD', 'feature 1')
     need(bool(features & 4) == any(s.reconstruction for s in limi.segments), 'RECORD', 'feature 2')
+    need(bool(features & 8) == any(s.learns for s in limi.segments), 'RECORD', 'feature 3')
     end = {}
     for s in sorted(limi.segments, key=lambda s: s.first):
         what = (s.mesh, s.attribute, s.triple)
@@ -66,10 +67,10 @@ def _read_segment(r, limi):
     s.reconstruction = r.u8()
     need(s.reconstruction <= 1, 'FEATURE', 'reconstruction')
     flags = r.u8()
-    need(flags < 16, 'FEATURE', 'flags of a segment')
-    s.exact, s.has_regions, s.moves_attribute, s.draco = (bool(flags >> i & 1) for i in range(4))
+    need(flags < 32, 'FEATURE', 'flags of a segment')
+    s.exact, s.has_regions, s.moves_attribute, s.draco, s.learns = (bool(flags >> i & 1) for i in range(5))
     need(not s.reconstruction or s.kind == 0, 'FEATURE', 'combination')
-    need(flags & ~{0: 9, 1: 1, 2: 7}[s.kind] == 0 and (not s.moves_attribute or flags == 4), 'FEATURE', 'combination')
+    need(flags & ~{0: 9, 1: 17, 2: 23}[s.kind] == 0 and (not s.moves_attribute or flags == 4), 'FEATURE', 'combination')
     s.first = r.varint(limi.frames - 1)
     s.frames = r.varint(limi.frames - s.first, 1)
     s.components = r.varint(2 ** 20)
@@ -156,7 +157,7 @@ def read_segm(data):
     """Section 7."""
     r = Reader(data)
     segm = Record(hash=r.u64(), parameters=r.block(), pose=r.block(), motion=r.block(), weights=r.block())
-    optional_fields(r, {})
+    need(1 not in optional_fields(r, {1: 8}), 'RECORD', 'a segment that continues another, and does not learn')
     return segm
 
 

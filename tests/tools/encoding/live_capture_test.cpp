@@ -68,6 +68,14 @@ TEST_F(LiveCapture, LeavesWhatIsThereWhereTheInputEnds) {
   EXPECT_THAT(info.err, HasSubstr("not complete"));
 }
 
+TEST_F(LiveCapture, BeginsAnewAsOftenAsAskedFor) {
+  ASSERT_EQ(encode("cat frames").status, 0);
+  ASSERT_EQ(encode("cat frames", "-o anew.anic --key-every 0").status, 0);
+  EXPECT_EQ(anicodec({"info", at("live.anic"), "--json"}).json()["features"], nlohmann::json({"learning"}));
+  EXPECT_EQ(anicodec({"info", at("anew.anic"), "--json"}).json()["features"], nlohmann::json::array());
+  EXPECT_LT(std::filesystem::file_size(at("live.anic")), std::filesystem::file_size(at("anew.anic")));
+}
+
 TEST_F(LiveCapture, RefusesWhatItCannotDo) {
   EXPECT_EQ(encode("cat frames").status, 0);
   EXPECT_EQ(encode("cat frames").status, 1);  // the output is there
