@@ -11,7 +11,7 @@ import anicodec
 
 pytest.importorskip("pxr", reason="usd-core is not installed")
 
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdSkel, Vt  # noqa: E402
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel, Vt  # noqa: E402
 
 from anicodec import usd  # noqa: E402
 
@@ -67,14 +67,15 @@ def test_meshes_come_and_go_and_are_written_back(stage, tmp_path):
     path = tmp_path / "back.usdc"
     usd.decode(clip, path)
     back = Usd.Stage.Open(str(path))
+    assert (back.GetStartTimeCode(), back.GetEndTimeCode()) == (101, 124)
     assert back.GetTimeCodesPerSecond() == 30 and UsdGeom.GetStageUpAxis(back) == "Z"
     sheet = UsdGeom.Mesh(back.GetPrimAtPath("/shot/sheet"))
-    assert np.array_equal(np.array(sheet.GetPointsAttr().Get(7)), named["sheet"][7])
+    assert np.array_equal(np.array(sheet.GetPointsAttr().Get(108)), named["sheet"][7])
     assert len(sheet.GetFaceVertexCountsAttr().Get()) == 121
     assert UsdGeom.PrimvarsAPI(sheet).GetPrimvar("st").GetInterpolation() == "faceVarying"
     assert list(UsdGeom.Subset(back.GetPrimAtPath("/shot/sheet/skin")).GetIndicesAttr().Get()) == [0, 1, 2]
     guest = UsdGeom.Imageable(back.GetPrimAtPath("/shot/guest"))
-    assert [guest.ComputeVisibility(code) for code in (0, 4, 10)] == ["invisible", "inherited", "invisible"]
+    assert [guest.ComputeVisibility(code) for code in (101, 105, 111)] == ["invisible", "inherited", "invisible"]
     again = anicodec.open(usd.encode(str(path), effort=1))
     assert {mesh.name for mesh in again.meshes} == {"sheet", "guest"} and again.frame_count == 24
 
@@ -216,10 +217,85 @@ def test_a_stage_far_from_zero_keeps_its_digits(stage, tmp_path):
     clip = anicodec.open(usd.encode(stage, "/group/sheet", effort=1, order="faces"))
     assert max(clip.info["origin"]) > 4e6
     back = usd.decode(clip, tmp_path / "back.usdc")
-    for code, frame in ((101, 0), (124, 23)):
+    for code in (101, 124):
         worlds = []
-        for file, at in ((stage, code), (back, frame)):
+        for file in (stage, back):
             mesh = next(UsdGeom.Mesh(prim) for prim in file.Traverse() if prim.IsA(UsdGeom.Mesh) and prim.GetName() == "sheet")
-            world = np.array(UsdGeom.XformCache(at).GetLocalToWorldTransform(mesh.GetPrim()))
-            worlds.append(np.array(mesh.GetPointsAttr().Get(at), float) @ world[:3, :3] + world[3, :3])
+            world = np.array(UsdGeom.XformCache(code).GetLocalToWorldTransform(mesh.GetPrim()))
+            worlds.append(np.array(mesh.GetPointsAttr().Get(code), float) @ world[:3, :3] + world[3, :3])
         assert np.linalg.norm(worlds[0] - worlds[1], axis=1).max() <= clip.info["max_error"] * 1.01 + 1e-6
+
+
+def triangle(stage, path, codes=(None,)):
+    """Its first vertex is at as many units on z as the code says."""
+    mesh = UsdGeom.Mesh.Define(stage, path)
+    for code in codes:
+        mesh.CreatePointsAttr().Set([(0, 0, code or 0), (1, 0, 0), (0, 1, 0)], *([] if code is None else [code]))
+    mesh.CreateFaceVertexCountsAttr([3])
+    mesh.CreateFaceVertexIndicesAttr([0, 1, 2])
+    return mesh
+
+
+def timed_stage(start, end, per_second):
+    stage = Usd.Stage.CreateInMemory()
+    stage.SetStartTimeCode(start)
+    stage.SetEndTimeCode(end)
+    stage.SetTimeCodesPerSecond(per_second)
+    return stage
+
+
+@pytest.mark.parametrize("per_second, frames_per_second, codes, fps", [
+    (24, None, [1, 1.5, 2, 2.5, 3, 3.5, 4], 48), (1, 24, [frame / 24 for frame in range(49)], 24), (24, 12, [1, 2, 3], 24)])
+def test_samples_between_time_codes_are_frames(per_second, frames_per_second, codes, fps):
+    stage = timed_stage(codes[0], codes[-1], per_second)
+    if frames_per_second:
+        stage.SetFramesPerSecond(frames_per_second)
+    triangle(stage, "/a", codes)
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    assert clip.fps == fps and clip.frame_count == len(codes)
+    assert clip[:][:, 0, 2] == pytest.approx(codes)
+
+
+def test_each_instance_of_an_instancer_is_a_mesh():
+    stage = timed_stage(1, 2, 24)
+    instancer = UsdGeom.PointInstancer.Define(stage, "/group/many")
+    UsdGeom.Xform(UsdGeom.Xform.Get(stage, "/group") or UsdGeom.Xform.Define(stage, "/group")).AddTranslateOp().Set((0, 100, 0))
+    UsdGeom.Xform.Define(stage, "/group/many/thing").AddTranslateOp().Set((0, 0, 10))
+    triangle(stage, "/group/many/thing/part").AddTranslateOp().Set((1000, 0, 0))
+    instancer.CreatePrototypesRel().AddTarget("/group/many/thing")
+    instancer.CreateProtoIndicesAttr([0, 0])
+    for code, places in ((1, [(0, 0, 0), (5, 0, 0)]), (2, [(0, 0, 1), (5, 0, 2)])):
+        instancer.CreatePositionsAttr().Set(places, code)
+    instancer.CreateInvisibleIdsAttr().Set([1], 1)
+    instancer.CreateInvisibleIdsAttr().Set([], 2)
+    data = usd.encode(stage, lossless=True, effort=1)
+    clip = anicodec.open(data)
+    assert [mesh.name for mesh in clip.meshes] == ["part_0", "part_1"] and list(data.notes) == []
+    assert clip.meshes[0][0][0].tolist() == [1000, 100, 10] and clip.meshes[0][1][0].tolist() == [1000, 100, 11]
+    assert not clip.meshes[1].shown_in(0) and clip.meshes[1][1][0].tolist() == [1005, 100, 12]
+    instancer.CreateProtoIndicesAttr().Set([0], 2)
+    triangle(stage, "/alone")
+    data = usd.encode(stage, effort=1)
+    assert [mesh.name for mesh in anicodec.open(data).meshes] == [""] or len(anicodec.open(data).meshes) == 1
+    assert "1 PointInstancer whose instances come and go" in data.notes[0]
+
+
+def test_what_a_stage_has_besides_is_named():
+    stage = timed_stage(1, 3, 24)
+    mesh = triangle(stage, "/group/a", [1, 2, 3])
+    UsdGeom.Camera.Define(stage, "/eye")
+    for number in range(2):
+        UsdGeom.Sphere.Define(stage, f"/ball{number}")
+    mesh.CreateCreaseIndicesAttr([0, 1])
+    mesh.CreateVelocitiesAttr([(0, 0, 0)] * 3)
+    primvars = UsdGeom.PrimvarsAPI(mesh)
+    primvars.CreatePrimvar("label", Sdf.ValueTypeNames.StringArray, UsdGeom.Tokens.vertex).Set(["a", "b", "c"])
+    primvars.CreatePrimvar("heat", Sdf.ValueTypeNames.FloatArray, UsdGeom.Tokens.vertex).Set([1, 2, 3])
+    material = UsdShade.Material.Define(stage, "/paint")
+    material.CreateSurfaceOutput()
+    data = usd.encode(stage, effort=1)
+    assert list(data.notes) == ["not kept: 1 Camera, 2 Sphere, values of materials, 'creaseIndices' of meshes, "
+                                "'velocities' of meshes, primvar 'label'"]
+    assert [attribute.name for attribute in anicodec.open(data).attributes] == ["heat"]
+    mesh.GetPointsAttr().Set([(0, 0, 0), (1, 0, 0), (0, 1, 0)], 2.03)
+    assert usd.encode(stage, effort=1).notes[0] == "1 time samples of the stage stand between the frames; fps= samples it at others"

@@ -31,7 +31,9 @@ def _parser() -> argparse.ArgumentParser:
     for name in ("effort", "keyframes", "uv-bits", "colour-bits"):
         parser.add_argument("--" + name, type=int)
     parser.add_argument("--store-normals", type=float)
+    parser.add_argument("--origin", help="auto, none or X,Y,Z")
     parser.add_argument("--no-attributes", action="store_true", default=None)
+    parser.add_argument("--lossless", action="store_true", default=None)
     parser.add_argument("--loop", action="store_true", default=None)
     return parser
 
@@ -52,6 +54,8 @@ def main(arguments: List[str]) -> int:
     options["normal_error"] = options.pop("store_normals")
     options["selection"] = options.pop("keyframe_selection")
     options = {name: value for name, value in options.items() if value is not None}
+    if options.get("origin") not in (None, "auto", "none"):
+        options["origin"] = options["origin"].split(",")
     try:
         from . import usd
     except ImportError as error:
@@ -67,6 +71,8 @@ def main(arguments: List[str]) -> int:
         print(f"anicodec: {stage}: {error}", file=sys.stderr)
         return 2
     if not quiet:
+        for note in data.notes:
+            print(f"{stage}: {note}", file=sys.stderr)
         print(f"{output}: {len(data)} bytes, max error {data.measured['max_error']:.4g}, "
               f"KG {data.measured['kg']:.3g} %")
     return 0

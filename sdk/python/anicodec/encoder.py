@@ -35,6 +35,7 @@ class Encoded(bytes):
     """The bytes of a file, with what was measured of it: `measured["max_error"]`, "rmse", "kg", "diagonal"..."""
 
     measured: Dict[str, Any]
+    notes: Sequence[str] = ()  #: what a source has and the file does not keep, of those that importers read
 
 
 @dataclass

@@ -26,9 +26,10 @@ def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Se
     """Encodes the meshes of a stage, in world space.
 
     stage: a stage or the path of one. prims: paths; their meshes and all below them. Skins and blend shapes are baked.
-    fps: frames per second, default one for each time code, from the stage's start to its end. Texture coordinates,
-    colours, other numbers, hard edges, subsets as materials and visibility are kept. topology_changes: "refuse", or
-    "keep" to store a mesh for each run of frames with equal faces. Other options are those of encode().
+    fps: frames per second, default one for each time code, or more where samples stand between them, from the stage's start to
+    its end. Texture coordinates, colours, other numbers, hard edges, subsets as materials and visibility are kept; each
+    instance of a PointInstancer is a mesh. `notes` of the result names what else the stage has. topology_changes: "refuse",
+    or "keep" to store a mesh for each run of frames with equal faces. Other options are those of encode().
 
     Raises InputError naming the prim, and what encode() raises.
     """
@@ -36,8 +37,10 @@ def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Se
         raise InputError(f"topology_changes is 'refuse' or 'keep', not {topology_changes!r}")
     source = _opened(stage)
     baked = _bake_skins(source)
-    codes, rate = _time_codes(baked, fps)
-    readers = [_MeshReader(mesh, codes) for mesh in _meshes(baked, prims)]
+    notes: List[str] = []
+    codes, rate = _time_codes(baked, fps, notes)
+    left_out: Dict[str, int] = {}
+    readers = [_MeshReader(place, codes, left_out) for place in _places(baked, prims, codes, left_out)]
     meshes = [mesh for reader in readers for mesh in reader.read(topology_changes == "keep")]
     if not meshes:
         raise InputError("the stage has no mesh that is visible")
@@ -45,7 +48,11 @@ def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Se
     options.setdefault("unit", UsdGeom.GetStageMetersPerUnit(baked))
     options.setdefault("start_time", codes[0] / baked.GetTimeCodesPerSecond())
     options.setdefault("name", os.path.splitext(os.path.basename(source.GetRootLayer().GetDisplayName()))[0])
-    return encode_meshes(meshes, frame_count=len(codes), fps=rate, **options)
+    result = encode_meshes(meshes, frame_count=len(codes), fps=rate, **options)
+    if left_out:
+        notes.append("not kept: " + ", ".join(f"{count} {kind}" if count else kind for kind, count in left_out.items()))
+    result.notes = notes
+    return result
 
 
 def _opened(stage: Any) -> Usd.Stage:
@@ -73,61 +80,141 @@ def _bake_skins(stage: Usd.Stage) -> Usd.Stage:
     return copy
 
 
-def _time_codes(stage: Usd.Stage, fps: Any) -> Tuple[List[float], Fraction]:
+def _time_codes(stage: Usd.Stage, fps: Any, notes: List[str]) -> Tuple[List[float], Fraction]:
     """The time code of each frame, and frames per second."""
     per_second = stage.GetTimeCodesPerSecond()
-    rate = Fraction(per_second if fps is None else fps).limit_denominator(100000)
-    if rate <= 0:
-        raise InputError(f"fps must be greater than 0, not {fps!r}")
+    samples = np.array(sorted({sample for prim in stage.Traverse(Usd.TraverseInstanceProxies())
+                               for attribute in prim.GetAuthoredAttributes() for sample in attribute.GetTimeSamples()}))
     if stage.HasAuthoredTimeCodeRange():
         start, end = stage.GetStartTimeCode(), stage.GetEndTimeCode()
     else:
-        samples = [sample for prim in stage.Traverse(Usd.TraverseInstanceProxies())
-                   for attribute in prim.GetAuthoredAttributes() for sample in attribute.GetTimeSamples()]
-        start, end = (min(samples), max(samples)) if samples else (0.0, 0.0)
-    step = per_second / float(rate)
+        start, end = (samples[0], samples[-1]) if len(samples) else (0.0, 0.0)
+    samples = samples[(samples >= start) & (samples <= end)]
+    if fps is not None:
+        rates = [fps]
+    else:
+        rates = [per_second, stage.GetFramesPerSecond(), *(per_second * parts for parts in range(2, 17))]
+    steps = [per_second / float(rate) for rate in rates if rate > 0]
+    if not steps:
+        raise InputError(f"fps must be greater than 0, not {fps!r}")
+    between = [int((np.abs((samples - start) / step - np.round((samples - start) / step)) > 1e-4).sum()) for step in steps]
+    best = between.index(0) if 0 in between else 0
+    if between[best]:
+        notes.append(f"{between[best]} time samples of the stage stand between the frames; fps= samples it at others")
+    rate, step = Fraction(rates[best]).limit_denominator(100000), steps[best]
     count = int(np.floor((end - start) / step + 1e-6)) + 1
     if count < 1 or count >= 2**24:
         raise InputError(f"the stage has no frames from {start:g} to {end:g}")
     return [start + frame * step for frame in range(count)], rate
 
 
-def _meshes(stage: Usd.Stage, prims: Union[None, str, Sequence[str]]) -> List[UsdGeom.Mesh]:
+# Prims that become meshes or say how these move and look; materials keep their names.
+_KEPT_TYPES = ("", "Mesh", "Xform", "Scope", "GeomSubset", "Material", "Shader", "NodeGraph", "SkelRoot", "Skeleton", "SkelAnimation",
+               "BlendShape", "PointInstancer")
+
+
+class _Place:
+    """A mesh, or one instance of it: matrices are those of pxr, for row vectors."""
+
+    def __init__(self, mesh: UsdGeom.Mesh, instancer: Optional[UsdGeom.PointInstancer] = None, instance: int = 0,
+                 prototype: Optional[Usd.Prim] = None):
+        self.mesh, self.prim = mesh, mesh.GetPrim()
+        self._instancer, self._instance, self._prototype = instancer, instance, prototype
+        self.name = self.prim.GetName() + (f"_{instance}" if instancer else "")
+
+    def is_visible(self, code: float) -> bool:
+        owner = self._instancer or UsdGeom.Imageable(self.prim)
+        if UsdGeom.Imageable(owner.GetPrim()).ComputeVisibility(code) == UsdGeom.Tokens.invisible:
+            return False
+        mask = self._instancer.ComputeMaskAtTime(code) if self._instancer else []
+        return not mask or mask[self._instance]
+
+    def matrix(self, cache: UsdGeom.XformCache, code: float) -> np.ndarray:
+        world = cache.GetLocalToWorldTransform(self.prim)
+        if self._instancer:
+            world = world * cache.GetLocalToWorldTransform(self._prototype).GetInverse() * \
+                _instances_at(self._instancer, code)[self._instance] * cache.GetLocalToWorldTransform(self._instancer.GetPrim())
+        return np.array(world)
+
+
+def _instances_at(instancer: UsdGeom.PointInstancer, code: float) -> Any:
+    return instancer.ComputeInstanceTransformsAtTime(code, code, UsdGeom.PointInstancer.IncludeProtoXform,
+                                                     UsdGeom.PointInstancer.IgnoreMask)
+
+
+def _places(stage: Usd.Stage, prims: Union[None, str, Sequence[str]], codes: List[float], left_out: Dict[str, int]) -> List[_Place]:
     wanted = None if prims is None else [Sdf.Path(path) for path in ([prims] if isinstance(prims, str) else prims)]
     for path in wanted or []:
         if not stage.GetPrimAtPath(path):
             raise InputError(f"the stage has no prim {path}")
-    found = []
-    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
-        inside = wanted is None or any(prim.GetPath().HasPrefix(path) for path in wanted)
-        if inside and prim.IsA(UsdGeom.Mesh) and \
-                UsdGeom.Imageable(prim).ComputePurpose() in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render):
-            found.append(UsdGeom.Mesh(prim))
+    found: List[_Place] = []
+    walk = iter(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
+    for prim in walk:
+        if wanted is not None and not any(prim.GetPath().HasPrefix(path) for path in wanted):
+            continue
+        kind = prim.GetTypeName()
+        if kind not in _KEPT_TYPES:
+            left_out[kind] = left_out.get(kind, 0) + 1
+        if prim.IsA(UsdGeom.PointInstancer):
+            walk.PruneChildren()  # prototypes stand nowhere by themselves
+            found.extend(_instances(stage, UsdGeom.PointInstancer(prim), codes, left_out))
+        elif kind == "Material" and UsdShade.Material(prim).GetSurfaceOutputs():
+            left_out["values of materials"] = 0
+        elif prim.IsA(UsdGeom.Mesh) and _is_rendered(prim):
+            found.append(_Place(UsdGeom.Mesh(prim)))
     if not found:
         raise InputError("the stage has no mesh" + (f" below {', '.join(map(str, wanted))}" if wanted else ""))
     return found
 
 
+def _is_rendered(prim: Usd.Prim) -> bool:
+    return UsdGeom.Imageable(prim).ComputePurpose() in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
+
+
+def _instances(stage: Usd.Stage, instancer: UsdGeom.PointInstancer, codes: List[float], left_out: Dict[str, int]) -> List[_Place]:
+    """The meshes of the prototype of each instance."""
+    roots = [stage.GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetForwardedTargets()]
+    numbers = list(instancer.GetProtoIndicesAttr().Get(codes[0]) or [])
+    same = all(list(instancer.GetProtoIndicesAttr().Get(code) or []) == numbers for code in codes) and \
+        all(len(_instances_at(instancer, code)) == len(numbers) for code in codes)
+    if not same or any(number < 0 or number >= len(roots) or not roots[number] for number in numbers):
+        kind = "PointInstancer whose instances come and go"
+        left_out[kind] = left_out.get(kind, 0) + 1
+        return []
+    return [_Place(UsdGeom.Mesh(prim), instancer, instance, roots[number]) for instance, number in enumerate(numbers)
+            for prim in Usd.PrimRange(roots[number], Usd.TraverseInstanceProxies()) if prim.IsA(UsdGeom.Mesh) and _is_rendered(prim)]
+
+
+# Attributes of a mesh that are read, or say what the mesh says anyway.
+_KEPT_ATTRIBUTES = ("points", "faceVertexCounts", "faceVertexIndices", "holeIndices", "orientation", "normals", "extent", "visibility",
+                    "purpose", "subdivisionScheme", "interpolateBoundary", "faceVaryingLinearInterpolation",
+                    "triangleSubdivisionRule", "xformOpOrder")
+_KEPT_SPACES = ("primvars:", "xformOp:", "skel:")
+
+
 class _MeshReader:
     """Reads a mesh at all time codes."""
 
-    def __init__(self, mesh: UsdGeom.Mesh, codes: List[float]):
-        self._mesh, self._prim, self._codes = mesh, mesh.GetPrim(), codes
-        self._name = self._prim.GetName()
+    def __init__(self, place: _Place, codes: List[float], left_out: Dict[str, int]):
+        self._place, self._mesh, self._prim, self._codes, self._left_out = place, place.mesh, place.prim, codes, left_out
+        for attribute in self._prim.GetAuthoredAttributes():
+            name = attribute.GetName()
+            if name not in _KEPT_ATTRIBUTES and not name.startswith(_KEPT_SPACES):
+                left_out[f"'{name}' of meshes"] = 0
 
     def read(self, keep_changes: bool) -> List[SourceMesh]:
         """The mesh, or several where its faces change; none where it is never there."""
         runs: List[Dict[str, Any]] = []
         cache = UsdGeom.XformCache()
         for frame, code in enumerate(self._codes):
-            if UsdGeom.Imageable(self._prim).ComputeVisibility(code) == UsdGeom.Tokens.invisible:
+            if not self._place.is_visible(code):
                 continue
             points = self._mesh.GetPointsAttr().Get(code)
             if not points:
                 continue
             faces = self._faces(code)
             cache.SetTime(code)
-            matrix = np.array(cache.GetLocalToWorldTransform(self._prim))
+            matrix = self._place.matrix(cache, code)
             positions = np.array(points, np.float64).reshape(-1, 3) @ matrix[:3, :3] + matrix[3, :3]
             same = [run for run in runs[-2:] if len(run["positions"][0]) == len(positions) and
                     all(np.array_equal(a, b) for a, b in zip(run["faces"], faces))]
@@ -166,7 +253,7 @@ class _MeshReader:
         self._order = self._order[np.repeat(self._kept, counts)]
         frames = run["frames"]
         offsets = np.concatenate([[0], np.cumsum(counts[self._kept])])
-        mesh = SourceMesh(np.stack(run["positions"]), (offsets, corners[self._order]), name=self._name,
+        mesh = SourceMesh(np.stack(run["positions"]), (offsets, corners[self._order]), name=self._place.name,
                           runs=_runs(frames, len(self._codes)), uv={}, colours={}, normals={}, custom={},
                           materials=self._materials(len(counts)))
         codes = [self._codes[frame] for frame in frames]
@@ -181,15 +268,16 @@ class _MeshReader:
             return
         sampled = codes if primvar.ValueMightBeTimeVarying() and len(codes) > 1 else codes[:1]
         frames = [self._values(primvar, run, code) for code in sampled]
-        if any(frame is None or frame.shape != frames[0].shape for frame in frames):
+        if any(frame is None or frame.shape != frames[0].shape or frame.shape[-1] > 16 for frame in frames):
+            self._left_out[f"primvar '{name}'"] = 0
             return
         values = frames[0] if len(frames) == 1 else np.stack(frames)
-        if kind.role == "TextureCoordinate" or (values.shape[-1] == 2 and name.startswith(("st", "uv", "UV"))):
-            if values.shape[-1] == 2:
-                mesh.uv[name] = values
-        elif kind.role == "Color":
+        is_uv = kind.role == "TextureCoordinate" or name.startswith(("st", "uv", "UV"))
+        if is_uv and values.shape[-1] == 2:
+            mesh.uv[name] = values
+        elif kind.role == "Color" and values.shape[-1] in (3, 4):
             mesh.colours[name] = np.clip(values, 0, 1)
-        elif values.shape[-1] <= 16:
+        else:
             mesh.custom[name] = values
 
     def _values(self, primvar: UsdGeom.Primvar, run: Dict[str, Any], code: float) -> Optional[np.ndarray]:
@@ -253,15 +341,16 @@ def _runs(frames: List[int], count: int) -> List[Tuple[int, int]]:
 
 def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage]) -> Usd.Stage:
     """Writes a clip (or what open() takes) to a stage, or to a new one at a path, which is saved: a mesh for each of
-    the clip, with points at the time code of each frame, frame 0 at 0, below a prim that is at the origin of the clip. Returns
-    the stage."""
+    the clip, with points at the time code of each frame, as the source had it, below a prim that is at the origin of the clip.
+    Returns the stage."""
     source = clip if isinstance(clip, Clip) else open_clip(clip)
     stage = target if isinstance(target, Usd.Stage) else Usd.Stage.CreateNew(os.fspath(target))
     rate = float(source.fps)
     stage.SetTimeCodesPerSecond(rate)
     stage.SetFramesPerSecond(rate)
-    stage.SetStartTimeCode(0)
-    stage.SetEndTimeCode(source.duration * rate)
+    first = _whole(source.info["start_time"] * rate)
+    stage.SetStartTimeCode(first)
+    stage.SetEndTimeCode(_whole(first + source.duration * rate))
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z if source.info["up"] == "z" else UsdGeom.Tokens.y)
     if source.info["metres_per_unit"] > 0:
         UsdGeom.SetStageMetersPerUnit(stage, source.info["metres_per_unit"])
@@ -274,10 +363,16 @@ def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage]) -> Usd.Stage:
         name = _identifier(mesh.name or "mesh")
         name = name if name not in taken else f"{name}_{number}"
         taken.add(name)
-        _write_mesh(UsdGeom.Mesh.Define(stage, root.GetPath().AppendChild(name)), mesh, source, rate)
+        _write_mesh(UsdGeom.Mesh.Define(stage, root.GetPath().AppendChild(name)), mesh, source,
+                    [_whole(first + source.time(frame) * rate) for frame in range(len(source))])
     if not isinstance(target, Usd.Stage):
         stage.GetRootLayer().Save()
     return stage
+
+
+def _whole(code: float) -> float:
+    """A time code, whole where only rounding keeps it from that."""
+    return float(round(code)) if abs(code - round(code)) < 1e-6 * max(1.0, abs(code)) else code
 
 
 def _identifier(text: str) -> str:
@@ -285,7 +380,7 @@ def _identifier(text: str) -> str:
                                                                       for c in text)
 
 
-def _write_mesh(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, rate: float) -> None:
+def _write_mesh(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, codes: List[float]) -> None:
     offsets, corners = mesh.polygons
     prim.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.diff(offsets).astype(np.int32)))
     prim.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(corners.astype(np.int32)))
@@ -293,8 +388,7 @@ def _write_mesh(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, rate: float) -> None:
     points, extent = prim.CreatePointsAttr(), prim.CreateExtentAttr()
     shown = [mesh.shown_in(frame) for frame in range(len(clip))]
     for frame, there in enumerate(shown):
-        code = clip.time(frame) * rate
-        code = round(code) if abs(code - round(code)) < 1e-6 else code
+        code = codes[frame]
         if not all(shown) and (frame == 0 or shown[frame - 1] != there):
             prim.CreateVisibilityAttr().Set(UsdGeom.Tokens.inherited if there else UsdGeom.Tokens.invisible, code)
         if there:
