@@ -9,6 +9,7 @@
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/output_folder.h"
 #include "tools/io/files/staging.h"
+#include "tools/io/files/synchronize.h"
 #include "tools/program/print.h"
 #include "tools/words/quantity.h"
 
@@ -28,7 +29,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace anicodec::tools {
 namespace {
@@ -72,7 +72,8 @@ class Journal {
   explicit Journal(const std::string& folder)
       : path_((fs::path(folder) / ".anicodec-batch").string()) {
     std::string text, line;
-    if (fs::exists(path_))
+    is_named_ = fs::exists(path_);
+    if (is_named_)
       read_file(path_, text);
     torn_ = !text.empty() && text.back() != '\n';
     text.erase(text.rfind('\n') + 1);
@@ -96,11 +97,12 @@ class Journal {
     std::FILE* file = std::fopen(path_.c_str(), "a");
     // The line of a run that was killed may have no end.
     const std::string line = (torn_ ? "\n" : "") + hashes + " " + name + "\n";
-    bool ok = file && std::fputs(line.c_str(), file) >= 0 && std::fflush(file) == 0;
-    if (file) {
-      ::fsync(::fileno(file));
+    bool ok = file && std::fputs(line.c_str(), file) >= 0 && std::fflush(file) == 0 && synchronize(::fileno(file));
+    if (file)
       ok &= std::fclose(file) == 0;
-    }
+    if (!is_named_)
+      synchronize_folder(fs::path(path_).parent_path().string());
+    is_named_ = true;
     torn_ = false;
     if (!ok)
       throw Error(ErrorKind::kInternal, path_ + ": cannot be written");
@@ -109,6 +111,7 @@ class Journal {
  private:
   std::string path_;
   std::map<std::string, std::string> done_;
+  bool is_named_ = false;  ///< on disk
   bool torn_ = false;
   std::mutex mutex_;
 };

@@ -6,6 +6,7 @@
 #include "codec/sequence/error.h"
 #include "tools/io/base/byte_order.h"
 #include "tools/io/files/atomic_file.h"
+#include "tools/io/files/synchronize.h"
 #include "tools/io/load_sequence.h"
 #include "tools/program/print.h"
 #include "tools/words/quantity.h"
@@ -19,6 +20,7 @@
 #include <cstring>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,27 +38,33 @@ struct FileCloser {
   }
 };
 
-/// An output that grows: each file of the stream is there as soon as it is written. What was there before stays until
-/// the first one.
+/// An output that grows: each file of the stream is there, and on disk, as soon as it is written. The first one takes
+/// the place of what was there before.
 class GrowingOutput {
  public:
   GrowingOutput(const std::string& path, bool overwrite) : path_(path) {
-    if (path != "-")
-      check_output(path, overwrite);
+    if (path == "-")
+      file_.reset(stdout);
+    else
+      first_.emplace(path, overwrite);
   }
 
   void write(const Bytes& bytes) {
-    if (!file_)
-      file_.reset(path_ == "-" ? stdout : std::fopen(path_.c_str(), "wb"));
-    if (!file_)
-      throw Error(ErrorKind::kUsage, fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
-        std::fflush(file_.get()) != 0)
+    if (first_) {
+      first_->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+      first_->commit();
+      first_.reset();
+      file_.reset(std::fopen(path_.c_str(), "ab"));
+      return;
+    }
+    if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
+        std::fflush(file_.get()) != 0 || (file_.get() != stdout && !synchronize(::fileno(file_.get()))))
       throw Error(ErrorKind::kInternal, fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
   }
 
  private:
   std::string path_;
+  std::optional<AtomicFile> first_;  // until it is written
   std::unique_ptr<std::FILE, FileCloser> file_;
 };
 

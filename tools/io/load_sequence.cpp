@@ -69,9 +69,29 @@ std::vector<std::string> matches(const std::string& pattern) {
   return paths;
 }
 
+/// Finishes what killed runs have left beside these files. Throws when one of them was to be replaced together with
+/// others, and this run may not finish that.
+void check_complete(std::span<const std::string> paths) {
+  std::set<fs::path> folders, pending;
+  for (const std::string& path : paths) {
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folders.insert(folder).second)
+      continue;
+    for (const std::string& name : recover_folder(folder.string()))
+      pending.insert(folder / name);
+  }
+  for (const std::string& path : paths) {
+    if (pending.contains(path))
+      fail_input(path,
+                 "was to be replaced together with other files by a run that was killed; write "
+                 "there or repeat that run to finish it");
+  }
+}
+
 /// Files behind the inputs. A name that exists is never a pattern.
 std::vector<std::string> expand(std::span<const std::string> inputs) {
   std::vector<std::string> paths;
+  check_complete(inputs);  // a pattern matches all files then
   for (const std::string& input : inputs) {
     if (input.find_first_of("*?[") != std::string::npos && !exists(input)) {
       std::vector<std::string> found = matches(input);
@@ -80,6 +100,7 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
       paths.push_back(input);
     }
   }
+  check_complete(paths);
   for (const std::string& path : paths) {
     std::error_code error;
     if (fs::is_directory(path, error))
@@ -531,25 +552,6 @@ void load_standard_input(const std::string& bytes, const LoadOptions& options,
     options.note(fmt::format("-: left out: {}", fmt::join(left_out, ", ")));
 }
 
-/// Throws when a run was killed while it replaced some of these files together with others, and
-/// this one may not finish that.
-void check_complete(const std::vector<std::string>& paths) {
-  std::set<fs::path> folders, pending;
-  for (const std::string& path : paths) {
-    const fs::path folder = fs::path(path).parent_path();
-    if (!folders.insert(folder).second)
-      continue;
-    for (const std::string& name : recover_folder(folder.string()))
-      pending.insert(folder / name);
-  }
-  for (const std::string& path : paths) {
-    if (pending.contains(path))
-      fail_input(path,
-                 "was to be replaced together with other files by a run that was killed; write "
-                 "there or repeat that run to finish it");
-  }
-}
-
 /// Tells of frames that are not in the order of their numbers: shells sort by letters.
 void note_order(const std::vector<std::string>& paths, const LoadOptions& options) {
   const bool fractions = have_fractions(paths);
@@ -563,7 +565,6 @@ void note_order(const std::vector<std::string>& paths, const LoadOptions& option
 
 void load(const std::vector<std::string>& paths, const LoadOptions& options,
           MeshSequence& sequence) {
-  check_complete(paths);
   for (const std::string& path : paths) {
     if (is_whole_clip(kind_of(path)) && paths.size() > 1)
       fail_usage(path + ": is a whole clip, but " + std::to_string(paths.size()) +

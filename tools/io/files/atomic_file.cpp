@@ -5,6 +5,7 @@
 #include "codec/sequence/error.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/files/commit_record.h"
+#include "tools/io/files/synchronize.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -152,8 +153,8 @@ void AtomicFile::close() {
     return;
   write_all(buffer_);
   std::string().swap(buffer_);
-  // A name must never lead to bytes that the disk does not have; some file systems cannot tell.
-  if (::fsync(file_->number) != 0 && errno != EINVAL && errno != ENOTSUP)
+  // A name must never lead to bytes that the disk does not have.
+  if (!synchronize(file_->number))
     fail_writing();
   // Some file systems report a full disk only now.
   int number = file_->number;
@@ -179,6 +180,7 @@ void AtomicFile::commit() {
   const HoldSignals hold;
   place();
   temporary_.clear();
+  synchronize_folder(fs::path(target_).parent_path().string());
 }
 
 /// Describes what place() will do, and sees to it that it can be undone.

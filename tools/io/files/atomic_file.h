@@ -23,7 +23,7 @@ void check_output(const std::string& path, bool overwrite);
 /// An output that appears under its name whole or not at all, and with it the folders that it lies in: written to a
 /// hidden folder beside it, renamed by commit() once the disk has it, removed by the destructor otherwise and by signals
 /// (install_cleanup_on_signal). The file that it replaces stays until then, and its mode is kept. Writes
-/// through symbolic links.
+/// through symbolic links. A power loss leaves the old file or the new one, and after commit() the new one.
 class AtomicFile {
  public:
   /// Throws like check_output, and Error(kUsage) when the file or its folder cannot be created.
@@ -70,8 +70,8 @@ class AtomicFile {
 };
 
 /// Commits all or none: when one fails, puts back what the others have replaced. A run that is
-/// killed in between leaves a record by which the next run that reads or writes there renames the
-/// rest.
+/// killed in between, by a power loss too, leaves a record by which the next run that reads or writes there renames
+/// the rest.
 void commit_all(std::vector<AtomicFile>& files);
 
 }  // namespace anicodec::tools

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/files/commit_record.h"
 
+#include "tools/io/files/synchronize.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -13,7 +15,6 @@
 #include <string_view>
 #include <system_error>
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -37,16 +38,29 @@ std::string kept(const std::string& staging, const Replacement& file) {
   return waiting(staging, file) + ".old";
 }
 
-std::string target(const std::string& staging, const Replacement& file) {
-  return (fs::path(staging).parent_path() / file.name).string();
+std::string parent_of(const std::string& staging) {
+  return fs::path(staging).parent_path().string();
 }
 
-void synchronize(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0)
-    return;
-  ::fsync(descriptor);
-  ::close(descriptor);
+std::string target(const std::string& staging, const Replacement& file) {
+  return (fs::path(parent_of(staging)) / file.name).string();
+}
+
+/// Puts on disk the bytes of the record and all files that it names, then its name, then that of its folder.
+void write_record(const std::string& staging, std::string_view bytes) {
+  const std::string part = file_in(staging, "record");
+  std::FILE* file = std::fopen(part.c_str(), "wb");
+  if (!file)
+    throw std::system_error(errno, std::generic_category());
+  bool ok = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
+            std::fflush(file) == 0 && synchronize(::fileno(file));
+  ok = std::fclose(file) == 0 && ok;
+  if (!ok)
+    throw std::system_error(errno, std::generic_category());
+  synchronize_folder(staging);
+  fs::rename(part, file_in(staging, kCommit));
+  synchronize_folder(staging);
+  synchronize_folder(parent_of(staging));
 }
 
 /// Takes the text up to the next zero byte; none at the end.
@@ -106,23 +120,16 @@ void write_commit_record(const std::string& staging, const std::vector<Replaceme
          {std::to_string(file.number), file.name, file.before, file.after})
       bytes += field + '\0';
   }
-  const std::string part = file_in(staging, "record");
-  std::ofstream out(part, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    throw std::system_error(errno, std::generic_category());
-  synchronize(part);
-  fs::rename(part, file_in(staging, kCommit));
-  synchronize(staging);
+  write_record(staging, bytes);
 }
 
 void turn_commit_record(const std::string& staging) {
   ::rename(file_in(staging, kCommit).c_str(), file_in(staging, kBack).c_str());
+  synchronize_folder(staging);  // before the first file goes back
 }
 
 void remove_commit_record(const std::string& staging) {
-  synchronize(fs::path(staging).parent_path().string());  // the new names, before the record goes
+  synchronize_folder(parent_of(staging));  // the new names, before the record goes
   ::unlink(file_in(staging, kCommit).c_str());
   ::unlink(file_in(staging, kBack).c_str());
 }
@@ -140,7 +147,8 @@ void put_back(const std::string& staging, const std::vector<Replacement>& files)
 }
 
 bool finish_commit(const std::string& staging) {
-  put_back(staging, read_record(file_in(staging, kBack)));
+  const std::vector<Replacement> replaced = read_record(file_in(staging, kBack));
+  put_back(staging, replaced);
   std::vector<Replacement> files = read_record(file_in(staging, kCommit));
   std::erase_if(files, [&](const Replacement& file) { return !is_waiting(staging, file); });
   const bool changed = std::ranges::any_of(files, [&](const Replacement& file) {
@@ -152,7 +160,7 @@ bool finish_commit(const std::string& staging) {
     if (::rename(waiting(staging, file).c_str(), target(staging, file).c_str()) != 0)
       return false;
   }
-  if (!files.empty())
+  if (!files.empty() || !replaced.empty())
     remove_commit_record(staging);
   return true;
 }

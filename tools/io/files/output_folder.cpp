@@ -3,6 +3,7 @@
 #include "tools/io/files/output_folder.h"
 
 #include "codec/sequence/error.h"
+#include "tools/io/files/synchronize.h"
 
 #include <system_error>
 
@@ -15,8 +16,10 @@ OutputFolder::OutputFolder(const std::string& output) {
   for (const fs::path& part : fs::path(output).parent_path()) {
     folder /= part;
     std::error_code error;
-    if (fs::create_directory(folder, error))
+    if (fs::create_directory(folder, error)) {
       made_.push_back(folder);
+      synchronize_folder(folder.parent_path().string());
+    }
     if (!fs::is_directory(folder, error)) {
       remove();
       throw Error(ErrorKind::kUsage,
