@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   auto parse = [](std::string_view bytes, std::string_view name, Mesh& mesh) {
     std::vector<float> soup;
     LocalOrigin origin;
-    parse_stl(bytes, name, soup, origin);
+    LeftKinds left_out;
+    parse_stl(bytes, name, soup, origin, left_out);
     StlWeld weld(soup, std::string(name), true);
     mesh.clear();
     mesh.polygons = weld.polygons();

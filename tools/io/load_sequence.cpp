@@ -128,8 +128,7 @@ class MeshReader {
         parse_obj(bytes_, path, mesh_, details, &libraries_);
         break;
       case FileKind::kPly:
-        left_out_.clear();
-        parse_ply(bytes_, path, mesh_, details, &left_out_);
+        parse_ply(bytes_, path, mesh_, details);
         break;
       case FileKind::kOff:
         parse_off(bytes_, path, mesh_);
@@ -140,12 +139,9 @@ class MeshReader {
     return mesh_;
   }
 
-  /// Notes what the mesh at `path`, read last with its details, has and these do not.
+  /// Notes what meshes that were read with their details have and these do not.
   void note_left_out(const std::string& path, const LoadOptions& options) const {
-    std::string text;
-    for (const std::string& what : left_out_)
-      text += (text.empty() ? "" : ", ") + printable(what);
-    if (options.note && !text.empty())
+    if (const std::string text = mesh_.left_out.text(); options.note && !text.empty())
       options.note(path + ": left out: " + text);
   }
 
@@ -157,8 +153,7 @@ class MeshReader {
 
   /// Takes the looks of materials from the libraries that the mesh at `path`, read last, names. What
   /// cannot be had is noted: it is no reason to refuse the clip.
-  void read_looks(const std::string& path, const LoadOptions& options,
-                  PolygonLabels& materials) const {
+  void read_looks(const std::string& path, const LoadOptions& options, PolygonLabels& materials) {
     for (const std::string& library : libraries_) {
       const fs::path relative = fs::path(library).lexically_normal();
       const std::string file = (fs::path(path).parent_path() / relative).string();
@@ -168,7 +163,7 @@ class MeshReader {
           fail_input(file, "is outside the folder of " + path + "; --allow-outside reads it");
         std::string text;
         read_file(file, text);
-        parse_mtl(text, file, materials);
+        parse_mtl(text, file, materials, mesh_.left_out);
       } catch (const Error& e) {
         if (options.note)
           options.note("materials keep their names alone: " + std::string(e.what()));
@@ -180,7 +175,6 @@ class MeshReader {
   std::string bytes_;
   Mesh mesh_;
   std::vector<std::string> libraries_;
-  std::vector<std::string> left_out_;  ///< of a PLY
 };
 
 /// Tells what changes beside the positions of frames and is not kept.
@@ -194,7 +188,7 @@ class ChangesOfFrames {
   void begin(const MeshReader& reader) { libraries_ = reader.libraries(); }
 
   /// The frame at `path`, read last, with its details.
-  void compare(const MeshReader& reader, const std::string& path, const MeshDetails& first,
+  void compare(MeshReader& reader, const std::string& path, const MeshDetails& first,
                MeshDetails& now) {
     if (reader.libraries() != libraries_ && first.materials.names == now.materials.names)
       reader.read_looks(path, options_, now.materials);
@@ -277,7 +271,6 @@ void load_frames(const std::vector<std::string>& paths, const LoadOptions& optio
   for (size_t f = 0; f < paths.size(); ++f) {
     const Mesh& mesh = reader.read(paths[f], f == 0 ? &sequence : &details);
     if (f == 0) {
-      reader.note_left_out(paths[0], options);
       changes.begin(reader);
       sequence.vertex_count = static_cast<uint32_t>(mesh.vertex_count());
       sequence.polygons = mesh.polygons;
@@ -292,6 +285,7 @@ void load_frames(const std::vector<std::string>& paths, const LoadOptions& optio
                               mesh.positions.end());
     report(options.progress, f + 1, paths.size());
   }
+  reader.note_left_out(paths[0], options);
   note_rounding(paths[0], reader.origin(), options);
 }
 
@@ -301,9 +295,10 @@ void load_stl_frames(const std::vector<std::string>& paths, const LoadOptions& o
   std::vector<float> soup;
   std::optional<StlWeld> weld;
   LocalOrigin origin = origin_of(options);
+  LeftKinds left_out;
   for (size_t f = 0; f < paths.size(); ++f) {
     read_file(paths[f], bytes);
-    parse_stl(bytes, paths[f], soup, origin);
+    parse_stl(bytes, paths[f], soup, origin, left_out);
     if (f == 0) {
       weld.emplace(soup, paths[0], options.weld_stl);
       sequence.vertex_count = weld->vertex_count();
@@ -313,6 +308,8 @@ void load_stl_frames(const std::vector<std::string>& paths, const LoadOptions& o
     weld->append_vertices(soup, paths[f], sequence.positions);
     report(options.progress, f + 1, paths.size());
   }
+  if (options.note && !left_out.text().empty())
+    options.note(paths[0] + ": left out: " + left_out.text());
   note_rounding(paths[0], origin, options);
 }
 
@@ -413,6 +410,7 @@ void load_cache(const std::string& cache_path, const std::string& mesh_path,
                                  mesh_path + " has " + std::to_string(mesh.vertex_count()));
     check_cache_record(reader.text(), mesh_path, source);
     reader.read_looks(mesh_path, options, sequence.materials);
+    reader.note_left_out(mesh_path, options);
     sequence.polygons = mesh.polygons;
     surface = mesh.positions;
   }
@@ -536,9 +534,8 @@ void load_standard_input(const std::string& bytes, const LoadOptions& options,
   }
   Mesh mesh;
   mesh.origin = origin_of(options);
-  std::vector<std::string> left_out;
   if (bytes.starts_with("ply"))
-    parse_ply(bytes, "-", mesh, &sequence, &left_out);
+    parse_ply(bytes, "-", mesh, &sequence);
   else if (std::string_view(bytes).substr(0, 16).find("OFF") != std::string_view::npos)
     parse_off(bytes, "-", mesh);
   else
@@ -548,8 +545,8 @@ void load_standard_input(const std::string& bytes, const LoadOptions& options,
   sequence.polygons = std::move(mesh.polygons);
   sequence.positions = std::move(mesh.positions);
   note_rounding("-", mesh.origin, options);
-  if (options.note && !left_out.empty())
-    options.note(fmt::format("-: left out: {}", fmt::join(left_out, ", ")));
+  if (options.note && !mesh.left_out.text().empty())
+    options.note("-: left out: " + mesh.left_out.text());
 }
 
 /// Tells of frames that are not in the order of their numbers: shells sort by letters.
@@ -709,8 +706,6 @@ Scene load_topologies_from(std::span<const std::string> inputs, const LoadOption
       fail_usage(paths[f] + ": frames are of one format, but " + paths[0] + " is of another");
     MeshDetails details;
     const Mesh* mesh = &reader.read(paths[f], &details);
-    if (f == 0)
-      reader.note_left_out(paths[0], options);
     if (runs.empty() || mesh->vertex_count() != runs.back().sequence.vertex_count ||
         mesh->polygons != runs.back().sequence.polygons) {
       MeshSequence& run = runs.emplace_back().sequence;
@@ -731,6 +726,7 @@ Scene load_topologies_from(std::span<const std::string> inputs, const LoadOption
     ++runs.back().present_in[0].count;
     report(options.progress, f + 1, paths.size());
   }
+  reader.note_left_out(paths[0], options);
   note_rounding(paths[0], reader.origin(), options);
   return scene;
 }

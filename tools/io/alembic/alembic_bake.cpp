@@ -4,12 +4,16 @@
 
 #include "codec/sequence/error.h"
 #include "tools/io/base/frame_attributes.h"
+#include "tools/io/base/left_kinds.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/printable.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -114,6 +118,7 @@ AlembicBake::AlembicBake(const ByteSource& source, const AlembicOptions& options
   }
   if (shown_.empty())
     fail_input(name_, "no frame shows a mesh; --mesh takes a hidden one by its path");
+  note_left_out();
 }
 
 void AlembicBake::select(const std::string& mesh) {
@@ -164,6 +169,64 @@ void AlembicBake::watch(bool hidden_too) {
     const std::vector<AbcPlace> first = places(shown.first_frame());
     shown.mirrored = first[shown.node].world.leftCols<3>().determinant() < 0;
   }
+}
+
+/// Names objects and properties that no one asks for.
+void AlembicBake::note_left_out() const {
+  constexpr std::string_view kOfObjects[] = {".geom", ".xform", ".faceset", "visible",
+                                             ".childBnds"};
+  constexpr std::string_view kOfMeshes[] = {"P",           ".faceCounts", ".faceIndices",
+                                            "uv",          "N",           ".arbGeomParams",
+                                            ".velocities", ".selfBnds",   ".childBnds"};
+  constexpr std::string_view kOfSurfaces[] = {// noted where they are met
+                                              ".creaseIndices",
+                                              ".creaseLengths",
+                                              ".creaseSharpnesses",
+                                              ".cornerIndices",
+                                              ".cornerSharpnesses",
+                                              ".holes",
+                                              ".subdivScheme",
+                                              ".interpolateBoundary",
+                                              ".faceVaryingInterpolateBoundary",
+                                              ".faceVaryingPropagateCorners"};
+  constexpr std::string_view kOfXforms[] = {
+      ".inherits",  ".ops",       ".vals",    "isNotConstantIdentity",
+      ".animChans", ".childBnds", ".selfBnds"};
+  LeftKinds kinds;
+  const auto look = [&](const AbcCompound& compound, std::span<const std::string_view> known,
+                        const char* of, std::span<const std::string_view> more = {}) {
+    for (const AbcProperty& property : compound.properties) {
+      const bool is_empty =
+          property.shape == AbcShape::kCompound && archive_.properties(property).properties.empty();
+      if (!is_empty && std::ranges::find(known, property.name) == known.end() &&
+          std::ranges::find(more, property.name) == more.end())
+        kinds.add("'" + property.name + "' of " + of);
+    }
+  };
+  std::map<std::string, size_t> others;
+  for (const AbcObject& object : archive_.objects) {
+    const std::string schema(metadata_value(object.metadata, "schema"));
+    if (object.schema == AbcSchema::kOther) {
+      if (!schema.empty())
+        ++others[schema];
+      continue;
+    }
+    const AbcCompound properties = archive_.properties(object);
+    look(properties, kOfObjects, "objects");
+    for (const char* name : {".geom", ".xform"}) {
+      const AbcProperty* own = properties.find(name);
+      if (own == nullptr || own->shape != AbcShape::kCompound)
+        continue;
+      if (object.schema == AbcSchema::kXform)
+        look(archive_.properties(*own), kOfXforms, "Xforms");
+      else
+        look(archive_.properties(*own), kOfMeshes, "meshes", kOfSurfaces);
+    }
+  }
+  for (const auto& [schema, count] : others)
+    kinds.add(std::to_string(count) + " " + schema);
+  if (!kinds.text().empty())
+    note_("not kept: " + kinds.text());
 }
 
 void AlembicBake::set_timing(MeshSequence& out) const {

@@ -71,6 +71,7 @@ class AlembicBake {
   AbcNote note_once(const AlembicOptions& options);
   void select(const std::string& mesh);
   void watch(bool hidden_too);
+  void note_left_out() const;
   std::optional<Attribute> attribute(const AbcShown& shown, const AbcGeomParam& param,
                                      size_t frame) const;
 

@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_IO_BASE_MESH_H_
 
 #include "codec/sequence/mesh_sequence.h"
+#include "tools/io/base/left_kinds.h"
 #include "tools/io/base/local_origin.h"
 
 #include <cstddef>
@@ -20,6 +21,7 @@ struct Mesh {
   Polygons polygons;
   FrameArray positions;  ///< vertices x 3, row-major
   LocalOrigin origin;    ///< of the positions
+  LeftKinds left_out;    ///< of all frames that were read, those with details
 
   size_t vertex_count() const { return positions.size() / 3; }
 

@@ -3,6 +3,7 @@
 #include "tools/io/fbx/fbx_scene.h"
 
 #include "codec/sequence/error.h"
+#include "tools/io/base/left_kinds.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/printable.h"
 #include "tools/io/files/byte_source.h"
@@ -53,8 +54,69 @@ void check_end_of_text(const std::string& path) {
     fail_input(path, "truncated: ends in a block that is not closed");
 }
 
-std::string counted(size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+/// The name of elements that a clip does not keep; empty: they are kept, noted where they are met, or
+/// say nothing by themselves.
+std::string kind_left_out(int type) {
+  switch (type) {
+    case UFBX_ELEMENT_NODE:
+    case UFBX_ELEMENT_MESH:
+    case UFBX_ELEMENT_BONE:
+    case UFBX_ELEMENT_EMPTY:
+    case UFBX_ELEMENT_LOD_GROUP:
+    case UFBX_ELEMENT_SKIN_DEFORMER:
+    case UFBX_ELEMENT_SKIN_CLUSTER:
+    case UFBX_ELEMENT_BLEND_DEFORMER:
+    case UFBX_ELEMENT_BLEND_CHANNEL:
+    case UFBX_ELEMENT_BLEND_SHAPE:
+    case UFBX_ELEMENT_CACHE_DEFORMER:
+    case UFBX_ELEMENT_CACHE_FILE:
+    case UFBX_ELEMENT_MATERIAL:
+    case UFBX_ELEMENT_TEXTURE:
+    case UFBX_ELEMENT_VIDEO:
+    case UFBX_ELEMENT_SHADER:
+    case UFBX_ELEMENT_SHADER_BINDING:
+    case UFBX_ELEMENT_ANIM_STACK:
+    case UFBX_ELEMENT_ANIM_LAYER:
+    case UFBX_ELEMENT_ANIM_VALUE:
+    case UFBX_ELEMENT_ANIM_CURVE:
+    case UFBX_ELEMENT_AUDIO_LAYER:
+    case UFBX_ELEMENT_POSE:
+    case UFBX_ELEMENT_SELECTION_NODE:
+    case UFBX_ELEMENT_METADATA_OBJECT:
+      return "";
+    case UFBX_ELEMENT_LIGHT:
+      return "light";
+    case UFBX_ELEMENT_CAMERA:
+    case UFBX_ELEMENT_STEREO_CAMERA:
+      return "camera";
+    case UFBX_ELEMENT_LINE_CURVE:
+    case UFBX_ELEMENT_NURBS_CURVE:
+      return "curve";
+    case UFBX_ELEMENT_NURBS_SURFACE:
+      return "NURBS surface";
+    case UFBX_ELEMENT_PROCEDURAL_GEOMETRY:
+      return "procedural geometry";
+    case UFBX_ELEMENT_MARKER:
+      return "marker";
+    case UFBX_ELEMENT_DISPLAY_LAYER:
+      return "display layer";
+    case UFBX_ELEMENT_SELECTION_SET:
+      return "selection set";
+    case UFBX_ELEMENT_CHARACTER:
+      return "character";
+    case UFBX_ELEMENT_CONSTRAINT:
+      return "constraint";
+    case UFBX_ELEMENT_AUDIO_CLIP:
+      return "audio clip";
+    default:
+      return "element of kind " + std::to_string(type);
+  }
+}
+
+bool has_custom_properties(const ufbx_props& props) {
+  return std::any_of(
+      props.props.data, props.props.data + props.props.count,
+      [](const ufbx_prop& prop) { return (prop.flags & UFBX_PROP_FLAG_USER_DEFINED) != 0; });
 }
 
 }  // namespace
@@ -193,26 +255,30 @@ void FbxScene::select(const FbxNote& note) {
   if (nodes_.empty())
     fail_input(path_, "no mesh has a face");
   if (other_levels > 0)
-    note(path_ + ": " + counted(other_levels, "mesh") +
-         " of lower levels of detail left out; --mesh takes one");
+    note(path_ + ": " + counted_kind(other_levels, "lower level") +
+         " of detail left out; --mesh takes one");
 }
 
 void FbxScene::note_left_out(const FbxNote& note) const {
-  std::map<std::string, size_t> kinds;
   const ufbx_scene& s = *scene_;
-  const std::pair<const char*, size_t> counts[] = {
-      {"camera", s.cameras.count},
-      {"light", s.lights.count},
-      {"curve", s.line_curves.count + s.nurbs_curves.count},
-      {"NURBS surface", s.nurbs_surfaces.count},
-      {"constraint", s.constraints.count},
-      {"procedural geometry", s.procedural_geometries.count},
-      {"audio clip", s.audio_clips.count}};
-  std::string text;
-  for (const auto& [what, count] : counts)
-    text += count == 0 ? "" : (text.empty() ? "" : ", ") + counted(count, what);
-  if (!text.empty())
-    note(path_ + ": not kept: " + text);
+  std::map<std::string, size_t> counts;
+  for (int type = 0; type < UFBX_ELEMENT_TYPE_COUNT; ++type) {
+    const std::string kind = kind_left_out(type);
+    if (const size_t count = s.elements_by_type[type].count; !kind.empty() && count > 0)
+      counts[kind] += count;
+  }
+  LeftKinds kinds;
+  for (const auto& [kind, count] : counts)
+    kinds.add(counted_kind(count, kind));
+  for (const ufbx_node* node : nodes_) {
+    const ufbx_mesh& mesh = *node->mesh;
+    if (has_custom_properties(node->props) || has_custom_properties(mesh.props))
+      kinds.add("custom properties");
+    if (mesh.edge_crease.count > 0 || mesh.vertex_crease.exists)
+      kinds.add("creases");
+  }
+  if (!kinds.text().empty())
+    note(path_ + ": not kept: " + kinds.text());
   for (const ufbx_node* node : nodes_) {
     const ufbx_mesh& mesh = *node->mesh;
     const std::string place = path_ + ": mesh '" + printable(text_of(node->name)) + "' ";

@@ -55,9 +55,11 @@ std::string_view image_path(std::string_view rest) {
 
 class MtlParser {
  public:
-  MtlParser(std::string_view text, std::string_view name, PolygonLabels& materials)
+  MtlParser(std::string_view text, std::string_view name, PolygonLabels& materials,
+            LeftKinds& left_out)
       : in_(text, name, {.comment = '#', .continuation = true}),
         materials_(materials),
+        left_out_(left_out),
         is_blenders_(text.starts_with("# Blender")) {
     for (size_t i = 0; i < materials.names.size(); ++i)
       numbers_.try_emplace(materials.names[i], i);
@@ -77,6 +79,7 @@ class MtlParser {
       return begin();
     if (!look_)
       return;
+    bool is_kept = true;
     if (keyword == "Kd")
       colour(look_->base_colour.data());
     else if (keyword == "Ke")
@@ -90,15 +93,21 @@ class MtlParser {
     else if (keyword == "Pm")
       look_->metallic = number(), has_metallic_ = true;
     else if (keyword == "Ka")
-      colour(ambient_);
+      colour(ambient_), is_kept = is_blenders_;
     else if (keyword == "illum")
       reflects_ = number() == 3;
-    else if (keyword == "Ns" && !has_roughness_)
-      look_->roughness = roughness_of_shininess(number());
+    else if (keyword == "Ns")
+      look_->roughness = has_roughness_ ? look_->roughness : roughness_of_shininess(number());
+    else
+      is_kept = false;
     for (const ImageStatement& image : kImages) {
-      if (keyword == image.keyword)
+      if (keyword == image.keyword) {
         look_->texture(image.slot) = image_path(in_.rest_of_line());
+        is_kept = true;
+      }
     }
+    if (!is_kept)
+      left_out_.add("'" + shown(keyword) + "' of materials");
   }
 
   /// Blender writes how metallic a material is as the ambient colour of one that reflects.
@@ -145,6 +154,7 @@ class MtlParser {
 
   TextCursor in_;
   PolygonLabels& materials_;
+  LeftKinds& left_out_;
   std::map<std::string, size_t> numbers_;
   MaterialLook* look_ =
       nullptr;  ///< of the material that is described; null: of none of those asked for
@@ -163,10 +173,11 @@ void append_line(std::string_view keyword, std::span<const float> numbers, std::
 
 }  // namespace
 
-void parse_mtl(std::string_view text, std::string_view name, PolygonLabels& materials) {
+void parse_mtl(std::string_view text, std::string_view name, PolygonLabels& materials,
+               LeftKinds& left_out) {
   if (text.starts_with("\xEF\xBB\xBF"))
     text.remove_prefix(3);
-  MtlParser(text, name, materials).parse();
+  MtlParser(text, name, materials, left_out).parse();
 }
 
 bool has_looks(const PolygonLabels& materials) {

@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_IO_FORMATS_MTL_H_
 
 #include "codec/sequence/mesh_sequence.h"
+#include "tools/io/base/left_kinds.h"
 
 #include <string>
 #include <string_view>
@@ -12,8 +13,9 @@ namespace anicodec::tools {
 
 /// Reads a library of materials that an OBJ names, and puts the looks of those in `materials` there, by
 /// their names: colours (Kd, Ke), opacity (d, Tr), shine (Ns, Pr, Pm) and their images. All else is
-/// skipped, as programs do. Throws Error(kInput) "name:line: reason" for what is no number.
-void parse_mtl(std::string_view text, std::string_view name, PolygonLabels& materials);
+/// skipped, as programs do, and added to what is left out. Throws Error(kInput) "name:line: reason" for what is no number.
+void parse_mtl(std::string_view text, std::string_view name, PolygonLabels& materials,
+               LeftKinds& left_out);
 
 /// Whether append_mtl() has anything to write.
 bool has_looks(const PolygonLabels& materials);

@@ -80,11 +80,14 @@ class DetailsParser {
     details_.shared_normals.clear();
   }
 
-  void finish(const Mesh& mesh, std::string_view name) {
+  void finish(Mesh& mesh, std::string_view name) {
     materials.finish();
     objects.finish();
     add(uv, AttributeKind::kUv, mesh, name);
     add(normals, AttributeKind::kNormal, mesh, name);
+    const auto is_normal = [](const Attribute& a) { return a.kind == AttributeKind::kNormal; };
+    if (is_smoothed && std::ranges::none_of(details_.attributes, is_normal))
+      mesh.left_out.add("'s'");  // which normals say better
     if (!colours.empty() && colours.size() == mesh.positions.size())
       details_.attributes.push_back({.kind = AttributeKind::kColour,
                                      .name = "colour",
@@ -121,6 +124,7 @@ class DetailsParser {
  public:
   Pool uv{"uv", 2}, normals{"normal", 3};
   FrameArray colours;
+  bool is_smoothed = false;  ///< there are smoothing groups
   std::vector<std::string> libraries;
   NamedPolygons materials, objects;
 };
@@ -151,6 +155,10 @@ class ObjParser {
           details_->libraries.emplace_back(in_.rest_of_line());
         in_.skip_line();
       } else if (is_skipped(keyword)) {
+        if (details_ && keyword == "s")
+          details_->is_smoothed = true;
+        else if (details_)
+          mesh_.left_out.add("'" + std::string(keyword) + "'");
         in_.skip_line();
       } else {
         in_.fail("unknown statement '" + shown(keyword) + "'");

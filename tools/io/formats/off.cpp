@@ -14,7 +14,7 @@ struct Extras {
   int most = 0;
 };
 
-Extras parse_header(TextCursor& in) {
+Extras parse_header(TextCursor& in, LeftKinds& left_out) {
   if (!in.next_line())
     in.fail("the file is empty");
   std::string_view keyword = in.word("header");
@@ -26,14 +26,18 @@ Extras parse_header(TextCursor& in) {
     return found;
   };
   Extras extras;
-  if (take("ST"))
+  if (take("ST")) {
+    left_out.add("texture coordinates");
     extras = {2, 2};
+  }
   if (take("C")) {
+    left_out.add("colours of vertices");
     // An index into a colour map, RGB or RGBA.
     extras.least += 1;
     extras.most += 4;
   }
   if (take("N")) {
+    left_out.add("normals");
     extras.least += 3;
     extras.most += 3;
   }
@@ -88,8 +92,11 @@ void parse_face(TextCursor& in, uint64_t vertices, Mesh& mesh) {
   if (mesh.polygons.corners.size() > kMaxCorners)
     in.fail("more than 2^32 - 1 face corners");
   mesh.polygons.offsets.push_back(static_cast<uint32_t>(mesh.polygons.corners.size()));
-  if (skip_numbers(in) > 4)
+  const int numbers = skip_numbers(in);
+  if (numbers > 4)
     in.fail("more numbers after a face than a colour has");
+  if (numbers > 0)
+    mesh.left_out.add("colours of faces");
 }
 
 }  // namespace
@@ -97,7 +104,7 @@ void parse_face(TextCursor& in, uint64_t vertices, Mesh& mesh) {
 void parse_off(std::string_view text, std::string_view name, Mesh& mesh) {
   mesh.clear();
   TextCursor in(text, name, {.comment = '#'});
-  Extras extras = parse_header(in);
+  Extras extras = parse_header(in, mesh.left_out);
   if (in.at_line_end())
     next_line(in, "count", 0, 3);
   else if (TextCursor ahead = in; ahead.word("word") == "BINARY")

@@ -3,6 +3,7 @@
 #include "tools/io/formats/ply.h"
 
 #include "tools/io/base/byte_order.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/base/text_cursor.h"
 #include "tools/io/base/text_output.h"
 #include "tools/io/formats/ply_header.h"
@@ -169,7 +170,7 @@ constexpr size_t kNone = std::numeric_limits<size_t>::max();
 
 template <typename Body>
 void read_vertices(const PlyElement& element, std::string_view name, Body& body, Mesh& mesh,
-                   MeshDetails* details, std::vector<std::string>* left_out) {
+                   MeshDetails* details) {
   constexpr std::string_view kAxes[] = {"x", "y", "z"};
   std::vector<size_t> axis_of(element.properties.size(), kNone);
   for (size_t k = 0; k < 3; ++k) {
@@ -189,10 +190,6 @@ void read_vertices(const PlyElement& element, std::string_view name, Body& body,
 
   mesh.positions.resize(element.count * 3);
   PlyAttributes attributes = details ? PlyAttributes(element) : PlyAttributes();
-  if (details && left_out) {
-    for (std::string& what : attributes.left_out(element))
-      left_out->push_back(std::move(what));
-  }
   for (size_t v = 0; v < element.count; ++v) {
     body.begin_element(element, v);
     for (size_t i = 0; i < axis_of.size(); ++i) {
@@ -207,7 +204,7 @@ void read_vertices(const PlyElement& element, std::string_view name, Body& body,
     body.end_element();
   }
   if (details)
-    details->attributes = attributes.finish();
+    details->attributes = attributes.finish(element, &mesh.left_out);
 }
 
 template <typename Body>
@@ -268,21 +265,21 @@ void read_faces(const PlyElement& element, std::string_view name, uint64_t verti
 
 template <typename Body>
 void read_body(const PlyHeader& header, uint64_t vertices, std::string_view name, Body& body,
-               Mesh& mesh, MeshDetails* details, std::vector<std::string>* left_out) {
+               Mesh& mesh, MeshDetails* details) {
   std::vector<Attribute> of_corners;
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
-      read_vertices(element, name, body, mesh, details, left_out);
+      read_vertices(element, name, body, mesh, details);
     } else if (element.name == "face") {
       PlyCorners corners = details ? PlyCorners(element) : PlyCorners();
       read_faces(element, name, vertices, body, mesh, corners);
       if (details)
-        of_corners = corners.finish(element, left_out);
+        of_corners = corners.finish(element, &mesh.left_out);
     } else if (element.name == "tristrips" && element.count > 0) {
       fail_input(name, "triangle strips (element tristrips) are not read; save it with faces");
     } else if (!element.properties.empty()) {
-      if (left_out && element.count > 0)
-        left_out->push_back("'" + element.name + "'");
+      if (details && element.count > 0)
+        mesh.left_out.add("'" + printable(element.name) + "'");
       for (uint64_t i = 0; i < element.count; ++i) {
         body.begin_element(element, i);
         for (const PlyProperty& property : element.properties)
@@ -298,8 +295,7 @@ void read_body(const PlyHeader& header, uint64_t vertices, std::string_view name
 
 }  // namespace
 
-void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh, MeshDetails* details,
-               std::vector<std::string>* left_out) {
+void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh, MeshDetails* details) {
   mesh.clear();
   PlyHeader header = parse_ply_header(bytes, name);
   uint64_t vertices = 0;
@@ -309,11 +305,11 @@ void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh, MeshDe
   }
   if (header.encoding == PlyEncoding::kAscii) {
     AsciiBody body(bytes.substr(header.body), name, header.body_line);
-    read_body(header, vertices, name, body, mesh, details, left_out);
+    read_body(header, vertices, name, body, mesh, details);
   } else {
     bool big = header.encoding == PlyEncoding::kBigEndian;
     BinaryBody body(bytes, name, header.body, big ? std::endian::big : std::endian::little);
-    read_body(header, vertices, name, body, mesh, details, left_out);
+    read_body(header, vertices, name, body, mesh, details);
   }
   check_size(mesh, name);
 }

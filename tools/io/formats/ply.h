@@ -18,11 +18,11 @@ namespace anicodec::tools {
 /// vertex (any number type) and the list vertex_indices or vertex_index of element face (any
 /// integer types); `details`, where given, receives the other numbers of the vertices, see
 /// PlyAttributes, and of the faces, see PlyCorners. All other properties and elements are skipped by
-/// their declared types; `left_out`, where given, receives what they are. In ascii
+/// their declared types, and with details named as left out. In ascii
 /// files each element stands on a line of its own. Throws Error(kInput), for ascii bodies with the
 /// line.
 void parse_ply(std::string_view bytes, std::string_view name, Mesh& mesh,
-               MeshDetails* details = nullptr, std::vector<std::string>* left_out = nullptr);
+               MeshDetails* details = nullptr);
 
 /// Appends a PLY of one frame, binary_little_endian or ascii; coordinates read back to the same
 /// floats. `properties`, where given, are those of the vertices beside their positions, which are of double from an `origin`.

@@ -4,6 +4,7 @@
 
 #include "format/records.h"
 #include "tools/io/base/byte_order.h"
+#include "tools/io/base/printable.h"
 #include "tools/io/base/text_output.h"
 
 #include <algorithm>
@@ -82,16 +83,6 @@ void PlyAttributes::group(const PlyElement& vertices, AttributeKind kind, const 
                          .values = {}});
 }
 
-std::vector<std::string> PlyAttributes::left_out(const PlyElement& vertices) const {
-  std::vector<std::string> out;
-  for (size_t i = 0; i < places_.size(); ++i) {
-    const std::string& name = vertices.properties[i].name;
-    if (!takes(i) && name != "x" && name != "y" && name != "z")
-      out.push_back("'" + name + "' of vertices");
-  }
-  return out;
-}
-
 void PlyAttributes::add(size_t vertex, size_t property, double value) {
   const Place& place = places_[property];
   Attribute& a = attributes_[place.attribute];
@@ -102,10 +93,18 @@ void PlyAttributes::add(size_t vertex, size_t property, double value) {
       fits ? static_cast<float>(scaled) : std::numeric_limits<float>::quiet_NaN();
 }
 
-std::vector<Attribute> PlyAttributes::finish() {
-  std::erase_if(attributes_, [](const Attribute& a) {
-    return std::ranges::any_of(a.values, [](float x) { return !std::isfinite(x); });
-  });
+std::vector<Attribute> PlyAttributes::finish(const PlyElement& vertices, LeftKinds* left_out) {
+  const auto is_finite = [](const Attribute& a) {
+    return std::ranges::all_of(a.values, [](float x) { return std::isfinite(x); });
+  };
+  for (size_t i = 0; i < places_.size(); ++i) {
+    const std::string& name = vertices.properties[i].name;
+    const bool is_kept = takes(i) ? is_finite(attributes_[places_[i].attribute])
+                                  : name == "x" || name == "y" || name == "z";
+    if (!is_kept)
+      left_out->add("'" + printable(name) + "' of vertices");
+  }
+  std::erase_if(attributes_, [&](const Attribute& a) { return !is_finite(a); });
   return std::move(attributes_);
 }
 

@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_IO_FORMATS_PLY_ATTRIBUTES_H_
 
 #include "codec/sequence/mesh_sequence.h"
+#include "tools/io/base/left_kinds.h"
 #include "tools/io/formats/ply_header.h"
 
 #include <cstddef>
@@ -33,14 +34,11 @@ class PlyAttributes {
     return property < places_.size() && places_[property].attribute != kNone;
   }
 
-  /// The properties that are not taken, but for the positions.
-  std::vector<std::string> left_out(const PlyElement& vertices) const;
-
   /// Takes the value of a property of a vertex; vertices come in order.
   void add(size_t vertex, size_t property, double value);
 
-  /// The attributes; those with a number that is not finite are left out.
-  std::vector<Attribute> finish();
+  /// The attributes, but for those with a number that is not finite. Adds the properties that come with none of them.
+  std::vector<Attribute> finish(const PlyElement& vertices, LeftKinds* left_out);
 
  private:
   static constexpr uint32_t kNone = UINT32_MAX;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/formats/ply_corners.h"
 
+#include "tools/io/base/printable.h"
 #include "tools/io/formats/ply_attributes.h"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ void PlyCorners::end_face(size_t corners) {
   }
 }
 
-std::vector<Attribute> PlyCorners::finish(const PlyElement& faces, std::vector<std::string>* left_out) {
+std::vector<Attribute> PlyCorners::finish(const PlyElement& faces, LeftKinds* left_out) {
   std::vector<Attribute> out;
   for (Track& track : tracks_) {
     if (track.fits && track.components > 0)
@@ -97,10 +98,10 @@ std::vector<Attribute> PlyCorners::finish(const PlyElement& faces, std::vector<s
                      .components = track.components,
                      .values = std::move(track.values)});
   }
-  for (size_t i = 0; left_out && i < faces.properties.size(); ++i) {
+  for (size_t i = 0; i < faces.properties.size(); ++i) {
     const bool taken = takes(i) && tracks_[track_of_[i].track].fits && tracks_[track_of_[i].track].components > 0;
     if (!taken && !is_polygon(faces.properties[i]))
-      left_out->push_back("'" + faces.properties[i].name + "' of faces");
+      left_out->add("'" + printable(faces.properties[i].name) + "' of faces");
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_IO_FORMATS_PLY_CORNERS_H_
 
 #include "codec/sequence/mesh_sequence.h"
+#include "tools/io/base/left_kinds.h"
 #include "tools/io/formats/ply_header.h"
 
 #include <cstddef>
@@ -33,8 +34,8 @@ class PlyCorners {
   /// All properties of a face of so many corners have been given.
   void end_face(size_t corners);
 
-  /// The attributes, one for each kind; adds to `left_out`, where given, what of the faces is none.
-  std::vector<Attribute> finish(const PlyElement& faces, std::vector<std::string>* left_out);
+  /// The attributes, one for each kind; adds what of the faces is none.
+  std::vector<Attribute> finish(const PlyElement& faces, LeftKinds* left_out);
 
  private:
   static constexpr uint32_t kNone = UINT32_MAX;

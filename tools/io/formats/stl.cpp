@@ -64,9 +64,11 @@ void parse_facet(StlText& text, std::vector<float>& soup, LocalOrigin& origin) {
 }
 
 void parse_ascii(std::string_view bytes, std::string_view name, std::vector<float>& soup,
-                 LocalOrigin& origin) {
+                 LocalOrigin& origin, LeftKinds& left_out) {
   StlText text(bytes, name);
   while (!text.at_end()) {
+    if (!soup.empty())
+      left_out.add("names of solids");
     text.expect("solid");
     text.in().skip_line();
     for (;;) {
@@ -82,7 +84,7 @@ void parse_ascii(std::string_view bytes, std::string_view name, std::vector<floa
 }
 
 void parse_binary(std::string_view bytes, std::string_view name, std::vector<float>& soup,
-                  LocalOrigin& origin) {
+                  LocalOrigin& origin, LeftKinds& left_out) {
   size_t triangles = (bytes.size() - kHeaderSize) / kTriangleSize;
   soup.reserve(triangles * 9);
   for (size_t t = 0; t < triangles; ++t) {
@@ -94,6 +96,8 @@ void parse_binary(std::string_view bytes, std::string_view name, std::vector<flo
                              ": the position is not finite");
       soup.push_back(origin.rounded(static_cast<double>(x), i % 3));
     }
+    if (load<uint16_t>(triangle + 48, std::endian::little) != 0)
+      left_out.add("attribute bytes of triangles");
   }
 }
 
@@ -147,7 +151,7 @@ void append_triangle(std::span<const float> positions, std::array<uint32_t, 3> c
 }  // namespace
 
 void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>& soup,
-               LocalOrigin& origin) {
+               LocalOrigin& origin, LeftKinds& left_out) {
   soup.clear();
   if (bytes.empty())
     fail_input(name, "the file is empty");
@@ -160,9 +164,9 @@ void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>
   bool text = (start == "solid" || start == "SOLID" || start == "Solid") &&
               bytes.substr(0, kHeaderSize).find('\0') == std::string_view::npos;
   if (expected == bytes.size())
-    parse_binary(bytes, name, soup, origin);
+    parse_binary(bytes, name, soup, origin, left_out);
   else if (text)
-    parse_ascii(bytes, name, soup, origin);
+    parse_ascii(bytes, name, soup, origin, left_out);
   else if (expected == 0)
     fail_input(name, "is not an STL file: neither text nor a binary header of 84 bytes");
   else

@@ -14,10 +14,10 @@
 namespace anicodec::tools {
 
 /// Reads STL, binary or ascii (several solids are one mesh), as a soup: triangles x 3 corners x 3
-/// floats, degenerate ones included. Normals and attribute bytes are dropped. A file is binary when
+/// floats, degenerate ones included. Normals are dropped. A file is binary when
 /// its size fits the count of triangles in its header, else ascii. Throws Error(kInput).
 void parse_stl(std::string_view bytes, std::string_view name, std::vector<float>& soup,
-               LocalOrigin& origin);
+               LocalOrigin& origin, LeftKinds& left_out);
 
 /// Appends a binary or ascii STL of one frame: polygons, triangles best, as fans from their first
 /// corner, unit normals (zero for degenerate triangles). Unused vertices are lost. Ascii has positions from a local origin.

@@ -244,12 +244,9 @@ uint32_t count_frames(const GltfDocument& document, uint32_t animation, const Gl
 
 /// Names what a file does not keep, in one line.
 void note_left_out(const GltfDocument& document, const GltfOptions& options) {
-  if (!options.note || options.scene_stays || document.left_out.empty())
-    return;
-  std::string text;
-  for (const std::string& what : document.left_out)
-    text += (text.empty() ? "" : ", ") + what;
-  options.note("not kept: " + text + "; encode to a .glb keeps all of the scene");
+  const std::string text = document.left_out.text();
+  if (options.note && !options.scene_stays && !text.empty())
+    options.note("not kept: " + text + "; encode to a .glb keeps all of the scene");
 }
 
 /// Tells what the parts of a scene tell of themselves once, whatever the number of clips.

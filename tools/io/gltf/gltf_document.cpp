@@ -53,7 +53,7 @@ class Reader {
   Reader(const GltfContainer& container, std::string_view name, const GltfResolver& resolve,
          uint64_t memory_limit, bool allow_outside)
       : container_(container),
-        root_(container.document, name),
+        root_(container.document, name, &readings_),
         resolve_(resolve),
         memory_limit_(memory_limit),
         memory_left_(memory_limit),
@@ -70,7 +70,6 @@ class Reader {
     for (const JsonNode& node : root_.elements("accessors"))
       out_.accessors.push_back(read_accessor(node));
     out_.materials = read_materials(root_, &out_.left_out);
-    list_left_out();
     for (const JsonNode& node : root_.elements("images"))
       read_image(node);
     for (const JsonNode& node : root_.elements("meshes"))
@@ -86,26 +85,63 @@ class Reader {
     for (const JsonNode& node : root_.elements("animations"))
       out_.animations.push_back(read_animation(node));
     find_facings(&out_);
+    list_left_out();
     return std::move(out_);
   }
 
  private:
-  /// Lists the contents of the scene beside meshes and their motion.
+  /// Names what the document has and no one asked for.
   void list_left_out() {
-    if (const size_t cameras = root_.elements("cameras").size(); cameras > 0)
-      out_.left_out.push_back(std::to_string(cameras) + (cameras == 1 ? " camera" : " cameras"));
-    if (const std::optional<JsonNode> extensions = root_.find("extensions");
-        extensions && extensions->find("KHR_lights_punctual"))
-      out_.left_out.emplace_back("lights");
-    const auto has_extras = [](const JsonNode& node) { return node.find("extras").has_value(); };
-    const std::vector<JsonNode> nodes = root_.elements("nodes"), meshes = root_.elements("meshes");
-    if (std::ranges::any_of(nodes, has_extras) || std::ranges::any_of(meshes, has_extras))
-      out_.left_out.emplace_back("custom properties");
+    for (const std::string& kind : readings_.missing(container_.document)) {
+      if (const std::string text = text_of_missing(kind); !text.empty())
+        out_.left_out.add(text);
+    }
     const size_t images = static_cast<size_t>(std::ranges::count_if(
         root_.elements("images"), [](const JsonNode& node) { return is_inside(node); }));
     if (images > 0)
-      out_.left_out.push_back(std::to_string(images) + (images == 1 ? " image" : " images") +
-                              " inside the scene");
+      out_.left_out.add(counted_kind(images, "image") + " inside the scene");
+  }
+
+  /// Empty for what says nothing about the scene: names of accessors, for instance.
+  std::string text_of_missing(const std::string& kind) const {
+    constexpr std::string_view kExtensions = "/extensions/";
+    if (const size_t at = kind.find(kExtensions); at != std::string::npos) {
+      const std::string name = kind.substr(at + kExtensions.size());
+      const size_t slash = name.find('/');
+      if (name == "KHR_lights_punctual")
+        return "lights";
+      if (slash == std::string::npos)
+        return name;
+      const std::string owner = name.substr(0, slash);
+      const bool is_compression = owner == kMeshoptExtensions[0] || owner == kMeshoptExtensions[1];
+      return is_compression ? "" : "'" + name.substr(slash + 1) + "' of " + owner;
+    }
+    const std::string key = kind.substr(kind.rfind('/') + 1);
+    const std::string owner = kind.substr(1, kind.find('/', 1) - 1);
+    if (key == "extras")
+      return "custom properties";
+    if (kind == "/cameras")
+      return counted_kind(root_.elements("cameras").size(), "camera");
+    if (kind == "/samplers")
+      return textures_repeat() ? "" : "how textures repeat";
+    if (kind == "/scenes/nodes")
+      return "other scenes";
+    constexpr std::string_view kNothing[] = {"accessors", "asset",          "bufferViews",
+                                             "buffers",   "extensionsUsed", "images"};
+    constexpr std::string_view kNoKeys[] = {"camera", "name", "sampler", "skeleton"};
+    if (std::ranges::find(kNothing, owner) != std::end(kNothing) ||
+        std::ranges::find(kNoKeys, key) != std::end(kNoKeys))
+      return "";
+    return kind == "/" + key ? "'" + key + "'" : "'" + key + "' of " + owner;
+  }
+
+  /// Whether all textures go on beyond their borders, as those without a sampler do.
+  bool textures_repeat() const {
+    constexpr uint64_t kRepeat = 10497;
+    return std::ranges::all_of(root_.elements("samplers"), [&](const JsonNode& node) {
+      return whole_or(node, "wrapS", kRepeat, UINT32_MAX) == kRepeat &&
+             whole_or(node, "wrapT", kRepeat, UINT32_MAX) == kRepeat;
+    });
   }
 
   void check_version() {
@@ -302,12 +338,26 @@ class Reader {
     return attributes;
   }
 
+  /// Whether an attribute is one of those that become positions or attributes.
+  static bool is_kept(std::string_view attribute) {
+    constexpr std::string_view kKept[] = {"POSITION", "NORMAL",  "TANGENT", "TEXCOORD_",
+                                          "COLOR_",   "JOINTS_", "WEIGHTS_"};
+    return std::ranges::any_of(
+        kKept, [&](std::string_view beginning) { return attribute.starts_with(beginning); });
+  }
+
   GltfPrimitive read_primitive(const JsonNode& node) {
     GltfPrimitive primitive;
     primitive.attributes = read_attributes(node.member("attributes"));
     primitive.indices = index_or_none(node, "indices", out_.accessors.size(), "accessors");
     primitive.material = index_or_none(node, "material", out_.materials.size(), "materials");
     primitive.mode = static_cast<uint32_t>(whole_or(node, "mode", 4, 6));
+    if (primitive.mode < 4)
+      out_.left_out.add(primitive.mode == 0 ? "points" : "lines");
+    for (const auto& [name, accessor] : primitive.attributes) {
+      if (!is_kept(name))
+        out_.left_out.add("attribute " + shown(name));
+    }
     for (const JsonNode& target : node.elements("targets"))
       primitive.targets.push_back(read_attributes(target));
     if (std::optional<JsonNode> packed = extension(node, kDracoExtension)) {
@@ -386,7 +436,7 @@ class Reader {
     if (std::optional<JsonNode> instancing = extension(node, kInstancingExtension)) {
       GltfInstances instances = read_instances(*instancing);
       if (out.skin != kGltfNone)
-        leave_out("instances of a skin");  // whose transforms would come twice
+        out_.left_out.add("instances of a skin");  // whose transforms would come twice
       else if (!instancing->member("attributes").members().empty())
         out.instances = instances;
     }
@@ -584,7 +634,7 @@ class Reader {
     const std::string text = pointer.text();
     const bool is_mesh = text.starts_with(kMeshes);
     if (!is_mesh && !text.starts_with(kNodes)) {
-      leave_out("animation of " + shown(text.substr(0, text.find('/', 1))));
+      out_.left_out.add("animation of " + shown(text.substr(0, text.find('/', 1))));
       return {};
     }
     uint32_t number = 0;
@@ -611,12 +661,6 @@ class Reader {
         nodes.push_back(n);
     }
     return nodes;
-  }
-
-  /// Names something that a clip does not keep, once.
-  void leave_out(const std::string& what) {
-    if (std::ranges::find(out_.left_out, what) == out_.left_out.end())
-      out_.left_out.push_back(what);
   }
 
   void check_channel(const JsonNode& node, const GltfChannel& channel, const GltfSampler& sampler) {
@@ -654,6 +698,7 @@ class Reader {
   }
 
   const GltfContainer& container_;
+  JsonReadings readings_;
   JsonNode root_;
   const GltfResolver& resolve_;
   uint64_t memory_limit_, memory_left_;

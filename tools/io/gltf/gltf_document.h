@@ -7,6 +7,7 @@
 #define ANICODEC_TOOLS_IO_GLTF_GLTF_DOCUMENT_H_
 
 #include "codec/sequence/mesh_sequence.h"
+#include "tools/io/base/left_kinds.h"
 #include "tools/io/gltf/gltf_material.h"
 
 #include <array>
@@ -164,7 +165,7 @@ struct GltfDocument {
   std::vector<GltfAnimation> animations;
   std::vector<GltfMaterial> materials;
   std::vector<GltfImage> images;      ///< empty where they are files of their own
-  std::vector<std::string> left_out;  ///< what a scene has and a clip does not keep
+  LeftKinds left_out;                 ///< what a scene has and a clip does not keep
 };
 
 /// Gives the bytes of a file that a document names by a relative URI. Throws Error(kInput).

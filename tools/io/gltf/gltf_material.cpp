@@ -2,13 +2,11 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/io/gltf/gltf_material.h"
 
-#include "tools/io/base/printable.h"
 #include "tools/io/gltf/gltf_container.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <string_view>
 
 namespace anicodec::tools {
@@ -73,7 +71,7 @@ std::vector<std::string> image_names(const JsonNode& root) {
 
 class MaterialReader {
  public:
-  MaterialReader(const JsonNode& root, std::vector<std::string>* left_out)
+  MaterialReader(const JsonNode& root, LeftKinds* left_out)
       : textures_(image_names(root)), left_out_(left_out) {}
 
   GltfMaterial read(const JsonNode& node) {
@@ -120,10 +118,9 @@ class MaterialReader {
       transform = read_transform(*moved);
     }
     if (set != 0)
-      leave_out("that a texture uses other texture coordinates than the first");
+      left_out_->add("that a texture uses other texture coordinates than the first");
     if (transforms->try_emplace(set, transform).first->second != transform)
-      leave_out("that textures of a material move texture coordinates in different ways");
-    leave_out_extensions(node, {kTransform});
+      left_out_->add("that textures of a material move texture coordinates in different ways");
   }
 
   static uint32_t set_of(const JsonNode& node, uint32_t otherwise) {
@@ -145,7 +142,6 @@ class MaterialReader {
   }
 
   void read_extensions(const JsonNode& node, MaterialLook& look) {
-    leave_out_extensions(node, {kStrength});
     const std::optional<JsonNode> extensions = node.find("extensions");
     const std::optional<JsonNode> strength =
         extensions ? extensions->find(kStrength) : std::nullopt;
@@ -154,28 +150,13 @@ class MaterialReader {
       x *= factor;
   }
 
-  void leave_out_extensions(const JsonNode& node, std::set<std::string_view> kept) {
-    const std::optional<JsonNode> extensions = node.find("extensions");
-    if (!extensions)
-      return;
-    for (const auto& [name, extension] : extensions->members()) {
-      if (!kept.contains(name))
-        leave_out(printable(name));
-    }
-  }
-
-  void leave_out(const std::string& what) {
-    if (std::ranges::find(*left_out_, what) == left_out_->end())
-      left_out_->push_back(what);
-  }
-
   std::vector<std::string> textures_;
-  std::vector<std::string>* left_out_;
+  LeftKinds* left_out_;
 };
 
 }  // namespace
 
-std::vector<GltfMaterial> read_materials(const JsonNode& root, std::vector<std::string>* left_out) {
+std::vector<GltfMaterial> read_materials(const JsonNode& root, LeftKinds* left_out) {
   MaterialReader reader(root, left_out);
   std::vector<GltfMaterial> materials;
   for (const JsonNode& node : root.elements("materials"))

@@ -4,6 +4,7 @@
 #define ANICODEC_TOOLS_IO_GLTF_GLTF_MATERIAL_H_
 
 #include "format/material_look.h"
+#include "tools/io/base/left_kinds.h"
 #include "tools/io/gltf/json_node.h"
 
 #include <array>
@@ -38,9 +39,9 @@ struct GltfMaterial {
 };
 
 /// Reads the materials of a document, with the images that they name: an image in a file of its own
-/// by its path, one inside the document as "#name", or "#3" by its number. `left_out` receives, once each,
-/// what a look has no place for. Throws at a node that is not as it should be.
-std::vector<GltfMaterial> read_materials(const JsonNode& root, std::vector<std::string>* left_out);
+/// by its path, one inside the document as "#name", or "#3" by its number. Adds what a look has no place for, of
+/// what it looks at. Throws at a node that is not as it should be.
+std::vector<GltfMaterial> read_materials(const JsonNode& root, LeftKinds* left_out);
 
 /// Whether the bytes of an image are inside its document.
 bool is_inside(const JsonNode& image);

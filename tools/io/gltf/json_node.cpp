@@ -11,6 +11,28 @@
 
 namespace anicodec::tools {
 
+std::set<std::string> JsonReadings::missing(const nlohmann::json& document) const {
+  std::set<std::string> kinds;
+  find_missing(document, "", &kinds);
+  return kinds;
+}
+
+void JsonReadings::find_missing(const nlohmann::json& value, const std::string& path,
+                                std::set<std::string>* out) const {
+  if (value.is_array()) {
+    for (const nlohmann::json& element : value)
+      find_missing(element, path, out);
+  } else if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) {
+      const std::string place = path + "/" + shown(key);
+      if (members_.contains(&member) || key == "extensions")
+        find_missing(member, place, out);
+      else
+        out->insert(place);
+    }
+  }
+}
+
 void JsonNode::fail(const std::string& reason) const {
   fail_input(file_, (path_.empty() ? "the document" : path_) + ": " + reason);
 }
@@ -21,8 +43,14 @@ std::optional<JsonNode> JsonNode::find(const char* key) const {
   auto it = value_->find(key);
   if (it == value_->end())
     return std::nullopt;
-  JsonNode node(*it, file_);
+  return child(*it, key);
+}
+
+JsonNode JsonNode::child(const nlohmann::json& value, const std::string& key) const {
+  JsonNode node(value, file_, readings_);
   node.path_ = path_ + "/" + key;
+  if (readings_)
+    readings_->add(value);
   return node;
 }
 
@@ -39,8 +67,7 @@ std::vector<JsonNode> JsonNode::elements() const {
   std::vector<JsonNode> nodes;
   nodes.reserve(value_->size());
   for (size_t i = 0; i < value_->size(); ++i) {
-    nodes.emplace_back((*value_)[i], file_);
-    nodes.back().path_ = path_ + "/" + std::to_string(i);
+    nodes.push_back(child((*value_)[i], std::to_string(i)));
   }
   return nodes;
 }
@@ -55,9 +82,7 @@ std::vector<std::pair<std::string, JsonNode>> JsonNode::members() const {
     fail("an object is expected");
   std::vector<std::pair<std::string, JsonNode>> nodes;
   for (const auto& [key, value] : value_->items()) {
-    JsonNode node(value, file_);
-    node.path_ = path_ + "/" + shown(key);
-    nodes.emplace_back(key, std::move(node));
+    nodes.emplace_back(key, child(value, shown(key)));
   }
   return nodes;
 }

@@ -6,20 +6,41 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace anicodec::tools {
 
+/// The members of a document that were read.
+class JsonReadings {
+ public:
+  void add(const nlohmann::json& member) { members_.insert(&member); }
+
+  /// Kinds of the other members, but for those within them: as "/nodes/extras", without numbers in arrays. Of
+  /// extensions each is one.
+  std::set<std::string> missing(const nlohmann::json& document) const;
+
+ private:
+  void find_missing(const nlohmann::json& value, const std::string& path,
+                    std::set<std::string>* out) const;
+
+  std::unordered_set<const nlohmann::json*> members_;
+};
+
 /// A value of a JSON document together with where it stands, so that every fault names its JSON
 /// pointer (RFC 6901): Error(kInput) "file: /accessors/3/count: reason". The document must outlive
 /// the node.
 class JsonNode {
  public:
-  JsonNode(const nlohmann::json& value, std::string_view file) : value_(&value), file_(file) {}
+  /// `readings`, where given, is told of all members that are asked for, and outlives the node.
+  JsonNode(const nlohmann::json& value, std::string_view file, JsonReadings* readings = nullptr)
+      : value_(&value), file_(file), readings_(readings) {}
 
   const std::string& path() const { return path_; }
 
@@ -56,8 +77,12 @@ class JsonNode {
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
+  /// A value within this one.
+  JsonNode child(const nlohmann::json& value, const std::string& key) const;
+
   const nlohmann::json* value_;
   std::string_view file_;
+  JsonReadings* readings_;
   std::string path_;
 };
 

@@ -203,6 +203,21 @@ class FbxFile : public testing::Test {
   std::string notes_;
 };
 
+TEST_F(FbxFile, NamesWhatItHoldsBesideMeshesAndTheirMotion) {
+  Fbx fbx;
+  const int mesh = fbx.node("a", "P: \"mark\", \"double\", \"Number\", \"AU\",1\n");
+  for (const auto& [kind, owner] : {std::pair("Camera", "eye"), {"Light", "lamp"}}) {
+    const int attribute = fbx.id(), node = fbx.node(owner, "", 0, false);
+    fbx.object("NodeAttribute: " + std::to_string(attribute) + ", \"NodeAttribute::x\", \"" + kind + "\" {\nTypeFlags: \"" +
+               kind + "\"\n}\n");
+    fbx.connect(attribute, node);
+  }
+  fbx.object("Constraint: " + std::to_string(fbx.id()) + ", \"Constraint::c\", \"Aim\" {\nType: \"Aim\"\n}\n");
+  EXPECT_GT(mesh, 0);
+  load(fbx);
+  EXPECT_THAT(notes_, HasSubstr("not kept: 1 camera, 1 constraint, 1 light, custom properties\n"));
+}
+
 TEST_F(FbxFile, StepsStayUntilTheirKeys) {
   Fbx fbx;
   const int node = fbx.node("N");

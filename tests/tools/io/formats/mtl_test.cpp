@@ -16,6 +16,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
+LeftKinds unkept;  // of all tests
+
 PolygonLabels named(std::vector<std::string> names) {
   PolygonLabels labels;
   labels.names = std::move(names);
@@ -24,18 +26,27 @@ PolygonLabels named(std::vector<std::string> names) {
 
 MaterialLook look_of(const std::string& statements) {
   PolygonLabels labels = named({"red wall"});
-  parse_mtl("newmtl red wall\n" + statements, "a.mtl", labels);
+  parse_mtl("newmtl red wall\n" + statements, "a.mtl", labels, unkept);
   return labels.looks.at(0);
 }
 
 TEST(Mtl, GivesTheLooksOfMaterialsThatAreAskedFor) {
   PolygonLabels labels = named({"b", "a"});
   parse_mtl("# made by hand\nnewmtl a\nKa 1 1 1\nKd 0.5 0.25 0\nnewmtl c\nKd 1 0 0\n", "a.mtl",
-            labels);
+            labels, unkept);
   ASSERT_EQ(labels.looks.size(), 2U);
   EXPECT_FALSE(labels.looks[0].known);
   EXPECT_TRUE(labels.looks[1].known);
   EXPECT_THAT(labels.looks[1].base_colour, ElementsAre(0.5F, 0.25F, 0, 1));
+}
+
+TEST(Mtl, NamesStatementsThatHaveNoPlace) {
+  unkept = {};
+  look_of(
+      "Kd 1 0 0\nKs 1 1 1\nNi 1.4\nmap_Ks a.png\nmap_Kd b.png\nKs 0 0 0\nillum 2\nNs 10\nd 1\nKe 0 "
+      "0 0\n");
+  EXPECT_THAT(unkept.kinds(),
+              ElementsAre("'Ks' of materials", "'Ni' of materials", "'map_Ks' of materials"));
 }
 
 TEST(Mtl, ReadsOpacityAndShineInTheirSeveralWays) {
@@ -57,7 +68,7 @@ TEST(Mtl, ReadsHowMetallicMaterialsOfBlenderAre) {
       "newmtl told\nPm 0.25\nKa 1 1 1\nillum 3\n";
   const auto metallic = [&](const std::string& head) {
     labels.looks.clear();
-    parse_mtl(head + text, "a.mtl", labels);
+    parse_mtl(head + text, "a.mtl", labels, unkept);
     return std::vector<float>{labels.looks[0].metallic, labels.looks[1].metallic,
                               labels.looks[2].metallic};
   };
@@ -94,7 +105,7 @@ TEST(Mtl, ComesBack) {
   append_mtl(labels, text);
   EXPECT_THAT(text, Not(HasSubstr("plain")));
   PolygonLabels read = named({"plain", "shiny _1"});
-  parse_mtl(text, "a.mtl", read);
+  parse_mtl(text, "a.mtl", read, unkept);
   ASSERT_EQ(read.looks.size(), 2U);
   EXPECT_EQ(read.looks[1], look);
 }

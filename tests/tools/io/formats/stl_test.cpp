@@ -16,7 +16,8 @@ using testing::HasSubstr;
 std::vector<float> parse_stl_bytes(std::string_view bytes) {
   std::vector<float> soup;
   LocalOrigin origin;
-  parse_stl(bytes, "a.stl", soup, origin);
+  LeftKinds left_out;
+  parse_stl(bytes, "a.stl", soup, origin, left_out);
   return soup;
 }
 
