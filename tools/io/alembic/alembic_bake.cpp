@@ -136,7 +136,7 @@ void AlembicBake::select(const std::string& mesh) {
     std::unique_ptr<AbcMesh>& own = meshes_[node.object];
     if (!own)
       own = std::make_unique<AbcMesh>(archive_, scene_.object(node), note_);
-    shown_.push_back({.node = n, .mesh = own.get(), .topology = {}});
+    shown_.push_back({.node = n, .mesh = own.get(), .topology = {}, .sides = {}});
   }
   if (meshes == 0)
     fail_input(name_, "has no mesh: " + count_text(scene_.nodes()));
@@ -157,6 +157,8 @@ void AlembicBake::watch(bool hidden_too) {
           topology = kAbcNone;
       }
       shown.topology.push_back(topology);
+      const double volume = now[shown.node].world.leftCols<3>().determinant();
+      shown.sides.push_back(static_cast<int8_t>(volume < 0 ? -1 : volume > 0 ? 1 : 0));
     }
   }
   std::erase_if(shown_, [&](const AbcShown& shown) {
@@ -165,10 +167,30 @@ void AlembicBake::watch(bool hidden_too) {
       note_(path(shown) + ": is left out: no frame shows it");
     return never;
   });
-  for (AbcShown& shown : shown_) {
-    const std::vector<AbcPlace> first = places(shown.first_frame());
-    shown.mirrored = first[shown.node].world.leftCols<3>().determinant() < 0;
+  part_mirrored();
+}
+
+/// Finds the meshes that transforms mirror. One that is so in some frames only becomes two, which take turns; a frame
+/// without extent may be of either.
+void AlembicBake::part_mirrored() {
+  std::vector<AbcShown> parts;
+  for (const AbcShown& shown : shown_) {
+    AbcShown parted[2] = {shown, shown};
+    const auto first = std::ranges::find_if(shown.sides, [](int side) { return side != 0; });
+    bool mirrored = first != shown.sides.end() && *first < 0;
+    for (size_t f = 0; f < frame_count(); ++f) {
+      mirrored = shown.sides[f] == 0 ? mirrored : shown.sides[f] < 0;
+      parted[mirrored ? 0 : 1].topology[f] = kAbcNone;
+    }
+    const bool is_plain = parted[0].first_frame() < frame_count();
+    parted[1].mirrored = true;
+    parted[1].is_second = is_plain;
+    if (is_plain)
+      parts.push_back(std::move(parted[0]));
+    if (parted[1].first_frame() < frame_count())
+      parts.push_back(std::move(parted[1]));
   }
+  shown_ = std::move(parts);
 }
 
 /// Names objects and properties that no one asks for.
@@ -254,7 +276,7 @@ std::optional<Attribute> AlembicBake::attribute(const AbcShown& shown, const Abc
 MeshSequence AlembicBake::describe(const AbcShown& shown, size_t frame) {
   const AbcTopology& topology = shown.mesh->topologies()[shown.topology[frame]];
   MeshSequence out;
-  out.mesh_name = path(shown);
+  out.mesh_name = name(shown);
   out.vertex_count = topology.vertex_count;
   out.polygons = topology.polygons;
   const std::vector<uint32_t> order = reversed_corners(topology.polygons);

@@ -23,7 +23,9 @@ struct AbcShown {
   AbcMesh* mesh = nullptr;
   /// The topology of the mesh that each frame shows; kAbcNone: it is hidden or empty.
   std::vector<uint32_t> topology;
+  std::vector<int8_t> sides;  ///< of each frame: -1 mirrored, 0 flat
   bool mirrored = false;  ///< by its transforms, which turns its faces
+  bool is_second = false;  ///< it is mirrored, in frames that another does not show
 
   /// The first frame that shows it, or that shows one topology.
   uint32_t first_frame() const;
@@ -41,6 +43,11 @@ class AlembicBake {
   const AbcArchive& archive() const { return archive_; }
 
   const std::string& path(const AbcShown& shown) const { return scene_.nodes()[shown.node].path; }
+
+  /// That path, of a second mesh with a word behind it.
+  std::string name(const AbcShown& shown) const {
+    return path(shown) + (shown.is_second ? " mirrored" : "");
+  }
 
   size_t frame_count() const { return clock_.times.size(); }
 
@@ -71,6 +78,7 @@ class AlembicBake {
   AbcNote note_once(const AlembicOptions& options);
   void select(const std::string& mesh);
   void watch(bool hidden_too);
+  void part_mirrored();
   void note_left_out() const;
   std::optional<Attribute> attribute(const AbcShown& shown, const AbcGeomParam& param,
                                      size_t frame) const;

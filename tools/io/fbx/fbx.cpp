@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <deque>
 #include <set>
 #include <span>
 #include <utility>
@@ -65,16 +66,29 @@ class FbxReader {
   /// The takes that are named, or all that move anything; with no name and nothing that moves, one frame.
   std::string read_clips(const std::vector<std::string>& names) {
     if (!names.empty() && names != std::vector<std::string>{"all"}) {
-      for (const std::string& name : names)
-        bake(unlike_others(name), named(name).get());
+      std::vector<UfbxAnim> anims;
+      std::deque<FbxTake> takes;
+      for (const std::string& name : names) {
+        anims.push_back(named(name));
+        takes.emplace_back(scene_, anims.back().get(), options_, note_);
+      }
+      const std::vector<FbxTake::Facings> facings = facings_of(takes);
+      for (size_t i = 0; i < names.size(); ++i)
+        takes[i].bake(unlike_others(names[i]), facings, message_);
       return message_.finish();
     }
     std::vector<std::string> still;
-    size_t moving = 0;
+    std::deque<FbxTake> takes;  // of those that may move
+    for (const Stack& stack : stacks_) {
+      if (may_move(scene_, *stack.anim))
+        takes.emplace_back(scene_, stack.anim, options_, note_);
+    }
+    const std::vector<FbxTake::Facings> facings = facings_of(takes);
+    size_t moving = 0, next = 0;
     for (const Stack& stack : stacks_) {
       bool moves = may_move(scene_, *stack.anim);
       if (moves) {
-        bake(unlike_others(stack.name), stack.anim);
+        takes[next++].bake(unlike_others(stack.name), facings, message_);
         moves = !message_.stands_still();
         if (!moves)
           message_.drop_clip();
@@ -102,7 +116,17 @@ class FbxReader {
   }
 
   void bake(const std::string& name, const ufbx_anim* anim) {
-    FbxTake(scene_, anim, options_, note_).bake(name, message_);
+    std::deque<FbxTake> take;
+    take.emplace_back(scene_, anim, options_, note_);
+    take[0].bake(name, facings_of(take), message_);
+  }
+
+  /// Takes become clips of one mesh, which has what any of them shows.
+  static std::vector<FbxTake::Facings> facings_of(const std::deque<FbxTake>& takes) {
+    std::vector<FbxTake::Facings> facings;
+    for (const FbxTake& take : takes)
+      take.add_facings(&facings);
+    return facings;
   }
 
   bool bake_first_that_moves() {

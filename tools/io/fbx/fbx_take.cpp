@@ -92,7 +92,6 @@ FbxTake::FbxTake(const FbxScene& scene, const ufbx_anim* anim, const GltfOptions
     : scene_(scene), anim_(anim), options_(options), note_(note) {
   set_timing();
   watch();
-  add_pieces();
 }
 
 std::vector<double> FbxTake::key_times() const {
@@ -179,15 +178,22 @@ void FbxTake::watch() {
   }
 }
 
-void FbxTake::add_pieces() {
+void FbxTake::add_facings(std::vector<Facings>* facings) const {
+  facings->resize(states_.size());
+  for (size_t n = 0; n < states_.size(); ++n) {
+    (*facings)[n].plain |= std::ranges::count(states_[n], State::kPlain) > 0;
+    (*facings)[n].mirrored |= std::ranges::count(states_[n], State::kMirrored) > 0;
+  }
+}
+
+void FbxTake::add_pieces(const std::vector<Facings>& facings) {
   const UfbxScene first = scene_.at(anim_, time_of(0));
   std::vector<MeshSequence> meshes;
   uint64_t vertices = 0;
   for (size_t n = 0; n < states_.size(); ++n) {
     const ufbx_node& node = *scene_.nodes()[n];
     const std::string name = text_of(node.name);
-    const bool plain = std::ranges::count(states_[n], State::kPlain) > 0;
-    const bool mirrored = std::ranges::count(states_[n], State::kMirrored) > 0;
+    const auto [plain, mirrored] = facings[n];
     if (!plain && !mirrored)
       note_(scene_.path() + ": mesh '" + printable(name) +
             "' is left out: no frame shows it; --mesh takes it");
@@ -343,7 +349,9 @@ void FbxTake::move(const Piece& piece, const ufbx_scene& scene, uint32_t frame, 
   }
 }
 
-void FbxTake::bake(const std::string& name, FbxMessage& message) const {
+void FbxTake::bake(const std::string& name, const std::vector<Facings>& facings,
+                   FbxMessage& message) {
+  add_pieces(facings);
   MeshSequence still = still_;
   still.name = name;
   message.begin_clip(still);

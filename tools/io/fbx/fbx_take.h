@@ -20,12 +20,20 @@ bool may_move(const FbxScene& scene, const ufbx_anim& anim);
 /// The meshes of a scene as one, moved by an animation; without one, as they are at rest.
 class FbxTake {
  public:
+  /// Whether some frame shows the mesh of a node while it mirrors, or while it does not.
+  struct Facings {
+    bool plain = false, mirrored = false;
+  };
+
   /// Finds the frames, and the meshes that they show. Throws Error(kInput).
   FbxTake(const FbxScene& scene, const ufbx_anim* anim, const GltfOptions& options,
           const FbxNote& note);
 
-  /// Adds all as a clip. Throws Error(kInput) where positions take more memory than is allowed or are not finite.
-  void bake(const std::string& name, FbxMessage& message) const;
+  /// Adds what this take shows to what others do; `facings` has one for each node of the scene.
+  void add_facings(std::vector<Facings>* facings) const;
+
+  /// Adds all as a clip, with the meshes that this take or others show. Throws Error(kInput) where positions take more memory than is allowed or are not finite.
+  void bake(const std::string& name, const std::vector<Facings>& facings, FbxMessage& message);
 
  private:
   enum class State : uint8_t { kHidden, kPlain, kMirrored };
@@ -43,7 +51,7 @@ class FbxTake {
   std::vector<double> key_times() const;
   double time_of(uint32_t frame) const;
   void watch();
-  void add_pieces();
+  void add_pieces(const std::vector<Facings>& facings);
   MeshSequence describe(Piece& piece, const ufbx_scene& scene) const;
   void add_attributes(const Piece& piece, const ufbx_scene& scene, MeshSequence& out) const;
   void move(const Piece& piece, const ufbx_scene& scene, uint32_t frame, float* out) const;

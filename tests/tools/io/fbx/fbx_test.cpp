@@ -218,6 +218,26 @@ TEST_F(FbxFile, NamesWhatItHoldsBesideMeshesAndTheirMotion) {
   EXPECT_THAT(notes_, HasSubstr("not kept: 1 camera, 1 constraint, 1 light, custom properties\n"));
 }
 
+TEST_F(FbxFile, HasTheMeshesOfAllTakesInEach) {
+  Fbx fbx;
+  const int plain = fbx.node("a"), turned = fbx.node("b", fbx.property("Lcl Translation", {5, 0, 0}));
+  fbx.take("walk", 0, 1);
+  fbx.move(plain, "Lcl Translation", {{{0, 0}, {1, 1}}, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}}}, kLinear);
+  fbx.take("flip", 0, 1);
+  fbx.move(turned, "Lcl Scaling", {{{0, 1}, {0.5, -1}, {1, -1}}, {{0, 1}, {1, 1}}, {{0, 1}, {1, 1}}}, kStepped);
+  LoadOptions options;
+  options.takes = true;
+  const MeshSequence clip = load(fbx, options);
+  ASSERT_EQ(clip.clips.size(), 2U) << notes_;
+  EXPECT_THAT(clip.parts.names, ElementsAre("a", "b", "b mirrored"));
+  // Inside out only would be below 0; what is at a point has none.
+  const size_t last = clip.frame_count - 1, flip = clip.clips[0].frame_count;
+  for (const size_t f : {size_t{0}, flip, last}) {
+    EXPECT_NEAR(volume(clip, f, 4), f == last ? 0 : 1, 1e-6) << f;
+    EXPECT_NEAR(volume(clip, f, 8), f == last ? 1 : 0, 1e-6) << f;
+  }
+}
+
 TEST_F(FbxFile, StepsStayUntilTheirKeys) {
   Fbx fbx;
   const int node = fbx.node("N");
