@@ -31,8 +31,9 @@ def test_frames_keep_the_promise(wave, clip):
             clip[wrong]
     with pytest.raises(IndexError):
         clip[[0, 24]]
-    with pytest.raises(TypeError):
-        clip[1.5]
+    for wrong in (1.5, "walk"):
+        with pytest.raises(TypeError, match=f"a frame is a number, not {wrong!r}"):
+            clip[wrong]
 
 
 def test_faces(wave, clip):

@@ -218,6 +218,8 @@ GOOD = np.random.default_rng(2).random((3, 4, 3))
     (GOOD, None, {"basis": "magic"}, "not 'magic'"),
     (GOOD, None, {"keyframes": 4}, "than the clip has frames"),
     (GOOD, None, {"fps": 0}, "fps must be greater than 0"),
+    (GOOD, None, {"fps": "fast"}, "fps must be a number or a text as '30000/1001', not 'fast'"),
+    (GOOD, None, {"fps": [24]}, "fps must be a number"),
     (GOOD, None, {"unit": "parsec"}, "not 'parsec'"),
     (GOOD, None, {"up": "x"}, "not 'x'"),
     (GOOD, None, {"uv": GOOD[0]}, "uv must be 4 vertices, 0 corners or 0 polygons x 2, not 4 x 3"),

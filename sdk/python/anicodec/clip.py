@@ -162,6 +162,8 @@ class Mesh:
                 number = range(len(self))[frames]
             except IndexError:
                 raise FrameError(f"there is no frame {frames} of {len(self)}") from None
+            except TypeError:
+                raise TypeError(f"a frame is a number, not {frames!r}") from None
             result = _arrays.output(out, (vertices, 3))
             self._asset.frames(self._number, [number], result)
             return result

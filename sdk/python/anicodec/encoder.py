@@ -151,7 +151,10 @@ def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
 def _rate(fps: Any) -> Tuple[int, int]:
     if fps is None:
         return 0, 1
-    rate = Fraction(fps).limit_denominator(100000)
+    try:
+        rate = Fraction(fps).limit_denominator(100000)
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        raise InputError(f"fps must be a number or a text as '30000/1001', not {fps!r}") from None
     if rate <= 0:
         raise InputError(f"fps must be greater than 0, not {fps!r}")
     return rate.numerator, rate.denominator
