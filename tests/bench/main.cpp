@@ -37,7 +37,7 @@ struct Arguments {
   int runs = 5;
   uint32_t vertices = 210000, frame_count = 100, shapes = 30;
   uint32_t live_frames = 30;
-  double key_every = 4;
+  double key_every = 4, live_max_error = 0;
   std::vector<uint32_t> play_vertices{7000, 42000, 210000}, components{16, 43, 100, 163};
   std::vector<uint32_t> blend_vertices = {7000, 42000};
   std::vector<uint32_t> encode_vertices{1000, 10000}, encode_frames{50, 200};
@@ -224,13 +224,18 @@ void add_open(Bench& bench) {
 void add_live(Bench& bench) {
   Arguments& a = bench.arguments;
   tools::Options& options =
-      add(bench, "live", "Time to encode and to open the files of live streams", [](Arguments& args) {
+      add(bench, "live", "Bytes of live streams and whole clips, time to encode and open files", [](Arguments& args) {
         args.bench.clips = clip_words(args.inputs, args.clips);
+        const Target target = args.live_max_error > 0
+                                  ? Target{ErrorMetric::kMaxError, args.live_max_error, true}
+                                  : Target{ErrorMetric::kKg, args.one_kg, false};
         return std::vector{
-            run_live(args.bench, args.one_kg, args.live_frames, args.key_every, args.runs)};
+            run_live(args.bench, target, args.live_frames, args.key_every, args.runs)};
       });
   options.number("--kg", a.one_kg, "PCT", kPositive, "KG error in per cent (default 0.1)");
   options.number("--frames", a.live_frames, "N", {1, 100000}, "Frames of a file (default 30)");
+  options.number("--max-error", a.live_max_error, "PCT", kPositive,
+                 "Largest error, in per cent of the whole clip's diagonal, instead");
   options.number("--key-every", a.key_every, "SECONDS", {0, 1e6}, "As for anicodec encode (default 4)");
   options.number("--runs", a.runs, "N", {1, 1000}, "Runs to take the median of (default 5)");
   add_basis(options, a);
