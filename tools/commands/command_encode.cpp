@@ -86,11 +86,11 @@ kept; numbers in every frame, all others as they are in the first. Of normals th
 edges are: normals come from the positions of a frame. What else a scene has is named as not kept.
 
 A LEN is in scene units (0.02), in per cent of the diagonal of the box around all frames (0.05%; of
-several clips each takes its own, --live takes that of the first piece), or where the unit of the
-scene is known in m, cm, mm, km, in or ft (5mm). Give one target; --max-error
-may stand beside any other as a cap. Without a target it is --max-error 0.05%: no vertex of any
-frame is further off. --keyframes alone sets no target: the quantisation then adds at most a tenth
-to the error of that many exact key-frames.
+several clips each takes its own, --live takes that of --box or of the first piece, which is smaller
+than that of the whole), or where the unit of the scene is known in m, cm, mm, km, in or ft (5mm).
+Give one target; --max-error may stand beside any other as a cap. Without a target it is
+--max-error 0.05%: no vertex of any frame is further off. --keyframes alone sets no target: the
+quantisation then adds at most a tenth to the error of that many exact key-frames.
 
 --interpolation msgi rebuilds frames by multi-scale geometry interpolation of key-frames (--basis
 keyframes or --keyframes), which keeps lengths and volume where limbs swing far; auto takes what

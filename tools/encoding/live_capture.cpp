@@ -94,6 +94,25 @@ MeshSequence load_mesh(const EncodeArguments& command) {
   return mesh;
 }
 
+/// The diagonal that percentages are of, scene units; 0: that of the first piece.
+double box_of(const EncodeArguments& command, double metres_per_unit) {
+  if (command.box.empty())
+    return 0;
+  const Length length = parse_length(command.box, "--box").in_scene_units(metres_per_unit, "--box");
+  if (length.percent)
+    throw Error(ErrorKind::kUsage, "--box: percentages are of this length, so it is none itself");
+  return length.value;
+}
+
+/// Says what a percentage of the first piece's box is.
+void report_bound(const EncodeOptions& options, const EncodeResult& first) {
+  for (const Target& target : {options.target, options.cap.value_or(Target{})}) {
+    if (target.percent)
+      print_line(stderr, "{:g} % is {:.4g}, of the diagonal {:.4g} of the first piece's box; --box gives another",
+                 target.value, in_scene_units(target, first.diagonal).value, first.diagonal);
+  }
+}
+
 void check_goes_with(const EncodeArguments& command) {
   const auto refuse = [](bool given, const char* option) {
     if (given)
@@ -126,6 +145,11 @@ void encode_live(const EncodeArguments& command, const CommonOptions& common) {
   MeshSequence mesh = load_mesh(command);
   EncodeOptions options = encode_options(command);
   set_target(command, mesh.metres_per_unit, &options);
+  if (const double box = box_of(command, mesh.metres_per_unit); box > 0) {
+    options.target = in_scene_units(options.target, box);
+    if (options.cap)
+      options.cap = in_scene_units(*options.cap, box);
+  }
   const size_t vertices = mesh.vertex_count;
   const double rate = mesh.rate.value();
   const auto frames = static_cast<size_t>(std::max(1.0, std::round(command.piece * rate)));
@@ -145,6 +169,8 @@ void encode_live(const EncodeArguments& command, const CommonOptions& common) {
       throw Error(e.kind(), fmt::format("the frames from {} on: {}", first, e.what()));
     }
     output.write(result.file);
+    if (first == 0 && !common.quiet && !common.json)
+      report_bound(options, result);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     report(result, static_cast<double>(first) / rate, took.count(), common);
     first += result.frames;

@@ -311,6 +311,7 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.number("--piece", a.piece, "SECONDS", {0.001, 3600}, "Of --live, what is encoded at a time (default 1)");
   options.number("--key-every", a.key_every, "SECONDS", {0, 1e6},
                  "Of --live, a piece that does without those before it (default 4; 0: every one)");
+  options.option("--box", a.box, "LEN", "Of --live, the diagonal that percentages are of (default: the first piece's)");
   add_target(options, a);
   add_method(options, a);
   add_massage_options(options, a);

@@ -56,6 +56,7 @@ struct EncodeArguments {
   bool live = false;
   double piece = 1;                 ///< of a live stream, seconds
   double key_every = kKeyEvery;     ///< the same
+  std::string box;                  ///< of a live stream: the diagonal that percentages are of
   std::vector<std::string> events;    ///< [CLIP:]NAME=SECONDS
   std::vector<std::string> given;     ///< "--option=value" for all that an output depends on beside its clip
   std::vector<std::string> metadata;  ///< KEY=VALUE

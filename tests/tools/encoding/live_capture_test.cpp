@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,6 +16,7 @@ namespace anicodec::tools {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class LiveCapture : public testing::Test {
  protected:
@@ -74,6 +76,18 @@ TEST_F(LiveCapture, BeginsAnewAsOftenAsAskedFor) {
   EXPECT_EQ(anicodec({"info", at("live.anic"), "--json"}).json()["features"], nlohmann::json({"learning"}));
   EXPECT_EQ(anicodec({"info", at("anew.anic"), "--json"}).json()["features"], nlohmann::json::array());
   EXPECT_LT(std::filesystem::file_size(at("live.anic")), std::filesystem::file_size(at("anew.anic")));
+}
+
+TEST_F(LiveCapture, SaysWhatAPercentageIs) {
+  const Outcome first = encode("cat frames", "-o first.anic --max-error 0.1%");
+  const nlohmann::json asked = anicodec({"info", at("first.anic"), "--json"}).json()["asked"];
+  EXPECT_EQ(asked["metric"], "max_error");
+  EXPECT_THAT(first.err, HasSubstr(fmt::format("0.1 % is {:.4g}, of the diagonal", asked["value"].get<double>())));
+  const Outcome given = encode("cat frames", "-o given.anic --max-error 0.1% --box 5");
+  EXPECT_THAT(given.err, Not(HasSubstr("of the diagonal")));
+  EXPECT_NEAR(anicodec({"info", at("given.anic"), "--json"}).json()["asked"]["value"].get<double>(), 0.005, 1e-12);
+  EXPECT_EQ(encode("cat frames", "-o none.anic --box 5%").status, 1);
+  EXPECT_EQ(encode("cat frames", "-o none.anic --box 0").status, 1);
 }
 
 TEST_F(LiveCapture, RefusesWhatItCannotDo) {
