@@ -203,7 +203,10 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   if (!options.metadata.empty())
     input.layout.metadata = checked_metadata(options.metadata);
   ClipSearch search(input, stored, options, searched);
-  SearchProgress steps(progress, search.expected_trials());
+  constexpr double kOfOneBasis = 0.45;  // of the trials of all
+  const double expected =
+      search.expected_trials() * (options.basis == BasisChoice::kAuto ? 1 : kOfOneBasis);
+  SearchProgress steps(progress, expected);
   input.without = options.without;
   input.on_trial = [&steps] { steps.trial(); };
   CodedClip coded = search.run(record);

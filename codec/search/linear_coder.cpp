@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <ranges>
 #include <string>
@@ -218,6 +219,9 @@ LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse
     m.part.what += " in " + std::to_string(choice.regions) + " regions";
   for (const char* step : choice.steps)
     m.part.what += std::string(", ") + step;
+  char text[32];  // what trials of the same settings differ in
+  std::snprintf(text, sizeof text, ", step %.3g", choice.settings.step);
+  m.part.what += text;
   m.rmse = input_.rmse(m.part.error.squared, analysis_.clip().frame_count);
   if (input_.bounds_clips()) {
     m.excesses = input_.excesses(m.part.error, first_frame_, rmse);
@@ -397,7 +401,7 @@ bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse, doub
     if (helps != trials.end()) {
       *least = helps->bytes;
       choice_ = changed[at];
-      choice_.steps.push_back(steps[at].name);
+      choice_.steps.push_back(meaning_of(steps[at], choice_));
       learn(*helps, rmse, choice_);
       changes = true;
     }

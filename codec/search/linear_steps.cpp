@@ -13,6 +13,11 @@ constexpr double kPoseFactor = 1.4;  ///< between steps of the pose that are tri
 // 32, characters with 4 to 8.
 constexpr uint8_t kAlike = 8;
 
+// Steps that do either of two things.
+constexpr const char *kFinerOrCoarserPose = "finer or yet coarser pose",
+                     *kOtherPrior = "stronger or weaker prior by motion",
+                     *kOtherPose = "mean or rank-three pose";
+
 void fewer_neighbours(LinearChoice& choice, BasisKind) {
   constexpr int kFewest = 8, kStep = 4;
   choice.settings.neighbours =
@@ -25,7 +30,7 @@ const std::vector<LinearStep>& linear_steps() {
   static const std::vector<LinearStep> steps = {
       {"coarser pose", [](LinearChoice& c, BasisKind) { c.settings.pose_factor *= kPoseFactor; }, 2,
        2},
-      {"finer or yet coarser pose",
+      {kFinerOrCoarserPose,
        [](LinearChoice& c, BasisKind) {
          const bool coarser = c.settings.pose_factor > LinearSettings{}.pose_factor;
          c.settings.pose_factor *= coarser ? kPoseFactor : 1 / kPoseFactor;
@@ -35,13 +40,13 @@ const std::vector<LinearStep>& linear_steps() {
        [](LinearChoice& c, BasisKind) { c.pose = ReferencePose::kFrame, c.base = Base::kAffine; },
        2, 2},
       {"prior by motion", [](LinearChoice& c, BasisKind) { c.settings.alike = kAlike; }, 2, 2},
-      {"stronger or weaker prior by motion",
+      {kOtherPrior,
        [](LinearChoice& c, BasisKind) {
          c.settings.alike = c.settings.alike > 0 ? 4 * kAlike : kAlike / 2;
        },
        3, 3},
       {"20 neighbours", [](LinearChoice& c, BasisKind) { c.settings.neighbours = 20; }, 7, 3},
-      {"mean or rank-three pose",
+      {kOtherPose,
        [](LinearChoice& c, BasisKind kind) {
          const bool shapes = kind == BasisKind::kEigenshapes;
          c.pose = shapes ? ReferencePose::kRankThree : ReferencePose::kMean;
@@ -65,6 +70,17 @@ const std::vector<LinearStep>& linear_steps() {
       {"radius 9", [](LinearChoice& c, BasisKind) { c.settings.radius = 9; }, 9, 9},
   };
   return steps;
+}
+
+const char* meaning_of(const LinearStep& step, const LinearChoice& changed) {
+  if (step.name == kFinerOrCoarserPose)
+    return changed.settings.pose_factor > LinearSettings{}.pose_factor ? "yet coarser pose"
+                                                                       : "finer pose";
+  if (step.name == kOtherPrior)
+    return changed.settings.alike > kAlike ? "stronger prior by motion" : "weaker prior by motion";
+  if (step.name == kOtherPose)
+    return changed.pose == ReferencePose::kMean ? "mean pose" : "rank-three pose";
+  return step.name;
 }
 
 const std::vector<LinearStep>& opening_steps() {

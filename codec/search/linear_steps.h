@@ -13,7 +13,7 @@ namespace anicodec {
 
 /// One change of settings that the search tries.
 struct LinearStep {
-  const char* name;  ///< for `encode -v`
+  const char* name;  ///< for EncodeOptions::without
   void (*change)(LinearChoice& choice, BasisKind kind);
   int trajectories_from;  ///< the least effort, 1..9, at which eigentrajectories try it
   int shapes_from;        ///< the same for eigenshapes
@@ -27,6 +27,9 @@ const std::vector<LinearStep>& linear_steps();
 /// Steps that may open sooner, for searches to which that is worth bytes: tried last, at efforts
 /// from 2 on.
 const std::vector<LinearStep>& opening_steps();
+
+/// What a step did to a choice, for `encode -v`: of "finer or yet coarser" one.
+const char* meaning_of(const LinearStep& step, const LinearChoice& changed);
 
 /// What a search does beside the steps.
 inline constexpr const char *kRegionsMean = "regions", *kJointRoundingMean = "joint rounding",

@@ -115,6 +115,25 @@ TEST(Encode, IsAFunctionOfItsInput) {
   }
 }
 
+TEST(Encode, TellsAboutHowFarItIs) {
+  const MeshSequence clip = corpus::make_clip("limb");
+  for (const BasisChoice basis : {BasisChoice::kAuto, BasisChoice::kEigenshapes}) {
+    for (const ErrorMetric metric : {ErrorMetric::kMaxError, ErrorMetric::kKg}) {
+      EncodeOptions options;
+      options.basis = basis;
+      options.target = {metric, 0.1, metric == ErrorMetric::kMaxError};
+      options.effort = 3;
+      std::vector<double> parts;
+      encode(clip, options, [&](std::string_view, double done) { parts.push_back(done); });
+      ASSERT_TRUE(std::ranges::is_sorted(parts));
+      const auto half = std::ranges::lower_bound(parts, 0.5) - parts.begin();
+      const double share = static_cast<double>(half) / static_cast<double>(parts.size());
+      EXPECT_GT(share, 0.25) << "of trials, when half is said to be done";
+      EXPECT_GT(parts.back(), 0.6);
+    }
+  }
+}
+
 TEST(Encode, FreeOrderLeavesOutTheVertexMapAndNothingElse) {
   for (const char* clip : {"limb", "nonmanifold"}) {
     EncodeOptions options = asking({ErrorMetric::kKg, 0.5, false}, BasisChoice::kAuto);

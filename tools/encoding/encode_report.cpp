@@ -127,8 +127,11 @@ void EncodeReport::print_clips(int verbosity) const {
 
 void EncodeReport::print_text(int verbosity) const {
   if (verbosity > 0) {
+    size_t width = 0;
     for (const Trial& trial : result.trials)
-      fmt::print("  tried {:<28} {:>12} bytes  RMSE {:<11.4g} max error {:.4g}\n", trial.what,
+      width = std::max(width, trial.what.size());
+    for (const Trial& trial : result.trials)
+      fmt::print("  tried {:<{}} {:>12} bytes  RMSE {:<11.4g} max error {:.4g}\n", trial.what, width,
                  grouped(trial.bytes), trial.rmse, trial.max_error);
     for (const std::string& note : result.search_notes)
       print_line("  {}", note);
