@@ -1,52 +1,41 @@
 # SPDX-License-Identifier: CC0-1.0
-"""decode.py [--stream] FILE [-o OUT]: decodes a file whole and checks it.
-
-With OUT writes OUT.pc2, OUT.obj and OUT.json, as the conformance files want.
-Else prints a line for each clip and mesh, and exits with 0; or prints the status of chapter 12 and exits with its
-number.
-"""
+"""Decodes an .anic file as a whole, checks it, and says what is in it."""
+import argparse
 import sys
-from anic_reference.common import AnicError, xxh64
-from anic_reference.decoder import File, stream_files
+from pathlib import Path
+import numpy as np
+from anic_reference.chunks import TYPES
+from anic_reference.clip import decode, joined
+from anic_reference.container import read_container, read_stream
+from anic_reference.conventions import CODES, Refused
 from anic_reference.output import write
 
-
-def show(file):
-    for i, c in enumerate(file.clip.clips):
-        print('clip %d: %r, %d frames, rate %d/%d' % (i, c.name, c.frames, *c.rate))
-    for i, m in enumerate(file.meshes):
-        print('mesh %d: %r, %d vertices, %d coded, %d polygons, %d attributes' % (
-            i, m.name, m.source, m.coded, len(m.user_polygons), len(m.attributes)))
-    for i, s in enumerate(file.segments):
-        first = file.source_positions(i, 0)
-        part = s.limits
-        print('segment %d: mesh %d, kind %d, frames %d + %d, %d components, hash %016x, first frame %016x' % (
-            i, part.mesh, part.kind, part.first, part.frames, part.components, s.segm.hash, xxh64(first.tobytes())))
-    for i in file.boxes:
-        if not file.boxes_hold(i):
-            print('segment %d: positions lie outside of the boxes of BNDS' % i)
-
-
-def main(arguments):
-    out = arguments.pop(arguments.index('-o') + 1) if '-o' in arguments else None
-    name = next(a for a in arguments if not a.startswith('-'))
-    with open(name, 'rb') as f:
-        data = f.read()
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--stream", action="store_true",
+                        help="the files are those of a live stream, in order")
+    parser.add_argument("-o", metavar="OUT", help="write OUT.pc2, OUT.obj and OUT.json")
+    parser.add_argument("files", nargs="+", metavar="FILE")
+    arguments = parser.parse_args()
+    if len(arguments.files) > 1 and not arguments.stream:
+        parser.error("several files need --stream")
+    np.seterr(all="ignore")
     try:
-        files = list(stream_files(data)) if '--stream' in arguments else [File(data)]
-    except AnicError as error:
-        print('%s %d %s' % (error.name, error.code, error.detail))
-        return error.code
-    except MemoryError:
-        print('MEMORY 70')
-        return 70
-    if out:
-        write(files, out)
-    else:
-        for file in files:
-            show(file)
+        data = b"".join(Path(name).read_bytes() for name in arguments.files)
+        files = read_stream(data, TYPES) if arguments.stream else [read_container(data, TYPES)]
+        decoded = joined([decode(file) for file in files])
+        if arguments.o:
+            write(arguments.o, decoded)
+    except (Refused, MemoryError, OSError) as error:
+        name = error.name if isinstance(error, Refused) else "READ" if isinstance(error,
+                                                                                  OSError) else "MEMORY"
+        print(f"{name} ({CODES[name]}) {error}")
+        return CODES[name]
+    for clip, frames in zip(decoded.clip.clips, decoded.clip_frames):
+        print(f"clip {clip.name!r}: {frames} frames, {clip.rate_numerator}/{clip.rate_denominator} a second")
+    for mesh in decoded.meshes:
+        print(f"mesh {mesh.name!r}: {len(mesh.coded)} vertices, {len(mesh.polygons)} polygons")
     return 0
 
-
-if __name__ == '__main__':
-    sys.exit(main(sys.argv[1:]))
+if __name__ == "__main__":
+    sys.exit(main())

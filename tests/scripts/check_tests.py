@@ -49,7 +49,6 @@ THROUGH = {
     "tools/io/gltf": ("tests/tools/io/gltf/gltf_test.cpp", "parts of one reader and one writer"),
     "tools/listing": ("tests/tools/commands/inspect_command_test.cpp", "what `dump` prints"),
     "tools/main": ("tests/tools/commands/command_line_test.cpp", "the process itself"),
-    "tools/options": ("tests/tools/options", "parts of the command line"),
     "tools/program": ("tests/tools/commands/command_line_test.cpp", "what every command does, tested with them"),
     "tools/render": ("tests/tools/commands/render_command_test.cpp", "pictures that `render` writes"),
     "tools/report": ("tests/tools/report/report_test.cpp", "parts of one page"),

@@ -6,6 +6,7 @@
 #include "format/metadata.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
+#include "tools/options/help_text.h"
 #include "tools/words/names.h"
 #include "tools/words/quantity.h"
 #include "tools/words/version.h"
@@ -319,7 +320,7 @@ void add_arguments(Options& options, EncodeArguments& a) {
   add_metadata(options, a);
   options.watch([&a](const Option& option, const std::string& value) {
     const std::string name = option.long_name();
-    if (!option.is_argument() && name != "--output" && name != "--batch" && name != "--memory")
+    if (!option.is_argument() && option.group != kGeneralGroup && name != "--output" && name != "--batch" && name != "--memory")
       a.given.push_back(name + "=" + value);
   });
 }

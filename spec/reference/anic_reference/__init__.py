@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: CC0-1.0
-"""Reference decoder of .anic files, written from the specification. Chapters are named in each module."""
+"""A decoder of the .anic format that follows the chapters of its specification."""

@@ -1,518 +1,279 @@
 # SPDX-License-Identifier: CC0-1.0
-"""Chapter 09b: reference poses and native key-frames."""
+"""Chapter 09b: reference poses and native key-frames, in exact arithmetic of binary64. Vectors are arrays."""
 import math
-import struct
-from types import SimpleNamespace as Record
-from .common import need
-from .entropy import Models, Words, bit_model, class_of, lg, magnitude, row, symbol
-from .filters import Filter, divide, root
+from types import SimpleNamespace
+import numpy as np
+from .conventions import check, clamp, floor_log2, total
+from .entropy import Bit, Models, Row, StateDecoder, log_class, defaultdict
+from .weights import Filter
 
-FORGET = 994 / 1000
-STEPS = ((0, 2), (5, 7), (1, 3), (6, 4), (2, 0), (4, 6), (3, 1), (7, 5))     # T
-AXES = (0, 1, 2)
+STATES = ((0, 2), (5, 7), (1, 3), (6, 4), (2, 0), (4, 6), (3, 1), (7, 5))
+FORGETTING, FARTHEST, NONE = 994 / 1000, 2.0**22, np.zeros(3)
 
+dot = lambda a, b: a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+cross = lambda a, b: a[[1, 2, 0]] * b[[2, 0, 1]] - a[[2, 0, 1]] * b[[1, 2, 0]]
+length = lambda a: np.sqrt(dot(a, a))
+mean = lambda values, zero=NONE: 1 / len(values) * total(values, zero)
+larger = lambda x, y: y if x < y else x
+eighths = lambda y: 0 if not 8 * y > 0 else math.floor(8 * y) if 8 * y < 2.0**30 else 2**30  # X of section 5
 
 class Corners:
-    """Section 1, and of section 3 what follows from the triangles alone. Made once for each mesh."""
+    """Section 1: the corners of the coded triangles: those at vertices, opposites, vertices beside them."""
+    def __init__(self, count, triangles):
+        self.vertex, self.at = [v for triangle in triangles for v in triangle], [[] for _ in range(count)]
+        self.beside = [pair for a, b, c in triangles
+                       for pair in ((b, c), (c, a), (a, b))]      # next, previous
+        self.opposite, waiting = [None] * len(self.vertex), (None, None)
+        for c, v in enumerate(self.vertex):
+            self.at[v].append(c)
+        for ends, c in sorted((sorted(pair), c) for c, pair in enumerate(self.beside)):
+            met = waiting[0] == ends
+            if met:
+                self.opposite[c], self.opposite[waiting[1]] = waiting[1], c
+            waiting = (None, None) if met else (ends, c)
+        self.valence = [len(at) for at in self.at]
 
-    def __init__(self, n, triangles):
-        self.n = n
-        self.at = at = [v for t in triangles for v in t]                     # V(c)
-        corners = [[] for _ in range(n)]
-        for c, v in enumerate(at):
-            corners[v].append(c)
-        self.valence = [len(line) for line in corners]
-        self.corners = [line[:32] for line in corners]
-        opposite = self._opposites()
-        self.neighbours, self.gates, self.valences = [], [], []              # N; a, b, x of G; sums of valences
-        for v in range(n):
-            noted, gates, total = {}, [], 0
-            for c in self.corners[v]:
-                a, b = at[next_corner(c)], at[previous_corner(c)]
-                noted[a] = noted[b] = True
-                o = opposite[c]
-                if a < v and b < v and o is not None and at[o] < v and len(gates) < 16:
-                    gates.append((a, b, at[o]))
-                    total += self.valence[a] + self.valence[b]
-            self.neighbours.append([w for w in noted if w < v])
-            self.gates.append(gates)
-            self.valences.append(float(total))
+class Turn:  # Section 7: how the place that is followed is turned; bits of `flips`: axes that are flipped
+    def __init__(self, flips=0):
+        self.mirrors, ones = bin(flips).count("1") % 2, [-1.0 if flips >> d & 1 else 1.0 for d in range(3)]
+        self.filters = [Filter(row, 0.1, FORGETTING) for row in np.diag(ones).tolist()]
 
-    def _opposites(self):
-        at, keys = self.at, []
-        for c in range(len(at)):
-            a, b = at[next_corner(c)], at[previous_corner(c)]
-            keys.append((a, b, c) if a < b else (b, a, c))
-        keys.sort()
-        opposite, i = [None] * len(at), 0
-        while i + 1 < len(keys):
-            if keys[i][:2] == keys[i + 1][:2]:
-                c, d = keys[i][2], keys[i + 1][2]
-                opposite[c], opposite[d] = d, c
-                i += 1
-            i += 1
-        return opposite
+def new_filters(_, follows):
+    """The filters of a kind: for two axes, for the last one, and for the sizes of what is left of either."""
+    weights = (([0.0] * 7, [0.0] * 3, [0.5, 0.1, 0.0, 0.0, 0.0], [0.5, 0.1, 0.0, 0.0]),
+               ([0.0] * 7 + [0.5] * 2, [0.0] * 3 + [0.5] * 2, [0.5] + [0.0] * 5, [0.5] + [0.0] * 4))[follows]
+    return [Filter(u, diagonal, FORGETTING) for u, diagonal in zip(weights, (0.05, 0.05, 0.1, 0.1))]
 
-
-def next_corner(c):
-    return c + 1 if c % 3 < 2 else c - 2
-
-
-def previous_corner(c):
-    return c - 1 if c % 3 else c + 2
-
-
-def f32(x):
-    """x rounded to binary32."""
-    try:
-        return struct.unpack('<f', struct.pack('<f', x))[0]
-    except OverflowError:
-        return math.copysign(math.inf, x)
-
-
-def plus(a, b):
-    return [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-
-
-def minus(a, b):
-    return [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-
-
-def times(s, a):
-    return [s * a[0], s * a[1], s * a[2]]
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def norm(a):
-    return root(dot(a, a))
-
-
-def mean_of(vectors):
-    total = [0.0, 0.0, 0.0]
-    for a in vectors:
-        total = plus(total, a)
-    return times(1 / len(vectors), total)
-
-
-def mean_number(numbers):
-    total = 0.0
-    for x in numbers:
-        total += x
-    return 1 / len(numbers) * total
-
-
-def largest(x, y):
-    return y if x < y else x
-
-
-def whole(x):
-    """X(y) of section 5: 8 y rounded down, within 0 .. 2^30."""
-    x = 8 * x
-    return 0 if not x > 0 else 2 ** 30 if not x < 2 ** 30 else math.floor(x)
-
-
-class Turn:
-    """Section 7: three filters that turn a place."""
-
-    def __init__(self, flips):
-        self.filters = []
-        for d in AXES:
-            u = [0.0, 0.0, 0.0]
-            u[d] = -1.0 if flips >> d & 1 else 1.0
-            self.filters.append(Filter(u, 0.1, FORGET))
-        self.mirrors = flips.bit_count() % 2 == 1
-
-    def __call__(self, x):
-        return [f.y(x) for f in self.filters]
-
-    def learn(self, there, moved):
-        d = FORGET * (1 + 0.001 * dot(there, there))
-        for f, value in zip(self.filters, moved):
-            f.learn(there, value - f.y(there), d)
-
-
-class Learnt:
-    """Filters, usual and far (section 4), of vertices that follow (section 7) or of the others."""
-
-    def __init__(self, follows):
-        more = [0.5, 0.5] if follows else []
-        self.offset = Models(lambda: Filter([0.0] * 7 + more, 0.05, FORGET))          # by kind
-        self.height = Models(lambda: Filter([0.0] * 3 + more, 0.05, FORGET))
-        sizes = [0.5, 0.0] if follows else [0.5, 0.1]
-        self.offsets = Models(lambda: Filter(sizes + [0.0] * (4 if follows else 3), 0.1, FORGET))
-        self.heights = Models(lambda: Filter(sizes + [0.0] * (3 if follows else 2), 0.1, FORGET))
-        self.usual = [100.0, 10.0]
-        self.far = [100.0, 30.0] if follows else [10000.0, 300.0]
-
-
-class Strands:
-    """Section 8: partners."""
-
-    def __init__(self, n):
-        self.to, self.back, self.strand = [None] * n, [None] * n, [None] * n
-        self.turns, self.count, self.last = [None] * 256, 0, 0
-        self.bits = Models(bit_model)
-
+class Partners:  # Section 8: vertices that are like others of the same pose
+    def __init__(self, decoder, corners):
+        self.decoder, self.corners, self.bits, self.last = decoder, corners, defaultdict(Bit), 0
+        self.to, self.back, self.strand, self.turns, self.strands = {}, {}, {}, {}, 0
+    bit = lambda self, *name: self.decoder.bit(self.bits[name])
     def image(self, w, s):
-        to, back = self.to[w], self.back[w]
-        if to is not None and self.strand[w] == s:
-            return to
-        return back if back is not None and self.strand[back] == s else None
-
-    def link(self, v, u, s):
-        self.to[v], self.strand[v], self.back[u] = u, s, v
-
-    def start(self, stream):
-        s = self.count % 256
-        self.count += 1
-        self.turns[s] = Turn(stream.raw(3))
+        u = self.to[w] if self.strand.get(w) == s else self.back.get(w)
+        return u if s in (self.strand.get(w), self.strand.get(u)) else None
+    def start(self):
+        s, self.strands = self.strands % 256, self.strands + 1
+        self.turns[s] = Turn(self.decoder.raw(3))
         return s
-
-    def partner(self, stream, mesh, v):
-        linked, selves, nearest, scores = 0, 0, None, {}
-        for w in mesh.neighbours[v][:8]:
-            if self.to[w] is not None:
-                u, s = self.to[w], self.strand[w]
-            elif self.back[w] is not None:
-                u = self.back[w]
-                s = self.strand[u]
-            else:
-                continue
-            linked += 1
-            selves += u == w
-            if nearest is None:
-                nearest = s
-            for c in mesh.corners[u][:16]:
-                for x in (mesh.at[next_corner(c)], mesh.at[previous_corner(c)]):
-                    if x < v and x != w and self.image(x, s) is None:
-                        if (x, s) in scores:
-                            scores[x, s] += 1
-                        elif len(scores) < 12:
-                            scores[x, s] = 2 if mesh.valence[x] == mesh.valence[v] else 1
-        candidates = sorted(scores.items(), key=lambda item: -item[1])
-        best = min(candidates[0][1], 9) if candidates else 0
-        few = min(linked, 3)
-        a = stream.bit(self.bits['any', few, best, self.last])
-        self.last = (2 * self.last + a) & 3
-        if not a:
-            return
-        if stream.bit(self.bits['itself', few, min(selves, 3)]):
-            self.link(v, v, self.start(stream) if nearest is None else nearest)
-            return
-        for i, ((x, s), score) in enumerate(candidates):
-            gap = min(score - (candidates[i + 1][1] if i + 1 < len(candidates) else 0), 3)
-            if stream.bit(self.bits['which', min(i, 2), gap]):
-                self.link(v, x, s)
-                return
-        u = stream.raw((mesh.n - 1).bit_length())
-        need(u < v, 'ENTROPY', 'partner')
-        self.link(v, u, self.start(stream))
-
+    def read(self, v, neighbours):                      # Reads the partner of v and its strand, if it has one
+        linked, selves, nearest, scores, corners = 0, 0, None, {}, self.corners
+        for w in (w for w in neighbours[:8] if w in self.to or w in self.back):
+            u = self.to.get(w, self.back.get(w))
+            s = self.strand[w if w in self.to else u]
+            linked, selves, nearest = linked + 1, selves + (u == w), s if nearest is None else nearest
+            for x in (x for c in corners.at[u][:16] for x in corners.beside[c]):
+                if x < v and x != w and self.image(x, s) is None and ((x, s) in scores or len(scores) < 12):
+                    scores[x, s] = scores.get((x, s), corners.valence[x] == corners.valence[v]) + 1
+        candidates, linked = sorted(scores, key=scores.get, reverse=True), min(linked, 3)
+        ranked, found = [scores[candidate] for candidate in candidates] + [0], None
+        some = self.bit("any", linked, min(ranked[0], 9), self.last)
+        self.last = (2 * self.last + some) & 3
+        if some and self.bit("itself", linked, min(selves, 3)):
+            found = v, self.start() if nearest is None else nearest
+        elif some:
+            found = next((candidate for i, candidate in enumerate(candidates) if
+                          self.bit("which", min(i, 2), min(ranked[i] - ranked[i + 1], 3))), None)
+            if not found:
+                u = self.decoder.raw((len(corners.at) - 1).bit_length())
+                check(u < v, "ENTROPY", "a partner that is not known")
+                found = u, self.start()
+        if found:
+            self.to[v], self.strand[v], self.back[found[0]] = *found, v
 
 class PoseDecoder:
-    """Sections 3 to 9. A stream of poses over one mesh; what is learnt goes on from pose to pose."""
-
-    def __init__(self, stream, mesh):
-        self.stream, self.mesh = stream, mesh
-        self.rows, self.bits = Models(row), Models(bit_model)
-        self.more = [self.rows['More', i] for i in range(4)]
-        self.learnt = (Learnt(False), Learnt(True))
-        self.strands = Strands(mesh.n)
-
-    def pose(self, is_key_frame, parent=None):
-        """One pose: n lists of three numbers, which are integers kept as binary64."""
-        n = self.mesh.n
-        self.error, self.shift = [[0.0, 0.0] for _ in range(n)], [[0.0] * 3 for _ in range(n)]
-        self.told, self.last_told, self.states = [[0, 0, 0] for _ in range(n)], 0, [0, 0, 0]
-        self.p = []
-        exact = 0 if is_key_frame else self.stream.raw(1)
-        named = 0 if parent is not None else self.stream.raw(1)
-        turn = Turn(0)
-        if parent is None:
-            self.strands = Strands(n)
-        strands = self.strands
-        for v in range(n):
-            s = self.surroundings(v)
-            if named:
-                strands.partner(self.stream, self.mesh, v)
-            if parent is not None:
-                self.follow(s, lambda w: w, parent, turn)
-            elif named and strands.to[v] not in (None, v):
-                strand = strands.strand[v]
-
-                def image(w, strand=strand, v=v):
-                    u = strands.image(w, strand)
-                    return None if u == v else u
-                self.follow(s, image, self.p, strands.turns[strand])
-            self.vertex(s, exact, is_key_frame)
-        return self.p
-
-    def surroundings(self, v):
-        """Section 3."""
-        p, mesh = self.p, self.mesh
-        near, gates = mesh.neighbours[v], mesh.gates[v]
-        s = Record(v=v, near=near, corners=gates, follows=False, count=len(gates), order=AXES, f=None)
-        s.kind = 0 if not near else 1 if not gates else 1 + min(len(gates), 3)
-        s.mean = mean_of([p[w] for w in near]) if near else None
-        s.gates = [minus(plus(p[a], p[b]), p[x]) for a, b, x in gates]
-        if s.kind < 2:
-            s.base = s.mean if s.kind else list(p[v - 1]) if v else [0.0, 0.0, 0.0]
-            return s
-        inverse = 1 / s.count
-        normal, forward, total = gate_sums([[p[w] for w in gate] for gate in gates])
-        base = s.base = times(inverse, total)
-        forward, valences = times(inverse, forward), inverse * mesh.valences[v]
-        l = norm(normal)
-        if l > 0:
-            n = s.n = times(1 / l, normal)
-            sizes = [abs(x) for x in n]
-            k = sizes.index(max(sizes))
-            i, j = (k + 1) % 3, (k + 2) % 3
-            if sizes[i] > sizes[j]:
-                i, j = j, i
-            first = root(1 - n[i] * n[i])
-            s.order, s.share = (i, j, k), (first, divide(sizes[k], first), 1 / sizes[k])
-            s.correlation = divide(-n[i] * n[j], first * first)
+    """What the poses of a stream share, and the pose at hand. `at` is what is known of the vertex at hand."""
+    def __init__(self, decoder, corners):
+        self.decoder, self.corners = decoder, corners
+        self.rows, self.bits = defaultdict(Row), defaultdict(Bit)
+        self.filters, self.usual = Models(new_filters), {False: [100.0, 10.0], True: [100.0, 10.0]}
+        self.far = {(0, False): 10000.0, (1, False): 300.0, (0, True): 100.0, (1, True): 30.0}
+    def pose(self, key_frame=False, parent=None):
+        """The positions of the vertices; `parent`: those of the key-frame that this one is coded against."""
+        count, decoder = len(self.corners.at), self.decoder
+        self.exact, self.key_frame, self.parent = not key_frame and decoder.raw(1), key_frame, parent
+        self.partners = Partners(decoder, self.corners) if parent is None and decoder.raw(1) else None
+        self.turn, self.positions, self.states, self.last_candidate = Turn(), [], [0, 0, 0], 0
+        self.error, self.offset, self.was_candidate = (np.zeros((count, 3), kind)
+                                                       for kind in ("f4", "f4", int))
+        for v in range(count):
+            at = self.surroundings(v)
+            self.find_place(at)
+            at.filters, at.usual = self.filters[at.kind, at.follows], self.usual[at.follows]
+            at.position, at.residual, at.relative = np.zeros(3), [0.0] * 3, 0.0
+            for step, d in enumerate(at.axes):
+                told = self.expectation(at, step, d)
+                at.position[d] = self.coordinate(at, step, d, told)
+                self.learn(at, step, d, told)
+            self.positions.append(at.position)
+            for each, value in zip(at.turn.filters if at.follows else (), at.position - at.anchor):
+                each.learn(at.there, value, 1 + 0.001 * dot(at.there, at.there))
+        return self.positions
+    def surroundings(self, v):                          # Section 3
+        corners, place, noted, near, gates, valences = self.corners, self.positions, {v}, [], [], 0
+        normal, forward, at = NONE, NONE, SimpleNamespace(v=v, axes=(0, 1, 2), follows=False, anchor=NONE)
+        at.gates, at.neighbours, at.gate_vertices = gates, near, []
+        for c in corners.at[v][:32]:
+            (a, b), over = corners.beside[c], corners.opposite[c]
+            x = v if over is None else corners.vertex[over]
+            near += [w for w in dict.fromkeys((a, b)) if w < v and w not in noted]
+            noted.update((a, b))
+            if max(a, b, x) < v and len(gates) < 16:
+                at.gate_vertices.append((a, b, x))
+                gates.append(place[a] + place[b] - place[x])
+                normal = normal + cross(place[b] - place[a], place[x] - place[a])
+                forward = forward + (0.5 * (place[a] + place[b]) - place[x])
+                valences += corners.valence[a] + corners.valence[b]
+        at.kind = 0 if not near else 1 if not gates else 1 + min(len(gates), 3)
+        at.mean = mean([place[w] for w in near]) if near else place[v - 1] if v else NONE
+        at.base = mean(gates) if gates else at.mean
+        if gates:
+            forward, valences = 1 / len(gates) * forward, 1 / len(gates) * valences
+            valence = max(corners.valence[v], 3)
+            self.directions(at, normal)
+            at.length = mean([length(place[w] - at.base) for w in near], 0.0)
+            at.tan, at.nor = (mean([float(self.error[w][i]) for w in near], 0.0) for i in (0, 1))
+            at.drift = mean([self.offset[w].astype(float) for w in near])
+            at.spread = total(length(gate - at.base) for gate in gates) / len(gates)
+            at.f = [at.mean - at.base, at.drift, forward, (6 / valence - 1) * forward,
+                    (valences / 12 - 1) * forward]
+            at.f += [gates[i] - at.base if len(gates) > i + 1 else NONE for i in (0, 1)]
+        return at
+    def directions(self, at, normal):
+        """The order of the axes and what goes with it, by the normal of the gates."""
+        at.n, at.share, at.correlation, size = np.array([0.0, 0.0, 1.0]), np.ones(3), 0.0, length(normal)
+        if size > 0:
+            at.n = n = 1 / size * normal
+            k = max(range(3), key=lambda axis: abs(n[axis]))
+            i, j = sorted(((k + 1) % 3, (k + 2) % 3), key=lambda axis: abs(n[axis]))
+            first = np.sqrt(1 - n[i] * n[i])
+            at.axes, at.share = (i, j, k), (first, abs(n[k]) / first, 1 / abs(n[k]))
+            at.correlation = -n[i] * n[j] / (first * first)
+    def slope(self, at, q):
+        """How far the plane through base, across the normal, falls towards q along the last axis."""
+        i, j, k = at.axes
+        return (at.n[i] * (q[i] - at.base[i]) + at.n[j] * (q[j] - at.base[j])) / at.n[k]
+    height = lambda self, at, q: q[at.axes[2]] - at.base[at.axes[2]] + self.slope(at, q)
+    def find_place(self, at):  # Reads the partner of a vertex, and follows it or the parent of the key-frame
+        if self.parent:
+            self.follow(at, self.turn, self.parent, lambda w: w)
+        if self.partners:
+            partners, v = self.partners, at.v
+            partners.read(v, at.neighbours)
+            if partners.to.get(v, v) != v:
+                s = partners.strand[v]                  # v itself is not known yet
+                self.follow(at, partners.turns[s], self.positions,
+                            lambda w: None if partners.image(w, s) == v else partners.image(w, s))
+    def follow(self, at, turn, other, image):  # Section 7: the vertex follows its image in the pose `other`
+        like = [w for w in at.neighbours if image(w) is not None]
+        like = [at.v - 1] if at.kind == 0 and at.v > 0 and image(at.v - 1) is not None else like
+        if not like:
+            return
+        at.follows, at.turn, there = True, turn, other[image(at.v)]
+        at.anchor = mean([self.positions[w] for w in like])
+        at.there = there - mean([other[image(w)] for w in like])
+        at.likely = at.anchor + np.array([each.expect(at.there) for each in turn.filters])
+        if at.kind < 2:
+            at.base = at.likely
+            return
+        at.f += [at.likely - at.base] * 2
+        gates = [gate for gate in at.gate_vertices if all(image(w) is not None for w in gate)]
+        here = frame([[self.positions[w] for w in gate] for gate in gates])
+        away = frame([[other[image(w)] for w in gate] for gate in gates])
+        if here and away:
+            (n, ahead, centre), (away_n, away_ahead, away_centre) = here, away
+            off = there - away_centre
+            along, up, side = dot(off, away_ahead), dot(off, away_n), dot(off, cross(away_n, away_ahead))
+            up = -up if turn.mirrors else up
+            at.f[8] = centre + (along * ahead + side * cross(n, ahead) + up * n) - at.base
+    def expectation(self, at, step, d):
+        """Section 4: a mean and the magnitudes scale, near, spread, before; and what is learnt from."""
+        if at.kind < 2:
+            far = self.far[at.kind, at.follows]
+            before = abs(at.residual[at.axes[step - 1]]) if step else far
+            return SimpleNamespace(mean=at.base[d], magnitudes=[far, far, far, before])
+        last, share = int(step == 2), at.share[step]
+        usual, asked, sizes = at.usual[last], at.filters[last], at.filters[2 + last]
+        if last:
+            ground, error, typical = at.base[d] - self.slope(at,
+                                                             at.position), float(self.error[at.v][0]), at.nor
+            z = [self.height(at, at.gates[0]) if len(at.gates) > 1 else 0.0, self.height(at, at.mean),
+                 dot(at.n, at.drift) / at.n[d]] + [self.height(at, at.base + f) for f in at.f[7:]]
+            apart = total(abs(self.height(at, gate)) for gate in at.gates) / len(at.gates)
+            s = [at.nor, apart / share, usual, error] + (z[3:] and [abs(z[3] - z[4]) / share])
+            others = [at.nor * share, apart, error * share]
         else:
-            s.n, s.share, s.correlation = [0.0, 0.0, 1.0], (1.0, 1.0, 1.0), 0.0
-        s.length = mean_number([norm(minus(p[w], base)) for w in near])
-        s.tan = mean_number([self.error[w][0] for w in near])
-        s.nor = mean_number([self.error[w][1] for w in near])
-        s.drift = mean_of([self.shift[w] for w in near])
-        total = 0.0
-        for g in s.gates:
-            total += norm(minus(g, base))
-        s.spread = total / s.count
-        none = [0.0, 0.0, 0.0]
-        s.f = [minus(s.mean, base), s.drift, forward, times(6 / max(mesh.valence[v], 3) - 1, forward),
-               times(valences / 12 - 1, forward), minus(s.gates[0], base) if s.count > 1 else none,
-               minus(s.gates[1], base) if s.count > 2 else none]
-        return s
-
-    def follow(self, s, image, place, turn):
-        """Section 7. R(w) = place[image(w)]."""
-        p, v = self.p, s.v
-        if image(v) is None:
-            return
-        around = [w for w in s.near if image(w) is not None]
-        if s.kind == 0 and v > 0 and image(v - 1) is not None:
-            around = [v - 1]
-        if not around:
-            return
-        own = place[image(v)]
-        s.anchor = mean_of([p[w] for w in around])
-        s.there = minus(own, mean_of([place[image(w)] for w in around]))
-        s.likely, s.turn, s.follows = plus(s.anchor, turn(s.there)), turn, True
-        if s.kind < 2:
-            s.base = s.likely
-            return
-        direct = minus(s.likely, s.base)
-        framed = direct
-        gates = [(g, [image(w) for w in g]) for g in s.corners]
-        gates = [(g, h) for g, h in gates if None not in h]
-        here = frame([[p[w] for w in g] for g, _ in gates])
-        other = here and frame([[place[w] for w in h] for _, h in gates])
-        if here and other:
-            (n, ahead, c), (n1, ahead1, c1) = here, other
-            off = minus(own, c1)
-            along, up, side = dot(off, ahead1), dot(off, n1), dot(off, cross(n1, ahead1))
-            if turn.mirrors:
-                up = -up
-            sum_ = plus(plus(times(along, ahead), times(side, cross(n, ahead))), times(up, n))
-            framed = minus(plus(c, sum_), s.base)
-        s.f += [direct, framed]
-
-    def vertex(self, s, exact, is_key_frame):
-        """Sections 4 to 6 for the three axes of a vertex."""
-        x = [0.0, 0.0, 0.0]
-        self.p.append(x)
-        learnt = self.learnt[s.follows]
-        s.residual, s.relative = [0.0] * 3, 0.0
-        for step in AXES:
-            d = s.order[step]
-            e = self.expect(s, learnt, step, d, x)
-            if exact:
-                value = self.candidate(s, e, step, d)
-                if value is None:
-                    value = self.coordinate(e.mean, (e.scale, e.near, e.spread, e.before), step)
-            elif is_key_frame:
-                value = self.coordinate(e.mean, (e.scale, e.near, e.spread, e.before), step)
-            else:
-                state = self.states[d]
-                h = self.coordinate(0.5 * (e.mean - (state & 1)),
-                                    (0.5 * e.scale, 0.5 * e.near, 0.5 * e.spread, 0.5 * e.before), step)
-                value = 2 * h + (state & 1)
-                self.states[d] = STEPS[state][h & 1]
-            x[d] = float(value)
-            self.learn(s, learnt, e, step, d, x[d])
-        if s.follows:
-            s.turn.learn(s.there, minus(x, s.anchor))
-
-    def expect(self, s, learnt, step, d, x):
-        """Section 4."""
-        e = Record()
-        if s.kind < 2:
-            far = learnt.far[s.kind]
-            e.mean, e.scale, e.near, e.spread = s.base[d], far, far, far
-            e.before = abs(s.residual[s.order[step - 1]]) if step else far
-            return e
-        base, share = s.base, s.share[step]
-        if step < 2:
-            e.z = [f[d] for f in s.f]
-            e.y = learnt.offset[s.kind].y(e.z)
-            e.mean = base[d] + (s.correlation * s.residual[s.order[0]] if step else 0.0) + e.y
-            e.s = [s.tan, s.length, s.spread, learnt.usual[0], abs(s.relative) if step else 0.0]
-            if s.follows:
-                e.s.append(norm(minus(s.f[7], s.f[8])))
-            e.size = learnt.offsets[s.kind]
-            usual, e.near, e.spread, e.before = s.tan, s.tan * share, s.spread * share, (
-                e.s[4] if step else s.length) * share
-        else:
-            i, j, k = s.order
-            n = s.n
-
-            def height(q):
-                return q[k] - base[k] + (n[i] * (q[i] - base[i]) + n[j] * (q[j] - base[j])) / n[k]
-            e.ground = base[k] - (n[i] * (x[i] - base[i]) + n[j] * (x[j] - base[j])) / n[k]
-            e.z = [height(s.gates[0]) if s.count > 1 else 0.0, height(s.mean), dot(n, s.drift) / n[k]]
-            if s.follows:
-                e.z += [height(plus(base, s.f[7])), height(plus(base, s.f[8]))]
-            e.y = learnt.height[s.kind].y(e.z)
-            e.mean = e.ground + e.y
-            total = 0.0
-            for g in s.gates:
-                total += abs(height(g))
-            apart, error = total / s.count, self.error[s.v][0]
-            e.s = [s.nor, apart / share, learnt.usual[1], error]
-            if s.follows:
-                e.s.append(abs(e.z[3] - e.z[4]) / share)
-            e.size = learnt.heights[s.kind]
-            usual, e.near, e.spread, e.before = s.nor, s.nor * share, apart, error * share
-        u = largest(usual if usual > 0 else learnt.usual[step // 2], 0.001)
-        low, high = 0.15 * u, 8 * u + 8 * s.length
-        e.size_y = e.size.y(e.s)
-        e.expect = (e.size_y if e.size_y < high else high) if e.size_y > low else low
-        e.scale = e.expect * share
-        return e
-
-    def coordinate(self, mean, magnitudes, step):
-        """Section 5."""
-        scale, near, spread, before = [whole(y) for y in magnitudes]
-        limited = 0.0 if mean != mean else min(max(mean, -2.0 ** 22), 2.0 ** 22)
-        c = math.floor(limited + 0.5)
-        low, last = min(max(lg(scale) - 4, 0), 12), int(step == 2)
-        z, rows = class_of(2, scale, 64), self.rows
-        scale, near, spread, before = [class_of(0, y >> low, 16) for y in (scale, near, spread, before)]
-        s = symbol(self.stream, rows['Scale', z, last], rows['Near', before, near, last],
-                   rows['Spread', spread, scale, last])
-        if s == 0:
-            return c
-        m = magnitude(self.stream, s, (rows['ScaleMore', z], rows['BeforeMore', before], rows['SpreadMore', spread]),
-                      self.more, low)
-        r = limited - c
-        quarter = 0 if r < -0.25 else 1 if r < 0 else 2 if r < 0.25 else 3
-        return c - m if self.stream.bit(self.bits['Sign', last, quarter]) else c + m
-
-    def candidate(self, s, e, step, d):
-        """Section 5, exact coordinates: the candidate that the coordinate is told to be, or None."""
-        found = []
-        if s.follows:
-            found.append((6, rounded(s.likely[d])))
-        found += [(i, g[d]) for i, g in enumerate(s.gates[:2])]
-        found += [(2 + i, self.p[w][d]) for i, w in enumerate(s.near[:3])]
-        if not s.near:
-            found.append((5, rounded(e.mean)))
-        near = sum(self.told[w][d] for w in s.near[:3]) if s.near else 4
-        seen = set()
-        for slot, q in found:
-            if q is None or not -2.0 ** 31 < q < 2.0 ** 31 or q in seen:
-                continue
-            seen.add(q)
-            if self.stream.bit(self.bits['E', slot, d, near, min(s.kind, 3), self.last_told]):
-                self.told[s.v][d] = self.last_told = 1
-                return q
-        self.last_told = 0
+            ground = at.base[d] + (at.correlation * at.residual[at.axes[0]] if step else 0)
+            z, before, typical = [vector[d] for vector in at.f], at.relative if step else at.length, at.tan
+            s = [at.tan, at.length, at.spread, usual, at.relative]
+            s += [length(at.f[7] - at.f[8])] if at.follows else []
+            others = [at.tan * share, at.spread * share, before * share]
+        told, likely = asked.expect(z), larger(typical if typical > 0 else usual, 0.001)
+        expect, low, high = sizes.expect(s), 0.15 * likely, 8 * likely + 8 * at.length
+        expect = (expect if expect < high else high) if expect > low else low
+        return SimpleNamespace(mean=ground + told, magnitudes=[expect * share] + others, z=z, told=told, s=s,
+                               learnt_from=ground if last else at.base[d], expect=expect)
+    def coordinate(self, at, step, d, told):            # Section 5: a coordinate
+        found, state = self.candidate(at, d, told.mean) if self.exact else None, self.states[d]
+        if found is not None or self.exact or self.key_frame:
+            return self.residual(told.mean, told.magnitudes, step) if found is None else found
+        h = self.residual(0.5 * (told.mean - (state & 1)), [0.5 * y for y in told.magnitudes], step)
+        self.states[d] = STATES[state][h & 1]
+        return 2 * h + (state & 1)
+    def residual(self, expected, magnitudes, step):     # A coordinate by its distance from what is expected
+        rows, last, expected = self.rows, int(step == 2), 0.0 if math.isnan(expected) else expected
+        expected, x = clamp(expected, -FARTHEST, FARTHEST), [eighths(y) for y in magnitudes]
+        c, low, z = math.floor(expected + 0.5), clamp(floor_log2(x[0]) - 4, 0, 12), log_class(2, x[0], 64)
+        scale, near, spread, before = (log_class(0, y >> low, 16) for y in x)
+        s = self.decoder.symbol(rows["scale", z, last], rows["near", before, near, last],
+                                rows["spread", spread, scale, last])
+        more = [rows["scale", z], rows["before", before], rows["spread", spread]]
+        m = self.decoder.magnitude(s, more, [rows["more", k] for k in range(4)], low)
+        quarter = sum(expected - c >= limit for limit in (-0.25, 0, 0.25))
+        return c - m if m and self.decoder.bit(self.bits["sign", last, quarter]) else c + m
+    def candidate(self, at, d, expected):               # One of the exact coordinates that are near, or none
+        choices = [(6, at.likely[d] + 0.5)] if at.follows else []
+        choices += [(slot, gate[d]) for slot, gate in enumerate(at.gates[:2])]
+        choices += [(2 + slot, self.positions[w][d]) for slot, w in enumerate(at.neighbours[:3])]
+        choices += [] if at.neighbours else [(5, expected + 0.5)]
+        near, seen = sum(self.was_candidate[w][d] for w in at.neighbours[:3]) if at.neighbours else 4, set()
+        for slot, q in ((slot, math.floor(q)) for slot, q in choices if abs(q) < 2.0**32):
+            if abs(q) < 2**31 and q not in seen:
+                seen.add(q)
+                if self.decoder.bit(self.bits[slot, d, near, min(at.kind, 3), self.last_candidate]):
+                    self.last_candidate = self.was_candidate[at.v][d] = 1
+                    return q
+        self.last_candidate = 0
         return None
-
-    def learn(self, s, learnt, e, step, d, x):
-        """Section 6."""
-        error = self.error[s.v]
-        if s.kind < 2:
-            s.residual[d] = x - s.base[d]
-            size = abs(s.residual[d])
-            learnt.far[s.kind] += 0.1 * (size - learnt.far[s.kind])
-            if s.kind == 1:
-                error[0] = f32(error[0] + f32(size / 3))
-                if step == 2:
-                    error[1] = f32(learnt.usual[1])
+    def learn(self, at, step, d, told):                 # Section 6. `error` and `offset` are in binary32
+        x, error, last, away = at.position[d], self.error[at.v], int(step == 2), at.position[d] - at.base[d]
+        if at.kind < 2:
+            at.residual[d], far = away, self.far[at.kind, at.follows]
+            self.far[at.kind, at.follows] += 0.1 * (abs(away) - far)
+            error[:2] = (error[0] + np.float32(abs(away) / 3), at.usual[1]) if at.kind else error[:2]
             return
-        s.relative = (x - e.mean) / s.share[step]
-        m, noise = abs(s.relative), 0.01 + e.scale * e.scale
-        moved = x - s.base[d]
-        if step < 2:
-            s.residual[d] = moved - e.y
-            learnt.offset[s.kind].learn(e.z, moved - e.y, FORGET * noise)
-            error[0] = f32(error[0] + f32(0.5 * m))
-        else:
-            learnt.height[s.kind].learn(e.z, x - e.ground - e.y, FORGET * noise)
-            error[1] = f32(m + 0.001)
-        self.shift[s.v][d] = f32(moved)
-        e.size.learn(e.s, m - e.size_y, FORGET * (0.1 + e.expect * e.expect))
-        learnt.usual[step // 2] += 0.01 * (m - learnt.usual[step // 2])
-
-
-def rounded(x):
-    """x + 0.5 rounded down, None if it is not finite."""
-    return float(math.floor(x + 0.5)) if math.isfinite(x + 0.5) else None
-
-
-def gate_sums(gates):
-    """Sums over gates, triples of points: of their normals, of the ways forward, of the gates themselves."""
-    n, ahead, c = [0.0] * 3, [0.0] * 3, [0.0] * 3
-    for a, b, x in gates:
-        n = plus(n, cross(minus(b, a), minus(x, a)))
-        ahead = plus(ahead, minus(times(0.5, plus(a, b)), x))
-        c = plus(c, minus(plus(a, b), x))
-    return n, ahead, c
-
+        at.relative, scale = abs((x - told.mean) / at.share[step]), told.magnitudes[0]
+        at.residual[d], self.offset[at.v][d] = away - told.told, away
+        at.filters[last].learn(told.z, x - told.learnt_from, 0.01 + scale * scale)
+        error[last] = at.relative + 0.001 if last else error[0] + np.float32(0.5 * at.relative)
+        at.filters[2 + last].learn(told.s, at.relative, 0.1 + told.expect * told.expect)
+        at.usual[last] += 0.01 * (at.relative - at.usual[last])
 
 def frame(gates):
-    """frame(S) of section 7: gates are triples of points."""
-    if not gates:
-        return None
-    n, ahead, c = gate_sums(gates)
-    c = times(1 / len(gates), c)
-    length = norm(n)
-    if not length > 0:
-        return None
-    n = times(1 / length, n)
-    ahead = minus(ahead, times(dot(ahead, n), n))
-    length = norm(ahead)
-    if not length > 0:
-        return None
-    return n, times(1 / length, ahead), c
+    """Section 7: directions and centre of gates, each given by three places; None where there are none."""
+    n, ahead, centre = NONE, NONE, NONE
+    for a, b, x in gates:
+        n, ahead, centre = n + cross(b - a, x - a), ahead + (0.5 * (a + b) - x), centre + (a + b - x)
+    if length(n) > 0:
+        n = 1 / length(n) * n
+        ahead = ahead - dot(ahead, n) * n
+        return (n, 1 / length(ahead) * ahead, 1 / len(gates) * centre) if length(ahead) > 0 else None
+    return None
 
-
-def read_pose(data, mesh):
-    """The stream of a `POSE` chunk: integers [vertex][axis]."""
-    stream = Words(data)
-    p = PoseDecoder(stream, mesh).pose(False)
-    stream.end()
-    return [[int(x) for x in v] for v in p]
-
-
-def read_key_frames(data, mesh, parents):
-    """Section 9: integers [key-frame][vertex][axis]; parents[j] = 0 for none."""
-    stream, poses = Words(data), []
-    decoder = PoseDecoder(stream, mesh)
-    for parent in parents:
-        poses.append(decoder.pose(True, poses[parent - 1] if parent else None))
-    stream.end()
-    return [[[int(x) for x in v] for v in p] for p in poses]
+def read_poses(data, corners, parents=None):
+    """A reference pose, or the key-frames of section 9 with their parents: [key-frame, vertex, axis]."""
+    decoder, found = StateDecoder(data), []
+    poses = PoseDecoder(decoder, corners)
+    for parent in [0] if parents is None else parents:
+        found.append(poses.pose(parents is not None, found[parent - 1] if parent else None))
+    return decoder.end(np.array(found).astype(np.int64))

@@ -1,457 +1,251 @@
 # SPDX-License-Identifier: CC0-1.0
-"""Chapter 09a: segments. Chapter 06, sections 8, 9 and 11: BASI, CORR, ROOT."""
-import math
+"""Chapter 09a: segments, from parameters to positions."""
 import numpy as np
-from types import SimpleNamespace as Record
-from . import records
-from .coefficients import Coefficients
-from .common import Reader, need, signed32, xxh64
-from .entropy import Models, RangeDecoder, Words, bit_model, bits, integers
-from .exact import ExactPositions, neighbours_of, read_diff
-from .order import decoding_order, graph_of, is_dense
-from .pose import read_key_frames, read_pose
-from .prediction import reconstruct
-from .timeweights import TimeWeights
+from .chunks import BASI, CORR, DIFF, EXACT, KEY_FRAMES, POSE, REGIONS, SEGM
+from .conventions import (Reader, array, check, finite, int32, positive, quantizer, read_record, read_whole,
+                          within, xxh64)
+from .entropy import Bit, RangeDecoder, StateDecoder, integers, defaultdict
+from .exact import read_exact
+from .pose import read_poses
+from .reconstruction import decoding_order, is_dense, linked, reconstruct
+from .weights import Coefficients, TimeWeights
 
-BIG = 2.0 ** 64
+FARTHEST, BLOCK, HASHED = 2.0**64, 16, 1024             # vertices that are corrected, and hashed, together
+SUM_TO_ONE, RIGID, AFFINE, RUN_STEPS, ANEW, ALIKE = 1, 2, 1, 2, 4, 8    # flags of kind 0, of kinds 1 and 2
+hashed = lambda values: np.asarray(values).astype("<i4").tobytes()
+fits = lambda values: np.all(np.abs(np.asarray(values) + 0.5) < 2**15)  # 16 bits
 
-
-def i32_bytes(values):
-    """Integers as the hashes take them."""
-    return np.asarray(values, np.int64).astype(np.int32).astype('<i4').tobytes()
-
-
-class Series:
-    """Section 2.5."""
-
-    def __init__(self, stream):
-        self.stream, self.models = stream, integers()
-
+class Series:  # Section 2.5: integers that change smoothly. The models are those of all series of a stream
+    def __init__(self, decoder):
+        self.decoder, self.order, self.residual = decoder, defaultdict(Bit), integers()
     def read(self, frames):
-        o = self.stream.unsigned(self.models['order'])
-        need(o <= 2, 'ENTROPY', 'order of a series')
-        c, x = 12, []
+        order, x, c = self.decoder.unsigned(self.order), [], 12
+        check(order <= 2, "ENTROPY", "the order of a series")
         for f in range(frames):
-            p = 0 if o == 0 or f == 0 else x[f - 1] if o == 1 or f == 1 else 2 * x[f - 1] - x[f - 2]
-            r = self.stream.signed(self.models['residual', c])
-            x.append(p + r)
-            need(abs(x[f]) < 2 ** 28, 'ENTROPY', 'value of a series')
+            r, degree = self.decoder.signed(self.residual[c]), min(order, f)
+            x.append(r + (0 if degree == 0 else x[-1] if degree == 1 else 2 * x[-1] - x[-2]))
+            check(abs(x[-1]) < 2**28, "ENTROPY", "a value of a series")
             c = (c + min(abs(r).bit_length(), 12) + 1) // 2
         return x
 
+def all_series(data, many, frames):                     # A stream of so many series
+    series = Series(RangeDecoder(data))
+    values = [series.read(frames) for _ in range(many)]
+    return series.decoder.end(np.array(values, np.int64).reshape(many, frames))
 
-def read_pose_chunk(data, corners):
-    """A `POSE` chunk (06, section 6)."""
-    r = Reader(data, 'RECORD')
-    origin = [r.f64() for _ in range(3)]
-    step = r.f64()
-    need(all(math.isfinite(x) for x in origin) and math.isfinite(step) and step > 0, 'QUANTIZER', 'grid of a pose')
-    return Record(origin=origin, step=step, p=read_pose(r.rest(), corners))
+def check_far(*values):
+    for value in values:
+        check(np.all(np.abs(value) <= FARTHEST), "NON_FINITE",
+              "a weight, an entry of a matrix or a coordinate")
 
+KEY_PARAMETERS = (
+    ("flags", "u8", within(0, 3)), quantizer("origin", "f64[3]", finite), quantizer("step", "f64", positive),
+    quantizer("weight_bits", "u8", within(0, 24)),
+    (lambda r: r.flags & RIGID, quantizer("rotation_bits", "u8", within(0, 27)),
+     quantizer("translation_step", "f64", positive)),
+    ("frame", array("varint", lambda r: r.components), lambda v, r: sum(v) < r.frames),
+    ("parent", lambda reader, r: [reader.varint(j) for j in range(r.components)]))
+PARAMETERS = (
+    ("flags", "u8", within(0, 15)), quantizer("basis_step weight_step", "f64", positive),
+    quantizer("neighbours", "u8", lambda v, r: v in (8, 12, 16, 20, 24)),
+    quantizer("colours", "u8", within(1, 8)), quantizer("radius", "u8", within(1, 255)),
+    quantizer("schedule", "u8", within(0, 2)),
+    (lambda r: r.flags & ALIKE, quantizer("alike", "u8", within(1, 255))))
 
-class Segment:
-    """A segment, decoded: coded vertices, frames counted within it."""
+def key_frame_segment(segment, record, mesh):
+    """Section 2: positions, [frame, vertex, axis], and the parts of what is hashed."""
+    p = read_whole(record.parameters, KEY_PARAMETERS, components=segment.components, frames=segment.frames)
+    q, sums = read_poses(record.pose, mesh.table, p.parent), p.flags & SUM_TO_ONE
+    told = all_series(record.weights, segment.components - sums, segment.frames)
+    first = [[int32((1 << p.weight_bits) - int(others)) for others in told.sum(0)]] if sums else told[:0]
+    check(fits(q[segment.wide_components:]), "QUANTIZER", "a key-frame of more than 16 bits")
+    weights, parts = p.step * np.concatenate([first, told]) * 2.0**-p.weight_bits, [hashed(q), hashed(told)]
+    check_far(weights, p.origin)
+    positions = np.array(p.origin) + np.einsum("jf,jva->fva", weights, q.astype(float))
+    if p.flags & RIGID:
+        motion = all_series(record.motion, 7, segment.frames)
+        turns = np.array([rotation(*turn) for turn in motion[:4].T.tolist()])
+        moves = p.translation_step * motion[4:].T
+        check_far(moves)
+        positions = np.einsum("fab,fvb->fva", turns, positions) + moves[:, None]
+        parts.append(hashed(motion))
+    check(p.flags & RIGID or not record.motion, "RECORD", "motions that are not asked for")
+    return positions, parts
 
-    def __init__(self, container, limi, index, mesh, corners, mesh_pose):
-        self.limits = s = limi.segments[index]
-        self.mesh, self.corners, self.n, self.index = mesh, corners, mesh.coded, index
-        where = (s.mesh, index)
-        self.segm = records.read_segm(container.chunk('SEGM', *where))
-        own, layers, corr, diff = (container.chunks(kind, *where) for kind in ('POSE', 'BASI', 'CORR', 'DIFF'))
-        self.hashed, self.frames = [], s.frames
-        if s.kind == 0:
-            self._key_frames()
-        else:
-            self.pose = read_pose_chunk(own[0], corners) if own else mesh_pose
-            self._basis(layers, records.runs_of(limi, s))
-        self.corrections = {}
-        if s.corrections:
-            need(corr and corr[0], 'CHUNK_MISSING', 'CORR')
-            self._corrections(corr[0])
-        self.exact = None
-        if s.exact:
-            need(diff, 'CHUNK_MISSING', 'DIFF')
-            d = read_diff(diff[0], s.frames, self.n)
-            near = neighbours_of(self.n, mesh.triangles)
-            self.exact, self.exact_hash = ExactPositions(d, s.frames, self.n, near).positions(), d.hash
-
-    def compare_hashes(self):
-        need(xxh64(b''.join(self.hashed)) == self.segm.hash, 'HASH', 'segment %d' % self.index)
-        if self.exact is not None:
-            bits = self.exact.view(np.int32).astype('<i4').tobytes()
-            need(xxh64(bits) == self.exact_hash, 'HASH', 'DIFF %d' % self.index)
-
-    # Section 2: key-frames.
-
-    def _key_frames(self):
-        s, segm = self.limits, self.segm
-        r = Reader(segm.parameters)
-        flags = r.u8()
-        need(flags < 4, 'RECORD', 'flags')
-        sum_to_one, rigid = flags & 1, flags >> 1
-        origin, step, weight_bits = [r.f64() for _ in range(3)], r.f64(), r.u8()
-        rotation_bits, translation_step = (r.u8(), r.f64()) if rigid else (0, 1.0)
-        if s.reconstruction:
-            need(r.u8() >= 1, 'RECORD', 'leaf_faces')
-        frame = 0
-        for j in range(s.components):
-            frame += r.varint(s.frames - 1)
-            need(frame < s.frames, 'RECORD', 'frame of a key-frame')
-        parents = [r.varint(j) for j in range(s.components)]
-        r.end()
-        need(rigid or not segm.motion, 'RECORD', 'motion')
-        need(all(math.isfinite(x) for x in origin + [step, translation_step]) and step > 0 and translation_step > 0
-             and weight_bits <= 24 and rotation_bits <= 27, 'QUANTIZER', 'parameters')
-        need(not s.reconstruction or sum_to_one, 'SEGMENT', 'sum_to_one')
-        q = np.array(read_key_frames(segm.pose, self.corners, parents), np.int64)
-        self.hashed.append(i32_bytes(q))
-        stream = RangeDecoder(segm.weights)
-        series = Series(stream)
-        read = [series.read(s.frames) for _ in range(s.components - sum_to_one)]
-        stream.end()
-        self.hashed.append(i32_bytes(read))
-        w = read
-        if sum_to_one:
-            w = [[signed32(2 ** weight_bits - sum(column)) for column in zip(*read)] if read
-                 else [2 ** weight_bits] * s.frames] + read
-        motion = None
-        if rigid:
-            stream = RangeDecoder(segm.motion)
-            series = Series(stream)
-            motion = [series.read(s.frames) for _ in range(7)]
-            stream.end()
-            self.hashed.append(i32_bytes(motion))
-        need((np.abs(q[s.wide:] * 2 + 1) <= 65535).all(), 'QUANTIZER', 'key-frame of 16 bits')
-        self.r = q                                   # [component, vertex, 3]
-        self.u = step * np.array(w, np.float64) * 2.0 ** -weight_bits
-        self.origin = np.array(origin)
-        self.rotation, self.translation = np.broadcast_to(np.eye(3), (s.frames, 3, 3)), np.zeros((s.frames, 3))
-        if rigid:
-            self.translation = translation_step * np.array(motion[4:], np.float64).T
-            self._rotations(motion[:4])
-        need(max(np.abs(self.u).max(), np.abs(self.origin).max(), np.abs(self.translation).max()) <= BIG, 'NON_FINITE')
-
-    def _rotations(self, quaternions):
-        """Section 2.4."""
-        x, y, z, w = np.array(quaternions, np.float64)
-        n = x * x + y * y + z * z + w * w
-        s = np.where(n > 0, 2 / np.where(n > 0, n, 1), 0)
-        self.rotation = np.array([
-            [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+def rotation(x, y, z, w):  # Section 2.4: the matrix of a quaternion of any length
+    norm = x * x + y * y + z * z + w * w
+    s = 2 / norm if norm else 0
+    return [[1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
             [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
-            [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)]]).transpose(2, 0, 1)
+            [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)]]
 
-    # Section 3: eigenshapes and eigentrajectories.
+def read_parameters(data, segment, runs):
+    """Section 3.1, the table included. `components`, and each of `sigma`, are of the regions."""
+    reader, many = Reader(data), segment.components
+    p = read_record(reader, PARAMETERS)
+    p.run_steps = list(reader.bytes(len(runs))) if p.flags & RUN_STEPS else [0] * len(runs)
+    check(max(p.run_steps) <= 64, "QUANTIZER", "a step of a run")
+    decoder, models = RangeDecoder(reader.field("rest")), integers()
+    fewer = [decoder.unsigned(models["fewer"]) if segment.regions > 1 else 0 for _ in range(segment.regions)]
+    p.components, p.omega, p.sigma, o, s = [many - n for n in fewer], [], [], 128, [0] * segment.regions
+    for j in range(many):
+        o += decoder.signed(models["omega"])
+        s = [old + (decoder.signed(models["sigma"]) if own > j else 0) for old, own in zip(s, p.components)]
+        p.omega.append(o)
+        p.sigma.append(s)
+    decoder.end()
+    right = min(p.components) >= 0 and all(0 <= o <= 255 for o in p.omega)
+    check(right and all(abs(s) <= 8000 for each in p.sigma for s in each), "QUANTIZER", "in the table")
+    return p
 
-    def _parameters(self, runs):
-        s = self.limits
-        r = Reader(self.segm.parameters)
-        p = Record(flags=r.u8())
-        need(p.flags < 16, 'RECORD', 'flags')
-        p.affine, p.anew = bool(p.flags & 1), bool(p.flags & 4)
-        p.basis_step, p.weight_step, p.neighbours, p.colours, p.radius, p.schedule = (
-            r.f64(), r.f64(), r.u8(), r.u8(), r.u8(), r.u8())
-        p.alike = r.u8() if p.flags & 8 else 0
-        steps = (p.basis_step, p.weight_step)
-        good = (all(math.isfinite(x) and x > 0 for x in steps) and p.neighbours in (8, 12, 16, 20, 24)
-                and 1 <= p.colours <= 8 and p.radius >= 1 and p.schedule <= 2 and (p.alike or not p.flags & 8))
-        need(good, 'QUANTIZER', 'parameters')
-        p.run_steps = [r.u8() for _ in runs] if p.flags & 2 else [0] * len(runs)
-        need(max(p.run_steps) <= 64, 'QUANTIZER', 'run_step')
-        stream, models, j = RangeDecoder(r.rest()), integers(), s.components
-        p.of_region = [j]
-        if s.regions > 1:
-            p.of_region = [j - stream.unsigned(models['fewer']) for _ in range(s.regions)]
-            need(min(p.of_region) >= 0, 'QUANTIZER', 'components of a region')
-        o, exponents = 128, [0] * s.regions
-        p.omegas, p.sigmas = [], []
-        for j in range(s.components):
-            o += stream.signed(models['omega'])
-            for k in range(s.regions):
-                if p.of_region[k] > j:
-                    exponents[k] += stream.signed(models['sigma'])
-            need(0 <= o <= 255 and max(map(abs, exponents)) <= 8000, 'QUANTIZER', 'table')
-            p.omegas.append(o)
-            p.sigmas.append([2.0 ** (e / 8) for e in exponents])
-        stream.end()
-        return p
+def read_regions(data, segment, triangles):             # Section 3.6: the region of each vertex
+    decoder, bits, graph, of = RangeDecoder(data), defaultdict(Bit), linked(segment.vertices, triangles), []
+    dense = is_dense(graph)
+    for v in range(segment.vertices):
+        near = [w for w in graph[v] if w < v and not dense] or [v - 1] * (v > 0)
+        counts = [sum(of[w] == r for w in near) for r in range(segment.regions)]
+        r = counts.index(max(counts))
+        if not decoder.bit(bits["same", min(counts[r], 3), min(len(near) - counts[r], 3)]):
+            *others, last = [other for other in range(segment.regions) if other != r]
+            r = next((r for r in others if decoder.bit(bits["is", r, min(counts[r], 1)])), last)
+        of.append(r)
+    return decoder.end(of)
 
-    def _basis(self, layers, runs):
-        s, segm, n = self.limits, self.segm, self.n
-        pose, p, count = self.pose, self._parameters(runs), s.components
-        need(pose is not None, 'CHUNK_MISSING', 'POSE')
-        need(not segm.motion and (s.regions > 1 or not segm.pose), 'RECORD', 'blocks that must be empty')
-        need(not count or all(abs(x) <= 2 ** 21 for v in pose.p for x in v), 'QUANTIZER', 'coordinate of a pose')
-        self.hashed.append(i32_bytes(pose.p))
-        self.regions = np.zeros(n, np.int64)
-        if s.regions > 1:
-            regions = self._read_regions()
-            self.regions = np.array(regions, np.int64)
-            self.hashed.append(i32_bytes(regions))
-        opened, left = [], count
-        for data in layers:
-            r = Reader(data)
-            opened.append(Record(count=r.varint(left), weights=r.block(), coefficients=r.rest()))
-            left -= opened[-1].count
-        need(left == 0, 'CHUNK_MISSING', 'components')
-        opened = [layer for layer in opened if layer.count]          # nothing is read of the others
-        # Section 3.4: time weights.
-        model, stream = TimeWeights(runs), RangeDecoder(segm.weights)
-        base = [[model.component(stream, 3) for _ in range(s.regions)] for _ in range(4 if p.affine else 0)]
-        stream.end()
-        self.hashed += [i32_bytes(w) for component in base for w in component]
-        weights = np.zeros((count, s.regions, s.rows, s.frames), np.int64)
-        j = 0
-        for i, layer in enumerate(opened):
-            if p.anew and i:
-                model = TimeWeights(runs)
-            stream = RangeDecoder(layer.weights)
-            for j in range(j, j + layer.count):
-                for region in range(s.regions):
-                    if p.of_region[region] > j:
-                        w = model.component(stream, s.rows)
-                        weights[j, region] = w
-                        self.hashed.append(i32_bytes(w))
-            j += 1
-            stream.end()
-        y = self._coefficients(opened, p) if count else np.zeros((0, n, s.channels), np.float32)
-        self._residents(y, weights, base, p, runs)
-
-    def _read_regions(self):
-        """Section 3.6."""
-        stream, models = RangeDecoder(self.segm.pose), Models(bit_model)
-        graph, count = graph_of(self.n, self.mesh.triangles), self.limits.regions
-        dense, regions = is_dense(graph), []
-        for v in range(self.n):
-            near = [] if dense else [w for w in graph[v] if w < v]
-            if not near and v:
-                near = [v - 1]
-            c = [0] * count
-            for w in near:
-                c[regions[w]] += 1
-            most = max(c)
-            a = c.index(most)
-            if not stream.bit(models['same', min(most, 3), min(len(near) - most, 3)]):
-                others = [r for r in range(count) if r != a]
-                a = next((r for r in others[:-1] if stream.bit(models['is', r, min(c[r], 1)])), others[-1])
-            regions.append(a)
-        stream.end()
-        return regions
-
-    def _coefficients(self, layers, p):
-        """Section 3.5."""
-        s, n, pose = self.limits, self.n, self.pose.p
-        regions = self.regions.tolist() if s.regions > 1 else None
-        order, levels, neighbours = decoding_order(pose, self.mesh.triangles, regions, p.colours, p.neighbours)
-        residuals, j = np.zeros((s.components, n, s.channels), np.int64), 0
-        model = None
-        for layer in layers:
-            if p.anew or model is None:
-                model = Coefficients(levels, neighbours, s.channels)
-            stream = Words(layer.coefficients)
-            for _ in range(layer.count):
-                q = residuals[j] = model.component(stream)
-                need(j < s.wide or np.abs(2 * q + 1).max() <= 65535, 'ENTROPY', 'residual of 16 bits')
-                j += 1
-            stream.end()
-        ranked = [pose[v] for v in order]
-        y = reconstruct(ranked, levels, neighbours, residuals, p.omegas, p.neighbours, p.radius, p.schedule, p.alike)
-        # Towards zero: a u between -2^23 and -2^22 is not rounded by the two operations of 09, section 6.
-        blocks = np.trunc(64 * y.astype(np.float64)).astype(np.int64).transpose(1, 0, 2)
-        for start in range(0, n, 1024):
-            h = xxh64(i32_bytes(blocks[start:start + 1024]))
-            self.hashed.append(h.to_bytes(8, 'little'))
-        by_vertex = np.empty_like(y)
-        by_vertex[:, order] = y
-        return by_vertex
-
-    def _residents(self, y, weights, base, p, runs):
-        """Sections 3.3 and 5."""
-        s, pose = self.limits, self.pose
-        steps = np.repeat([p.weight_step * 2.0 ** (x / 8) for x in p.run_steps], runs)
-        self.r = np.zeros(y.shape, np.int64)
-        self.u = np.zeros((s.components, s.regions, s.rows, s.frames))
-        for j in range(s.components):
-            largest = float(np.abs(y[j]).max())
-            shift = 6 if j < s.wide else next((b for b in range(6, -1, -1) if 2 ** b * largest <= 32767), None)
-            need(shift is not None, 'QUANTIZER', 'coefficient of 16 bits')
-            self.r[j] = np.rint(y[j].astype(np.float64) * 2 ** shift)
-            for region in range(s.regions):
-                scale = steps / p.sigmas[j][region] * p.basis_step / 2 ** shift
-                self.u[j, region] = weights[j, region] / 16 * scale
-        self.origin = np.array(pose.origin)
-        grid = np.array(pose.p, np.float64)
-        if not p.affine:
-            self.base = None
-            self.still = self.origin + pose.step * grid
-            need(pose.step <= BIG, 'NON_FINITE', 'step of a pose')
-        else:
-            self.base = steps / 16 * np.array(base, np.float64)       # [function, region, axis, frame]
-            self.phi = np.zeros((4, self.n))
-            for region in range(s.regions):
-                members = self.regions == region
-                if members.any():
-                    self.phi[:, members], k, mean = affine_functions(grid[members])
-                    matrix = np.einsum('braf,bd->radf', self.base[1:], k)[region]
-                    offset = self.base[0, region] / math.sqrt(members.sum()) - np.einsum('adf,d->af', matrix, mean)
-                    need(np.abs(matrix).max() <= BIG and np.abs(offset + self.origin[:, None]).max() <= BIG,
-                         'NON_FINITE', 'matrix of a base')
-        need(np.abs(self.origin).max() <= BIG and np.abs(self.u).max(initial=0) <= BIG, 'NON_FINITE', 'weight')
-
-    # Section 6: corrections.
-
-    def _corrections(self, data):
-        s, n, copies = self.limits, self.n, self.mesh.copies
-        r = Reader(data)
-        step = r.f64()
-        need(math.isfinite(step) and step > 0, 'QUANTIZER', 'step of corrections')
-        stream, models, delta = RangeDecoder(r.rest()), Models(bit_model), Models(bits)
-        bit = stream.bit
-        blocks, total, listed = -(-n // 16), 0, []
-        a, was, had = 0, {}, [0] * blocks
-        for f in range(s.frames):
-            a = bit(models['any', a])
-            if not a:
-                was, had = {}, [0] * blocks
-                continue
-            t, left, beside, now, found = 0, 0, None, {}, []
-            for block in range(blocks):
-                t = had[block] = bit(models['block', t + 2 * had[block]])
-                if not t:
-                    left, beside = 0, None
-                    continue
-                for v in range(16 * block, min(16 * block + 16, n)):
-                    before = was.get(v)
-                    c = bit(models['vertex', left + (0 if before is None else 4)])
-                    left = (2 * left + c) & 3
-                    if c:
-                        now[v] = [stream.signed(delta[axis, sign_of(before, axis), sign_of(beside, axis)])
-                                  for axis in range(3)]
-                        total += copies[v]
-                        need(total <= s.corrections, 'ENTROPY', 'corrections')
-                        found.append(v)
-                        listed.append([f, v] + now[v])
-                    beside = now[v] if c else None
-            need(found, 'ENTROPY', 'frame without a correction')
-            was = now
-            self.corrections[f] = (found, step * np.array([now[v] for v in found], np.float64))
-            need(np.abs(self.corrections[f][1]).max() <= BIG, 'NON_FINITE', 'correction')
-        stream.end()
-        need(total == s.corrections, 'ENTROPY', 'corrections')
-        self.hashed.append(i32_bytes(listed))
-
-    # Section 7: positions.
-
-    def made(self, f):
-        """What the segment makes of frame f: float64 [coded vertex, 3]."""
-        s = self.limits
-        if s.kind == 0:
-            x = self.origin + np.tensordot(self.u[:, f], self.r.astype(np.float64), 1)
-            x = x @ self.rotation[f].T + self.translation[f]
-        else:
-            x = self.still.copy() if self.base is None else np.broadcast_to(self.origin, (self.n, 3)).copy()
-            for region in range(s.regions):
-                members = slice(None) if s.regions == 1 else self.regions == region
-                r, u = self.r[:, members].astype(np.float64), self.u[:, region, :, f]
-                x[members] += (np.tensordot(r[:, :, 0], u, ([0], [0])) if s.kind == 2
-                               else np.tensordot(u[:, 0], r, 1))
-                if self.base is not None:
-                    x[members] += self.phi[:, members].T @ self.base[:, region, :, f]
-        if f in self.corrections:
-            vertices, moves = self.corrections[f]
-            x[vertices] += moves
-        return x
-
-
-    def tolerance(self, f):
-        """Section 7: how far a coordinate of frame f may be from the formula; roughly, and no less."""
-        if self.exact is not None:
-            return 0.0
-        s = self.limits
-        if s.kind == 0:
-            size = np.abs(self.origin) + np.tensordot(np.abs(self.u[:, f]), np.abs(self.r).astype(np.float64), 1)
-            size = size @ np.abs(self.rotation[f]).T + np.abs(self.translation[f])
-        else:
-            r, u = np.abs(self.r).astype(np.float64), np.abs(self.u[..., f])[:, self.regions]
-            size = np.einsum('jvc,jvr->vr' if s.kind == 2 else 'jvc,jvr->vc', r, u)
-            if self.base is None:
-                size += np.abs(self.still) + 2 * np.abs(self.origin)
-            else:
-                size += 8 * np.abs(self.phi).T @ np.abs(self.base[..., f]).max(1) + np.abs(self.origin)
-        if f in self.corrections:
-            size[self.corrections[f][0]] += np.abs(self.corrections[f][1])
-        return (s.components + 16) * 2.0 ** -23 * size
-
-
-def sign_of(d, axis):
-    return 0 if d is None or d[axis] == 0 else 1 if d[axis] > 0 else 2
-
-
-def affine_functions(p):
-    """Section 3.3: the four functions of some vertices, with K and the mean of the pose."""
-    n = len(p)
-    mean = p.sum(0) / n
-    c = p - mean
-    g, k, lower = c.T @ c, np.zeros((3, 3)), np.zeros((3, 3))
+def affine_functions(pose):  # Section 3.3: phi_0, the mean and the matrix K of the vertices of a region
+    count, k = len(pose), np.zeros((3, 3))
+    if count == 0:
+        return 0.0, np.zeros(3), k
+    mean = pose.sum(0) / count
+    g = (pose - mean).T @ (pose - mean)
     for a in range(3):
-        for b in range(a):
-            lower[a, b] = sum(k[b, d] * g[a, d] for d in range(b + 1))
-        rest = g[a, a] - sum(lower[a, b] ** 2 for b in range(a))
-        if not rest > 1e-9 * g[a, a]:
-            continue
-        k[a, a] = 1 / math.sqrt(rest)
-        for d in range(a):
-            k[a, d] = -k[a, a] * sum(lower[a, b] * k[b, d] for b in range(d, a))
-    phi = np.empty((4, n))
-    phi[0] = 1 / math.sqrt(n)
-    phi[1:] = k @ c.T
-    return phi, k, mean
+        lower = k[:a] @ g[a]
+        rest = g[a, a] - lower @ lower
+        if rest > 1e-9 * g[a, a]:
+            k[a, a] = 1 / np.sqrt(rest)
+            k[a, :a] = -k[a, a] * (lower @ k[:a, :a])
+    return 1 / np.sqrt(count), mean, k
 
+def linear_segment(segment, record, mesh, payloads, grid, runs):
+    """Section 3: positions, [frame, vertex, axis], and the parts of what is hashed. `grid`: the pose."""
+    many, frames, triangles, layers = segment.components, segment.frames, mesh.triangles, []
+    p, left, regions = read_parameters(record.parameters, segment, runs), many, [0] * segment.vertices
+    check(grid, "CHUNK_MISSING", "POSE")
+    pose = grid.integers
+    if segment.moves_attribute:
+        pose, triangles = mesh.surface_of(segment.attribute, pose)
+    check(not record.motion, "RECORD", "motions of shapes")
+    check(segment.flags & REGIONS or not record.pose, "RECORD", "regions that are not announced")
+    check(many == 0 or np.all(np.abs(pose) <= 2**21), "QUANTIZER", "a coordinate of the pose")
+    for data in payloads:
+        layers.append(read_whole(data, BASI, left=left))
+        left -= layers[-1].count
+    check(left == 0, "CHUNK_MISSING", "components")
+    layers, parts = [layer for layer in layers if layer.count], [hashed(pose)]
+    if segment.flags & REGIONS:
+        regions = read_regions(record.pose, segment, triangles)
+        parts.append(hashed(regions))
+    def read_weights(data, many, rows, first):
+        """[function or component][region][row, frame]; of functions of the base, j is below 0."""
+        decoder, found = RangeDecoder(data), []
+        for j in range(first, first + many):
+            found.append([model.component(decoder, rows) if own > j else None for own in p.components])
+            parts.extend(hashed(values) for values in found[-1] if values)
+        return decoder.end(found)
+    model, weights, y = TimeWeights(runs), [], np.zeros((0, segment.channels, segment.vertices))
+    base = read_weights(record.weights, 4 if p.flags & AFFINE else 0, 3, -4)
+    for layer in layers:
+        model = TimeWeights(runs) if p.flags & ANEW and weights else model
+        weights += read_weights(layer.weights, layer.count, segment.rows, len(weights))
+    if many:
+        order = decoding_order(pose, triangles, regions, p.neighbours, p.colours)
+        residuals = read_residuals(segment, layers, order, p.flags & ANEW)
+        coefficients = reconstruct(residuals, pose[order.vertex], order, p)
+        y = np.empty(coefficients.shape)
+        for start in range(0, segment.vertices, HASHED):
+            block = np.trunc(64 * coefficients[:, :, start:start + HASHED].astype(float)).transpose(2, 0, 1)
+            parts.append(xxh64(hashed(block)).to_bytes(8, "little"))
+        y[:, :, order.vertex] = coefficients
+    # resident integers (section 5) and positions
+    shifts = [next((b for b in range(6, -1, -1) if j < segment.wide_components or 2**b * most <= 32767), None)
+              for j, most in enumerate(np.abs(y).max((1, 2), initial=0))]
+    check(None not in shifts, "QUANTIZER", "a coefficient of more than 16 bits")
+    steps = p.weight_step * np.repeat(2.0 ** (np.array(p.run_steps) / 8), runs) / 16
+    positions, regions, pose = np.empty((frames, segment.vertices, 3)), np.array(regions), pose.astype(float)
+    for r, own in enumerate(p.components):
+        there, matrix, origin = regions == r, grid.step * np.eye(3)[None], np.array(grid.origin)[None]
+        if p.flags & AFFINE:
+            phi, mean, k = affine_functions(pose[there])
+            w = np.array([function[r] for function in base]) * steps            # function, axis, frame
+            matrix = np.einsum("baf,bd->fad", w[1:], k)
+            origin = origin + (w[0] * phi).T - matrix @ mean
+        check_far(matrix, origin)
+        positions[:, there] = origin[:, None] + np.einsum("fad,vd->fva", matrix, pose[there])
+        for j, shift in enumerate(shifts[:own]):
+            u = np.array(weights[j][r]) * steps * (2.0 ** (-p.sigma[j][r] / 8) * p.basis_step / 2.0**shift)
+            check_far(u)
+            positions[:, there] += u.T[:, None] * np.rint(2.0**shift * y[j][:, there]).T
+    return positions, parts
 
-class Root:
-    """Chapter 06, section 11: the motion of the whole."""
+def read_residuals(segment, layers, order, anew):       # Section 4: the residuals of all components, by rank
+    model, residuals = Coefficients(order, segment.channels), []
+    for layer in layers:
+        model = Coefficients(order, segment.channels) if anew else model
+        decoder = StateDecoder(layer.coefficients)
+        for _ in range(layer.count):
+            residuals.append(model.component(decoder))
+            narrow = len(residuals) > segment.wide_components
+            check(not narrow or fits(residuals[-1]), "ENTROPY", "a residual of more than 16 bits")
+        decoder.end()
+    return residuals
 
-    def __init__(self, data, limi, up):
-        r = Reader(data)
-        need(len(limi.clip_frames) <= len(data), 'RECORD', 'ROOT')
-        self.a, self.b = (0, 1) if up == 2 else (2, 0)
-        clips, frames, bad = [], 0, False
-        for count in limi.clip_frames:
-            c = Record(holds=r.u8(), pivot=(0.0, 0.0), step=0.0, turn_step=0.0, frames=count)
-            need(c.holds < 4, 'RECORD', 'holds')
-            if c.holds:
-                frames += count
-                c.pivot = (r.finite(error='QUANTIZER'), r.finite(error='QUANTIZER'))
-            if c.holds & 1:
-                c.step = r.finite(error='QUANTIZER')
-                need(c.step > 0, 'QUANTIZER', 'step')
-            if c.holds & 2:
-                c.turn_step = r.finite(error='QUANTIZER')
-                need(c.turn_step > 0, 'QUANTIZER', 'turn_step')
-            clips.append(c)
-        need(frames == limi.root_frames, 'RECORD', 'root_frames')
-        stream = RangeDecoder(r.rest())
-        moves, turns, self.frames = Series(stream), Series(stream), []
-        largest = float(np.finfo(np.float32).max)
-        for c in clips:
-            a = b = t = [0] * c.frames
-            if c.holds & 1:
-                a = moves.read(c.frames)
-                b = moves.read(c.frames)
-            if c.holds & 2:
-                t = turns.read(c.frames)
-            for x, y, z in zip(a, b, t):
-                line = (c.pivot, c.step * x, c.step * y, c.turn_step * z)
-                bad = bad or not max(map(abs, line[1:] + (2 * c.pivot[0], 2 * c.pivot[1]))) <= largest
-                self.frames.append(line if c.holds else None)
-        stream.end()
-        need(not bad, 'NON_FINITE', 'ROOT')
+def read_corrections(data, segment, copies):
+    """Section 6: frame, vertex and three numbers of each. `copies`: how many each vertex counts for."""
+    decoder, bits, delta, found, count = RangeDecoder(data), defaultdict(Bit), integers(), [], 0
+    none, some, was, had = (0, 0, 0), 0, {}, {}
+    signs = lambda number: (number > 0) + 2 * (number < 0)
+    for f in range(segment.frames):
+        some = decoder.bit(bits["any", some])
+        before, had_before, was, had, t, left, beside = was, had, {}, {}, 0, 0, none
+        for start in range(0, segment.vertices if some else 0, BLOCK):
+            t = had[start] = decoder.bit(bits["block", t + 2 * had_before.get(start, 0)])
+            left, beside = (left, beside) if t else (0, none)
+            for v in range(start, min(start + BLOCK, segment.vertices) if t else start):
+                c = decoder.bit(bits["vertex", left + (4 if v in before else 0)])
+                left, contexts, beside = (2 * left + c) & 3, zip(range(3), before.get(v, none), beside), none
+                if c:
+                    beside = tuple(decoder.signed(delta[axis, signs(d), signs(e)]) for axis, d, e in contexts)
+                    was[v], count = beside, count + copies[v]
+                    found.append((f, v) + beside)
+                    check(count <= segment.corrections, "ENTROPY", "more corrections than announced")
+        check(was or not some, "ENTROPY", "a frame without the corrections that it announces")
+    decoder.end()
+    check(count == segment.corrections, "ENTROPY", "fewer corrections than announced")
+    return np.array(found)
 
-    def apply(self, x, frame):
-        """Positions of a frame of the file, moved in place."""
-        if self.frames[frame] is None:
-            return
-        (pa, pb), move_a, move_b, t = self.frames[frame]
-        a, b = x[:, self.a] - pa, x[:, self.b] - pb
-        x[:, self.a] = pa + move_a + math.cos(t) * a - math.sin(t) * b
-        x[:, self.b] = pb + move_b + math.sin(t) * a + math.cos(t) * b
+def read_pose(data, mesh):                              # The record of a POSE, with its integers
+    pose = read_whole(data, POSE)
+    pose.integers = read_poses(pose.stream, mesh.table)[0]
+    return pose
+
+def read_segment(segment, mesh, chunks, runs):
+    """Positions, [frame, vertex, axis]; exact ones or None; hashes as stated and as decoded."""
+    segm, poses, layers, corr, diff = (chunks.payloads(kind, segment.mesh, segment.number) for kind in
+                                       ("SEGM", "POSE", "BASI", "CORR", "DIFF"))
+    record, exact, own_pose = read_whole(segm[0], SEGM), None, [read_pose(data, mesh) for data in poses]
+    if segment.kind == KEY_FRAMES:
+        positions, parts = key_frame_segment(segment, record, mesh)
+    else:
+        positions, parts = linear_segment(segment, record, mesh, layers, (own_pose + [mesh.pose])[0], runs)
+    if segment.corrections:
+        check(corr[0], "CHUNK_MISSING", "CORR")
+        corrections = read_whole(corr[0], CORR)
+        found = read_corrections(corrections.stream, segment, mesh.copies(segment))
+        check_far(corrections.step * np.abs(found).max())
+        positions[found[:, 0], found[:, 1]] += corrections.step * found[:, 2:]
+        parts.append(hashed(found))
+    hashes = [(record.hash, xxh64(b"".join(parts)))]
+    if segment.flags & EXACT:
+        record = read_whole(diff[0], DIFF, positions=segment.frames * segment.vertices)
+        exact, found = read_exact(record, segment.vertices, segment.frames, mesh.triangles)
+        hashes.append((record.hash, found))
+    return positions, exact, hashes

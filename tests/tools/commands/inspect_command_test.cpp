@@ -163,13 +163,15 @@ TEST_F(InspectCommand, ADamagedByteIsFoundAndLocated) {
   }
 }
 
-TEST_F(InspectCommand, AnotherVersionIsUnsupported) {
-  std::string newer = bytes_;
-  newer[10] = 99;
-  folder_.write("new.anic", newer);
-  Outcome outcome = anicodec({"verify", folder_ / "new.anic"});
-  EXPECT_EQ(outcome.status, 4) << outcome;
-  EXPECT_THAT(outcome.err, HasSubstr("version"));
+TEST_F(InspectCommand, AnotherMajorVersionIsUnsupported) {
+  for (const auto& [major, what] : {std::pair{'\2', "a later major version"}, {'\0', "a draft of the format, 0.x"}}) {
+    std::string other = bytes_;
+    other[8] = major;
+    folder_.write("other.anic", other);
+    Outcome outcome = anicodec({"verify", folder_ / "other.anic"});
+    EXPECT_EQ(outcome.status, 4) << outcome;
+    EXPECT_THAT(outcome.err, HasSubstr(what));
+  }
 }
 
 TEST_F(InspectCommand, AnotherFormatIsNamed) {
