@@ -4,8 +4,10 @@
 
 #include "codec/check_file.h"
 #include "codec/file/clip_record.h"
+#include "codec/file/encoding_memory.h"
 #include "codec/file/metadata_json.h"
 #include "codec/file/root_motion_encode.h"
+#include "codec/parallel/thread_count.h"
 #include "codec/search/clip_search.h"
 #include "codec/search/opening_time.h"
 #include "codec/search/search_progress.h"
@@ -121,10 +123,8 @@ std::shared_ptr<const EncodedPose> pose_of_parts(const EncoderInput& input, cons
   return encode_reference_pose(pose, origin, step, input.layout, bytes_per_nanosecond(smallest));
 }
 
-}  // namespace
-
-EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
-  check(sequence);
+EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options, const Progress& progress,
+                           std::shared_ptr<MemoryBudget> memory) {
   const double whole_diagonal = diagonal(sequence);
   const std::vector<ClipGoal> asked = clip_goals(options.target, options.cap, clip_diagonals(sequence), whole_diagonal);
   const Target target = largest_target(asked);
@@ -167,6 +167,7 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
     root = take_root_motion(whole_diagonal, &sequence);
   }
   EncoderInput input(std::move(sequence), options.part, options.layout.get());
+  input.memory = std::move(memory);
   std::vector<ClipGoal> goals = asked;
   if (lossless) {
     for (ClipGoal& goal : goals)
@@ -248,6 +249,22 @@ EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const P
   result.attributes = std::move(attributes);
   result.trials = search.trials();
   result.search_notes = search.notes();
+  return result;
+}
+
+}  // namespace
+
+EncodeResult encode(MeshSequence sequence, const EncodeOptions& options, const Progress& progress) {
+  check(sequence);
+  if (options.most_bytes == 0)
+    return encode_within(std::move(sequence), options, progress, nullptr);
+  const size_t threads = thread_count();
+  const MemoryPlan plan = plan_memory(EncodingMemory::of(sequence, options), options, threads);
+  const auto memory = std::make_shared<MemoryBudget>(plan.left);
+  if (plan.threads == threads)
+    return encode_within(std::move(sequence), options, progress, memory);
+  EncodeResult result;
+  with_threads(plan.threads, [&] { result = encode_within(std::move(sequence), options, progress, memory); });
   return result;
 }
 

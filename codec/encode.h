@@ -12,8 +12,8 @@ namespace anicodec {
 /// Encodes a sequence, decodes the result, and checks that it keeps what was asked.
 /// Throws Error: kInput for a bad sequence, kUsage for a target that cannot be reached (the text
 /// states the best that can), kInternal when the check fails. Deterministic; the bytes do not
-/// depend on the number of threads. Memory: at most about twice the positions beside the sequence, which is
-/// taken over and may lie in files (FrameArray); for clips of many vertices about 2 kB a vertex at effort 1.
+/// depend on the number of threads. Memory: docs/memory.md; the sequence is taken over and may lie in files
+/// (FrameArray). OverMemory where it would be more than options.most_bytes.
 EncodeResult encode(MeshSequence sequence, const EncodeOptions& options,
                     const Progress& progress = {});
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/encode_massaged.h"
 
+#include "codec/file/encoding_memory.h"
 #include "codec/metrics/hausdorff.h"
 #include "codec/sequence/error.h"
 
@@ -83,9 +84,11 @@ EncodeResult encode_massaged(MeshSequence sequence, MassageMode mode,
   }
   if (mode == MassageMode::kOff)
     return encode(std::move(sequence), options, progress);
+  const double source = EncodingMemory::of(sequence, {}).positions();
   MeshSequence massaged = massage(sequence, massage_options, progress).sequence;
   const HausdorffDistance moved = compare_surfaces(sequence, massaged).total;
   EncodeOptions changed = options;
+  changed.most_bytes = most_bytes_beside(source, options.most_bytes);
   changed.surface_change = SurfaceChange{moved.mean(), moved.max()};
   EncodeResult result = encode(std::move(massaged), changed, progress);
   if (mode == MassageMode::kAuto && is_error(options.target.metric)) {

@@ -3,6 +3,7 @@
 #include "codec/encode_scene.h"
 
 #include "codec/file/clip_record.h"
+#include "codec/file/encoding_memory.h"
 #include "codec/file/join_clips.h"
 #include "codec/file/target.h"
 #include "codec/sequence/error.h"
@@ -113,6 +114,8 @@ auto naming(const SceneMesh& mesh, const Work& work) {
           : "mesh '" + mesh.sequence.mesh_name + "'";
   try {
     return work();
+  } catch (const OverMemory& e) {
+    throw OverMemory(name + ": " + e.what());
   } catch (const Error& e) {
     throw Error(e.kind(), name + ": " + e.what());
   }
@@ -161,10 +164,17 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   Counts counts(all.frames);
   double squared = 0;
   std::vector<std::pair<EncodeResult, PlacedPart>> parts;
+  double waiting = 0;  // bytes of positions
+  for (const SceneMesh& mesh : scene.meshes)
+    waiting += EncodingMemory::of(mesh.sequence, {}).positions();
   for (size_t m = 0; m < scene.meshes.size(); ++m) {
     SceneMesh& mesh = scene.meshes[m];
     const std::vector<FrameRun> present_in = mesh.present_in;
     const std::string name = mesh.sequence.mesh_name;
+    const double own = EncodingMemory::of(mesh.sequence, {}).positions();
+    waiting -= own;
+    // A mesh that is there at several times stays until the last of them is encoded.
+    of_mesh.most_bytes = most_bytes_beside(waiting + (present_in.size() > 1 ? own : 0), options.most_bytes);
     std::vector<EncodeResult> results =
         naming(mesh, [&] { return encode_runs(std::move(mesh), of_mesh, progress); });
     counts.add(present_in, results[0].vertices, results[0].faces);

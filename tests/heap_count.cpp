@@ -92,6 +92,9 @@ void __sanitizer_free_hook(const volatile void* memory) {
 
 // In place of those of the C library, which all others come to.
 #include <malloc.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 extern "C" {
 
@@ -153,6 +156,20 @@ int posix_memalign(void** out, size_t alignment, size_t size) noexcept {
 void free(void* memory) noexcept {
   note_release(memory);
   __libc_free(memory);
+}
+
+// What the heap maps for itself does not come here.
+void* mmap(void* address, size_t size, int protection, int flags, int file, off_t offset) noexcept {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): so the system gives it
+  void* const block = reinterpret_cast<void*>(::syscall(SYS_mmap, address, size, protection, flags, file, offset));
+  if (block != MAP_FAILED)
+    HeapCount::note(static_cast<int64_t>(size));
+  return block;
+}
+
+int munmap(void* address, size_t size) noexcept {
+  HeapCount::note(-static_cast<int64_t>(size));
+  return static_cast<int>(::syscall(SYS_munmap, address, size));
 }
 
 }  // extern "C"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Counts the global heap: what a library takes from operator new and malloc(), wherever it does so.
+// Counts the global heap: what a library takes from operator new, malloc() and mmap(), wherever it does so.
 // Programs that use it are linked with heap_count.cpp.
 #ifndef ANICODEC_TESTS_HEAP_COUNT_H_
 #define ANICODEC_TESTS_HEAP_COUNT_H_

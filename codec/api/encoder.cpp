@@ -4,6 +4,7 @@
 // The functions of encode.h.
 #include "codec/api/encoder_objects.h"
 #include "codec/encode_scene.h"
+#include "codec/file/encoding_memory.h"
 #include "codec/parallel/thread_count.h"
 #include "codec/sequence/error.h"
 #include "codec/sequence/position_box.h"
@@ -51,6 +52,9 @@ anic_status guarded(anic_encoder* encoder, Function function) noexcept {
   } catch (const EncoderFailure& e) {
     keep(encoder, e.what());
     return e.status();
+  } catch (const OverMemory& e) {
+    keep(encoder, e.what());
+    return ANIC_E_LIMIT;
   } catch (const Error& e) {
     keep(encoder, e.what());
     return status_of(e.kind());
@@ -84,17 +88,15 @@ Struct taken(const Struct* host, const char* name) {
   return ours;
 }
 
-/// Bytes that encoding holds at most, about: positions three times, attributes twice.
-double held_bytes(const anic_encoder& encoder) {
-  constexpr double kPositions = 3, kAttributes = 2;
-  double bytes = 0;
+/// Refuses what would hold more than max_bytes before positions are read.
+void check_memory(const anic_encoder& encoder, const EncodeOptions& options) {
+  double others = 0;  // meshes that wait or are read
+  for (const SourceMesh& source : encoder.meshes)
+    others += EncodingMemory::of(source.mesh.sequence, options).positions();
   for (const SourceMesh& source : encoder.meshes) {
-    const MeshSequence& mesh = source.mesh.sequence;
-    bytes += kPositions * 3 * sizeof(float) * mesh.vertex_count * mesh.frame_count;
-    for (const Attribute& attribute : mesh.attributes)
-      bytes += kAttributes * static_cast<double>(attribute.values.size() * sizeof(float));
+    const EncodingMemory memory = EncodingMemory::of(source.mesh.sequence, options);
+    plan_memory(memory, options, 1, others - memory.positions());
   }
-  return bytes;
 }
 
 Progress progress_of(const anic_encode_progress& host) {
@@ -189,11 +191,8 @@ void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_e
   const EncodingPlan plan = encoding_plan(host);
   check_argument(!plan.options.keyframes || *plan.options.keyframes <= encoder->clip.frame_count,
                  "more key-frames are asked for than the clip has frames");
-  if (const double bytes = held_bytes(*encoder);
-      host.max_bytes > 0 && bytes > static_cast<double>(host.max_bytes))
-    throw EncoderFailure(ANIC_E_LIMIT, "encoding would hold about " +
-                                           std::to_string(static_cast<uint64_t>(bytes)) +
-                                           " bytes of at most " + std::to_string(host.max_bytes));
+  if (host.max_bytes > 0)
+    check_memory(*encoder, plan.options);
   constexpr uint32_t kMostThreads = 1024;
   check_argument(host.threads <= kMostThreads, "at most 1024 threads are possible");
   encoder->result = {};

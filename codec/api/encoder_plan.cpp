@@ -130,6 +130,7 @@ EncodingPlan encoding_plan(const anic_encode_options& host) {
   set_goal(host, plan.options);
   set_method(host, plan.options);
   set_attributes(host, plan.options.attributes);
+  plan.options.most_bytes = host.max_bytes;
   plan.mode = chosen(host.massage, kModes, "massage");
   if (amount(host.massage_strength, "the strength of massage") > 0)
     plan.massage.strength = host.massage_strength;

@@ -69,6 +69,7 @@ struct EncodeOptions {
   /// What the search of eigenshapes and eigentrajectories does without, by the names of
   /// search_means(): to measure what each is worth.
   std::vector<std::string> without;
+  uint64_t most_bytes = 0;  ///< of memory (docs/memory.md): OverMemory where more would be held, fewer threads before; 0: any
   /// Searches for the fewest bytes, whatever opening takes; else a millisecond of it, as estimated, is worth
   /// some: bytes_per_nanosecond().
   bool smallest = false;

@@ -82,6 +82,7 @@ EncoderInput::EncoderInput(const EncoderInput& all, size_t number)
       first_pose(all.first_pose),
       pose(all.pose),
       without(all.without),
+      memory(all.memory),
       on_trial(all.on_trial) {
   InputClip& clip = clips[0];
   const FrameView frames = all.frames(clip.frames.first, clip.frames.count);
@@ -99,6 +100,7 @@ EncoderInput::EncoderInput(const EncoderInput& clip_input, const Topology& surfa
       coded(std::move(trajectories)),
       clips(clip_input.clips),
       copies(surface.coded_vertices, 0),
+      memory(clip_input.memory),
       on_trial(clip_input.on_trial) {
   layout.topology = surface;
   layout.source_coded.assign(surface.vertex_coded.begin(), surface.vertex_coded.end());

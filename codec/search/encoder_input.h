@@ -4,6 +4,7 @@
 #define ANICODEC_CODEC_SEARCH_ENCODER_INPUT_H_
 
 #include "codec/connectivity/mesh_layout.h"
+#include "codec/file/encoding_memory.h"
 #include "codec/file/target.h"
 #include "codec/segment/encoded_segment.h"
 #include "codec/sequence/frame_view.h"
@@ -118,6 +119,16 @@ struct EncoderInput {
   Learning learning;  ///< of segments of positions that lean on the pose that is given
 
   std::vector<std::string> without;  ///< EncodeOptions::without
+
+  std::shared_ptr<MemoryBudget> memory;  ///< null: no limit
+
+  /// Takes memory for some of its frames, see EncodingMemory; `bytes` gives it by their counts. Throws OverMemory.
+  template <class Bytes>
+  MemoryShare take_memory(size_t frame_count, const char* stage, const Bytes& bytes) const {
+    if (!memory)
+      return {};
+    return memory->take(bytes(EncodingMemory{static_cast<double>(copies.size()), static_cast<double>(frame_count)}), stage);
+  }
 
   /// Whether a search may do what has this name among search_means().
   bool allows(const char* mean) const { return std::ranges::find(without, mean) == without.end(); }

@@ -114,7 +114,12 @@ LinearCoder::MadeBasis& LinearCoder::made_basis(const LinearChoice& choice, size
                   ? analysis_.basis(kind_, choice.pose, choice.base, most, 0, given())
                   : analysis_of(choice.regions).basis(analysis_, choice.pose, most, given());
     });
+    const auto components = static_cast<double>(basis.most_components());
+    MemoryShare memory =
+        input_.take_memory(analysis_.clip().frame_count, "a basis of the components that the error takes",
+                           [&](const EncodingMemory& m) { return m.basis(kind_, components, effort_); });
     found = bases_->made.try_emplace(key).first;
+    found->second.memory = std::move(memory);
     found->second.basis = std::move(basis);
   }
   return found->second;
@@ -142,9 +147,12 @@ const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
       throw Error(ErrorKind::kInternal, "the edges of the mesh cannot be found");
     cut.of_vertex = find_regions(analysis_.clip(), graph, regions);
   }
-  if (!cut.analysis)
+  if (!cut.analysis) {
+    cut.memory = input_.take_memory(analysis_.clip().frame_count, "the motion of regions of the surface",
+                                    [&](const EncodingMemory& m) { return m.regions(regions); });
     cut.analysis = std::make_unique<RegionAnalysis>(
         std::make_shared<const RegionClips>(analysis_.clip(), cut.of_vertex, regions));
+  }
   return *cut.analysis;
 }
 

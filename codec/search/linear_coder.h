@@ -89,10 +89,12 @@ class LinearCoder : public SegmentCoder {
   /// A cut of the surface, and the analysis of this clip by it.
   struct Regions {
     Vector<uint8_t> of_vertex;
+    MemoryShare memory;
     std::unique_ptr<RegionAnalysis> analysis;  ///< made when needed
   };
 
   struct MadeBasis {
+    MemoryShare memory;
     LinearBasis basis;
     std::once_flag first_use;                  ///< of what follows
     std::optional<ReferencePoseEncoder> pose;  ///< of the basis

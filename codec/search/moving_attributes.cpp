@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/moving_attributes.h"
 
+#include "codec/file/encoding_memory.h"
 #include "codec/search/rate_control.h"
 #include "codec/segment/reference_pose_encode.h"
 #include "codec/sequence/error.h"
@@ -172,6 +173,8 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
           sizes.entries = s.surface.coded_vertices;
           parts.push_back(std::move(part));
         }
+      } catch (const OverMemory& error) {
+        throw OverMemory(attribute.name + ": " + error.what());
       } catch (const Error& error) {
         throw Error(error.kind(), attribute.name + ": " + error.what());
       }

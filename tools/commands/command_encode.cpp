@@ -161,6 +161,7 @@ void encode_batch(const EncodeArguments& command, const CommonOptions& common) {
                                   : std::max(1U, std::thread::hardware_concurrency());
   batch.memory =
       command.memory.empty() ? half_of_machine() : parse_size(command.memory, "--memory");
+  options.most_bytes = 0;  // a clip that takes more runs alone
   batch.overwrite = common.overwrite;
   batch.quiet = common.quiet;
   batch.json = common.json;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/encoding/batch.h"
 
+#include "codec/file/encoding_memory.h"
 #include "codec/parallel/thread_count.h"
 #include "codec/sequence/error.h"
 #include "format/checksum.h"
@@ -265,8 +266,8 @@ class Batch {
     std::unique_lock reading(read_);
     MeshSequence sequence = load_(clip, [&](const std::string& text) { notes.push_back(text); });
     const uint64_t bytes = sequence.positions.size() * sizeof(float);
-    constexpr uint64_t kCopies = 3;  // that encoding has at most
-    const Taken memory(budget_, kCopies * bytes);
+    const EncodingMemory needs = EncodingMemory::of(sequence, {});
+    const Taken memory(budget_, static_cast<uint64_t>(needs.kept({}) + static_cast<double>(thread_count()) * needs.thread({})));
     reading.unlock();
 
     ContentHash hash;

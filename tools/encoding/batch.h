@@ -17,7 +17,7 @@ namespace anicodec::tools {
 struct BatchOptions {
   std::string folder;      ///< of the outputs
   unsigned jobs = 1;       ///< clips side by side
-  uint64_t memory = 0;     ///< bytes that positions may take; a clip that needs more runs alone
+  uint64_t memory = 0;     ///< bytes that clips at work may take; one that needs more runs alone
   bool overwrite = false;  ///< outputs that the batch has not written
   bool quiet = false;      ///< only failures and the summary
   bool json = false;       ///< an object for each clip and for the summary

@@ -3,6 +3,7 @@
 #include "tools/inputs/encode_arguments.h"
 
 #include "codec/sequence/error.h"
+#include "codec/sequence/machine_memory.h"
 #include "format/metadata.h"
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_rate.h"
@@ -298,7 +299,7 @@ void add_arguments(Options& options, EncodeArguments& a) {
   options.option(
       "--memory", a.memory, "BYTES",
       "For a run, or all clips of --batch (default: half of the machine): frames beyond a third of it lie in files in "
-      "TMPDIR or /var/tmp; scenes and archives that make more of few bytes are refused");
+      "TMPDIR or /var/tmp; fewer threads work where it is short; what takes more is refused, or runs alone");
   options.flag("--allow-outside", a.allow_outside,
                "Let a scene name files outside its folder: those of strangers then choose what is "
                "read");
@@ -391,6 +392,7 @@ EncodeOptions encode_options(const EncodeArguments& command) {
   options.metadata = metadata_of(command);
   options.effort = command.effort;
   options.smallest = command.smallest;
+  options.most_bytes = command.memory.empty() ? half_of_machine() : parse_size(command.memory, "--memory");
   options.encoder = fmt::format("anicodec {}", version());
   set_target(command, std::nullopt, options);
   return options;

@@ -35,8 +35,8 @@ void check_one_topology(const ByteSource& source, const AlembicBake& bake) {
   }
 }
 
-void reserve_positions(const AlembicBake& bake, MeshSequence& out) {
-  bake.check_memory(static_cast<double>(out.vertex_count), static_cast<double>(out.frame_count));
+void reserve_positions(AlembicBake& bake, MeshSequence& out) {
+  bake.take_memory(static_cast<double>(out.vertex_count), static_cast<double>(out.frame_count));
   const size_t numbers = size_t{3} * out.vertex_count * out.frame_count;
   try {
     out.positions.resize(numbers);
@@ -136,11 +136,13 @@ SceneMesh mesh_of(AlembicBake& bake, const AbcShown& shown, uint32_t topology) {
   }
   reserve_positions(bake, out.sequence);
   uint32_t own = 0;
+  double numbers = 0;
   for (const FrameRun& run : out.present_in) {
     for (uint32_t f = run.first; f < run.first + run.count; ++f, ++own) {
       bake.read_positions(shown, bake.places(f)[shown.node], f, out.sequence.frame(own));
       if (own > 0 && AlembicBake::has_moving_attributes(shown))
         add_frame(bake.moving_attributes(shown, f), own, out.sequence.attributes);
+      numbers = bake.take_memory(out.sequence.attributes, numbers);
     }
   }
   return out;
@@ -155,10 +157,12 @@ MeshSequence read_alembic(const ByteSource& source, const AlembicOptions& option
   bake.set_timing(out);
   reserve_positions(bake, out);
   const bool moving = std::ranges::any_of(bake.shown(), AlembicBake::has_moving_attributes);
+  double numbers = 0;
   for (uint32_t f = 0; f < out.frame_count; ++f) {
     fill_frame(bake, f, out.frame(f));
     if (moving && f > 0)
       add_frame(moving_attributes(bake, f, out.attributes), f, out.attributes);
+    numbers = bake.take_memory(out.attributes, numbers);
     report(options, f + 1, out.frame_count);
   }
   return out;

@@ -94,7 +94,7 @@ AbcNote AlembicBake::note_once(const AlembicOptions& options) {
 
 AlembicBake::AlembicBake(const ByteSource& source, const AlembicOptions& options)
     : name_(source.name),
-      memory_limit_(options.memory_limit),
+      memory_left_(static_cast<double>(options.memory_limit)),
       origin_(options.origin.data()),
       note_(note_once(options)),
       archive_(source),
@@ -260,10 +260,25 @@ void AlembicBake::set_timing(MeshSequence& out) const {
 }
 
 void AlembicBake::check_memory(double vertices, double frames) const {
-  if (12 * vertices * frames > static_cast<double>(memory_limit_))
+  if (12 * vertices * frames > memory_left_)
     fail_input(name_, std::to_string(static_cast<uint64_t>(vertices)) + " vertices x " +
                           std::to_string(static_cast<uint64_t>(frames)) +
                           " frames take more memory than is allowed");
+}
+
+void AlembicBake::take_memory(double vertices, double frames) {
+  check_memory(vertices, frames);
+  memory_left_ -= 12 * vertices * frames;
+}
+
+double AlembicBake::take_memory(const std::vector<Attribute>& attributes, double before) {
+  double now = 0;
+  for (const Attribute& attribute : attributes)
+    now += static_cast<double>(attribute.values.size());
+  memory_left_ -= sizeof(float) * (now - before);
+  if (memory_left_ < 0)
+    fail_input(name_, "attributes that move take more memory than is allowed");
+  return now;
 }
 
 std::optional<Attribute> AlembicBake::attribute(const AbcShown& shown, const AbcGeomParam& param,

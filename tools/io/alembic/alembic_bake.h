@@ -71,8 +71,14 @@ class AlembicBake {
   void read_positions(const AbcShown& shown, const AbcPlace& place, size_t frame,
                       std::span<float> out) const;
 
-  /// Throws Error(kInput) where so many positions take more memory than is allowed.
+  /// Throws Error(kInput) where so many positions take more memory than is left of what is allowed.
   void check_memory(double vertices, double frames) const;
+
+  /// Takes memory for good. Throws like check_memory().
+  void take_memory(double vertices, double frames);
+
+  /// The same for what attributes have got since they took `before` numbers. Gives their numbers now.
+  double take_memory(const std::vector<Attribute>& attributes, double before);
 
  private:
   AbcNote note_once(const AlembicOptions& options);
@@ -84,7 +90,7 @@ class AlembicBake {
                                      size_t frame) const;
 
   std::string name_;
-  uint64_t memory_limit_;
+  double memory_left_;
   Eigen::Vector3d origin_;
   AbcNote note_;
   AbcArchive archive_;

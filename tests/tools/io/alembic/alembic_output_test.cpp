@@ -83,6 +83,14 @@ TEST(AlembicOutput, ReadsBackExactly) {
   EXPECT_EQ(bytes, archive_of_scene(scene_of(in)));
 }
 
+TEST(AlembicOutput, ReadsBackWithinAMemoryThatAttributesShare) {
+  const std::string bytes = archive_of_scene(scene_of(painted_strip(50)));
+  constexpr uint64_t kPositions = uint64_t{12} * 10 * 50, kStill = 4 * (64 + 20 + 40), kHeat = uint64_t{4} * 10 * 50;
+  EXPECT_EQ(read_bytes_of_archive(bytes, {.memory_limit = kPositions + kStill + kHeat}).frame_count, 50U);
+  EXPECT_THAT(fault([&] { read_bytes_of_archive(bytes, {.memory_limit = kPositions + kHeat - 1}); }, ErrorKind::kInput),
+              testing::HasSubstr("attributes that move take more memory"));
+}
+
 TEST(AlembicOutput, KeepsAwkwardMeshes) {
   MeshSequence in = awkward_clip(3);
   const MeshSequence out = read_bytes_of_archive(archive_of_scene(scene_of(in)));

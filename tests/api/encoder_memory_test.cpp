@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//
+// docs/memory.md: an encoding holds no more than it may, and is refused only where it would come near that.
+#include "codec/encode.h"
+#include "codec/encode_scene.h"
+#include "codec/file/encoding_memory.h"
+#include "codec/parallel/thread_count.h"
+#include "corpus/clips.h"
+#include "tests/heap_count.h"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+// Nothing is refused that has so many times the memory that it takes, and two megabytes.
+constexpr double kLoose = 4;
+constexpr double kAny = 1 << 21;
+
+EncodeOptions options_of(int effort, double kg = 0.1) {
+  EncodeOptions options;
+  options.target = {ErrorMetric::kKg, kg, false};
+  options.effort = effort;
+  return options;
+}
+
+/// The most bytes that an encoding on one thread holds beside its source; none where it is refused.
+std::optional<double> held(const MeshSequence& sequence, EncodeOptions options, double most_bytes) {
+  options.most_bytes = static_cast<uint64_t>(most_bytes);
+  std::optional<double> peak;
+  with_threads(1, [&] {
+    const HeapCount count;
+    try {
+      encode(sequence, options);
+      peak = static_cast<double>(count.peak());
+    } catch (const OverMemory&) {
+    }
+  });
+  return peak;
+}
+
+void expect_within(const MeshSequence& sequence, const EncodeOptions& options) {
+  const double free = held(sequence, options, 0).value();
+  for (const double share : {0.4, 0.8, 1.2, 2.0}) {
+    const std::optional<double> peak = held(sequence, options, share * free);
+    EXPECT_LE(peak.value_or(0), share * free);
+  }
+  EXPECT_TRUE(held(sequence, options, kLoose * free + kAny)) << free;
+}
+
+TEST(EncoderMemory, OfManyFramesOfFewVertices) {
+  expect_within(corpus::make_wave_grid(100, 500, 5), options_of(1));
+  expect_within(corpus::make_wave_grid(100, 500, 5), options_of(5));
+}
+
+TEST(EncoderMemory, OfManyVerticesInFewFrames) {
+  expect_within(corpus::make_wave_grid(8000, 3, 2), options_of(1));
+  expect_within(corpus::make_scaled("limb", 4000, 3), options_of(5));
+  expect_within(corpus::make_scaled("soup", 1000, 10), options_of(3));
+  expect_within(corpus::make_scaled("points", 2000, 10), options_of(3));
+}
+
+TEST(EncoderMemory, OfManyComponents) {
+  expect_within(corpus::make_wave_grid(1000, 120, 60), options_of(1, 0.01));
+  expect_within(corpus::make_wave_grid(1700, 60, 40), options_of(2, 0.01));
+  expect_within(corpus::make_scaled("noisy", 300, 60), options_of(2, 0.05));
+}
+
+TEST(EncoderMemory, OfKeyframesAndOfExactPositions) {
+  EncodeOptions options = options_of(2);
+  options.basis = BasisChoice::kKeyframes;
+  expect_within(corpus::make_scaled("limb", 500, 200), options);
+  options = options_of(1);
+  options.target = {ErrorMetric::kMaxError, 0, false};
+  expect_within(corpus::make_scaled("limb", 2000, 30), options);
+}
+
+TEST(EncoderMemory, OfAttributes) {
+  MeshSequence sequence = corpus::make_wave_grid(1000, 60, 5);
+  Attribute& heat = sequence.attributes.emplace_back();
+  heat.kind = AttributeKind::kCustom;
+  heat.name = "heat";
+  heat.components = 3;
+  heat.frames = sequence.frame_count;
+  for (const float x : sequence.positions)
+    heat.values.push_back(x * x);
+  expect_within(sequence, options_of(2));
+  Attribute uv;
+  uv.domain = AttributeDomain::kCorner;
+  for (const uint32_t corner : sequence.polygons.corners) {
+    for (uint32_t axis = 0; axis < 2; ++axis)
+      uv.values.push_back(sequence.positions[size_t{3} * corner + axis]);
+  }
+  sequence.attributes.clear();
+  for (int i = 0; i < 8; ++i) {
+    uv.name = "uv" + std::to_string(i);
+    sequence.attributes.push_back(uv);
+  }
+  expect_within(sequence, options_of(2));
+}
+
+TEST(EncoderMemory, OfASceneIsThatOfItsMeshes) {
+  Scene scene;
+  scene.clip = corpus::make_wave_grid(400, 100, 4);
+  for (int m = 0; m < 4; ++m) {
+    SceneMesh& mesh = scene.meshes.emplace_back();
+    mesh.sequence = scene.clip;
+    mesh.sequence.mesh_name = "mesh" + std::to_string(m);
+    mesh.present_in = {{0, 100}};
+  }
+  scene.clip.positions.clear();
+  EncodeOptions options = options_of(1);
+  options.most_bytes = 5'000'000;
+  EXPECT_THROW(encode_scene(scene, options), OverMemory);
+  options.most_bytes = 12'000'000;
+  const HeapCount count;
+  with_threads(1, [&] { encode_scene(scene, options); });
+  EXPECT_LE(count.peak(), options.most_bytes);
+}
+
+TEST(EncoderMemory, TakesFewerThreadsWhereItIsShort) {
+  EncodingMemory memory;
+  memory.vertices = 100000;
+  memory.frames = 10;
+  EncodeOptions options = options_of(5);
+  const double kept = memory.kept(options), thread = memory.thread(options);
+  for (const auto& [times, threads] : {std::pair(1.0, 1U), {4.5, 2U}, {5.5, 3U}, {40.0, 8U}}) {
+    options.most_bytes = static_cast<uint64_t>(kept + times * thread + 1);
+    EXPECT_EQ(plan_memory(memory, options, 8).threads, threads);
+  }
+  options.most_bytes = static_cast<uint64_t>(kept + thread - 1);
+  EXPECT_THROW(plan_memory(memory, options, 8), OverMemory);
+}
+
+}  // namespace
+}  // namespace anicodec
