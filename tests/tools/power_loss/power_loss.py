@@ -326,7 +326,8 @@ def main():
         sys.exit(__doc__)
     anicodec, library = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
     faults = []
-    with tempfile.TemporaryDirectory() as folder:
+    memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # flushing costs nothing there
+    with tempfile.TemporaryDirectory(dir=memory) as folder:
         for number, job in enumerate(jobs(anicodec, pathlib.Path(folder))):
             work = pathlib.Path(folder) / f"job{number}"
             work.mkdir()

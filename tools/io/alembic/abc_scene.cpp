@@ -69,20 +69,36 @@ void AbcScene::add(uint32_t object, uint32_t parent, bool in_instance, const Abc
   nodes_.push_back(std::move(node));
 }
 
+/// A node by the place of its parent, null for the root.
+AbcPlace AbcScene::below(const AbcPlace* parent, uint32_t node, double time) {
+  Motion& motion = *motions_[nodes_[node].object];
+  AbcPlace place;
+  place.world = parent ? parent->world : identity_transform();
+  if (motion.xform)
+    place.world = motion.xform->inherits(time) ? after(place.world, motion.xform->at(time))
+                                               : motion.xform->at(time);
+  const int visible = motion.visible.at(time);
+  place.visible = visible < 0 ? parent == nullptr || parent->visible : visible != 0;
+  return place;
+}
+
 std::vector<AbcPlace> AbcScene::at(double time) {
   std::vector<AbcPlace> places(nodes_.size());
-  for (size_t n = 0; n < nodes_.size(); ++n) {
-    Motion& motion = *motions_[nodes_[n].object];
-    AbcPlace& place = places[n];
-    const AbcPlace* parent = nodes_[n].parent == kAbcNone ? nullptr : &places[nodes_[n].parent];
-    place.world = parent ? parent->world : identity_transform();
-    if (motion.xform)
-      place.world = motion.xform->inherits(time) ? after(place.world, motion.xform->at(time))
-                                                 : motion.xform->at(time);
-    const int visible = motion.visible.at(time);
-    place.visible = visible < 0 ? parent == nullptr || parent->visible : visible != 0;
+  for (uint32_t n = 0; n < nodes_.size(); ++n) {
+    const uint32_t parent = nodes_[n].parent;
+    places[n] = below(parent == kAbcNone ? nullptr : &places[parent], n, time);
   }
   return places;
+}
+
+AbcPlace AbcScene::at(uint32_t node, double time) {
+  std::vector<uint32_t> ancestors;
+  for (uint32_t n = node; n != kAbcNone; n = nodes_[n].parent)
+    ancestors.push_back(n);
+  AbcPlace place = below(nullptr, ancestors.back(), time);
+  for (size_t i = ancestors.size() - 1; i-- > 0;)
+    place = below(&place, ancestors[i], time);
+  return place;
 }
 
 std::vector<const AbcProperty*> AbcScene::timed(const std::vector<uint32_t>& nodes) const {

@@ -45,6 +45,9 @@ class AbcScene {
   /// All nodes at a time: the last samples that are not after it.
   std::vector<AbcPlace> at(double time);
 
+  /// One node at a time. Cost: its ancestors.
+  AbcPlace at(uint32_t node, double time);
+
   /// Properties that move or show some nodes or their ancestors.
   std::vector<const AbcProperty*> timed(const std::vector<uint32_t>& nodes) const;
 
@@ -52,6 +55,7 @@ class AbcScene {
   struct Motion;
 
   void add(uint32_t object, uint32_t parent, bool in_instance, const AbcNote& note);
+  AbcPlace below(const AbcPlace* parent, uint32_t node, double time);
   bool is_open(uint32_t object, uint32_t node) const;
 
   const AbcArchive& archive_;

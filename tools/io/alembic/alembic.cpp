@@ -139,7 +139,7 @@ SceneMesh mesh_of(AlembicBake& bake, const AbcShown& shown, uint32_t topology) {
   double numbers = 0;
   for (const FrameRun& run : out.present_in) {
     for (uint32_t f = run.first; f < run.first + run.count; ++f, ++own) {
-      bake.read_positions(shown, bake.places(f)[shown.node], f, out.sequence.frame(own));
+      bake.read_positions(shown, bake.place(shown, f), f, out.sequence.frame(own));
       if (own > 0 && AlembicBake::has_moving_attributes(shown))
         add_frame(bake.moving_attributes(shown, f), own, out.sequence.attributes);
       numbers = bake.take_memory(out.sequence.attributes, numbers);

@@ -300,7 +300,7 @@ MeshSequence AlembicBake::describe(const AbcShown& shown, size_t frame) {
       out.polygons.corners[c] = topology.polygons.corners[order[c]];
   }
   out.materials = shown.mesh->face_sets(clock_.times[frame], out.polygons.size(), note_);
-  const std::vector<AbcPlace> now = places(frame);
+  const AbcPlace now = place(shown, frame);
   for (const AbcGeomParam& param : shown.mesh->params().all()) {
     std::optional<Attribute> found = attribute(shown, param, frame);
     if (!found) {
@@ -311,7 +311,7 @@ MeshSequence AlembicBake::describe(const AbcShown& shown, size_t frame) {
     if (found->per_corner() && !shown.mirrored)
       reorder(order, found->components, found->values);
     if (found->kind == AttributeKind::kNormal)
-      turn_normals(now[shown.node].world, found->values);
+      turn_normals(now.world, found->values);
     out.attributes.push_back(std::move(*found));
   }
   return out;

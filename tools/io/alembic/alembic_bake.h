@@ -57,6 +57,11 @@ class AlembicBake {
   /// The transforms of all nodes in a frame.
   std::vector<AbcPlace> places(size_t frame) { return scene_.at(clock_.times[frame]); }
 
+  /// The place of one mesh. Cost: the ancestors of its node.
+  AbcPlace place(const AbcShown& shown, size_t frame) {
+    return scene_.at(shown.node, clock_.times[frame]);
+  }
+
   /// Faces and all that stands beside the positions of a mesh, in a frame that shows it.
   MeshSequence describe(const AbcShown& shown, size_t frame);
 
