@@ -17,10 +17,10 @@ namespace {
 constexpr uint8_t kAssumed = 1, kLoop = 2, kClosed = 4, kMassaged = 8, kTimes = 16,
                   kAttributeErrors = 32, kEvents = 64;
 
-/// Optional fields of the limits.
+/// Optional field of the limits.
 constexpr uint32_t kContinuedMeshes = 1;
 
-/// Those of the clips.
+/// Optional field of the clips.
 constexpr uint32_t kOrigin = 1;
 
 /// Flags of a segment in the limits.

@@ -158,7 +158,7 @@ void free(void* memory) noexcept {
   __libc_free(memory);
 }
 
-// What the heap maps for itself does not come here.
+// Only calls of the program come here: the heap maps its own by other names.
 void* mmap(void* address, size_t size, int protection, int flags, int file, off_t offset) noexcept {
   // NOLINTNEXTLINE(performance-no-int-to-ptr): so the system gives it
   void* const block = reinterpret_cast<void*>(::syscall(SYS_mmap, address, size, protection, flags, file, offset));

@@ -61,7 +61,7 @@ struct EncodeOptions {
   /// The mesh as it lies in a file that the clip goes to, with its attributes: those of the sequence are left
   /// alone. Null: it is laid out.
   std::shared_ptr<const MeshLayout> layout;
-  /// What the files of a live stream before this one have taught: its segment goes on there, and leaves what it learns
+  /// Learnt from the files of a live stream before this one: its segment goes on there, and leaves what it learns
   /// itself. Null: segments begin anew.
   KeptLearning* learning = nullptr;
   AttributeOptions attributes;

@@ -72,7 +72,7 @@ class MemoryShare {
   double bytes_ = 0;
 };
 
-/// What stages may still take whose size the target decides. Safe for threads.
+/// Bytes that stages may still take whose size the target decides. Safe for threads.
 class MemoryBudget {
  public:
   explicit MemoryBudget(double bytes) : left_(bytes) {}

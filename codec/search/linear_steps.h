@@ -28,7 +28,7 @@ const std::vector<LinearStep>& linear_steps();
 /// from 2 on.
 const std::vector<LinearStep>& opening_steps();
 
-/// What a step did to a choice, for `encode -v`: of "finer or yet coarser" one.
+/// The change that a step made to a choice, for `encode -v`: one of "finer or yet coarser".
 const char* meaning_of(const LinearStep& step, const LinearChoice& changed);
 
 /// What a search does beside the steps.

@@ -20,7 +20,7 @@ class PositionBox {
   /// The largest coordinate.
   double farthest() const;
 
-  /// What float32 takes from the largest coordinate, at most.
+  /// The most that float32 takes from the largest coordinate.
   double rounding() const;
 
   /// Float32 rounds by a share of the usual bound, 0.05% of the size, that can be felt: files of a limb of 500

@@ -70,7 +70,7 @@ struct OpenOptions {
   DecodingTrace* trace = nullptr;
   /// Meshes and poses from an earlier opening, and for the next one as far as memory allows. Null: none.
   KeptMeshes* kept = nullptr;
-  /// What segments of earlier files of a stream have learnt, and for that of this one. Null: segments continue those of
+  /// Receives what segments learn, and has that of earlier files of a stream. Null: segments continue those of
   /// the same file alone.
   KeptLearning* learning = nullptr;
   double progress_end = 1;  ///< share of the host's call that is done once the clip is open

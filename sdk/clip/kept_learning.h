@@ -10,8 +10,8 @@
 
 namespace anicodec {
 
-/// What the last segments of a live stream have learnt, by mesh, for the files that follow, whose segments continue them.
-/// Lives in the memory that was current when the object was made. What the file at hand continued stays, too, so that it
+/// Keeps what the last segments of a live stream have learnt, by mesh, for the files that follow, whose segments continue them.
+/// Lives in the memory that was current when the object was made. The segments that the file at hand continued stay, too, so that it
 /// can be opened again.
 class KeptLearning {
  public:
@@ -19,10 +19,10 @@ class KeptLearning {
 
   Memory* memory() const { return memory_; }
 
-  /// What the segment of this identity has learnt; null when it is not kept. Valid until keep().
+  /// Finds what the segment of this identity has learnt; null when it is not kept. Valid until keep().
   const LearntSegment* find(uint16_t mesh, uint64_t identity);
 
-  /// What the last segment of a mesh has learnt; null when there is none.
+  /// Returns what the last segment of a mesh has learnt; null when there is none.
   const LearntSegment* latest(uint16_t mesh) const;
 
   /// Takes what the last segments of a file have learnt, by mesh, made in memory().

@@ -59,7 +59,7 @@ uint64_t shared(const Limits::Mesh& m) {
   return uint64_t{36} * m.triangles + uint64_t{80} * m.coded_vertices + order(m);
 }
 
-/// What segments of a mesh learn, three times: of the file before, of the segment before, of the one at hand.
+/// Bytes of what segments of a mesh learn, three times: of the file before, of the segment before, of the one at hand.
 uint64_t learning(const Limits::Mesh& m) {
   constexpr uint64_t kOfVertex = 4 * learnt_floats(kMostLearningNeighbours) + 62;
   return 3 * (kOfVertex * m.coded_vertices + kModels);

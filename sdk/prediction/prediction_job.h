@@ -56,7 +56,7 @@ struct EncoderJob {
   size_t earlier_samples = 0;
 };
 
-/// What a vertex' predictions with m neighbours have learnt: prior, g, packed lower triangle of A.
+/// Floats of what a vertex' predictions with m neighbours have learnt: prior, g, packed lower triangle of A.
 constexpr size_t learnt_floats(size_t m) {
   return 2 * m + m * (m + 1) / 2;
 }

@@ -77,7 +77,7 @@ struct PredictionResiduals {
   const uint8_t* omega = nullptr;  ///< one byte per component
 };
 
-/// What vertices have learnt: learnt_floats() x ranks. It must outlive who uses it.
+/// Statistics that vertices have learnt: learnt_floats() x ranks. It must outlive who uses it.
 struct PredictionLearning {
   const Vector<float>* continued = nullptr;  ///< of the segment that this one continues, or null
   Vector<float>* learnt = nullptr;  ///< receives that of this one, if not null

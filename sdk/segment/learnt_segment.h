@@ -15,7 +15,7 @@ namespace anicodec {
 /// Most neighbours of a vertex in a segment that learns, so that what is kept stays small.
 inline constexpr uint8_t kMostLearningNeighbours = 16;
 
-/// What decoding the coefficients of a segment has taught, for the segment that continues it (spec/09a-segments.md,
+/// Statistics that decoding the coefficients of a segment has taught, for the segment that continues it (spec/09a-segments.md,
 /// section 9). Memory: 734 bytes a vertex at most, and 60 kB.
 struct LearntSegment {
   uint64_t identity = 0;  ///< segment_identity(); 0: nothing has been learnt

@@ -13,7 +13,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 TESTS = HERE.parent
-# Of SHA256SUMS: a change of the golden files would break the promise of spec/13, section 1.
+# SHA-256 of SHA256SUMS: a change of the golden files would break the promise of spec/13, section 1.
 FROZEN = "b547ff2c9c4180d2103d43e8de560f788aa6b9fb1811ca47e194afe7e37424fa"
 FREE = {"README.md", "check.py", "SHA256SUMS"}
 

@@ -12,7 +12,7 @@ Each entry of ERRORS (default: errors.txt here) names a file and changes one pie
 The decoder of the tests is built without the error, and must conform; then with each. An error is caught if
 tests/conformance/run.py finds a fault, or the build fails. --every N takes each Nth error, for a quick look. --fits only
 looks whether each entry fits. --tree plants them in a copy of another decoder that needs no compiler, its files named from FOLDER
-on; --command runs it, {tree} being the copy: --tree spec/reference --command 'python3 {tree}/anic.py {file} {out}'.
+on; --command runs it, {tree} being the copy: --tree spec/reference --command 'python3 {tree}/decode.py --stream {file} -o {out}'.
 Exit status 1 if fewer than --least per cent (default 95) are caught, or an entry fits no longer. Objects stay in --work.
 """
 import argparse

@@ -218,7 +218,7 @@ def gltf_animation(random, gltf, rate, name):
         node = document["nodes"][number]
         paths = ["translation", "rotation", "scale"]
         targets = 0
-        # Of a mesh that several nodes show, three.js moves the weights of the first; of one at a joint, none.
+        # three.js moves the weights of the first node alone if several show a mesh, and none of a mesh at a joint.
         if "mesh" in node and [other.get("mesh") for other in document["nodes"]].count(node["mesh"]) == 1 and \
                 not any(number in skin["joints"] for skin in document.get("skins", ())):
             targets = len(document["meshes"][node["mesh"]]["primitives"][0].get("targets", ()))

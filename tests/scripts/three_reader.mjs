@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Shows scenes of glTF to second_reader.py as three.js sees them: three_reader.mjs FOLDER_OF_NODE_MODULES
-// Of each line of the standard input, {file, animation, times}, it prints a line: for each time a list of triangles, [x, y, z] of three
+// For each line of the standard input, {file, animation, times}, it prints a line: for each time a list of triangles, [x, y, z] of three
 // corners in the world and whether their order has a meaning (of skins glTF says nothing).
 import { readFile } from 'node:fs/promises';
 import { createInterface } from 'node:readline';

@@ -5,8 +5,8 @@
 
 usage: update_conformance.py BUILD
   a folder that all has been built in, as build/dev
-What MANIFEST lists stays as it is: the format is frozen. Facts are what spec/reference shows of a file; of the optional
-profile, which it lacks, what the SDK does.
+Files that MANIFEST lists stay as they are: the format is frozen. Facts come from spec/reference, those of the optional profile,
+which it lacks, from the SDK.
 """
 import ctypes
 import hashlib
@@ -100,7 +100,7 @@ def parts_of_rule(name, data):
 
 
 class Library:
-    """Tells what the reference decoder makes of a file."""
+    """Tells what the library makes of a file."""
 
     class Failure(ctypes.Structure):
         """anic_failure"""

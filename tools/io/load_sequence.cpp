@@ -251,7 +251,7 @@ void note_rounding(const std::string& path, const LocalOrigin& origin, const Loa
         fmt::format("{}: float32 takes up to {:.2g} from the coordinates", path, origin.rounding));
 }
 
-/// What readers of meshes take from coordinates.
+/// The point that readers of meshes take from coordinates.
 LocalOrigin origin_of(const LoadOptions& options) {
   return {.at = options.origin.value_or(Point()), .measures = options.measures_rounding};
 }

@@ -38,7 +38,7 @@ struct LoadOptions {
   /// Taken from all positions before they are rounded to float32. Empty: where the mesh is far from zero, a point
   /// near it, for which it is loaded twice, else zero.
   std::optional<Point> origin = Point();
-  /// What float32 takes from the coordinates of meshes is noted, however little.
+  /// Notes what float32 takes from the coordinates of meshes, however little.
   bool measures_rounding = false;
   /// Corners of an STL at one place are one vertex, see StlWeld.
   bool weld_stl = true;

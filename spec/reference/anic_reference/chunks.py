@@ -238,9 +238,9 @@ class Chunks:                                           # The chunks of a file b
         self.all, self.found = file.chunks, {}
         for chunk in (chunk for chunk in file.chunks if chunk.type in TYPES):
             self.found.setdefault((chunk.type, chunk.mesh, chunk.segment), []).append(chunk)
-    # Of all chunks of a type, mesh and segment
+    # The payloads of all chunks of a type, mesh and segment
     payloads = lambda self, *key: [chunk.payload() for chunk in self.found.get((key + (None, None))[:3], [])]
-    def payload(self, *key):                            # Of a chunk that must be there
+    def payload(self, *key):                            # The one of a chunk that must be there
         check((key + (None, None))[:3] in self.found, "CHUNK_MISSING", key[0])
         return self.payloads(*key)[0]
     def check_places(self, limi, order):

@@ -20,7 +20,7 @@ class Chunk:  # An entry of the table with its payload, which is checked when it
         return self.stored
 
 def read_container(data, known_types, stream=False):
-    """Section 5: the chunks of the file that `data` begins with. Of a stream, others may follow."""
+    """Section 5: the chunks of the file that `data` begins with. In a stream, others may follow."""
     length = len(data)
     check(length and MAGIC.startswith(data[:8]), "MAGIC")
     check(length >= 40, "TRUNCATED")

@@ -69,7 +69,7 @@ class AlembicBake {
   std::vector<Attribute> moving_attributes(const AbcShown& shown, size_t frame) const;
   static bool has_moving_attributes(const AbcShown& shown);
 
-  /// Where the local origin is.
+  /// The local origin.
   const Eigen::Vector3d& origin() const { return origin_; }
 
   /// Positions of a mesh in a frame that shows it, vertices x 3.

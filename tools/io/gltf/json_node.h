@@ -22,8 +22,8 @@ class JsonReadings {
  public:
   void add(const nlohmann::json& member) { members_.insert(&member); }
 
-  /// Kinds of the other members, but for those within them: as "/nodes/extras", without numbers in arrays. Of
-  /// extensions each is one.
+  /// Kinds of the other members, but for those within them: as "/nodes/extras", without numbers in arrays. Each
+  /// extension is one.
   std::set<std::string> missing(const nlohmann::json& document) const;
 
  private:

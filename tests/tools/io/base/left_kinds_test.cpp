@@ -21,7 +21,7 @@ namespace {
 
 class LeftKindsOfFiles : public testing::Test {
  protected:
-  /// What is said of a file, the folder taken away.
+  /// The notes on a file, the folder taken away.
   std::string said(const std::string& name, const std::string& bytes) {
     std::string notes;
     LoadOptions options;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// What it keeps when the power goes is for tests/tools/power_loss.
+// The disk that is left when the power goes is for tests/tools/power_loss.
 #include "tools/io/files/synchronize.h"
 
 #include "tests/tools/io_testing.h"
