@@ -61,6 +61,15 @@ def difference(ours, theirs):
     return f"{'turned: ' if either.min(axis=1).max() <= TOLERANCE else ''}{worst:.3g} of {scale:.3g}"
 
 
+def differences(name, times, frames, theirs):
+    """What is said of the first frame of a clip that differs from a second reader's, if one does."""
+    for frame, (a, b) in enumerate(zip(frames, theirs)):
+        why = difference(a, np.array(list(b), float).reshape(-1, 10))
+        if why:
+            yield f"{name}, frame {frame} at {times[frame]:.4f} s: {why}"
+            return
+
+
 class Command:
     """The command under test."""
 
@@ -71,7 +80,7 @@ class Command:
         return subprocess.run([self.path, *map(str, arguments)], capture_output=True, text=True, check=False)
 
     def frames(self, file):
-        """Of a file: for each clip its name, the times of its frames and their triangles."""
+        """For each clip of a file its name, the times of its frames and their triangles."""
         told = json.loads(self.run("info", file, "--json").stdout)
         folder = self.folder / "decoded"
         shutil.rmtree(folder, ignore_errors=True)
@@ -87,7 +96,7 @@ class Command:
 
     @staticmethod
     def triangles(path):
-        """Of a frame, which has no file where it shows nothing; of polygons, as fans."""
+        """Those of a frame, which has no file if it shows nothing; polygons as fans."""
         lines = [line.split() for line in path.read_text().splitlines()] if path.exists() else []
         positions = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float).reshape(-1, 3)
         faces = [[int(word.split("/")[0]) - 1 for word in line[1:]] for line in lines if line[:1] == ["f"]]
@@ -309,12 +318,7 @@ class GltfFormat:
         for name, times, frames in command.frames(encoded):
             number = names.get(name, 0) if animations else None
             print(json.dumps({"file": str(file), "animation": number, "times": [t + AFTER for t in times]}), file=self.node.stdin, flush=True)
-            theirs = json.loads(self.node.stdout.readline())
-            for f, (a, b) in enumerate(zip(frames, theirs)):
-                why = difference(a, np.array(b, float).reshape(-1, 10))
-                if why:
-                    yield f"{name}, frame {f} at {times[f]:.4f} s: {why}"
-                    break
+            yield from differences(name, times, frames, json.loads(self.node.stdout.readline()))
 
 
 # ---- Alembic ---------------------------------------------------------------------------------------------------------
@@ -427,12 +431,7 @@ class AbcFormat:
                 yield done.stderr.strip()
             return
         for name, times, frames in command.frames(encoded):
-            for f, ours in enumerate(frames):
-                theirs = np.array(list(self.triangles(archive.getTop(), np.eye(4), times[f])), float).reshape(-1, 10)
-                why = difference(ours, theirs)
-                if why:
-                    yield f"{name}, frame {f} at {times[f]:.4f} s: {why}"
-                    break
+            yield from differences(name, times, frames, (self.triangles(archive.getTop(), np.eye(4), t) for t in times))
 
 
 # ---- FBX -------------------------------------------------------------------------------------------------------------
@@ -522,13 +521,9 @@ class FbxFormat:
         bpy.context.scene.render.fps, bpy.context.scene.render.fps_base = rate
         bpy.ops.import_scene.fbx(filepath=str(file), anim_offset=0)
         for name, times, frames in clips:
-            for f, ours in enumerate(frames):
+            for ours in frames:
                 ours[:, :9] *= unit
-                theirs = np.array(list(self.triangles(times[f])), float).reshape(-1, 10)
-                why = difference(ours, theirs)
-                if why:
-                    yield f"{name}, frame {f} at {times[f]:.4f} s: {why}"
-                    break
+            yield from differences(name, times, frames, map(self.triangles, times))
 
 
 # ---- USD -------------------------------------------------------------------------------------------------------------
@@ -639,12 +634,7 @@ class UsdFormat:
             return
         per_second = stage.GetTimeCodesPerSecond()
         for name, times, frames in command.frames(encoded):
-            for f, ours in enumerate(frames):
-                theirs = np.array(list(self.triangles(stage, round(times[f] * per_second, 6))), float).reshape(-1, 10)
-                why = difference(ours, theirs)
-                if why:
-                    yield f"{name}, frame {f} at {times[f]:.4f} s: {why}"
-                    break
+            yield from differences(name, times, frames, (self.triangles(stage, round(t * per_second, 6)) for t in times))
 
 
 # ---- OBJ -------------------------------------------------------------------------------------------------------------
@@ -674,6 +664,11 @@ class ObjFormat:
             lines.append("f " + " ".join(words) + ("  " if number % 3 == 0 else ""))
         return style["end"].join(lines) + style["end"]
 
+    def triangles(self, file):
+        """Those of a frame: nine coordinates, and 1 for an order that has a meaning."""
+        mesh = self.trimesh.load(file, process=False, force="mesh", skip_materials=True)
+        return np.hstack([np.array(mesh.triangles).reshape(-1, 9), np.ones((len(mesh.faces), 1))])
+
     def faults(self, random, path, command):
         count, frames = int(random.integers(4, 12)), int(random.integers(1, 6))
         faces = [random.permutation(count)[:random.choice([3, 3, 4])].tolist() for _ in range(random.integers(1, 9))]
@@ -689,14 +684,8 @@ class ObjFormat:
         if done.returncode:
             yield done.stderr.strip()
             return
-        for name, _, ours in command.frames(encoded):
-            for f, (file, mine) in enumerate(zip(files, ours)):
-                mesh = self.trimesh.load(file, process=False, force="mesh", skip_materials=True)
-                theirs = np.hstack([np.array(mesh.triangles).reshape(-1, 9), np.ones((len(mesh.faces), 1))])
-                why = difference(mine, theirs)
-                if why:
-                    yield f"{name}, frame {f}: {why}"
-                    break
+        for name, times, frames in command.frames(encoded):
+            yield from differences(name, times, frames, map(self.triangles, files))
 
 
 FORMATS = {"gltf": GltfFormat, "abc": AbcFormat, "fbx": FbxFormat, "usd": UsdFormat, "obj": ObjFormat}
