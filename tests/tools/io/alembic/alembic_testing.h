@@ -65,6 +65,19 @@ inline std::string archive_of_scene(const Scene& scene, bool normals = false) {
   return bytes;
 }
 
+/// An archive with the samplings of another one, and what `write` puts into it.
+inline std::string rewritten(const std::string& archive,
+                             const std::function<void(const AbcArchive& from, AbcArchiveOutput& to)>& write) {
+  const AbcArchive from(memory_source(archive, "plain.abc"));
+  std::string bytes;
+  AbcArchiveOutput to(sink_to(bytes), from.metadata);
+  for (const AbcTime& sampling : from.samplings)
+    to.shared().sampling(sampling);
+  write(from, to);
+  to.finish();
+  return bytes;
+}
+
 /// A clip as a scene of one mesh.
 inline Scene scene_of(MeshSequence clip) {
   Scene scene;
