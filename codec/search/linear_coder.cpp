@@ -137,7 +137,15 @@ std::shared_ptr<const EncodedPose> LinearCoder::coded_pose(MadeBasis& made,
   return made.pose->at_step(pose_step(settings, analysis_.clip().frame_count));
 }
 
+void LinearCoder::reserve(uint32_t regions) {
+  Regions& cut = regions_[regions];
+  if (!cut.memory)
+    cut.memory = input_.take_memory(analysis_.clip().frame_count, "the motion of regions of the surface",
+                                    [&](const EncodingMemory& m) { return m.regions(regions); });
+}
+
 const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
+  reserve(regions);
   Regions& cut = regions_[regions];
   if (cut.of_vertex.empty()) {
     const Vector<uint32_t>& triangles = input_.layout.topology.triangles;
@@ -147,12 +155,9 @@ const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
       throw Error(ErrorKind::kInternal, "the edges of the mesh cannot be found");
     cut.of_vertex = find_regions(analysis_.clip(), graph, regions);
   }
-  if (!cut.analysis) {
-    cut.memory = input_.take_memory(analysis_.clip().frame_count, "the motion of regions of the surface",
-                                    [&](const EncodingMemory& m) { return m.regions(regions); });
+  if (!cut.analysis)
     cut.analysis = std::make_unique<RegionAnalysis>(
         std::make_shared<const RegionClips>(analysis_.clip(), cut.of_vertex, regions));
-  }
   return *cut.analysis;
 }
 
@@ -321,7 +326,7 @@ double LinearCoder::expected_bytes(const LinearChoice& choice) {
          kOfCoefficient * coefficients * probed_.coefficients;
 }
 
-/// Cuts the surface where the clip takes many components and that is smaller.
+/// Cuts the surface where the clip takes many components, memory allows it, and that is smaller.
 void LinearCoder::try_regions(double rmse) {
   if (tried_regions_ || most_components(choice_.settings) < kRichComponents)
     return;
@@ -330,18 +335,24 @@ void LinearCoder::try_regions(double rmse) {
   std::vector<LinearChoice> cuts;
   std::vector<uint32_t> counts;
   for (uint32_t regions : {2U, 4U, 8U}) {
-    if (analysis_.clip().vertex_count >= size_t{regions} * kFewestVertices) {
+    if (analysis_.clip().vertex_count < size_t{regions} * kFewestVertices)
+      continue;
+    try {
+      reserve(regions);
       counts.push_back(regions);
-      regions_[regions];  // its place
+    } catch (const OverMemory&) {  // fewer regions may do, and one does
     }
   }
   parallel_tasks(counts.size(), [&](size_t i) { analysis_of(counts[i]); });
   for (const uint32_t regions : counts) {
     LinearChoice cut = choice_;
     cut.regions = regions;
-    cut = started(cut, rmse);
-    if (expected_bytes(cut) < kWorthTrying * whole)
-      cuts.push_back(std::move(cut));
+    try {
+      cut = started(cut, rmse);
+      if (expected_bytes(cut) < kWorthTrying * whole)
+        cuts.push_back(std::move(cut));
+    } catch (const OverMemory&) {  // of its bases
+    }
   }
   if (cuts.empty())
     return;

@@ -89,7 +89,7 @@ class LinearCoder : public SegmentCoder {
   /// A cut of the surface, and the analysis of this clip by it.
   struct Regions {
     Vector<uint8_t> of_vertex;
-    MemoryShare memory;
+    std::optional<MemoryShare> memory;
     std::unique_ptr<RegionAnalysis> analysis;  ///< made when needed
   };
 
@@ -113,6 +113,8 @@ class LinearCoder : public SegmentCoder {
 
   MadeBasis& made_basis(const LinearChoice& choice, size_t wanted);
   std::shared_ptr<const EncodedPose> coded_pose(MadeBasis& made, const LinearSettings& settings);
+  /// Takes the memory that so many regions need. Throws OverMemory.
+  void reserve(uint32_t regions);
   const RegionAnalysis& analysis_of(uint32_t regions);
   void try_regions(double rmse);
   double expected_bytes(const LinearChoice& choice);

@@ -74,6 +74,19 @@ TEST(EncoderMemory, OfManyComponents) {
   expect_within(corpus::make_scaled("noisy", 300, 60), options_of(2, 0.05));
 }
 
+TEST(EncoderMemory, RegionsAreNotTriedWhereItIsShort) {
+  const MeshSequence sequence = corpus::make_wave_grid(1700, 60, 40);
+  EncodeOptions options = options_of(2, 0.01);
+  options.basis = BasisChoice::kEigentrajectories;
+  const EncodingMemory memory = EncodingMemory::of(sequence, options);
+  constexpr double kFirstComponents = 48;
+  const double bases = 2 * memory.basis(BasisKind::kEigentrajectories, kFirstComponents, options.effort);
+  const double most = memory.kept(options) + memory.thread(options) + bases;
+  const std::optional<double> peak = held(sequence, options, most);
+  ASSERT_TRUE(peak);
+  EXPECT_LE(*peak, most);
+}
+
 TEST(EncoderMemory, OfKeyframesAndOfExactPositions) {
   EncodeOptions options = options_of(2);
   options.basis = BasisChoice::kKeyframes;
