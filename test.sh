@@ -37,7 +37,7 @@ install_web_packages() {
   # With the clang that emscripten needs.
   install_optional libclang-rt-14-dev || say "No sanitizers of clang: GCC compiles the sanitized readers"
   local folder
-  for folder in sdk/web tests/web tests/web/babylon tests/web/vite; do
+  for folder in bindings/web tests/web tests/web/babylon tests/web/vite; do
     [[ -d $folder/node_modules ]] || timeout 120 npm ci --prefix "$folder" --no-audit --no-fund ||
       say "$folder lacks packages of npm: its tests are skipped"
   done
@@ -53,7 +53,7 @@ if [[ -f build/web_packages.log ]]; then
   cat build/web_packages.log
   rm build/web_packages.log
 fi
-if command -v emcc >/dev/null && [[ -d sdk/web/node_modules/zstd-napi ]]; then
+if command -v emcc >/dev/null && [[ -d bindings/web/node_modules/zstd-napi ]]; then
   build wasm
   build wasm-scalar
 fi

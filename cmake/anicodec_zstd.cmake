@@ -3,7 +3,7 @@
 #
 # anicodec_zstd: zstd's decompressor from its source, for machines without a library of it. xxHash is a header in there.
 if(NOT EXISTS "${ANICODEC_ZSTD_SOURCE}/zstd.h")
-  message(FATAL_ERROR "ANICODEC_ZSTD_SOURCE: there is no zstd.h in ${ANICODEC_ZSTD_SOURCE}; preset wasm wants `npm ci` in sdk/web")
+  message(FATAL_ERROR "ANICODEC_ZSTD_SOURCE: there is no zstd.h in ${ANICODEC_ZSTD_SOURCE}; preset wasm wants `npm ci` in bindings/web")
 endif()
 set(sources common/debug common/entropy_common common/error_private common/fse_decompress common/xxhash common/zstd_common
   decompress/huf_decompress decompress/zstd_ddict decompress/zstd_decompress decompress/zstd_decompress_block)

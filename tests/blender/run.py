@@ -43,7 +43,7 @@ def main():
     files = work / "files"
     shutil.rmtree(files, ignore_errors=True)
     files.mkdir(parents=True)
-    arguments = [work / "site", checkout / "tools" / "blender", files]
+    arguments = [work / "site", checkout / "bindings" / "blender", files]
     command = [python, script, *arguments] if python else \
         [blender, "-b", "--factory-startup", "--python-exit-code", "1", "-P", script, "--", *arguments]
     environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}

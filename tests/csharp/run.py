@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Packs sdk/csharp with a library, and tests what is in the packages under Mono, and under .NET where there is one.
+"""Packs bindings/csharp with a library, and tests what is in the packages under Mono, and under .NET where there is one.
 
 usage: run.py CHECKOUT LIBRARY WORK C_COMPILER      exit status 77: skipped, for the reason printed
 """
@@ -143,7 +143,7 @@ def main():
         sys.exit(SKIPPED)
     shutil.rmtree(work, ignore_errors=True)
     (work / "program").mkdir(parents=True)
-    tests, sdk, files = checkout / "tests" / "csharp", checkout / "sdk" / "csharp", checkout / "tests" / "conformance"
+    tests, sdk, files = checkout / "tests" / "csharp", checkout / "bindings" / "csharp", checkout / "tests" / "conformance"
     rid = f"linux-{CPU.get(platform.machine(), platform.machine())}"
     run(sys.executable, sdk / "pack.py", work / "packages", f"{rid}={library}")
     check_unity_package(work / "packages")
@@ -182,7 +182,7 @@ def run_with_dotnet(tests, assembly, program, work, files, environment):
   </PropertyGroup>
   <ItemGroup>
     <Compile Include="{tests}/check.cs;{tests}/package_test.cs" />
-    <Compile Include="{tests.parent.parent}/sdk/csharp/Runtime/*.cs" />
+    <Compile Include="{tests.parent.parent}/bindings/csharp/Runtime/*.cs" />
   </ItemGroup>
 </Project>
 """, encoding="utf-8")

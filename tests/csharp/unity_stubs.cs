@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// The part of Unity's interface that sdk/csharp uses, by its documentation, with just enough behind it that tests see what an
+// The part of Unity's interface that bindings/csharp uses, by its documentation, with just enough behind it that tests see what an
 // importer and a player do. Not Unity: what a real editor does with the package is not tested here.
 using System;
 using System.Collections.Generic;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// The Unity part of sdk/csharp against stubs: importer, player, Timeline mixer.
+// The Unity part of bindings/csharp against stubs: importer, player, Timeline mixer.
 using System;
 using System.IO;
 using System.Reflection;

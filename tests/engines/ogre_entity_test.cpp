@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "sdk/engines/ogre/ogre_entity.h"
+#include "bindings/engines/ogre/ogre_entity.h"
 
 #include "build_paths.h"
-#include "sdk/engines/ogre/ogre_plugin.h"
+#include "bindings/engines/ogre/ogre_plugin.h"
 
 #include <memory>
 #include <string>

@@ -37,7 +37,7 @@ def sources():
     for module in ("format", "sdk"):
         for path in sorted((ROOT / module).rglob("*.cpp")):
             name = path.relative_to(ROOT).as_posix()
-            if not (name.startswith(("sdk/api/", "sdk/engines/", "sdk/examples/", "sdk/package/", "sdk/python/", "sdk/web/")) or
+            if not (name.startswith(("sdk/api/", "sdk/examples/", "sdk/package/")) or
                     name.endswith(("_absent.cpp", "_avx2.cpp", "_avx512.cpp", "_avx512vl.cpp"))):
                 found.append(name)
     return found

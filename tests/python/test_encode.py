@@ -243,7 +243,7 @@ def test_limits_and_types():
 
 
 def test_the_page_runs(tmp_path):
-    page = pathlib.Path(__file__).parents[2] / "sdk" / "python" / "README.md"
+    page = pathlib.Path(__file__).parents[2] / "bindings" / "python" / "README.md"
     script = "".join(part.partition("```")[0] for part in page.read_text(encoding="utf-8").split("```python\n")[1:])
     result = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True)
     assert result.returncode == 0 and result.stderr == "", result.stderr

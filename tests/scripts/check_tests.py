@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-MODULES = ("format", "sdk", "codec", "corpus", "tools")
+MODULES = ("format", "sdk", "codec", "corpus", "tools", "bindings")
 # A unit, or a folder of units: the tests that run it, and the reason that they stand elsewhere.
 THROUGH = {
     "format/attribute_record": ("tests/api/attribute_values_test.cpp", "a record is read where a file is opened"),
@@ -58,7 +58,7 @@ THROUGH = {
 SUITE = re.compile(r"^TEST(?:_F|_P)?\(\s*(\w+),", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 # Programs and libraries that are tested as a whole.
-WHOLE = ("sdk/python/", "sdk/engines/", "sdk/examples/", "codec/examples/")
+WHOLE = ("bindings/python/", "bindings/engines/", "sdk/examples/", "codec/examples/")
 
 
 def units_without_a_suite(checkout):

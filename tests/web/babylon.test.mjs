@@ -5,15 +5,15 @@
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { Anicodec } from '../../sdk/web/index.js';
+import { Anicodec } from '../../bindings/web/index.js';
 import { bytesOf, movingGlb, sceneWithMovingTexture } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
 const PACKAGES = '/tests/web/babylon/node_modules';
 // The package for scripts, which is one file, stands in for the one of modules, which are thousands.
-const imports = { anicodec: '/sdk/web/index.js', 'anicodec/babylon': '/sdk/web/babylon.js' };
+const imports = { anicodec: '/bindings/web/index.js', 'anicodec/babylon': '/bindings/web/babylon.js' };
 for (const file of ['babylon.js', 'babylon_surface.js', 'babylon_instances.js']) {
-  const text = readFileSync(new URL(`../../sdk/web/${file}`, import.meta.url), 'utf8');
+  const text = readFileSync(new URL(`../../bindings/web/${file}`, import.meta.url), 'utf8');
   for (const [, names, module] of text.matchAll(/^import (?:\{ (.*) \} from )?'(@babylonjs\/.*)';$/gm)) {
     const exported = (names ?? '').split(', ').filter(Boolean).map((name) => `export const ${name} = BABYLON.${name};`);
     imports[module] = `${imports[module] ?? 'data:text/javascript,'}${exported.filter((one) => !imports[module]?.includes(one)).join('')}`;

@@ -5,19 +5,19 @@
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { Anicodec } from '../../sdk/web/index.js';
+import { Anicodec } from '../../bindings/web/index.js';
 import { bytesOf, clipWithLooks, files, movingGlb, sceneWithMovingTexture } from './files.mjs';
 import { CHROMIUM, launch, serve, withPage } from './serve.mjs';
 
 const IMPORTS = JSON.stringify({ imports: {
-  anicodec: '/sdk/web/index.js', 'anicodec/three': '/sdk/web/three.js',
+  anicodec: '/bindings/web/index.js', 'anicodec/three': '/bindings/web/three.js',
   three: '/tests/web/node_modules/three/build/three.module.js', 'three/webgpu': '/tests/web/node_modules/three/build/three.webgpu.js',
   'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js', 'three/addons/': '/tests/web/node_modules/three/examples/jsm/',
 } });
 const PAGE = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${IMPORTS}</script><body style="margin:0"></body>`;
 const looks = clipWithLooks(), texture = sceneWithMovingTexture();
 const skip = CHROMIUM ? false : 'there is no Chromium';
-const VIEWER = new URL('../../sdk/web/dist/viewer.html', import.meta.url);
+const VIEWER = new URL('../../bindings/web/dist/viewer.html', import.meta.url);
 let server, browser;
 before(async () => {
   browser = skip ? undefined : await launch();

@@ -27,12 +27,12 @@ test('the packed package is built by Vite and plays', { skip }, async () => {
   try {
     mkdirSync(join(folder, 'node_modules'));
     mkdirSync(join(folder, 'public'));
-    const [tarball] = JSON.parse(execFileSync('npm', ['pack', '--json', '--pack-destination', folder], { cwd: here('../../sdk/web'), encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
+    const [tarball] = JSON.parse(execFileSync('npm', ['pack', '--json', '--pack-destination', folder], { cwd: here('../../bindings/web'), encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
     execFileSync('tar', ['xf', join(folder, tarball.filename), '-C', folder]);
     renameSync(join(folder, 'package'), join(folder, 'node_modules/anicodec'));
     symlinkSync(here('node_modules/three'), join(folder, 'node_modules/three'));
     writeFileSync(join(folder, 'public/dancer.anic'), bytesOf('limb_small.anic'));
-    const lines = readFileSync(here('../../sdk/web/README.md'), 'utf8').match(/```js\n(import \{ AnicLoader \}[^`]*)```/)[1];
+    const lines = readFileSync(here('../../bindings/web/README.md'), 'utf8').match(/```js\n(import \{ AnicLoader \}[^`]*)```/)[1];
     writeFileSync(join(folder, 'main.js'), `${lines.match(/^import.*$/m)[0]}\n${SETUP}${lines.replace(/^import.*$/m, '')}\nglobalThis.dancer = dancer;\n`);
     writeFileSync(join(folder, 'index.html'), '<!doctype html><link rel="icon" href="data:,"><script type="module" src="/main.js"></script>');
     const { build } = await import(VITE);

@@ -9,7 +9,7 @@ import { createServer } from 'node:http';
 import { extname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync, constants } from 'node:zlib';
-import { Anicodec } from '../../sdk/web/index.js';
+import { Anicodec } from '../../bindings/web/index.js';
 import { withPage } from './serve.mjs';
 
 const [anic, glb, runs = 5] = process.argv.slice(2), root = fileURLToPath(new URL('../../', import.meta.url));
@@ -23,7 +23,7 @@ for (let f = 0; f < frames; ++f) {
   });
 }
 const three = '/tests/web/node_modules/three/', imports = { three: `${three}build/three.module.js`, 'three/addons/': `${three}examples/jsm/`,
-  anicodec: '/sdk/web/index.js', 'anicodec/three': '/sdk/web/three.js' };
+  anicodec: '/bindings/web/index.js', 'anicodec/three': '/bindings/web/three.js' };
 const page = `<!doctype html><link rel=icon href="data:,"><script type=importmap>${JSON.stringify({ imports })}</script><body></body>`;
 const FILES = { '/page': page, '/clip.anic': bytes, '/clip.glb': readFileSync(glb), '/clip.vat': Buffer.from(texture.buffer), '/faces': Buffer.from(mesh.indices.buffer) };
 const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.anic': 'application/octet-stream', '': 'text/html' };
@@ -90,7 +90,7 @@ async function show({ way, box, vertices, frames: count }) {
 
 const sum = (...paths) => paths.reduce((all, path) => all + pack(path).length, 0);
 const ways = {
-  anic: ['anicodec', sum('/clip.anic'), sum('/sdk/web/dist/anicodec.wasm')],
+  anic: ['anicodec', sum('/clip.anic'), sum('/bindings/web/dist/anicodec.wasm')],
   morph: ['morph targets, gltfpack -cc', sum('/clip.glb'), sum(`${three}examples/jsm/libs/meshopt_decoder.module.js`)],
   vat: ['texture of 16 bits', sum('/clip.vat', '/faces'), 0],
 };

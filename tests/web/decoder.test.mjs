@@ -6,10 +6,10 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { brotliCompressSync } from 'node:zlib';
-import { Anicodec, AnicError, provideModule, readBounds, readMetadata } from '../../sdk/web/index.js';
+import { Anicodec, AnicError, provideModule, readBounds, readMetadata } from '../../bindings/web/index.js';
 import { bytesOf, clipWithLooks, factsOf, files } from './files.mjs';
 
-const dist = new URL('../../sdk/web/dist/', import.meta.url);
+const dist = new URL('../../bindings/web/dist/', import.meta.url);
 const moduleOf = (name) => WebAssembly.compile(readFileSync(new URL(name, dist)));
 const KINDS = { small: 'anicodec.wasm', full: 'anicodec-full.wasm', scalar: 'anicodec-scalar.wasm' };
 /** Files whose key-frames Draco coded: the package has no Draco. */

@@ -7,8 +7,8 @@ import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 const need = {
-  '../../sdk/web/dist/anicodec-full.wasm': 'preset wasm builds the modules',
-  '../../sdk/web/dist/anicodec-scalar.wasm': 'preset wasm-scalar builds the module without SIMD',
+  '../../bindings/web/dist/anicodec-full.wasm': 'preset wasm builds the modules',
+  '../../bindings/web/dist/anicodec-scalar.wasm': 'preset wasm-scalar builds the module without SIMD',
   'node_modules/playwright-core': 'npm ci --prefix tests/web installs what they need',
 };
 for (const [path, how] of Object.entries(need)) {

@@ -4,7 +4,7 @@
 // node speed.mjs CLIP.anic [RUNS]: opening and playing in Node: processor time of the first opening, which compiles, the best of
 // the others, and the best time for a frame at its positions. To be compared with `anicodec_bench decode` of the same minute.
 import { readFileSync } from 'node:fs';
-import { Anicodec } from '../../sdk/web/index.js';
+import { Anicodec } from '../../bindings/web/index.js';
 
 const [file, runs = 30] = process.argv.slice(2), bytes = new Uint8Array(readFileSync(file)), times = { open: [], play: [] };
 const processor = () => { const { user, system } = process.cpuUsage(); return (user + system) / 1000; };

@@ -8,7 +8,7 @@ import { files } from './files.mjs';
 import { CHROMIUM, serve, withPage } from './serve.mjs';
 
 const IMPORTS = JSON.stringify({ imports: {
-  anicodec: '/sdk/web/index.js', 'anicodec/three': '/sdk/web/three.js', 'anicodec/three/webgpu': '/sdk/web/three_webgpu.js',
+  anicodec: '/bindings/web/index.js', 'anicodec/three': '/bindings/web/three.js', 'anicodec/three/webgpu': '/bindings/web/three_webgpu.js',
   three: '/tests/web/node_modules/three/build/three.module.js', 'three/webgpu': '/tests/web/node_modules/three/build/three.webgpu.js',
   'three/tsl': '/tests/web/node_modules/three/build/three.tsl.js',
 } });

@@ -36,7 +36,7 @@ std::string load_viewer() {
   if (std::string page = find_viewer(); !page.empty())
     return page;
   throw Error(ErrorKind::kUnsupported,
-              "this build has no viewer for .html: build the preset wasm (sdk/web/README.md)");
+              "this build has no viewer for .html: build the preset wasm (bindings/web/README.md)");
 }
 
 std::string viewer_page(std::string_view viewer, std::span<const PageClip> clips) {

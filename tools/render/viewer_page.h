@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Clips inside the viewer of sdk/web/viewer: one page to send.
+// Clips inside the viewer of bindings/web/viewer: one page to send.
 #ifndef ANICODEC_TOOLS_RENDER_VIEWER_PAGE_H_
 #define ANICODEC_TOOLS_RENDER_VIEWER_PAGE_H_
 

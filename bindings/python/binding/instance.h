@@ -3,7 +3,7 @@
 #ifndef ANICODEC_SDK_PYTHON_BINDING_INSTANCE_H_
 #define ANICODEC_SDK_PYTHON_BINDING_INSTANCE_H_
 
-#include "sdk/python/binding/binding.h"
+#include "bindings/python/binding/binding.h"
 
 #include <memory>
 

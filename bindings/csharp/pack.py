@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""Makes the NuGet package and the Unity package of sdk/csharp from native libraries.
+"""Makes the NuGet package and the Unity package of bindings/csharp from native libraries.
 
 usage: pack.py OUT PLATFORM=LIBRARY...      writes OUT/Anicodec.VERSION.nupkg and OUT/org.anicodec.unity-VERSION.tgz
 

@@ -5,7 +5,7 @@
 #include "codec/massage/massage.h"
 #include "codec/metrics/hausdorff.h"
 #include "codec/metrics/metrics.h"
-#include "sdk/python/binding/binding.h"
+#include "bindings/python/binding/binding.h"
 
 #include <cstddef>
 #include <memory>

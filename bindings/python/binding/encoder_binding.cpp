@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The encoder, over its C interface.
-#include "sdk/python/binding/binding.h"
+#include "bindings/python/binding/binding.h"
 
 #include <anicodec/encode.h>
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Instances of clips, and the vertices that graphics cards need: for engines.
-#include "sdk/python/binding/instance.h"
+#include "bindings/python/binding/instance.h"
 
 namespace anicodec::python {
 namespace {

@@ -3,8 +3,8 @@
 //
 // The extension module, and its exceptions.
 #include "codec/sequence/error.h"
-#include "sdk/python/binding/binding.h"
-#include "sdk/python/binding/instance.h"
+#include "bindings/python/binding/binding.h"
+#include "bindings/python/binding/instance.h"
 
 #include <anicodec/encode.h>
 

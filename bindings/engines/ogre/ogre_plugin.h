@@ -3,7 +3,7 @@
 #ifndef ANICODEC_SDK_ENGINES_OGRE_OGRE_PLUGIN_H_
 #define ANICODEC_SDK_ENGINES_OGRE_OGRE_PLUGIN_H_
 
-#include "sdk/engines/ogre/ogre_entity.h"
+#include "bindings/engines/ogre/ogre_entity.h"
 
 #include <memory>
 

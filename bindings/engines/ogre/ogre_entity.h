@@ -3,7 +3,7 @@
 #ifndef ANICODEC_SDK_ENGINES_OGRE_OGRE_ENTITY_H_
 #define ANICODEC_SDK_ENGINES_OGRE_OGRE_ENTITY_H_
 
-#include "sdk/engines/ogre/ogre_clip.h"
+#include "bindings/engines/ogre/ogre_clip.h"
 
 #include <cstdint>
 #include <memory>

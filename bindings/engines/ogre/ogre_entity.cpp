@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "sdk/engines/ogre/ogre_entity.h"
+#include "bindings/engines/ogre/ogre_entity.h"
 
-#include "sdk/engines/ogre/ogre_shader.h"
+#include "bindings/engines/ogre/ogre_shader.h"
 
 #include <algorithm>
 #include <cstring>

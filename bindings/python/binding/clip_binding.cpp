@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // Opened clips.
-#include "sdk/python/binding/binding.h"
-#include "sdk/python/binding/instance.h"
+#include "bindings/python/binding/binding.h"
+#include "bindings/python/binding/instance.h"
 
 #include <algorithm>
 #include <memory>

@@ -5,7 +5,7 @@
 //
 //   ogre_scene [--card] [--motion] [--frames N] [--picture FILE.ppm] CLIP.anic...
 //   ogre_scene --plugin Plugin_Anicodec.so CLIP.anic
-#include "sdk/engines/ogre/ogre_plugin.h"
+#include "bindings/engines/ogre/ogre_plugin.h"
 
 #include <chrono>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The command line, which shares encoder and decoder with the rest of the module.
-#include "sdk/python/binding/binding.h"
+#include "bindings/python/binding/binding.h"
 #include "tools/commands/command_line.h"
 
 namespace anicodec::python {

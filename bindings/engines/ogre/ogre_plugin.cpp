@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-#include "sdk/engines/ogre/ogre_plugin.h"
+#include "bindings/engines/ogre/ogre_plugin.h"
 
 #include <Ogre.h>
 
