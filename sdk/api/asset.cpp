@@ -4,6 +4,7 @@
 // The C interface: what an asset says of itself.
 #include "sdk/api/objects.h"
 #include "sdk/clip/clock.h"
+#include "sdk/mesh/polygon_cutter.h"
 
 #include <algorithm>
 #include <cstring>
@@ -11,16 +12,28 @@
 namespace anicodec {
 namespace {
 
+/// Positions of the first frame that shows a mesh; none of a mesh of triangles, or of one that no frame shows.
+Vector<float> cutting_pose(const Clip& clip, uint32_t mesh) {
+  Vector<float> pose;
+  const Track& track = clip.tracks()[mesh];
+  if (track.begin == track.end || !has_larger_polygons(clip.meshes()[mesh].topology))
+    return pose;
+  pose.resize(size_t{3} * clip.vertex_count(mesh));
+  clip.positions(mesh, clip.segments()[clip.by_frame()[track.begin]].first_frame, pose.data());
+  return pose;
+}
+
 template <class Indices>
-void write_triangles(const Topology& t, Indices* out) {
+void write_triangles(const Topology& t, const Vector<float>& pose, Indices* out) {
+  PolygonCutter cutter(pose.empty() ? nullptr : pose.data(), t.polygon_corners.size());
+  Vector<uint32_t> triangles;
   for (size_t p = 0; p + 1 < t.polygon_offsets.size(); ++p) {
     const uint32_t* corner = t.polygon_corners.data() + t.polygon_offsets[p];
-    const uint32_t count = t.polygon_offsets[p + 1] - t.polygon_offsets[p];
-    for (uint32_t i = 2; i < count; ++i) {
-      for (uint32_t v : {corner[0], corner[i - 1], corner[i]}) {
-        const auto index = static_cast<Indices>(v);
-        std::memcpy(out++, &index, sizeof index);
-      }
+    triangles.clear();
+    cutter.cut(corner, t.polygon_offsets[p + 1] - t.polygon_offsets[p], &triangles);
+    for (const uint32_t c : triangles) {
+      const auto index = static_cast<Indices>(corner[c]);
+      std::memcpy(out++, &index, sizeof index);
     }
   }
 }
@@ -123,7 +136,7 @@ uint32_t anic_get_event_count(const anic_asset* asset, uint32_t clip) {
 }
 
 anic_status anic_get_event(const anic_asset* asset, uint32_t clip, uint32_t event,
-                            anic_event* out) {
+                           anic_event* out) {
   if (event >= anic_get_event_count(asset, clip) || !is_sized(out))
     return ANIC_E_ARGUMENT;
   const ClipEvent& of_file = asset->clip.clips()[clip].events[event];
@@ -233,11 +246,18 @@ anic_status anic_write_indices(const anic_asset* asset, uint32_t mesh, uint32_t 
     return ANIC_E_ARGUMENT;
   if (size < needed)
     return ANIC_E_BUFFER_SIZE;
-  if (index_bytes == 2)
-    write_triangles(m->topology, static_cast<uint16_t*>(out));
-  else
-    write_triangles(m->topology, static_cast<uint32_t*>(out));
-  return ANIC_OK;
+  auto write = [&]() -> Failure {
+    Memory memory = memory_of_object(asset);
+    memory.held = memory.peak = 0;
+    const MemoryScope scope(&memory);
+    const Vector<float> pose = cutting_pose(asset->clip, mesh);
+    if (index_bytes == 2)
+      write_triangles(m->topology, pose, static_cast<uint16_t*>(out));
+    else
+      write_triangles(m->topology, pose, static_cast<uint32_t*>(out));
+    return {};
+  };
+  return c_status(guarded(write).status);
 }
 
 anic_status anic_get_coded_vertices(const anic_asset* asset, uint32_t mesh, const uint32_t** out) {

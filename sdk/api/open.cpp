@@ -39,7 +39,7 @@ uint64_t block_bytes(uint64_t opening) {
   return opening + std::min(slack, UINT64_MAX - opening);
 }
 
-/// Triangles of fans.
+/// Triangles of polygons.
 uint32_t triangle_count(const Topology& t) {
   uint64_t count = 0;
   for (size_t p = 0; p + 1 < t.polygon_offsets.size(); ++p) {

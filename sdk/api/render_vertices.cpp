@@ -25,10 +25,9 @@ constexpr size_t kLargestPosition = 16;
 
 /// Labels of the polygons' materials; null: there are none.
 const uint32_t* material_labels(const Mesh& mesh) {
-  const auto found =
-      std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [](const MeshAttribute& a) {
-        return a.header.kind == AttributeKind::kMaterial;
-      });
+  const auto found = std::find_if(
+      mesh.attributes.begin(), mesh.attributes.end(),
+      [](const MeshAttribute& a) { return a.header.kind == AttributeKind::kMaterial; });
   return found == mesh.attributes.end() ? nullptr : found->labels.data();
 }
 
@@ -99,8 +98,14 @@ anic_status anic_create_render_plan(const anic_asset* asset, uint32_t mesh,
       made->mesh = mesh;
       made->vertices = asset->clip.vertex_count(mesh);
       made->corners = static_cast<uint32_t>(of.topology.polygon_corners.size());
-      made->plan = plan_rendering(of.topology, plan_normals(asset->clip, mesh, normals),
-                                  corner_values(of), material_labels(of));
+      Vector<float> pose;  // triangles need none
+      if (has_larger_polygons(of.topology)) {
+        pose.resize(size_t{3} * made->vertices);
+        asset->clip.positions(mesh, wanted.reference_frame, pose.data());
+      }
+      made->plan =
+          plan_rendering(of.topology, plan_normals(asset->clip, mesh, normals), corner_values(of),
+                         material_labels(of), pose.empty() ? nullptr : pose.data());
     } catch (...) {
       destroy(made);
       throw;

@@ -38,6 +38,14 @@ Status decode_face_map(ByteView bytes, const Topology& topology, Vector<uint32_t
   return decoder.finish() ? Status::kOk : Status::kEntropy;
 }
 
+bool has_larger_polygons(const Topology& topology) {
+  for (size_t p = 0; p + 1 < topology.polygon_offsets.size(); ++p) {
+    if (topology.polygon_offsets[p + 1] - topology.polygon_offsets[p] > 3)
+      return true;
+  }
+  return false;
+}
+
 void apply_vertex_map(const Vector<uint32_t>& source, Topology* topology) {
   Vector<uint32_t> coded(topology->vertex_coded.size());
   for (size_t i = 0; i < source.size(); ++i)

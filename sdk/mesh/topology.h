@@ -26,6 +26,9 @@ struct Topology {
   Vector<uint32_t> polygon_corners;    ///< vertex of each corner
 };
 
+/// Whether a polygon has more than three corners. O(polygons).
+bool has_larger_polygons(const Topology& topology);
+
 /// Decodes the polygons of a mesh record, in canonical order. Cost: O(corners + vertices), whatever
 /// the bytes.
 Status decode_faces(ByteView stream, const Limits::Mesh& sizes, Topology* out);

@@ -3,6 +3,7 @@
 #include "sdk/play/render_plan.h"
 
 #include "format/sort.h"
+#include "sdk/mesh/polygon_cutter.h"
 
 #include <cstring>
 #include <numeric>
@@ -63,7 +64,9 @@ Vector<uint32_t> share_corners(const Topology& topology, const CornerOrder& orde
 }
 
 void add_triangles(const Topology& topology, const Vector<uint32_t>& of_corner,
-                   const uint32_t* labels, RenderPlan* plan) {
+                   const uint32_t* labels, const float* positions, RenderPlan* plan) {
+  PolygonCutter cutter(positions, of_corner.size());
+  Vector<uint32_t> triangles;
   const auto polygons = static_cast<uint32_t>(topology.polygon_offsets.size() - 1);
   Vector<uint32_t> sorted(polygons);
   std::iota(sorted.begin(), sorted.end(), 0U);
@@ -80,12 +83,11 @@ void add_triangles(const Topology& topology, const Vector<uint32_t>& of_corner,
       plan->group_labels.push_back(label);
       plan->group_begin.push_back(static_cast<uint32_t>(plan->triangle_polygons.size()));
     }
-    for (uint32_t c = first + 2; c < end; ++c) {
-      plan->indices.push_back(of_corner[first]);
-      plan->indices.push_back(of_corner[c - 1]);
-      plan->indices.push_back(of_corner[c]);
-      plan->triangle_polygons.push_back(p);
-    }
+    triangles.clear();
+    cutter.cut(topology.polygon_corners.data() + first, end - first, &triangles);
+    for (const uint32_t c : triangles)
+      plan->indices.push_back(of_corner[first + c]);
+    plan->triangle_polygons.resize(plan->indices.size() / 3, p);
   }
   plan->group_begin.push_back(static_cast<uint32_t>(plan->triangle_polygons.size()));
 }
@@ -114,7 +116,8 @@ void add_normals(const Topology& topology, const NormalPlan& of_corners, RenderP
 }  // namespace
 
 RenderPlan plan_rendering(const Topology& topology, const NormalPlan& normals,
-                          const Vector<CornerValues>& values, const uint32_t* polygon_labels) {
+                          const Vector<CornerValues>& values, const uint32_t* polygon_labels,
+                          const float* positions) {
   RenderPlan plan;
   const Vector<uint32_t> of_corner =
       share_corners(topology, CornerOrder(topology, normals, values), &plan);
@@ -123,7 +126,7 @@ RenderPlan plan_rendering(const Topology& topology, const NormalPlan& normals,
     std::iota(plan.vertices.begin(), plan.vertices.end(), 0U);
     plan.corners.assign(plan.vertices.size(), 0);
   }
-  add_triangles(topology, of_corner, polygon_labels, &plan);
+  add_triangles(topology, of_corner, polygon_labels, positions, &plan);
   add_normals(topology, normals, &plan);
   return plan;
 }

@@ -32,12 +32,13 @@ struct RenderPlan {
 };
 
 /// Makes a plan. Corners of a vertex share a render vertex when `normals` (one for each corner) has
-/// them in one group and all `values` are the same bit for bit. Polygons become fans, ordered by
-/// their labels (null: all 0). Vertices without a corner are left out, unless no vertex has one:
-/// points are render vertices as they are. Cost: O(corners log corners), 24 bytes for each corner
-/// for a moment.
+/// them in one group and all `values` are the same bit for bit. Polygons become triangles by
+/// `positions` (PolygonCutter), ordered by their labels (null: all 0). Vertices without a corner are
+/// left out, unless no vertex has one: points are render vertices as they are. Cost: O(corners log
+/// corners), 24 bytes for each corner for a moment.
 RenderPlan plan_rendering(const Topology& topology, const NormalPlan& normals,
-                          const Vector<CornerValues>& values, const uint32_t* polygon_labels);
+                          const Vector<CornerValues>& values, const uint32_t* polygon_labels,
+                          const float* positions);
 
 }  // namespace anicodec
 

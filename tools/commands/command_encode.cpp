@@ -4,7 +4,6 @@
 #include "codec/encode_massaged.h"
 #include "codec/encode_scene.h"
 #include "codec/sequence/error.h"
-#include "codec/sequence/triangulate.h"
 #include "tools/encoding/batch.h"
 #include "tools/encoding/encode_report.h"
 #include "tools/encoding/live_capture.h"
@@ -247,11 +246,6 @@ StillSurface split_surface(MeshSequence& sequence) {
 EncodeResult encode_clip(const EncodeArguments& command, EncodeOptions options,
                          MassageVerdict* massage, StillSurface* still, const Progress& progress) {
   MeshSequence sequence = load(command, progress, &options);
-  const uint32_t concave = count_concave(sequence.polygons, sequence.frame(0));
-  if (concave > 0 && command.note)
-    command.note(fmt::format("{} concave {}: programs that play the file cut polygons as fans; "
-                             "triangulate the source for them",
-                             concave, concave == 1 ? "polygon" : "polygons"));
   if (still) {
     *still = split_surface(sequence);
     options.order = OrderMode::kVertices;

@@ -123,7 +123,7 @@ class Mesh:
 
     @property
     def triangles(self) -> np.ndarray:
-        """Triangles x 3, uint32: every polygon as a fan."""
+        """Triangles x 3, uint32: of every polygon in order, concave ones cut right."""
         return self._asset.triangles(self._number)
 
     @property

@@ -533,7 +533,7 @@ typedef struct anic_mesh {
   uint32_t coded_vertex_count; /**< distinct vertices: the others are copies that move along */
   uint32_t polygon_count;
   uint32_t corner_count;    /**< of all polygons */
-  uint32_t triangle_count;  /**< after anic_write_indices() has cut polygons into fans */
+  uint32_t triangle_count;  /**< after anic_write_indices() has cut the polygons */
   uint32_t attribute_count; /**< anic_get_attribute() */
 } anic_mesh;
 
@@ -552,13 +552,16 @@ typedef struct anic_polygons {
 ANIC_API anic_status anic_get_polygons(const anic_asset* asset, uint32_t mesh, anic_polygons* out);
 
 /**
- * Writes an index buffer: every polygon as a fan from its first corner, in order. Polygons with
+ * Writes an index buffer: every polygon in order, as a fan from its first corner or, where it is
+ * concave in the first frame that shows the mesh, as triangles that cover it once. Polygons with
  * fewer than three corners give no triangle. Triangles run as the polygons do: counter-clockwise
  * seen from the front.
  *
  * - Shapes: out: triangle_count x 3 indices of index_bytes (2 or 4) each; size: bytes at out
+ * - Memory: for a moment 12 bytes for each vertex of a mesh that has more than triangles
  * - Errors: ANIC_E_ARGUMENT: no such mesh, or more than 65536 vertices for 2 bytes;
- *   ANIC_E_BUFFER_SIZE
+ *   ANIC_E_BUFFER_SIZE; ANIC_E_MEMORY
+ * - Cost: O(corners), and a frame of the mesh
  */
 ANIC_API anic_status anic_write_indices(const anic_asset* asset, uint32_t mesh,
                                         uint32_t index_bytes, void* out, size_t size);
@@ -1052,8 +1055,8 @@ typedef struct anic_render_info {
                                found by it */
   const uint32_t* corners;  /**< a corner of each render vertex: every value of a corner is found by
                                it. NULL in a mesh without corners */
-  const uint32_t* indices;  /**< triangle_count x 3 render vertices; polygons are fans, as
-                               anic_write_indices() makes them, ordered by material */
+  const uint32_t* indices;  /**< triangle_count x 3 render vertices; polygons are cut as by
+                               anic_write_indices(), in the reference frame, ordered by material */
   const uint32_t* triangle_polygons; /**< polygon of each triangle */
   const uint32_t*
       group_materials;         /**< of each group the label of its polygons' material, ascending:

@@ -121,17 +121,6 @@ TEST(Triangulate, CutsPolygonsThatAreNotFlatInAnyDirection) {
   EXPECT_EQ(a.size(), b.size());
 }
 
-TEST(Triangulate, CountsConcavePolygons) {
-  for (Outline outline : {kL, kDart}) {
-    for (size_t start = 0; start < outline.corners.size(); ++start) {
-      EXPECT_EQ(count_concave(outline.polygon(), outline.positions()), 1U);
-      std::ranges::rotate(outline.corners, outline.corners.begin() + 1);
-    }
-  }
-  const Outline nearly{{{0, 0, 0}, {1, 1e-6F, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0.5F}}};
-  EXPECT_EQ(count_concave(nearly.polygon(), nearly.positions()), 0U);
-}
-
 TEST(Triangulate, LeavesAFanWhereAPolygonCrossesItself) {
   const Outline bow{{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 3, 0}}};
   EXPECT_EQ(corner_triangles(bow.polygon(), bow.positions()).size(), 6U);

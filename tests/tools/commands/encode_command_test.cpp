@@ -374,15 +374,6 @@ TEST_F(EncodeCommand, NamesFrameAndFileOfANumberThatIsNotFinite) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bad.anic"));
 }
 
-TEST_F(EncodeCommand, CountsConcavePolygons) {
-  const std::string mesh = folder_.write(
-      "l.obj", "v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 1 2 3 4 5 6\nf 1 2 4\n");
-  const Outcome encoded = anicodec({"encode", mesh, "-o", folder_ / "l.anic"});
-  ASSERT_EQ(encoded.status, 0) << encoded;
-  EXPECT_THAT(encoded.err, HasSubstr("1 concave polygon: programs that play the file cut"));
-  EXPECT_THAT(encode({}).err, Not(HasSubstr("concave")));
-}
-
 TEST_F(EncodeCommand, NamesAFrameThatDoesNotFit) {
   folder_.write("f/1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   folder_.write("f/2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n");
