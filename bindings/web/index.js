@@ -12,6 +12,15 @@ function aborted(signal) {
   return signal.reason ?? new DOMException('The opening was aborted', 'AbortError');
 }
 
+/** An error that names the address of its source: servers answer wrong ones by pages of their own, too. */
+function named(error, source) {
+  const address = String(source?.url ?? source);
+  const isAddress = typeof source === 'string' || source instanceof URL || (typeof Request !== 'undefined' && source instanceof Request);
+  if (isAddress && error?.name !== 'AbortError' && !address.startsWith('data:') && !error?.message?.includes(address))
+    error.message = `${address}: ${error.message}`;
+  return error;
+}
+
 /** The pieces of a source as Uint8Arrays. */
 async function* pieces(source, signal, onBytes) {
   if (source instanceof ArrayBuffer || (typeof SharedArrayBuffer !== 'undefined' && source instanceof SharedArrayBuffer)) {
@@ -132,7 +141,7 @@ export function open(source, { quality, bounds, maxBytes, clips, inPlace, inexac
       if (complete)
         clip.settle.done(clip);
     });
-    finished.catch((error) => (clip ? clip.settle.fail(error) : reject(error)));
+    finished.catch((error) => (clip ? clip.settle.fail : reject)(named(error, source)));
   });
 }
 

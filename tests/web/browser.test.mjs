@@ -85,6 +85,7 @@ test('opens in a worker what opens in the page, bit for bit, and reports damage'
     const stopped = Anicodec.open(last, { signal: controller.signal }).catch((error) => error.name);
     controller.abort();
     outcome.aborted = await stopped;
+    outcome.page = await Anicodec.open('/page').catch((error) => error.message);
     outcome.missing = await Anicodec.open('data:,x').catch((error) => error.status);
     return outcome;
   }, { names, damaged });
@@ -93,6 +94,7 @@ test('opens in a worker what opens in the page, bit for bit, and reports damage'
   assert.ok(Object.values(result.refused).reduce((a, b) => a + b) > 40, JSON.stringify(result));
   assert.equal(result.aborted, 'AbortError');
   assert.equal(result.missing, 'ANIC_E_MAGIC');
+  assert.match(result.page, /^\/page: /);
 });
 
 test('three.js shows, plays and hits a clip', { skip }, async () => {
@@ -302,6 +304,46 @@ test('the viewer plays the clips that are in it, without a network', { skip: ski
     assert.match(await page.locator('#message').textContent(), /bad\.anic: ANIC_E_MAGIC/);
     assert.deepEqual(messages, []);
   }, { viewport: { width: 900, height: 600 } });
+});
+
+test('the viewer shows all of a clip beside its panels, on a phone too', { skip: skip || (existsSync(VIEWER) ? false : 'there is no viewer') }, async () => {
+  const clip = `<script class="clip" type="application/octet-stream" data-name="limb.anic">${Buffer.from(bytesOf('limb_default.anic')).toString('base64')}</script>`;
+  const viewer = readFileSync(VIEWER, 'utf8').replace('<!-- the clip -->', () => clip);
+  for (const [width, height, phone] of [[390, 844, true], [844, 390, true], [1280, 800, false], [320, 480, true]]) {
+    await withPage(async (page, messages) => {
+      await page.route('**/*', (route) => route.fulfill({ body: viewer, contentType: 'text/html' }));
+      await page.goto('http://viewer.test/');
+      await page.waitForFunction(() => document.documentElement.dataset.ready === 'true');
+      assert.equal(await page.locator('#info').isVisible(), !phone);
+      for (const about of [true, false]) {
+        if (await page.locator('#info').isVisible() !== about)
+          await page.locator('#about').click();
+        const [stage, ...panels] = await Promise.all(['#canvas', '#controls', ...(about ? ['#info'] : [])].map((name) => page.locator(name).boundingBox()));
+        assert.ok(stage.width > 200 && stage.height > 120, JSON.stringify(stage));
+        for (const panel of panels) {
+          const apart = panel.x >= stage.x + stage.width || panel.y >= stage.y + stage.height;
+          assert.ok(apart && panel.x + panel.width <= width && panel.y + panel.height <= height, JSON.stringify({ stage, panel }));
+        }
+        // The rim of the picture is empty: nothing of the clip is cut off.
+        const rim = await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+          const gl = document.getElementById('canvas').getContext('webgl2'), [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+          const pixels = new Uint8Array(4 * w * h), at = (x, y) => pixels[4 * (y * w + x)];
+          gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+          let edge = 0, inside = 0;
+          for (let y = 0; y < h; ++y) {
+            for (let x = 0; x < w; ++x) {
+              const drawn = at(x, y) !== at(0, 0);
+              inside += drawn;
+              edge += drawn && (x === 0 || y === 0 || x === w - 1 || y === h - 1);
+            }
+          }
+          done({ edge, inside });
+        }))));
+        assert.ok(rim.edge === 0 && rim.inside > 100, JSON.stringify(rim));
+      }
+      assert.deepEqual(messages, []);
+    }, { browser, viewport: { width, height }, hasTouch: phone, isMobile: phone });
+  }
 });
 
 test('the graphics card plays instances as the CPU does', { skip }, async (t) => {

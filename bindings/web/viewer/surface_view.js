@@ -222,7 +222,8 @@ export class Orbit {
     const turn = new Float32Array([ca, se * sa, ce * sa, 0, 0, ce, -se, 0, -sa, se * ca, ce * ca, 0,
       this.shift[0], this.shift[1], -this.distance, 1]);
     const near = Math.max(this.distance - 3, this.distance / 100), far = this.distance + 3, f = 1 / Math.tan(0.35);
-    const projection = new Float32Array([f / Math.max(aspect, 1e-3), 0, 0, 0, 0, f, 0, 0, 0, 0, (far + near) / (near - far), -1,
+    // The ball around the clip fits into the shorter side.
+    const projection = new Float32Array([f / Math.max(aspect, 1), 0, 0, 0, 0, f * Math.min(aspect, 1), 0, 0, 0, 0, (far + near) / (near - far), -1,
       0, 0, 2 * far * near / (near - far), 0]);
     return { view: multiply(turn, multiply(up, place)), projection };
   }

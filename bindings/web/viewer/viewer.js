@@ -11,7 +11,11 @@ import { ClipView, Orbit, SurfaceView } from './surface_view.js';
 const SPEEDS = [-1, 0.1, 0.25, 0.5, 1, 2, 4];
 const $ = (id) => document.getElementById(id);
 const orbit = new Orbit();
-const state = { clips: [], name: undefined, time: 0, playing: false, speed: 1, loop: true, wires: false, error: false, about: true, dirty: true, fps: 0, decode: 0 };
+/** Whether what is in a file fits beside its picture. */
+function isRoomy() {
+  return innerWidth > 700 && innerHeight > 400;
+}
+const state = { clips: [], name: undefined, time: 0, playing: false, speed: 1, loop: true, wires: false, error: false, about: isRoomy(), dirty: true, fps: 0, decode: 0 };
 let view;
 
 function fromBase64(text) {
@@ -45,16 +49,16 @@ function describe() {
     return table;
   };
   $('info').replaceChildren(...state.clips.flatMap(({ clip, name, bytes, openMs }) => {
-    const title = document.createElement('h2'), { info } = clip;
+    const title = document.createElement('h2'), { info } = clip, one = shown(clip), several = clip.clips.length > 1;
     title.textContent = name;
     const sum = (key) => clip.meshes.reduce((all, mesh) => all + mesh[key], 0);
     const bits = 8 * bytes.length / Math.max(sum('sourceVertexCount') * info.frames, 1);
     return [title, rows([
       ['file', inBytes(bytes.length)], ['per vertex and frame', `${bits.toPrecision(3)} bits`],
       ['vertices', number(sum('sourceVertexCount'))], ['triangles', number(sum('triangleCount'))], ['meshes', number(clip.meshes.length)],
-      ...(clip.clips.length > 1 ? [['clips', number(clip.clips.length)]] : []),
-      ['frames', `${number(info.frames)}, ${+info.rate.toFixed(3)} a second${info.rateAssumed ? ' (assumed)' : ''}`],
-      ['largest error', `${info.maxError.toPrecision(3)}, ${(100 * info.maxError / info.diagonal).toPrecision(2)} % of the size`],
+      ...(several ? [['clips', number(clip.clips.length)], ['frames of all', number(info.frames)], ['this clip', one.name]] : []),
+      ['frames', `${number(one.frames)}, ${+one.rate.toFixed(3)} a second${one.rateAssumed ? ' (assumed)' : ''}`],
+      ['largest error', `${one.maxError.toPrecision(3)}, ${(100 * one.maxError / one.diagonal).toPrecision(2)} % of the size`],
       ['opened in', `${openMs.toFixed(0)} ms`], ['memory', inBytes(clip.memoryBytes)],
     ]), rows(chunkSizes(bytes).map(({ type, size, share }) => [`${MEANINGS[type] ?? type}`, `${inBytes(size)}, ${(100 * share).toFixed(0)} %`]))];
   }), Object.assign(document.createElement('div'), { id: 'figures' }));
@@ -157,7 +161,6 @@ async function add(name, file) {
     state.time = 0;
   }
   say('');
-  describe();
   document.title = state.clips.map((c) => c.name).join(', ');
   $('drop').hidden = true;
   $('controls').hidden = false;
@@ -171,6 +174,7 @@ async function add(name, file) {
 function choose(name) {
   state.name = $('clip').value = name;
   state.time = 0;
+  describe();
   set('playing', state.clips.some(({ clip }) => shown(clip).frames > 1));
 }
 
@@ -203,7 +207,7 @@ function listen() {
     event.preventDefault();
     addFiles(event.dataTransfer.files);
   });
-  addEventListener('resize', () => set('dirty', true));
+  new ResizeObserver(() => set('dirty', true)).observe($('canvas'));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => set('dirty', true));
 
   const pointers = new Map();
