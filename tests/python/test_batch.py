@@ -49,13 +49,16 @@ def test_parts_are_joined(client, clips, tmp_path):
     assert anicodec.batch({"long": clips[0]}, out, client=client, part_frames=10, effort=1)[0].status == "kept"
 
 
-def test_failures_are_listed(client, clips, tmp_path):
+def test_failures_are_listed(client, clips, tmp_path, caplog):
     bad = tmp_path / "bad.pc2"
     bad.write_bytes(b"POINTCACHE2\0")
     results = anicodec.batch([clips[0], [clips[0][0], bad], tmp_path / "none.glb"], tmp_path / "out", client=client,
                              effort=1)
     assert [result.status for result in results] == ["done", "failed", "failed"]
     assert "bad.pc2" in results[1].error and "none.glb" in results[2].error
+    parts, = anicodec.batch({"long": [tmp_path / "none.obj", clips[0][1]]}, tmp_path / "out", client=client, part_frames=10)
+    assert parts.status == "failed" and "none.obj" in parts.error
+    assert "Traceback" not in caplog.text and not caplog.records
     with pytest.raises(anicodec.InputError, match="several clips have the name 'one'"):
         anicodec.batch([clips[0], clips[0]], tmp_path / "out", client=client)
 

@@ -4,6 +4,7 @@
 import base64
 import io
 import os
+import pathlib
 import pickle
 import sys
 import types
@@ -14,6 +15,9 @@ import numpy as np
 import pytest
 
 import anicodec
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "scripts"))
+import anic_file  # noqa: E402
 
 
 def test_frames_keep_the_promise(wave, clip):
@@ -169,13 +173,44 @@ def test_clips_of_a_file(moves):
     assert np.array_equal(clip.at(3 / 24), clip[3]), "the first clip again"
     with pytest.raises(anicodec.InputError, match="no clip 'swim': the file has walk, run"):
         clip.at(0, clip="swim")
-    alone = anicodec.open(moves, clips=["run"])
-    assert [info.opened for info in alone.clips] == [False, True]
-    assert np.array_equal(alone.at(3 / 60), clip[17]) and np.array_equal(alone[17], clip[17])
-    assert [info.opened for info in pickle.loads(pickle.dumps(alone)).clips] == [False, True]
-    for absent in (lambda: alone[0], lambda: alone.at(0, clip="walk"), lambda: anicodec.open(moves, clips=["swim"])):
-        with pytest.raises(anicodec.AbsentError):
-            absent()
+    with pytest.raises(anicodec.AbsentError):
+        anicodec.open(moves, clips=["swim"])
+
+
+def test_a_clip_opened_alone_is_all_there_is(moves):
+    clip, alone = anicodec.open(moves), anicodec.open(moves, clips=["run"])
+    for run in (alone, pickle.loads(pickle.dumps(alone))):
+        assert [info.name for info in run.clips] == ["run"] and run.name == "run"
+        assert len(run) == run.frame_count == 10 and run.fps == 60 and run.duration == pytest.approx(9 / 60)
+        assert run.clips[0].frames == slice(0, 10) and run.info["max_error"] == clip.clips[1].max_error
+        assert np.array_equal(run[:], clip[14:]) and np.array_equal(np.stack(list(run)), clip[14:])
+        assert np.array_equal(run.normals(2), clip.normals(16)) and run.time(3) == pytest.approx(3 / 60)
+        assert np.array_equal(run.at(3 / 60), clip[17]) and np.array_equal(run.at(3 / 60, clip=0), clip[17])
+        with pytest.raises(anicodec.FrameError, match="there is no frame 10 of 10"):
+            run[10]
+        with pytest.raises(anicodec.InputError, match="no clip 'walk': of the file were opened run"):
+            run.at(0, clip="walk")
+
+
+def test_several_of_many_clips(wave):
+    names = ["a", "b", "c"]
+    data = anicodec.encode(*wave, clips=[anicodec.SourceClip(name, 8) for name in names], fps=24, effort=1)
+    clip, some = anicodec.open(data), anicodec.open(data, clips=["c", "a"])
+    assert [(info.name, info.first_frame) for info in some.clips] == [("a", 0), ("c", 8)]
+    assert np.array_equal(some[:], np.concatenate([clip[:8], clip[16:]]))
+    assert np.array_equal(some.at(2 / 24, clip="c", blend=("a", 0, 0.5)), clip.at(2 / 24, clip="c", blend=("a", 0, 0.5)))
+
+
+def test_names_that_are_not_utf8(wave):
+    """As programs write them that know only the code page of their machine."""
+    data = anicodec.encode(*wave, name="M\xfctze", events=[("Fu\xdf", 0.1)], effort=1)
+    chunks = anic_file.read_chunks(data)
+    for chunk in chunks:
+        for letter in "\xfc\xdf":
+            chunk.payload = chunk.payload.replace(letter.encode(), letter.encode("latin-1") + b"!")
+    clip = anicodec.open(anic_file.write_chunks(chunks))
+    assert clip.name == "M\ufffd!tze" and clip.clips[0].events[0][0] == "Fu\ufffd!"
+    assert np.array_equal(clip[5], anicodec.open(data)[5])
 
 
 def test_clips_are_blended(moves):

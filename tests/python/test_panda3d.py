@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Clips in Panda3D, drawn by its software renderer."""
 import pathlib
+import subprocess
 import sys
 
 import numpy as np
@@ -132,6 +133,18 @@ def test_plays_coarser(clip):
         one.loop()
         one.update(0.2)
     np.testing.assert_array_equal(shown(actor), shown(other))
+
+
+def test_a_program_ends_silently():
+    """With a node that it never gave back."""
+    script = f"""
+import builtins
+from anicodec.panda3d import ClipActor
+builtins.actor = ClipActor({str(FILES / "clips.anic")!r})
+builtins.actor.clip.me = builtins.actor
+"""
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
 
 
 class Tasks:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 """The command line: python -m anicodec encode ..."""
+import os
 import signal
 import sys
 
@@ -13,7 +14,7 @@ def main() -> None:
         sys.exit(_usd_command.main(sys.argv[2:]))
     for name in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # as other commands, not as Python
         signal.signal(name, signal.SIG_DFL)
-    sys.exit(_anicodec.run_command(["anicodec", *sys.argv[1:]]))
+    sys.exit(_anicodec.run_command([os.fsencode(text) for text in ("anicodec", *sys.argv[1:])]))
 
 
 if __name__ == "__main__":

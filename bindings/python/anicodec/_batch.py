@@ -26,7 +26,14 @@ Inputs = Union[str, os.PathLike, Sequence[Union[str, os.PathLike]]]
 
 
 class ClipFailed(AnicodecError, RuntimeError):
-    """The command could not encode a clip: its line."""
+    """The command could not encode a clip, for no fault of its input: its line."""
+
+
+@dataclass(frozen=True)
+class _Refused:
+    """What a task returns of a clip whose input or options are at fault: dask logs a traceback of what it raises."""
+
+    line: str
 
 
 @dataclass(frozen=True)
@@ -46,8 +53,9 @@ def batch(clips: Union[Iterable[Inputs], Mapping[str, Inputs]], out: Union[str, 
 
     clips: inputs as of `anicodec encode`, one path or several for each clip, by name or with the name of the last path.
     client: a dask.distributed.Client, whose workers see the same files; default one on this machine. part_frames:
-    vertex caches of more frames are encoded in parts of as many, side by side, and joined. retries: of a task that
-    fails. options: those of the command, as max_error="0.1%" or no_attributes=True.
+    vertex caches of more frames are encoded in parts of as many, side by side, and joined. retries: of a task whose
+    worker failed, or had no memory; a clip whose input is at fault is listed at once. options: those of the command, as
+    max_error="0.1%" or no_attributes=True.
 
     Clips are left alone that were done before, by the content of inputs and result. Workers with the resource
     ANICODEC_MEMORY, in bytes, take no more at once than fit. Returns a Result for each clip, in order; raises
@@ -139,8 +147,10 @@ def _result(job: _Job, future: Any) -> Result:
     error = future.exception()
     if error is not None:
         return Result(job.name, job.output, "failed", 0, str(error) or type(error).__name__)
-    status, size = future.result()
-    return Result(job.name, job.output, status, size)
+    outcome = future.result()
+    if isinstance(outcome, _Refused):
+        return Result(job.name, job.output, "failed", 0, outcome.line)
+    return Result(job.name, job.output, *outcome)
 
 
 def _files(inputs: Sequence[str]) -> List[str]:
@@ -203,38 +213,43 @@ def _note(job: _Job, key: str) -> Tuple[str, int]:
     return "done", os.path.getsize(job.output)
 
 
-def _command(*arguments: str) -> None:
-    """Runs the command of the package. Raises ClipFailed with its line."""
+def _command(*arguments: str) -> Optional[_Refused]:
+    """Runs the command of the package. Raises ClipFailed where another try may succeed."""
     result = subprocess.run([sys.executable, "-m", "anicodec", *arguments], stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True)
+                            stderr=subprocess.PIPE, text=True, errors="replace")
     if result.returncode != 0:
         lines = result.stderr.strip().splitlines()
-        raise ClipFailed(lines[-1] if lines else f"exit status {result.returncode}")
+        line = lines[-1] if lines else f"exit status {result.returncode}"
+        if not 1 <= result.returncode <= 4:
+            raise ClipFailed(line)
+        return _Refused(line)
+    return None
 
 
-def _encode_clip(job: _Job, arguments: Sequence[str], part_frames: Optional[int]) -> Tuple[str, int]:
+def _encode_clip(job: _Job, arguments: Sequence[str], part_frames: Optional[int]) -> Union[Tuple[str, int], _Refused]:
     key = _key(job, arguments, part_frames)
     if _is_done(job, key):
         return "kept", os.path.getsize(job.output)
-    _command("encode", "-q", "-f", *job.inputs, "-o", job.output, *arguments)
-    return _note(job, key)
+    return _command("encode", "-q", "-f", *job.inputs, "-o", job.output, *arguments) or _note(job, key)
 
 
 def _part_path(job: _Job, first: int) -> str:
     return str(job.record.with_name(f"{job.name}.{first}.anic"))
 
 
-def _encode_part(job: _Job, arguments: Sequence[str], first: int, end: int) -> str:
+def _encode_part(job: _Job, arguments: Sequence[str], first: int, end: int) -> Union[str, _Refused]:
     path = _part_path(job, first)
-    _command("encode", "-q", "-f", *job.inputs, "-o", path, "--part", f"{first}:{end}", *arguments)
-    return path
+    return _command("encode", "-q", "-f", *job.inputs, "-o", path, "--part", f"{first}:{end}", *arguments) or path
 
 
-def _join_parts(job: _Job, arguments: Sequence[str], part_frames: int, parts: Sequence[str]) -> Tuple[str, int]:
-    _command("join", "-q", "-f", *parts, "-o", job.output)
-    for path in parts:
+def _join_parts(job: _Job, arguments: Sequence[str], part_frames: int,
+                parts: Sequence[Union[str, _Refused]]) -> Union[Tuple[str, int], _Refused]:
+    paths = [part for part in parts if isinstance(part, str)]
+    refused = next((part for part in parts if isinstance(part, _Refused)), None)
+    refused = refused or _command("join", "-q", "-f", *paths, "-o", job.output)
+    for path in paths:
         os.remove(path)
-    return _note(job, _key(job, arguments, part_frames))
+    return refused or _note(job, _key(job, arguments, part_frames))
 
 
 def summary(results: Sequence[Result]) -> Dict[str, int]:

@@ -51,8 +51,6 @@ def main(arguments: List[str]) -> int:
     stage, output = options.pop("stage"), options.pop("output")
     force, quiet = options.pop("force"), options.pop("quiet")
     prim: Optional[str] = options.pop("mesh")
-    options["normal_error"] = options.pop("store_normals")
-    options["selection"] = options.pop("keyframe_selection")
     options = {name: value for name, value in options.items() if value is not None}
     if options.get("origin") not in (None, "auto", "none"):
         options["origin"] = options["origin"].split(",")

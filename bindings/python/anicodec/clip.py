@@ -54,7 +54,7 @@ class RootMotion(NamedTuple):
 
 
 class ClipInfo(NamedTuple):
-    """A clip of a file that holds one or more: frames first_frame .. first_frame + frame_count - 1."""
+    """A clip that was opened of a file that holds one or more: frames first_frame .. first_frame + frame_count - 1."""
 
     name: str
     first_frame: int
@@ -68,7 +68,6 @@ class ClipInfo(NamedTuple):
     rmse: float
     kg: float  #: per cent
     max_displacement_error: float  #: of a vertex's move from frame to frame
-    opened: bool  #: see open(); frames of others are absent
     events: Tuple[Tuple[str, float], ...] = ()  #: names and seconds from its first frame on
 
     @property
@@ -188,9 +187,8 @@ class Mesh:
         """Positions at a time, 0 is the first frame of the clip: vertices x 3, float32.
 
         sampling: step, linear or cubic. loop=True or wrap="loop": the clip goes round; wrap: clamp, loop, ping-pong.
-        clip: name or number of one of the file, else the first that is open. blend: a clip, a time of it and a
-        weight: 0 shows nothing of it, 1 it alone; blend_wrap: of that clip, else as the other. Raises AbsentError
-        where a clip was not opened.
+        clip: name or number of one of Clip.clips, else the first. blend: a clip, a time of it and a
+        weight: 0 shows nothing of it, 1 it alone; blend_wrap: of that clip, else as the other.
         """
         result = _arrays.output(out, (self.vertex_count, 3))
         moment = self._moment(seconds, loop, sampling, wrap, clip, blend, blend_wrap)
@@ -254,7 +252,8 @@ class Mesh:
 
 class Clip:
     """An opened .anic file. With one mesh it is used as that: `clip[10]`, `clip.at(0.5)`, `clip.faces`; with several,
-    `clip.meshes` has them. Can be pickled; threads may share it."""
+    `clip.meshes` has them. Of a file with several clips, frames count through those that were opened; name, clock and
+    errors are those of the first of them. Can be pickled; threads may share it."""
 
     def __init__(self, data: bytes, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = (),
                  in_place: bool = False, inexact: bool = False):
@@ -264,7 +263,7 @@ class Clip:
         self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
         self.info["up"] = UP[self.info["up"]]
         self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
-        #: What the file holds; frames count through it.
+        #: What was opened of the file; frames count through it.
         self.clips = tuple(ClipInfo(**{**c, "fps": Fraction(*c["fps"])}) for c in self._asset.clips())
 
     @property
@@ -282,12 +281,12 @@ class Clip:
 
     @property
     def fps(self) -> Fraction:
-        """Frames per second."""
+        """Frames per second, of the first of several clips."""
         return Fraction(*self.info["rate"])
 
     @property
     def duration(self) -> float:
-        """Seconds from frame 0 to the last."""
+        """Seconds from the first frame to the last, of the first of several clips."""
         return self.info["duration"]
 
     @property
@@ -298,14 +297,14 @@ class Clip:
         return self.meshes[0]
 
     def clip_number(self, clip: Union[None, int, str]) -> int:
-        """The number of a clip of the file by its name or number; None: of the first that is open. Raises
-        InputError."""
+        """The number in `clips` of one by its name or number; None: of the first. Raises InputError."""
         if clip is None:
-            return next(number for number, info in enumerate(self.clips) if info.opened)
+            return 0
         for number, info in enumerate(self.clips):
             if clip in (number, info.name):
                 return number
-        raise InputError(f"there is no clip {clip!r}: the file has {', '.join(info.name for info in self.clips)}")
+        where = "of the file were opened" if self._arguments[2] else "the file has"
+        raise InputError(f"there is no clip {clip!r}: {where} {', '.join(info.name for info in self.clips)}")
 
     def root_motion(self, seconds: float, clip: Union[None, int, str] = None, sampling: str = "linear",
                     wrap: str = "clamp") -> RootMotion:
@@ -409,7 +408,8 @@ def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[
     """Opens a clip: a path, bytes (anything with the buffer protocol), or a file open for reading.
 
     quality: share of the components to open, in (0, 1]. max_bytes: of memory, else LimitError; 0: by the size of the
-    file. clips: names of those to open of a file with several, none for all. in_place: leaves out the motion of the
+    file. clips: names of those to open of a file with several, none for all; others are not there then, and frames count
+    through those that are. in_place: leaves out the motion of the
     whole, where it is apart: Clip.root_motion(). inexact: leaves the exact positions of a lossless file closed, which
     take as much memory as all frames. Raises OSError, CorruptError,
     UnsupportedError, LimitError, AbsentError: no clip has this name.

@@ -3,6 +3,8 @@
 """Encoding."""
 from __future__ import annotations
 
+import difflib
+import inspect
 import json
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -19,13 +21,15 @@ _PERCENT, _CAP_PERCENT, _ERROR_PERCENT, _NO_ATTRIBUTES, _ROOT_MOTION, _LOSSLESS,
 _GOALS = {"max_error": 1, "kg": 2, "rmse": 3, "size": 4, "bpfv": 5, "displacement": 6, "sted": 7}
 _QUALITIES = {"good": 0.05, "better": 0.02, "best": 0.01}  # as STED
 _CHOICES = {"basis": {"auto": 0, "keyframes": 1, "eigenshapes": 2, "eigentrajectories": 3},
-            "selection": {"pivot": 0, "gas": 1, "uniform": 2},
+            "keyframe_selection": {"pivot": 0, "gas": 1, "uniform": 2},
             "interpolation": {"linear": 1, "msgi": 2, "auto": 3},
             "keyframe_coder": {"native": 0, "draco": 1, "auto": 2},
             "massage": {"off": 0, "on": 1, "auto": 2},
-            "order": {"vertices": 0, "free": 1, "all": 2}}
+            "order": {"auto": 0, "vertices": 0, "free": 1, "all": 2}}
 _NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bits", "massage_strength",
-            "massage_tolerance", "normal_error")
+            "massage_tolerance", "store_normals")
+_FLAGS = {"no_attributes": _NO_ATTRIBUTES, "root_motion": _ROOT_MOTION, "smallest": _SMALLEST}
+_SWITCHES = ("quality", "lossless", "attribute_error", "metadata", *_FLAGS)
 _UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
 
 Progress = Callable[[str, float], Optional[bool]]
@@ -134,18 +138,25 @@ def _choices(options: Dict[str, Any]) -> Dict[str, Any]:
     if error is not None:
         choices["attribute_error"], percent = _length(error, "attribute_error")
         choices["flags"] |= _ERROR_PERCENT if percent else 0
-    if options.pop("no_attributes", False):
-        choices["flags"] |= _NO_ATTRIBUTES
-    if options.pop("root_motion", False):
-        choices["flags"] |= _ROOT_MOTION
-    if options.pop("smallest", False):
-        choices["flags"] |= _SMALLEST
+    for name, flag in _FLAGS.items():
+        choices["flags"] |= flag if options.pop(name, False) else 0
     metadata = options.pop("metadata", None)
     if metadata:
         choices["metadata"] = json.dumps(dict(metadata), ensure_ascii=False, allow_nan=False)
     if options:
-        raise TypeError(f"encode() has no option {next(iter(options))!r}")
+        raise TypeError(_no_option(next(iter(options))))
     return choices
+
+
+def option_names() -> List[str]:
+    """What encode() and encode_meshes() take, by name."""
+    return [*_GOALS, *_CHOICES, *_NUMBERS, *_SWITCHES,
+            *(name for function in (encode, encode_meshes) for name in inspect.signature(function).parameters)]
+
+
+def _no_option(name: str) -> str:
+    near = difflib.get_close_matches(name, sorted({*option_names()} - {"options"}), 1)
+    return f"encode() has no option {name!r}" + (f"; did you mean {near[0]}?" if near else "")
 
 
 def _rate(fps: Any) -> Tuple[int, int]:
@@ -329,11 +340,11 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
     metadata: a mapping that the file keeps as JSON, for instance author, licence, source: Clip.metadata.
     root_motion: keep the motion of the whole along the ground, and its turn about the up axis, apart.
     clips: several SourceClip in one file that share what they can; positions have their frames, one after the other.
-    basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes, selection ("pivot", "gas", "uniform"),
-        interpolation ("linear", "msgi", "auto"), keyframe_coder ("native", "draco", "auto"), massage ("off", "on",
-        "auto"), massage_strength, massage_tolerance, order ("vertices", "free", "all"), effort (1 to 9), smallest
-        (whatever opening takes), uv_bits, colour_bits, attribute_error, normal_error (degrees), no_attributes: as of the
-        command.
+    basis ("auto", "keyframes", "eigenshapes", "eigentrajectories"), keyframes,
+        keyframe_selection ("pivot", "gas", "uniform"), interpolation ("linear", "msgi", "auto"), keyframe_coder ("native",
+        "draco", "auto"), massage ("off", "on", "auto"), massage_strength, massage_tolerance, order ("vertices", the default, "free", "all"), effort (1 to 9),
+        smallest (whatever opening takes), uv_bits, colour_bits, attribute_error, store_normals (degrees), no_attributes: as
+        of the command.
     threads: 0 for all. max_bytes: of memory, else LimitError.
     progress: a function of the stage and the share of it that is done; False from it raises Cancelled, and what it
         raises ends the encoding too.

@@ -55,11 +55,24 @@ nb::ndarray<nb::numpy, T> copied(const T* from, size_t count) {
   return result;
 }
 
+/// A text of a file. Bytes that are no UTF-8, as old programs write names, become U+FFFD.
+inline nb::object text_of(const char* text) {
+  return nb::steal(
+      PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(std::strlen(text)), "replace"));
+}
+
 /// Raises the Python exception of a status: one of module.cpp, IndexError, ValueError ...
 [[noreturn]] void raise(anic_status status, const std::string& text);
 
 /// Raises, unless the status is ANIC_OK.
 void check_status(anic_status status);
+
+/// An element that Python names by its number.
+inline uint32_t at_number(const std::vector<uint32_t>& values, uint32_t number) {
+  if (number >= values.size())
+    check_status(ANIC_E_ARGUMENT);
+  return values[number];
+}
 
 /// Polygons by offsets and corners.
 Polygons polygons_of(const Array<uint32_t>& offsets, const Array<uint32_t>& corners);

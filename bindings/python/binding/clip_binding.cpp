@@ -54,7 +54,8 @@ class NormalPlan {
   std::unique_ptr<anic_normal_plan, DestroyPlan> plan_;
 };
 
-/// An opened file, with a context for times between frames.
+/// An opened file, with a context for times between frames. Clips that were not opened are not there: numbers of clips
+/// and frames count those that were.
 class Asset {
  public:
   Asset(const nb::bytes& file, double quality, uint64_t max_bytes,
@@ -79,39 +80,51 @@ class Asset {
       status = anic_open_asset(bytes, size, &options, &asset, &failure);
     }
     if (status != ANIC_OK)
-      raise(status, text_of(failure));
+      raise(status, report_of(failure));
     asset_.reset(asset);
     check_status(anic_create_context(asset, nullptr, &context));
     context_.reset(context);
     anic_get_asset_info(asset, &info_);
+    for (uint32_t i = 0; i < anic_get_clip_count(asset); ++i) {
+      anic_clip clip = ANIC_INIT(anic_clip);
+      check_status(anic_get_clip(asset, i, &clip));
+      if (clip.open) {
+        clip_numbers_.push_back(i);
+        first_frames_.push_back(frame_count_);
+        clips_.push_back(clip);
+        frame_count_ += clip.frame_count;
+      }
+    }
   }
 
+  /// Clock and errors are those of the first clip.
   nb::dict info() const {
+    const anic_clip& first = clips_.front();
     nb::dict d;
-    d["name"] = info_.name;
-    d["encoder"] = info_.encoder;
+    d["name"] = text_of(first.name);
+    d["encoder"] = text_of(info_.encoder);
     d["mesh_count"] = info_.mesh_count;
     d["segment_count"] = info_.segment_count;
-    d["frame_count"] = info_.frame_count;
-    d["rate"] = nb::make_tuple(info_.rate_numerator, info_.rate_denominator);
-    d["rate_assumed"] = info_.rate_assumed != 0;
-    d["uneven"] = info_.uneven != 0;
-    d["loop"] = info_.loop != 0;
-    d["closed"] = info_.closed != 0;
-    d["massaged"] = info_.massaged != 0;
+    d["frame_count"] = frame_count_;
+    d["rate"] = nb::make_tuple(first.rate_numerator, first.rate_denominator);
+    d["rate_assumed"] = first.rate_assumed != 0;
+    d["uneven"] = first.uneven != 0;
+    d["loop"] = first.loop != 0;
+    d["closed"] = first.closed != 0;
+    d["massaged"] = first.massaged != 0;
     d["up"] = static_cast<int>(info_.up);
     d["order"] = static_cast<int>(info_.order);
-    d["start_time"] = info_.start_time;
-    d["duration"] = info_.duration;
-    d["loop_duration"] = info_.loop_duration;
+    d["start_time"] = first.start_time;
+    d["duration"] = first.duration;
+    d["loop_duration"] = first.loop_duration;
     d["metres_per_unit"] = info_.metres_per_unit;
     d["origin"] = nb::make_tuple(info_.origin[0], info_.origin[1], info_.origin[2]);
-    d["diagonal"] = info_.diagonal;
-    d["max_error"] = info_.max_error;
-    d["rmse"] = info_.rmse;
-    d["kg"] = info_.kg;
-    d["max_displacement_error"] = info_.max_displacement_error;
-    d["surface_error"] = info_.surface_error;
+    d["diagonal"] = first.diagonal;
+    d["max_error"] = first.max_error;
+    d["rmse"] = first.rmse;
+    d["kg"] = first.kg;
+    d["max_displacement_error"] = first.max_displacement_error;
+    d["surface_error"] = first.surface_error;
     d["resident_bytes"] = info_.resident_bytes;
     return d;
   }
@@ -120,7 +133,7 @@ class Asset {
     anic_mesh mesh = ANIC_INIT(anic_mesh);
     check_status(anic_get_mesh(asset_.get(), number, &mesh));
     nb::dict d;
-    d["name"] = mesh.name;
+    d["name"] = text_of(mesh.name);
     d["vertex_count"] = mesh.vertex_count;
     d["polygon_count"] = mesh.polygon_count;
     d["corner_count"] = mesh.corner_count;
@@ -149,7 +162,7 @@ class Asset {
     anic_attribute a = ANIC_INIT(anic_attribute);
     check_status(anic_get_attribute(asset_.get(), mesh, number, &a));
     nb::dict d;
-    d["name"] = a.name;
+    d["name"] = text_of(a.name);
     d["kind"] = static_cast<int>(a.kind);
     d["domain"] = static_cast<int>(a.domain);
     d["components"] = a.components;
@@ -163,7 +176,7 @@ class Asset {
       d["values"] = copied(a.labels, a.count);
       nb::list names;
       for (uint32_t i = 0; i < a.label_count; ++i)
-        names.append(anic_get_label_name(asset_.get(), mesh, number, i));
+        names.append(text_of(anic_get_label_name(asset_.get(), mesh, number, i)));
       d["labels"] = names;
       if (a.kind == ANIC_ATTRIBUTE_MATERIAL) {
         nb::list looks;
@@ -192,21 +205,25 @@ class Asset {
     d["alpha"] = static_cast<int>(m.alpha);
     d["alpha_cutoff"] = m.alpha_cutoff;
     d["double_sided"] = m.double_sided != 0;
-    d["base_colour_texture"] = m.base_colour_texture;
-    d["metallic_roughness_texture"] = m.metallic_roughness_texture;
-    d["normal_texture"] = m.normal_texture;
-    d["occlusion_texture"] = m.occlusion_texture;
-    d["emissive_texture"] = m.emissive_texture;
+    d["base_colour_texture"] = text_of(m.base_colour_texture);
+    d["metallic_roughness_texture"] = text_of(m.metallic_roughness_texture);
+    d["normal_texture"] = text_of(m.normal_texture);
+    d["occlusion_texture"] = text_of(m.occlusion_texture);
+    d["emissive_texture"] = text_of(m.emissive_texture);
     return d;
   }
 
-  double frame_time(uint32_t frame) const { return anic_get_frame_time(asset_.get(), frame); }
+  double frame_time(uint32_t frame) const {
+    return anic_get_frame_time(asset_.get(), frame_of(frame));
+  }
 
   /// Fills frames x vertices x 3.
-  void frames(uint32_t mesh, const std::vector<uint32_t>& numbers, Writable<float> out) {
+  void frames(uint32_t mesh, std::vector<uint32_t> numbers, Writable<float> out) {
     const size_t count = numbers.size();
     if (count == 0)
       return;
+    for (uint32_t& number : numbers)
+      number = frame_of(number);
     const nb::gil_scoped_release release;
     const size_t bytes = out.nbytes() / count;
     auto* to = reinterpret_cast<unsigned char*>(out.data());
@@ -260,24 +277,23 @@ class Asset {
 
   NormalPlan* normal_plan(uint32_t mesh, double crease, uint32_t frame, bool per_corner,
                           bool source_edges) const {
-    return new NormalPlan(asset_.get(), mesh, crease, frame, per_corner, source_edges);
+    return new NormalPlan(asset_.get(), mesh, crease, frame_of(frame), per_corner, source_edges);
   }
 
   RenderPlan* render_plan(uint32_t mesh, double crease, uint32_t frame, bool source_edges) const {
-    return new RenderPlan(asset_.get(), mesh, crease, frame, source_edges);
+    return new RenderPlan(asset_.get(), mesh, crease, frame_of(frame), source_edges);
   }
 
-  Instance* instance() const { return new Instance(asset_.get()); }
+  Instance* instance() const { return new Instance(asset_.get(), clip_numbers_); }
 
-  /// The clips of the file, a dictionary for each.
+  /// A dictionary for each clip.
   nb::list clips() const {
     nb::list all;
-    for (uint32_t i = 0; i < anic_get_clip_count(asset_.get()); ++i) {
-      anic_clip clip = ANIC_INIT(anic_clip);
-      check_status(anic_get_clip(asset_.get(), i, &clip));
+    for (size_t i = 0; i < clips_.size(); ++i) {
+      const anic_clip& clip = clips_[i];
       nb::dict d;
-      d["name"] = clip.name;
-      d["first_frame"] = clip.first_frame;
+      d["name"] = text_of(clip.name);
+      d["first_frame"] = first_frames_[i];
       d["frame_count"] = clip.frame_count;
       d["duration"] = clip.duration;
       d["loop_duration"] = clip.loop_duration;
@@ -288,12 +304,11 @@ class Asset {
       d["rmse"] = clip.rmse;
       d["kg"] = clip.kg;
       d["max_displacement_error"] = clip.max_displacement_error;
-      d["opened"] = clip.open != 0;
       nb::list events;
-      for (uint32_t e = 0; e < anic_get_event_count(asset_.get(), i); ++e) {
+      for (uint32_t e = 0; e < anic_get_event_count(asset_.get(), clip_numbers_[i]); ++e) {
         anic_event event = ANIC_INIT(anic_event);
-        check_status(anic_get_event(asset_.get(), i, e, &event));
-        events.append(nb::make_tuple(event.name, event.seconds));
+        check_status(anic_get_event(asset_.get(), clip_numbers_[i], e, &event));
+        events.append(nb::make_tuple(text_of(event.name), event.seconds));
       }
       d["events"] = nb::tuple(events);
       all.append(d);
@@ -304,7 +319,7 @@ class Asset {
   /// Turn, move, pivot and matrix, row-major.
   nb::tuple root_motion(uint32_t clip, double seconds, int sampling, int wrap) const {
     anic_root_motion motion = ANIC_INIT(anic_root_motion);
-    check_status(anic_get_root_motion(asset_.get(), clip, seconds,
+    check_status(anic_get_root_motion(asset_.get(), clip_of(clip), seconds,
                                       static_cast<anic_sampling>(sampling),
                                       static_cast<anic_wrap>(wrap), &motion));
     return tuple_of(motion);
@@ -313,7 +328,7 @@ class Asset {
   /// The same from one time to another.
   nb::tuple root_step(uint32_t clip, double from, double to, int sampling, int wrap) const {
     anic_root_motion motion = ANIC_INIT(anic_root_motion);
-    check_status(anic_get_root_step(asset_.get(), clip, from, to,
+    check_status(anic_get_root_step(asset_.get(), clip_of(clip), from, to,
                                     static_cast<anic_sampling>(sampling),
                                     static_cast<anic_wrap>(wrap), &motion));
     return tuple_of(motion);
@@ -330,7 +345,7 @@ class Asset {
 
   bool shows(uint32_t mesh, uint32_t frame) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    check_status(anic_seek_frame(context_.get(), frame));
+    check_status(anic_seek_frame(context_.get(), frame_of(frame)));
     anic_output nothing = ANIC_INIT(anic_output);
     float none = 0;
     nothing.data = &none;
@@ -347,7 +362,19 @@ class Asset {
   }
 
  private:
-  static std::string text_of(const anic_failure& failure) {
+  /// The file's number of a clip.
+  uint32_t clip_of(uint32_t clip) const { return at_number(clip_numbers_, clip); }
+
+  /// The file's number of a frame.
+  uint32_t frame_of(uint32_t frame) const {
+    if (frame >= frame_count_)
+      check_status(ANIC_E_FRAME_RANGE);
+    const auto after = std::upper_bound(first_frames_.begin(), first_frames_.end(), frame);
+    const size_t clip = static_cast<size_t>(after - first_frames_.begin()) - 1;
+    return clips_[clip].first_frame + (frame - first_frames_[clip]);
+  }
+
+  static std::string report_of(const anic_failure& failure) {
     std::string text = anic_get_status_text(failure.status);
     if (*failure.detail)
       text += " (" + std::string(failure.detail) + ")";
@@ -356,15 +383,16 @@ class Asset {
   }
 
   void seek(uint32_t clip, double seconds, int sampling, int wrap) {
-    check_status(anic_set_clip(context_.get(), clip));
+    check_status(anic_set_clip(context_.get(), clip_of(clip)));
     check_status(anic_seek_time(context_.get(), seconds, static_cast<anic_sampling>(sampling),
                                 static_cast<anic_wrap>(wrap)));
   }
 
   void blend(uint32_t clip, double seconds, int sampling, int wrap, double weight) {
     if (weight != 0)
-      check_status(anic_blend(context_.get(), clip, seconds, static_cast<anic_sampling>(sampling),
-                              static_cast<anic_wrap>(wrap), weight));
+      check_status(anic_blend(context_.get(), clip_of(clip), seconds,
+                              static_cast<anic_sampling>(sampling), static_cast<anic_wrap>(wrap),
+                              weight));
   }
 
   /// Frames of a segment that needs the memory of a context.
@@ -382,6 +410,10 @@ class Asset {
   std::unique_ptr<anic_context, DestroyContext> context_;
   std::mutex mutex_;
   anic_asset_info info_ = ANIC_INIT(anic_asset_info);
+  std::vector<anic_clip> clips_;        ///< those that were opened
+  std::vector<uint32_t> clip_numbers_;  ///< of each, in the file
+  std::vector<uint32_t> first_frames_;  ///< of each, among those that were opened
+  uint32_t frame_count_ = 0;
 };
 
 }  // namespace
@@ -399,19 +431,22 @@ void bind_clip(nb::module_& module) {
     check_status(status);
     return std::string(text, size);
   });
-  module.def("read_bounds", [](const nb::bytes& file, uint32_t mesh, uint32_t first,
-                               uint32_t count) -> std::optional<nb::ndarray<nb::numpy, float>> {
-    anic_box box;
-    const anic_status status = anic_read_bounds(file.data(), file.size(), mesh, first, count, &box);
-    if (status == ANIC_E_ABSENT)
-      return std::nullopt;
-    check_status(status);
-    auto result = new_array<float>({2, 3});
-    std::memcpy(result.data(), &box, sizeof box);
-    return result;
-  });
+  module.def("read_bounds",
+             [](const nb::bytes& file, uint32_t mesh, uint32_t first,
+                uint32_t count) -> std::optional<nb::ndarray<nb::numpy, float>> {
+               anic_box box;
+               const anic_status status =
+                   anic_read_bounds(file.data(), file.size(), mesh, first, count, &box);
+               if (status == ANIC_E_ABSENT)
+                 return std::nullopt;
+               check_status(status);
+               auto result = new_array<float>({2, 3});
+               std::memcpy(result.data(), &box, sizeof box);
+               return result;
+             });
   nb::class_<Asset>(module, "Asset")
-      .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&, bool, bool>())
+      .def(nb::init<const nb::bytes&, double, uint64_t, const std::vector<std::string>&, bool,
+                    bool>())
       .def("root_motion", &Asset::root_motion)
       .def("root_step", &Asset::root_step)
       .def("info", &Asset::info)

@@ -8,9 +8,10 @@
 namespace anicodec::python {
 namespace {
 
-int run_command(const std::vector<std::string>& arguments) {
+/// Arguments are bytes: names of files need not be UTF-8.
+int run_command(const std::vector<nb::bytes>& arguments) {
   std::vector<const char*> texts;
-  for (const std::string& argument : arguments)
+  for (const nb::bytes& argument : arguments)
     texts.push_back(argument.c_str());
   texts.push_back(nullptr);
   const nb::gil_scoped_release release;

@@ -233,7 +233,7 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
   set("effort", options.effort);
   set("basis", options.basis);
   set("keyframes", options.keyframes);
-  set("selection", options.selection);
+  set("keyframe_selection", options.selection);
   set("interpolation", options.interpolation);
   set("keyframe_coder", options.keyframe_coder);
   set("massage", options.massage);
@@ -242,7 +242,7 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
   set("massage_strength", options.massage_strength);
   set("massage_tolerance", options.massage_tolerance);
   set("attribute_error", options.attribute_error);
-  set("normal_error", options.normal_error);
+  set("store_normals", options.normal_error);
   std::string metadata;
   if (choices.contains("metadata")) {
     metadata = nb::cast<std::string>(choices["metadata"]);

@@ -34,7 +34,8 @@ class RenderPlan {
 /// Shows moments of a clip. One thread at a time.
 class Instance {
  public:
-  explicit Instance(const anic_asset* asset);
+  /// `clips`: numbers in the file of those that were opened.
+  Instance(const anic_asset* asset, std::vector<uint32_t> clips);
 
   void set_clip(uint32_t clip);
   void set_quality(double quality);
@@ -54,6 +55,7 @@ class Instance {
   };
 
   std::unique_ptr<anic_context, Destroy> context_;
+  std::vector<uint32_t> clips_;
 };
 
 void bind_instance(nb::module_& module);

@@ -4,6 +4,8 @@
 // Instances of clips, and the vertices that graphics cards need: for engines.
 #include "bindings/python/binding/instance.h"
 
+#include <utility>
+
 namespace anicodec::python {
 namespace {
 
@@ -55,14 +57,15 @@ void RenderPlan::write_normals(const Array<float>& positions, Writable<float> ou
   check_status(anic_write_render_normals(get(), positions.data(), 0, 0, count, &output));
 }
 
-Instance::Instance(const anic_asset* asset) {
+Instance::Instance(const anic_asset* asset, std::vector<uint32_t> clips)
+    : clips_(std::move(clips)) {
   anic_context* context = nullptr;
   check_status(anic_create_context(asset, nullptr, &context));
   context_.reset(context);
 }
 
 void Instance::set_clip(uint32_t clip) {
-  check_status(anic_set_clip(context_.get(), clip));
+  check_status(anic_set_clip(context_.get(), at_number(clips_, clip)));
 }
 
 void Instance::set_quality(double quality) {
@@ -75,8 +78,9 @@ void Instance::seek(double seconds, int sampling, int wrap) {
 }
 
 void Instance::blend(uint32_t clip, double seconds, double weight, int sampling, int wrap) {
-  check_status(anic_blend(context_.get(), clip, seconds, static_cast<anic_sampling>(sampling),
-                          static_cast<anic_wrap>(wrap), weight));
+  check_status(anic_blend(context_.get(), at_number(clips_, clip), seconds,
+                          static_cast<anic_sampling>(sampling), static_cast<anic_wrap>(wrap),
+                          weight));
 }
 
 bool Instance::write_positions(const RenderPlan& plan, Writable<float> out) const {

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The extension module, and its exceptions.
-#include "codec/sequence/error.h"
 #include "bindings/python/binding/binding.h"
 #include "bindings/python/binding/instance.h"
+#include "codec/sequence/error.h"
 
 #include <anicodec/encode.h>
 
@@ -85,6 +85,8 @@ NB_MODULE(_anicodec, module) {
   module.attr("version") = std::to_string(ANIC_VERSION_MAJOR) + "." +
                            std::to_string(ANIC_VERSION_MINOR) + "." +
                            std::to_string(ANIC_VERSION_PATCH);
+  // Programs such as Panda3D hold nodes until the process ends: nothing that a user could mend.
+  nb::set_leak_warnings(false);
   nb::register_exception_translator(translate);
   bind_instance(module);
   bind_clip(module);
