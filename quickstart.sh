@@ -7,7 +7,7 @@ source cmake/common.sh
 
 usage="usage: ./quickstart.sh [--no-install]
 Installs the Debian packages anicodec needs, builds command and libraries in build/release, and takes a clip
-there and back in out/. --no-install: without the packages."
+there and back in out/, with a page that plays it. --no-install: without the packages."
 
 packages_wanted=true
 for argument in "$@"; do
@@ -21,7 +21,7 @@ done
 if $packages_wanted; then
   install_packages
 fi
-build release installed
+build release installed anicodec_examples
 
 anicodec=build/release/tools/anicodec
 run() {
@@ -38,6 +38,13 @@ run $anicodec decode -f out/limb.anic -o out/decoded.pc2
 say "How far the decoded clip is from the original"
 run $anicodec compare out/limb.pc2 out/decoded.pc2
 
+say "A page that plays it in a browser"
+run $anicodec render -f out/limb.anic -o out/limb.html
+
 say "Sizes"
-wc -c out/limb.pc2 out/limb.anic | sed '$d'  # without the sum
-echo "Next: $anicodec --help, or cmake --install build/release"
+wc -c out/limb.pc2 out/limb.anic out/limb.html | sed '$d'  # without the sum
+echo "Next: $anicodec --help, or cmake --install build/release
+The pages of docs/howto/ want the command and the examples in the path:
+  PATH=\$PWD/build/release/tools:\$PWD/build/release/sdk/examples:\$PATH
+A package for Python of this build, in half a minute:
+  python3 -m venv venv && venv/bin/pip install . --config-settings=cmake.define.ANICODEC_PREBUILT=build/release"

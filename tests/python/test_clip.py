@@ -234,10 +234,7 @@ def test_threads_share_a_clip(clip):
 
 @pytest.fixture
 def page(clip):
-    try:
-        return clip.page()
-    except anicodec.UnsupportedError as error:
-        pytest.skip(str(error))
+    return clip.page()
 
 
 def test_page_holds_the_clip(clip, page):

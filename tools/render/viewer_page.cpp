@@ -22,8 +22,8 @@ constexpr std::string_view kMark = "<!-- the clip -->";
 std::string find_viewer() {
   const std::filesystem::path folder = own_file().parent_path(),
                               page_there = "share/anicodec/viewer.html";
-  for (const std::filesystem::path& path : {folder / page_there, folder.parent_path() / page_there,
-                                            std::filesystem::path(ANICODEC_VIEWER)}) {
+  for (const std::filesystem::path& path :
+       {folder / page_there, folder.parent_path() / page_there}) {
     std::ifstream file(path, std::ios::binary);
     std::string page{std::istreambuf_iterator<char>(file), {}};
     if (page.find(kMark) != std::string::npos)
@@ -36,7 +36,7 @@ std::string load_viewer() {
   if (std::string page = find_viewer(); !page.empty())
     return page;
   throw Error(ErrorKind::kUnsupported,
-              "this build has no viewer for .html: build the preset wasm (bindings/web/README.md)");
+              "this installation has no viewer for .html: share/anicodec/viewer.html is missing");
 }
 
 std::string viewer_page(std::string_view viewer, std::span<const PageClip> clips) {

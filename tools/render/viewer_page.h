@@ -17,12 +17,10 @@ struct PageClip {
   std::string_view bytes;
 };
 
-/// The viewer's page: that of an installation beside the command, else that of this checkout, else
-/// empty.
+/// The viewer's page, in share/anicodec/ beside the command or its folder; empty where there is none.
 std::string find_viewer();
 
-/// The same where it is needed. Throws
-/// Error(kUnsupported) where neither is: the preset wasm makes it.
+/// The same where it is needed. Throws Error(kUnsupported) where there is none.
 std::string load_viewer();
 
 /// Puts clips into the viewer. Its size is that of the viewer and 4/3 of the clips'.
