@@ -302,12 +302,29 @@ export declare class Clip {
 /** Opens a clip. Fails with an AnicError, an AbortError, or what the network says. */
 export declare function open(source: Source, options?: OpenOptions): Promise<Clip>;
 
+/** Time of a live stream that no clip shows, seconds. */
+export interface Loss {
+  /** End of the clip before it; undefined: there was none. */
+  from: number | undefined;
+  /** Start of the clip behind it; undefined: the stream ended first. */
+  to: number | undefined;
+  /** Files that came, and continue one that was lost. */
+  files: number;
+}
+
+export interface LiveOptions extends Pick<OpenOptions, 'quality' | 'bounds' | 'maxBytes' | 'inPlace' | 'inexact' | 'signal'> {
+  /** Told of a loss before the clip behind it comes. */
+  onLoss?: (loss: Loss) => void;
+}
+
 /**
  * Clips of a live stream, which `anicodec encode --live` writes: one for each of its files, as soon as that is there, with the
  * time that it begins at (`clip.info.startTime`). They are opened in this thread, some milliseconds each; close() those that have been played.
- * Fails as open() does, and with ANIC_E_TRUNCATED where the stream ends inside a file.
+ * Files that continue one that was lost are left out, up to the next that begins anew: onLoss says so. Whoever joins late gives the
+ * last file with meshes, then all from one that begins anew on.
+ * Fails as open() does, with ANIC_E_TRUNCATED where the stream ends inside a file, and with ANIC_E_MESHES where a file with meshes was lost.
  */
-export declare function live(source: Source, options?: Pick<OpenOptions, 'quality' | 'bounds' | 'maxBytes' | 'inPlace' | 'inexact' | 'signal'>): AsyncGenerator<Clip, void>;
+export declare function live(source: Source, options?: LiveOptions): AsyncGenerator<Clip, void>;
 
 /** The metadata of a file: a JSON object; undefined if the file has none. */
 export declare function readMetadata(file: ArrayBuffer | ArrayBufferView): Promise<Record<string, unknown> | undefined>;

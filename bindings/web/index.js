@@ -145,18 +145,64 @@ export function open(source, { quality, bounds, maxBytes, clips, inPlace, inexac
   });
 }
 
+/** Opens the file at hand of a live stream; false where one that it continues was lost. */
+function opensOrLacks(decoder) {
+  try {
+    decoder.openStream();
+    return true;
+  } catch (error) {
+    if (error.status !== 'ANIC_E_SEGMENT_MISSING')
+      throw error;
+    return false;
+  }
+}
+
+/** Tells a live stream's losses: files that could not be opened, and time that no file has. */
+class Gaps {
+  #onLoss;
+  #end;       // of the last clip, seconds
+  #files = 0; // refused since
+
+  constructor(onLoss) {
+    this.#onLoss = onLoss;
+  }
+
+  refuse() {
+    ++this.#files;
+  }
+
+  pass({ startTime, frames, rate }) {
+    if (this.#files > 0 || startTime > this.#end + 0.5 / rate)
+      this.#onLoss?.({ from: this.#end, to: startTime, files: this.#files });
+    this.#files = 0;
+    this.#end = startTime + frames / rate;
+  }
+
+  end() {
+    if (this.#files > 0)
+      this.#onLoss?.({ from: this.#end, to: undefined, files: this.#files });
+  }
+}
+
 /** See index.d.ts. */
-export async function* live(source, { quality, bounds, maxBytes, inPlace, inexact, signal } = {}) {
+export async function* live(source, { quality, bounds, maxBytes, inPlace, inexact, signal, onLoss } = {}) {
   const decoder = await Decoder.create(await loadModule('small'), () => signal?.aborted ?? false);
   decoder.beginStream({ quality, bounds, maxBytes, inPlace, inexact });
+  const gaps = new Gaps(onLoss);
   try {
     let state = { received: 0 };
     for await (const bytes of pieces(source, signal)) {
       for (state = decoder.push(bytes); state.complete; state = decoder.advance()) {
-        decoder.openStream();
-        yield new Clip(await Decoder.from(decoder.snapshot()));
+        if (!opensOrLacks(decoder)) {
+          gaps.refuse();
+          continue;
+        }
+        const clip = new Clip(await Decoder.from(decoder.snapshot()));
+        gaps.pass(clip.info);
+        yield clip;
       }
     }
+    gaps.end();
     if (state.received > 0)
       throw new AnicError('ANIC_E_TRUNCATED', 'the stream ends inside a file', { offset: state.received });
   } catch (error) {

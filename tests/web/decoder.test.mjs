@@ -48,9 +48,9 @@ const inPieces = (bytes, size) => new ReadableStream({
   },
 });
 
-async function clipsOf(stream, each) {
+async function clipsOf(stream, each, onLoss = (loss) => assert.fail(JSON.stringify(loss))) {
   const starts = [];
-  for await (const clip of Anicodec.live(stream)) {
+  for await (const clip of Anicodec.live(stream, { onLoss })) {
     starts.push(clip.info.startTime);
     each?.(clip);
     clip.close();
@@ -81,6 +81,38 @@ async function expectStream(file) {
   await assert.rejects(Anicodec.open(bytes), ({ status }) => status === 'ANIC_E_TRAILING_BYTES');
 }
 
+/** The files that a stream is made of. */
+function filesOf(stream) {
+  const all = [];
+  for (let at = 0; at < stream.length; at += all.at(-1).length)
+    all.push(stream.subarray(at, at + Number(new DataView(stream.buffer, stream.byteOffset + at + 24).getBigUint64(0, true))));
+  return all;
+}
+
+test('a lost file of a live stream is named, and the next that begins anew is played', async () => {
+  provideModule('small', await moduleOf(KINDS.small));
+  const all = filesOf(bytesOf('streams/goes_on.anic')), clips = [], losses = [];
+  const starts = await clipsOf(Uint8Array.from(all.flatMap((file) => [...file])), (clip) => clips.push([clip.frames, clip.info.rate]));
+  const ends = starts.map((start, i) => start + clips[i][0] / clips[i][1]);
+  const play = async (numbers) => {
+    losses.length = 0;
+    return clipsOf(Uint8Array.from(numbers.flatMap((i) => [...all[i]])), undefined, (loss) => losses.push(loss));
+  };
+  const keys = [];  // those that play behind the first file alone
+  for (let i = 1; i < all.length; ++i) {
+    const played = await play([0, i]);
+    if (played.length === 2)
+      keys.push(i);
+    const continues = i > 1 && played.length === 1;
+    assert.deepEqual(losses, i === 1 ? [] : [{ from: ends[0], to: continues ? undefined : starts[i], files: continues ? 1 : 0 }]);
+  }
+  const key = keys.find((i) => i > 2);
+  assert.ok(key, 'a file that begins anew behind two that do not');
+  const numbers = all.map((_, i) => i).filter((i) => i !== 1);
+  assert.deepEqual(await play(numbers), [starts[0], ...starts.slice(key)]);
+  assert.deepEqual(losses, [{ from: ends[0], to: starts[key], files: key - 2 }]);
+});
+
 for (const [small, full] of [['small', 'full'], ['scalar', 'scalar']]) {
   test(`conformance files, module ${small}`, async (t) => {
     provideModule('small', await moduleOf(KINDS[small]));
@@ -96,6 +128,10 @@ for (const [small, full] of [['small', 'full'], ['scalar', 'scalar']]) {
           });
         } else if (what === 'stream') {
           await expectStream(file);
+        } else if (what === 'invalid_stream' && status === 'ANIC_E_SEGMENT_MISSING') {
+          const losses = [];
+          await clipsOf(bytesOf(file), (clip) => clip.verify(), (loss) => losses.push(loss));
+          assert.ok(losses[0].files > 0);
         } else if (what === 'invalid_stream') {
           await assert.rejects(clipsOf(bytesOf(file), (clip) => clip.verify()), (error) => error instanceof AnicError && error.status === status);
         } else {
