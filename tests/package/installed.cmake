@@ -49,16 +49,22 @@ endif()
 
 set(clip "${SOURCE_DIR}/tests/conformance/limb_effort9.anic")
 set(examples "${SOURCE_DIR}/sdk/examples")
-foreach(static OFF ON)
-  set(consumer "${WORK_DIR}/consumer_${static}")
+foreach(kind shared static shared_in_c static_in_c)
+  string(REGEX MATCH static static "${kind}")
+  string(REGEX MATCH in_c in_c "${kind}")
+  set(consumer "${WORK_DIR}/consumer_${kind}")
   run(_ "${CMAKE_COMMAND}" -G Ninja -S "${CMAKE_CURRENT_LIST_DIR}/consumer" -B "${consumer}"
     "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
     "-DCMAKE_C_FLAGS=${FLAGS}" "-DCMAKE_CXX_FLAGS=${FLAGS}" "-DCMAKE_PREFIX_PATH=${prefix}"
-    "-DEXAMPLES=${examples}" -DANICODEC_STATIC=${static})
+    "-DEXAMPLES=${examples}" "-DANICODEC_STATIC:BOOL=${static}" "-DIN_C:BOOL=${in_c}")
   run(_ "${CMAKE_COMMAND}" --build "${consumer}")
-  foreach(program in_c in_cpp)
+  set(programs in_c in_cpp)
+  if(in_c)
+    set(programs in_c)
+  endif()
+  foreach(program IN LISTS programs)
     run(text "${consumer}/${program}" "${clip}")
-    message("${program}, static ${static}: plays")
+    message("${program}, ${kind}: plays")
   endforeach()
 endforeach()
 
