@@ -23,8 +23,8 @@ Vector<float> cutting_pose(const Clip& clip, uint32_t mesh) {
   return pose;
 }
 
-template <class Indices>
-void write_triangles(const Topology& t, const Vector<float>& pose, Indices* out) {
+void write_triangles(const Topology& t, const Vector<float>& pose, uint32_t index_bytes,
+                     unsigned char* out) {
   PolygonCutter cutter(pose.empty() ? nullptr : pose.data(), t.polygon_corners.size());
   Vector<uint32_t> triangles;
   for (size_t p = 0; p + 1 < t.polygon_offsets.size(); ++p) {
@@ -32,8 +32,12 @@ void write_triangles(const Topology& t, const Vector<float>& pose, Indices* out)
     triangles.clear();
     cutter.cut(corner, t.polygon_offsets[p + 1] - t.polygon_offsets[p], &triangles);
     for (const uint32_t c : triangles) {
-      const auto index = static_cast<Indices>(corner[c]);
-      std::memcpy(out++, &index, sizeof index);
+      const auto narrow = static_cast<uint16_t>(corner[c]);
+      if (index_bytes == 2)
+        std::memcpy(out, &narrow, 2);
+      else
+        std::memcpy(out, &corner[c], 4);
+      out += index_bytes;
     }
   }
 }
@@ -250,11 +254,8 @@ anic_status anic_write_indices(const anic_asset* asset, uint32_t mesh, uint32_t 
     Memory memory = memory_of_object(asset);
     memory.held = memory.peak = 0;
     const MemoryScope scope(&memory);
-    const Vector<float> pose = cutting_pose(asset->clip, mesh);
-    if (index_bytes == 2)
-      write_triangles(m->topology, pose, static_cast<uint16_t*>(out));
-    else
-      write_triangles(m->topology, pose, static_cast<uint32_t*>(out));
+    write_triangles(m->topology, cutting_pose(asset->clip, mesh), index_bytes,
+                    static_cast<unsigned char*>(out));
     return {};
   };
   return c_status(guarded(write).status);

@@ -24,24 +24,23 @@ class PolygonCutter {
   void cut(const uint32_t* vertices, uint32_t corners, Vector<uint32_t>* triangles);
 
  private:
-  struct Point {
-    double x = 0, y = 0;
-  };
   enum class Ear { kWithArea, kFlat };
 
+  uint32_t& next(uint32_t corner) { return links_[corner]; }
+
+  uint32_t& previous(uint32_t corner) { return links_[ring_.size() + corner]; }
+
   double turn(uint32_t a, uint32_t b, uint32_t c) const;
-  bool is_fan() const;
-  void flatten();
+  bool is_fan(const Vector3& normal) const;
+  void flatten(const Vector3& normal);
   bool is_ear(uint32_t b, Ear kind);
   bool cut_ears(Vector<uint32_t>* triangles);
 
   const float* positions_;
-  uint64_t comparisons_;              ///< left
-  Vector<Vector3> ring_;              ///< corners, from the first
-  Vector3 normal_;                    ///< twice the area
-  Vector<Point> flat_;                ///< the same in the plane
-  double flat_area_ = 0;              ///< twice, in units of flat_
-  Vector<uint32_t> next_, previous_;  ///< corners that are left
+  uint64_t comparisons_;    ///< left
+  Vector<Vector3> ring_;    ///< corners from the first, later in the plane
+  double rounding_ = 0;     ///< a turn that rounding may make in the plane
+  Vector<uint32_t> links_;  ///< next, then previous of the corners that are left
 };
 
 }  // namespace anicodec
