@@ -191,6 +191,8 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options, 
   std::vector<StoredAttribute> stored;
   if (!options.layout)
     stored = encode_attributes(input.sequence, options.attributes, &input.layout);
+  else if (options.stored)
+    stored = *options.stored;
   if (options.part)
     input.pose = pose_of_parts(input, searched, whole_diagonal, options.smallest);
   if (options.pose) {

@@ -3,6 +3,7 @@
 //
 // The functions of encode.h.
 #include "codec/api/encoder_objects.h"
+#include "codec/api/guarded.h"
 #include "codec/encode_scene.h"
 #include "codec/file/encoding_memory.h"
 #include "codec/parallel/thread_count.h"
@@ -18,75 +19,6 @@
 
 namespace anicodec {
 namespace {
-
-anic_status status_of(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::kUsage:
-    case ErrorKind::kInput:
-      return ANIC_E_ARGUMENT;
-    case ErrorKind::kUnsupported:
-      return ANIC_E_FEATURE;
-    case ErrorKind::kCorrupt:
-    case ErrorKind::kInternal:
-      break;
-  }
-  return ANIC_E_INTERNAL;
-}
-
-/// Keeps a text for the host, unless there is no memory for that.
-void keep(anic_encoder* encoder, const char* text) noexcept {
-  try {
-    encoder->text = text;
-  } catch (...) {
-    encoder->text.clear();
-  }
-}
-
-/// Runs what may throw at the edge of the interface: nothing leaves it.
-template <class Function>
-anic_status guarded(anic_encoder* encoder, Function function) noexcept {
-  encoder->text.clear();
-  try {
-    function();
-    return ANIC_OK;
-  } catch (const EncoderFailure& e) {
-    keep(encoder, e.what());
-    return e.status();
-  } catch (const OverMemory& e) {
-    keep(encoder, e.what());
-    return ANIC_E_LIMIT;
-  } catch (const Error& e) {
-    keep(encoder, e.what());
-    return status_of(e.kind());
-  } catch (const std::bad_alloc&) {
-    keep(encoder, "not enough memory");
-    return ANIC_E_MEMORY;
-  } catch (const std::length_error&) {
-    keep(encoder, "not enough memory");
-    return ANIC_E_MEMORY;
-  } catch (const std::exception& e) {
-    keep(encoder, e.what());
-    return ANIC_E_INTERNAL;
-  } catch (...) {
-    keep(encoder, "an unexpected exception");
-    return ANIC_E_INTERNAL;
-  }
-}
-
-void check_argument(bool holds, const char* text) {
-  if (!holds)
-    throw EncoderFailure(ANIC_E_ARGUMENT, text);
-}
-
-/// The host's struct in our version. Throws EncoderFailure.
-template <class Struct>
-Struct taken(const Struct* host, const char* name) {
-  Struct ours;
-  if (!take(host, &ours))
-    throw EncoderFailure(ANIC_E_ARGUMENT,
-                         std::string(name) + ": its struct_size is not set, or a field is unknown");
-  return ours;
-}
 
 /// Refuses what would hold more than max_bytes before positions are read.
 void check_memory(const anic_encoder& encoder, const EncodeOptions& options) {
@@ -148,20 +80,6 @@ std::vector<SceneMesh> read_near(const anic_encoder& encoder, const Progress& pr
   return read_meshes(encoder, clip->origin, progress);
 }
 
-/// Timing, axes and units of the clip for a mesh that is there in all of it.
-void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
-  mesh->name = clip.name;
-  mesh->rate = clip.rate;
-  mesh->start_time = clip.start_time;
-  mesh->times = clip.times;
-  mesh->up = clip.up;
-  mesh->metres_per_unit = clip.metres_per_unit;
-  mesh->origin = clip.origin;
-  mesh->loop = clip.loop;
-  mesh->events = clip.events;
-  mesh->clips = clip.clips;
-}
-
 /// Encodes what was added by the entry points that the command uses.
 EncodeResult encode_meshes(const anic_encoder& encoder, const EncodingPlan& plan,
                            const Progress& progress, MassageVerdict* verdict) {
@@ -188,6 +106,9 @@ void deliver(const Bytes& file, const anic_writer& writer) {
 void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_encoding* out) {
   if (encoder->meshes.empty())
     throw EncoderFailure(ANIC_E_STATE, "there is no mesh to encode");
+  if (encoder->clip.frame_count == 0)
+    throw EncoderFailure(ANIC_E_STATE,
+                         "the clip has no frame: it is a live one, for anic_begin_live()");
   const EncodingPlan plan = encoding_plan(host);
   check_argument(!plan.options.keyframes || *plan.options.keyframes <= encoder->clip.frame_count,
                  "more key-frames are asked for than the clip has frames");
@@ -221,7 +142,6 @@ void run_encoding(anic_encoder* encoder, const anic_encode_options& host, anic_e
 constexpr uint32_t kMostFrames = (1U << 24) - 1;
 
 MeshSequence clip_of(const anic_source_clip& host) {
-  check_argument(host.frame_count > 0, "the sequence has no frame");
   check_argument(host.frame_count <= kMostFrames, "at most 2^24 - 1 frames are possible");
   check_argument(host.up >= ANIC_UP_UNKNOWN && host.up <= ANIC_UP_Z, "there is no such axis");
   check_argument(std::isfinite(host.start_time), "the start is not finite");
@@ -243,6 +163,10 @@ MeshSequence clip_of(const anic_source_clip& host) {
                    "the origin is not finite, or is to be found and given");
     clip.origin[k] = host.origin[k];
   }
+  check_argument(
+      host.frame_count > 0 ||
+          (!host.loop && !host.times && host.event_count == 0 && !host.find_origin),
+      "a live clip has no loop, times, events and origin that is found: they need all frames");
   clip.loop = host.loop;
   if (host.times) {
     clip.times.assign(host.times, host.times + host.frame_count);
@@ -266,8 +190,8 @@ MeshSequence clip_of(const anic_source_clip& host) {
 }
 
 ClipTiming timing_of(const MeshSequence& clip) {
-  return {clip.name, clip.frame_count, clip.rate, clip.start_time, clip.times, clip.loop,
-          clip.events};
+  return {clip.name,  clip.frame_count, clip.rate,  clip.start_time,
+          clip.times, clip.loop,        clip.events};
 }
 
 /// Appends a clip to those of a file.
@@ -311,10 +235,11 @@ const char* anic_get_encoder_text(const anic_encoder* encoder) {
 anic_status anic_set_source_clip(anic_encoder* encoder, const anic_source_clip* clip) {
   if (!encoder)
     return ANIC_E_ARGUMENT;
-  return guarded(encoder, [&] {
+  return guarded(&encoder->text, [&] {
     check_argument(clip, "there is no clip");
     const anic_source_clip host = taken(clip, "anic_source_clip");
     encoder->clip = clip_of(host);
+    encoder->has_clip = true;
     encoder->find_origin = host.find_origin;
     encoder->meshes.clear();
   });
@@ -323,11 +248,15 @@ anic_status anic_set_source_clip(anic_encoder* encoder, const anic_source_clip* 
 anic_status anic_add_source_clip(anic_encoder* encoder, const anic_source_clip* clip) {
   if (!encoder)
     return ANIC_E_ARGUMENT;
-  return guarded(encoder, [&] {
+  return guarded(&encoder->text, [&] {
     check_argument(clip, "there is no clip");
     if (encoder->clip.frame_count == 0 || !encoder->meshes.empty())
-      throw EncoderFailure(ANIC_E_STATE, "clips come behind the first and before the meshes");
-    append_clip(clip_of(taken(clip, "anic_source_clip")), &encoder->clip);
+      throw EncoderFailure(
+          ANIC_E_STATE,
+          "clips come behind the first, which is not a live one, and before the meshes");
+    const MeshSequence next = clip_of(taken(clip, "anic_source_clip"));
+    check_argument(next.frame_count > 0, "the clip has no frame");
+    append_clip(next, &encoder->clip);
   });
 }
 
@@ -335,9 +264,9 @@ anic_status anic_add_source_mesh(anic_encoder* encoder, const anic_source_mesh* 
                                  uint32_t* number) {
   if (!encoder)
     return ANIC_E_ARGUMENT;
-  return guarded(encoder, [&] {
+  return guarded(&encoder->text, [&] {
     check_argument(mesh, "there is no mesh");
-    if (encoder->clip.frame_count == 0)
+    if (!encoder->has_clip)
       throw EncoderFailure(ANIC_E_STATE, "the clip comes before its meshes");
     encoder->meshes.push_back(
         take_mesh(taken(mesh, "anic_source_mesh"), encoder->clip.frame_count));
@@ -350,7 +279,7 @@ anic_status anic_add_source_attribute(anic_encoder* encoder, uint32_t mesh,
                                       const anic_source_attribute* attribute) {
   if (!encoder)
     return ANIC_E_ARGUMENT;
-  return guarded(encoder, [&] {
+  return guarded(&encoder->text, [&] {
     check_argument(attribute, "there is no attribute");
     check_argument(mesh < encoder->meshes.size(), "there is no such mesh");
     take_attribute(taken(attribute, "anic_source_attribute"), &encoder->meshes[mesh].mesh.sequence);
@@ -363,7 +292,7 @@ anic_status anic_encode(anic_encoder* encoder, const anic_encode_options* option
     return ANIC_E_ARGUMENT;
   anic_encoding ours = ANIC_INIT(anic_encoding);
   const anic_status status = guarded(
-      encoder, [&] { run_encoding(encoder, taken(options, "anic_encode_options"), &ours); });
+      &encoder->text, [&] { run_encoding(encoder, taken(options, "anic_encode_options"), &ours); });
   give(ours, out);
   return status;
 }

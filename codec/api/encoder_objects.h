@@ -11,8 +11,9 @@
 
 #include <anicodec/encode.h>
 
-#include <exception>
+#include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,20 +23,6 @@ namespace anicodec {
 struct SourceMesh {
   SceneMesh mesh;
   anic_source_mesh host{};  ///< with strides; pointers to positions and callback alone are used
-};
-
-/// Ends a call: thrown inside the library, never out of it.
-class EncoderFailure : public std::exception {
- public:
-  EncoderFailure(anic_status status, std::string text) : status_(status), text_(std::move(text)) {}
-
-  anic_status status() const { return status_; }
-
-  const char* what() const noexcept override { return text_.c_str(); }
-
- private:
-  anic_status status_;
-  std::string text_;
 };
 
 /// The host's options as the encoder takes them.
@@ -48,11 +35,18 @@ struct EncodingPlan {
 /// Throws EncoderFailure(ANIC_E_ARGUMENT).
 EncodingPlan encoding_plan(const anic_encode_options& host);
 
-/// Copies a mesh but for its positions. Throws EncoderFailure.
+/// Gives timing, axes and units of the clip to a mesh that is there in all of it.
+void set_timing(const MeshSequence& clip, MeshSequence* mesh);
+
+/// Copies a mesh but for its positions. `clip_frames`: 0 for a live one. Throws EncoderFailure.
 SourceMesh take_mesh(const anic_source_mesh& host, uint32_t clip_frames);
 
 /// Adds an attribute to a mesh. Throws EncoderFailure(ANIC_E_ARGUMENT).
 void take_attribute(const anic_source_attribute& host, MeshSequence* mesh);
+
+/// Copies a frame, x, y, z of each vertex, from an origin.
+void copy_positions(const void* positions, ptrdiff_t stride, anic_scalar scalar,
+                    const Point& origin, std::span<float> to);
 
 /// Reads all positions of a mesh from the host, from the origin of the mesh. `before_frame` is called with the number of each.
 /// Throws EncoderFailure: ANIC_E_READ, ANIC_E_NON_FINITE.
@@ -63,7 +57,8 @@ void read_positions(const SourceMesh& source, const std::function<void(uint32_t)
 
 /// Behind the handle.
 struct anic_encoder {
-  anicodec::MeshSequence clip;  ///< timing alone
+  anicodec::MeshSequence clip;  ///< timing alone; a live one has no frame
+  bool has_clip = false;
   bool find_origin = false;
   std::vector<anicodec::SourceMesh> meshes;
   anicodec::EncodeResult result;

@@ -3,6 +3,7 @@
 //
 // Options of the host.
 #include "codec/api/encoder_objects.h"
+#include "codec/api/guarded.h"
 
 #include <cmath>
 #include <optional>
@@ -41,10 +42,9 @@ double amount(double value, const char* what) {
 }
 
 void set_goal(const anic_encode_options& host, EncodeOptions& options) {
-  constexpr ErrorMetric kMetrics[] = {ErrorMetric::kNone, ErrorMetric::kMaxError,
-                                      ErrorMetric::kKg,   ErrorMetric::kRmse,
-                                      ErrorMetric::kSize, ErrorMetric::kBpfv,
-                                      ErrorMetric::kDisplacement, ErrorMetric::kSted};
+  constexpr ErrorMetric kMetrics[] = {
+      ErrorMetric::kNone, ErrorMetric::kMaxError, ErrorMetric::kKg,           ErrorMetric::kRmse,
+      ErrorMetric::kSize, ErrorMetric::kBpfv,     ErrorMetric::kDisplacement, ErrorMetric::kSted};
   const ErrorMetric metric = chosen(host.goal, kMetrics, "goal");
   const bool percent = host.flags & ANIC_ENCODE_PERCENT;
   if (host.flags & ANIC_ENCODE_LOSSLESS) {
@@ -121,8 +121,7 @@ EncodingPlan encoding_plan(const anic_encode_options& host) {
   constexpr MassageMode kModes[] = {MassageMode::kOff, MassageMode::kOn, MassageMode::kAuto};
   constexpr uint64_t kKnown = ANIC_ENCODE_PERCENT | ANIC_ENCODE_CAP_PERCENT |
                               ANIC_ENCODE_ERROR_PERCENT | ANIC_ENCODE_NO_ATTRIBUTES |
-                              ANIC_ENCODE_ROOT_MOTION | ANIC_ENCODE_LOSSLESS |
-                              ANIC_ENCODE_SMALLEST;
+                              ANIC_ENCODE_ROOT_MOTION | ANIC_ENCODE_LOSSLESS | ANIC_ENCODE_SMALLEST;
   if (host.flags & ~kKnown)
     refuse("there are unknown flags");
   EncodingPlan plan;

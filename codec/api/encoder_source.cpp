@@ -3,6 +3,7 @@
 //
 // Meshes, positions and attributes of the host.
 #include "codec/api/encoder_objects.h"
+#include "codec/api/guarded.h"
 #include "sdk/api/versioned.h"
 
 #include <algorithm>
@@ -77,18 +78,6 @@ void copy_frame(const unsigned char* from, ptrdiff_t stride, const Point& origin
     for (size_t c = 0; c < 3; ++c)
       to[i + c] = static_cast<float>(static_cast<double>(point[c]) - origin[c]);
   }
-}
-
-void copy_frame(const anic_source_mesh& host, uint32_t frame, const Point& origin,
-                std::span<float> to) {
-  const auto* from = static_cast<const unsigned char*>(host.positions) +
-                     static_cast<ptrdiff_t>(frame) * host.frame_stride;
-  if (host.scalar == ANIC_SCALAR_FLOAT64)
-    copy_frame<double>(from, host.vertex_stride, origin, to);
-  else if (host.vertex_stride == ptrdiff_t{3 * sizeof(float)} && origin == Point())
-    std::memcpy(to.data(), from, to.size_bytes());
-  else
-    copy_frame<float>(from, host.vertex_stride, origin, to);
 }
 
 size_t elements_of(const anic_source_attribute& host, const MeshSequence& mesh) {
@@ -184,8 +173,25 @@ bool fits(anic_attribute_kind kind, uint32_t components) {
 
 }  // namespace
 
+/// Timing, axes and units of the clip for a mesh that is there in all of it.
+void set_timing(const MeshSequence& clip, MeshSequence* mesh) {
+  mesh->name = clip.name;
+  mesh->rate = clip.rate;
+  mesh->start_time = clip.start_time;
+  mesh->times = clip.times;
+  mesh->up = clip.up;
+  mesh->metres_per_unit = clip.metres_per_unit;
+  mesh->origin = clip.origin;
+  mesh->loop = clip.loop;
+  mesh->events = clip.events;
+  mesh->clips = clip.clips;
+}
+
 SourceMesh take_mesh(const anic_source_mesh& host, uint32_t clip_frames) {
-  if (!host.positions == !host.read)
+  if (clip_frames == 0 && (host.positions || host.read || host.runs))
+    fail(ANIC_E_ARGUMENT,
+         "the frames of a live clip are pushed: its mesh has no positions and no runs");
+  if (clip_frames > 0 && !host.positions == !host.read)
     fail(ANIC_E_ARGUMENT, "a mesh has either positions or a callback that reads them");
   if (host.scalar != ANIC_SCALAR_FLOAT32 && host.scalar != ANIC_SCALAR_FLOAT64)
     fail(ANIC_E_ARGUMENT, "positions are float32 or float64");
@@ -199,7 +205,8 @@ SourceMesh take_mesh(const anic_source_mesh& host, uint32_t clip_frames) {
   if (host.frame_stride == 0)
     result.host.frame_stride =
         result.host.vertex_stride * static_cast<ptrdiff_t>(host.vertex_count);
-  result.mesh.present_in = runs_of(host, clip_frames);
+  if (clip_frames > 0)
+    result.mesh.present_in = runs_of(host, clip_frames);
   MeshSequence& mesh = result.mesh.sequence;
   mesh.mesh_name = text_of(host.name);
   mesh.vertex_count = host.vertex_count;
@@ -217,19 +224,35 @@ void take_attribute(const anic_source_attribute& host, MeshSequence* mesh) {
     fail(ANIC_E_ARGUMENT, text_of(host.name) + ": its kind has no attribute of " +
                               std::to_string(host.components) + " components");
   const uint32_t frames = std::max<uint32_t>(host.frames, 1);
+  const bool is_pushed = mesh->frame_count == 0 && !host.values;
+  if (is_pushed && (host.kind == ANIC_ATTRIBUTE_NORMAL || host.kind == ANIC_ATTRIBUTE_TANGENT))
+    fail(ANIC_E_ARGUMENT,
+         text_of(host.name) + ": normals and tangents do not move, they follow from the positions");
   if (frames != 1 && frames != mesh->frame_count)
     fail(ANIC_E_ARGUMENT, text_of(host.name) + ": has values for " + std::to_string(frames) +
                               " of " + std::to_string(mesh->frame_count) + " frames");
-  if (!host.values && elements > 0)
+  if (!host.values && elements > 0 && !is_pushed)
     fail(ANIC_E_ARGUMENT, text_of(host.name) + ": has no values");
   Attribute attribute;
   attribute.kind = static_cast<AttributeKind>(host.kind);
   attribute.name = text_of(host.name);
   attribute.domain = static_cast<AttributeDomain>(host.domain);
   attribute.components = host.components;
-  attribute.frames = frames;
-  attribute.values.assign(host.values, host.values + elements * host.components * frames);
+  attribute.frames = is_pushed ? 0 : frames;
+  if (host.values)
+    attribute.values.assign(host.values, host.values + elements * host.components * frames);
   mesh->attributes.push_back(std::move(attribute));
+}
+
+void copy_positions(const void* positions, ptrdiff_t stride, anic_scalar scalar,
+                    const Point& origin, std::span<float> to) {
+  const auto* from = static_cast<const unsigned char*>(positions);
+  if (scalar == ANIC_SCALAR_FLOAT64)
+    copy_frame<double>(from, stride, origin, to);
+  else if (stride == ptrdiff_t{3 * sizeof(float)} && origin == Point())
+    std::memcpy(to.data(), from, to.size_bytes());
+  else
+    copy_frame<float>(from, stride, origin, to);
 }
 
 void read_positions(const SourceMesh& source, const std::function<void(uint32_t)>& before_frame,
@@ -241,7 +264,9 @@ void read_positions(const SourceMesh& source, const std::function<void(uint32_t)
       before_frame(number);
       const std::span<float> to = mesh->frame(number);
       if (!source.host.read)
-        copy_frame(source.host, number, mesh->origin, to);
+        copy_positions(static_cast<const unsigned char*>(source.host.positions) +
+                           static_cast<ptrdiff_t>(number) * source.host.frame_stride,
+                       source.host.vertex_stride, source.host.scalar, mesh->origin, to);
       else if (source.host.read(source.host.user, number, to.data()) != 0)
         fail(ANIC_E_READ, "frame " + std::to_string(f) + ": the callback gave no positions");
       const auto bad = std::ranges::find_if(to, [](float x) { return !std::isfinite(x); });

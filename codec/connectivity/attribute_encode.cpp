@@ -91,7 +91,10 @@ class AttributeWriter {
         has_normals = true;
       } else if (attribute.kind != AttributeKind::kTangent || options_.normals) {
         const auto number = static_cast<uint32_t>(headers_.size());
-        stored_.push_back({i, number, {}, rows_of(attribute), {}});
+        StoredAttribute& stored = stored_.emplace_back();
+        stored.source = i;
+        stored.number = number;
+        stored.rows = rows_of(attribute);
         add_numbers(attribute, &stored_.back());
       }
     }
@@ -154,8 +157,11 @@ class AttributeWriter {
     AttributeHeader& header = add_header(attribute.kind, attribute.domain, attribute.name);
     for (uint32_t i = 0; i < n; ++i)
       header.grids.push_back(grid_of(attribute, i));
-    if (moves(attribute))
-      refine(attribute, &header);
+    stored->moves = moves(attribute, stored->source);
+    if (stored->moves) {
+      stored->bound = error_bound(attribute, stored->source);
+      refine(attribute, stored->bound, &header);
+    }
     std::vector<int32_t> truth;
     truth.reserve(rows.size() * n);
     for (uint32_t row : rows) {
@@ -171,18 +177,21 @@ class AttributeWriter {
       }
     }
     stored->header = header;
-    if (!moves(attribute))
+    if (!stored->moves)
       return static_cast<void>(code(header, truth));
-    const std::vector<uint32_t> tracks = trajectories(attribute, rows);
+    stored->rest = values_on_grid(attribute, header);
+    const std::vector<uint32_t> tracks = trajectories(attribute, *stored);
     stored->surface = attribute_surface(graph_, header.domain, code(header, truth, tracks.data()));
   }
 
   /// A number for each element: those at one coded vertex whose values stay close to those of the first have its
   /// number.
-  std::vector<uint32_t> trajectories(const Attribute& attribute, const std::vector<uint32_t>& rows) const {
+  std::vector<uint32_t> trajectories(const Attribute& attribute,
+                                     const StoredAttribute& stored) const {
     constexpr double kShare = 0.125;  // of the error
     constexpr size_t kMost = 256;     // looked at
-    const auto allowed = static_cast<float>(kShare * error_bound(attribute, options_));
+    const std::vector<uint32_t>& rows = stored.rows;
+    const auto allowed = static_cast<float>(kShare * stored.bound);
     const size_t n = attribute.components, frame = n * rows.size();
     const auto close = [&](uint32_t a, uint32_t b) {
       for (size_t f = 0; f < attribute.frames; ++f) {
@@ -196,7 +205,7 @@ class AttributeWriter {
     };
     std::vector<uint32_t> result(rows.size());
     std::iota(result.begin(), result.end(), 0U);
-    if (attribute.domain == AttributeDomain::kPolygon)
+    if (attribute.domain == AttributeDomain::kPolygon || !options_.share)
       return result;
     std::vector<std::vector<uint32_t>> at(layout_.topology.coded_vertices);
     for (uint32_t e = 0; e < rows.size(); ++e) {
@@ -213,9 +222,46 @@ class AttributeWriter {
     return result;
   }
 
-  void refine(const Attribute& attribute, AttributeHeader* header) const {
+  /// Whether later frames of a live stream move it.
+  bool will_move(uint32_t number) const { return std::ranges::count(options_.moving, number) > 0; }
+
+  bool moves(const Attribute& attribute, uint32_t number) const {
+    if (attribute.kind == AttributeKind::kNormal || attribute.kind == AttributeKind::kTangent)
+      return false;
+    const size_t row = attribute.values.size() / attribute.frames;
+    return will_move(number) || !std::equal(attribute.values.begin() + static_cast<ptrdiff_t>(row),
+                                            attribute.values.end(), attribute.values.begin());
+  }
+
+  /// The largest error that an attribute which moves may have.
+  double error_bound(const Attribute& attribute, uint32_t number) const {
+    constexpr double kDefaultPercent = 0.1;
+    if (options_.error && !options_.error_percent)
+      return *options_.error;
+    if (!options_.error && attribute.kind == AttributeKind::kColour)
+      return 0.5 / (std::exp2(options_.colour_bits) - 1);
+    double range = 0;
+    for (uint32_t i = 0; i < attribute.components; ++i) {
+      const auto [low, high] = range_of(attribute, i);
+      range = std::max(range, high - low);
+    }
+    if (range == 0 && will_move(number))
+      range = 1;  // nobody knows yet
+    return options_.error.value_or(kDefaultPercent) / 100 * range;
+  }
+
+  static std::vector<float> values_on_grid(const Attribute& attribute,
+                                           const AttributeHeader& header) {
+    std::vector<float> values(attribute.values.size() / attribute.frames);
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<float>(on_grid(static_cast<double>(attribute.values[i]),
+                                             header.grids[i % attribute.components]));
+    return values;
+  }
+
+  static void refine(const Attribute& attribute, double bound, AttributeHeader* header) {
     constexpr double kShare = 0.25, kFinest = 1 << 20;  // of the error; steps to the range
-    const double allowed = kShare * error_bound(attribute, options_);
+    const double allowed = kShare * bound;
     const uint32_t n = attribute.components;
     const size_t count = attribute.values.size() / attribute.frames;
     for (uint32_t i = 0; i < n; ++i) {
@@ -327,36 +373,28 @@ class AttributeWriter {
 
 }  // namespace
 
-bool moves(const Attribute& attribute) {
-  if (attribute.frames < 2 || attribute.kind == AttributeKind::kNormal ||
-      attribute.kind == AttributeKind::kTangent)
-    return false;
-  const size_t row = attribute.values.size() / attribute.frames;
-  return !std::equal(attribute.values.begin() + static_cast<ptrdiff_t>(row), attribute.values.end(),
-                     attribute.values.begin());
-}
-
-double error_bound(const Attribute& attribute, const AttributeOptions& options) {
-  constexpr double kDefaultPercent = 0.1;
-  if (options.error && !options.error_percent)
-    return *options.error;
-  if (!options.error && attribute.kind == AttributeKind::kColour)
-    return 0.5 / (std::exp2(options.colour_bits) - 1);
-  double range = 0;
-  for (uint32_t i = 0; i < attribute.components; ++i) {
-    const auto [low, high] = range_of(attribute, i);
-    range = std::max(range, high - low);
+bool moves_as_stored(const Attribute& attribute, const StoredAttribute& stored) {
+  constexpr double kShare = 0.25;  // of the error
+  const auto allowed = static_cast<float>(kShare * stored.bound);
+  const Vector<uint32_t>& entries = stored.surface.vertex_coded;
+  const size_t n = attribute.components;
+  std::vector<uint32_t> first(stored.surface.coded_vertices, UINT32_MAX);
+  for (size_t e = 0; e < entries.size(); ++e) {
+    uint32_t& row = first[entries[e]];
+    if (row == UINT32_MAX) {
+      row = stored.rows[e];
+      continue;
+    }
+    for (size_t f = 0; f < attribute.frames; ++f) {
+      const float* values = attribute.values.data() + f * n * entries.size();
+      for (size_t i = 0; i < n; ++i) {
+        const size_t a = n * stored.rows[e] + i, b = n * row + i;
+        if (!(std::abs((values[a] - stored.rest[a]) - (values[b] - stored.rest[b])) <= allowed))
+          return false;
+      }
+    }
   }
-  return options.error.value_or(kDefaultPercent) / 100 * range;
-}
-
-std::vector<float> stored_values(const Attribute& attribute, const StoredAttribute& stored) {
-  const size_t count = attribute.values.size() / attribute.frames;
-  std::vector<float> values(count);
-  for (size_t i = 0; i < count; ++i)
-    values[i] = static_cast<float>(on_grid(static_cast<double>(attribute.values[i]),
-                                           stored.header.grids[i % attribute.components]));
-  return values;
+  return true;
 }
 
 std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,

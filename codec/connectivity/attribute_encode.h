@@ -27,6 +27,9 @@ struct AttributeOptions {
   /// nothing: half a step of colour_bits for colours, 0.1 % for others.
   std::optional<double> error;
   bool error_percent = false;
+  std::vector<uint32_t>
+      moving;  ///< numbers of attributes that later frames move, of a live stream, though these may not
+  bool share = true;  ///< whether elements at one vertex that move alike are coded once
 };
 
 /// An attribute as the file holds it.
@@ -35,18 +38,17 @@ struct StoredAttribute {
   uint32_t number = 0;  ///< and in the file
   AttributeHeader header;
   std::vector<uint32_t> rows;  ///< the source's element of each element in canonical order
-  Topology surface;            ///< of one that moves: attribute_surface(), in canonical order
+  bool moves =
+      false;  ///< some frame has other values than the first. Normals and tangents follow from positions
+  // Of one that moves:
+  double bound = 0;  ///< the largest error that it may have
+  std::vector<float>
+      rest;  ///< values of the first frame as decoders get them: elements of the source x components
+  Topology surface;  ///< attribute_surface(), in canonical order
 };
 
-/// Whether values of some frame differ from those of the first one. Normals and tangents never do:
-/// they follow from positions and texture coordinates.
-bool moves(const Attribute& attribute);
-
-/// The largest error that an attribute which moves may have. O(values).
-double error_bound(const Attribute& attribute, const AttributeOptions& options);
-
-/// The values of the first frame as decoders get them: elements of the source x components.
-std::vector<float> stored_values(const Attribute& attribute, const StoredAttribute& stored);
+/// Whether elements that share what moves still do in other frames than those of which `stored` was made. O(values).
+bool moves_as_stored(const Attribute& attribute, const StoredAttribute& stored);
 
 /// Codes what stands beside the positions, as in the first frame, into layout->attributes (chunk
 /// ATTR) and counts of them (layout->sizes). Of normals only the hard edges are kept, unless options

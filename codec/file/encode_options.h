@@ -59,8 +59,9 @@ struct EncodeOptions {
   /// any.
   std::shared_ptr<const EncodedPose> pose;
   /// The mesh as it lies in a file that the clip goes to, with its attributes: those of the sequence are left
-  /// alone. Null: it is laid out.
+  /// alone but for those that `stored` lists, which move. Null: it is laid out.
   std::shared_ptr<const MeshLayout> layout;
+  std::shared_ptr<const std::vector<StoredAttribute>> stored;
   /// Learnt from the files of a live stream before this one: its segment goes on there, and leaves what it learns
   /// itself. Null: segments begin anew.
   KeptLearning* learning = nullptr;

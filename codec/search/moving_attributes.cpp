@@ -40,7 +40,6 @@ class OffsetReader {
       : input_(input),
         stored_(stored),
         attribute_(input.sequence.attributes[stored.source]),
-        rest_(stored_values(attribute_, stored)),
         copies_(stored.surface.coded_vertices, 0),
         first_frame_(first_frame) {
     for (uint32_t entry : stored.surface.vertex_coded)
@@ -59,7 +58,7 @@ class OffsetReader {
     for (size_t f = 0; f < attribute_.frames; ++f) {
       const bool is_own = f >= first_frame_ && f - first_frame_ < input_.sequence.frame_count;
       const float* values = attribute_.values.data() + f * entries.size() * n + first_component;
-      const float* at_rest = rest_.data() + first_component;
+      const float* at_rest = stored_.rest.data() + first_component;
       std::fill(sums.begin(), sums.end(), 0.0);
       for (size_t e = 0; e < entries.size(); ++e) {
         const size_t at = size_t{stored_.rows[e]} * n;
@@ -102,13 +101,13 @@ class OffsetReader {
   const EncoderInput& input_;
   const StoredAttribute& stored_;
   const Attribute& attribute_;
-  const std::vector<float> rest_;
   std::vector<uint32_t> copies_;  ///< elements of each entry
   const uint32_t first_frame_;
 };
 
 /// The pose of a mesh as that of an attribute's entries.
-std::shared_ptr<const EncodedPose> pose_of_entries(const EncodedPose& pose, const MeshLayout& layout,
+std::shared_ptr<const EncodedPose> pose_of_entries(const EncodedPose& pose,
+                                                   const MeshLayout& layout,
                                                    const StoredAttribute& stored) {
   auto result = std::make_shared<EncodedPose>();
   result->grid = surface_pose(pose.grid, layout.topology, stored.header.domain, stored.surface);
@@ -126,8 +125,7 @@ std::vector<CodedPart> encode_offsets(const EncoderInput& input, const StoredAtt
   attribute_options.cap.reset();
   const Target target{ErrorMetric::kMaxError, bound, false};
   trajectories.bound_clips(std::vector<ClipGoal>(trajectories.clips.size(), {target, {}, 0}));
-  std::vector<CodedPart> parts =
-      RateControl(trajectories, attribute_options, target).solve().parts;
+  std::vector<CodedPart> parts = RateControl(trajectories, attribute_options, target).solve().parts;
   for (CodedPart& part : parts)
     part.encoded.reference = pose;
   return parts;
@@ -143,13 +141,13 @@ MovingAttributes encode_moving_attributes(const EncoderInput& input,
   const uint32_t first_frame = options.part ? options.part->first : 0;
   for (const StoredAttribute& s : stored) {
     const Attribute& attribute = input.sequence.attributes[s.source];
-    if (!moves(attribute))
+    if (!s.moves)
       continue;
     AttributeResult result;
     result.kind = attribute.kind;
     result.name = attribute.name;
     result.number = s.number;
-    result.asked = error_bound(attribute, options.attributes);
+    result.asked = s.bound;
     const OffsetReader reader(input, s, first_frame);
     const double rounding = kRounding * reader.largest_value();
     std::vector<CodedPart> parts;

@@ -46,6 +46,7 @@ Table run_live(const BenchOptions& options, const Target& target, uint32_t frame
                {"frames", "frames a file", ""},
                {"files", "files", ""},
                {"bytes", "bytes", ""},
+               {"kbits", "kbit/s", "{:.0f}"},
                {"whole_bytes", "whole clip", ""},
                {"times", "stream : whole", "{:.2f}"},
                {"encode_seconds", "encode s a file", "{:.2f}"},
@@ -60,6 +61,8 @@ Table run_live(const BenchOptions& options, const Target& target, uint32_t frame
     MeshSequence sequence = load_clip(name);
     encoding.target = in_scene_units(target, diagonal(sequence));
     const uint32_t vertices = sequence.vertex_count;
+    constexpr double kUsual = 30;  // frames a second, where nobody knows
+    const double seconds = sequence.frame_count / (sequence.rate.assumed ? kUsual : sequence.rate.value());
     const size_t whole_bytes = whole_clip(sequence, encoding).size();
     const Stopwatch watch(CLOCK_MONOTONIC);
     const std::vector<Bytes> files = live_files(std::move(sequence), frames, key_every, encoding);
@@ -99,6 +102,7 @@ Table run_live(const BenchOptions& options, const Target& target, uint32_t frame
                {"frames", frames},
                {"files", files.size()},
                {"bytes", stream.size()},
+               {"kbits", 8e-3 * static_cast<double>(stream.size()) / seconds},
                {"whole_bytes", whole_bytes},
                {"times", static_cast<double>(stream.size()) / static_cast<double>(whole_bytes)},
                {"encode_seconds", encode_seconds},

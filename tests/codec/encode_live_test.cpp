@@ -32,13 +32,15 @@ FrameArray frames_of(const MeshSequence& clip, uint32_t first, uint32_t count) {
 }
 
 /// The stream of a clip, so many frames a file.
-std::vector<Bytes> streamed(const MeshSequence& clip, uint32_t frames, const EncodeOptions& options) {
+std::vector<Bytes> streamed(const MeshSequence& clip, uint32_t frames,
+                            const EncodeOptions& options) {
   MeshSequence mesh = clip;
   mesh.positions = {};
   LiveEncoder encoder(mesh, options);
   std::vector<Bytes> files;
   for (uint32_t f = 0; f < clip.frame_count; f += frames)
-    files.push_back(encoder.encode(frames_of(clip, f, std::min(frames, clip.frame_count - f))).file);
+    files.push_back(
+        encoder.encode(frames_of(clip, f, std::min(frames, clip.frame_count - f))).file);
   return files;
 }
 
@@ -117,7 +119,8 @@ TEST(LiveEncoder, BeginsAnewEverySoManySeconds) {
     ASSERT_TRUE(reader.open_of_stream(files[i]).ok());
     EXPECT_TRUE(reader.features() & kLearningFeature);
     SegmentRecord record;
-    ASSERT_EQ(SegmentRecord::read(reader.unchecked(*reader.find("SEGM", 0, 0)), &record), Status::kOk);
+    ASSERT_EQ(SegmentRecord::read(reader.unchecked(*reader.find("SEGM", 0, 0)), &record),
+              Status::kOk);
     EXPECT_EQ(record.continued == 0, i % 3 == 0) << i;  // of 24 frames a second
   }
   const Bytes whole = joined(files);
@@ -140,6 +143,82 @@ TEST(LiveEncoder, DoesNotWeldWhatMayPart) {
   first.positions = frames_of(clip, 0, 6);
   const double bound = 0.1 / 100 * diagonal(first);
   EXPECT_LE(largest_error(joined(streamed(clip, 6, options_of(0.1))), clip), bound * 1.000001);
+}
+
+/// Colours of corners that all shine alike, but for those of one from a frame on.
+std::vector<float> shine(const MeshSequence& clip, uint32_t frame, uint32_t parts_at) {
+  std::vector<float> values;
+  for (size_t c = 0; c < clip.polygons.corners.size(); ++c) {
+    const auto v =
+        static_cast<float>(clip.polygons.corners[c]) / static_cast<float>(clip.vertex_count);
+    const float own = c == 5 && frame >= parts_at ? 0.5F : 0.0F;
+    for (const float phase : {0.0F, 1.0F, 2.0F})
+      values.push_back(0.25F + 0.2F * std::sin(v * 9 + phase + 0.1F * static_cast<float>(frame)) +
+                       own);
+  }
+  return values;
+}
+
+TEST(LiveEncoder, CodesAttributesThatMove) {
+  MeshSequence clip = corpus::make_scaled("limb", 200, 24);
+  for (const uint32_t parts_at : {100U, 14U}) {
+    SCOPED_TRACE(parts_at);
+    MeshSequence mesh = clip;
+    mesh.positions = {};
+    Attribute& colour = mesh.attributes.emplace_back();
+    colour.kind = AttributeKind::kColour;
+    colour.domain = AttributeDomain::kCorner;
+    colour.components = 3;
+    colour.frames = 0;
+    LiveEncoder encoder(mesh, options_of(0.2));
+    Bytes stream;
+    std::vector<bool> has_mesh;
+    for (uint32_t f = 0; f < clip.frame_count; f += 6) {
+      std::vector<FrameArray> values(1);
+      for (uint32_t g = f; g < f + 6; ++g) {
+        const std::vector<float> frame = shine(clip, g, parts_at);
+        values[0].insert(values[0].end(), frame.begin(), frame.end());
+      }
+      const LivePiece piece = encoder.encode(frames_of(clip, f, 6), std::move(values));
+      has_mesh.push_back(piece.has_mesh);
+      stream.insert(stream.end(), piece.file.begin(), piece.file.end());
+    }
+    // Where corners part that moved as one, a mesh begins that has them apart.
+    EXPECT_EQ(has_mesh, (std::vector<bool>{true, false, parts_at < 100, false}));
+    uint32_t first = 0;
+    for (const Bytes& file : read_live_stream({"stream", stream}).files) {
+      Clip opened;
+      static KeptLearning learning;
+      OpenOptions options;
+      options.learning = &learning;
+      ASSERT_TRUE(opened.open(file, options).ok());
+      const Topology& topology = opened.meshes()[0].topology;
+      for (uint32_t f = 0; f < 6; ++f) {
+        const std::vector<float> wanted = shine(clip, first + f, parts_at);
+        std::vector<float> values(wanted.size());
+        ASSERT_EQ(opened.attribute_values(0, 0, f, values.data()), Status::kOk);
+        double worst = 0;
+        // Polygons come in the order of the coder, each from any corner on: compare the sums of colours of each vertex.
+        std::vector<double> ours(size_t{3} * clip.vertex_count), theirs(ours.size());
+        for (size_t c = 0; c < wanted.size() / 3; ++c) {
+          for (size_t i = 0; i < 3; ++i) {
+            theirs[size_t{3} * clip.polygons.corners[c] + i] += double{wanted[3 * c + i]};
+            ours[size_t{3} * topology.polygon_corners[c] + i] += double{values[3 * c + i]};
+          }
+        }
+        for (size_t i = 0; i < ours.size(); ++i)
+          worst = std::max(worst, std::abs(ours[i] - theirs[i]));
+        EXPECT_LT(worst, 8 * 0.5 / 255) << first + f;
+      }
+      first += 6;
+    }
+    EXPECT_EQ(first, clip.frame_count);
+  }
+  MeshSequence mesh = clip;
+  mesh.attributes.emplace_back().frames = 0;
+  LiveEncoder encoder(mesh, options_of(0.2));
+  EXPECT_THROW(encoder.encode(frames_of(clip, 0, 6)), Error);
+  EXPECT_THROW(encoder.encode(frames_of(clip, 0, 6), std::vector<FrameArray>(2)), Error);
 }
 
 TEST(LiveEncoder, StaysAsItIsWhereNothingMoves) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/encoding/live_capture.h"
 
-#include "codec/encode_live.h"
+#include "codec/live_queue.h"
 #include "codec/sequence/error.h"
 #include "tools/io/base/byte_order.h"
 #include "tools/io/files/atomic_file.h"
@@ -14,11 +14,11 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <future>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,8 +58,10 @@ class GrowingOutput {
       return;
     }
     if (!file_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
-        std::fflush(file_.get()) != 0 || (file_.get() != stdout && !synchronize(::fileno(file_.get()))))
-      throw Error(ErrorKind::kInternal, fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
+        std::fflush(file_.get()) != 0 ||
+        (file_.get() != stdout && !synchronize(::fileno(file_.get()))))
+      throw Error(ErrorKind::kInternal,
+                  fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
   }
 
  private:
@@ -68,23 +70,62 @@ class GrowingOutput {
   std::unique_ptr<std::FILE, FileCloser> file_;
 };
 
-/// Up to `frames` frames of the standard input; fewer at its end. Throws Error(kInput) for part of a frame.
-FrameArray read_frames(size_t frames, size_t vertices) {
-  const size_t frame_bytes = 12 * vertices;
-  std::string bytes(frames * frame_bytes, '\0');
+/// Reads a frame of the standard input; false at its end. Throws Error(kInput) for part of a frame.
+bool read_frame(std::string& bytes, std::vector<float>& positions) {
   const size_t size = std::fread(bytes.data(), 1, bytes.size(), stdin);
   if (std::ferror(stdin))
-    throw Error(ErrorKind::kInput, fmt::format("the standard input cannot be read: {}", std::strerror(errno)));
-  if (size % frame_bytes != 0)
     throw Error(ErrorKind::kInput,
-                fmt::format("the standard input ends inside a frame: {} of {} bytes ({} vertices of three "
-                            "float32)",
-                            size % frame_bytes, frame_bytes, vertices));
-  FrameArray positions(size / 4);
+                fmt::format("the standard input cannot be read: {}", std::strerror(errno)));
+  if (size == 0)
+    return false;
+  if (size != bytes.size())
+    throw Error(
+        ErrorKind::kInput,
+        fmt::format("the standard input ends inside a frame: {} of {} bytes ({} vertices of three "
+                    "float32)",
+                    size, bytes.size(), bytes.size() / 12));
   for (size_t i = 0; i < positions.size(); ++i)
     positions[i] = load<float>(bytes.data() + 4 * i, std::endian::little);
-  return positions;
+  return true;
 }
+
+/// Pushes the frames of the standard input from a thread of its own.
+class FrameReader {
+ public:
+  explicit FrameReader(LiveQueue& queue)
+      : queue_(queue), done_(std::async(std::launch::async, [this] { read(); })) {}
+
+  ~FrameReader() {
+    queue_.stop();  // where the files cannot be written, nobody makes room
+    if (done_.valid())
+      done_.wait();
+  }
+
+  FrameReader(const FrameReader&) = delete;
+  FrameReader& operator=(const FrameReader&) = delete;
+
+  /// Throws what the reading ended with.
+  void finish() { done_.get(); }
+
+ private:
+  void read() {
+    std::vector<float> positions(size_t{3} * queue_.mesh().vertex_count);
+    std::string bytes(4 * positions.size(), '\0');
+    try {
+      while (read_frame(bytes, positions))
+        queue_.push(positions, {}, kForever);
+    } catch (...) {
+      queue_.end();  // with the frames that are there
+      throw;
+    }
+    queue_.end();
+  }
+
+  static constexpr double kForever = std::numeric_limits<double>::infinity();
+
+  LiveQueue& queue_;
+  std::future<void> done_;
+};
 
 MeshSequence load_mesh(const EncodeArguments& command) {
   if (command.inputs.size() != 1)
@@ -108,15 +149,18 @@ double box_of(const EncodeArguments& command, double metres_per_unit) {
 void report_bound(const EncodeOptions& options, const EncodeResult& first) {
   for (const Target& target : {options.target, options.cap.value_or(Target{})}) {
     if (target.percent)
-      print_line(stderr, "{:g} % is {:.4g}, of the diagonal {:.4g} of the first piece's box; --box gives another",
-                 target.value, in_scene_units(target, first.diagonal).value, first.diagonal);
+      print_line(
+          stderr,
+          "{:g} % is {:.4g}, of the diagonal {:.4g} of the first piece's box; --box gives another",
+          target.value, in_scene_units(target, first.diagonal).value, first.diagonal);
   }
 }
 
 void check_goes_with(const EncodeArguments& command) {
   const auto refuse = [](bool given, const char* option) {
     if (given)
-      throw Error(ErrorKind::kUsage, fmt::format("{} needs all frames, and --live gets them one by one", option));
+      throw Error(ErrorKind::kUsage,
+                  fmt::format("{} needs all frames, and --live gets them one by one", option));
   };
   refuse(!command.part.empty(), "--part");
   refuse(!command.batch.empty(), "--batch");
@@ -127,15 +171,24 @@ void check_goes_with(const EncodeArguments& command) {
   refuse(!command.events.empty(), "--event");
 }
 
-/// What is said of a file of the stream.
-void report(const EncodeResult& result, double start, double seconds, const CommonOptions& common) {
-  if (common.json)
-    print_json({{"start", start}, {"frames", result.frames}, {"bytes", result.file.size()},
-                {"max_error", result.max_error}, {"kg", result.kg}, {"seconds", seconds}});
-  else if (!common.quiet)
-    print_line(stderr, "{:.2f} s: {}, {} bytes, max error {:.4g}, KG {:.3g} %, encoded in {:.2f} s", start,
-               counted(result.frames, "frame"), grouped(result.file.size()), result.max_error, result.kg,
-               seconds);
+/// What is said of a file of the stream, at once: a program may wait for it.
+void report(const QueuedPiece& piece, double rate, const CommonOptions& common) {
+  if (common.json) {
+    print_json({{"start", piece.start_time},
+                {"length", piece.frames / rate},
+                {"frames", piece.frames},
+                {"bytes", piece.file.size()},
+                {"key", piece.is_key},
+                {"has_mesh", piece.has_mesh},
+                {"max_error", piece.max_error},
+                {"kg", piece.kg},
+                {"seconds", piece.encode_seconds}});
+    std::fflush(stdout);
+  } else if (!common.quiet) {
+    print_line(stderr, "{:.2f} s: {}, {} bytes, max error {:.4g}, KG {:.3g} %, encoded in {:.2f} s",
+               piece.start_time, counted(piece.frames, "frame"), grouped(piece.file.size()),
+               piece.max_error, piece.kg, piece.encode_seconds);
+  }
 }
 
 }  // namespace
@@ -145,38 +198,33 @@ void encode_live(const EncodeArguments& command, const CommonOptions& common) {
   MeshSequence mesh = load_mesh(command);
   EncodeOptions options = encode_options(command);
   set_target(command, mesh.metres_per_unit, &options);
-  if (const double box = box_of(command, mesh.metres_per_unit); box > 0) {
-    options.target = in_scene_units(options.target, box);
-    if (options.cap)
-      options.cap = in_scene_units(*options.cap, box);
-  }
-  const size_t vertices = mesh.vertex_count;
+  LiveOptions live;
+  live.piece = command.piece;
+  live.key_every = command.key_every;
+  live.box = box_of(command, mesh.metres_per_unit);
+  live.most_waiting =
+      2 * static_cast<uint64_t>(std::max(1.0, std::ceil(live.piece * mesh.rate.value())));
   const double rate = mesh.rate.value();
-  const auto frames = static_cast<size_t>(std::max(1.0, std::round(command.piece * rate)));
-  LiveEncoder encoder(std::move(mesh), options, command.key_every);
+  LiveQueue queue(std::move(mesh), options, live);
   GrowingOutput output(command.output, common.overwrite);
-  // Frames are read while those before them are encoded.
-  const auto read = [&] { return std::async(std::launch::async, read_frames, frames, vertices); };
-  std::future<FrameArray> next = read();
-  uint64_t first = 0;
-  for (FrameArray positions; !(positions = next.get()).empty();) {
-    next = read();
-    const auto begin = std::chrono::steady_clock::now();
-    EncodeResult result;
-    try {
-      result = encoder.encode(std::move(positions));
-    } catch (const Error& e) {
-      throw Error(e.kind(), fmt::format("the frames from {} on: {}", first, e.what()));
-    }
-    output.write(result.file);
-    if (first == 0 && !common.quiet && !common.json)
-      report_bound(options, result);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    report(result, static_cast<double>(first) / rate, took.count(), common);
-    first += result.frames;
+  FrameReader reader(queue);
+  uint64_t bytes = 0;
+  double seconds = 0;
+  while (const std::optional<QueuedPiece> piece =
+             queue.take(std::numeric_limits<double>::infinity())) {
+    output.write(piece->file);
+    if (bytes == 0 && live.box == 0 && !common.quiet && !common.json)
+      report_bound(options, *piece);
+    report(*piece, rate, common);
+    bytes += piece->file.size();
+    seconds += piece->frames / rate;
   }
-  if (first == 0)
+  reader.finish();
+  if (bytes == 0)
     throw Error(ErrorKind::kInput, "the standard input has no frame");
+  if (!common.json && !common.quiet)
+    print_line(stderr, "{:.2f} s: {} bytes, {:.1f} kbit/s", seconds, grouped(bytes),
+               8e-3 * static_cast<double>(bytes) / seconds);
 }
 
 }  // namespace anicodec::tools

@@ -22,7 +22,8 @@
  *   anic_destroy_encoder(encoder);
  *
  * Conventions
- * - Threads: an encoder is used by one thread at a time; different encoders are independent.
+ * - Threads: an encoder is used by one thread at a time; different encoders are independent. Of a live
+ *   stream, one thread may push while another takes.
  *   anic_encode() starts threads unless anic_encode_options say 1. The bytes of the
  *   file do not depend on their number.
  * - Memory: malloc(). While anic_encode() runs it holds all positions as float32, and about twice
@@ -70,7 +71,7 @@ ANIC_API const char* anic_get_encoder_text(const anic_encoder* encoder);
 typedef struct anic_source_clip {
   size_t struct_size;
   const char* name; /**< UTF-8; NULL: none */
-  uint32_t frame_count;
+  uint32_t frame_count; /**< 0: a live clip, whose frames are pushed: anic_begin_live() */
   uint32_t rate_numerator;   /**< frames per second = numerator / denominator. 0: nobody knows; 24
                                 is stored, and that it is assumed */
   uint32_t rate_denominator; /**< 0 counts as 1 */
@@ -133,7 +134,8 @@ typedef struct anic_source_mesh {
   const uint32_t* offsets; /**< polygon p has the corners offsets[p] .. offsets[p + 1] - 1;
                               polygon_count + 1 numbers. NULL: all polygons are triangles */
   const uint32_t* corners; /**< vertex of each corner; NULL without polygons */
-  const void* positions;   /**< x of vertex 0 in frame 0, any alignment; NULL: read() gives them */
+  const void* positions;   /**< x of vertex 0 in frame 0, any alignment; NULL: read() gives them. Of a
+                              live clip there is neither */
   ptrdiff_t vertex_stride; /**< bytes from a vertex to the next; 0: packed */
   ptrdiff_t frame_stride;  /**< bytes from a frame to the next; 0: the frames follow one another */
   anic_scalar scalar;      /**< of positions */
@@ -163,7 +165,8 @@ typedef struct anic_source_attribute {
   anic_domain domain;
   uint32_t components;    /**< numbers of an element; 0: it has `labels` */
   uint32_t frames;        /**< frames that `values` has, 1 or all of the mesh; 0 counts as 1 */
-  const float* values;    /**< frames x elements x components */
+  const float* values;    /**< frames x elements x components; NULL in a live clip: it moves, each
+                             frame has its values */
   const uint32_t* labels; /**< of each corner: those of a vertex with the same label share a
                                      normal (ANIC_ATTRIBUTE_NORMAL). For each polygon: 0 for none, or
                                      one more than the number of a name (ANIC_ATTRIBUTE_MATERIAL,
@@ -323,6 +326,106 @@ typedef struct anic_encoding {
  */
 ANIC_API anic_status anic_encode(anic_encoder* encoder, const anic_encode_options* options,
                                  anic_encoding* out);
+
+/* ---- live streams ---------------------------------------------------------------------------- */
+
+/** A capture that is encoded while it goes on: frames in, files of a live stream out, each with a second of
+ * them as a rule (anic_advance_stream() plays one after the other). A thread of its own encodes. One thread
+ * may push while another takes; other calls at the same time are undefined. */
+typedef struct anic_live anic_live;
+
+/** A NULL pointer, or 0 in every field: everything by default. */
+typedef struct anic_live_options {
+  size_t struct_size;
+  double piece_seconds; /**< of a file; 0: 1 */
+  double key_seconds; /**< a file begins anew so many seconds after the last that did; whoever joins late, or
+                         has lost a file, goes on there. 0: 4; below 0: every file does */
+  double box; /**< diagonal that a goal in per cent is of, in units of the clip; 0: that of the first file's
+                 frames, which is smaller than the clip's */
+  uint64_t most_waiting_frames; /**< that wait for being encoded, at least those of a file; 0: any number,
+                                   whatever memory they take */
+} anic_live_options;
+
+/**
+ * Begins a stream of the encoder's clip, whose frame_count is 0, and its mesh, of which there is one. Both
+ * are copied: the encoder may go.
+ *
+ * - Params: options as of anic_encode(), without what needs all frames: sizes, key-frames, lossless,
+ *   massage, root motion; nor progress and writer. effort: 1 is fast enough for 10,000 vertices at 30 frames
+ *   a second. attribute_error in per cent is of the range in the first file. Both may be NULL
+ * - Errors: ANIC_E_STATE: the clip has frames, or there is not one mesh; ANIC_E_ARGUMENT; ANIC_E_MEMORY:
+ *   anic_get_encoder_text() tells more
+ */
+ANIC_API anic_status anic_begin_live(anic_encoder* encoder, const anic_encode_options* options,
+                                     const anic_live_options* live, anic_live** out);
+
+/** Ends the encoding of what is there, and drops it. NULL is allowed. */
+ANIC_API void anic_destroy_live(anic_live* live);
+
+/** The fault of this thread's last call of a function of live streams, as anic_get_encoder_text(). */
+ANIC_API const char* anic_get_live_text(void);
+
+/** A frame. */
+typedef struct anic_live_frame {
+  size_t struct_size;
+  const void* positions;   /**< x of vertex 0, any alignment */
+  ptrdiff_t vertex_stride; /**< bytes from a vertex to the next; 0: packed */
+  anic_scalar scalar;      /**< of positions */
+  uint32_t value_count;    /**< attributes that move: those without `values` */
+  const float* const* values; /**< of each of them, in the order in which they were added: elements x
+                                 components */
+} anic_live_frame;
+
+/**
+ * Copies a frame. Waits at most `wait` seconds for room, INFINITY for ever.
+ *
+ * - Errors: ANIC_E_LIMIT: there is no room, nothing was taken; ANIC_E_ARGUMENT: counts or pointers make no
+ *   sense, a number is not finite, anic_end_live() was called: nothing was taken; what ended the encoding
+ */
+ANIC_API anic_status anic_push_live_frame(anic_live* live, const anic_live_frame* frame, double wait);
+
+/** No frame follows: the last file gets those that are there. */
+ANIC_API anic_status anic_end_live(anic_live* live);
+
+/** A file of the stream, and what was measured of it. */
+typedef struct anic_live_piece {
+  size_t struct_size;
+  const void* file; /**< belongs to the stream, until the next anic_take_live_piece() */
+  size_t size;
+  uint64_t first_frame; /**< of the frames that were pushed */
+  double start_time;    /**< of that frame, on the clock of the clip */
+  double encode_seconds;
+  double max_error;
+  double rmse;
+  double kg; /**< per cent */
+  uint32_t frame_count;
+  uint8_t key;      /**< it begins anew: whoever has lost a file goes on here */
+  uint8_t has_mesh; /**< it is no continuation: whoever joins needs the last of these, and then a key */
+} anic_live_piece;
+
+/**
+ * Takes the next file, once it is made. Waits at most `wait` seconds, INFINITY for ever.
+ *
+ * - Errors: ANIC_E_ABSENT: none was made in time, or all are taken (anic_live_info.ended); what ended the
+ *   encoding, when all files before are taken: the codes of anic_encode()
+ */
+ANIC_API anic_status anic_take_live_piece(anic_live* live, double wait, anic_live_piece* out);
+
+/** How far a stream is. */
+typedef struct anic_live_info {
+  size_t struct_size;
+  uint64_t pushed_frames;
+  uint64_t waiting_frames; /**< frames of which no file is made yet */
+  uint64_t late_frames;    /**< of these, frames of full files that are not begun: 0 while the encoder keeps
+                              up, else how far it is behind */
+  uint64_t waiting_pieces; /**< files made, and not taken */
+  double encode_seconds;   /**< that the last file took */
+  uint32_t piece_frames;   /**< frames of a file, but for the last */
+  uint8_t ended;           /**< all files are taken */
+} anic_live_info;
+
+/** - Errors: ANIC_E_ARGUMENT */
+ANIC_API anic_status anic_get_live_info(const anic_live* live, anic_live_info* out);
 
 #ifdef __cplusplus
 }
