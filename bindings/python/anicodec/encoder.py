@@ -42,11 +42,19 @@ class Encoded(bytes):
     notes: Sequence[str] = ()  #: what a source has and the file does not keep, of those that importers read
 
 
+@dataclass(frozen=True)
+class Moving:
+    """An attribute of a live stream whose values come with each frame."""
+
+    domain: str  #: "vertices", "corners" or "polygons"
+    components: int  #: 2 of uv, 3 or 4 of colours, 1 to 16 of others
+
+
 @dataclass
 class SourceMesh:
     """A mesh of encode_meshes()."""
 
-    positions: Any  #: frames x vertices x 3, or a function of a frame that returns vertices x 3
+    positions: Any  #: frames x vertices x 3, or a function of a frame that returns vertices x 3; None of encode_live()
     faces: Any = None  #: see encode()
     name: str = ""
     vertex_count: Optional[int] = None  #: with a function alone
@@ -97,7 +105,7 @@ def _size(value: Any) -> float:
 def _goal(options: Dict[str, Any]) -> Dict[str, Any]:
     """The target among the options, taken out of them."""
     quality = options.pop("quality", None)
-    given = {name: options.pop(name) for name in _GOALS if options.get(name) is not None}
+    given = {name: value for name in _GOALS if (value := options.pop(name, None)) is not None}
     if quality is not None:
         if "sted" in given:
             raise InputError("quality and sted are two targets")
@@ -182,6 +190,7 @@ class _Adder:
 
     def __init__(self, encoder: Any, number: int, mesh: SourceMesh, frame_count: int, max_bytes: int):
         self._encoder, self._number, self._max_bytes = encoder, number, max_bytes
+        self.moving: List[Tuple[str, str, Tuple[int, int]]] = []  #: kind, name and shape of attributes that come with each frame
         self._frames = sum(count for _, count in mesh.runs) if mesh.runs else frame_count
         for part in mesh.faces if isinstance(mesh.faces, tuple) else (mesh.faces,):
             _arrays.check_size(part, "faces", max_bytes)
@@ -199,6 +208,8 @@ class _Adder:
                     raise InputError(f"frame {frame}: positions must be {vertices} x 3, "
                                      f"not {_arrays.shape_text(array)}")
                 return array
+        elif frame_count == 0 and mesh.vertex_count is not None:
+            vertices = mesh.vertex_count
         else:
             _arrays.check_size(positions, "positions", max_bytes)
             positions = _arrays.frames(positions)
@@ -221,6 +232,8 @@ class _Adder:
 
     def _values(self, name: str, kind: str, given: Any, components: Tuple[int, ...]) -> None:
         what = f"{kind} {name!r}" if name else kind
+        if isinstance(given, Moving):
+            return self._move(name, kind, what, given, components)
         _arrays.check_size(given, what, self._max_bytes)
         values = _arrays.floats(given, what)
         moving = values.ndim == 3
@@ -233,6 +246,15 @@ class _Adder:
         domain = self._counts.index(elements)  # the first of those with as many elements
         self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, values.shape[-1], frames, values,
                                     None, [], [])
+
+    def _move(self, name: str, kind: str, what: str, given: Moving, components: Tuple[int, ...]) -> None:
+        if self._frames > 0:
+            raise InputError(f"{what}: a Moving is of a live stream; give frames of values")
+        if kind == "normal" or given.components not in components:
+            raise InputError(f"{what} cannot move with {given.components} components")
+        domain = chosen({word: i for i, word in enumerate(DOMAINS)}, given.domain, "domain")
+        self.moving.append((kind, name, (self._counts[domain], given.components)))
+        self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, given.components, 0, None, None, [], [])
 
     def _labels(self, kind: str, names: Sequence[str], of_polygon: Any,
                 looks: Sequence[Optional[Material]] = ()) -> None:
@@ -252,6 +274,13 @@ def _clock(clip: SourceClip, fps: Any, loop: bool) -> Tuple[int, int, bool, floa
         raise InputError(f"times must be {clip.frame_count} seconds, not {_arrays.shape_text(table)}")
     return (*_rate(fps if clip.fps is None else clip.fps), loop if clip.loop is None else clip.loop, clip.start_time,
             table)
+
+
+def _metres(unit: Union[None, float, str]) -> float:
+    metres = _UNITS.get(unit) if isinstance(unit, str) else float(unit or 0)
+    if metres is None:
+        raise InputError(f"unit is a number of metres or one of {', '.join(_UNITS)}, not {unit!r}")
+    return metres
 
 
 def _origin(value: Any) -> Optional[Tuple[float, float, float]]:
@@ -298,9 +327,7 @@ def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = 
             raise InputError("frame_count is needed")
         frame_count = counts[0]
     choices = _choices(dict(options))
-    metres = _UNITS.get(unit) if isinstance(unit, str) else float(unit or 0)
-    if metres is None:
-        raise InputError(f"unit is a number of metres or one of {', '.join(_UNITS)}, not {unit!r}")
+    metres = _metres(unit)
     if up not in UP:
         raise InputError(f"up is 'y', 'z' or None, not {up!r}")
     if frame_count < 1 or frame_count >= 2**24:

@@ -81,6 +81,7 @@ void bind_clip(nb::module_& module);
 void bind_command(nb::module_& module);
 void bind_encoder(nb::module_& module);
 void bind_library(nb::module_& module);
+void bind_live(nb::module_& module);
 
 }  // namespace anicodec::python
 

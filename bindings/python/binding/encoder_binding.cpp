@@ -3,6 +3,7 @@
 //
 // The encoder, over its C interface.
 #include "bindings/python/binding/binding.h"
+#include "bindings/python/binding/live_binding.h"
 
 #include <anicodec/encode.h>
 
@@ -129,7 +130,7 @@ class Encoder {
     has_clip_ = true;
   }
 
-  /// Positions: an array frames x vertices x 3 whose last axis is packed, or a function of a frame.
+  /// Positions: an array frames x vertices x 3 whose last axis is packed, or a function of a frame; None in a live clip.
   void add_mesh(const std::string& name, uint32_t vertices, const Array<uint32_t>& offsets,
                 const Array<uint32_t>& corners, const nb::object& positions,
                 const std::vector<std::pair<uint32_t, uint32_t>>& runs);
@@ -165,6 +166,10 @@ class Encoder {
 
   nb::tuple encode(const nb::dict& choices, const nb::object& progress);
 
+  /// Of a clip without frames; 0 as of anic_live_options.
+  Live begin_live(const nb::dict& choices, double piece, double key_every, double box,
+                  uint64_t most_waiting);
+
  private:
   void check(anic_status status) const {
     if (status != ANIC_OK)
@@ -192,7 +197,7 @@ void Encoder::add_mesh(const std::string& name, uint32_t vertices, const Array<u
         std::make_unique<Callback>(Callback{positions, size_t{vertices} * 3, &thrown_}));
     mesh.user = readers_.back().get();
     mesh.read = read_frame;
-  } else {
+  } else if (!positions.is_none()) {
     auto array = nb::cast<nb::ndarray<nb::ro, nb::device::cpu>>(positions);
     const bool wide = array.dtype() == nb::dtype<double>();
     if (array.ndim() != 3 || array.shape(2) != 3 || array.shape(1) != vertices ||
@@ -213,8 +218,15 @@ void Encoder::add_mesh(const std::string& name, uint32_t vertices, const Array<u
   check(anic_add_source_mesh(encoder_.get(), &mesh, nullptr));
 }
 
-nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
+/// The options of Python as the encoder takes them.
+struct Options {
   anic_encode_options options = ANIC_INIT(anic_encode_options);
+  std::string metadata;
+
+  explicit Options(const nb::dict& choices);
+};
+
+Options::Options(const nb::dict& choices) {
   auto set = [&]<class Field>(const char* key, Field& field) {
     if (!choices.contains(key))
       return;
@@ -243,11 +255,15 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
   set("massage_tolerance", options.massage_tolerance);
   set("attribute_error", options.attribute_error);
   set("store_normals", options.normal_error);
-  std::string metadata;
   if (choices.contains("metadata")) {
     metadata = nb::cast<std::string>(choices["metadata"]);
     options.metadata = metadata.c_str();
   }
+}
+
+nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
+  Options given(choices);
+  anic_encode_options& options = given.options;
   Callback follower{progress, 0, &thrown_};
   options.progress = {&follower, report};
   anic_encoding result = ANIC_INIT(anic_encoding);
@@ -274,6 +290,19 @@ nb::tuple Encoder::encode(const nb::dict& choices, const nb::object& progress) {
   return nb::make_tuple(nb::bytes(result.file, result.size), measured);
 }
 
+Live Encoder::begin_live(const nb::dict& choices, double piece, double key_every, double box,
+                         uint64_t most_waiting) {
+  const Options given(choices);
+  anic_live_options live = ANIC_INIT(anic_live_options);
+  live.piece_seconds = piece;
+  live.key_seconds = key_every;
+  live.box = box;
+  live.most_waiting_frames = most_waiting;
+  anic_live* made = nullptr;
+  check(anic_begin_live(encoder_.get(), &given.options, &live, &made));
+  return Live(made);
+}
+
 }  // namespace
 
 void bind_encoder(nb::module_& module) {
@@ -282,11 +311,14 @@ void bind_encoder(nb::module_& module) {
       .def("add_clip", &Encoder::add_clip, nb::arg("name"), nb::arg("frames"), nb::arg("numerator"),
            nb::arg("denominator"), nb::arg("up"), nb::arg("loop"), nb::arg("start"),
            nb::arg("unit"), nb::arg("times").none(), nb::arg("events"), nb::arg("origin").none())
-      .def("add_mesh", &Encoder::add_mesh)
+      .def("add_mesh", &Encoder::add_mesh, nb::arg("name"), nb::arg("vertices"), nb::arg("offsets"),
+           nb::arg("corners"), nb::arg("positions").none(), nb::arg("runs"))
       .def("add_attribute", &Encoder::add_attribute, nb::arg("mesh"), nb::arg("name"),
            nb::arg("kind"), nb::arg("domain"), nb::arg("components"), nb::arg("frames"),
            nb::arg("values").none(), nb::arg("labels").none(), nb::arg("names"), nb::arg("looks"))
-      .def("encode", &Encoder::encode, nb::arg("choices"), nb::arg("progress").none());
+      .def("encode", &Encoder::encode, nb::arg("choices"), nb::arg("progress").none())
+      .def("begin_live", &Encoder::begin_live, nb::arg("choices"), nb::arg("piece"),
+           nb::arg("key_every"), nb::arg("box"), nb::arg("most_waiting"));
 }
 
 }  // namespace anicodec::python

@@ -93,4 +93,5 @@ NB_MODULE(_anicodec, module) {
   bind_encoder(module);
   bind_command(module);
   bind_library(module);
+  bind_live(module);
 }
