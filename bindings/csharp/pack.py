@@ -5,7 +5,7 @@
 
 usage: pack.py OUT PLATFORM=LIBRARY...      writes OUT/Anicodec.VERSION.nupkg and OUT/org.anicodec.unity-VERSION.tgz
 
-PLATFORM is a name of NuGet (linux-x64, osx-arm64, win-x64 ...). The assembly is compiled by dotnet, for .NET Standard 2.1 and
+PLATFORM is a name of NuGet (linux-x64, osx-arm64, win-x64 ...); one may be named twice, with the decoder and with the encoder. The assembly is compiled by dotnet, for .NET Standard 2.1 and
 .NET 6, or where there is none by Mono's mcs, for .NET Standard 2.1 alone. The same input gives the same bytes of everything
 else.
 """
@@ -40,8 +40,9 @@ RELATIONS = """<?xml version="1.0" encoding="utf-8"?>
 """
 
 
-def file_name(platform):
-    return {"win": "anicodec.dll", "osx": "libanicodec.dylib"}.get(platform.split("-")[0], "libanicodec.so")
+def file_name(platform, library):
+    name = "anicodec_encoder" if "anicodec_encoder" in library.name else "anicodec"
+    return {"win": f"{name}.dll", "osx": f"lib{name}.dylib"}.get(platform.split("-")[0], f"lib{name}.so")
 
 
 def compile_assembly(folder):
@@ -62,8 +63,8 @@ def nuget_files(assemblies, libraries):
     for framework, path in assemblies.items():
         stand_ins[f"lib/{framework}/Anicodec.dll"] = path.read_bytes()
         stand_ins[f"lib/{framework}/Anicodec.dll.config"] = (HERE / "Anicodec.dll.config").read_bytes()
-    for platform, path in libraries.items():
-        stand_ins[f"runtimes/{platform}/native/{file_name(platform)}"] = path.read_bytes()
+    for platform, path in libraries:
+        stand_ins[f"runtimes/{platform}/native/{file_name(platform, path)}"] = path.read_bytes()
     chosen = {}
     for entry in xml.parse(HERE / "Anicodec.nuspec").getroot().iter(NUSPEC + "file"):
         source = entry.get("src").removesuffix("**")
@@ -119,8 +120,8 @@ def unity_files(libraries):
             files[f"{folder}/{path.name}"] = path.read_bytes()
     for name in ("package.json", "README.md"):
         files[name] = (HERE / name).read_bytes()
-    for platform, path in libraries.items():
-        files[f"Plugins/{platform}/{file_name(platform)}"] = path.read_bytes()
+    for platform, path in libraries:
+        files[f"Plugins/{platform}/{file_name(platform, path)}"] = path.read_bytes()
     folders = {parent for name in files for parent in map(str, pathlib.PurePosixPath(name).parents) if parent != "."}
     metas = {f"{folder}.meta": meta(folder, "folderAsset: yes\n") for folder in folders}
     for name in files:
@@ -147,10 +148,10 @@ def main():
         sys.exit(__doc__)
     out = pathlib.Path(sys.argv[1])
     out.mkdir(parents=True, exist_ok=True)
-    libraries = {}
+    libraries = []
     for word in sys.argv[2:]:
         platform, _, path = word.partition("=")
-        libraries[platform] = pathlib.Path(path)
+        libraries.append((platform, pathlib.Path(path)))
     with tempfile.TemporaryDirectory() as folder:
         assemblies = compile_assembly(pathlib.Path(folder))
         print(write_nupkg(out, nuget_files(assemblies, libraries)))

@@ -338,23 +338,79 @@ internal static class PackageTest
     {
         Type type = typeof(Asset).Assembly.GetType("Anicodec.NativeLibraries");
         string platform = (string)type.GetMethod("Platform").Invoke(null, null);
-        string file = (string)type.GetMethod("FileName").Invoke(null, null);
+        string file = (string)type.GetMethod("FileName").Invoke(null, new object[] { "anicodec" });
         Check.That(platform.StartsWith("linux-") && file == "libanicodec.so", platform + " " + file);
         string root = Path.Combine(Path.GetTempPath(), "anicodec_" + Guid.NewGuid());
         MethodInfo find = type.GetMethod("Find");
-        Check.That(find.Invoke(null, new object[] { root }) == null, "none: as the system finds it");
+        Check.That(find.Invoke(null, new object[] { root, "anicodec" }) == null, "none: as the system finds it");
         string packed = Path.Combine(root, "runtimes", platform, "native", file);
         Directory.CreateDirectory(Path.GetDirectoryName(packed));
         File.WriteAllBytes(packed, new byte[0]);
-        Check.That((string)find.Invoke(null, new object[] { root }) == packed, "beside the assembly");
+        Check.That((string)find.Invoke(null, new object[] { root, "anicodec" }) == packed, "beside the assembly");
         Directory.Delete(root, true);
+    }
+
+    /// <summary>A strip that waves, a frame at a time, with a heat of each vertex.</summary>
+    private static void EncodesACapture()
+    {
+        const int Vertices = 60, Frames = 25;
+        LiveMesh mesh = new LiveMesh { VertexCount = Vertices };
+        mesh.Corners = Enumerable.Range(0, Vertices - 2).SelectMany(i => new[] { (uint)i, (uint)i + 1, (uint)i + 2 }).ToArray();
+        mesh.Attributes.Add(new LiveAttribute { Name = "heat", Kind = AttributeKind.Custom, Components = 1 });
+        LiveOptions options = new LiveOptions { RateNumerator = 10, Effort = 1, Goal = Goal.MaxError, GoalValue = 0.001, Threads = 1, KeySeconds = 2 };
+        using (LiveEncoder live = Encoder.Live(mesh, options))
+        using (AssetStream stream = new AssetStream())
+        {
+            Check.That(live.Take() == null && live.Info.PieceFrames == 10 && !live.Info.Ended, "nothing yet");
+            float[][] all = new float[Frames][];
+            for (int f = 0; f < Frames; ++f)
+            {
+                float[] points = all[f] = new float[3 * Vertices], heat = new float[Vertices];
+                for (int v = 0; v < Vertices; ++v)
+                {
+                    points[3 * v] = 0.1f * v;
+                    points[3 * v + 1] = (float)Math.Sin(0.2 * v + 0.3 * f);
+                    heat[v] = (float)Math.Cos(0.1 * v + 0.2 * f);
+                }
+                Check.That(live.Push(points, new[] { heat }), "room for a frame");
+            }
+            Check.Throws(Status.Argument, () => live.Push(new float[3]), "a frame of another mesh");
+            Check.Throws(Status.Argument, () => live.Push(all[0]), "a frame without heat");
+            live.End();
+            List<LivePiece> pieces = live.TakeAll().ToList();
+            Check.That(pieces.Count == 3 && live.Info.Ended && live.Info.PushedFrames == Frames, "three files");
+            Check.That(pieces[0].HasMesh && pieces[0].Key && !pieces[1].HasMesh && !pieces[1].Key && pieces[2].Key, "what they are");
+            Check.That(pieces[2].FirstFrame == 20 && pieces[2].FrameCount == 5 && pieces[2].StartTime == 2, "their place");
+            int frame = 0;
+            foreach (LivePiece piece in pieces)
+            {
+                if (frame > 0)
+                    stream.Advance();
+                stream.Push(piece.File);
+                using (Asset asset = stream.Open())
+                using (Context context = new Context(asset))
+                {
+                    float[] points = new float[3 * Vertices];
+                    for (int f = 0; f < asset.FrameCount; ++f, ++frame)
+                    {
+                        context.SeekFrame(f);
+                        context.WritePositions(points);
+                        Check.That(points.Zip(all[frame], (a, b) => Math.Abs(a - b)).Max() <= 0.001f, "frame " + frame);
+                    }
+                }
+            }
+            Check.That(frame == Frames, "all frames");
+        }
+        Check.Throws(Status.Argument, () => Encoder.Live(mesh, new LiveOptions { Goal = Goal.Size, GoalValue = 100 }), "a size");
+        mesh.Corners[0] = 99;
+        Check.Throws(Status.IndexRange, () => Encoder.Live(mesh), "a corner that is no vertex");
     }
 
     private static void PrintLayout()
     {
         Assembly assembly = typeof(Asset).Assembly;
-        Type native = assembly.GetType("Anicodec.Native");
-        List<Type> structs = native.GetNestedTypes(BindingFlags.Public | BindingFlags.NonPublic)
+        Type[] natives = { assembly.GetType("Anicodec.Native"), assembly.GetType("Anicodec.NativeEncoder") };
+        List<Type> structs = natives.SelectMany(t => t.GetNestedTypes(BindingFlags.Public | BindingFlags.NonPublic))
             .Where(t => t.Name.StartsWith("anic_")).ToList();
         foreach (Type t in structs)
         {
@@ -362,7 +418,7 @@ internal static class PackageTest
             foreach (FieldInfo f in t.GetFields(BindingFlags.Instance | BindingFlags.Public))
                 Console.WriteLine("field {0} {1} {2}", t.Name, f.Name, Marshal.OffsetOf(t, f.Name));
         }
-        foreach (MethodInfo m in native.GetMethods(BindingFlags.Static | BindingFlags.Public).Where(m => m.Name.StartsWith("anic_")))
+        foreach (MethodInfo m in natives.SelectMany(t => t.GetMethods(BindingFlags.Static | BindingFlags.Public)).Where(m => m.Name.StartsWith("anic_")))
             Console.WriteLine("function {0} {1}", m.Name, m.GetParameters().Length);
         foreach (Type t in assembly.GetTypes().Where(t => t.IsEnum && t.IsPublic))
         {
@@ -391,6 +447,7 @@ internal static class PackageTest
         Morphs();
         AllocatesNothingPerFrame();
         FindsLibrariesByPlatform();
+        EncodesACapture();
         Check.Done();
     }
 }

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Packs bindings/csharp with a library, and tests what is in the packages under Mono, and under .NET where there is one.
 
-usage: run.py CHECKOUT LIBRARY WORK C_COMPILER      exit status 77: skipped, for the reason printed
+usage: run.py CHECKOUT LIBRARY WORK C_COMPILER ENCODER      exit status 77: skipped, for the reason printed
 """
 import json
 import os
@@ -22,7 +22,7 @@ CPU = {"x86_64": "x64", "aarch64": "arm64"}
 ENUMERATIONS = {"ANIC_E_": "Status", "ANIC_UP_": "UpAxis", "ANIC_ORDER_": "VertexOrder", "ANIC_ATTRIBUTE_": "AttributeKind",
                 "ANIC_DOMAIN_": "Domain", "ANIC_ALPHA_": "AlphaMode", "ANIC_SAMPLE_": "Sampling", "ANIC_WRAP_": "Wrap", "ANIC_WHEN_": "When",
                 "ANIC_FORMAT_": "VertexFormat", "ANIC_VALUE_": "ValueFormat", "ANIC_BASIS_": "BasisKind",
-                "ANIC_TARGET_": "Target", "ANIC_RECONSTRUCTION_": "Reconstruction", "ANIC_OPEN_": "OpenFlags", "ANIC_TEXTURE_": "BasisTexture"}
+                "ANIC_TARGET_": "Target", "ANIC_GOAL_": "Goal", "ANIC_RECONSTRUCTION_": "Reconstruction", "ANIC_OPEN_": "OpenFlags", "ANIC_TEXTURE_": "BasisTexture"}
 # Names that are a constant of no enumeration of the header.
 EXTRA = {("Status", "Ok"), ("OpenFlags", "None")}
 # Fixed arrays of the header that C# writes as fields.
@@ -56,8 +56,9 @@ def constants(header):
 
 def layout_faults(layout, checkout, work, compiler):
     """Differences between what C# declares and the header."""
-    path = checkout / "sdk" / "include" / "anicodec" / "anicodec.h"
-    header = path.read_text(encoding="utf-8")
+    includes = [checkout / module / "include" for module in ("sdk", "codec")]
+    header, encoder = ((folder / "anicodec" / name).read_text(encoding="utf-8")
+                       for folder, name in zip(includes, ("anicodec.h", "encode.h")))
     lines = [line.split() for line in layout.splitlines()]
     prints = []
     for kind, struct, *rest in lines:
@@ -67,9 +68,9 @@ def layout_faults(layout, checkout, work, compiler):
             member = ARRAYS.get((struct, rest[0]), rest[0])
             prints.append(f'printf("field {struct} {rest[0]} %zu\\n", offsetof({struct}, {member}));')
     source = work / "layout.c"
-    source.write_text("#include <anicodec/anicodec.h>\n#include <stdio.h>\nint main(void) {\n" + "\n".join(prints) +
+    source.write_text("#include <anicodec/encode.h>\n#include <stdio.h>\nint main(void) {\n" + "\n".join(prints) +
                       "\nreturn 0;\n}\n", encoding="utf-8")
-    run(compiler, "-std=c11", "-I", path.parent.parent, source, "-o", work / "layout")
+    run(compiler, "-std=c11", *(f"-I{folder}" for folder in includes), source, "-o", work / "layout")
     ours = {line for line in layout.splitlines() if line.startswith(("struct", "field"))}
     theirs = set(run(work / "layout").splitlines())
     yield from (f"C has {line}" for line in sorted(theirs - ours))
@@ -87,16 +88,19 @@ def layout_faults(layout, checkout, work, compiler):
         for field in re.findall(r"(\w+)(?:\[\w+\])?\s*[;,]", code):
             if (struct, field) not in known:
                 yield f"C# has no {struct}.{field}"
-    functions = {name for name in re.findall(r"\b(anic_\w+)\(", re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL))}
-    functions &= set(re.findall(r"ANIC_API[^;]*?\b(anic_\w+)\(", header))
+    def functions_of(text):
+        code = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
+        return set(re.findall(r"ANIC_API[^;]*?\b(anic_\w+)\(", code))
+
     ours = {words[1] for words in lines if words[0] == "function"}
-    yield from (f"C# has no function {name}" for name in sorted(functions - ours))
-    yield from (f"the header has no function {name}" for name in sorted(ours - functions))
+    live = {name for name in functions_of(encoder) if "_live" in name}  # of the encoder, live streams alone are for C#
+    yield from (f"C# has no function {name}" for name in sorted((functions_of(header) | live) - ours))
+    yield from (f"no header has a function {name}" for name in sorted(ours - functions_of(header) - functions_of(encoder)))
     numbers = {(words[1], words[2]): int(words[3]) for words in lines if words[0] == "constant"}
-    wanted = constants(header)
+    wanted = constants(header + encoder)
     for key in sorted(numbers.keys() | wanted.keys()):
         if key not in EXTRA and numbers.get(key) != wanted.get(key):
-            yield f"{'.'.join(key)} is {numbers.get(key)} in C#, {wanted.get(key)} in the header"
+            yield f"{'.'.join(key)} is {numbers.get(key)} in C#, {wanted.get(key)} in the headers"
 
 
 def unpack(packages, work, rid):
@@ -106,7 +110,8 @@ def unpack(packages, work, rid):
     with zipfile.ZipFile(nuget) as archive:
         names = set(archive.namelist())
         wanted = {"[Content_Types].xml", "_rels/.rels", "Anicodec.nuspec", "README.md", "lib/netstandard2.1/Anicodec.dll",
-                  f"runtimes/{rid}/native/libanicodec.so"}
+                  f"runtimes/{rid}/native/libanicodec.so",
+                  f"runtimes/{rid}/native/libanicodec_encoder.so"}
         if not wanted <= names:
             sys.exit(f"{nuget.name} lacks {wanted - names}")
         for name in names:
@@ -131,9 +136,10 @@ def check_unity_package(packages):
 
 
 def main():
-    if len(sys.argv) != 5:
+    if len(sys.argv) != 6:
         sys.exit(__doc__)
     checkout, library, work = (pathlib.Path(path).resolve() for path in sys.argv[1:4])
+    encoder = pathlib.Path(sys.argv[5]).resolve()
     missing = [name for name in ("mcs", "mono") if not shutil.which(name)]
     if missing:
         print(f"skipped: there is no {' and no '.join(missing)} (Debian: mono-mcs mono-runtime)")
@@ -145,7 +151,7 @@ def main():
     (work / "program").mkdir(parents=True)
     tests, sdk, files = checkout / "tests" / "csharp", checkout / "bindings" / "csharp", checkout / "tests" / "conformance"
     rid = f"linux-{CPU.get(platform.machine(), platform.machine())}"
-    run(sys.executable, sdk / "pack.py", work / "packages", f"{rid}={library}")
+    run(sys.executable, sdk / "pack.py", work / "packages", f"{rid}={library}", f"{rid}={encoder}")
     check_unity_package(work / "packages")
     program = unpack(work / "packages", work, rid)
     assembly = program / "Anicodec.dll"
@@ -186,8 +192,9 @@ def run_with_dotnet(tests, assembly, program, work, files, environment):
   </ItemGroup>
 </Project>
 """, encoding="utf-8")
-    library = next(program.glob("runtimes/*/native/*"))
-    return run("dotnet", "run", "--project", project, "--", files, env={**environment, "ANICODEC_LIBRARY": str(library)})
+    libraries = {variable: str(next(program.glob(f"runtimes/*/native/{name}.so"))) for variable, name in
+                 (("ANICODEC_LIBRARY", "libanicodec"), ("ANICODEC_ENCODER_LIBRARY", "libanicodec_encoder"))}
+    return run("dotnet", "run", "--project", project, "--", files, env={**environment, **libraries})
 
 
 if __name__ == "__main__":

@@ -21,6 +21,12 @@ namespace Anicodec
             Chunk = "";
         }
 
+        internal AnicException(Status status, string text) : base(text)
+        {
+            Status = status;
+            Chunk = "";
+        }
+
         internal unsafe AnicException(Native.anic_failure failure) : base(Describe(failure))
         {
             Status = failure.status;
