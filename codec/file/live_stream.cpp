@@ -15,15 +15,15 @@ namespace anicodec {
 namespace {
 
 /// Fails unless a file continues one with the meshes of `before`.
-void check_continues(const ContainerReader& file, const ContainerReader& before, const ClipPart& stream,
-                     const std::string& place) {
+void check_continues(const ContainerReader& file, const ContainerReader& before,
+                     const ClipPart& stream, const std::string& place) {
   Limits limits;
   const Chunk* chunk = file.find("LIMI");
   const Status read = chunk ? Limits::read(file.unchecked(*chunk), &limits) : Status::kChunkMissing;
-  const Status status = read != Status::kOk                                ? read
-                        : !limits.continued_meshes                         ? Status::kRecord
-                        : *limits.continued_meshes != mesh_hash(before)    ? Status::kMeshes
-                                                                           : Status::kOk;
+  const Status status = read != Status::kOk                             ? read
+                        : !limits.continued_meshes                      ? Status::kRecord
+                        : *limits.continued_meshes != mesh_hash(before) ? Status::kMeshes
+                                                                        : Status::kOk;
   if (status != Status::kOk)
     fail(stream, ErrorKind::kCorrupt, place + status_string(status));
 }
@@ -54,7 +54,8 @@ LiveStream read_live_stream(const ClipPart& stream) {
       fail(stream, ErrorKind::kCorrupt, place + status_string(failure.status));
     if (file.is_continuation()) {
       if (is_first)
-        fail(stream, ErrorKind::kCorrupt, place + "the stream begins with a file that continues another one");
+        fail(stream, ErrorKind::kCorrupt,
+             place + "the stream begins with a file that continues another one");
       check_continues(file, before, stream, place);
       out.files.push_back(with_meshes(before, file));
     } else {
@@ -62,6 +63,7 @@ LiveStream read_live_stream(const ClipPart& stream) {
       out.files.push_back(copy({left.data, size}));
       before = file;
     }
+    out.places.push_back({stream.file.size - left.size, file.file_size(), file.is_continuation()});
     is_first = false;
     left.data += file.file_size();
     left.size -= static_cast<size_t>(file.file_size());

@@ -13,8 +13,16 @@ namespace anicodec {
 
 /// The files of a live stream (spec/05-file-layout.md, section 8).
 struct LiveStream {
-  std::vector<Bytes> files;  ///< in their order, each with its meshes
-  uint64_t incomplete = 0;   ///< bytes at the end, of a file that has not arrived in full
+  /// A file as it stands in the stream.
+  struct Place {
+    uint64_t offset = 0;
+    uint64_t size = 0;
+    bool is_continuation = false;
+  };
+
+  std::vector<Bytes> files;   ///< in their order, each with its meshes
+  std::vector<Place> places;  ///< of each
+  uint64_t incomplete = 0;    ///< bytes at the end, of a file that has not arrived in full
 };
 
 /// Whether the bytes are those of several files.

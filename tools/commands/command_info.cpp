@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/file/live_stream.h"
 #include "format/container.h"
 #include "format/records.h"
 #include "sdk/clip/clip.h"
 #include "tools/inputs/clip_input.h"
+#include "tools/inputs/stream_input.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
 #include "tools/words/names.h"
@@ -11,6 +13,7 @@
 
 #include <anicodec/anicodec.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -50,7 +53,10 @@ closed, diagonal, asked, max_error, max_error_percent, rmse, kg), attributes (me
 components, labels, looks, moves; of those that move, bytes, max_error, rmse in units of their
 values), segments (mesh, basis, of, reconstruction, first_frame, frames, components, regions,
 corrections; coder of key-frames), chunks (type, offset, size, required, mesh, segment). Lengths are
-in scene units, errors those the encoder measured.)";
+in scene units, errors those the encoder measured. A live stream is described as the clip that its
+files make, with stream: files (offset, bytes, start_time, frames, has_mesh, key: begins anew, plays),
+losses, incomplete_bytes. Where a file was lost there is the stream alone, and the status is 3; the
+same, with status 0, of files that have different meshes.)";
 
 struct Contents {
   uint64_t bytes = 0;
@@ -205,7 +211,8 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
          {"rmse", clip.rmse},
          {"kg", clip.kg},
          {"max_displacement_error", clip.max_displacement_error},
-         {"root_motion", root_words(c.clip.root().holds(static_cast<uint32_t>(&clip - c.clip.clips().data())))},
+         {"root_motion",
+          root_words(c.clip.root().holds(static_cast<uint32_t>(&clip - c.clip.clips().data())))},
          {"events", events_json(clip)}});
   json["attributes"] = nlohmann::ordered_json::array();
   for (uint32_t m = 0; m < limits.meshes.size(); ++m) {
@@ -348,14 +355,15 @@ void print_segments(const Clip& clip) {
   const Limits& limits = clip.limits();
   for (size_t i = 0; i < limits.segments.size(); ++i) {
     const Limits::Segment& s = limits.segments[i];
-    row("segment", fmt::format("{}{}frames {}:{}, {}{}{}{}, {}",
-                               limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
-                               s.attribute == kPositions ? "" : moved_by(s) + ", ", s.first_frame,
-                               s.first_frame + s.frames, counted_components(s.components, s.kind),
-                               s.regions > 1 ? fmt::format(" in {} regions", s.regions) : "",
-                               s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "",
-                               s.kind == BasisKind::kKeyframes ? fmt::format(", coder {}", coder_of(s)) : "",
-                               counted(s.corrections, "correction")));
+    row("segment",
+        fmt::format("{}{}frames {}:{}, {}{}{}{}, {}",
+                    limits.meshes.size() > 1 ? fmt::format("mesh {}, ", s.mesh) : "",
+                    s.attribute == kPositions ? "" : moved_by(s) + ", ", s.first_frame,
+                    s.first_frame + s.frames, counted_components(s.components, s.kind),
+                    s.regions > 1 ? fmt::format(" in {} regions", s.regions) : "",
+                    s.reconstruction == Reconstruction::kMsgi ? " by msgi" : "",
+                    s.kind == BasisKind::kKeyframes ? fmt::format(", coder {}", coder_of(s)) : "",
+                    counted(s.corrections, "correction")));
   }
 }
 
@@ -367,9 +375,10 @@ std::string traits_of(const ClipRecord& clip) {
 void print_promise(const ClipRecord& clip) {
   row("asked", asked_text(clip));
   row("measured",
-      fmt::format("max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %, of a move from "
-                  "frame to frame {:.4g}",
-                  clip.max_error, percent(clip), clip.rmse, clip.kg, clip.max_displacement_error));
+      fmt::format(
+          "max error {:.4g} ({:.3g} % of the diagonal), RMSE {:.4g}, KG {:.4g} %, of a move from "
+          "frame to frame {:.4g}",
+          clip.max_error, percent(clip), clip.rmse, clip.kg, clip.max_displacement_error));
   if (clip.massaged)
     row("massaged", fmt::format("the surface moved by {:.4g} on average, {:.4g} at most",
                                 clip.surface_error_mean, clip.surface_error));
@@ -382,8 +391,10 @@ void print_extras(const Contents& c, const ClipRecord& clip) {
   for (const auto& word : root_words(c.clip.root().holds(number)))
     root += (root.empty() ? "" : ", ") + word.get<std::string>();
   for (const ClipEvent& event : clip.events)
-    events += fmt::format("{}{} {:.6g} s", events.empty() ? "" : ", ",
-                          event.name.empty() ? "(no name)" : std::string(event.name.begin(), event.name.end()), event.seconds);
+    events += fmt::format(
+        "{}{} {:.6g} s", events.empty() ? "" : ", ",
+        event.name.empty() ? "(no name)" : std::string(event.name.begin(), event.name.end()),
+        event.seconds);
   if (!root.empty())
     row("root", root);
   if (!events.empty())
@@ -421,10 +432,10 @@ void print_text(const std::string& path, const Contents& c) {
           : fmt::format("{} vertices ({} coded), {} faces", mesh.source_vertices,
                         mesh.coded_vertices, mesh.polygons);
   row(several ? "clips" : "clip",
-      several ? fmt::format("{}, {} clips, {}", what, c.clip.clips().size(),
-                            counted(limits.frames, "frame"))
-              : fmt::format("{}, {} at {}", what, counted(limits.frames, "frame"),
-                            rate_text(record)));
+      several
+          ? fmt::format("{}, {} clips, {}", what, c.clip.clips().size(),
+                        counted(limits.frames, "frame"))
+          : fmt::format("{}, {} at {}", what, counted(limits.frames, "frame"), rate_text(record)));
   row("", fmt::format(
               "up {}, unit {}{}", up_name(all.up),
               all.metres_per_unit > 0 ? fmt::format("{:.6g} m", all.metres_per_unit) : "unknown",
@@ -450,8 +461,40 @@ void print_text(const std::string& path, const Contents& c) {
   print_chunks(c);
 }
 
-void print_contents(const std::string& path, const CommonOptions& common) {
-  std::string bytes = read_bytes(path);
+/// A file of a live stream: what a program that joins or has lost another one wants to know.
+const char* word_of(const StreamedFile& file) {
+  return file.has_mesh ? "with meshes"
+         : file.is_key ? "begins anew"
+         : file.plays  ? "goes on"
+                       : "continues a lost one";
+}
+
+nlohmann::ordered_json json_of(const StreamContents& stream) {
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const StreamedFile& file : stream.files)
+    files.push_back({{"offset", file.offset},
+                     {"bytes", file.size},
+                     {"start_time", file.start},
+                     {"frames", file.frames},
+                     {"has_mesh", file.has_mesh},
+                     {"key", file.is_key},
+                     {"plays", file.plays}});
+  return {{"files", files}, {"losses", stream.losses}, {"incomplete_bytes", stream.incomplete}};
+}
+
+void print_text(const StreamContents& stream) {
+  fmt::print("\n{:<6} {:>10} {:>12} {:>12} {:>7}  of the stream\n", "file", "seconds", "offset",
+             "bytes", "frames");
+  for (size_t i = 0; i < stream.files.size(); ++i) {
+    const StreamedFile& file = stream.files[i];
+    fmt::print("{:<6} {:>10.2f} {:>12} {:>12} {:>7}  {}\n", i + 1, file.start, file.offset,
+               grouped(file.size), file.frames, word_of(file));
+  }
+}
+
+/// `stream`: the files of the live stream that the clip is of, or null.
+void print_clip(const std::string& path, const std::string& bytes, const StreamContents* stream,
+                const CommonOptions& common) {
   Contents contents;
   contents.bytes = bytes.size();
   open_clip(path, bytes, {}, contents.clip, Topologies::kAny);
@@ -468,10 +511,39 @@ void print_contents(const std::string& path, const CommonOptions& common) {
     if (!contents.metadata.is_object())
       throw Error(ErrorKind::kCorrupt, path + ": chunk META: is not a JSON object");
   }
-  if (common.json)
-    print_json(json_of(path, contents));
+  if (common.json) {
+    nlohmann::ordered_json json = json_of(path, contents);
+    if (stream)
+      json["stream"] = json_of(*stream);
+    print_json(json);
+    return;
+  }
+  print_text(path, contents);
+  if (stream)
+    print_text(*stream);
+}
+
+/// The clip that the files of a live stream make, and the files; there is no clip where one was lost, or brings other meshes.
+void print_stream(const std::string& path, const std::string& bytes, const CommonOptions& common) {
+  const StreamContents stream =
+      read_stream(path, view_of(bytes), [](const auto&, const auto&, const auto&) {});
+  if (stream.losses.empty() && std::ranges::count_if(stream.files, &StreamedFile::has_mesh) == 1)
+    return print_clip(path, join_stream(path, bytes), &stream, common);
+  if (common.json) {
+    print_json({{"file", path}, {"bytes", bytes.size()}, {"stream", json_of(stream)}});
+  } else {
+    row("file", path);
+    print_text(stream);
+  }
+  check_losses(path, stream);
+}
+
+void print_contents(const std::string& path, const CommonOptions& common) {
+  const std::string bytes = read_clip_bytes(path);
+  if (is_live_stream(view_of(bytes)))
+    print_stream(path, bytes, common);
   else
-    print_text(path, contents);
+    print_clip(path, bytes, nullptr, common);
 }
 
 }  // namespace
@@ -481,7 +553,8 @@ void add_info(Commands& commands, CommonOptions& common) {
   Options& options = add_command(
       commands, common, kJson, {"info", "FILE.anic...", "Say what is in .anic files", kInfoFooter},
       [inputs, &common] {
-        run_for_each(*inputs, common, [&](const std::string& path) { print_contents(path, common); });
+        run_for_each(*inputs, common,
+                     [&](const std::string& path) { print_contents(path, common); });
       });
   options.arguments("FILE", *inputs, "The .anic files to read").required();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
+#include "codec/file/live_stream.h"
 #include "codec/sequence/error.h"
 #include "format/bounds_record.h"
 #include "format/container.h"
@@ -7,6 +8,7 @@
 #include "sdk/clip/clip.h"
 #include "sdk/clip/file_checks.h"
 #include "tools/inputs/clip_input.h"
+#include "tools/inputs/stream_input.h"
 #include "tools/program/command.h"
 #include "tools/program/print.h"
 #include "tools/words/progress_line.h"
@@ -27,10 +29,12 @@ namespace {
 constexpr const char* kVerifyFooter =
     R"(Checks every byte: header, table, the checksum of every chunk, and padding; decodes everything;
 compares the decoded integers with the hash the encoder stored; plays every frame, which must lie in
-the boxes that the file keeps. No source is needed.
+the boxes that the file keeps. No source is needed. Of a live stream the files are checked one after
+the other, and a lost one is named.
 
---json prints an object for each file: file, ok, bytes, chunks, frames, meshes; of one that fails:
-error, status.)";
+--json prints an object for each file: file, ok, bytes, chunks, frames, meshes; of a live stream
+files, keys (that begin anew) and incomplete_bytes instead of meshes; of one that fails: error,
+status.)";
 
 /// Checksums of all chunks, those included that this version does not know. Returns their number.
 size_t check_chunks(const std::string& path, const std::string& bytes) {
@@ -82,9 +86,11 @@ void check_unopened(const std::string& path, const std::string& bytes, const Cli
   for (const Chunk& chunk : reader.chunks()) {
     const ByteView payload = reader.unchecked(chunk);
     if (chunk.type == chunk_type("META") && !is_metadata(payload))
-      fail_clip(path, failure_in(chunk, Status::kRecord, "the metadata is too long, too deep, or no UTF-8"));
+      fail_clip(path, failure_in(chunk, Status::kRecord,
+                                 "the metadata is too long, too deep, or no UTF-8"));
     if (chunk.type == chunk_type("META") &&
-        !nlohmann::json::parse(payload.data, payload.data + payload.size, nullptr, false).is_object())
+        !nlohmann::json::parse(payload.data, payload.data + payload.size, nullptr, false)
+             .is_object())
       throw Error(ErrorKind::kCorrupt, path + ": chunk META: is not a JSON object");
     if (chunk.type != chunk_type("BNDS"))
       continue;
@@ -99,23 +105,66 @@ void check_unopened(const std::string& path, const std::string& bytes, const Cli
       const std::span<const float> positions = frames(segment.first_frame + f);
       for (size_t i = 0; i < positions.size(); ++i) {
         if (positions[i] < box.low[i % 3] || positions[i] > box.high[i % 3])
-          throw Error(ErrorKind::kCorrupt, fmt::format("{}: chunk BNDS: frame {}: vertex {} is outside of its box", path,
-                                                       segment.first_frame + f, i / 3));
+          throw Error(ErrorKind::kCorrupt,
+                      fmt::format("{}: chunk BNDS: frame {}: vertex {} is outside of its box", path,
+                                  segment.first_frame + f, i / 3));
       }
     }
   }
 }
 
-void verify(const std::string& path, const CommonOptions& common) {
-  ProgressLine line(common.quiet);
-  std::string bytes = read_bytes(path);
-  size_t chunks = check_chunks(path, bytes);
-  Clip clip;
-  open_clip(path, bytes, {}, clip, Topologies::kAny);
+/// Checks an opened clip. Returns the number of its chunks.
+size_t check_clip(const std::string& path, const std::string& bytes, const Clip& clip,
+                  ProgressLine& line) {
+  const size_t chunks = check_chunks(path, bytes);
   if (Failure failure = clip.check_hashes(); !failure.ok())
     fail_clip(path, failure);
   check_frames(path, clip, line);
   check_unopened(path, bytes, clip);
+  return chunks;
+}
+
+/// Checks the files of a live stream as a program that plays them gets them.
+void verify_stream(const std::string& path, const std::string& bytes, const CommonOptions& common) {
+  ProgressLine line(common.quiet);
+  size_t chunks = 0;
+  uint64_t frames = 0;
+  const StreamContents stream =
+      read_stream(path, view_of(bytes),
+                  [&](const StreamedFile& file, const std::string& whole, const Clip& clip) {
+                    chunks += check_clip(file.name, whole, clip, line);
+                    frames += file.frames;
+                  });
+  line.clear();
+  check_losses(path, stream);
+  const auto keys = std::ranges::count_if(stream.files, &StreamedFile::is_key);
+  if (common.json)
+    print_json({{"file", path},
+                {"ok", true},
+                {"bytes", bytes.size()},
+                {"chunks", chunks},
+                {"frames", frames},
+                {"files", stream.files.size()},
+                {"keys", keys},
+                {"incomplete_bytes", stream.incomplete}});
+  else if (!common.quiet)
+    print_line("{}: ok ({} bytes, {} of a live stream, {} of which begin anew, {}{})", path,
+               grouped(bytes.size()), counted(stream.files.size(), "file"), keys,
+               counted(frames, "frame"),
+               stream.incomplete > 0
+                   ? fmt::format(", and {} bytes of a file that is not complete", stream.incomplete)
+                   : "");
+}
+
+void verify(const std::string& path, const CommonOptions& common) {
+  const std::string bytes = read_clip_bytes(path);
+  if (is_live_stream(view_of(bytes)))
+    return verify_stream(path, bytes, common);
+  ProgressLine line(common.quiet);
+  check_chunks(path, bytes);
+  Clip clip;
+  open_clip(path, bytes, {}, clip, Topologies::kAny);
+  const size_t chunks = check_clip(path, bytes, clip, line);
   line.clear();
   if (common.json)
     print_json({{"file", path},

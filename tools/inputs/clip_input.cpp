@@ -96,8 +96,9 @@ ErrorKind error_kind(Status status) {
 
 void fail_clip(const std::string& path, const Failure& failure) {
   if (failure.status == Status::kMagic && kind_of(path) != FileKind::kUnknown)
-    throw Error(ErrorKind::kInput,
-                path + ": is no .anic file; encode makes one of a scene, or of a mesh and its frames");
+    throw Error(
+        ErrorKind::kInput,
+        path + ": is no .anic file; encode makes one of a scene, or of a mesh and its frames");
   std::string text = path + ": ";
   if (failure.status != Status::kMagic)
     text += fmt::format("offset {:#x}", failure.offset);
@@ -110,26 +111,21 @@ void fail_clip(const std::string& path, const Failure& failure) {
   throw Error(error_kind(failure.status), text);
 }
 
-namespace {
-
-/// The clip that the files of a live stream make. What has not arrived in full is left out, and said so.
-std::string joined(const std::string& path, const std::string& bytes) {
+std::string join_stream(const std::string& path, const std::string& bytes) {
   const LiveStream stream = read_live_stream({path, view_of(bytes)});
   if (stream.incomplete > 0)
     fmt::print(stderr, "{}: the last {} bytes are of a file that is not complete, and left out\n",
                printable(path), stream.incomplete);
   std::vector<ClipPart> parts;
   for (const Bytes& file : stream.files)
-    parts.push_back({path, file});
+    parts.push_back({fmt::format("{}, file {}", path, parts.size() + 1), file});
   const Bytes clip = join_clips(parts);
   for (const std::string& line : list_left_out(parts, clip))
     fmt::print(stderr, "{}\n", printable(line));
   return {reinterpret_cast<const char*>(clip.data()), clip.size()};
 }
 
-}  // namespace
-
-std::string read_bytes(const std::string& path) {
+std::string read_clip_bytes(const std::string& path) {
   std::string bytes;
   if (path == "-")
     read_standard_input(bytes);
@@ -137,7 +133,12 @@ std::string read_bytes(const std::string& path) {
     read_file(path, bytes);
   if (std::optional<std::string> clip = clip_of_glb(bytes, path))
     return *std::move(clip);
-  return is_live_stream(view_of(bytes)) ? joined(path, bytes) : bytes;
+  return bytes;
+}
+
+std::string read_bytes(const std::string& path) {
+  std::string bytes = read_clip_bytes(path);
+  return is_live_stream(view_of(bytes)) ? join_stream(path, bytes) : bytes;
 }
 
 bool takes_turns(const Clip& clip) {

@@ -31,7 +31,13 @@ ErrorKind error_kind(Status status);
 [[noreturn]] void fail_clip(const std::string& path, const Failure& failure);
 
 /// The bytes of a file, or of the standard input if the path is "-"; of a GLB that moves by a clip
-/// (clip_of_glb), those of the clip; of a live stream, those of the clip that its files make. Throws Error(kInput).
+/// (clip_of_glb), those of the clip. Throws Error(kInput).
+std::string read_clip_bytes(const std::string& path);
+
+/// Those of the clip that the files of a live stream make; what has not arrived in full is left out, and said so.
+std::string join_stream(const std::string& path, const std::string& stream);
+
+/// The bytes of a clip: of a live stream, join_stream(). Throws Error(kInput).
 std::string read_bytes(const std::string& path);
 
 inline ByteView view_of(const std::string& bytes) {

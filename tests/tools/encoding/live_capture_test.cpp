@@ -100,6 +100,49 @@ TEST_F(LiveCapture, SaysWhatAPercentageIs) {
   EXPECT_EQ(encode("cat frames", "-o none.anic --box 0").status, 1);
 }
 
+TEST_F(LiveCapture, ListsItsFilesAndNamesALostOne) {
+  ASSERT_EQ(encode("cat frames", "-o live.anic --piece 0.5 --key-every 1 -q").status, 0);
+  const nlohmann::json files =
+      anicodec({"info", at("live.anic"), "--json"}).json()["stream"]["files"];
+  ASSERT_EQ(files.size(), 5U);
+  std::string stream = folder_.read("live.anic"), bytes;
+  for (size_t i = 0; i < files.size(); ++i) {
+    EXPECT_EQ(files[i]["has_mesh"], i == 0);
+    EXPECT_EQ(files[i]["key"], i % 2 == 0);
+    EXPECT_EQ(files[i]["plays"], true);
+    EXPECT_EQ(files[i]["offset"], bytes.size());
+    EXPECT_EQ(files[i]["start_time"], 0.5 * static_cast<double>(i));
+    bytes += stream.substr(files[i]["offset"], files[i]["bytes"]);
+  }
+  EXPECT_EQ(bytes, stream);
+  EXPECT_THAT(anicodec({"verify", at("live.anic")}).out,
+              HasSubstr("5 files of a live stream, 3 of which begin anew, 25 frames"));
+  const Outcome dump = anicodec({"dump", at("live.anic")});
+  EXPECT_EQ(dump.status, 0) << dump;
+  EXPECT_THAT(dump.out, HasSubstr("a continuation"));
+  EXPECT_THAT(dump.out, HasSubstr("SEGM field 1"));
+
+  const auto without = [&](size_t lost) {
+    std::string rest = stream;
+    folder_.write("lost.anic", rest.erase(files[lost]["offset"], files[lost]["bytes"]));
+  };
+  without(2);
+  Outcome lost = anicodec({"verify", at("lost.anic")});
+  EXPECT_EQ(lost.status, 3);
+  EXPECT_THAT(lost.err, HasSubstr("1.00 s to 2.00 s: a file continues one that was lost"));
+  lost = anicodec({"info", at("lost.anic"), "--json"});
+  EXPECT_EQ(lost.status, 3);
+  EXPECT_EQ(nlohmann::json::parse(lost.out.substr(0, lost.out.find('\n')))["stream"]["files"][2]["plays"], false);
+  EXPECT_EQ(anicodec({"dump", at("lost.anic")}).status, 0);
+  EXPECT_THAT(anicodec({"info", at("lost.anic")}).out, HasSubstr("continues a lost one"));
+  lost = anicodec({"join", at("lost.anic"), "-o", at("clip.anic")});
+  EXPECT_NE(lost.status, 0);
+  EXPECT_THAT(lost.err, HasSubstr("lost.anic, file 3"));
+  without(1);
+  lost = anicodec({"verify", at("lost.anic")});
+  EXPECT_THAT(lost.err, HasSubstr("0.50 s to 1.00 s: a file was lost"));
+}
+
 TEST_F(LiveCapture, RefusesWhatItCannotDo) {
   EXPECT_EQ(encode("cat frames").status, 0);
   EXPECT_EQ(encode("cat frames").status, 1);  // the output is there
