@@ -66,6 +66,22 @@ def copy_pages(source):
             shutil.copyfile(page, place)
 
 
+def drop_empty_patterns(source):
+    """Patterns in the contents take pages that come later; Sphinx warns of those that find nothing new."""
+    index, listed, lines = source / "index.md", set(), []
+    for line in index.read_text(encoding="utf-8").splitlines():
+        if line.startswith("```"):
+            listed = set()
+        if "*" in line and " " not in line:
+            found = {str(page.relative_to(source))[:-3] for page in source.glob(line + ".md")} - listed
+            listed |= found
+            if not found:
+                continue
+        listed.add(line.rpartition("<")[2].rstrip(">"))
+        lines.append(line)
+    index.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
 def grouped(text, stem):
     """A header whose dividers are groups of Doxygen, and the names and titles of these."""
     groups = []
@@ -121,6 +137,7 @@ def main():
     for folder in (source, out / "doxygen"):
         shutil.rmtree(folder, ignore_errors=True)
     copy_pages(source)
+    drop_empty_patterns(source)
     (source / "reference").mkdir(exist_ok=True)
     write_reference(out, source)
 
