@@ -62,6 +62,8 @@ class SourceMesh:
     uv: Any = None
     colours: Any = None  #: vertices, corners or polygons x 3 or 4, or frames of these; 0 to 1
     normals: Any = None  #: vertices x 3 or corners x 3
+    #: in place of normals: a number for each corner, of whose vertex those with the same number share a normal
+    shared_normals: Any = None
     custom: Mapping[str, Any] = field(default_factory=dict)  #: other numbers, as colours
     #: names, and for each polygon a number of one or -1; then maybe looks: for each name a Material, or None
     materials: Optional[Tuple[Any, ...]] = None
@@ -226,6 +228,13 @@ class _Adder:
             self._values(name, "normal", values, (3,))
         for name, values in mesh.custom.items():
             self._values(name, "custom", values, tuple(range(1, 17)))
+        if mesh.shared_normals is not None:
+            labels = np.asarray(mesh.shared_normals)
+            if labels.shape != (len(self._corners),):
+                raise InputError(f"shared_normals must be a number for each of {len(self._corners)} corners, "
+                                 f"not {_arrays.shape_text(labels)}")
+            encoder.add_attribute(number, "", KINDS.index("normal"), DOMAINS.index("corners"), 0, 1, None,
+                                  _arrays.indices(labels, "shared_normals"), [], [])
         for kind, labels in (("material", mesh.materials), ("part", mesh.parts)):
             if labels is not None:
                 self._labels(kind, *labels)

@@ -1,0 +1,313 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Meshes of a stage of USD, and of instances: where they stand, and what they hold at each time code."""
+from __future__ import annotations
+
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from pxr import Sdf, Usd, UsdGeom, UsdShade
+
+from ._usd_stage import MATERIALS, identifier
+from .encoder import SourceMesh
+from .errors import InputError
+
+# Prims that become meshes or say how these move and look; materials keep their names.
+_KEPT_TYPES = ("", "Mesh", "Xform", "Scope", "GeomSubset", "Material", "Shader", "NodeGraph", "SkelRoot", "Skeleton", "SkelAnimation",
+               "BlendShape", "PointInstancer")
+
+
+class _Place:
+    """A mesh, or one instance of it: matrices are those of pxr, for row vectors."""
+
+    def __init__(self, mesh: UsdGeom.Mesh, instancer: Optional[UsdGeom.PointInstancer] = None,
+                 identity: Tuple[int, int] = (0, 0), prototype: Optional[Usd.Prim] = None):
+        self.mesh, self.prim = mesh, mesh.GetPrim()
+        self._instancer, self._identity, self._prototype = instancer, identity, prototype
+        self.name = self.prim.GetName() + (f"_{identity[0]}" if instancer else "")
+        self.path = str(instancer.GetPath().AppendChild(identifier(self.name)) if instancer else self.prim.GetPath())
+
+    def matrix(self, cache: UsdGeom.XformCache, code: float) -> Optional[np.ndarray]:
+        """To world space; None where the mesh is not shown."""
+        if self._instancer is None:
+            hidden = UsdGeom.Imageable(self.prim).ComputeVisibility(code) == UsdGeom.Tokens.invisible
+            return None if hidden else np.array(cache.GetLocalToWorldTransform(self.prim))
+        here = _identities(self._instancer, code)
+        mask = self._instancer.ComputeMaskAtTime(code)
+        if self._identity not in here:
+            return None
+        number = here.index(self._identity)
+        of_instancer = UsdGeom.Imageable(self._instancer.GetPrim()).ComputeVisibility(code)
+        if of_instancer == UsdGeom.Tokens.invisible or (mask and not mask[number]) or _hides(self.prim, self._prototype, code):
+            return None
+        places = self._instancer.ComputeInstanceTransformsAtTime(
+            code, code, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask)
+        if len(places) != len(here):
+            raise InputError(f"{self._instancer.GetPath()}: {len(here)} instances have {len(places)} positions at time code {code:g}")
+        in_prototype = cache.GetLocalToWorldTransform(self.prim) * cache.GetLocalToWorldTransform(self._prototype).GetInverse()
+        return np.array(in_prototype * places[number] * cache.GetLocalToWorldTransform(self._instancer.GetPrim()))
+
+
+def _hides(prim: Usd.Prim, prototype: Usd.Prim, code: float) -> bool:
+    """Whether a prim of a prototype is hidden in it; what is above a prototype does not count."""
+    while prim and prim.GetPath().HasPrefix(prototype.GetPath()):
+        imageable = UsdGeom.Imageable(prim)
+        if imageable and imageable.GetVisibilityAttr().Get(code) == UsdGeom.Tokens.invisible:
+            return True
+        prim = prim.GetParent()
+    return False
+
+
+def places(stage: Usd.Stage, prims: Union[None, str, Sequence[str]], codes: List[float], left_out: Dict[str, int]) -> List[_Place]:
+    wanted = None if prims is None else [Sdf.Path(path) for path in ([prims] if isinstance(prims, str) else prims)]
+    for path in wanted or []:
+        if not stage.GetPrimAtPath(path):
+            raise InputError(f"the stage has no prim {path}")
+    found: List[_Place] = []
+
+    def leave_out(kind: str) -> None:
+        left_out[kind] = left_out.get(kind, 0) + 1
+
+    walk = iter(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
+    next(walk)  # the root of all
+    for prim in walk:
+        if wanted is not None and not any(prim.GetPath().HasPrefix(path) or path.HasPrefix(prim.GetPath()) for path in wanted):
+            walk.PruneChildren()
+            continue
+        if "LODRootAPI" in prim.GetParent().GetAppliedSchemas() and prim != _shown_level(prim.GetParent()):
+            leave_out(f"level of detail beside {_shown_level(prim.GetParent()).GetPath()}")
+            walk.PruneChildren()
+            continue
+        if wanted is not None and not any(prim.GetPath().HasPrefix(path) for path in wanted):
+            continue
+        kind = prim.GetTypeName()
+        if kind not in _KEPT_TYPES:
+            leave_out(kind)
+        if prim.IsA(UsdGeom.PointInstancer):
+            walk.PruneChildren()  # prototypes stand nowhere by themselves
+            found.extend(_instances(stage, UsdGeom.PointInstancer(prim), codes, leave_out))
+        elif kind == "Material" and UsdShade.Material(prim).GetSurfaceOutputs():
+            left_out["values of materials"] = 0
+        elif prim.IsA(UsdGeom.Mesh):
+            purpose = UsdGeom.Imageable(prim).ComputePurpose()
+            if purpose in _PURPOSES:
+                found.append(_Place(UsdGeom.Mesh(prim)))
+            else:
+                leave_out(f"Mesh of purpose {purpose}")
+    if not found:
+        raise InputError("the stage has no mesh" + (f" below {', '.join(map(str, wanted))}" if wanted else ""))
+    return found
+
+
+_PURPOSES = (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
+
+
+def _shown_level(root: Usd.Prim) -> Optional[Usd.Prim]:
+    """The level of detail that a renderer takes where nothing else is said."""
+    levels = root.GetChildren()
+    attribute = root.GetAttribute("lod:default:index")
+    index = int(attribute.Get() or 0) if attribute else 0
+    return levels[min(max(index, 0), len(levels) - 1)] if levels else None
+
+
+def _instances(stage: Usd.Stage, instancer: UsdGeom.PointInstancer, codes: List[float], leave_out: Any) -> List[_Place]:
+    """The meshes of the prototype of each instance that is there at any code."""
+    roots = [stage.GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetForwardedTargets()]
+    seen: Dict[Tuple[int, int], None] = {}  # of an instance: its id, and the prototype that it shows
+    for code in codes:
+        for identity, number in _identities(instancer, code):
+            if number < 0 or number >= len(roots) or not roots[number]:
+                raise InputError(f"{instancer.GetPath()}: an instance has no prototype {number}")
+            seen.setdefault((identity, number))
+    found: List[_Place] = []
+    for identity, number in seen:
+        walk = iter(Usd.PrimRange(roots[number], Usd.TraverseInstanceProxies()))
+        for prim in walk:
+            if prim.IsA(UsdGeom.PointInstancer):
+                leave_out("PointInstancer in a prototype")
+                walk.PruneChildren()
+            elif prim.IsA(UsdGeom.Mesh) and UsdGeom.Imageable(prim).ComputePurpose() in _PURPOSES:
+                found.append(_Place(UsdGeom.Mesh(prim), instancer, (identity, number), roots[number]))
+    return found
+
+
+def _identities(instancer: UsdGeom.PointInstancer, code: float) -> List[Tuple[int, int]]:
+    """Of each instance at a code: its id (or number) and the number of its prototype."""
+    numbers = list(instancer.GetProtoIndicesAttr().Get(code) or [])
+    ids = list(instancer.GetIdsAttr().Get(code) or [])
+    return list(zip(ids if len(ids) == len(numbers) else range(len(numbers)), numbers))
+
+
+# Attributes of a mesh that are read, or say what the mesh says anyway.
+_KEPT_ATTRIBUTES = ("points", "faceVertexCounts", "faceVertexIndices", "holeIndices", "orientation", "normals", "extent", "visibility",
+                    "purpose", "subdivisionScheme", "interpolateBoundary", "faceVaryingLinearInterpolation",
+                    "triangleSubdivisionRule", "xformOpOrder", "velocities")
+_KEPT_SPACES = ("primvars:", "xformOp:", "skel:")
+
+
+class MeshReader:
+    """Reads a mesh at all time codes."""
+
+    def __init__(self, place: _Place, codes: List[float], left_out: Dict[str, int]):
+        self._place, self._mesh, self._prim, self._codes, self._left_out = place, place.mesh, place.prim, codes, left_out
+        self.path = place.path
+        scheme = self._mesh.GetSubdivisionSchemeAttr().Get()
+        if scheme != UsdGeom.Tokens.none:
+            kind = f"subdivision ({scheme}) of a mesh"
+            left_out[kind] = left_out.get(kind, 0) + 1
+        for attribute in self._prim.GetAuthoredAttributes():
+            name = attribute.GetName()
+            if name not in _KEPT_ATTRIBUTES and not name.startswith(_KEPT_SPACES):
+                left_out[f"'{name}' of meshes"] = 0
+
+    def read(self, keep_changes: bool) -> List[SourceMesh]:
+        """The mesh, or several where its faces change; none where it is never there."""
+        runs: List[Dict[str, Any]] = []
+        cache = UsdGeom.XformCache()
+        for frame, code in enumerate(self._codes):
+            cache.SetTime(code)
+            matrix = self._place.matrix(cache, code)
+            points = None if matrix is None else self._points(code)
+            if points is None or not len(points):
+                continue
+            faces = self._faces(code)
+            positions = np.array(points, np.float64).reshape(-1, 3) @ matrix[:3, :3] + matrix[3, :3]
+            if not np.isfinite(positions).all():
+                raise InputError(f"{self._prim.GetPath()}: a point is not finite at time code {code:g}")
+            same = [run for run in runs[-2:] if len(run["positions"][0]) == len(positions) and
+                    all(np.array_equal(a, b) for a, b in zip(run["faces"], faces))]
+            if same and same[-1] is not runs[-1]:
+                same = []
+            if runs and not same and not keep_changes:
+                raise InputError(f"{self._prim.GetPath()}: the faces change at time code {code:g}; "
+                                 "topology_changes='keep' stores each run of equal ones")
+            # A transform that mirrors turns the faces, at the codes at which it does.
+            mirrored = bool(np.linalg.det(matrix[:3, :3]) < 0)
+            run = next((run for run in same if run["mirrored"] == mirrored), None)
+            if run is None:
+                run = {"faces": faces, "mirrored": mirrored, "positions": [], "frames": []}
+                runs.append(run)
+            run["positions"].append(positions)
+            run["frames"].append(frame)
+        return [self._source(run) for run in runs]
+
+    def _points(self, code: float) -> Any:
+        # Velocities say how points move from the last sample on; the samples of both stay as they are.
+        if self._mesh.GetVelocitiesAttr().HasAuthoredValue():
+            return self._mesh.ComputePointsAtTime(code, code)
+        return self._mesh.GetPointsAttr().Get(code)
+
+    def _faces(self, code: float) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Corners of each face, vertices of the corners, and the faces that are holes."""
+        counts = np.array(self._mesh.GetFaceVertexCountsAttr().Get(code) or [], np.int64)
+        corners = np.array(self._mesh.GetFaceVertexIndicesAttr().Get(code) or [], np.int64)
+        if counts.sum() != len(corners) or (counts < 0).any():
+            raise InputError(f"{self._prim.GetPath()}: faceVertexCounts do not fit faceVertexIndices")
+        holes = np.array(self._mesh.GetHoleIndicesAttr().Get(code) or [], np.int64)
+        return counts, corners, holes[(holes >= 0) & (holes < len(counts))]
+
+    def _source(self, run: Dict[str, Any]) -> SourceMesh:
+        counts, corners, holes = run["faces"]
+        self._order = np.arange(len(corners))
+        if (self._mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded) != run["mirrored"]:
+            starts = np.repeat(np.cumsum(counts) - counts, counts)
+            self._order = 2 * starts + np.repeat(counts, counts) - 1 - np.arange(len(corners))
+        self._kept = np.ones(len(counts), bool)
+        self._kept[holes] = False
+        self._order = self._order[np.repeat(self._kept, counts)]
+        frames = run["frames"]
+        offsets = np.concatenate([[0], np.cumsum(counts[self._kept])])
+        mesh = SourceMesh(np.stack(run["positions"]), (offsets, corners[self._order]), name=self._place.name,
+                          runs=_runs(frames, len(self._codes)), uv={}, colours={}, normals={}, custom={},
+                          materials=self._materials(len(counts)))
+        codes = [self._codes[frame] for frame in frames]
+        for primvar in UsdGeom.PrimvarsAPI(self._prim).GetPrimvarsWithValues():
+            self._add_primvar(mesh, primvar, run, codes)
+        self._add_normals(mesh, run, codes[0])
+        return mesh
+
+    def _add_primvar(self, mesh: SourceMesh, primvar: UsdGeom.Primvar, run: Dict[str, Any], codes: List[float]) -> None:
+        name, kind = primvar.GetPrimvarName(), primvar.GetTypeName()
+        if name.startswith("skel:") or name == "normals":
+            return
+        sampled = codes if primvar.ValueMightBeTimeVarying() and len(codes) > 1 else codes[:1]
+        frames = [self._values(primvar, run, code) for code in sampled]
+        if any(frame is None or frame.shape != frames[0].shape or frame.shape[-1] > 16 for frame in frames):
+            self._left_out[f"primvar '{name}'"] = 0
+            return
+        values = frames[0] if len(frames) == 1 else np.stack(frames)
+        is_uv = kind.role == "TextureCoordinate" or name.startswith(("st", "uv", "UV"))
+        if is_uv and values.shape[-1] == 2:
+            mesh.uv[name] = values
+        elif kind.role == "Color" and values.shape[-1] in (3, 4):
+            mesh.colours[name] = np.clip(values, 0, 1)
+        else:
+            mesh.custom[name] = values
+
+    def _values(self, primvar: UsdGeom.Primvar, run: Dict[str, Any], code: float) -> Optional[np.ndarray]:
+        """Elements x components, of vertices or of corners; None for what is not numbers."""
+        flat = primvar.ComputeFlattened(code)
+        try:
+            values = np.atleast_1d(np.array(flat))
+        except (TypeError, ValueError):
+            return None
+        if values.dtype.kind not in "fiu" or values.size == 0:
+            return None
+        if not primvar.GetTypeName().isArray:
+            values = values[None]
+        width = max(primvar.GetElementSize(), 1)
+        if len(values) % width:
+            return None
+        values = values.reshape(len(values) // width, -1).astype(np.float32)
+        counts = run["faces"][0]
+        vertices, corners = len(run["positions"][0]), counts.sum()
+        interpolation = primvar.GetInterpolation()
+        if interpolation in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying):
+            return values if len(values) == vertices else None
+        if interpolation == UsdGeom.Tokens.faceVarying:
+            return values[self._order] if len(values) == corners else None
+        if interpolation == UsdGeom.Tokens.uniform:
+            return np.repeat(values[self._kept], counts[self._kept], axis=0) if len(values) == len(counts) else None
+        return np.repeat(values[:1], vertices, axis=0)
+
+    def _add_normals(self, mesh: SourceMesh, run: Dict[str, Any], code: float) -> None:
+        primvar = UsdGeom.PrimvarsAPI(self._prim).GetPrimvar("normals")
+        if primvar and primvar.HasValue():
+            values, interpolation = primvar.ComputeFlattened(code), primvar.GetInterpolation()
+        else:
+            values, interpolation = self._mesh.GetNormalsAttr().Get(code), self._mesh.GetNormalsInterpolation()
+        counts = run["faces"][0]
+        values = np.array(values if values is not None else [], np.float32).reshape(-1, 3)
+        if interpolation == UsdGeom.Tokens.faceVarying and len(values) == counts.sum():
+            mesh.normals["normals"] = values[self._order]
+        elif interpolation == UsdGeom.Tokens.uniform and len(values) == len(counts):
+            mesh.normals["normals"] = np.repeat(values[self._kept], counts[self._kept], axis=0)
+        elif not len(values) and self._mesh.GetSubdivisionSchemeAttr().Get() == UsdGeom.Tokens.none:
+            # A polygonal mesh without normals is faceted, says UsdGeomMesh.
+            mesh.shared_normals = np.repeat(np.arange(self._kept.sum()), counts[self._kept])
+        # Normals of vertices follow from positions.
+
+    def _materials(self, polygons: int) -> Optional[Tuple[List[str], np.ndarray]]:
+        names: List[str] = []
+        numbers = np.full(polygons, -1)
+        whole = UsdShade.MaterialBindingAPI(self._prim).ComputeBoundMaterial()[0]
+        if whole:
+            names.append(whole.GetPrim().GetName())
+            numbers[:] = 0
+        for subset in UsdGeom.Subset.GetGeomSubsets(self._mesh, UsdGeom.Tokens.face, MATERIALS):
+            bound = UsdShade.MaterialBindingAPI(subset.GetPrim()).ComputeBoundMaterial()[0]
+            name = (bound or subset).GetPrim().GetName()
+            if name not in names:
+                names.append(name)
+            members = np.array(subset.GetIndicesAttr().Get() or [], np.int64)
+            if len(members) and (members.min() < 0 or members.max() >= polygons):
+                raise InputError(f"{subset.GetPrim().GetPath()}: a face is not of {polygons}")
+            numbers[members] = names.index(name)
+        return (names, numbers[self._kept]) if names else None
+
+
+def _runs(frames: List[int], count: int) -> List[Tuple[int, int]]:
+    if len(frames) == count:
+        return []
+    breaks = np.flatnonzero(np.diff(frames) > 1) + 1
+    return [(int(part[0]), len(part)) for part in np.split(np.array(frames), breaks)]
