@@ -34,6 +34,7 @@ ALLOWED = {
     # and the threads.
     "tools/io": ['"tools/io/', '"codec/sequence/', '"codec/parallel/', '"sdk/', '"format/', "<fmt/", "<nlohmann/", *POSIX],
     "bindings/python": ['"bindings/python/', '"codec/', '"tools/commands/command_line.h"', "<anicodec/", "<nanobind/"],
+    "bindings/usd": ['"bindings/usd/', "<anicodec/", "<pxr/", "<dlfcn.h>", "<link.h>", "<unistd.h>"],
     "bindings/web": ["<anicodec/", "<stdlib.h>", "<string.h>"],
     "bindings/engines/ogre": ['"bindings/engines/ogre/', "<anicodec/", "<Ogre"],
 }
@@ -100,12 +101,14 @@ ROOMS = {
                        "tools/render", "tools/inputs", "tools/report", "tools/encoding"],
     "tools": ["tools/commands"],
     "bindings/engines/ogre": [],
+    "bindings/usd": [],
 }
 # A unit is a header, a source, or both of one name. A room of more is a hall, to be divided.
 MAX_UNITS = 20
 # Folders that hold no room: the public headers, programs that use them, stand-ins, and what is installed.
 NOT_ROOMS = {"codec/include/anicodec", "codec/examples", "sdk/include/anicodec", "sdk/examples", "sdk/package",
-             "bindings/python/binding", "bindings/web/binding", "sdk/draco_headers", "bindings/engines/ogre/example"}
+             "bindings/python/binding", "bindings/web/binding", "sdk/draco_headers", "bindings/engines/ogre/example",
+             "bindings/usd/stand_ins/pxr/tf"}
 # One file calls Draco's decoder, one its encoder. OpenMesh changes connectivity and does nothing else.
 EXCEPTIONS = {"sdk/mesh/draco_poses.cpp": ["<draco/"], "sdk/mesh/draco_corners.h": ["<draco/"],
               "codec/connectivity/draco_encode.cpp": ["<draco/"],

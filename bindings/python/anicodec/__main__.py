@@ -5,13 +5,15 @@ import os
 import signal
 import sys
 
-from anicodec import _anicodec, _usd_command
+from anicodec import _anicodec, _usd_command, _usd_plugin
 
 
 def main() -> None:
     """Runs the command with the arguments of this process, and ends it. Stages of USD are encoded here."""
     if _usd_command.is_meant(sys.argv[1:]):
         sys.exit(_usd_command.main(sys.argv[2:]))
+    if sys.argv[1:2] == ["usd-plugin"]:
+        sys.exit(_usd_plugin.main(sys.argv[2:]))
     for name in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # as other commands, not as Python
         signal.signal(name, signal.SIG_DFL)
     sys.exit(_anicodec.run_command([os.fsencode(text) for text in ("anicodec", *sys.argv[1:])]))

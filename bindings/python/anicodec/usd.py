@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""USD: meshes of a stage to a clip, and back. Needs the extra: pip install 'anicodec[usd]'."""
+"""USD: meshes of a stage to a clip, and back. Needs the extra: pip install 'anicodec[usd]'.
+
+Importing it makes .anic files layers of this process, by the plug-in of bindings/usd, if it comes before the first stage is opened.
+"""
 from __future__ import annotations
 
 import os
@@ -11,6 +14,7 @@ try:
 except ImportError as error:
     raise ImportError("USD needs the extra of the package: pip install 'anicodec[usd]'") from error
 
+from . import _usd_plugin
 from ._usd_meshes import MeshReader, places
 from ._usd_stage import bake_skins, opened, other_variants, snapped_rate, time_codes
 from ._usd_write import decode
@@ -18,6 +22,7 @@ from .encoder import Encoded, encode_meshes
 from .errors import InputError
 
 __all__ = ["decode", "encode"]
+_usd_plugin.register()
 
 
 def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Sequence[str]] = None, *,
@@ -28,7 +33,7 @@ def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Se
     fps: frames per second; default the stage's, one for each time code, or more where samples stand between them, from the
     stage's start to its end; samples that no such rate meets are frames of their own. Texture coordinates, colours, other
     numbers, hard edges, subsets as materials and visibility are kept; each instance of a PointInstancer is a mesh. Paths of
-    prims and time codes stay in the metadata, as "usd", for decode(). `notes` of the result names what
+    prims and time codes stay in the metadata, as "usd", for decode() and for the plug-in of USD. `notes` of the result names what
     else the stage has. topology_changes: "refuse", or "keep" to store a mesh for each run of frames with equal faces. Other
     options are those of encode().
 
