@@ -3,9 +3,10 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Makes the NuGet package and the Unity package of bindings/csharp from native libraries.
 
-usage: pack.py OUT PLATFORM=LIBRARY...      writes OUT/Anicodec.VERSION.nupkg and OUT/org.anicodec.unity-VERSION.tgz
+usage: pack.py OUT [--notices FILE] PLATFORM=LIBRARY...      writes OUT/Anicodec.VERSION.nupkg and OUT/org.anicodec.unity-VERSION.tgz
 
-PLATFORM is a name of NuGet (linux-x64, osx-arm64, win-x64 ...); one may be named twice, with the decoder and with the encoder. The assembly is compiled by dotnet, for .NET Standard 2.1 and
+FILE has the licences of what is compiled into the libraries. PLATFORM is a name of NuGet (linux-x64, osx-arm64, win-x64 ...); one may be
+named twice, with the decoder and with the encoder. The assembly is compiled by dotnet, for .NET Standard 2.1 and
 .NET 6, or where there is none by Mono's mcs, for .NET Standard 2.1 alone. The same input gives the same bytes of everything
 else.
 """
@@ -57,7 +58,7 @@ def compile_assembly(folder):
     return {"netstandard2.1": out}
 
 
-def nuget_files(assemblies, libraries):
+def nuget_files(assemblies, libraries, notices):
     """{path in the package: bytes}, by the folders that the nuspec names."""
     stand_ins = {"README.md": (HERE / "README.md").read_bytes()}
     for framework, path in assemblies.items():
@@ -65,6 +66,8 @@ def nuget_files(assemblies, libraries):
         stand_ins[f"lib/{framework}/Anicodec.dll.config"] = (HERE / "Anicodec.dll.config").read_bytes()
     for platform, path in libraries:
         stand_ins[f"runtimes/{platform}/native/{file_name(platform, path)}"] = path.read_bytes()
+        if notices:
+            stand_ins[f"runtimes/{platform}/native/THIRD_PARTY_LICENSES.txt"] = notices
     chosen = {}
     for entry in xml.parse(HERE / "Anicodec.nuspec").getroot().iter(NUSPEC + "file"):
         source = entry.get("src").removesuffix("**")
@@ -113,8 +116,8 @@ def plugin_importer(platform):
            f"  - first:\n      Standalone: {player}\n    second:\n      enabled: 1\n      settings:\n        CPU: {wanted[1]}\n"
 
 
-def unity_files(libraries):
-    files = {}
+def unity_files(libraries, notices):
+    files = {"Third Party Notices.txt": notices} if notices else {}
     for folder in ("Runtime", "Unity", "Editor", "Timeline"):
         for path in sorted((HERE / folder).iterdir()):
             files[f"{folder}/{path.name}"] = path.read_bytes()
@@ -144,6 +147,11 @@ def write_unity(out, files):
 
 
 def main():
+    notices = None
+    if "--notices" in sys.argv[:-1]:
+        at = sys.argv.index("--notices")
+        notices = pathlib.Path(sys.argv[at + 1]).read_bytes()
+        del sys.argv[at:at + 2]
     if len(sys.argv) < 3 or not all("=" in word for word in sys.argv[2:]):
         sys.exit(__doc__)
     out = pathlib.Path(sys.argv[1])
@@ -154,8 +162,8 @@ def main():
         libraries.append((platform, pathlib.Path(path)))
     with tempfile.TemporaryDirectory() as folder:
         assemblies = compile_assembly(pathlib.Path(folder))
-        print(write_nupkg(out, nuget_files(assemblies, libraries)))
-    print(write_unity(out, unity_files(libraries)))
+        print(write_nupkg(out, nuget_files(assemblies, libraries, notices)))
+    print(write_unity(out, unity_files(libraries, notices)))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ bl_info = {
     "name": "anicodec (.anic)",
     "description": "Import and export compressed animated meshes",
     "author": "The anicodec authors",
-    "version": (0, 1, 0),
+    "version": (1, 0, 0),
     "blender": (3, 4, 0),
     "location": "File > Import-Export",
     "category": "Import-Export",
