@@ -150,7 +150,7 @@ THROW = re.compile(r"^[^/\"]*\bthrow\b", re.MULTILINE)
 
 def sources(folder):
     return [path for path in sorted(folder.rglob("*"))
-            if path.suffix in (".h", ".cpp", ".hpp", ".c") and "node_modules" not in path.parts]
+            if path.suffix in (".h", ".cpp", ".hpp", ".c") and not {"node_modules", "target"} & {*path.parts}]  # others' and built ones
 
 
 def module_of(name):

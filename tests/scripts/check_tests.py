@@ -58,7 +58,7 @@ THROUGH = {
 SUITE = re.compile(r"^TEST(?:_F|_P)?\(\s*(\w+),", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 # Programs and libraries that are tested as a whole.
-WHOLE = ("bindings/python/", "bindings/usd/", "bindings/engines/", "sdk/examples/", "codec/examples/")
+WHOLE = ("bindings/python/", "bindings/rust/", "bindings/usd/", "bindings/engines/", "sdk/examples/", "codec/examples/")
 
 
 def units_without_a_suite(checkout):

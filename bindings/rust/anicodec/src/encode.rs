@@ -1,0 +1,656 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+//! Encoding, by an installed `libanicodec_encoder`. `encode.h` describes every field.
+//!
+//! ```
+//! use anicodec::encode::{EncodeOptions, Encoder, Goal, SourceClip, SourceMesh};
+//!
+//! let corners = [0, 1, 2, 0, 2, 3];
+//! let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+//! let frames = 24;
+//! let waves = |frame: usize| square.map(|[x, y, _]| [x, y, (x + frame as f32 / 4.0).sin()]);
+//! let positions: Vec<_> = (0..frames).flat_map(waves).collect();
+//!
+//! let mut encoder = Encoder::new(&SourceClip { name: "flag", frame_count: frames as u32, ..Default::default() })?;
+//! let flag = SourceMesh { vertex_count: 4, corners: &corners, ..Default::default() };
+//! encoder.add_mesh(&flag, &positions)?;
+//! let encoded = encoder.encode(&EncodeOptions { goal: Goal::MaxError(0.01), ..Default::default() })?;
+//! assert!(encoded.max_error <= 0.01);
+//! assert_eq!(anicodec::Clip::open(&encoded.file)?.info().frame_count, 24);
+//! # Ok::<(), anicodec::Error>(())
+//! ```
+use alloc::boxed::Box;
+use alloc::ffi::CString;
+use alloc::vec::Vec;
+use core::ffi::{c_char, c_int, c_void, CStr};
+use core::fmt;
+use core::marker::PhantomData;
+use core::ops::{ControlFlow, Range};
+use core::ptr::{self, NonNull};
+
+use anicodec_sys as sys;
+
+use crate::error::{Error, Result, Status};
+use crate::raw::{english, enumeration, init, slice, text};
+use crate::{AlphaMode, AttributeKind, BasisKind, Domain, Order, Rate, UpAxis};
+
+/// A clip to be encoded: what all meshes share.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SourceClip<'a> {
+    /// May be empty.
+    pub name: &'a str,
+    /// How many frames there are.
+    pub frame_count: u32,
+    /// Frames per second; none: nobody knows, and 24 is stored, and that it is assumed.
+    pub rate: Option<Rate>,
+    /// The axis that points up.
+    pub up: UpAxis,
+    /// Meant to be repeated.
+    pub is_loop: bool,
+    /// Of frame 0 on the clock of the source, seconds.
+    pub start_time: f64,
+    /// 0: unknown.
+    pub metres_per_unit: f64,
+    /// Ascending seconds from frame 0, one for each frame; empty: evenly by the rate.
+    pub times: &'a [f64],
+    /// Named times, from frame 0 on.
+    pub events: &'a [(&'a str, f64)],
+    /// The place that positions count from.
+    pub origin: [f64; 3],
+    /// Looks for an origin where meshes are small and far from zero.
+    pub find_origin: bool,
+}
+
+/// A mesh: polygons over vertices.
+#[derive(Clone, Debug, Default)]
+pub struct SourceMesh<'a> {
+    /// Names tell several meshes apart.
+    pub name: &'a str,
+    /// How many vertices there are.
+    pub vertex_count: u32,
+    /// Polygon p has the corners `offsets[p]..offsets[p + 1]`; empty: all are triangles.
+    pub offsets: &'a [u32],
+    /// Vertex of each corner.
+    pub corners: &'a [u32],
+    /// Frames that show the mesh, ascending; empty: all. Positions and attributes that change have these alone.
+    pub runs: &'a [Range<u32>],
+}
+
+/// Values beside the positions, or names of polygons.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SourceAttribute<'a> {
+    /// May be empty.
+    pub name: &'a str,
+    /// The meaning.
+    pub kind: AttributeKind,
+    /// What has a value.
+    pub domain: Domain,
+    /// Numbers of an element; 0: it has `labels`.
+    pub components: u32,
+    /// Of all elements in frame 0, or in each frame of the mesh.
+    pub values: &'a [f32],
+    /// One for each element: 0 for none, or one more than the number of a name; of normals those that share one.
+    pub labels: &'a [u32],
+    /// Names of labels.
+    pub label_names: &'a [&'a str],
+    /// Looks of materials, none where one is unknown; empty: all are.
+    pub looks: &'a [Option<Look<'a>>],
+}
+
+/// The look of a material: [`Material`](crate::Material) without its name.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "Material describes them")]
+pub struct Look<'a> {
+    pub base_colour: [f32; 4],
+    pub metallic: f32,
+    pub roughness: f32,
+    pub emissive: [f32; 3],
+    pub alpha: AlphaMode,
+    pub alpha_cutoff: f32,
+    pub double_sided: bool,
+    pub base_colour_texture: &'a str,
+    pub metallic_roughness_texture: &'a str,
+    pub normal_texture: &'a str,
+    pub occlusion_texture: &'a str,
+    pub emissive_texture: &'a str,
+}
+
+impl Default for Look<'_> {
+    /// White, as glTF has it.
+    fn default() -> Self {
+        Self {
+            base_colour: [1.0; 4],
+            metallic: 1.0,
+            roughness: 1.0,
+            emissive: [0.0; 3],
+            alpha: AlphaMode::Opaque,
+            alpha_cutoff: 0.5,
+            double_sided: false,
+            base_colour_texture: "",
+            metallic_roughness_texture: "",
+            normal_texture: "",
+            occlusion_texture: "",
+            emissive_texture: "",
+        }
+    }
+}
+
+/// The promise that the file keeps. Lengths are in units of the clip, or with [`EncodeOptions::percent`] in per cent of the
+/// diagonal of the box around all frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Goal {
+    /// A largest error of 0.05 %, or with `keyframes` none.
+    #[default]
+    Default,
+    /// Largest distance of any vertex of any frame from its place.
+    MaxError(f64),
+    /// KG error in per cent.
+    Kg(f64),
+    /// Root of the mean squared error.
+    Rmse(f64),
+    /// Bytes, with the smallest error; of one mesh alone.
+    Size(f64),
+    /// Bits per frame and vertex, with the smallest error.
+    Bpfv(f64),
+    /// Largest error of any vertex's move from frame to frame.
+    Displacement(f64),
+    /// STED, an error as viewers see it.
+    Sted(f64),
+}
+
+impl Goal {
+    fn raw(self) -> (i32, f64) {
+        match self {
+            Self::Default => (sys::ANIC_GOAL_DEFAULT, 0.0),
+            Self::MaxError(value) => (sys::ANIC_GOAL_MAX_ERROR, value),
+            Self::Kg(value) => (sys::ANIC_GOAL_KG, value),
+            Self::Rmse(value) => (sys::ANIC_GOAL_RMSE, value),
+            Self::Size(value) => (sys::ANIC_GOAL_SIZE, value),
+            Self::Bpfv(value) => (sys::ANIC_GOAL_BPFV, value),
+            Self::Displacement(value) => (sys::ANIC_GOAL_DISPLACEMENT, value),
+            Self::Sted(value) => (sys::ANIC_GOAL_STED, value),
+        }
+    }
+}
+
+enumeration! {
+    /// Kind of basis.
+    BasisChoice: Smallest {
+        /// The one that makes the smallest file.
+        Smallest = ANIC_CHOOSE_SMALLEST,
+        /// Frames of the clip.
+        Keyframes = ANIC_CHOOSE_KEYFRAMES,
+        /// Shapes.
+        Eigenshapes = ANIC_CHOOSE_EIGENSHAPES,
+        /// Trajectories.
+        Eigentrajectories = ANIC_CHOOSE_EIGENTRAJECTORIES,
+    }
+}
+
+enumeration! {
+    /// How key-frames are chosen.
+    Selection: Pivot {
+        /// The frame that is furthest off, again and again.
+        Pivot = ANIC_SELECT_PIVOT,
+        /// By a greedy search.
+        Gas = ANIC_SELECT_GAS,
+        /// Evenly.
+        Uniform = ANIC_SELECT_UNIFORM,
+    }
+}
+
+enumeration! {
+    /// How frames come from key-frames.
+    Interpolation: Usual {
+        /// Linear between key-frames that were asked for, else best.
+        Usual = ANIC_INTERPOLATE_USUAL,
+        /// Any decoder plays the file.
+        Linear = ANIC_INTERPOLATE_LINEAR,
+        /// Geometry interpolation, which decoders may lack.
+        Msgi = ANIC_INTERPOLATE_MSGI,
+        /// The smaller of the two.
+        Best = ANIC_INTERPOLATE_BEST,
+    }
+}
+
+enumeration! {
+    /// What codes the poses of key-frames.
+    KeyframeCoder: Native {
+        /// Any decoder plays the file.
+        Native = ANIC_KEYFRAMES_NATIVE,
+        /// Draco, which decoders may lack.
+        Draco = ANIC_KEYFRAMES_DRACO,
+        /// The smaller of the two.
+        Smallest = ANIC_KEYFRAMES_SMALLEST,
+    }
+}
+
+enumeration! {
+    /// Whether vertices are moved along their surface first, of one mesh alone.
+    Massage: Off {
+        /// Never.
+        Off = ANIC_MASSAGE_OFF,
+        /// Always.
+        On = ANIC_MASSAGE_ON,
+        /// Where the file becomes smaller.
+        Auto = ANIC_MASSAGE_AUTO,
+    }
+}
+
+/// How to encode; the default is a largest error of 0.05 % of the size, for any vertex.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct EncodeOptions<'a> {
+    /// What the file promises.
+    pub goal: Goal,
+    /// A length of `goal` is in per cent of the diagonal.
+    pub percent: bool,
+    /// A largest error beside another goal; 0: none.
+    pub max_error: f64,
+    /// `max_error` is in per cent of the diagonal.
+    pub cap_percent: bool,
+    /// How much of the source's order is kept.
+    pub order: Order,
+    /// The positions come back bit for bit; instead of a goal.
+    pub lossless: bool,
+    /// The smallest file that the search finds, however long it takes to open.
+    pub smallest: bool,
+    /// The motion of the whole apart, of one mesh alone.
+    pub root_motion: bool,
+    /// Positions and polygons alone.
+    pub no_attributes: bool,
+    /// Refuse what would hold more memory; 0: no limit.
+    pub max_bytes: u64,
+    /// 0: as many as the machine has.
+    pub threads: u32,
+    /// 1 to 9: how long to search; 0 means 5.
+    pub effort: u32,
+    /// Kind of basis.
+    pub basis: BasisChoice,
+    /// Exact number of key-frames; 0: as few as do.
+    pub keyframes: u32,
+    /// How key-frames are chosen.
+    pub selection: Selection,
+    /// How frames come from them.
+    pub interpolation: Interpolation,
+    /// What codes them.
+    pub keyframe_coder: KeyframeCoder,
+    /// Whether vertices are moved first.
+    pub massage: Massage,
+    /// Of shape against distance, between 0 and 1; 0 means 0.5.
+    pub massage_strength: f64,
+    /// How far the surface may move; 0: any.
+    pub massage_tolerance: f64,
+    /// Texture coordinates in steps of 2^-uv_bits; 0 means 12.
+    pub uv_bits: u32,
+    /// Of a component of a colour; 0 means 8.
+    pub colour_bits: u32,
+    /// Largest error of attributes that change; 0: half a step of `colour_bits` for colours, 0.1 % of their range for others.
+    pub attribute_error: f64,
+    /// `attribute_error` is in per cent of the range of its values.
+    pub error_percent: bool,
+    /// Degrees: normals and tangents as numbers that are not further off; 0: hard edges alone.
+    pub normal_error: f64,
+    /// A JSON object that the file keeps, at most 2^20 bytes; empty: none.
+    pub metadata: &'a str,
+}
+
+/// The file, and what was measured of it by decoding it. Lengths are in units of the clip.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Encoding {
+    /// The bytes.
+    pub file: Vec<u8>,
+    /// Largest distance of a vertex from its place.
+    pub max_error: f64,
+    /// Root of the mean squared error.
+    pub rmse: f64,
+    /// KG error, per cent.
+    pub kg: f64,
+    /// Of the box around all frames of all clips.
+    pub diagonal: f64,
+    /// How far massage moved the surface at most.
+    pub surface_error: f64,
+    /// Of the largest basis.
+    pub components: u32,
+    /// Of the first mesh.
+    pub basis: BasisKind,
+    /// Vertices were moved first.
+    pub massaged: bool,
+    /// Of a vertex's move from frame to frame.
+    pub max_displacement_error: f64,
+}
+
+/// Elements of a mesh, which its attributes have values for.
+#[derive(Clone, Copy)]
+struct Counts {
+    vertices: usize,
+    corners: usize,
+    polygons: usize,
+    frames: usize,
+}
+
+/// A clip to be encoded. It borrows the positions of its meshes, and copies everything else.
+pub struct Encoder<'a> {
+    raw: NonNull<sys::anic_encoder>,
+    frame_count: usize,
+    meshes: Vec<Counts>,
+    positions: PhantomData<&'a [[f32; 3]]>,
+}
+
+// SAFETY: one thread at a time may use an encoder, whichever it is.
+unsafe impl Send for Encoder<'_> {}
+
+impl Drop for Encoder<'_> {
+    fn drop(&mut self) {
+        // SAFETY: it lives until here.
+        unsafe { sys::anic_destroy_encoder(self.raw.as_ptr()) }
+    }
+}
+
+impl<'a> Encoder<'a> {
+    /// An encoder of a clip without meshes.
+    pub fn new(clip: &SourceClip<'_>) -> Result<Self> {
+        let mut raw = ptr::null_mut();
+        // SAFETY: `raw` is a place for it.
+        crate::raw::check(unsafe { sys::anic_create_encoder(&mut raw) })?;
+        let raw = NonNull::new(raw).ok_or(Error::of(sys::ANIC_E_INTERNAL))?;
+        let mut encoder = Self { raw, frame_count: 0, meshes: Vec::new(), positions: PhantomData };
+        encoder.give_clip(clip, sys::anic_set_source_clip)?;
+        Ok(encoder)
+    }
+
+    /// Adds a clip to a file of several, before meshes are added: its frames come behind those that are there, and every mesh
+    /// has the frames of all clips, one after the other. Such a file has one mesh, shown in all frames.
+    pub fn add_clip(&mut self, clip: &SourceClip<'_>) -> Result<()> {
+        self.give_clip(clip, sys::anic_add_source_clip)
+    }
+
+    fn give_clip(
+        &mut self,
+        clip: &SourceClip<'_>,
+        give: unsafe extern "C" fn(*mut sys::anic_encoder, *const sys::anic_source_clip) -> i32,
+    ) -> Result<()> {
+        if !clip.times.is_empty() && clip.times.len() != clip.frame_count as usize {
+            return Err(refused("there is not one time for each frame"));
+        }
+        let name = c_text(clip.name)?;
+        let (names, seconds): (Vec<&str>, Vec<f64>) = clip.events.iter().copied().unzip();
+        let names = Texts::new(&names)?;
+        let rate = clip.rate.unwrap_or(Rate { numerator: 0, denominator: 0 });
+        let mut raw: sys::anic_source_clip = init();
+        raw.name = name.as_ptr();
+        raw.frame_count = clip.frame_count;
+        raw.rate_numerator = rate.numerator;
+        raw.rate_denominator = rate.denominator;
+        raw.up = clip.up.raw();
+        raw.loop_ = clip.is_loop.into();
+        raw.start_time = clip.start_time;
+        raw.metres_per_unit = clip.metres_per_unit;
+        raw.times = address(clip.times);
+        raw.event_names = address(&names.addresses);
+        raw.event_seconds = address(&seconds);
+        raw.event_count = count(seconds.len())?;
+        raw.origin = clip.origin;
+        raw.find_origin = clip.find_origin.into();
+        // SAFETY: everything is copied.
+        let status = unsafe { give(self.raw.as_ptr(), &raw) };
+        self.check(status)?;
+        self.frame_count += clip.frame_count as usize;
+        Ok(())
+    }
+
+    /// Adds a mesh with its positions: those of frame 0, then of frame 1 and so on. [`encode`](Self::encode) reads them. The
+    /// result is the number of the mesh.
+    pub fn add_mesh(&mut self, mesh: &SourceMesh<'_>, positions: &'a [[f32; 3]]) -> Result<u32> {
+        let polygons = match mesh.offsets {
+            [] if mesh.corners.len() % 3 != 0 => return Err(refused("corners of triangles come in threes")),
+            [] => mesh.corners.len() / 3,
+            [0, ..] if mesh.offsets.last().map(|&end| end as usize) == Some(mesh.corners.len()) => {
+                mesh.offsets.len() - 1
+            }
+            _ => return Err(refused("offsets do not lead from 0 to the end of the corners")),
+        };
+        if mesh.offsets.windows(2).any(|ends| ends[0] > ends[1]) {
+            return Err(refused("offsets do not ascend"));
+        }
+        let runs: Vec<sys::anic_frame_run> = mesh
+            .runs
+            .iter()
+            .map(|run| sys::anic_frame_run { first: run.start, count: run.end.saturating_sub(run.start) })
+            .collect();
+        let frames = if runs.is_empty() { self.frame_count } else { runs.iter().map(|run| run.count as usize).sum() };
+        if frames.checked_mul(mesh.vertex_count as usize) != Some(positions.len()) {
+            return Err(refused("there is not one position for each vertex and frame"));
+        }
+        let name = c_text(mesh.name)?;
+        let mut raw: sys::anic_source_mesh = init();
+        raw.name = name.as_ptr();
+        raw.vertex_count = mesh.vertex_count;
+        raw.polygon_count = count(polygons)?;
+        raw.offsets = address(mesh.offsets);
+        raw.corners = address(mesh.corners);
+        raw.positions = positions.as_ptr().cast();
+        raw.scalar = sys::ANIC_SCALAR_FLOAT32;
+        raw.run_count = count(runs.len())?;
+        raw.runs = address(&runs);
+        let mut number = 0;
+        // SAFETY: all but the positions is copied; they are borrowed for 'a, and there are enough of them.
+        let status = unsafe { sys::anic_add_source_mesh(self.raw.as_ptr(), &raw, &mut number) };
+        self.check(status)?;
+        let vertices = mesh.vertex_count as usize;
+        self.meshes.push(Counts { vertices, corners: mesh.corners.len(), polygons, frames });
+        Ok(number)
+    }
+
+    /// Adds an attribute to a mesh.
+    pub fn add_attribute(&mut self, mesh: u32, attribute: &SourceAttribute<'_>) -> Result<()> {
+        let of = *self.meshes.get(mesh as usize).ok_or(refused("there is no such mesh"))?;
+        let elements = match attribute.domain {
+            Domain::Vertices => of.vertices,
+            Domain::Corners => of.corners,
+            Domain::Polygons => of.polygons,
+        };
+        let a_frame = elements.saturating_mul(attribute.components as usize);
+        let frames = attribute.values.len().checked_div(a_frame).unwrap_or(0);
+        if a_frame.saturating_mul(frames) != attribute.values.len()
+            || (frames != 1 && frames != of.frames && a_frame > 0)
+        {
+            return Err(refused("there is not one value for each element, of one frame or of all"));
+        }
+        let labels = if attribute.components == 0 { elements } else { 0 };
+        if attribute.labels.len() != labels {
+            return Err(refused("there is not one label for each element"));
+        }
+        if !attribute.looks.is_empty() && attribute.looks.len() != attribute.label_names.len() {
+            return Err(refused("there is not one look for each name"));
+        }
+        let name = c_text(attribute.name)?;
+        let names = Texts::new(attribute.label_names)?;
+        let looks = attribute.looks.iter().map(|look| look.as_ref().map(RawLook::new).transpose());
+        let looks: Vec<Option<RawLook>> = looks.collect::<Result<_>>()?;
+        let materials: Vec<*const sys::anic_material> =
+            looks.iter().map(|look| look.as_ref().map_or(ptr::null(), |look| &raw const look.raw)).collect();
+        let mut raw: sys::anic_source_attribute = init();
+        raw.name = name.as_ptr();
+        raw.kind = attribute.kind.raw();
+        raw.domain = attribute.domain.raw();
+        raw.components = attribute.components;
+        raw.frames = count(frames)?;
+        raw.values = address(attribute.values);
+        raw.labels = address(attribute.labels);
+        raw.label_names = address(&names.addresses);
+        raw.label_count = count(attribute.label_names.len())?;
+        raw.materials = address(&materials);
+        // SAFETY: everything is copied, and there is as much of it as was checked.
+        let status = unsafe { sys::anic_add_source_attribute(self.raw.as_ptr(), mesh, &raw) };
+        self.check(status)
+    }
+
+    /// Encodes the meshes to one file, decodes it, and checks that it keeps what was asked. The same input and options give
+    /// the same bytes, which are those of the command `anicodec encode`.
+    pub fn encode(&mut self, options: &EncodeOptions<'_>) -> Result<Encoding> {
+        self.encode_with(options, |_, _| ControlFlow::Continue(()))
+    }
+
+    /// The same, and `report` gets the name of each stage and the share of it that is done; it breaks to stop the encoding,
+    /// which fails with [`Status::Cancelled`] then. A panic of `report` ends the process.
+    pub fn encode_with(
+        &mut self,
+        options: &EncodeOptions<'_>,
+        report: impl FnMut(&str, f64) -> ControlFlow<()>,
+    ) -> Result<Encoding> {
+        let mut report: Box<Report<'_>> = Box::new(report);
+        let metadata = c_text(options.metadata)?;
+        let mut raw = options.raw();
+        if !options.metadata.is_empty() {
+            raw.metadata = metadata.as_ptr();
+        }
+        raw.progress.user = ptr::from_mut(&mut report).cast();
+        raw.progress.report = Some(report_stage);
+        let mut out: sys::anic_encoding = init();
+        // SAFETY: positions are borrowed, and the options live during the call.
+        let status = unsafe { sys::anic_encode(self.raw.as_ptr(), &raw, &mut out) };
+        self.check(status)?;
+        Ok(Encoding {
+            // SAFETY: the file belongs to the encoder until the next call.
+            file: unsafe { slice(out.file.cast::<u8>(), out.size) }.to_vec(),
+            max_error: out.max_error,
+            rmse: out.rmse,
+            kg: out.kg,
+            diagonal: out.diagonal,
+            surface_error: out.surface_error,
+            components: out.components,
+            basis: BasisKind::from_raw(out.basis),
+            massaged: out.massaged != 0,
+            max_displacement_error: out.max_displacement_error,
+        })
+    }
+
+    fn check(&self, status: sys::anic_status) -> Result<()> {
+        if status == sys::ANIC_OK {
+            return Ok(());
+        }
+        // SAFETY: the text is good until the next call.
+        let said = unsafe { text(sys::anic_get_encoder_text(self.raw.as_ptr())) };
+        let status = Status::from_raw(status);
+        Err(Error::Encode { status, text: said.to_string_lossy().into_owned() })
+    }
+}
+
+impl fmt::Debug for Encoder<'_> {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(to, "Encoder of {} meshes, {} frames", self.meshes.len(), self.frame_count)
+    }
+}
+
+impl EncodeOptions<'_> {
+    fn raw(&self) -> sys::anic_encode_options {
+        let mut raw: sys::anic_encode_options = init();
+        (raw.goal, raw.goal_value) = self.goal.raw();
+        raw.order = self.order.raw();
+        raw.max_error = self.max_error;
+        for (wanted, flag) in [
+            (self.percent, sys::ANIC_ENCODE_PERCENT),
+            (self.cap_percent, sys::ANIC_ENCODE_CAP_PERCENT),
+            (self.error_percent, sys::ANIC_ENCODE_ERROR_PERCENT),
+            (self.no_attributes, sys::ANIC_ENCODE_NO_ATTRIBUTES),
+            (self.root_motion, sys::ANIC_ENCODE_ROOT_MOTION),
+            (self.lossless, sys::ANIC_ENCODE_LOSSLESS),
+            (self.smallest, sys::ANIC_ENCODE_SMALLEST),
+        ] {
+            raw.flags |= if wanted { u64::from(flag) } else { 0 };
+        }
+        raw.max_bytes = self.max_bytes;
+        raw.threads = self.threads;
+        raw.effort = self.effort;
+        raw.basis = self.basis.raw();
+        raw.keyframes = self.keyframes;
+        raw.selection = self.selection.raw();
+        raw.interpolation = self.interpolation.raw();
+        raw.keyframe_coder = self.keyframe_coder.raw();
+        raw.massage = self.massage.raw();
+        raw.uv_bits = self.uv_bits;
+        raw.colour_bits = self.colour_bits;
+        raw.massage_strength = self.massage_strength;
+        raw.massage_tolerance = self.massage_tolerance;
+        raw.attribute_error = self.attribute_error;
+        raw.normal_error = self.normal_error;
+        raw
+    }
+}
+
+type Report<'a> = dyn FnMut(&str, f64) -> ControlFlow<()> + 'a;
+
+unsafe extern "C" fn report_stage(user: *mut c_void, stage: *const c_char, done: f64) -> c_int {
+    // SAFETY: `user` is the Box of encode_with(), which outlives the call and is used by its thread alone.
+    let report = unsafe { &mut *user.cast::<Box<Report<'_>>>() };
+    // SAFETY: names of stages are static.
+    c_int::from(report(unsafe { english(stage) }, done).is_break())
+}
+
+/// An error of what is checked before the library gets it.
+fn refused(text: &str) -> Error {
+    Error::Encode { status: Status::Argument, text: text.into() }
+}
+
+fn c_text(from: &str) -> Result<CString> {
+    CString::new(from).map_err(|_| refused("a text has a NUL in it"))
+}
+
+/// NULL for nothing, as C wants it.
+fn address<T>(from: &[T]) -> *const T {
+    if from.is_empty() {
+        ptr::null()
+    } else {
+        from.as_ptr()
+    }
+}
+
+fn count(from: usize) -> Result<u32> {
+    u32::try_from(from).map_err(|_| refused("there are more than 2^32 - 1 elements"))
+}
+
+/// Texts and their addresses, as C wants them.
+struct Texts {
+    addresses: Vec<*const c_char>,
+    _texts: Vec<CString>,
+}
+
+impl Texts {
+    fn new(from: &[&str]) -> Result<Self> {
+        let texts = from.iter().map(|text| c_text(text)).collect::<Result<Vec<_>>>()?;
+        Ok(Self { addresses: texts.iter().map(|text| CStr::as_ptr(text)).collect(), _texts: texts })
+    }
+}
+
+/// A look as C takes it.
+struct RawLook {
+    raw: sys::anic_material,
+    _textures: Texts,
+}
+
+impl RawLook {
+    fn new(from: &Look<'_>) -> Result<Self> {
+        let textures = Texts::new(&[
+            from.base_colour_texture,
+            from.metallic_roughness_texture,
+            from.normal_texture,
+            from.occlusion_texture,
+            from.emissive_texture,
+        ])?;
+        let mut raw: sys::anic_material = init();
+        raw.base_colour = from.base_colour;
+        raw.metallic = from.metallic;
+        raw.roughness = from.roughness;
+        raw.emissive = from.emissive;
+        raw.alpha = from.alpha.raw();
+        raw.alpha_cutoff = from.alpha_cutoff;
+        raw.double_sided = from.double_sided.into();
+        raw.base_colour_texture = textures.addresses[0];
+        raw.metallic_roughness_texture = textures.addresses[1];
+        raw.normal_texture = textures.addresses[2];
+        raw.occlusion_texture = textures.addresses[3];
+        raw.emissive_texture = textures.addresses[4];
+        Ok(Self { raw, _textures: textures })
+    }
+}
