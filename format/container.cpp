@@ -36,7 +36,7 @@ constexpr auto kUnknownFeature = [] {
 }();
 
 /// The number of the lowest bit that is set; there is one.
-size_t lowest_bit(uint64_t bits) {
+size_t lowest_feature(uint64_t bits) {
   size_t bit = 0;
   while (!(bits >> bit & 1))
     ++bit;
@@ -168,7 +168,7 @@ Failure ContainerReader::open(ByteView file, Extent extent) {
   if (low32(xxh64(covered)) != checksum)
     return failure(Status::kHeaderChecksum, kChecksumAt, "header and table are damaged");
   if (const uint64_t unknown = features & ~kKnownFeatures; unknown != 0)
-    return failure(Status::kFeature, 16, kUnknownFeature[lowest_bit(unknown)].data());
+    return failure(Status::kFeature, 16, kUnknownFeature[lowest_feature(unknown)].data());
   if ((features & kContinuation) && extent != Extent::kOfStream)
     return failure(Status::kFeature, 16, "the file continues another one, which has its meshes");
   if (size > file.size && extent == Extent::kWhole)

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/segment/lattice.h"
 
+#include "format/compiler.h"
 #include "sdk/exact/exact_coding.h"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ double common_power(const std::vector<float>& sorted) {
       continue;
     int of_x;
     const auto digits = static_cast<uint32_t>(std::ldexp(std::frexp(std::fabs(x), &of_x), 24));
-    exponent = std::min(exponent, of_x - 24 + __builtin_ctz(digits));
+    exponent = std::min(exponent, of_x - 24 + lowest_bit(digits));
   }
   return std::ldexp(1.0, exponent);
 }

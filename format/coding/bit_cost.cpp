@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "format/coding/bit_cost.h"
 
+#include "format/compiler.h"
+
 namespace anicodec {
 namespace {
 
@@ -34,7 +36,7 @@ constexpr Table kTable{};
 }  // namespace
 
 uint32_t bit_cost(uint32_t p) {
-  const int exponent = 31 - __builtin_clz(p);
+  const int exponent = highest_bit(p);
   // p = 2^exponent * m with m in [1, 2); the top kTableBits of the mantissa, rounded.
   const uint32_t m = exponent >= kTableBits
                          ? ((p >> (exponent - kTableBits)) +

@@ -111,7 +111,7 @@ class CoefficientModel {
           values[i] = 0;
       }
       for (; nonzero != 0; nonzero &= nonzero - 1) {
-        const auto i = static_cast<uint32_t>(__builtin_ctz(nonzero));
+        const auto i = static_cast<uint32_t>(lowest_bit(nonzero));
         code_nonzero(coder, first + i, c, symbols[i], batch.vertices[i], values[i]);
       }
     }

@@ -4,6 +4,7 @@
 #define ANICODEC_FORMAT_CODING_SYMBOL_MODEL_H_
 
 #include "format/coding/binary_coder.h"
+#include "format/compiler.h"
 
 #include <cstdint>
 
@@ -11,7 +12,7 @@ namespace anicodec {
 
 /// Position of the highest set bit; 0 for 0.
 constexpr int floor_log2(uint32_t x) {
-  return x == 0 ? 0 : 31 - __builtin_clz(x);
+  return x == 0 ? 0 : highest_bit(x);
 }
 
 /// How code_symbol treats the sign: values are never negative, it costs one bit, or it is modelled.

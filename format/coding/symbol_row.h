@@ -15,6 +15,7 @@
 #include "format/coding/binary_coder.h"
 #include "format/coding/magnitude_class.h"
 #include "format/coding/symbol_model.h"
+#include "format/compiler.h"
 
 #include <array>
 #include <cstddef>
@@ -127,7 +128,7 @@ struct VectorRows {
   static uint32_t find(const uint16_t* starts, uint32_t x) {
     const __m128i above = _mm_cmpgt_epi16(load(starts), _mm_set1_epi16(static_cast<short>(x)));
     const auto mask = static_cast<uint32_t>(_mm_movemask_epi8(above)) | 1U << 14;
-    return static_cast<uint32_t>(__builtin_ctz(mask)) / 2;
+    return static_cast<uint32_t>(lowest_bit(mask)) / 2;
   }
 
   static void learn(SymbolRow& row, uint32_t s) {
@@ -187,7 +188,7 @@ struct VectorRows {
   static uint32_t find(const uint16_t* starts, uint32_t x) {
     const v128_t above =
         wasm_i16x8_gt(wasm_v128_load(starts), wasm_i16x8_splat(static_cast<int16_t>(x)));
-    return static_cast<uint32_t>(__builtin_ctz(wasm_i16x8_bitmask(above) | 1U << 7));
+    return static_cast<uint32_t>(lowest_bit(wasm_i16x8_bitmask(above) | 1U << 7));
   }
 
   static void learn(SymbolRow& row, uint32_t s) {
@@ -231,9 +232,8 @@ class SymbolDistribution {
 /// Codes a symbol by three rows, which learn from it one after the other. Inlined, so that the coder
 /// stays in registers from symbol to symbol.
 template <class Coder>
-inline __attribute__((always_inline)) uint32_t code_row_symbol(Coder& coder, SymbolRow& a,
-                                                               SymbolRow& b, SymbolRow& c,
-                                                               uint32_t s) {
+ANICODEC_INLINE uint32_t code_row_symbol(Coder& coder, SymbolRow& a, SymbolRow& b, SymbolRow& c,
+                                         uint32_t s) {
   s = coder.symbol(SymbolDistribution(a, b, c), s);
   if constexpr (Coder::kAdapts) {
     VectorRows::learn(a, s);

@@ -15,7 +15,7 @@ namespace {
 template <typename Float, typename Int>
 ANICODEC_INLINE Int half_bits(Float x) {
   Int bits;
-  __builtin_memcpy(&bits, &x, sizeof bits);
+  ANICODEC_COPY(&bits, &x, sizeof bits);
   const Int sign = (bits >> 16) & 0x8000;
   const Int magnitude = bits & 0x7fffffff;
   // The exponent moves from bias 127 to 15, 13 bits of the mantissa are rounded off. A carry into
@@ -23,10 +23,10 @@ ANICODEC_INLINE Int half_bits(Float x) {
   const Int normal = (magnitude - (112 << 23) + 0xfff + ((magnitude >> 13) & 1)) >> 13;
   // A multiple of 2^-24, as the spacing of floats from 0.5 on is 2^-24 too.
   Float shifted;
-  __builtin_memcpy(&shifted, &magnitude, sizeof shifted);
+  ANICODEC_COPY(&shifted, &magnitude, sizeof shifted);
   shifted += 0.5F;
   Int subnormal;
-  __builtin_memcpy(&subnormal, &shifted, sizeof subnormal);
+  ANICODEC_COPY(&subnormal, &shifted, sizeof subnormal);
   subnormal -= 126 << 23;
   const Int nan = (magnitude >> 13 & 0x3ff) | 0x7e00;
   Int result = magnitude < (113 << 23) ? subnormal : normal;

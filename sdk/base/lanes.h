@@ -7,6 +7,8 @@
 #ifndef ANICODEC_SDK_BASE_LANES_H_
 #define ANICODEC_SDK_BASE_LANES_H_
 
+#include "format/compiler.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -16,20 +18,16 @@
 #include <wasm_simd128.h>
 #endif
 
-// Small loops with constant bounds over registers must be unrolled, at every optimisation level.
-#define ANICODEC_INLINE inline __attribute__((always_inline))
-#define ANICODEC_UNROLL _Pragma("GCC unroll 8")
-
 namespace anicodec {
 namespace {
 
 template <size_t W>
 struct LaneTypes {
   // Aliases (using) lose the attribute where it depends on a template parameter (GCC).
-  typedef float Float __attribute__((vector_size(4 * W)));
-  typedef float Unaligned __attribute__((vector_size(4 * W), aligned(4), may_alias));
-  typedef int32_t Int __attribute__((vector_size(4 * W)));
-  typedef uint32_t Bits __attribute__((vector_size(4 * W)));
+  typedef float Float ANICODEC_VECTOR(4 * W);
+  typedef float Unaligned ANICODEC_LOOSE_VECTOR(4 * W, 4);
+  typedef int32_t Int ANICODEC_VECTOR(4 * W);
+  typedef uint32_t Bits ANICODEC_VECTOR(4 * W);
 };
 
 /// Every lane, rounded to nearest.
@@ -51,7 +49,7 @@ ANICODEC_INLINE V square_root(V x) {
     return reinterpret_cast<V>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(x)));
 #endif
   for (size_t l = 0; l < sizeof(V) / sizeof(float); ++l)
-    x[l] = __builtin_sqrtf(x[l]);
+    x[l] = ANICODEC_SQUARE_ROOT(x[l]);
   return x;
 }
 

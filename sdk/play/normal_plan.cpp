@@ -201,7 +201,7 @@ ANICODEC_INLINE Float4 load_point(const unsigned char* pose, size_t stride, uint
 
 /// Numbers 1, 2, 0.
 ANICODEC_INLINE Float4 rotated(Float4 x) {
-  return __builtin_shufflevector(x, x, 0, 2, 3, 1);
+  return ANICODEC_SHUFFLE(x, x, 0, 2, 3, 1);
 }
 
 /// Sums of the areas of a range: of its groups, and one that is nobody's.

@@ -27,16 +27,16 @@ struct OutputLanes {
   template <int I, int J, int K, int L, typename V>
   static ANICODEC_INLINE V shuffle(V a, V b) {
     if constexpr (W == 4) {
-      return __builtin_shufflevector(a, b, I, J, K, L);
+      return ANICODEC_SHUFFLE(a, b, I, J, K, L);
     } else {
       constexpr int kSecond = W - 4;
       constexpr int i = I + I / 4 * kSecond, j = J + J / 4 * kSecond, k = K + K / 4 * kSecond,
                     l = L + L / 4 * kSecond;
       if constexpr (W == 8)
-        return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4);
+        return ANICODEC_SHUFFLE(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4);
       else
-        return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8,
-                                       k + 8, l + 8, i + 12, j + 12, k + 12, l + 12);
+        return ANICODEC_SHUFFLE(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8, k + 8,
+                                l + 8, i + 12, j + 12, k + 12, l + 12);
     }
   }
 
@@ -44,7 +44,7 @@ struct OutputLanes {
   template <size_t N, typename V>
   static ANICODEC_INLINE void store(unsigned char* to, const V* v) {
     if constexpr (W == 4) {
-      __builtin_memcpy(to, v, N * sizeof(V));
+      ANICODEC_COPY(to, v, N * sizeof(V));
     } else {
       store_fours<N, 0>(to, v);
       store_fours<N, 1>(to, v);
@@ -59,14 +59,14 @@ struct OutputLanes {
   static ANICODEC_INLINE void store_fours(unsigned char* to, const V* v) {
     constexpr int i = 4 * Four;
     ANICODEC_UNROLL for (size_t n = 0; n < N; ++n) {
-      const auto four = __builtin_shufflevector(v[n], v[n], i, i + 1, i + 2, i + 3);
-      __builtin_memcpy(to + 16 * (N * Four + n), &four, 16);
+      const auto four = ANICODEC_SHUFFLE(v[n], v[n], i, i + 1, i + 2, i + 3);
+      ANICODEC_COPY(to + 16 * (N * Four + n), &four, 16);
     }
   }
 
   static ANICODEC_INLINE Float load(const float* from) {
     Float v;
-    __builtin_memcpy(&v, from, sizeof v);
+    ANICODEC_COPY(&v, from, sizeof v);
     return v;
   }
 
@@ -91,7 +91,11 @@ struct OutputLanes {
 
   /// The same for elements of 16 bits in the low halves of lanes.
   static ANICODEC_INLINE void interleave4(Int x, Int y, Int z, Int one, unsigned char* to) {
+#if defined(ANICODEC_BIG_ENDIAN)
+    const Int xy = (x << 16) | (y & 0xffff), zw = (z << 16) | (one & 0xffff);
+#else
     const Int xy = (x & 0xffff) | (y << 16), zw = (z & 0xffff) | (one << 16);
+#endif
     const Int v[2] = {shuffle<0, 4, 1, 5>(xy, zw), shuffle<2, 6, 3, 7>(xy, zw)};
     store<2>(to, v);
   }
@@ -102,7 +106,7 @@ struct OutputLanes {
     const Float l = Float{} + low, h = Float{} + high;
     x = x > l ? x : l;
     x = x < h ? x : h;
-    return __builtin_convertvector(x + bias, Int) - integer_bias;
+    return ANICODEC_CONVERT(x + bias, Int) - integer_bias;
   }
 
   struct Half {
@@ -170,7 +174,7 @@ struct OutputLanes {
   static ANICODEC_INLINE void scatter(const unsigned char* from, uint32_t count, size_t stride,
                                       unsigned char* to) {
     for (uint32_t i = 0; i < count; ++i, from += Size, to += stride)
-      __builtin_memcpy(to, from, Bytes);
+      ANICODEC_COPY(to, from, Bytes);
   }
 
   static void write(const PlayJob::Frame& frame, const Block& sums, uint32_t begin, uint32_t end,

@@ -44,11 +44,11 @@ struct LaneKernel {
 
   static ANICODEC_INLINE Float load(const float* from) {
     Float v;
-    __builtin_memcpy(&v, from, sizeof v);
+    ANICODEC_COPY(&v, from, sizeof v);
     return v;
   }
 
-  static ANICODEC_INLINE void store(float* to, Float v) { __builtin_memcpy(to, &v, sizeof v); }
+  static ANICODEC_INLINE void store(float* to, Float v) { ANICODEC_COPY(to, &v, sizeof v); }
 
   static ANICODEC_INLINE Float splat(float x) {
     return x - Float{};  // not +, which -0 would not survive
@@ -79,7 +79,7 @@ struct LaneKernel {
     if constexpr (W == 16 && sizeof(Int) == 2) {
       const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(q));
       const auto all = static_cast<__mmask16>(-1);  // GCC 12 warns where there is no mask
-      return __builtin_convertvector(
+      return ANICODEC_CONVERT(
           reinterpret_cast<typename LaneTypes<W>::Int>(_mm512_maskz_cvtepi16_epi32(all, v)), Float);
     }
 #endif
@@ -97,15 +97,15 @@ struct LaneKernel {
     if constexpr (W == 4 && sizeof(Int) == 2)
       return widened_four(q);
 #endif
-    typedef Int Vector __attribute__((vector_size(sizeof(Int) * W)));
+    typedef Int Vector ANICODEC_VECTOR(sizeof(Int) * W);
     Vector v;
-    __builtin_memcpy(&v, q, sizeof v);
-    return __builtin_convertvector(v, Float);
+    ANICODEC_COPY(&v, q, sizeof v);
+    return ANICODEC_CONVERT(v, Float);
   }
 
   /// Asks for what lies so many bytes from q, be it beyond the end.
   static ANICODEC_INLINE void fetch(const void* q, size_t bytes) {
-    __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<uintptr_t>(q) + bytes));
+    ANICODEC_PREFETCH(reinterpret_cast<const void*>(reinterpret_cast<uintptr_t>(q) + bytes));
   }
 
   /// out = map (in), a 3 x 4 matrix.

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: The anicodec authors
 //
 // The playing kernels for the instruction set that the library is built for.
-#if defined(ANICODEC_LANES) && ANICODEC_LANES == 1
+#include "format/compiler.h"
+
+#if ANICODEC_PORTABLE_LANES == 1
 
 #include "sdk/play/play_job.h"
 
@@ -25,13 +27,7 @@ constexpr size_t kWidest = 4;
 #else
 constexpr size_t kWidest = 8;
 #endif
-#if defined(ANICODEC_LANES)
-constexpr size_t kLanes = ANICODEC_LANES < kWidest ? ANICODEC_LANES : kWidest;
-#elif defined(__AVX__)
-constexpr size_t kLanes = 8;
-#else
-constexpr size_t kLanes = 4;
-#endif
+constexpr size_t kLanes = ANICODEC_PORTABLE_LANES < kWidest ? ANICODEC_PORTABLE_LANES : kWidest;
 static_assert(kLanes == 4 || kLanes == 8 || kLanes == 16);
 
 const PlayKernels kPlayKernelsPortable = {"portable", kFused, play_job<LaneKernel<kLanes>>};

@@ -43,10 +43,10 @@ template <uint32_t Channels>
 void play_block(const PlayJob& job, const PlayJob::Frame& frame, uint32_t block, Block& sum) {
   if (job.pose) {
     Block pose;
-    __builtin_memcpy(pose, job.pose + size_t{block} * 3 * kBlock, sizeof pose);
+    ANICODEC_COPY(pose, job.pose + size_t{block} * 3 * kBlock, sizeof pose);
     transform(frame.pose_map, pose, sum);
   } else {
-    __builtin_memset(sum, 0, sizeof sum);
+    ANICODEC_CLEAR(sum, sizeof sum);
   }
   const size_t scalars = size_t{block} * Channels * kBlock;
   const int32_t* wide = job.wide + scalars * job.wide_row;
@@ -93,14 +93,14 @@ struct ScalarKernel {
       play_block<Channels>(job, job.frame[f], block, sums[f]);
       for (uint32_t i = 0; direct && i < kBlock; ++i) {
         const float point[3] = {sums[f][0][i], sums[f][1][i], sums[f][2][i]};
-        __builtin_memcpy(direct[f] + 12 * i, point, sizeof point);
+        ANICODEC_COPY(direct[f] + 12 * i, point, sizeof point);
       }
     }
   }
 
   static void move(const float* motion, Block& sum) {
     Block still;
-    __builtin_memcpy(still, sum, sizeof still);
+    ANICODEC_COPY(still, sum, sizeof still);
     transform(motion, still, sum);
   }
 
@@ -119,14 +119,14 @@ void write_scalar(const PlayJob::Frame& frame, const float (&sum)[3][kBlock], ui
   for (uint32_t i = begin; i < end; ++i, to += frame.stride) {
     float point[4] = {sum[0][i], sum[1][i], sum[2][i], 1};
     if (wide) {
-      __builtin_memcpy(to, point, fourth ? 16 : 12);
+      ANICODEC_COPY(to, point, fourth ? 16 : 12);
       continue;
     }
     uint16_t small[4];
     for (uint32_t c = 0; c < 3; ++c)
       small[c] = element(frame.format, (point[c] - frame.scale.offset[c]) * frame.scale.factor[c]);
     small[3] = element(frame.format, frame.scale.one);
-    __builtin_memcpy(to, small, fourth ? 8 : 6);
+    ANICODEC_COPY(to, small, fourth ? 8 : 6);
   }
 }
 

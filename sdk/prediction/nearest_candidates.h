@@ -3,6 +3,7 @@
 #ifndef ANICODEC_SDK_PREDICTION_NEAREST_CANDIDATES_H_
 #define ANICODEC_SDK_PREDICTION_NEAREST_CANDIDATES_H_
 
+#include "format/compiler.h"
 #include "sdk/prediction/vertex_order.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ class NearestCandidates {
  private:
   static constexpr size_t kLanes = 4;
   static constexpr size_t kMaxCounted = 64;
-  using Lanes = int32_t __attribute__((vector_size(4 * kLanes)));
+  using Lanes = int32_t ANICODEC_VECTOR(4 * kLanes);
 
   template <bool kTies>
   bool count_ranks(size_t m, int32_t* to);

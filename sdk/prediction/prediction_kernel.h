@@ -31,7 +31,6 @@ static_assert(kMaxRenewalSamples <= 32, "a decoder renews priors from its first 
 /// Rows of 4 or 8 lanes become columns; one lane stays what it is.
 template <typename V>
 ANICODEC_INLINE void transpose(V* r) {
-#define ANICODEC_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
   if constexpr (sizeof(V) == 16) {
     const V a = ANICODEC_SHUFFLE(r[0], r[1], 0, 4, 1, 5),
             b = ANICODEC_SHUFFLE(r[0], r[1], 2, 6, 3, 7);
@@ -57,7 +56,6 @@ ANICODEC_INLINE void transpose(V* r) {
       r[i + 4] = ANICODEC_SHUFFLE(u[i], u[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
     }
   }
-#undef ANICODEC_SHUFFLE
 }
 
 /// Reconstructs all components of W vertices of one level.
@@ -141,7 +139,7 @@ class BatchDecoder {
               *reinterpret_cast<const UnalignedTile*>(rows[l] + s);
           transpose(tile);
           ANICODEC_UNROLL for (size_t e = 0; e < kTile; ++e)
-              __builtin_memcpy(part_of(x_[s + e][a], part), &tile[e], sizeof(Tile));
+              ANICODEC_COPY(part_of(x_[s + e][a], part), &tile[e], sizeof(Tile));
         }
       }
     }
@@ -153,7 +151,7 @@ class BatchDecoder {
       for (size_t s = 0; s < end - begin; s += kTile) {
         Tile tile[kTile] = {};
         for (size_t e = 0; e < kTile && s + e < end - begin; ++e)
-          __builtin_memcpy(&tile[e], part_of(y_[s + e], part), sizeof(Tile));
+          ANICODEC_COPY(&tile[e], part_of(y_[s + e], part), sizeof(Tile));
         transpose(tile);
         for (size_t l = 0; l < rows; ++l)
           *reinterpret_cast<UnalignedTile*>(job_.y + (first_ + part + l) * job_.stride + begin +
@@ -170,15 +168,15 @@ class BatchDecoder {
         return widened_four(q);
     }
 #endif
-    typedef Narrow Vector __attribute__((vector_size(sizeof(Narrow) * W)));
+    typedef Narrow Vector ANICODEC_VECTOR(sizeof(Narrow) * W);
     Vector v;
     if (count_ == W) {
-      __builtin_memcpy(&v, q, sizeof v);
+      ANICODEC_COPY(&v, q, sizeof v);
     } else {
       for (size_t l = 0; l < W; ++l)
         v[l] = q[l < count_ ? l : count_ - 1];
     }
-    return __builtin_convertvector(v, Float);
+    return ANICODEC_CONVERT(v, Float);
   }
 
   void reconstruct(size_t s, size_t in_window) {
@@ -294,12 +292,12 @@ class EncoderBlock {
   using Float = typename LaneTypes<W>::Float;
 
   static void load(Float& value, float*& at) {
-    __builtin_memcpy(&value, at, sizeof value);
+    ANICODEC_COPY(&value, at, sizeof value);
     at += W;
   }
 
   static void store(const Float& value, float*& at) {
-    __builtin_memcpy(at, &value, sizeof value);
+    ANICODEC_COPY(at, &value, sizeof value);
     at += W;
   }
 

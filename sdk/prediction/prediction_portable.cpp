@@ -6,13 +6,7 @@
 
 namespace anicodec {
 
-#if defined(ANICODEC_LANES)
-constexpr size_t kLanes = ANICODEC_LANES;
-#elif defined(__AVX__)
-constexpr size_t kLanes = 8;
-#else
-constexpr size_t kLanes = 4;
-#endif
+constexpr size_t kLanes = ANICODEC_PORTABLE_LANES;
 static_assert(kLanes == 1 || kLanes == 4 || kLanes == 8 || kLanes == 16);
 
 const PredictionKernels kPredictionKernelsPortable = {kLanes, reconstruct_any<kLanes>};

@@ -125,7 +125,7 @@ struct RefitSolver {
     const auto load = [&] {
       Float value;
       if (count == W) {
-        __builtin_memcpy(&value, rows, sizeof value);
+        ANICODEC_COPY(&value, rows, sizeof value);
       } else {
         for (size_t l = 0; l < W; ++l)
           value[l] = rows[l < count ? l : count - 1];
@@ -146,7 +146,7 @@ struct RefitSolver {
   /// Writes what continue_from() reads.
   void hand_on(size_t count, size_t stride, float* rows) const {
     const auto store = [&](const Float& value) {
-      __builtin_memcpy(rows, &value, count * sizeof(float));
+      ANICODEC_COPY(rows, &value, count * sizeof(float));
       rows += stride;
     };
     for (size_t a = 0; a < n; ++a)

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "sdk/prediction/vertex_order.h"
 
+#include "format/compiler.h"
 #include "format/sort.h"
 #include "sdk/prediction/nearest_candidates.h"
 #include "sdk/prediction/vertex_order_cost.h"
@@ -24,7 +25,7 @@ uint64_t nearness(const GridVertex& a, const GridVertex& to) {
 }
 
 uint32_t floor_log2(uint32_t x) {  // 0 for 0
-  return x < 2 ? 0 : 31 - static_cast<uint32_t>(__builtin_clz(x));
+  return x < 2 ? 0 : static_cast<uint32_t>(highest_bit(x));
 }
 
 uint64_t spread_bits(uint64_t x) {  // ten bits to every third
@@ -482,7 +483,7 @@ void Contraction::write(VertexOrder* out) {
   out->level_start.assign(1, 0);
   for (size_t l = level_end_.size(); l-- > 0;) {
     const uint32_t first = l ? level_end_[l - 1] : 0;
-    out->order.insert(out->order.end(), removal_.begin() + first, removal_.begin() + level_end_[l]);
+    out->order.insert(out->order.end(), removal_.data() + first, removal_.data() + level_end_[l]);
     out->level_start.push_back(static_cast<uint32_t>(out->order.size()));
   }
   for (int32_t& neighbour : neighbours_) {
