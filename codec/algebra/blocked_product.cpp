@@ -3,6 +3,8 @@
 #include "codec/algebra/blocked_product.h"
 
 #include "codec/parallel/parallel.h"
+#include "format/compiler.h"
+#include "sdk/base/cpu_features.h"
 
 #include <algorithm>
 #include <iterator>
@@ -32,7 +34,7 @@ struct TileProduct {
 /// the width of registers changes no bit; contraction is off.
 template <size_t Width, size_t Groups, size_t Columns>
 [[gnu::always_inline]] inline void multiply(const TileProduct& p, size_t row, size_t column) {
-  typedef double Lanes __attribute__((vector_size(sizeof(double) * Width), aligned(8), may_alias));
+  typedef double Lanes ANICODEC_LOOSE_VECTOR(sizeof(double) * Width, 8);
   Lanes sums[Groups][Columns] = {};
   const double* b = p.b + column * p.b_stride;
   const double* strip = p.a + row / kStrip * p.strip_stride + row % kStrip;
@@ -85,9 +87,9 @@ using Multiply = void (*)(const TileProduct&);
 
 Multiply widest() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f"))
+  if (cpu_features().avx512f)
     return multiply_by_8;
-  if (__builtin_cpu_supports("avx2"))
+  if (cpu_features().avx2)
     return multiply_by_4;
 #endif
   return multiply_by_2;

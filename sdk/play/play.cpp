@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #if defined(ANICODEC_PLAY_AVX2)
-#include <cpuid.h>
+#include "sdk/base/cpu_features.h"
 #endif
 
 namespace anicodec {
@@ -241,14 +241,13 @@ size_t all_play_kernels(const PlayKernels* (&out)[kMaxPlayKernels]) {
   out[count++] = &kPlayKernelsScalar;
   out[count++] = &kPlayKernelsPortable;
 #if defined(ANICODEC_PLAY_AVX2)
-  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-      __get_cpuid(1, &eax, &ebx, &ecx, &edx) && (ecx & bit_F16C)) {
+  const CpuFeatures& cpu = cpu_features();
+  if (cpu.avx2 && cpu.fma && cpu.f16c) {
     out[count++] = &kPlayKernelsAvx2;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) {
+    if (cpu.avx512f && cpu.avx512vl) {
       out[count++] = &kPlayKernelsAvx512vl;
       // VBMI2 came with the machines that multiply 512 bits without a much lower clock.
-      if (__builtin_cpu_supports("avx512vbmi2"))
+      if (cpu.avx512vbmi2)
         out[count++] = &kPlayKernelsAvx512;
     }
   }

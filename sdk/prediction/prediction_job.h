@@ -5,6 +5,10 @@
 #ifndef ANICODEC_SDK_PREDICTION_PREDICTION_JOB_H_
 #define ANICODEC_SDK_PREDICTION_PREDICTION_JOB_H_
 
+#if defined(ANICODEC_PREDICTION_AVX2)
+#include "sdk/base/cpu_features.h"
+#endif
+
 #include <cstddef>
 #include <cstdint>
 
@@ -97,9 +101,8 @@ extern const EncoderKernels kEncoderKernelsAvx512;
 template <class Kernels>
 const Kernels& fastest_kernels(const Kernels& avx512, const Kernels& avx2,
                                const Kernels& portable) {
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") ? avx512
-         : __builtin_cpu_supports("avx2")                                        ? avx2
-                                                                                  : portable;
+  const CpuFeatures& cpu = cpu_features();
+  return cpu.avx512f && cpu.avx512vl ? avx512 : cpu.avx2 ? avx2 : portable;
 }
 #endif
 

@@ -113,6 +113,7 @@ NOT_ROOMS = {"codec/include/anicodec", "codec/examples", "sdk/include/anicodec",
 EXCEPTIONS = {"sdk/mesh/draco_poses.cpp": ["<draco/"], "sdk/mesh/draco_corners.h": ["<draco/"],
               "codec/connectivity/draco_encode.cpp": ["<draco/"],
               "sdk/examples/crowd.c": ["<GL/", "<SDL2/", "<string.h>", "<time.h>"],
+              "sdk/api/open.cpp": ["<malloc.h>"],
               "codec/file/metadata_json.cpp": ["<nlohmann/"],
               "codec/remesh/decimate.cpp": ["<OpenMesh/"],
               "codec/remesh/isotropic.cpp": ["<OpenMesh/"],
@@ -145,6 +146,10 @@ NO_THROW = {"format", "sdk"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"][^>"]*[>"])', re.MULTILINE)
 STANDARD = re.compile(r"^<[a-z_0-9]+>$")
+# Extensions of compilers stand in one header.
+EXTENSION = re.compile(r"__builtin_\w+|__attribute__")
+EXTENDS = {"format/compiler.h", "sdk/include/anicodec/anicodec.h"}
+NO_EXTENSIONS = {"format", "sdk", "codec"}
 THROW = re.compile(r"^[^/\"]*\bthrow\b", re.MULTILINE)
 
 
@@ -182,6 +187,8 @@ def include_faults(checkout):
                     yield f"{name} must not include {header}"
             if not name.startswith("codec/parallel/") and PAST_PARALLEL.search(text):
                 yield f"{name} must work in parallel by codec/parallel"
+            if module in NO_EXTENSIONS and name not in EXTENDS and (found := EXTENSION.search(text)):
+                yield f"{name} must leave {found.group()} to format/compiler.h"
             if module in NO_THROW and name not in THROWS and THROW.search(text):
                 yield f"{name} must not throw"
     if not found_any:
