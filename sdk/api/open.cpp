@@ -12,9 +12,23 @@
 #include <cstddef>
 #include <cstdlib>
 
+#if defined(_WIN32)
+#include <malloc.h>
+#endif
+
 namespace anicodec {
 namespace {
 
+#if defined(_WIN32)
+// Its C library has no aligned_alloc(): free() must know.
+void* allocate_default(void*, size_t size, size_t alignment) {
+  return _aligned_malloc(size, alignment);
+}
+
+void release_default(void*, void* memory, size_t) {
+  _aligned_free(memory);
+}
+#else
 void* allocate_default(void*, size_t size, size_t alignment) {
   // malloc() of WebAssembly and of 32-bit machines aligns to 8 bytes.
   if (alignment <= alignof(std::max_align_t))
@@ -25,6 +39,7 @@ void* allocate_default(void*, size_t size, size_t alignment) {
 void release_default(void*, void* memory, size_t) {
   std::free(memory);
 }
+#endif
 
 /// Bytes that any file may take while it opens, and more for each byte of it: a kilobyte does not
 /// get a gigabyte unless the host says so.

@@ -5,6 +5,7 @@
 #ifndef ANICODEC_SDK_BASE_FLOAT_CONTROL_H_
 #define ANICODEC_SDK_BASE_FLOAT_CONTROL_H_
 
+#include <cfenv>
 #include <cfloat>
 #include <cstdint>
 
@@ -38,8 +39,17 @@ class [[maybe_unused]] FloatControl {
   ~FloatControl() {
     asm volatile("msr fpcr, %0" : : "r"(saved_));
   }
+#elif !defined(__wasm__)  // which has no other environment
+  FloatControl() {
+    std::fegetenv(&saved_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+
+  ~FloatControl() {
+    std::fesetenv(&saved_);
+  }
 #else
-  FloatControl() = default;  // WebAssembly has no other environment
+  FloatControl() = default;
   ~FloatControl() = default;
 #endif
   FloatControl(const FloatControl&) = delete;
@@ -50,6 +60,8 @@ class [[maybe_unused]] FloatControl {
   unsigned saved_;
 #elif defined(__aarch64__)
   uint64_t saved_;
+#elif !defined(__wasm__)
+  std::fenv_t saved_;
 #endif
 };
 

@@ -627,8 +627,8 @@ std::pair<uint32_t, uint32_t> Clip::attribute_tracks(uint32_t mesh, uint32_t att
 const Segment* Clip::segment_at(uint32_t track, uint32_t frame) const {
   // The last segment of the track that begins at the frame or before.
   const Track& t = tracks_[track];
-  const auto begin = by_frame_.begin() + t.begin;
-  const auto after = std::partition_point(begin, by_frame_.begin() + t.end, [&](uint32_t i) {
+  const uint32_t* const begin = by_frame_.data() + t.begin;
+  const uint32_t* const after = std::partition_point(begin, by_frame_.data() + t.end, [&](uint32_t i) {
     return segments_[i].first_frame <= frame;
   });
   if (after == begin)
@@ -646,7 +646,7 @@ size_t Clip::resident_bytes() const {
       total += 4 * a.surface.vertex_coded.size();
   }
   for (const auto& m : limits_.meshes)
-    total += attribute_bytes(m);
+    total += static_cast<size_t>(attribute_bytes(m));
   for (const Segment& s : segments_)
     total += s.resident_bytes();
   return total + root_.resident_bytes();

@@ -54,8 +54,8 @@ class CopyCoding {
     for (uint32_t f = 0; f + 1 < faces_.offsets.size(); ++f) {
       const uint32_t begin = faces_.offsets[f], end = faces_.offsets[f + 1];
       if (faces_.repeats[f] && coder_.bit(repeated_, source_.repeats_copies(f))) {
-        std::copy_n(out_.corners.begin() + begin - (end - begin), end - begin,
-                    out_.corners.begin() + begin);
+        uint32_t* const corners = out_.corners.data() + begin;
+        std::copy_n(corners - (end - begin), end - begin, corners);
       } else {
         for (uint32_t c = begin; c < end; ++c) {
           if (Status s = code_corner(c, c > begin ? c - 1 : end - 1, c - begin); s != Status::kOk)

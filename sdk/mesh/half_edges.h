@@ -50,7 +50,7 @@ class HalfEdges {
       items_[end[std::min(a, b)]++] = {std::max(a, b), c};
     }
     for (size_t v = 0; v < vertex_count; ++v)
-      sort_ascending(items_.begin() + begin_[v], items_.begin() + begin_[v + 1], precedes);
+      sort_ascending(items_.data() + begin_[v], items_.data() + begin_[v + 1], precedes);
   }
 
   /// The half-edges of a triangle list. @pre all vertices < vertex_count

@@ -130,7 +130,7 @@ Status SparseLdlt::analyse(const Graph& graph, size_t most_bytes) {
   Vector<uint32_t> block_of(size()), mark(size(), kFixed);
   Vector<uint32_t> first_child(blocks_.size(), kFixed), sibling(blocks_.size(), kFixed);
   for (uint32_t b = 0; b < blocks_.size(); ++b) {
-    std::fill_n(block_of.begin() + blocks_[b].first_column, blocks_[b].columns, b);
+    std::fill_n(block_of.data() + blocks_[b].first_column, blocks_[b].columns, b);
   }
   rows_.clear();
   size_t values = 0;
@@ -154,7 +154,7 @@ Status SparseLdlt::analyse(const Graph& graph, size_t most_bytes) {
         add(rows_[k]);
     }
     block.rows = static_cast<uint32_t>(rows_.size()) - block.first_row;
-    sort_ascending(rows_.begin() + block.first_row, rows_.end());
+    sort_ascending(rows_.data() + block.first_row, rows_.data() + rows_.size());
     block.first_value = values;
     values += size_t{block.columns} * (block.columns - 1) / 2 + size_t{block.columns} * block.rows;
     size_t front = size_t{block.columns} + block.rows;
@@ -183,8 +183,8 @@ Status SparseLdlt::factor(const Graph& graph) {
     const Block& block = blocks_[b];
     const size_t columns = block.columns, rows = block.rows, front = columns + rows;
     const uint32_t* row = rows_.data() + block.first_row;
-    std::iota(place.begin() + block.first_column,
-              place.begin() + block.first_column + block.columns, 0U);
+    uint32_t* const first = place.data() + block.first_column;
+    std::iota(first, first + block.columns, 0U);
     for (uint32_t r = 0; r < rows; ++r)
       place[row[r]] = block.columns + r;
     panel.assign(columns * front, 0);

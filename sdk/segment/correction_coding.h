@@ -54,7 +54,7 @@ class CorrectionCoding {
         left = 0;
         beside = 0;
         if (was_here)
-          std::fill(before_.begin() + first, before_.begin() + last, uint8_t{0});
+          std::fill(before_.data() + first, before_.data() + last, uint8_t{0});
         continue;
       }
       for (uint32_t v = first; v < last; ++v) {
@@ -91,7 +91,7 @@ class CorrectionCoding {
   void forget() {
     for (uint32_t b : corrected_blocks_) {
       const uint32_t first = b * kBlock, last = std::min(first + kBlock, vertices_);
-      std::fill(before_.begin() + first, before_.begin() + last, uint8_t{0});
+      std::fill(before_.data() + first, before_.data() + last, uint8_t{0});
       block_before_[b] = 0;
     }
     corrected_blocks_.clear();

@@ -76,8 +76,9 @@ Status read_corrections(const SegmentContext& context, DecodedIntegers& integers
                                  c.delta[0], c.delta[1], c.delta[2]};
       integers.add("correction", hashed, 5);
     }
-    sort_ascending(out->corrections.begin() + out->correction_begin.back(), out->corrections.end(),
-              [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+    sort_ascending(out->corrections.data() + out->correction_begin.back(),
+                   out->corrections.data() + out->corrections.size(),
+                   [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
     out->correction_begin.push_back(static_cast<uint32_t>(out->corrections.size()));
   }
   return decoder.finish() && corrected == total ? Status::kOk : Status::kEntropy;
