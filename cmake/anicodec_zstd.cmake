@@ -9,8 +9,10 @@ set(sources common/debug common/entropy_common common/error_private common/fse_d
   decompress/huf_decompress decompress/zstd_ddict decompress/zstd_decompress decompress/zstd_decompress_block)
 list(TRANSFORM sources REPLACE "(.+)" "${ANICODEC_ZSTD_SOURCE}/\\1.c")
 add_library(anicodec_zstd STATIC ${sources})
-set_target_properties(anicodec_zstd PROPERTIES C_VISIBILITY_PRESET hidden)
+set_target_properties(anicodec_zstd PROPERTIES C_VISIBILITY_PRESET hidden POSITION_INDEPENDENT_CODE ${ANICODEC_PIC})
 target_include_directories(anicodec_zstd SYSTEM PUBLIC "${ANICODEC_ZSTD_SOURCE}" "${ANICODEC_ZSTD_SOURCE}/common")
 # Blocks are small and opened once: the shorter of its decoders.
 target_compile_definitions(anicodec_zstd PRIVATE ZSTD_DISABLE_ASM ZSTD_NO_TRACE ZSTD_STRIP_ERROR_STRINGS ZSTD_NO_INLINE
-  HUF_FORCE_DECOMPRESS_X1 ZSTD_FORCE_DECOMPRESS_SEQUENCES_SHORT)
+  HUF_FORCE_DECOMPRESS_X1 ZSTD_FORCE_DECOMPRESS_SEQUENCES_SHORT
+  # Its functions are nobody else's: not every linker can hide what is visible.
+  ZSTDLIB_VISIBLE= ZSTDERRORLIB_VISIBLE=)

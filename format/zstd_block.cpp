@@ -15,12 +15,14 @@ constexpr uint8_t kFrame[] = {0x28, 0xB5, 0x2F, 0xFD};  // the magic number of a
 
 }  // namespace
 
+#if !defined(ANICODEC_DECODER_ONLY)
 Bytes zstd_compress(ByteView bytes) {
   Bytes out(ZSTD_compressBound(bytes.size));
   size_t n = ZSTD_compress(out.data(), out.size(), bytes.data, bytes.size, 19);
   out.resize(ZSTD_isError(n) ? 0 : n);
   return out;
 }
+#endif
 
 Status zstd_decompress(ByteView compressed, size_t size, Bytes* out) {
   // A plain frame that says how long its content is; not a skippable one, not an old one.

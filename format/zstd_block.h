@@ -9,7 +9,7 @@
 namespace anicodec {
 
 /// One zstd frame (RFC 8878) at the highest ordinary level. The size before compression is not in
-/// the result: the caller stores it.
+/// the result: the caller stores it. Not in builds of the decoder alone.
 Bytes zstd_compress(ByteView bytes);
 
 /// Decompresses exactly one zstd frame into exactly `size` bytes, else kZstd. `out` is resized; the

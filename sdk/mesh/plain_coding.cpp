@@ -7,27 +7,26 @@
 namespace anicodec {
 namespace {
 
-uint32_t folded(uint32_t difference) {
-  return difference << 1 ^ (difference >> 31 ? 0xFFFFFFFFU : 0);
-}
-
 uint32_t unfolded(uint32_t x) {
   return x >> 1 ^ (x & 1 ? 0xFFFFFFFFU : 0);
 }
 
 }  // namespace
 
+#if !defined(ANICODEC_DECODER_ONLY)
 Bytes encode_plain_integers(const Vector<int32_t>& values, size_t stride) {
   size_t n = values.size();
   Bytes planes(4 * n);
   for (size_t i = 0; i < n; ++i) {
     auto before = i < stride ? 0U : static_cast<uint32_t>(values[i - stride]);
-    uint32_t x = folded(static_cast<uint32_t>(values[i]) - before);
+    const uint32_t difference = static_cast<uint32_t>(values[i]) - before;
+    const uint32_t x = difference << 1 ^ (difference >> 31 ? 0xFFFFFFFFU : 0);
     for (size_t b = 0; b < 4; ++b)
       planes[b * n + i] = static_cast<uint8_t>(x >> (8 * b));
   }
   return zstd_compress(planes);
 }
+#endif
 
 Status decode_plain_integers(ByteView bytes, size_t count, size_t stride, Vector<int32_t>* values) {
   Bytes planes;
