@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
 """Stages of USD."""
+import json
 import subprocess
 import sys
 
@@ -202,14 +203,37 @@ def test_the_command_says_what_is_missing(tmp_path):
     assert result.returncode == 4 and "pip install 'anicodec[usd]'" in result.stderr, result.stderr
 
 
-def test_the_command_reads_stages(stage, tmp_path, command):
+def run_command(*arguments):
+    return subprocess.run([sys.executable, "-m", "anicodec", *map(str, arguments)], capture_output=True, text=True)
+
+
+def test_the_command_reads_and_writes_stages(stage, tmp_path):
+    UsdGeom.Camera.Define(stage, "/eye")
     stage.Export(str(tmp_path / "shot.usda"))
-    told = command("encode", tmp_path / "shot.usda", "-o", tmp_path / "shot.anic", "--effort", 1)
-    assert "bytes, max error" in told
-    assert len(anicodec.open(tmp_path / "shot.anic").meshes) == 2
-    again = subprocess.run([sys.executable, "-m", "anicodec", "encode", tmp_path / "shot.usda", "-o",
-                            tmp_path / "shot.anic"], capture_output=True, text=True)
+    encode = ("encode", tmp_path / "shot.usda", "-o", tmp_path / "clips" / "shot.anic", "--effort", 1)
+    told = run_command(*encode, "-v", "--meta", "author=me", "--event", "jump=0.5")
+    assert told.returncode == 0 and " : 1, " in told.stdout and "24 frames at 30 fps (source)" in told.stdout, told.stderr
+    assert "not kept: 1 Camera" in told.stderr and len(told.stderr.splitlines()) > 2
+    clip = anicodec.open(tmp_path / "clips" / "shot.anic")
+    assert len(clip.meshes) == 2 and clip.metadata["author"] == "me" and clip.clips[0].events == (("jump", 0.5),)
+    again = run_command(*encode)
     assert again.returncode == 1 and "exists" in again.stderr
+    report = json.loads(run_command(*encode, "-f", "--json").stdout)
+    assert (report["frames"], report["vertices"], report["fps_from"]) == (24, 288, "source") and "1 Camera" in report["notes"][0]
+    for suffix in ("usda", "usdc", "usdz"):
+        output = tmp_path / "back" / f"shot.{suffix}"
+        told = run_command("decode", tmp_path / "clips" / "shot.anic", "-o", output)
+        assert told.returncode == 0 and "24 frames of 2 meshes" in told.stdout, told.stderr
+        back = Usd.Stage.Open(str(output))
+        assert np.array_equal(np.array(UsdGeom.Mesh(back.GetPrimAtPath("/group/sheet")).GetPointsAttr().Get(108)), clip.meshes[0][7])
+    assert sorted(path.name for path in (tmp_path / "back").iterdir()) == ["shot.usda", "shot.usdc", "shot.usdz"]
+    (tmp_path / "bad.anic").write_bytes((tmp_path / "clips" / "shot.anic").read_bytes()[:-9])
+    for arguments, status, text in ((("encode", tmp_path / "none.usda", "-o", tmp_path / "x.anic"), 1, "none.usda"),
+                                    ((*encode, "-f", "--part", "0:2"), 1, "--part"), ((*encode, "-f", "--fps", "no"), 2, "fps must be"),
+                                    (("decode", tmp_path / "bad.anic", "-o", tmp_path / "x.usdc"), 3, "bad.anic"),
+                                    (("decode", tmp_path / "shot.usda", "-o", tmp_path / "x.pc2"), 2, "no .anic file")):
+        told = run_command(*arguments)
+        assert told.returncode == status and text in told.stderr and len(told.stderr.splitlines()) == 1, told.stderr
 
 
 def test_a_stage_far_from_zero_keeps_its_digits(stage, tmp_path):

@@ -14,6 +14,7 @@
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/printable.h"
 #include "tools/io/base/signed_axes.h"
+#include "tools/io/base/stage_hint.h"
 #include "tools/io/fbx/fbx.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
@@ -107,7 +108,8 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
       fail_input(path, "is a directory; name its frames with a pattern such as '" +
                            (fs::path(path) / "*.obj").string() + "'");
     if (kind_of(path) == FileKind::kUnknown)
-      fail_input(path, "is of unknown kind; " + std::string(kReadableKinds) + " are read");
+      fail_input(path, "is of unknown kind; " + std::string(kReadableKinds) + " are read" +
+                           stage_hint(path));
   }
   return paths;
 }

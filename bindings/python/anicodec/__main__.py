@@ -9,9 +9,9 @@ from anicodec import _anicodec, _usd_command, _usd_plugin
 
 
 def main() -> None:
-    """Runs the command with the arguments of this process, and ends it. Stages of USD are encoded here."""
+    """Runs the command with the arguments of this process, and ends it. Stages of USD are read and written here."""
     if _usd_command.is_meant(sys.argv[1:]):
-        sys.exit(_usd_command.main(sys.argv[2:]))
+        sys.exit(_usd_command.main(sys.argv[1:]))
     if sys.argv[1:2] == ["usd-plugin"]:
         sys.exit(_usd_plugin.main(sys.argv[2:]))
     for name in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # as other commands, not as Python

@@ -142,6 +142,7 @@ TEST(WriteSequence, RejectsBadNames) {
   for (const char* name : {"a%d%d.obj", "a%.obj", "a%4d.obj", "a%s.obj", "a%04x.obj", "a%%d.obj"})
     EXPECT_THAT(name_fault(name), HasSubstr("a pattern has one %d or %0Nd")) << name;
   EXPECT_THAT(name_fault("a.xyz"), HasSubstr("of unknown kind"));
+  EXPECT_THAT(name_fault("a.usdc"), HasSubstr("pip install 'anicodec[usd]'"));
   for (const char* name : {"a.fbx", "a_%d.md2", "a.dae"})
     EXPECT_THAT(name_fault(name), HasSubstr("of a kind that is not written")) << name;
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#ifndef ANICODEC_TOOLS_IO_BASE_STAGE_HINT_H_
+#define ANICODEC_TOOLS_IO_BASE_STAGE_HINT_H_
+
+#include <filesystem>
+#include <string>
+
+namespace anicodec::tools {
+
+/// Names the package that reads and writes stages of USD, behind what is said of a path; empty for other files.
+inline std::string stage_hint(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  const bool is_stage =
+      extension == ".usd" || extension == ".usda" || extension == ".usdc" || extension == ".usdz";
+  return is_stage ? "; stages of USD need the Python package: pip install 'anicodec[usd]'" : "";
+}
+
+}  // namespace anicodec::tools
+
+#endif  // ANICODEC_TOOLS_IO_BASE_STAGE_HINT_H_
