@@ -16,15 +16,18 @@ import sys
 import tempfile
 import zipfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake"))
+from fetch_source import python_with_pip  # noqa: E402  pip builds packages with a Python that has none
+
 # A release, and that whose headers it takes.
 SOURCES = {"26.8": "26.8", "26.11": "26.8"}
 DURATION_SINCE = (26, 11)
 
 
-def bring(folder):
+def bring(work):
     """The wheels, for any Python that runs this."""
-    lock = pathlib.Path(__file__).with_name("headers.lock")
-    pip = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--retries", "1", "--no-deps",
+    lock, folder = pathlib.Path(__file__).with_name("headers.lock"), work / "wheels"
+    pip = [python_with_pip(work / "venv"), "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--retries", "1", "--no-deps",
            "--require-hashes", "--only-binary", ":all:", "--implementation", "cp", "--python-version", "3.11", "--abi", "cp311",
            "--platform", "manylinux_2_28_x86_64", "-r", str(lock), "-d", str(folder)]
     if subprocess.run(pip, stdout=sys.stderr).returncode != 0:
@@ -71,7 +74,7 @@ def main():
     to.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=to.parent) as name:
         work = pathlib.Path(name)
-        wheels = bring(work / "wheels")
+        wheels = bring(work)
         unpack(wheels, work / "include")
         if SOURCES[release] != release:
             adapt(work / "include", release, SOURCES[release])
