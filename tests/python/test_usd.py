@@ -495,6 +495,13 @@ def test_faults_of_stages_are_told(tmp_path):
     mesh.GetPointsAttr().Set([(float("nan"), 0, 0), (1, 0, 0), (0, 1, 0)], 2)
     with pytest.raises(anicodec.InputError, match="/a: .*not finite.* time code 2"):
         usd.encode(stage)
+    mesh.GetFaceVertexIndicesAttr().Set([0, 1, 9])
+    mesh.GetPointsAttr().ClearAtTime(2)
+    with pytest.raises(anicodec.InputError, match="/a: a face has a vertex that is not of the 3 points"):
+        usd.encode(stage)
+    stage.SetTimeCodesPerSecond(0)
+    with pytest.raises(anicodec.InputError, match="the stage has 0 time codes per second"):
+        usd.encode(stage)
     for body, fault in (('(subLayers = [@none.usda@])', "none.usda"), ('(subLayers = [@shot.usda@])', "shot.usda.*cycle"),
                         ('def "b" (references = @none.usda@) {}', "none.usda"),
                         ('def "b" (references = </b/c>) {\ndef "c" (references = </b>) {}\n}', "cycle|ancestor|itself")):

@@ -171,6 +171,8 @@ class MeshReader:
             if points is None or not len(points):
                 continue
             faces = self._faces(code)
+            if len(faces[1]) and not 0 <= faces[1].min() <= faces[1].max() < len(points):
+                raise InputError(f"{self._prim.GetPath()}: a face has a vertex that is not of the {len(points)} points at time code {code:g}")
             positions = np.array(points, np.float64).reshape(-1, 3) @ matrix[:3, :3] + matrix[3, :3]
             if not np.isfinite(positions).all():
                 raise InputError(f"{self._prim.GetPath()}: a point is not finite at time code {code:g}")

@@ -95,6 +95,8 @@ def _between(samples: np.ndarray, start: float, step: float) -> np.ndarray:
 def time_codes(stage: Usd.Stage, fps: Any, notes: List[str]) -> Tuple[List[float], Fraction, bool]:
     """The time code of each frame, frames per second, and whether that rate has them all."""
     per_second, frames_per_second = stage.GetTimeCodesPerSecond(), stage.GetFramesPerSecond()
+    if not 0 < per_second < 1e9:
+        raise InputError(f"the stage has {per_second:g} time codes per second")
     samples = _sampled_codes(stage)
     if stage.HasAuthoredTimeCodeRange():
         start, end = stage.GetStartTimeCode(), stage.GetEndTimeCode()
