@@ -180,16 +180,44 @@ def main():
 def check_everything(checkout, work, sdk_decoder, cargo):
     """What takes minutes, or tools that few machines have. It fails where one is missing."""
     rust = checkout / "bindings/rust"
-    cargo("doc", "--workspace", "--no-deps", RUSTDOCFLAGS="-D warnings")
+    with_features = [word for name in ("anicodec", "anicodec-tests") for word in ("-p", name)]
+    with_features += ["--features", ",".join(f"{name}/{feature}" for name in with_features[1::2] for feature in ("draco", "encoder"))]
+    cargo("doc", *with_features, "--no-deps", RUSTDOCFLAGS="-D warnings")
     run(rust / "package.sh", work / "packages", "--allow-dirty")
-    cargo("clippy", "-p", "anicodec", "--features", "draco,encoder", "--all-targets", "--", "-D", "warnings")
-    print(cargo("test", "-p", "anicodec", "--features", "draco,encoder", "--quiet").stdout, end="")
+    cargo("clippy", *with_features, "--all-targets", "--", "-D", "warnings")
+    print(cargo("test", *with_features, "--quiet").stdout, end="")
     cargo("build", "-p", "anicodec-tests", "--features", "draco")
     shutil.rmtree(work / "files")
     (work / "files").mkdir()
     check_files(checkout, work / "files", work / "target/debug/anicodec-tests", sdk_decoder, True)
     print(cargo("+nightly", "miri", "test", "-p", "anicodec", "--lib", "--quiet").stdout, end="")
     cargo("run", "--manifest-path", "bindgen/Cargo.toml", "--", "--check")
+    fuzz(checkout, work, cargo)
+    print_times(checkout, work, sdk_decoder.parents[1] / "sdk/package", cargo)
+
+
+def fuzz(checkout, work, cargo):
+    """A minute of libFuzzer, which wants clang, by what cargo-fuzz does."""
+    host = re.search(r"host: (\S+)", run("rustc", "-vV").stdout)[1]
+    coverage = ("level=4", "inline-8bit-counters", "pc-table", "trace-compares")
+    flags = ["--cfg", "fuzzing", "-Cpasses=sancov-module", "-Cdebug-assertions", *(f"-Cllvm-args=-sanitizer-coverage-{of}" for of in coverage)]
+    cargo("build", "--manifest-path", "fuzz/Cargo.toml", "--target", host, CC="clang", CXX="clang++", CXXFLAGS="-fsanitize=fuzzer-no-link",
+          CARGO_TARGET_DIR=str(work / "fuzz"), RUSTFLAGS=" ".join(flags))
+    corpus = work / "corpus"
+    corpus.mkdir(exist_ok=True)
+    tests = checkout / "tests"
+    told = run(work / "fuzz" / host / "debug/play", "-max_total_time=60", "-max_len=20000", corpus, tests / "conformance", tests / "golden", cwd=work)
+    print(told.stdout.splitlines()[-1])
+
+
+def print_times(checkout, work, libraries, cargo):
+    """Milliseconds of opening and of a frame, in Rust and in C, of ANICODEC_CLIP or a golden file."""
+    clip = os.environ.get("ANICODEC_CLIP", checkout / "tests/golden/large.anic")
+    cargo("build", "--release", "-p", "anicodec", "--example", "times")
+    run("cc", "-O2", "-I", checkout / "sdk/include", checkout / "tests/rust/times.c", "-o", work / "times", "-L", libraries, "-lanicodec",
+        f"-Wl,-rpath,{libraries}")
+    for name, program in (("Rust", work / "target/release/examples/times"), ("C", work / "times")):
+        print(f"{name}: open and frame of {pathlib.Path(clip).name}, ms: {run(program, clip).stdout}", end="")
 
 
 if __name__ == "__main__":

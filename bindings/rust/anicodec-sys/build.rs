@@ -59,7 +59,7 @@ fn main() {
         "anicodec-sys: {} is no folder: this checkout has no symbolic links (git config core.symlinks true)",
         root.join("format").display()
     );
-    // Clippy links nothing, and shares nothing that is built here.
+    // Clippy links nothing, and what it builds serves nobody else.
     println!("cargo::rerun-if-env-changed=CLIPPY_ARGS");
     if env::var_os("CLIPPY_ARGS").is_some() {
         return;

@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 
 use anicodec::encode::{
-    EncodeOptions, Encoder, Goal, Look, SourceAttribute, SourceClip, SourceMesh,
+    EncodeOptions, Encoder, Goal, LiveOptions, Look, SourceAttribute, SourceClip, SourceMesh,
 };
 use anicodec::{read_metadata, AttributeKind, Clip, Domain, Error, Order, Rate, Status, UpAxis};
 
@@ -282,4 +282,75 @@ fn nonsense_is_refused_with_a_line() {
         ..clip()
     })
     .is_err());
+}
+
+#[test]
+fn a_capture_is_encoded_while_it_goes_on() {
+    let ((offsets, corners), positions) = (faces(), positions());
+    let vertex_count = SIDE * SIDE;
+    let live_clip = SourceClip {
+        frame_count: 0,
+        is_loop: false,
+        events: &[],
+        ..clip()
+    };
+    let mesh = SourceMesh {
+        vertex_count: vertex_count as u32,
+        offsets: &offsets,
+        corners: &corners,
+        ..Default::default()
+    };
+    let mut encoder = Encoder::new(&live_clip).unwrap();
+    encoder.add_mesh(&mesh, &[]).unwrap();
+    encoder
+        .add_attribute(
+            0,
+            &SourceAttribute {
+                name: "heat",
+                components: 1,
+                ..Default::default()
+            },
+        )
+        .unwrap();
+    let options = EncodeOptions {
+        goal: Goal::MaxError(0.01),
+        effort: 1,
+        ..Default::default()
+    };
+    let cut = LiveOptions {
+        piece_seconds: 0.25,
+        key_seconds: -1.0,
+        ..Default::default()
+    };
+    let mut live = encoder.live(&options, &cut).unwrap();
+    drop(encoder);
+    let heat = vec![0.5; vertex_count];
+    assert_eq!(
+        status(live.push(&positions[..5], &[&heat], 0.0)),
+        Status::Argument
+    );
+    assert_eq!(
+        status(live.push(&positions[..vertex_count], &[], 0.0)),
+        Status::Argument
+    );
+    let mut live = std::thread::spawn(move || {
+        for frame in positions.chunks(vertex_count) {
+            live.push(frame, &[&heat], f64::INFINITY).unwrap();
+        }
+        live.end().unwrap();
+        live
+    })
+    .join()
+    .unwrap();
+    let mut frames = 0;
+    while let Some(piece) = live.take(f64::INFINITY).unwrap() {
+        assert!(piece.key && piece.max_error <= 0.01 && piece.first_frame == frames);
+        frames += u64::from(piece.frame_count);
+    }
+    assert_eq!(frames, FRAMES as u64);
+    assert!(live.info().ended && live.info().pushed_frames == frames);
+    assert_eq!(
+        status(Encoder::new(&clip()).unwrap().live(&options, &cut)),
+        Status::State
+    );
 }

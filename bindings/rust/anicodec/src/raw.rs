@@ -36,6 +36,7 @@ versioned! {
 #[cfg(feature = "encoder")]
 versioned! {
     anic_source_clip anic_source_mesh anic_source_attribute anic_encode_options anic_encoding
+    anic_live_options anic_live_frame anic_live_piece anic_live_info
 }
 
 /// A struct with its size, and 0 in every other field.
