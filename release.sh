@@ -7,8 +7,8 @@ source cmake/common.sh
 
 usage="usage: ./release.sh [--no-install] [--homepage URL] [--only STEP]... [OUT]
 Makes the packages of a release in OUT (out/release), from the commit that is checked out: source archive, Debian
-packages, Python wheels, npm package, extension for Blender, NuGet and Unity packages, the crate where there is
-one, SHA256SUMS and a list of what is inside (CycloneDX). docs/release.md says more.
+packages, Python wheels, npm package, extension for Blender, NuGet and Unity packages, crates, SHA256SUMS and a
+list of what is inside (CycloneDX). docs/release.md says more.
 --only makes one of archive, debian, wheels, npm, blender, nuget, crate anew. --homepage is the address that
 packages state; without, they state none."
 
@@ -116,10 +116,10 @@ make_wheels() {
       --config-settings=cmake.define.CMAKE_TOOLCHAIN_FILE="$PWD/cmake/portable/toolchain.cmake" \
       --config-settings=build-dir="$PWD/build/wheel_build_$minor"
     # Nothing is brought in, for everything is static; the name is checked against the symbols.
-    PATH=$PWD/$environment/bin:$PATH "$environment/bin/auditwheel" repair --plat "$platform" --exclude libassimp.so.5 \
+    PATH=$PWD/$environment/bin:$PATH "$environment/bin/auditwheel" repair --plat "$platform" --exclude libassimp.so.5 --exclude libusd_ms.so \
       -w "$out" build/wheel/*.whl
   done
-  [[ -z $(find "$out" -name "*.whl" -size +8000k) ]] || fail "a wheel has more than 8 MB"
+  [[ -z $(find "$out" -name "*.whl" -size +8000000c) ]] || fail "a wheel has more than 8 MB"
 }
 
 make_npm() {
@@ -152,16 +152,14 @@ make_blender() {
 
 make_nuget() {
   build_portable
-  python3 bindings/csharp/pack.py "$out" --notices build/portable/THIRD_PARTY_LICENSES "linux-x64=build/portable/link/libanicodec.so"
+  python3 bindings/csharp/pack.py "$out" --notices build/portable/THIRD_PARTY_LICENSES \
+    linux-x64=build/portable/link/libanicodec.so linux-x64=build/portable/link/libanicodec_encoder.so
 }
 
 make_crate() {
-  if [[ ! -f bindings/rust/Cargo.toml ]]; then
-    echo "There is no bindings/rust: no crate"
-    return
-  fi
-  cargo package --manifest-path bindings/rust/Cargo.toml --target-dir build/crate --no-verify --allow-dirty
-  cp build/crate/package/*.crate "$out/"
+  command -v cargo >/dev/null || fail "the crates want cargo, of Rust 1.81 or later; Debian 12 has an older one"
+  rm -f "$out"/*.crate
+  bindings/rust/package.sh "$out" --allow-dirty  # in a folder that git ignores
 }
 
 unpack

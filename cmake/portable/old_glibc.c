@@ -3,11 +3,13 @@
  *
  * Functions of later glibc that programs linked with glibc_stubs.py bring along. */
 #define _GNU_SOURCE
+#include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 /* The C++ library asks whether it may do without atomic operations. It may not. */
@@ -49,6 +51,24 @@ int close_range(unsigned first, unsigned last, int flags) {
   for (unsigned file = first; file <= last && (long)file < most; ++file)
     close((int)file);
   return 0;
+}
+
+/* Waits by the clock of the day, which nobody should set meanwhile; callers look at their own clock afterwards. */
+int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock, const struct timespec* until) {
+  struct timespec there, here;
+  clock_gettime(clock, &there);
+  clock_gettime(CLOCK_REALTIME, &here);
+  here.tv_sec += until->tv_sec - there.tv_sec;
+  here.tv_nsec += until->tv_nsec - there.tv_nsec;
+  const long second = 1000000000;
+  if (here.tv_nsec < 0) {
+    here.tv_nsec += second;
+    --here.tv_sec;
+  } else if (here.tv_nsec >= second) {
+    here.tv_nsec -= second;
+    ++here.tv_sec;
+  }
+  return pthread_cond_timedwait(condition, mutex, &here);
 }
 
 uint32_t arc4random(void) {

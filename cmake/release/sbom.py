@@ -24,7 +24,7 @@ DEBIAN = {
     "zlib1g-dev": "Zlib", "libgif-dev": "MIT", "liblzma-dev": "0BSD",
 }
 SOURCES = {"meshopt": "MIT", "pyufbx": "MIT", "mapbox-earcut": "ISC"}  # of packages that cmake/anicodec_*.cmake bring
-DECODER = {"libstdc++-12-dev", "libdraco-dev", "libzstd-dev", "libxxhash-dev"}
+ENCODER = {"libstdc++-12-dev", "libdraco-dev", "libzstd-dev", "libxxhash-dev", "libeigen3-dev", "libtbb-dev", "libopenmesh-dev"}
 
 
 def debian_components():
@@ -42,13 +42,15 @@ def brought_components(source):
     for name, version in re.findall(r"^(nanobind)==(\S+)$", re.sub(r"; .*", "", (source / "cmake/release/requirements.txt")
                                                                    .read_text()), re.MULTILINE):
         yield component(name, version, "BSD-3-Clause", f"pkg:pypi/{name}@{version}")
+    for name, version in re.findall(r"^(pxr[\w-]+)==(\S+)", (source / "bindings/usd/headers.lock").read_text(), re.MULTILINE):
+        yield component(name, version, "LicenseRef-TOST-1.0", f"pkg:pypi/{name}@{version}")  # headers alone
     lock = json.loads((source / "bindings/web/package-lock.json").read_text())
     version = lock["packages"]["node_modules/zstd-napi"]["version"]
     yield component("zstd-napi", version, "BSD-3-Clause", f"pkg:npm/zstd-napi@{version}")  # zstd's source
 
 
 def component(name, version, licence, purl, digest=None):
-    is_id = " " not in licence
+    is_id = " " not in licence and "LicenseRef" not in licence
     made = {"type": "library", "bom-ref": purl, "name": name, "version": version, "purl": purl,
             "licenses": [{"license": {"id": licence}} if is_id else {"expression": licence}]}
     if digest:
@@ -62,9 +64,9 @@ def used_by(name, components):
         return [c["bom-ref"] for c in components if c["name"] in wanted]
     sources = set(SOURCES)
     if name.endswith(".whl") or "-blender-" in name:
-        return refs(set(DEBIAN) | sources | {"nanobind"})
+        return refs(set(DEBIAN) | sources | {"nanobind"} | {c["name"] for c in components if c["name"].startswith("pxr")})
     if name.endswith(".nupkg") or name.startswith("org.anicodec.unity"):
-        return refs(DECODER)
+        return refs(ENCODER)
     if name.endswith(".tgz"):
         return refs({"zstd-napi"})
     if name.endswith(".deb"):

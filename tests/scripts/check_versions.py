@@ -24,10 +24,7 @@ def main():
         sys.exit(__doc__)
     root, wanted, faults = pathlib.Path(sys.argv[1]), None, []
     for path, pattern in PLACES.items():
-        file = root / path
-        if path == "bindings/rust/Cargo.toml" and not file.exists():
-            continue
-        match = re.search(pattern, file.read_text(encoding="utf-8"), re.MULTILINE)
+        match = re.search(pattern, (root / path).read_text(encoding="utf-8"), re.MULTILINE)
         version = match and match[1].replace(", ", ".")
         wanted = wanted or version
         if version != wanted:
