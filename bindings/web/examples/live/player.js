@@ -80,7 +80,9 @@ function show(now) {
 
 requestAnimationFrame(show);
 const socket = new WebSocket(`ws://${location.host}/live`);
-const clips = Anicodec.live(bytesOf(socket, (text) => ({ begin } = text)), { bounds: true, onLoss: (loss) => state.losses.push(loss) });
+// What a page that joins late gets first is an old file with the meshes: nothing is lost behind it.
+const onLoss = (loss) => timeline.time !== undefined && state.losses.push(loss);
+const clips = Anicodec.live(bytesOf(socket, (text) => ({ begin } = text)), { bounds: true, onLoss });
 for await (const clip of clips) {
   if (!timeline.last)
     orbit.show(clip.bounds, clip.info.up === 'z');
