@@ -38,27 +38,31 @@ test('pages play a capture three files behind, over a lost file, and join late',
     encoder = spawn(command, ['encode', '--live', at('limb.obj'), '--fps', String(FPS), '--piece', String(PIECE), '--key-every', '2',
       '--effort', '1', '-o', at('take.anic'), '--json'], { stdio: ['pipe', 'pipe', 'inherit'] });
     server = await serve(filesOf(at('take.anic'), encoder.stdout), { lose: (number) => number === LOST });
-    const watch = (body) => withPage(async (page, messages) => {
+    const watch = (body, onOpen) => withPage(async (page, messages) => {
       await page.goto(server.url);
+      await page.waitForFunction(() => window.live);
+      onOpen?.();
       await page.waitForFunction(() => window.live?.ended, undefined, { timeout: 60000 });
       await page.waitForTimeout(200);
       body(await page.evaluate(() => window.live), messages, await page.screenshot());
     }, { browser });
     const check = ({ pictures, delay }, messages, picture) => {
-      assert.ok(pictures > 20, `${pictures} pictures`);
+      assert.ok(pictures > 5, `${pictures} pictures`);
       // Three files, one that grows, and what a machine that runs other tests takes for it.
       assert.ok(delay > PIECE && delay < 12 * PIECE, `${delay} s`);
       assert.ok(messages.some((text) => / s behind the capture/.test(text)), messages.join('\n'));
       assert.ok(messages.every((text) => text.startsWith('info:')), messages.join('\n'));
       assert.ok(picture.length > 2000);
     };
+    let open;
+    const opened = new Promise((resolve) => (open = resolve));
     const first = watch((live, ...rest) => {
       check(live, ...rest);
       // Up to the next that begins anew, as files do every two seconds.
       assert.deepEqual(live.losses, [{ from: LOST * PIECE, to: 4, files: 2 }]);
-    });
-    const [, late] = await Promise.all([capture(cache.subarray(32), 12 * vertices, encoder.stdin), sleep(JOINS_AT).then(() => watch(check)), first]);
-    assert.equal(late, undefined);
+    }, open);
+    await Promise.race([opened, first]);
+    await Promise.all([capture(cache.subarray(32), 12 * vertices, encoder.stdin), sleep(JOINS_AT).then(() => watch(check)), first]);
     await server.sent;
   } finally {
     server?.close();
