@@ -33,7 +33,6 @@ import hashlib
 import json
 import math
 import pathlib
-import resource
 import subprocess
 import sys
 import tempfile
@@ -59,12 +58,12 @@ class Decoder:
     def run(self, file, out):
         """Exit status; -1 if it did not come to an end by itself."""
         def limit():
-            if self.memory:
-                resource.setrlimit(resource.RLIMIT_AS, (self.memory, self.memory))
+            import resource  # pylint: disable=import-outside-toplevel  # Windows lacks it
+            resource.setrlimit(resource.RLIMIT_AS, (self.memory, self.memory))
 
         arguments = [a.replace("{file}", str(file)).replace("{out}", str(out)) for a in self.command]
         try:
-            return subprocess.run(arguments, preexec_fn=limit, timeout=SECONDS, check=False,
+            return subprocess.run(arguments, preexec_fn=limit if self.memory else None, timeout=SECONDS, check=False,
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
         except subprocess.TimeoutExpired:
             return -1
