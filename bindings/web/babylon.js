@@ -24,14 +24,15 @@ export class AnicPlayer extends TransformNode {
   #current;
   #options = {};
 
-  constructor(name, clip, scene) {
+  /** In a glTF scene, clips begin when they did in the source, as spec/gltf-extension.md says. */
+  constructor(name, clip, scene, { inSource = false } = {}) {
     super(name, scene);
     this.clip = clip;
     this.#current = clip.find().index;
     // Groups mix numbers: of each clip its weight, and its time by the weight. Both are 0 while no group plays it.
     this.clipWeights = clip.clips.map(() => 0);
     this.clipTimes = clip.clips.map(() => 0);
-    this.animationGroups = clip.clips.map((one, i) => this.#group(one, i));
+    this.animationGroups = clip.clips.map((one, i) => this.#group(one, i, inSource ? Math.max(one.startTime, 0) : 0));
     const observer = scene.onBeforeRenderObservable.add(() => this.refresh());
     this.onDisposeObservable.addOnce(() => {
       scene.onBeforeRenderObservable.remove(observer);
@@ -41,11 +42,13 @@ export class AnicPlayer extends TransformNode {
     });
   }
 
-  #group({ name, loop, duration, loopDuration }, i) {
+  #group({ name, loop, duration, loopDuration }, i, begin) {
     const length = Math.max(loop ? loopDuration : duration, 1e-6), group = new AnimationGroup(name || 'anic', this.getScene());
     for (const [path, from, to] of [['clipWeights', 1, 1], ['clipTimes', 0, length]]) {
       const animation = new Animation(`${path}.${i}`, `${path}.${i}`, FRAMES_PER_SECOND, Animation.ANIMATIONTYPE_FLOAT, Animation.ANIMATIONLOOPMODE_CYCLE);
-      animation.setKeys([{ frame: 0, value: from }, { frame: length * FRAMES_PER_SECOND, value: to }]);
+      // Keys begin at 0, as those that Babylon.js makes of a glTF: the first value holds until the clip begins.
+      animation.setKeys([...(begin > 0 ? [{ frame: 0, value: from }] : []), { frame: begin * FRAMES_PER_SECOND, value: from },
+        { frame: (begin + length) * FRAMES_PER_SECOND, value: to }]);
       group.addTargetedAnimation(animation, this);
     }
     group.onAnimationGroupEndObservable.add(() => { this.clipWeights[i] = this.clipTimes[i] = 0; });
@@ -183,7 +186,7 @@ class ScenePlayer extends AnicPlayer {
 
 /**
  * A plug-in of Babylon's glTF loader: registerGLTFExtension('ANIC_mesh_animation', true, (loader) => new AnicGLTFExtension(loader)).
- * Each clip becomes an animation group of the scene; a node ANIC_mesh_animation plays them.
+ * Each clip becomes an animation group of what is loaded, the first of which the loader starts; a node ANIC_mesh_animation plays them.
  */
 export class AnicGLTFExtension {
   #players = [];
@@ -198,11 +201,24 @@ export class AnicGLTFExtension {
   }
 
   async #open(index) {
-    const { loader } = this, path = `/extensions/${EXTENSION}/files/${index}`, file = loader.gltf.extensions[EXTENSION].files[index];
+    const { loader } = this, { babylonScene: scene, _assetContainer: container } = loader, path = `/extensions/${EXTENSION}/files/${index}`, file = loader.gltf.extensions[EXTENSION].files[index];
     const bytes = file.bufferView === undefined ? await loader.loadUriAsync(path, file, file.uri)
       : await loader.loadBufferViewAsync(path, loader.gltf.bufferViews[file.bufferView]);
-    const player = new ScenePlayer(EXTENSION, await open(bytes, this.options), loader.babylonScene);
+    const clip = await open(bytes, this.options);
+    // What goes into a container is not in the scene yet.
+    scene._blockEntityCollection = !!container;
+    const player = new ScenePlayer(EXTENSION, clip, scene, { inSource: true });
+    scene._blockEntityCollection = false;
     player.parent = loader.rootBabylonMesh;
+    // The loader gives results and containers the groups of what it has read.
+    for (const group of player.animationGroups) {
+      group._parentContainer = container;
+      (loader.gltf.animations ??= []).push({ index: loader.gltf.animations.length, channels: [], samplers: [], _babylonAnimationGroup: group });
+    }
+    if (container) {
+      player._parentContainer = container;
+      container.transformNodes.push(player);
+    }
     return player;
   }
 

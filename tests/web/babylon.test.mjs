@@ -101,12 +101,27 @@ test('Babylon.js shows, plays and fades clips, and plays glTF scenes that move b
         await B.SceneLoader.AppendAsync('/', 'moving.glb', gltf);
         const player = gltf.getNodeByName('ANIC_mesh_animation'), moving = gltf.meshes.find((one) => one.getTotalVertices() > 0);
         look(gltf, player.clip.bounds);
+        // The loader starts the first group, as of every glTF.
+        outcome.started = gltf.animationGroups.map((group) => group.isStarted).indexOf(true);
+        gltf.animationGroups.forEach((group) => group.stop());
         player.current = b;
         player.time = 0.5;
         gltf.render();
         const again = await Anicodec.open('/tests/conformance/clips.anic');
         outcome.steps.gltf = far(moving.getVerticesData(B.VertexBuffer.PositionKind), again.meshes[0].sourcePositions(0.5, undefined, { clip: b }));
         outcome.groups = gltf.animationGroups.length;
+        // In time with the source, and in a container.
+        const timed = player.animationGroups[player.clip.find(a).index], { startTime } = player.clip.find(a);
+        player.play(a);
+        timed.pause();
+        timed.goToFrame(60 * (startTime + 0.25));
+        gltf.render();
+        outcome.steps.begun = Math.abs(player.time - 0.25);
+        const apart = make(), container = await B.LoadAssetContainerAsync('/moving.glb', apart);
+        outcome.apart = [container.animationGroups.length, apart.animationGroups.length, apart.getNodeByName('ANIC_mesh_animation') === null];
+        container.addAllToScene();
+        outcome.apart.push(apart.animationGroups.length, apart.getNodeByName('ANIC_mesh_animation') !== null);
+        container.dispose();
         outcome.material = moving.material.name;
         if (textured) {
           const moved = make();
@@ -125,6 +140,7 @@ test('Babylon.js shows, plays and fades clips, and plays glTF scenes that move b
       if (texture)
         [0.25, 0.125, 0.75, 0.125, 0.5, 0.625, 0.25].forEach((x, i) => assert.ok(Math.abs(x - result.textured[i]) < 0.01, JSON.stringify(result)));
       assert.deepEqual([result.current, result.closed, result.stopped, result.groups, result.material], ['clip of 70', true, true, 6, 'paint']);
+      assert.deepEqual([result.started, ...result.apart], [0, 6, 0, true, 6, true]);
     });
   } finally {
     server.close();
