@@ -6,8 +6,8 @@ the conformance and golden files against the facts and against the C++ decoder, 
 
 usage: run.py [--all] CHECKOUT WORK SDK_DECODER C_COMPILER CXX_COMPILER [LAUNCHER]
 Exit status 77: skipped, for the reason printed. --all adds what takes minutes or other tools: the packages, built from their
-own .crate files; documentation; the features draco and encoder (an installed libanicodec_encoder); Miri and libFuzzer
-(a nightly toolchain); the declarations by bindgen (a libclang); times against C.
+own .crate files; documentation; the features draco and encoder (an installed libanicodec_encoder); Miri (a
+nightly toolchain); libFuzzer; the declarations by bindgen (a libclang); times against C.
 """
 import importlib.util
 import json
@@ -197,12 +197,11 @@ def check_everything(checkout, work, sdk_decoder, cargo):
 
 
 def fuzz(checkout, work, cargo):
-    """A minute of libFuzzer, which wants clang, by what cargo-fuzz does."""
+    """A minute of libFuzzer, by what cargo-fuzz does. It follows Rust alone: tests/fuzz has targets that follow the decoder."""
     host = re.search(r"host: (\S+)", run("rustc", "-vV").stdout)[1]
     coverage = ("level=4", "inline-8bit-counters", "pc-table", "trace-compares")
     flags = ["--cfg", "fuzzing", "-Cpasses=sancov-module", "-Cdebug-assertions", *(f"-Cllvm-args=-sanitizer-coverage-{of}" for of in coverage)]
-    cargo("build", "--manifest-path", "fuzz/Cargo.toml", "--target", host, CC="clang", CXX="clang++", CXXFLAGS="-fsanitize=fuzzer-no-link",
-          CARGO_TARGET_DIR=str(work / "fuzz"), RUSTFLAGS=" ".join(flags))
+    cargo("build", "--manifest-path", "fuzz/Cargo.toml", "--target", host, CARGO_TARGET_DIR=str(work / "fuzz"), RUSTFLAGS=" ".join(flags))
     corpus = work / "corpus"
     corpus.mkdir(exist_ok=True)
     tests = checkout / "tests"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-//! Any bytes as a file and as a stream, played by every function. `cargo +nightly fuzz run play` in bindings/rust, with the
-//! conformance files as a corpus; CXX=clang++ and CXXFLAGS='-fsanitize=address,fuzzer-no-link' watch the decoder, too.
+//! Any bytes as a file and as a stream, played by every function. `cargo +nightly fuzz run -s none play` in bindings/rust, with
+//! the conformance files as a corpus. It follows the paths of Rust; tests/fuzz has targets that follow those of the decoder.
 #![no_main]
 
 use anicodec::{
