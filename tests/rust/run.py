@@ -19,6 +19,7 @@ import subprocess
 import sys
 
 SKIPPED = 77
+NEEDED = (1, 81)  # rust-version of bindings/rust/Cargo.toml
 HEADERS = {"decoder.rs": "sdk/include/anicodec/anicodec.h", "encoder.rs": "codec/include/anicodec/encode.h"}
 RENAMED = {"box_": "box", "loop_": "loop", "move_": "move"}  # words of Rust
 # Facts that no function of anicodec.h tells.
@@ -145,8 +146,9 @@ def main():
     if not 5 <= len(arguments) <= 6:
         sys.exit(__doc__)
     checkout, work, sdk_decoder = (pathlib.Path(path).resolve() for path in arguments[:3])
-    if not shutil.which("cargo"):
-        print("skipped: there is no cargo")
+    version = re.search(r"cargo (\d+)\.(\d+)", run("cargo", "--version").stdout) if shutil.which("cargo") else None
+    if version is None or tuple(map(int, version.groups())) < NEEDED:
+        print(f"skipped: there is no cargo of {NEEDED[0]}.{NEEDED[1]} or later")
         sys.exit(SKIPPED)
     shutil.rmtree(work / "files", ignore_errors=True)
     (work / "files").mkdir(parents=True)
