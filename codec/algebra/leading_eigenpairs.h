@@ -3,6 +3,8 @@
 #ifndef ANICODEC_CODEC_ALGEBRA_LEADING_EIGENPAIRS_H_
 #define ANICODEC_CODEC_ALGEBRA_LEADING_EIGENPAIRS_H_
 
+#include <functional>
+
 #include <Eigen/Core>
 
 namespace anicodec {
@@ -20,6 +22,15 @@ struct Eigenpairs {
 /// or O(n^2 count) where few pairs are wanted.
 Eigenpairs leading_eigenpairs(const Eigen::MatrixXd& symmetric, Eigen::Index max_count,
                               double smallest, Eigen::Index direct_size = 320);
+
+/// The same for a matrix that is known by its products: times_matrix(columns) is the matrix times some
+/// columns. All pairs of the space once the `count` largest are found as well as above, or the space has
+/// `most` columns, some more for whole blocks: beyond them, a rough guess of what is left. Values are above
+/// 1e-14 of the largest. Memory: up to four times rows x `most` doubles. Cost: a product with 16 columns for
+/// every 16 of the space. @pre rows >= 16
+Eigenpairs leading_eigenspace(
+    const std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>& times_matrix, Eigen::Index rows,
+    Eigen::Index count, Eigen::Index most);
 
 }  // namespace anicodec
 

@@ -39,6 +39,28 @@ void frame_panel(const FrameView& clip, const Vector3d& origin, size_t first, si
   }
 }
 
+namespace {
+
+/// Calls visit(first frame, those frames) for a panel's worth of frames at a time, in order: panels of long clips
+/// would be large.
+template <class Visit>
+void by_frames(const FrameView& clip, const Visit& visit) {
+  constexpr size_t kFrames = 1040;  // three times as many numbers are a multiple of kProductDepth
+  for (size_t first = 0; first < clip.frame_count; first += kFrames)
+    visit(static_cast<Index>(first),
+          clip.frames(first, std::min(kFrames, clip.frame_count - first)));
+}
+
+/// The same for vertices, as many as the depth of a panel of so many columns.
+template <class Visit>
+void by_vertices(const FrameView& clip, Index columns, const Visit& visit) {
+  const auto block = static_cast<size_t>(panel_depth(columns));
+  for (size_t first = 0; first < clip.vertex_count; first += block)
+    visit(first, std::min(block, clip.vertex_count - first));
+}
+
+}  // namespace
+
 MatrixXd trajectory_gram(const FrameView& clip, const Vector3d& origin) {
   const auto rows = static_cast<Index>(3 * clip.frame_count);
   MatrixXd gram = MatrixXd::Zero(rows, rows), panel;
@@ -51,24 +73,86 @@ MatrixXd trajectory_gram(const FrameView& clip, const Vector3d& origin) {
   return gram;
 }
 
+MatrixXd vertex_gram(const FrameView& clip, const Vector3d& origin) {
+  const auto rows = static_cast<Index>(3 * clip.vertex_count);
+  MatrixXd gram = MatrixXd::Zero(rows, rows), panel;
+  const auto block = static_cast<size_t>(panel_depth(rows));
+  for (size_t first = 0; first < clip.frame_count; first += block) {
+    const FrameView some = clip.frames(first, std::min(block, clip.frame_count - first));
+    panel.resize(static_cast<Index>(some.frame_count), rows);
+    for (size_t f = 0; f < some.frame_count; ++f) {
+      const float* p = some.frame(f);
+      for (Index i = 0; i < rows; ++i)
+        panel(static_cast<Index>(f), i) = double{p[i]} - origin[i % 3];
+    }
+    add_self_products(panel, gram);
+  }
+  mirror_upper(gram);
+  return gram;
+}
+
+MatrixXd vertex_gram_of_axes(const FrameView& clip, const Vector3d& origin) {
+  const auto rows = static_cast<Index>(clip.vertex_count);
+  MatrixXd gram = MatrixXd::Zero(rows, rows), panel;
+  const auto block = static_cast<size_t>(panel_depth(rows)) / 3;
+  for (size_t first = 0; first < clip.frame_count; first += block) {
+    const FrameView some = clip.frames(first, std::min(block, clip.frame_count - first));
+    panel.resize(static_cast<Index>(3 * some.frame_count), rows);
+    for (size_t f = 0; f < some.frame_count; ++f) {
+      const float* p = some.frame(f);
+      for (Index i = 0; i < rows; ++i, p += 3) {
+        for (Index c = 0; c < 3; ++c)
+          panel(static_cast<Index>(3 * f) + c, i) = double{p[c]} - origin[c];
+      }
+    }
+    add_self_products(panel, gram);
+  }
+  mirror_upper(gram);
+  return gram;
+}
+
+MatrixXd times_trajectory_gram(const FrameView& clip, const Vector3d& origin,
+                               const MatrixXd& columns) {
+  MatrixXd out = MatrixXd::Zero(columns.rows(), columns.cols()), panel;
+  by_vertices(clip, columns.rows(), [&](size_t first, size_t count) {
+    MatrixXd combined = MatrixXd::Zero(static_cast<Index>(count), columns.cols());
+    by_frames(clip, [&](Index frame, const FrameView& some) {
+      trajectory_panel(some, origin, first, count, &panel);
+      combined += product(panel, columns.middleRows(3 * frame, panel.cols()));
+    });
+    by_frames(clip, [&](Index frame, const FrameView& some) {
+      if (some.frame_count < clip.frame_count)
+        trajectory_panel(some, origin, first, count, &panel);
+      out.middleRows(3 * frame, panel.cols()) += inner_products(panel, combined);
+    });
+  });
+  return out;
+}
+
 MatrixXd project_on_functions(const FrameView& clip, const Vector3d& origin,
                               const MatrixXd& functions) {
-  MatrixXd out = MatrixXd::Zero(static_cast<Index>(3 * clip.frame_count), functions.cols()), panel;
-  const auto block = static_cast<size_t>(panel_depth(out.rows()));
-  for (size_t first = 0; first < clip.vertex_count; first += block) {
-    trajectory_panel(clip, origin, first, std::min(block, clip.vertex_count - first), &panel);
-    add_products(panel, functions.middleRows(static_cast<Index>(first), panel.rows()), out);
-  }
+  MatrixXd out(static_cast<Index>(3 * clip.frame_count), functions.cols()), panel;
+  by_frames(clip, [&](Index frame, const FrameView& some) {
+    MatrixXd sums = MatrixXd::Zero(static_cast<Index>(3 * some.frame_count), functions.cols());
+    by_vertices(clip, sums.rows(), [&](size_t first, size_t count) {
+      trajectory_panel(some, origin, first, count, &panel);
+      add_products(panel, functions.middleRows(static_cast<Index>(first), panel.rows()), sums);
+    });
+    out.middleRows(3 * frame, sums.rows()) = sums;
+  });
   return out;
 }
 
 MatrixXd project_on_fields(const FrameView& clip, const Vector3d& origin, const MatrixXd& fields) {
-  MatrixXd out = MatrixXd::Zero(static_cast<Index>(clip.frame_count), fields.cols()), panel;
-  const auto block = static_cast<size_t>(panel_depth(out.rows()));
-  for (size_t first = 0; first < clip.vertex_count; first += block) {
-    frame_panel(clip, origin, first, std::min(block, clip.vertex_count - first), &panel);
-    add_products(panel, fields.middleRows(static_cast<Index>(3 * first), panel.rows()), out);
-  }
+  MatrixXd out(static_cast<Index>(clip.frame_count), fields.cols()), panel;
+  by_frames(clip, [&](Index frame, const FrameView& some) {
+    MatrixXd sums = MatrixXd::Zero(static_cast<Index>(some.frame_count), fields.cols());
+    by_vertices(clip, sums.rows(), [&](size_t first, size_t count) {
+      frame_panel(some, origin, first, count, &panel);
+      add_products(panel, fields.middleRows(static_cast<Index>(3 * first), panel.rows()), sums);
+    });
+    out.middleRows(frame, sums.rows()) = sums;
+  });
   return out;
 }
 
@@ -80,12 +164,17 @@ void combine_rows(const FrameView& clip, const Vector3d& origin, const MatrixXd&
   const size_t blocks = (clip.vertex_count + kVertices - 1) / kVertices;
   parallel_for(size_t{0}, blocks, [&](size_t b) {
     const size_t first = b * kVertices, count = std::min(kVertices, clip.vertex_count - first);
-    MatrixXd panel;
-    if (frames)
-      frame_panel(clip, origin, first, count, &panel);
-    else
-      trajectory_panel(clip, origin, first, count, &panel);
-    take(first, product(panel, weights));
+    MatrixXd panel, combined;
+    by_frames(clip, [&](Index frame, const FrameView& some) {
+      if (frames)
+        frame_panel(some, origin, first, count, &panel);
+      else
+        trajectory_panel(some, origin, first, count, &panel);
+      const Index row = frames ? frame : 3 * frame;
+      const MatrixXd part = product(panel, weights.middleRows(row, panel.cols()));
+      combined = frame == 0 ? part : MatrixXd(combined + part);
+    });
+    take(first, combined);
   });
 }
 

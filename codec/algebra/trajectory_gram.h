@@ -27,6 +27,19 @@ void frame_panel(const FrameView& clip, const Eigen::Vector3d& origin, size_t fi
 /// any number of threads.
 Eigen::MatrixXd trajectory_gram(const FrameView& clip, const Eigen::Vector3d& origin);
 
+/// The same of the vertices: entry (3i + c, 3j + d) is the sum over the frames of coordinate c of vertex i times
+/// coordinate d of vertex j, relative to the origin. Cost O(frames vertices^2), memory 9 vertices^2 doubles and
+/// a few megabytes. Same bits for any number of threads.
+Eigen::MatrixXd vertex_gram(const FrameView& clip, const Eigen::Vector3d& origin);
+
+/// Sum of its three axis blocks, vertices x vertices: products of trajectories. Cost a third of all blocks'.
+Eigen::MatrixXd vertex_gram_of_axes(const FrameView& clip, const Eigen::Vector3d& origin);
+
+/// The product of the coordinate rows' Gram matrix, which is not made, and some columns (3 frames x any). One
+/// pass over the clip, memory a few megabytes. Same bits for any number of threads.
+Eigen::MatrixXd times_trajectory_gram(const FrameView& clip, const Eigen::Vector3d& origin,
+                                      const Eigen::MatrixXd& columns);
+
 /// Coordinate rows times functions of the vertices (vertices x any): 3 frames x any. One pass over
 /// the clip. Same bits for any number of threads.
 Eigen::MatrixXd project_on_functions(const FrameView& clip, const Eigen::Vector3d& origin,

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/file/encoding_memory.h"
 
+#include "codec/motion/motion_products.h"
 #include "codec/sequence/frame_array.h"
 
 #include <algorithm>
@@ -11,14 +12,20 @@ namespace {
 
 // Measured by tests/api/encoder_memory_test.cpp, rounded up.
 constexpr double kProducts =
-    4 * 72;  // of frames squared: products of three axes in double, four times
-constexpr double kKeyProducts = 120;                 // where key-frames are all that is tried
+    4 * 72;  // of the smaller side squared: products of three axes in double, four times
+constexpr double kKeyProducts = 120;                 // of frames squared, for key-frames
 constexpr double kFewTrials = 1700, kTrials = 3300;  // for each vertex: at effort 1, and above
 constexpr double kAny = 1 << 20;                     // whatever the clip
 constexpr double kAttributes = 4;                    // values in memory at a time, of each
 constexpr double kFewShapes = 34,
                  kFewTrajectories = 12;             // for each vertex and component: at effort 1
 constexpr double kShapes = 80, kTrajectories = 30;  // above
+constexpr double kTimes = 4000;  // for each frame: trials with the first components
+// For each frame and component: of a basis that is kept, and of trials with more than the first components.
+constexpr double kTimeOfShapes = 10, kTrialOfShapes = 100;
+constexpr double kTimeOfTrajectories = 30, kTrialOfTrajectories = 300;
+constexpr double kMultiplied = kMostMultiplied;
+constexpr double kFirst = 48;  // components of the first bases
 
 constexpr double kUsual = 24;  // components, which every trial has room for
 
@@ -39,28 +46,52 @@ EncodingMemory EncodingMemory::of(const MeshSequence& sequence, const EncodeOpti
   return memory;
 }
 
+/// Inner products of a clip, or of a part of its vertices (MotionProducts).
+double EncodingMemory::products(double of_vertices) const {
+  const double of_sketch = sketch(of_vertices, kFirst);
+  // Beside a sketch, half of the frames at most are multiplied: to see whether a cut pays.
+  const double side = std::min({of_sketch > 0 ? frames / 2 : frames, of_vertices, kMultiplied});
+  return kProducts * side * side + of_sketch;
+}
+
+/// More where both sides are large.
+double EncodingMemory::sketch(double of_vertices, double components) const {
+  constexpr double kOfFrame = 320, kOfBase = 16, kOfPairs = 24 * 6 * 6;
+  if (std::min(frames, of_vertices) <= kMultiplied)
+    return 0;
+  const double rows = components + kOfBase;
+  return kOfFrame * rows * frames + kOfPairs * rows * rows;
+}
+
 double EncodingMemory::kept(const EncodeOptions& options) const {
   const int copies = 1 + (options.root_motion ? 1 : 0) + (is_lossless(options.target) ? 2 : 0);
-  const double products = options.basis == BasisChoice::kKeyframes ? kKeyProducts : kProducts;
+  const bool keyframes_alone = options.basis == BasisChoice::kKeyframes || options.keyframes;
+  const double of_keyframes = kKeyProducts * frames * frames;
+  const bool keyframes_too = frames <= kMultiplied && vertices < frames;  // else they take no more
+  const double of_all =
+      keyframes_alone ? of_keyframes : products(vertices) + (keyframes_too ? of_keyframes : 0);
   const double in_memory =
       std::max(0.0, copies * positions() - static_cast<double>(frame_bytes_on_disk()));
-  return in_memory + kAttributes * sizeof(float) * attribute_values + products * frames * frames;
+  return in_memory + kAttributes * sizeof(float) * attribute_values + of_all;
 }
 
 double EncodingMemory::thread(const EncodeOptions& options) const {
-  return kAny + (options.effort > 1 ? kTrials : kFewTrials) * vertices;
+  return kAny + (options.effort > 1 ? kTrials : kFewTrials) * vertices + kTimes * frames;
 }
 
 double EncodingMemory::regions(double count) const {
-  constexpr double kOfRegion = 72;
-  return positions() + kOfRegion * count * frames * frames;
+  return positions() + count * products(vertices / count) / 4;
 }
 
-double EncodingMemory::basis(BasisKind kind, double components, int effort) const {
-  const double shapes = effort > 1 ? kShapes : kFewShapes,
-               others = effort > 1 ? kTrajectories : kFewTrajectories;
-  return (kind == BasisKind::kEigenshapes ? shapes : others) * std::max(0.0, components - kUsual) *
-         vertices;
+double EncodingMemory::basis(BasisKind kind, double components, int effort, double regions) const {
+  const bool shapes = kind == BasisKind::kEigenshapes, few = effort <= 1;
+  const double of_vertex = shapes ? (few ? kFewShapes : kShapes)
+                           : few  ? kFewTrajectories
+                                  : kTrajectories;
+  const double of_frame = (shapes ? kTimeOfShapes : kTimeOfTrajectories) * components +
+                          (shapes ? kTrialOfShapes : kTrialOfTrajectories) * std::max(0.0, components - kFirst);
+  const double more = components > kFirst ? sketch(vertices, components) : 0;
+  return of_vertex * std::max(0.0, components - kUsual) * vertices + regions * of_frame * frames + more;
 }
 
 MemoryShare MemoryBudget::take(double bytes, const std::string& stage) {

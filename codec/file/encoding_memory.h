@@ -38,11 +38,15 @@ struct EncodingMemory {
   /// More for each thread.
   double thread(const EncodeOptions& options) const;
 
-  /// More where surfaces are cut into so many regions: the positions once more, and products for each.
+  /// More where surfaces are cut into so many regions: the positions once more, and products of each.
   double regions(double count) const;
 
-  /// More for a basis of so many components, with the trials that use it.
-  double basis(BasisKind kind, double components, int effort) const;
+  /// More for a basis of so many components in each of the regions, with the trials that use it.
+  double basis(BasisKind kind, double components, int effort, double regions = 1) const;
+
+ private:
+  double products(double of_vertices) const;
+  double sketch(double of_vertices, double components) const;
 };
 
 /// Memory that is taken from a budget until this goes.

@@ -122,9 +122,9 @@ LinearCoder::MadeBasis& LinearCoder::made_basis(const LinearChoice& choice, size
                   : analysis_of(choice.regions).basis(analysis_, choice.pose, most, given());
     });
     const auto components = static_cast<double>(basis.most_components());
-    MemoryShare memory =
-        input_.take_memory(analysis_.clip().frame_count, "a basis of the components that the error takes",
-                           [&](const EncodingMemory& m) { return m.basis(kind_, components, effort_); });
+    MemoryShare memory = input_.take_memory(
+        analysis_.clip().frame_count, "a basis of the components that the error takes",
+        [&](const EncodingMemory& m) { return m.basis(kind_, components, effort_, choice.regions); });
     found = bases_->made.try_emplace(key).first;
     found->second.memory = std::move(memory);
     found->second.basis = std::move(basis);

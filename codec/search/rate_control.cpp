@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "codec/search/rate_control.h"
 
+#include "codec/motion/motion_products.h"
 #include "codec/parallel/parallel.h"
 #include "codec/search/time_segmentation.h"
 #include "codec/sequence/error.h"
@@ -78,7 +79,7 @@ std::optional<Solution> RateControl::of_all_clips() {
     best = by_keyframes_alone();
   } else {
     best = by_linear_bases();
-    if (options_.basis == BasisChoice::kAuto && !input_.pose && !(best && beats_keyframes(*best))) {
+    if (tries_keyframes() && !(best && beats_keyframes(*best))) {
       if (keyframe_coders_.empty())
         add_keyframe_coder(Reconstruction::kLinear);
       if (best && search_.rmse_asked())
@@ -87,6 +88,9 @@ std::optional<Solution> RateControl::of_all_clips() {
     }
     if (best && allows_msgi())
       try_msgi(&*best);
+    if (options_.basis == BasisChoice::kAuto && input_.sequence.frame_count > kMostMultiplied)
+      notes_.push_back("key-frames are not tried: the clip has more than " + std::to_string(kMostMultiplied) +
+                       " frames");
   }
   return best;
 }
@@ -106,8 +110,13 @@ void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
   search_.keep_better(search_.reach(coder, best->has_value() ? &**best : nullptr), best);
 }
 
+bool RateControl::tries_keyframes() const {
+  return options_.basis == BasisChoice::kAuto && !input_.pose &&
+         input_.sequence.frame_count <= kMostMultiplied;
+}
+
 bool RateControl::allows_msgi() const {
-  return options_.basis == BasisChoice::kAuto && options_.effort > 0 && !input_.pose &&
+  return tries_keyframes() && options_.effort > 0 &&
          options_.interpolation.value_or(InterpolationChoice::kAuto) != InterpolationChoice::kLinear &&
          input_.layout.sizes.triangles > 0;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kShortest = 8;       // frames of a segment
 constexpr uint32_t kLong = 128;         // frames from which the middle is a candidate
-constexpr uint32_t kMostShared = 1500;  // frames of clips that share a basis: its cost is quadratic
+constexpr uint32_t kMostShared = 1500;  // frames of clips that share a basis: each more is a trial of all
 constexpr double kHardCut = 30;         // times the usual squared motion around it
 constexpr double kChunks = 160;         // bytes a segment costs in tables and records
 constexpr double kWorthIt = 0.99;       // a cut must save a hundredth

@@ -3,12 +3,12 @@
 #include "codec/segment/linear_basis.h"
 
 #include "codec/algebra/gram.h"
-#include "codec/algebra/leading_eigenpairs.h"
 #include "codec/algebra/trajectory_gram.h"
+#include "codec/motion/frame_products.h"
 #include "codec/parallel/parallel.h"
 #include "codec/sequence/error.h"
 
-#include <Eigen/Eigenvalues>
+#include <utility>
 
 namespace anicodec {
 namespace {
@@ -50,39 +50,41 @@ LinearAnalysis::LinearAnalysis(const FrameView& clip) : clip_(clip) {
 void LinearAnalysis::measure() {
   const Centroids centroids = frame_centroids(clip_);
   origin_ = centroids.colwise().mean().transpose();
-  gram_ = trajectory_gram(clip_, origin_);
-  sums_.resize(gram_.rows());
+  sums_.resize(3 * centroids.rows());
   for (Index f = 0; f < centroids.rows(); ++f)
     sums_.segment<3>(3 * f) =
         static_cast<double>(clip_.vertex_count) * (centroids.row(f).transpose() - origin_);
-  kg_reference_ = gram_.trace() - sums_.squaredNorm() / static_cast<double>(clip_.vertex_count);
+  products_ = motion_products(clip_, origin_, sums_);
+  set_reference();
+}
+
+void LinearAnalysis::set_reference() {
+  kg_reference_ =
+      products_->energy() - sums_.squaredNorm() / static_cast<double>(clip_.vertex_count);
 }
 
 LinearAnalysis::LinearAnalysis(const LinearAnalysis& whole, size_t first_frame, size_t frame_count)
     : clip_(whole.clip_.frames(first_frame, frame_count)) {
-  constexpr double kMostLost = 1e6;  // of the products, where the frames are far from the whole's origin
-  const auto first = static_cast<Index>(3 * first_frame), rows = static_cast<Index>(3 * frame_count);
-  const auto n = static_cast<double>(clip_.vertex_count);
-  const VectorXd sums = whole.sums_.segment(first, rows);
-  const Vector3d shift = sums.reshaped(3, rows / 3).rowwise().mean() / n;
-  const VectorXd shifts = shift.replicate(rows / 3, 1);
-  gram_ = whole.gram_.block(first, first, rows, rows);
-  const double before = gram_.trace();
-  gram_ += (n * shifts - sums) * shifts.transpose() - shifts * sums.transpose();
-  if (before > kMostLost * gram_.trace()) {
-    measure();
-    return;
+  if (const auto* by_frames = dynamic_cast<const FrameProducts*>(whole.products_.get())) {
+    const auto first = static_cast<Index>(3 * first_frame),
+               rows = static_cast<Index>(3 * frame_count);
+    const auto n = static_cast<double>(clip_.vertex_count);
+    const VectorXd sums = whole.sums_.segment(first, rows);
+    const Vector3d shift = sums.reshaped(3, rows / 3).rowwise().mean() / n;
+    origin_ = whole.origin_ + shift;
+    sums_ = sums - n * shift.replicate(rows / 3, 1);
+    products_ = by_frames->of_frames(first_frame, frame_count, shift, sums_);
   }
-  origin_ = whole.origin_ + shift;
-  sums_ = sums - n * shifts;
-  kg_reference_ = gram_.trace() - sums_.squaredNorm() / n;
+  if (products_)
+    set_reference();
+  else
+    measure();
 }
 
 size_t LinearAnalysis::fewest_fields(double squared_error) const {
-  const MatrixXd products = sum_of_axes(gram_);
   for (Index most = 48;; most *= 2) {
-    const VectorXd energies = leading_eigenpairs(products, most, 0).values;
-    double left = products.trace();
+    const VectorXd energies = products_->frame_energies(most);
+    double left = products_->energy();
     for (Index k = 0; k < energies.size(); ++k) {
       if (left <= squared_error)
         return static_cast<size_t>(k);
@@ -91,32 +93,6 @@ size_t LinearAnalysis::fewest_fields(double squared_error) const {
     if (energies.size() < most || left <= squared_error)
       return static_cast<size_t>(energies.size());
   }
-}
-
-// All that is needed about a frame as a set of functions is in the Gram matrix.
-size_t LinearAnalysis::best_frame() const {
-  size_t best = 0;
-  double most = -1;
-  const auto n = static_cast<double>(clip_.vertex_count);
-  for (Index f = 0; f < gram_.rows() / 3; ++f) {
-    // Products of the functions x, y, z about their means with each other and with all rows.
-    const VectorXd frame_sums = sums_.segment<3>(3 * f);
-    const MatrixXd axes_gram =
-        gram_.block<3, 3>(3 * f, 3 * f) - frame_sums * frame_sums.transpose() / n;
-    const MatrixXd rows = gram_.middleCols<3>(3 * f) - sums_ * frame_sums.transpose() / n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(axes_gram);
-    double explained = 0;
-    for (Index a = 0; a < 3; ++a) {
-      const double size = solver.eigenvalues()[a];
-      if (size > 1e-9 * solver.eigenvalues()[2])
-        explained += (rows * solver.eigenvectors().col(a)).squaredNorm() / size;
-    }
-    if (explained > most) {
-      most = explained;
-      best = static_cast<size_t>(f);
-    }
-  }
-  return best;
 }
 
 MatrixXd LinearAnalysis::frame(size_t f) const {
@@ -128,12 +104,11 @@ MatrixXd LinearAnalysis::frame(size_t f) const {
 }
 
 MatrixXd LinearAnalysis::rank_three_pose(const MatrixXd& target) const {
-  const auto n = static_cast<double>(clip_.vertex_count);
-  const Eigenpairs leading = leading_eigenpairs(gram_ - sums_ * sums_.transpose() / n, 3, 0);
-  if (leading.values.size() < 3)
+  const MatrixXd leading = products_->leading_trajectories(3);
+  if (leading.cols() < 3)
     return target;
   MatrixXd functions(target.rows(), 3);
-  combine_rows(clip_, origin_, leading.vectors, [&](size_t first, const MatrixXd& block) {
+  combine_rows(clip_, origin_, leading, [&](size_t first, const MatrixXd& block) {
     functions.middleRows(static_cast<Index>(first), block.rows()) = block;
   });
   const MatrixXd span = affine_span(functions);
@@ -146,7 +121,7 @@ MatrixXd LinearAnalysis::rank_three_pose(const MatrixXd& target) const {
 MatrixXd LinearAnalysis::pose(ReferencePose kind, const MatrixXd* given_pose) const {
   switch (kind) {
     case ReferencePose::kMean: {
-      const Index frames = gram_.rows() / 3;
+      const auto frames = static_cast<Index>(clip_.frame_count);
       MatrixXd mean_pose(static_cast<Index>(clip_.vertex_count), 3);
       const VectorXd mean = VectorXd::Constant(frames, 1 / static_cast<double>(frames));
       combine_rows(clip_, origin_, mean, [&](size_t first, const MatrixXd& block) {
@@ -156,9 +131,9 @@ MatrixXd LinearAnalysis::pose(ReferencePose kind, const MatrixXd* given_pose) co
       return mean_pose;
     }
     case ReferencePose::kFrame:
-      return frame(best_frame());
+      return frame(products_->best_frame());
     case ReferencePose::kRankThree:
-      return rank_three_pose(given_pose ? *given_pose : frame(best_frame()));
+      return rank_three_pose(given_pose ? *given_pose : frame(products_->best_frame()));
     case ReferencePose::kGiven:
       break;
   }
@@ -175,35 +150,14 @@ LinearBasis LinearAnalysis::basis(BasisKind kind, ReferencePose pose, Base base,
   out.kind = kind;
   out.base = base;
   out.origin = origin_;
-  const Index frames = gram_.rows() / 3;
   out.pose = this->pose(pose, given_pose);
-  MatrixXd remainder = gram_;
-  if (base == Base::kAffine) {
-    const MatrixXd fitted = project_on_functions(clip_, origin_, affine_span(out.pose));
-    remainder -= fitted * fitted.transpose();
-  }
-  if (shapes)
-    remainder = sum_of_axes(remainder);
-  if (base == Base::kPose) {
-    // <x_f - p, x_g - p> from <x_f, p>.
-    VectorXd products(frames);
-    double pose_energy = out.pose.squaredNorm();
-    for (Index f = 0; f < frames; ++f) {
-      const float* x = clip_.frame(static_cast<size_t>(f));
-      double s = 0;
-      for (Index v = 0; v < out.pose.rows(); ++v, x += 3)
-        for (Index c = 0; c < 3; ++c)
-          s += (double{x[c]} - origin_[c]) * out.pose(v, c);
-      products[f] = s;
-    }
-    for (Index g = 0; g < frames; ++g)
-      for (Index f = 0; f < frames; ++f)
-        remainder(f, g) += pose_energy - products[f] - products[g];
-  }
-  out.base_energy = std::max(0.0, remainder.trace());
-  Eigenpairs pairs = leading_eigenpairs(remainder, static_cast<Index>(max_components), smallest);
-  out.energies = std::move(pairs.values);
-  out.time = std::move(pairs.vectors);
+  const auto most = static_cast<Index>(max_components);
+  TimeComponents components =
+      base == Base::kAffine ? products_->beyond_span(kind, affine_span(out.pose), most, smallest)
+                            : products_->beyond_pose(out.pose, most, smallest);
+  out.base_energy = components.base_energy;
+  out.energies = std::move(components.energies);
+  out.time = std::move(components.time);
   return out;
 }
 
@@ -226,9 +180,9 @@ LinearBasis RegionAnalysis::basis(const LinearAnalysis& whole, ReferencePose pos
   out.regions.resize(analyses_.size());
   parallel_for(size_t{0}, analyses_.size(), [&](size_t r) {
     const MatrixXd rows = out.pose(clips_->vertices(r), Eigen::all);
-    out.regions[r] = analyses_[r]->basis(BasisKind::kEigentrajectories,
-                                         by_region ? pose : ReferencePose::kGiven, Base::kAffine,
-                                         max_components, 0, &rows);
+    out.regions[r] =
+        analyses_[r]->basis(BasisKind::kEigentrajectories, by_region ? pose : ReferencePose::kGiven,
+                            Base::kAffine, max_components, 0, &rows);
   });
   for (size_t r = 0; r < out.regions.size(); ++r) {
     out.pose(clips_->vertices(r), Eigen::all) = out.regions[r].pose;

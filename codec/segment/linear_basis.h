@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_SEGMENT_LINEAR_BASIS_H_
 #define ANICODEC_CODEC_SEGMENT_LINEAR_BASIS_H_
 
+#include "codec/motion/motion_products.h"
 #include "codec/segment/surface_regions.h"
 #include "codec/sequence/frame_view.h"
 #include "format/records.h"
@@ -59,14 +60,14 @@ struct LinearBasis {
 
 /// Finds the bases of a segment. Eigenshapes: a component is a vector per vertex and a weight per
 /// frame; eigentrajectories: a scalar per vertex and three weights per frame (Alexa and Mueller
-/// 2000; Karni and Gotsman 2004). Both come from one Gram matrix, the clip is read a few times and
-/// never copied.
+/// 2000; Karni and Gotsman 2004). Both come from the same inner products, of whichever side of the clip is
+/// smaller; the clip is read a few times and never copied.
 class LinearAnalysis {
  public:
-  /// The view must outlive the object. Cost O(vertices frames^2), memory 9 frames^2 doubles.
+  /// The view must outlive the object. Cost and memory: those of motion_products().
   explicit LinearAnalysis(const FrameView& clip);
 
-  /// That of some of its frames, by the products that the whole has. Cost O(frames^2).
+  /// That of some of its frames, by the products that the whole has if it is short, else anew. Cost O(frames^2) then.
   LinearAnalysis(const LinearAnalysis& whole, size_t first_frame, size_t frame_count);
 
   /// Components with energy above `smallest`, at most max_components. Trajectories need
@@ -92,14 +93,14 @@ class LinearAnalysis {
 
  private:
   void measure();
-  size_t best_frame() const;
+  void set_reference();
   Eigen::MatrixXd frame(size_t f) const;
   Eigen::MatrixXd rank_three_pose(const Eigen::MatrixXd& target) const;
 
   FrameView clip_;
   Eigen::Vector3d origin_;
-  Eigen::MatrixXd gram_;  // 3 frames x 3 frames
   Eigen::VectorXd sums_;  // 3 frames: over the vertices
+  std::unique_ptr<const MotionProducts> products_;
   double kg_reference_ = 0;
 };
 

@@ -61,6 +61,18 @@ TEST(EncoderMemory, OfManyFramesOfFewVertices) {
   expect_within(corpus::make_wave_grid(100, 500, 5), options_of(5));
 }
 
+TEST(EncoderMemory, OfLongClips) {
+  expect_within(corpus::make_wave_grid(100, 2000, 5), options_of(1));
+  expect_within(corpus::make_scaled("noisy", 100, 520), options_of(1, 1));
+  expect_within(corpus::make_scaled("limb", 600, 600), options_of(1));
+}
+
+TEST(EncoderMemory, OfLongClipsGrowsWithTheirFrames) {
+  const double few = held(corpus::make_wave_grid(600, 800, 5), options_of(1), 0).value();
+  const double many = held(corpus::make_wave_grid(600, 1600, 5), options_of(1), 0).value();
+  EXPECT_LT(many, 2.2 * few);
+}
+
 TEST(EncoderMemory, OfManyVerticesInFewFrames) {
   expect_within(corpus::make_wave_grid(8000, 3, 2), options_of(1));
   expect_within(corpus::make_scaled("limb", 4000, 3), options_of(5));
@@ -80,7 +92,8 @@ TEST(EncoderMemory, RegionsAreNotTriedWhereItIsShort) {
   options.basis = BasisChoice::kEigentrajectories;
   const EncodingMemory memory = EncodingMemory::of(sequence, options);
   constexpr double kFirstComponents = 48;
-  const double bases = 2 * memory.basis(BasisKind::kEigentrajectories, kFirstComponents, options.effort);
+  const double bases =
+      2 * memory.basis(BasisKind::kEigentrajectories, kFirstComponents, options.effort);
   const double most = memory.kept(options) + memory.thread(options) + bases;
   const std::optional<double> peak = held(sequence, options, most);
   ASSERT_TRUE(peak);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -77,10 +78,14 @@ Table run_encode(const BenchOptions& options, double kg, const std::vector<uint3
                {"frames_per_second", "frames/s", "{:.1f}"},
                {"coordinate_ns", "CPU ns/coordinate", "{:.0f}"},
                {"memory_mb", "memory MB", "{:.0f}"},
-               {"times_float32", "x float32", "{:.1f}"}});
+               {"times_float32", "x float32", "{:.1f}"},
+               {"growth", "x fewer frames", "{:.2f}"}});
   const unsigned all = std::max(1U, std::thread::hardware_concurrency());
+  std::map<unsigned, double>
+      of_fewer;  // CPU seconds of the clip before where it differs by its frames alone
   const auto rows_of = [&](const std::string& name, const std::function<MeshSequence()>& make) {
-    double alone = 0;  // seconds of one thread
+    double alone = 0;                // seconds of one thread
+    std::map<unsigned, double> cpu;  // of this clip, by threads
     for (unsigned threads = 1; threads <= all; threads = threads < all ? all : all + 1) {
       nlohmann::ordered_json row = in_a_process([&] {
         tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -108,15 +113,23 @@ Table run_encode(const BenchOptions& options, double kg, const std::vector<uint3
       if (threads == 1)
         alone = seconds;
       row["gain"] = alone / seconds;
+      cpu[threads] = row["cpu_seconds"];
+      if (of_fewer.contains(threads))
+        row["growth"] = cpu[threads] / of_fewer[threads];
       table.add(std::move(row));
     }
+    of_fewer = cpu;
   };
-  for (const std::string& word : options.clips)
+  for (const std::string& word : options.clips) {
+    of_fewer.clear();
     rows_of(word, [&] { return load_clip(word); });
+  }
   if (options.clips.empty()) {
-    for (const uint32_t n : vertices)
+    for (const uint32_t n : vertices) {
+      of_fewer.clear();
       for (const uint32_t f : frames)
         rows_of("limb", [&] { return corpus::make_scaled("limb", n, f); });
+    }
   }
   return table;
 }

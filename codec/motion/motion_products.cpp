@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/motion/motion_products.h"
+
+#include "codec/motion/frame_products.h"
+#include "codec/motion/motion_sketch.h"
+#include "codec/motion/vertex_products.h"
+
+#include <algorithm>
+
+namespace anicodec {
+
+std::unique_ptr<const MotionProducts> motion_products(const FrameView& clip,
+                                                      const Eigen::Vector3d& origin,
+                                                      const Eigen::VectorXd& sums) {
+  if (std::min(clip.frame_count, clip.vertex_count) > kMostMultiplied)
+    return std::make_unique<MotionSketch>(clip, origin, sums);
+  if (clip.frame_count <= clip.vertex_count)
+    return std::make_unique<FrameProducts>(clip, origin, sums);
+  const auto vertices = static_cast<Eigen::Index>(clip.vertex_count);
+  return std::make_unique<VertexProducts>(clip, origin, Eigen::VectorXd::Ones(vertices),
+                                          clip.vertex_count);
+}
+
+}  // namespace anicodec
