@@ -113,6 +113,7 @@ if [[ $target == clang-cl ]]; then
 fi
 
 say "Building for $target"
+mkdir -p "$work"
 common=(-G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG"
   ${system[@]+"${system[@]}"})  # Bash 3 of macOS takes an empty list for an unset one
 cmake -S . -B "$work/sdk" "${common[@]}" -DCMAKE_UNITY_BUILD=ON -DANICODEC_WERROR=$warnings_are_errors -DANICODEC_BUILD_ENCODER=OFF \
