@@ -15,7 +15,8 @@ std::unique_ptr<const MotionProducts> motion_products(const FrameView& clip,
                                                       const Eigen::VectorXd& sums) {
   if (std::min(clip.frame_count, clip.vertex_count) > kMostMultiplied)
     return std::make_unique<MotionSketch>(clip, origin, sums);
-  if (clip.frame_count <= clip.vertex_count)
+  // An empty region has no products of vertices to decompose.
+  if (clip.frame_count <= clip.vertex_count || clip.vertex_count == 0)
     return std::make_unique<FrameProducts>(clip, origin, sums);
   const auto vertices = static_cast<Eigen::Index>(clip.vertex_count);
   return std::make_unique<VertexProducts>(clip, origin, Eigen::VectorXd::Ones(vertices),

@@ -142,5 +142,14 @@ TEST(MotionProducts, AcceptOneVertexAndAStillClip) {
   }
 }
 
+TEST(MotionProducts, AcceptNoVertices) {
+  const FrameView clip(nullptr, 7, 0);
+  const auto products = motion_products(clip, Vector3d::Zero(), VectorXd::Zero(21));
+  const TimeComponents components =
+      products->beyond_span(BasisKind::kEigentrajectories, MatrixXd(0, 0), 9, 0);
+  EXPECT_EQ(components.energies.size(), 0);
+  EXPECT_EQ(components.base_energy, 0);
+}
+
 }  // namespace
 }  // namespace anicodec
