@@ -264,7 +264,8 @@ inline void look(const anic_asset* asset, Script script) {
         require(anic_get_label_name(asset, m, i, k) != nullptr);
       for (uint64_t k = 0; k < uint64_t{a.count} * a.components; ++k)
         require(std::isfinite(a.values[k]));
-      for (uint32_t k = 0; k < a.count && a.domain == ANIC_DOMAIN_POLYGONS; ++k)
+      for (uint32_t k = 0; k < a.count && a.domain == ANIC_DOMAIN_POLYGONS && a.components == 0;
+           ++k)
         require(a.labels[k] <= a.label_count);
     }
     for (uint32_t p = 0; p < polygons.polygon_count; ++p)
