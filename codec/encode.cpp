@@ -206,12 +206,9 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options, 
   if (!options.metadata.empty())
     input.layout.metadata = checked_metadata(options.metadata);
   ClipSearch search(input, stored, options, searched);
-  constexpr double kOfOneBasis = 0.45;  // of the trials of all
-  const double expected =
-      search.expected_trials() * (options.basis == BasisChoice::kAuto ? 1 : kOfOneBasis);
-  SearchProgress steps(progress, expected);
+  SearchProgress steps(progress);
   input.without = options.without;
-  input.on_trial = [&steps] { steps.trial(); };
+  input.progress = &steps;
   CodedClip coded = search.run(record);
   if (lossless)
     keep_exact(input, coded.positions);

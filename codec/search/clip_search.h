@@ -40,9 +40,6 @@ class ClipSearch {
   /// `record`: for the size of the file. Throws Error(kUsage) when the target cannot be reached.
   CodedClip run(const ClipsRecord& record);
 
-  /// About how many trials of coders run() makes.
-  double expected_trials() const { return control_.expected_trials(); }
-
   /// The trials of the first search of the positions.
   const std::vector<Trial>& trials() const { return control_.trials(); }
 

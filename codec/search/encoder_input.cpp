@@ -83,7 +83,7 @@ EncoderInput::EncoderInput(const EncoderInput& all, size_t number)
       pose(all.pose),
       without(all.without),
       memory(all.memory),
-      on_trial(all.on_trial) {
+      progress(all.progress) {
   InputClip& clip = clips[0];
   const FrameView frames = all.frames(clip.frames.first, clip.frames.count);
   coded.assign(frames.frame(0), frames.frame(0) + size_t{3} * copies.size() * clip.frames.count);
@@ -101,7 +101,7 @@ EncoderInput::EncoderInput(const EncoderInput& clip_input, const Topology& surfa
       clips(clip_input.clips),
       copies(surface.coded_vertices, 0),
       memory(clip_input.memory),
-      on_trial(clip_input.on_trial) {
+      progress(clip_input.progress) {
   layout.topology = surface;
   layout.source_coded.assign(surface.vertex_coded.begin(), surface.vertex_coded.end());
   layout.sizes.source_vertices = static_cast<uint32_t>(surface.vertex_coded.size());

@@ -6,6 +6,7 @@
 #include "codec/connectivity/mesh_layout.h"
 #include "codec/file/encoding_memory.h"
 #include "codec/file/target.h"
+#include "codec/search/search_progress.h"
 #include "codec/segment/encoded_segment.h"
 #include "codec/sequence/frame_view.h"
 #include "codec/sequence/mesh_sequence.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -133,12 +133,16 @@ struct EncoderInput {
   /// Whether a search may do what has this name among search_means().
   bool allows(const char* mean) const { return std::ranges::find(without, mean) == without.end(); }
 
-  /// Called by coders before every trial, which is what takes time, in any thread; may be empty.
-  std::function<void()> on_trial;
+  SearchProgress* progress = nullptr;  ///< told of all steps, in any thread; null: nobody is
 
-  void begin_trial() const {
-    if (on_trial)
-      on_trial();
+  void begin(SearchStep step) const {
+    if (progress)
+      progress->begin(step);
+  }
+
+  void expect(const TrialsLeft& left) const {
+    if (progress)
+      progress->expect(left);
   }
 };
 

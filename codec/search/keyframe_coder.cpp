@@ -95,7 +95,7 @@ const MsgiFit& KeyframeCoder::fit(double rmse) {
 }
 
 std::optional<CodedPart> KeyframeCoder::coded(const MsgiFit& fit, double rounding_rms) {
-  input_.begin_trial();
+  input_.begin(SearchStep::kTrial);
   const auto count = static_cast<double>(fit.fit.keyframes.size());
   const MemoryShare memory =
       input_.take_memory(input_.sequence.frame_count, "the key-frames that the error takes",

@@ -206,16 +206,21 @@ void LinearCoder::set_step(const LinearBasis& b, double rmse, LinearSettings& se
   }
 }
 
+void LinearCoder::begin(const LinearChoice& choice) const {
+  const bool all_means = choice.settings.joint_lambda > 0 || choice.settings.refit_weights;
+  input_.begin(all_means ? SearchStep::kThoroughTrial : SearchStep::kTrial);
+}
+
 LinearCoder::Measured LinearCoder::measured(const LinearChoice& choice, double rmse) {
-  input_.begin_trial();
+  begin(choice);
   return trial(choice, rmse);
 }
 
 std::vector<LinearCoder::Measured> LinearCoder::measured(const std::vector<LinearChoice>& choices,
                                                          double rmse) {
   std::vector<Measured> trials(choices.size());
-  for (size_t i = 0; i < choices.size(); ++i)
-    input_.begin_trial();
+  for (const LinearChoice& choice : choices)
+    begin(choice);
   parallel_tasks(choices.size(), [&](size_t i) { trials[i] = trial(choices[i], rmse); });
   return trials;
 }
@@ -350,10 +355,14 @@ void LinearCoder::try_regions(double rmse) {
     } catch (const OverMemory&) {  // fewer regions may do, and one does
     }
   }
-  parallel_tasks(counts.size(), [&](size_t i) { analysis_of(counts[i]); });
+  parallel_tasks(counts.size(), [&](size_t i) {
+    input_.begin(SearchStep::kAnalysis);
+    analysis_of(counts[i]);
+  });
   for (const uint32_t regions : counts) {
     LinearChoice cut = choice_;
     cut.regions = regions;
+    input_.begin(SearchStep::kAnalysis);
     try {
       cut = started(cut, rmse);
       if (expected_bytes(cut) < kWorthTrying * whole)

@@ -123,6 +123,7 @@ class LinearCoder : public SegmentCoder {
   static Probed probed(const Measured& trial, double rmse);
   LinearChoice started(LinearChoice choice, double rmse);
   void set_step(const LinearBasis& b, double rmse, LinearSettings& settings) const;
+  void begin(const LinearChoice& choice) const;
   Measured measured(const LinearChoice& choice, double rmse);
   /// The same of several, at the same time.
   std::vector<Measured> measured(const std::vector<LinearChoice>& choices, double rmse);

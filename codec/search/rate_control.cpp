@@ -33,6 +33,10 @@ constexpr double kHopelessMsgi = 8;
 
 Solution RateControl::solve() {
   notes_.clear();
+  constexpr double kProbes = 6;
+  TrialsLeft all = search_.expected(1);
+  all.plain += kProbes;
+  input_.expect(all);
   std::optional<Solution> best;
   const bool apart = input_.bounds_differ();
   try {
@@ -102,6 +106,7 @@ Solution RateControl::solve_within(double bytes) {
 }
 
 void RateControl::add_keyframe_coder(Reconstruction reconstruction) {
+  input_.begin(SearchStep::kAnalysis);
   keyframe_coders_.push_back(std::make_unique<KeyframeCoder>(
       input_, options_.select, options_.keyframes, options_.keyframe_poses, reconstruction));
 }
@@ -226,11 +231,13 @@ std::optional<Solution> RateControl::by_linear_bases() {
   if (!analysis_) {
     analysis_.emplace(input_.frames());
     linear_coders_ = linear_coders(*analysis_);
+    input_.expect(search_.expected(linear_coders_.size()));
   }
   std::vector<SegmentCoder*> coders;
   for (const std::unique_ptr<LinearCoder>& coder : linear_coders_)
     coders.push_back(coder.get());
   std::optional<Solution> best = search_.best_of(coders);
+  input_.expect(search_.expected(0));
   if (!best || options_.effort == 0)
     return best;
   const BasisKind kind = best->parts[0].encoded.sizes.kind;

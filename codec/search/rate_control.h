@@ -31,9 +31,6 @@ class RateControl {
   /// The same for another size of the file, with the settings that were chosen before.
   Solution solve_within(double bytes);
 
-  /// About how many trials of the coders solve() makes.
-  double expected_trials() const { return search_.expected_trials(); }
-
   const std::vector<Trial>& trials() const { return search_.files().trials(); }
 
   /// A kind of basis that was left alone, and why.

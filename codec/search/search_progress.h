@@ -5,34 +5,59 @@
 
 #include "codec/sequence/progress.h"
 
-#include <atomic>
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 namespace anicodec {
 
-/// Tells how far a search is whose length is known only roughly: the part done never falls, and
-/// creeps towards 1 when more trials are made than were expected. Trials may be made in any thread; only that of the
-/// constructor is told of them.
+/// What a search begins.
+enum class SearchStep : uint8_t {
+  kTrial,          ///< of settings, or of key-frames
+  kThoroughTrial,  ///< with joint rounding and refitted weights
+  kAnalysis        ///< what is no trial and takes as long as some
+};
+
+/// Trials that a search expects to make yet.
+struct TrialsLeft {
+  double plain = 0, thorough = 0;
+};
+
+/// Tells how far a search is: the time it has taken, over that and the time of the trials to come, each of which is
+/// expected to take the median of those of its kind so far. The part never falls. Safe for threads; only that of the
+/// constructor tells.
 class SearchProgress {
  public:
-  SearchProgress(const Progress& progress, double expected_trials)
-      : progress_(progress), expected_(expected_trials) {}
+  using Clock = std::function<double()>;  ///< seconds since any moment
 
-  /// One more trial is about to begin.
-  void trial() {
-    const int before = trials_++;
-    if (progress_ && std::this_thread::get_id() == owner_)
-      progress_("encoding", part(before / expected_));
-  }
+  /// `progress` must outlive the object.
+  explicit SearchProgress(const Progress& progress);
+  SearchProgress(const Progress& progress, Clock clock);
+
+  /// What is left from now on, the step at work not counted.
+  void expect(const TrialsLeft& left);
+
+  /// The step before, if there is one, has ended.
+  void begin(SearchStep step);
 
  private:
-  static double part(double x) { return x < 0.8 ? x : 1 - 0.2 * std::exp(-(x - 0.8) / 0.2); }
+  static constexpr size_t kKinds = 2;  ///< of trials
+
+  void tell();
+  double part(double now) const;
 
   const Progress& progress_;
-  double expected_;
-  std::atomic<int> trials_ = 0;
+  Clock clock_;
   std::thread::id owner_ = std::this_thread::get_id();
+  std::mutex mutex_;
+  double start_, step_start_;
+  SearchStep step_ = SearchStep::kAnalysis;
+  double left_[kKinds] = {};
+  std::vector<double> seconds_[kKinds];  ///< of each trial so far
+  double part_ = 0;
 };
 
 }  // namespace anicodec

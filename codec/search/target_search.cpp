@@ -4,10 +4,12 @@
 
 #include "codec/parallel/parallel.h"
 #include "codec/search/clip_bounds.h"
+#include "codec/search/linear_steps.h"
 #include "codec/search/motion_error.h"
 #include "codec/sequence/error.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -229,12 +231,16 @@ std::optional<Solution> TargetSearch::reach(SegmentCoder& coder, const Solution*
 std::optional<Solution> TargetSearch::best_of(std::span<SegmentCoder* const> coders) {
   const std::optional<double> rmse = rmse_asked();
   std::vector<std::optional<CodedPart>> parts(coders.size());
+  std::atomic<size_t> left = coders.size();
   if (rmse)
     parallel_tasks(coders.size(), [&](size_t i) {
       parts[i] = within_bounds(*coders[i], input_, 0, *rmse);
+      input_.expect(expected(--left));
     });
   std::optional<Solution> best;
   for (size_t i = 0; i < coders.size(); ++i) {
+    if (!rmse)
+      input_.expect(expected(left--));
     keep_better(rmse ? listed(std::move(parts[i])) : reach(*coders[i], best ? &*best : nullptr),
                 &best);
   }
@@ -282,24 +288,30 @@ double TargetSearch::typical_rmse(SegmentCoder& coder) {
   }
 }
 
-double TargetSearch::expected_trials() const {
-  constexpr double kOfOneError = 3;  // until an error is met
+TrialsLeft TargetSearch::expected(size_t coders) const {
+  // From searches of dance, horse, chicken, face and flag, default effort (tests/codec/search/recorded_searches.h).
+  // Cuts in time and key-frames come last.
+  constexpr double kOfOneError = 7, kOfSeveral = 17.2, kOfSize = 30, kLast = 2, kWithoutEffort = 3;
   if (effort_ == 0)
-    return kOfOneError;
-  // Calls of the progress of Python's encode(), counted with limb and helix of the corpus at efforts 1 to 9: 36 to 122
-  // for a largest error, half as many for a mean one, half as many more for a size.
-  const double trials = 34 + 6.5 * effort_;
+    return {kWithoutEffort, 0};
+  double trials = kOfOneError;
   switch (target_.metric) {
     case ErrorMetric::kMaxError:
     case ErrorMetric::kDisplacement:
     case ErrorMetric::kSted:
-      return trials;
+      trials = kOfSeveral;
+      break;
     case ErrorMetric::kSize:
     case ErrorMetric::kBpfv:
-      return 1.5 * trials;
+      trials = kOfSize;
+      break;
     default:
-      return 0.5 * trials;
+      break;
   }
+  const auto of_all = static_cast<double>(coders);
+  if (effort_ == 1)  // nothing is thorough
+    return {of_all * trials + kLast, 0};
+  return {of_all * static_cast<double>(steps_up_to(effort_)), of_all * trials + kLast};
 }
 
 }  // namespace anicodec
