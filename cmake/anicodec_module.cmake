@@ -11,7 +11,7 @@ set(ANICODEC_PIC ON)
 if(EMSCRIPTEN)
   set(ANICODEC_PIC OFF)
 endif()
-# What makes a flag of Clang one of clang-cl, which only warns of most that it does not know.
+# This prefix makes a flag of Clang one of clang-cl, which only warns of most that it does not know.
 set(ANICODEC_FLAG "")
 if(MSVC)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")

@@ -17,7 +17,7 @@
 
 namespace anicodec::usd {
 
-/// What a layer holds: prims and attributes with their fields, and samples that are made when they are asked for. Read only.
+/// The contents of a layer: prims and attributes with their fields, and samples that are made when they are asked for. Read only.
 ///
 /// Field names are tokens of its own: the members of SdfFieldKeys move when a release adds one. It derives from SdfAbstractData,
 /// which has no members, so that none of SdfData's layout counts.

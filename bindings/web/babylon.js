@@ -205,7 +205,7 @@ export class AnicGLTFExtension {
     const bytes = file.bufferView === undefined ? await loader.loadUriAsync(path, file, file.uri)
       : await loader.loadBufferViewAsync(path, loader.gltf.bufferViews[file.bufferView]);
     const clip = await open(bytes, this.options);
-    // What goes into a container is not in the scene yet.
+    // Entities of a container are not in the scene yet.
     scene._blockEntityCollection = !!container;
     const player = new ScenePlayer(EXTENSION, clip, scene, { inSource: true });
     scene._blockEntityCollection = false;

@@ -4,8 +4,8 @@
 """Makes libraries to link with in place of this machine's glibc: glibc_stubs.py VERSION OUT.
 
 They offer what glibc of that version offers, under the versions that it knows, so that a program linked with them runs on it
-and on all later ones. Their functions are empty: the real ones are found when the program starts. What this glibc has and the
-older one lacks is missing, and the linker says so; old_glibc.c has the few that are needed.
+and on all later ones. Their functions are empty: the real ones are found when the program starts. A function that this glibc has
+and the older one lacks is missing, and the linker says so; old_glibc.c has the few that are needed.
 """
 import pathlib
 import re

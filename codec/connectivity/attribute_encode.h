@@ -40,7 +40,7 @@ struct StoredAttribute {
   std::vector<uint32_t> rows;  ///< the source's element of each element in canonical order
   bool moves =
       false;  ///< some frame has other values than the first. Normals and tangents follow from positions
-  // Of one that moves:
+  // An attribute that moves has also
   double bound = 0;  ///< the largest error that it may have
   std::vector<float>
       rest;  ///< values of the first frame as decoders get them: elements of the source x components

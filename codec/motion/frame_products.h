@@ -24,8 +24,8 @@ class FrameProducts : public MotionProducts {
   TimeComponents beyond_pose(const Eigen::MatrixXd& pose, Eigen::Index most,
                              double smallest) const override;
 
-  /// Those of some of the frames about their own mean position, which is `shift` from the origin; the sums are
-  /// about that. Nothing where too little of the numbers would be left. Cost O(frames^2).
+  /// Products of some of the frames about their own mean position, which is `shift` from the origin; the sums are
+  /// about that. Null if too little of the numbers would be left. Cost O(frames^2).
   std::unique_ptr<const FrameProducts> of_frames(size_t first, size_t count,
                                                  const Eigen::Vector3d& shift,
                                                  const Eigen::VectorXd& sums) const;

@@ -54,7 +54,7 @@ class MotionProducts {
                                      double smallest) const = 0;
 };
 
-/// Those of a clip, which must outlive them: frame by frame, vertex by vertex, or by a sketch. `sums`: of the
+/// The products of a clip, which must outlive them: frame by frame, vertex by vertex, or by a sketch. `sums`: of the
 /// coordinates over the vertices, 3 frames.
 std::unique_ptr<const MotionProducts> motion_products(const FrameView& clip,
                                                       const Eigen::Vector3d& origin,

@@ -40,7 +40,7 @@ struct Nearness {
   double close, enough, aim;
 };
 
-// Of no effort. `anicodec_bench live` of dance, chicken, face, flag and horse took up to 3 % fewer bytes by this than by 0.93 and
+// For searches of no effort. `anicodec_bench live` of dance, chicken, face, flag and horse took up to 3 % fewer bytes by this than by 0.93 and
 // 0.97, and 1 to 16 % fewer by the lambda of pieces and weights that are fitted to what was decoded, all in as much time.
 constexpr Nearness kFirst{0.97, 0.97, 0.985};
 constexpr double kPieceLambda = 0.17;  // of pieces of live streams

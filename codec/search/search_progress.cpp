@@ -9,9 +9,9 @@
 namespace anicodec {
 namespace {
 
-// Until one was made: 1.6 to 3 on dance, horse, chicken and face.
+// Assumed until a thorough trial was made: 1.6 to 3 on dance, horse, chicken and face.
 constexpr double kThoroughOverPlain = 2.5;
-// Of the time so far, though more trials are made than were expected.
+// The part of the time so far that is left at least, though more trials are made than were expected.
 constexpr double kLeastLeft = 0.05;
 
 double steady_seconds() {

@@ -14,7 +14,7 @@
 
 namespace anicodec {
 
-/// What a search begins.
+/// A step of a search.
 enum class SearchStep : uint8_t {
   kTrial,          ///< of settings, or of key-frames
   kThoroughTrial,  ///< with joint rounding and refitted weights
@@ -37,7 +37,7 @@ class SearchProgress {
   explicit SearchProgress(const Progress& progress);
   SearchProgress(const Progress& progress, Clock clock);
 
-  /// What is left from now on, the step at work not counted.
+  /// The trials from now on, the step at work not counted.
   void expect(const TrialsLeft& left);
 
   /// The step before, if there is one, has ended.

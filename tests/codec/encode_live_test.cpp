@@ -183,7 +183,7 @@ TEST(LiveEncoder, CodesAttributesThatMove) {
       has_mesh.push_back(piece.has_mesh);
       stream.insert(stream.end(), piece.file.begin(), piece.file.end());
     }
-    // Where corners part that moved as one, a mesh begins that has them apart.
+    // A new mesh begins when corners part that moved as one.
     EXPECT_EQ(has_mesh, (std::vector<bool>{true, false, parts_at < 100, false}));
     uint32_t first = 0;
     for (const Bytes& file : read_live_stream({"stream", stream}).files) {

@@ -237,7 +237,7 @@ def run_python(script, *arguments, **environment):
     return result.stdout + result.stderr
 
 
-# Opens each file, and asks all attributes for a few samples. What is refused is refused by an exception of a line.
+# Opens each file, and asks all attributes for a few samples. A refusal is an exception of a line.
 OPEN_ALL = """
 import pathlib, sys
 from pxr import Sdf, Tf, Usd

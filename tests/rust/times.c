@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * SPDX-FileCopyrightText: The anicodec authors
  *
- * What bindings/rust/anicodec/examples/times.rs prints, in C.
+ * The times that bindings/rust/anicodec/examples/times.rs prints, in C.
  *
  * usage: times CLIP.anic [ROUNDS]
  */

@@ -55,8 +55,8 @@ values), segments (mesh, basis, of, reconstruction, first_frame, frames, compone
 corrections; coder of key-frames), chunks (type, offset, size, required, mesh, segment). Lengths are
 in scene units, errors those the encoder measured. A live stream is described as the clip that its
 files make, with stream: files (offset, bytes, start_time, frames, has_mesh, key: begins anew,
-plays), losses, incomplete_bytes. Where a file was lost there is the stream alone, and the status
-is 3; the same, with status 0, of files that have different meshes.)";
+plays), losses, incomplete_bytes. If a file was lost, the stream stands alone, and the status is
+3; the same, with status 0, of files that have different meshes.)";
 
 struct Contents {
   uint64_t bytes = 0;

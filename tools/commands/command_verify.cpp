@@ -29,8 +29,8 @@ namespace {
 constexpr const char* kVerifyFooter =
     R"(Checks every byte: header, table, the checksum of every chunk, and padding; decodes everything;
 compares the decoded integers with the hash the encoder stored; plays every frame, which must lie in
-the boxes that the file keeps. No source is needed. Of a live stream the files are checked one after
-the other, and a lost one is named.
+the boxes that the file keeps. No source is needed. The files of a live stream are checked one
+after the other, and a lost one is named.
 
 --json prints an object for each file: file, ok, bytes, chunks, frames, meshes; of a live stream
 files, keys (that begin anew) and incomplete_bytes instead of meshes; of one that fails: error,

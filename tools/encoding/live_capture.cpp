@@ -171,7 +171,7 @@ void check_goes_with(const EncodeArguments& command) {
   refuse(!command.events.empty(), "--event");
 }
 
-/// What is said of a file of the stream, at once: a program may wait for it.
+/// Prints the line of a file of the stream, at once: a program may wait for it.
 void report(const QueuedPiece& piece, double rate, const CommonOptions& common) {
   if (common.json) {
     print_json({{"start", piece.start_time},

@@ -34,7 +34,7 @@ ErrorKind error_kind(Status status);
 /// (clip_of_glb), those of the clip. Throws Error(kInput).
 std::string read_clip_bytes(const std::string& path);
 
-/// Those of the clip that the files of a live stream make; what has not arrived in full is left out, and said so.
+/// The bytes of the clip that the files of a live stream make; a file that has not arrived in full is left out, and named.
 std::string join_stream(const std::string& path, const std::string& stream);
 
 /// The bytes of a clip: of a live stream, join_stream(). Throws Error(kInput).

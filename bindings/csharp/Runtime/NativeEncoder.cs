@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Of encode.h, what live streams need, as it is: fields keep the names of the header, and tests compare their offsets with those
+// The part of encode.h that live streams need, as it is: fields keep the names of the header, and tests compare their offsets with those
 // of a C compiler.
 using System;
 using System.Runtime.InteropServices;

@@ -252,7 +252,7 @@ class Mesh:
 
 class Clip:
     """An opened .anic file. With one mesh it is used as that: `clip[10]`, `clip.at(0.5)`, `clip.faces`; with several,
-    `clip.meshes` has them. Of a file with several clips, frames count through those that were opened; name, clock and
+    `clip.meshes` has them. In a file with several clips, frames count through those that were opened; name, clock and
     errors are those of the first of them. Can be pickled; threads may share it."""
 
     def __init__(self, data: bytes, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = (),
@@ -263,7 +263,7 @@ class Clip:
         self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
         self.info["up"] = UP[self.info["up"]]
         self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
-        #: What was opened of the file; frames count through it.
+        #: The clips that were opened; frames count through them.
         self.clips = tuple(ClipInfo(**{**c, "fps": Fraction(*c["fps"])}) for c in self._asset.clips())
 
     @property

@@ -166,7 +166,7 @@ class Encoder {
 
   nb::tuple encode(const nb::dict& choices, const nb::object& progress);
 
-  /// Of a clip without frames; 0 as of anic_live_options.
+  /// A live stream of a clip without frames; 0 means what it does in anic_live_options.
   Live begin_live(const nb::dict& choices, double piece, double key_every, double box,
                   uint64_t most_waiting);
 

@@ -38,7 +38,7 @@ const PLAY_AVX512: (&str, Flags) = (
 #[derive(Clone, Copy, PartialEq)]
 struct Flags {
     level: u32,
-    /// Of x86-64 alone.
+    /// Flags for x86-64 alone.
     instructions: &'static [&'static str],
 }
 

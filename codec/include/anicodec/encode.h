@@ -22,8 +22,8 @@
  *   anic_destroy_encoder(encoder);
  *
  * Conventions
- * - Threads: an encoder is used by one thread at a time; different encoders are independent. Of a live
- *   stream, one thread may push while another takes.
+ * - Threads: an encoder is used by one thread at a time; different encoders are independent. One
+ *   thread may push frames of a live stream while another takes its files.
  *   anic_encode() starts threads unless anic_encode_options say 1. The bytes of the
  *   file do not depend on their number.
  * - Memory: malloc(). While anic_encode() runs it holds all positions as float32, and about twice
@@ -134,8 +134,8 @@ typedef struct anic_source_mesh {
   const uint32_t* offsets; /**< polygon p has the corners offsets[p] .. offsets[p + 1] - 1;
                               polygon_count + 1 numbers. NULL: all polygons are triangles */
   const uint32_t* corners; /**< vertex of each corner; NULL without polygons */
-  const void* positions;   /**< x of vertex 0 in frame 0, any alignment; NULL: read() gives them. Of a
-                              live clip there is neither */
+  const void* positions;   /**< x of vertex 0 in frame 0, any alignment; NULL: read() gives them. A
+                              live clip has neither */
   ptrdiff_t vertex_stride; /**< bytes from a vertex to the next; 0: packed */
   ptrdiff_t frame_stride;  /**< bytes from a frame to the next; 0: the frames follow one another */
   anic_scalar scalar;      /**< of positions */

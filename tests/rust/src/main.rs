@@ -317,7 +317,7 @@ fn joined<'a>(files: &'a [OpenFile]) -> Result<NamedClip<'a>, Failure> {
 struct OpenFile {
     clip: Clip,
     metadata: Option<String>,
-    /// Of each mesh and frame.
+    /// The box of each mesh and frame.
     boxes: Vec<Vec<Option<Bounds>>>,
 }
 

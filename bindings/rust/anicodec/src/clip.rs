@@ -120,7 +120,7 @@ impl Clip {
         check(unsafe { sys::anic_verify_asset(self.raw()) })
     }
 
-    /// What the file says of all its clips and meshes.
+    /// The facts of all clips and meshes.
     pub fn info(&self) -> Info<'_> {
         // Asked for with an asset and a struct, it cannot fail.
         let raw = fill(|out| {
@@ -200,7 +200,7 @@ impl Clip {
         Ok(RootMotion::from_raw(&raw))
     }
 
-    /// What moves a character on from one time of a clip to another, in the axes that it has at the first: loops go on from
+    /// The motion that takes a character from one time of a clip to another, in the axes that it has at the first: loops go on from
     /// where they end, any number of times. Either time may be the earlier one.
     ///
     /// ```
@@ -289,11 +289,11 @@ impl Default for Rate {
     }
 }
 
-/// What a file says of all its clips and meshes: [`Clip::info`]. Each clip has a clock and errors: [`NamedClip`].
+/// The facts of all clips and meshes of a file: [`Clip::info`]. Each clip has a clock and errors: [`NamedClip`].
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Info<'a> {
-    /// Of the first clip.
+    /// The name of the first clip.
     pub name: Text<'a>,
     /// The program that wrote the file.
     pub encoder: Text<'a>,
@@ -301,7 +301,7 @@ pub struct Info<'a> {
     pub mesh_count: u32,
     /// How many segments: what [`Clip::basis`] counts.
     pub segment_count: u32,
-    /// Of all clips.
+    /// The frames of all clips.
     pub frame_count: u32,
     /// The axis that points up.
     pub up: UpAxis,
@@ -367,13 +367,13 @@ pub struct NamedClip<'a> {
     pub massaged: bool,
     /// [`OpenOptions::clips`] names it, or none.
     pub is_open: bool,
-    /// Of its first frame on the clock of the source, seconds: for tools alone. Times of this crate count from that frame.
+    /// The time of its first frame on the clock of the source, seconds: for tools alone. Times of this crate count from that frame.
     pub start_time: f64,
     /// Seconds from the first frame to the last.
     pub duration: f64,
     /// Seconds of one turn of [`Wrap::Loop`].
     pub loop_duration: f64,
-    /// Of the box around its frames of the source.
+    /// The diagonal of the box around its frames of the source.
     pub diagonal: f64,
     /// Largest distance of a vertex from its place in the source, at full quality.
     pub max_error: f64,

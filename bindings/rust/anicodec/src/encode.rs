@@ -47,7 +47,7 @@ pub struct SourceClip<'a> {
     pub up: UpAxis,
     /// Meant to be repeated.
     pub is_loop: bool,
-    /// Of frame 0 on the clock of the source, seconds.
+    /// The time of frame 0 on the clock of the source, seconds.
     pub start_time: f64,
     /// 0: unknown.
     pub metres_per_unit: f64,
@@ -83,11 +83,11 @@ pub struct SourceAttribute<'a> {
     pub name: &'a str,
     /// The meaning.
     pub kind: AttributeKind,
-    /// What has a value.
+    /// The elements that have a value each.
     pub domain: Domain,
     /// Numbers of an element; 0: it has `labels`.
     pub components: u32,
-    /// Of all elements in frame 0, or in each frame of the mesh; empty in a live clip: it moves, and each frame has its own.
+    /// The values of all elements in frame 0, or in each frame of the mesh; empty in a live clip: it moves, and each frame has its own.
     pub values: &'a [f32],
     /// One for each element: 0 for none, or one more than the number of a name; of normals those that share one.
     pub labels: &'a [u32],
@@ -214,7 +214,7 @@ enumeration! {
 }
 
 enumeration! {
-    /// What codes the poses of key-frames.
+    /// The coder of the poses of key-frames.
     KeyframeCoder: Native {
         /// Any decoder plays the file.
         Native = ANIC_KEYFRAMES_NATIVE,
@@ -232,7 +232,7 @@ enumeration! {
         Off = ANIC_MASSAGE_OFF,
         /// Always.
         On = ANIC_MASSAGE_ON,
-        /// Where the file becomes smaller.
+        /// Only if the file becomes smaller.
         Auto = ANIC_MASSAGE_AUTO,
     }
 }
@@ -240,7 +240,7 @@ enumeration! {
 /// How to encode; the default is a largest error of 0.05 % of the size, for any vertex.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EncodeOptions<'a> {
-    /// What the file promises.
+    /// The promise of the file.
     pub goal: Goal,
     /// A length of `goal` is in per cent of the diagonal.
     pub percent: bool,
@@ -272,17 +272,17 @@ pub struct EncodeOptions<'a> {
     pub selection: Selection,
     /// How frames come from them.
     pub interpolation: Interpolation,
-    /// What codes them.
+    /// Their coder.
     pub keyframe_coder: KeyframeCoder,
     /// Whether vertices are moved first.
     pub massage: Massage,
-    /// Of shape against distance, between 0 and 1; 0 means 0.5.
+    /// The weight of shape against distance, between 0 and 1; 0 means 0.5.
     pub massage_strength: f64,
     /// How far the surface may move; 0: any.
     pub massage_tolerance: f64,
     /// Texture coordinates in steps of 2^-uv_bits; 0 means 12.
     pub uv_bits: u32,
-    /// Of a component of a colour; 0 means 8.
+    /// Colours in so many bits for each component; 0 means 8.
     pub colour_bits: u32,
     /// Largest error of attributes that change; 0: half a step of `colour_bits` for colours, 0.1 % of their range for others.
     pub attribute_error: f64,
@@ -306,17 +306,17 @@ pub struct Encoding {
     pub rmse: f64,
     /// KG error, per cent.
     pub kg: f64,
-    /// Of the box around all frames of all clips.
+    /// The diagonal of the box around all frames of all clips.
     pub diagonal: f64,
     /// How far massage moved the surface at most.
     pub surface_error: f64,
-    /// Of the largest basis.
+    /// The components of the largest basis.
     pub components: u32,
-    /// Of the first mesh.
+    /// The basis of the first mesh.
     pub basis: BasisKind,
     /// Vertices were moved first.
     pub massaged: bool,
-    /// Of a vertex's move from frame to frame.
+    /// The largest error of a vertex's move from frame to frame.
     pub max_displacement_error: f64,
 }
 
@@ -649,11 +649,11 @@ impl Drop for Live {
 pub struct Piece {
     /// The bytes.
     pub file: Vec<u8>,
-    /// Of the frames that were pushed.
+    /// The number of its first frame, counted from the first that was pushed.
     pub first_frame: u64,
     /// How many frames it has.
     pub frame_count: u32,
-    /// Of its first frame, on the clock of the clip.
+    /// The time of its first frame, on the clock of the clip.
     pub start_time: f64,
     /// That encoding took.
     pub encode_seconds: f64,
@@ -677,7 +677,7 @@ pub struct LiveInfo {
     pub pushed_frames: u64,
     /// Frames of which no file is made yet.
     pub waiting_frames: u64,
-    /// Of these, frames of full files that are not begun: 0 while the encoder keeps up.
+    /// Waiting frames of full files that are not begun: 0 while the encoder keeps up.
     pub late_frames: u64,
     /// Files made, and not taken.
     pub waiting_pieces: u64,

@@ -11,7 +11,7 @@ pub type Result<T, E = Error> = core::result::Result<T, E>;
 
 macro_rules! statuses {
     ($($(#[$doc:meta])* $variant:ident = $number:ident,)*) => {
-        /// What was wrong, by the numbers of the format (spec/12).
+        /// The kind of fault, by the numbers of the format (spec/12).
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Status {
@@ -97,7 +97,7 @@ statuses! {
     Draco = ANIC_E_DRACO,
     /// A segment contradicts its counts or its mesh.
     Segment = ANIC_E_SEGMENT,
-    /// What was decoded is not what the encoder meant.
+    /// The decoded integers are not those of the encoder.
     Hash = ANIC_E_HASH,
     /// A file of a live stream follows one with other meshes.
     Meshes = ANIC_E_MESHES,
@@ -154,7 +154,7 @@ impl fmt::Debug for Chunk {
     }
 }
 
-/// What went wrong.
+/// A fault, and its place.
 ///
 /// ```
 /// use anicodec::{Clip, Error, Status};
@@ -175,7 +175,7 @@ pub enum Error {
     /// A file is refused, with the place of its fault.
     #[non_exhaustive]
     File {
-        /// What is wrong: no format, container or payload, or [`Status::Limit`].
+        /// The kind of fault: no format, container or payload, or [`Status::Limit`].
         status: Status,
         /// The chunk; none outside any.
         chunk: Option<Chunk>,
@@ -187,7 +187,7 @@ pub enum Error {
     /// A call makes no sense, is not possible now, or has no memory.
     #[non_exhaustive]
     Call {
-        /// What is wrong.
+        /// The kind of fault.
         status: Status,
         /// More of it in English, or nothing.
         detail: &'static str,
@@ -196,7 +196,7 @@ pub enum Error {
     #[cfg(feature = "encoder")]
     #[non_exhaustive]
     Encode {
-        /// What is wrong.
+        /// The kind of fault.
         status: Status,
         /// The place and the reason, in a line of English.
         text: alloc::string::String,
@@ -204,7 +204,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// What was wrong.
+    /// The kind of fault.
     pub fn status(&self) -> Status {
         match self {
             Self::File { status, .. } | Self::Call { status, .. } => *status,

@@ -62,7 +62,7 @@ pub struct Basis<'a> {
     pub kind: BasisKind,
     /// How positions come from it.
     pub reconstruction: Reconstruction,
-    /// What it moves.
+    /// The quantity that it moves.
     pub target: Target,
     /// The mesh that it is of.
     pub mesh: u32,
@@ -80,7 +80,7 @@ pub struct Basis<'a> {
     pub channels: u32,
     /// Weights of a component: 1 for vectors, 3 for numbers.
     pub weight_channels: u32,
-    /// Of key-frames: added to every vertex before the motion.
+    /// The origin of key-frames, added to every vertex before the motion.
     pub origin: [f32; 3],
     /// Empty: none.
     pub pose: &'a [f32],
@@ -88,7 +88,7 @@ pub struct Basis<'a> {
     pub wide: &'a [i32],
     /// The others.
     pub narrow: &'a [i16],
-    /// Of the surface, each with weights and a pose_map of its own; 1: none.
+    /// Regions of the surface, each with weights and a pose_map of its own; 1: none.
     pub regions: u32,
     /// Region of each vertex; empty: all are of region 0.
     pub vertex_region: &'a [u8],
@@ -113,7 +113,7 @@ enumeration! {
 pub struct TextureLayout {
     /// Texels of a row.
     pub width: u32,
-    /// Of a layer: 1 unless the mesh has more vertices than a row may have texels.
+    /// Rows of a layer: 1 unless the mesh has more vertices than a row may have texels.
     pub rows: u32,
     /// Rows of the texture; 0: there is none.
     pub pose_height: u32,
@@ -251,7 +251,7 @@ pub struct Correction {
 /// - x = motion * (x + origin, 1)
 /// - x = x + delta of the corrections of v, which are few and ascending by vertex
 ///
-/// Where the basis has regions, r = `vertex_region[v]` has a pose_map and weights of its own. Matrices are 3 x 4, row-major.
+/// If the basis has regions, r = `vertex_region[v]` has a pose_map and weights of its own. Matrices are 3 x 4, row-major.
 /// Parts of geometry interpolation have neither weights nor pose maps: the CPU writes their positions.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -262,9 +262,9 @@ pub struct Part<'a> {
     pub share: f32,
     /// How many components are to be used: all unless [`Context::set_quality`](crate::Context::set_quality) said otherwise.
     pub components: u32,
-    /// Of region 0, then of the others.
+    /// The weights of region 0, then of the others.
     pub weights: &'a [f32],
-    /// Of each region; empty: the basis has no pose.
+    /// The map of each region; empty: the basis has no pose.
     pub pose_maps: &'a [[f32; 12]],
     /// The motion of the whole.
     pub motion: [f32; 12],
@@ -329,7 +329,7 @@ impl<'a> Shown<'a> {
             .collect()
     }
 
-    /// What a shader needs of one part, ready to be uploaded for each instance: `anicodec.h` tells its layout with
+    /// The numbers that a shader needs for one part, ready to be uploaded for each instance: `anicodec.h` tells its layout with
     /// `anic_write_state`.
     pub fn state(&self, part: u32) -> Result<Vec<f32>> {
         let parts = self.parts()?;

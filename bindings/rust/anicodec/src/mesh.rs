@@ -24,13 +24,13 @@ pub struct Mesh<'a> {
     pub number: u32,
     /// As in the source.
     pub name: Text<'a>,
-    /// Of the source, each once.
+    /// Vertices of the source, each once.
     pub vertex_count: u32,
     /// Distinct vertices: the others are copies that move along.
     pub coded_vertex_count: u32,
     /// Polygons as in the source.
     pub polygon_count: u32,
-    /// Of all polygons.
+    /// The corners of all polygons.
     pub corner_count: u32,
     /// After [`indices`](Self::indices) has cut the polygons.
     pub triangle_count: u32,
@@ -199,17 +199,17 @@ enumeration! {
     AttributeKind: Custom {
         /// Texture coordinates, v upwards: (0, 0) is the lower left corner of an image; some graphics interfaces want 1 - v.
         Uv = ANIC_ATTRIBUTE_UV,
-        /// Of the first frame. Without components: labels that say which corners share a normal.
+        /// Normals of the first frame. Without components: labels that say which corners share a normal.
         Normal = ANIC_ATTRIBUTE_NORMAL,
-        /// Of the first frame.
+        /// Tangents of the first frame.
         Tangent = ANIC_ATTRIBUTE_TANGENT,
         /// RGB or RGBA, 0 to 1.
         Colour = ANIC_ATTRIBUTE_COLOUR,
         /// Anything else.
         Custom = ANIC_ATTRIBUTE_CUSTOM,
-        /// Of polygons: names of materials.
+        /// Names of materials, for polygons.
         Material = ANIC_ATTRIBUTE_MATERIAL,
-        /// Of polygons: names of the meshes or objects of the source.
+        /// Names of the meshes or objects of the source, for polygons.
         Part = ANIC_ATTRIBUTE_PART,
     }
 }
@@ -237,7 +237,7 @@ pub struct Attribute<'a> {
     pub name: Text<'a>,
     /// Its meaning.
     pub kind: AttributeKind,
-    /// What has a value.
+    /// The elements that have a value each.
     pub domain: Domain,
     /// Elements of the domain.
     pub count: u32,

@@ -220,7 +220,7 @@ pub struct Requirements {
     pub resident_bytes: u64,
     /// Held at most while the file opens, resident bytes included, the bytes of the file excluded.
     pub opening_bytes: u64,
-    /// Of one context, at most.
+    /// Bytes of one context, at most.
     pub context_bytes: u64,
     /// How many meshes there are.
     pub mesh_count: u32,

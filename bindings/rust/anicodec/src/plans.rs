@@ -294,7 +294,7 @@ impl fmt::Debug for RenderPlan {
     }
 }
 
-/// What normals on a graphics card need: a normal is the sum of the cross products (next - centre) x (previous - centre)
+/// The sums that make normals on a graphics card: a normal is the sum of the cross products (next - centre) x (previous - centre)
 /// over the corners of a group, scaled to length one; (0, 0, 1) if that is 0.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalGroups<'a> {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
-//! What the C interface wants of its callers.
+//! Structs and strings as the C interface wants them.
 use core::ffi::{c_char, CStr};
 use core::mem::size_of;
 

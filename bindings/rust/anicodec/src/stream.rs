@@ -29,7 +29,7 @@ use crate::raw::{check, fill, init};
 /// ```
 pub struct Stream {
     raw: NonNull<sys::anic_stream>,
-    /// What the library reads until the stream goes.
+    /// The library reads them until the stream goes.
     _options: RawOptions,
 }
 
@@ -94,7 +94,7 @@ impl Stream {
         StreamInfo::from_raw(&raw.unwrap_or_else(|_| init()))
     }
 
-    /// What went wrong; none if nothing did.
+    /// The fault of the bytes that came; none if there is none.
     pub fn failure(&self) -> Option<Error> {
         let raw: Result<sys::anic_failure> = fill(|out| {
             // SAFETY: the stream lives.
@@ -131,9 +131,9 @@ pub struct StreamInfo {
     pub segment_count: u32,
     /// Segments that can be opened, coarsely at least.
     pub playable_segments: u32,
-    /// Of all segments: chunks with components of their bases.
+    /// Chunks with components of the bases of all segments.
     pub layers: u32,
-    /// Those that are there.
+    /// Layers that are there.
     pub arrived_layers: u32,
     /// [`Stream::open`] gives a clip that plays at least one segment of positions.
     pub playable: bool,

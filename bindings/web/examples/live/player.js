@@ -52,7 +52,7 @@ function bytesOf(socket, onText) {
 const output = document.querySelector('output'), canvas = document.querySelector('canvas');
 const surface = new SurfaceView(canvas), orbit = new Orbit(), timeline = new Timeline();
 let begin, before = performance.now(), told = 0;
-/** What a program may look at: seconds between capture and picture, pictures shown, losses by Anicodec.live(). */
+/** State for programs that look at the page: seconds between capture and picture, pictures shown, losses by Anicodec.live(). */
 const state = window.live = { delay: undefined, pictures: 0, losses: [], ended: false };
 
 function report() {
@@ -80,7 +80,7 @@ function show(now) {
 
 requestAnimationFrame(show);
 const socket = new WebSocket(`ws://${location.host}/live`);
-// What a page that joins late gets first is an old file with the meshes: nothing is lost behind it.
+// A page that joins late gets an old file with the meshes first: nothing is lost behind it.
 const onLoss = (loss) => timeline.time !== undefined && state.losses.push(loss);
 const clips = Anicodec.live(bytesOf(socket, (text) => ({ begin } = text)), { bounds: true, onLoss });
 for await (const clip of clips) {
