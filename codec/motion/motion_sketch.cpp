@@ -24,6 +24,9 @@ using Eigen::VectorXd;
 // comes next.
 constexpr Index kOfBase = 16;
 constexpr Index kFewestSketched = 48;
+// A space of all components has so many columns more: its first block lies in part outside of the motion, and so do those that
+// come when little of it is left. Noise of 592 to 608 vertices lost the last 8 to 16 components with half as many.
+constexpr Index kBeyondRank = 32;
 
 double energy_of(const FrameView& clip, const Vector3d& origin) {
   std::vector<double> squares(clip.frame_count, 0);
@@ -46,7 +49,7 @@ class MotionSketch::Rows {
     };
     const Index wanted = components + kOfBase, rank = static_cast<Index>(clip.vertex_count);
     const Eigenpairs pairs =
-        leading_eigenspace(times_gram, sums.size(), wanted, std::min(2 * wanted, rank));
+        leading_eigenspace(times_gram, sums.size(), wanted, std::min(2 * wanted, rank + kBeyondRank));
     energies_ = pairs.values;
     const Index rows = pairs.values.size();
     positions_.resize(clip.frame_count * static_cast<size_t>(3 * rows));

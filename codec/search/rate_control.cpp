@@ -83,7 +83,8 @@ std::optional<Solution> RateControl::of_all_clips() {
     best = by_keyframes_alone();
   } else {
     best = by_linear_bases();
-    if (tries_keyframes() && !(best && beats_keyframes(*best))) {
+    // In a long clip only if nothing else keeps the target.
+    if (tries_keyframes(!best) && !(best && beats_keyframes(*best))) {
       if (keyframe_coders_.empty())
         add_keyframe_coder(Reconstruction::kLinear);
       if (best && search_.rmse_asked())
@@ -92,7 +93,7 @@ std::optional<Solution> RateControl::of_all_clips() {
     }
     if (best && allows_msgi())
       try_msgi(&*best);
-    if (options_.basis == BasisChoice::kAuto && input_.sequence.frame_count > kMostMultiplied)
+    if (options_.basis == BasisChoice::kAuto && keyframe_coders_.empty() && input_.sequence.frame_count > kMostMultiplied)
       notes_.push_back("key-frames are not tried: the clip has more than " + std::to_string(kMostMultiplied) +
                        " frames");
   }
@@ -115,13 +116,13 @@ void RateControl::offer(SegmentCoder& coder, std::optional<Solution>* best) {
   search_.keep_better(search_.reach(coder, best->has_value() ? &**best : nullptr), best);
 }
 
-bool RateControl::tries_keyframes() const {
+bool RateControl::tries_keyframes(bool of_any_clip) const {
   return options_.basis == BasisChoice::kAuto && !input_.pose &&
-         input_.sequence.frame_count <= kMostMultiplied;
+         (of_any_clip || input_.sequence.frame_count <= kMostMultiplied);
 }
 
 bool RateControl::allows_msgi() const {
-  return tries_keyframes() && options_.effort > 0 &&
+  return tries_keyframes(false) && options_.effort > 0 &&
          options_.interpolation.value_or(InterpolationChoice::kAuto) != InterpolationChoice::kLinear &&
          input_.layout.sizes.triangles > 0;
 }

@@ -45,7 +45,7 @@ class RateControl {
   std::optional<Solution> by_linear_bases();
   LinearCoders linear_coders(const LinearAnalysis& analysis);
   void add_keyframe_coder(Reconstruction reconstruction);
-  bool tries_keyframes() const;
+  bool tries_keyframes(bool of_any_clip) const;
   bool allows_msgi() const;
   void try_msgi(Solution* best);
   void note(const std::string& reason);

@@ -142,6 +142,17 @@ TEST(MotionProducts, AcceptOneVertexAndAStillClip) {
   }
 }
 
+TEST(MotionProducts, HaveAllOfNoiseByASketch) {
+  const std::vector<float> noise = noise_values(size_t{3} * 60 * 44, 7);
+  const FrameView clip(noise.data(), 60, 44);
+  const MotionSketch sketch(clip, Vector3d::Zero(), VectorXd::Zero(180));
+  const MatrixXd span = VectorXd::Constant(44, 1 / std::sqrt(44.0));
+  for (const BasisKind kind : {BasisKind::kEigentrajectories, BasisKind::kEigenshapes}) {
+    const TimeComponents components = sketch.beyond_span(kind, span, 60, 0);
+    EXPECT_NEAR(components.energies.sum(), components.base_energy, 1e-5 * components.base_energy);
+  }
+}
+
 TEST(MotionProducts, AcceptNoVertices) {
   const FrameView clip(nullptr, 7, 0);
   const auto products = motion_products(clip, Vector3d::Zero(), VectorXd::Zero(21));
