@@ -52,7 +52,7 @@ export declare class AnicInstances extends Mesh {
   readonly madeByCpu: number;
   /** Makes what is drawn; the scene calls it before it renders. False while shaders are compiled. */
   update(): boolean;
-  /** What a ray hits first, with its `thinInstanceIndex`; null if nothing. Scene.pick() does not know where vertices are. */
+  /** The first hit of a ray, with its `thinInstanceIndex`; null if there is none. Scene.pick() finds the same. */
   pick(ray: Ray): PickingInfo | null;
   /** Reads back what the card made: positions in the order of the source, or normals of the vertices. */
   read(instance: number, what?: 'positions' | 'normals'): Promise<Float32Array>;

@@ -6,6 +6,7 @@
 // Two passes make positions and normals of all instances, as instance_textures.js says; standard and PBR materials then
 // fetch both. What the first pass does not do, the CPU does for the instances concerned.
 import { VertexBuffer } from '@babylonjs/core/Buffers/buffer.js';
+import { PickingInfo } from '@babylonjs/core/Collisions/pickingInfo.js';
 import { Ray } from '@babylonjs/core/Culling/ray.js';
 import { Constants } from '@babylonjs/core/Engines/constants.js';
 import { EffectRenderer, EffectWrapper } from '@babylonjs/core/Materials/effectRenderer.js';
@@ -206,20 +207,29 @@ export class AnicInstances extends Mesh {
     return pointsOf(texels, what === 'positions' ? this.#mesh.sourceVertexCount : this.#mesh.vertexCount);
   }
 
-  /** What a ray hits first: a PickingInfo with `thinInstanceIndex`, of instances as they are at their times; null if nothing. */
+  /** The first hit of a ray: a PickingInfo with `thinInstanceIndex`, of instances as they are at their times; null if there is none. */
   pick(ray) {
-    const scene = this.getScene(), world = this.computeWorldMatrix(true), probe = new Mesh('anic', scene);
-    let nearest = null;
+    const world = this.computeWorldMatrix(true), found = this.intersects(Ray.Transform(ray, Matrix.Invert(world)), false, undefined, false, world);
+    return found.hit ? found : null;
+  }
+
+  /** The same for a ray in the space of this mesh, with the parameters of AbstractMesh.intersects(), through which scenes pick. */
+  intersects(ray, fastCheck, trianglePredicate, onlyBoundingInfo = false, world = this.getWorldMatrix()) {
+    const probe = new Mesh('anic', this.getScene());
+    let nearest = new PickingInfo();
     probe.setVerticesData(VertexBuffer.PositionKind, new Float32Array(3 * this.#mesh.vertexCount), true);
     probe.setIndices(this.#mesh.indices, this.#mesh.vertexCount);
-    this.thinInstanceGetWorldMatrices().forEach((matrix, i) => {
-      if (!this.#mesh.isPresent(this.times[i], this.#optionsOf(i)))
-        return;
+    for (const [i, matrix] of this.thinInstanceGetWorldMatrices().entries()) {
+      const local = Ray.Transform(ray, Matrix.Invert(matrix));
+      if (!local.intersectsBox(this.rawBoundingInfo.boundingBox) || !this.#mesh.isPresent(this.times[i], this.#optionsOf(i)))
+        continue;
       probe.updateVerticesData(VertexBuffer.PositionKind, this.#mesh.positions(this.times[i], undefined, this.#optionsOf(i)), true);
-      const placed = matrix.multiply(world), hit = probe.intersects(Ray.Transform(ray, Matrix.Invert(placed)), false, undefined, false, placed);
-      if (hit.hit && !(nearest?.distance <= hit.distance))
+      const hit = probe.intersects(local, fastCheck, trianglePredicate, onlyBoundingInfo, matrix.multiply(world));
+      if (hit.hit && !(nearest.hit && nearest.distance <= hit.distance))
         nearest = Object.assign(hit, { thinInstanceIndex: i, pickedMesh: this });
-    });
+      if (nearest.hit && fastCheck)
+        break;
+    }
     probe.dispose();
     return nearest;
   }

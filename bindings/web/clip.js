@@ -429,6 +429,36 @@ export class ClipMesh {
       this.#clip.decoder.call('plan_attribute', plan, context, found.index, count, at, bytes, 0));
   }
 
+  /**
+   * Axes at a point of the surface at a time, for what is attached to it: its position, the triangle's normal, and the tangent
+   * from the triangle's first vertex to the second one, of length 1.
+   */
+  surfaceFrame({ vertices, weights }, time, options) {
+    const decoder = this.#clip.decoder, source = this.sourceVertices;
+    if (Array.from(vertices).some((vertex) => !(vertex in source)))
+      throw new AnicError('ANIC_E_ARGUMENT', `there are no vertices ${vertices}`);
+    decoder.call('surface_frame', this.#clip.seek(time, options), this.#index, ...Array.from(vertices, (vertex) => source[vertex]), ...weights);
+    const n = [...decoder.numbers(9)];
+    return { position: n.slice(0, 3), normal: n.slice(3, 6), tangent: n.slice(6) };
+  }
+
+  /**
+   * The first point of the surface on a ray { origin, direction, farthest, side } at a time: { distance, triangle, vertices, weights,
+   * side }; undefined if it meets nothing. Distances are in lengths of the direction; triangles are those of `indices`.
+   */
+  intersectRay({ origin, direction, farthest = 0, side = 'any' }, time, options) {
+    const decoder = this.#clip.decoder, context = this.#clip.seek(time, options), indices = this.indices, source = this.sourceVertices;
+    const triangles = this.triangleCount, work = 12 * this.sourceVertexCount, sides = ['any', 'front', 'back'];
+    const at = this.#clip.scratch(28 + 12 * triangles + work);
+    decoder.view(Float32Array, at, 7).set([...origin, ...direction, farthest]);
+    decoder.view(Uint32Array, at + 28, 3 * triangles).set(indices.map((vertex) => source[vertex]));
+    decoder.call('intersect_ray', context, this.#index, at, sides.indexOf(side), at + 28, triangles, at + 28 + 12 * triangles, work);
+    const [distance, triangle, ...n] = decoder.numbers(6);
+    if (distance === Infinity)
+      return undefined;
+    return { distance, triangle, vertices: [...indices.subarray(3 * triangle, 3 * triangle + 3)], weights: n.slice(0, 3), side: sides[n[3]] };
+  }
+
   /** Positions of the vertices of the source, in its order: sourceVertexCount x 3. */
   sourcePositions(time, out, options) {
     const context = this.#clip.seek(time, options), count = this.sourceVertexCount;

@@ -220,6 +220,37 @@ export interface Basis {
   vertexRegion: Uint8Array | null;
 }
 
+/** A point of the surface: vertices of a triangle of `indices`, and barycentric coordinates in it, whose sum is 1. */
+export interface SurfacePoint {
+  vertices: ArrayLike<number> & Iterable<number>;
+  weights: ArrayLike<number> & Iterable<number>;
+}
+
+export interface SurfaceFrame {
+  position: [number, number, number];
+  normal: [number, number, number];
+  tangent: [number, number, number];
+}
+
+export interface Ray {
+  origin: Iterable<number>;
+  direction: Iterable<number>;
+  /** The distance that still counts, in lengths of the direction; 0: any. */
+  farthest?: number;
+  /** Triangles that count, by the side that the ray meets. */
+  side?: 'any' | 'front' | 'back';
+}
+
+export interface Hit extends SurfacePoint {
+  /** From the origin, in lengths of the direction. */
+  distance: number;
+  /** Its number in `indices`. */
+  triangle: number;
+  vertices: number[];
+  weights: number[];
+  side: 'front' | 'back';
+}
+
 /**
  * A mesh of a clip. Its vertices are render vertices: one for each vertex of the source and what its corners carry, such
  * as texture coordinates and the sides of hard edges. Times are seconds from the first frame of the clip. Without `out`, functions
@@ -258,6 +289,11 @@ export declare class ClipMesh {
   /** Values by number or kind of an attribute; undefined if there is none. */
   attribute(which: number | 'uv' | 'normal' | 'tangent' | 'colour' | 'custom', time?: number, out?: Float32Array,
     options?: SampleOptions): Float32Array | undefined;
+  /** Axes of length 1 at a point of the surface, for what is attached to it: the triangle's normal, and the tangent from its first
+   * vertex to the second one. */
+  surfaceFrame(point: SurfacePoint, time: number, options?: SampleOptions): SurfaceFrame;
+  /** The first point of the surface on a ray; undefined if it meets nothing. Costs what positions do, and O(triangles). */
+  intersectRay(ray: Ray, time: number, options?: SampleOptions): Hit | undefined;
   /** Positions in the order of the source. */
   sourcePositions(time: number, out?: Float32Array, options?: SampleOptions): Float32Array;
   parts(time: number, options?: SampleOptions): Part[];

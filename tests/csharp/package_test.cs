@@ -77,7 +77,27 @@ internal static class PackageTest
             Check.That(b.SequenceEqual(a), "no motion after a cut");
             Box box;
             Check.That(context.ComputeBounds(out box) && a.Where((x, i) => i % 3 == 0).Min() == box.Min.X, "bounds");
+            MeetsTheSurface(asset, context);
         }
+    }
+
+    private static void MeetsTheSurface(Asset asset, Context context)
+    {
+        uint[] triangles = new uint[3 * asset.GetMesh(0).TriangleCount];
+        asset.WriteIndices(triangles);
+        float[] work = new float[3 * asset.GetMesh(0).VertexCount];
+        SurfacePoint middle = new SurfacePoint { A = triangles[0], B = triangles[1], C = triangles[2], WeightOfA = 0.25f, WeightOfB = 0.25f, WeightOfC = 0.5f };
+        SurfaceFrame frame;
+        Check.That(context.GetSurfaceFrame(middle, out frame), "axes of a point of the surface");
+        Point n = frame.Normal, t = frame.Tangent, p = frame.Position;
+        Check.That(Math.Abs(n.X * t.X + n.Y * t.Y + n.Z * t.Z) < 1e-5 && Math.Abs(n.X * n.X + n.Y * n.Y + n.Z * n.Z - 1) < 1e-5, "axes");
+        Point above = new Point { X = p.X + 1e-3f * n.X, Y = p.Y + 1e-3f * n.Y, Z = p.Z + 1e-3f * n.Z };
+        Point down = new Point { X = -n.X, Y = -n.Y, Z = -n.Z };
+        Hit hit;
+        Check.That(context.IntersectRay(above, down, triangles, work, out hit) && hit.Triangle == 0 && hit.Side == Side.Front &&
+            Math.Abs(hit.Distance - 1e-3) < 1e-5 && Math.Abs(hit.Point.WeightOfC - 0.5) < 1e-2, "a ray from above the surface");
+        Check.That(!context.IntersectRay(above, down, triangles, work, out hit, 1e-4f) && float.IsInfinity(hit.Distance), "a ray that is too short");
+        Check.That(!context.IntersectRay(above, down, new ReadOnlySpan<uint>(triangles, 0, 3), work, out hit, 0, Side.Back), "the other side");
     }
 
     private static unsafe void MakesWhatACardNeeds()

@@ -20,7 +20,7 @@ SKIPPED = 77
 CPU = {"x86_64": "x64", "aarch64": "arm64"}
 # The constants of the header by their prefix, and the enumeration that has them.
 ENUMERATIONS = {"ANIC_E_": "Status", "ANIC_UP_": "UpAxis", "ANIC_ORDER_": "VertexOrder", "ANIC_ATTRIBUTE_": "AttributeKind",
-                "ANIC_DOMAIN_": "Domain", "ANIC_ALPHA_": "AlphaMode", "ANIC_SAMPLE_": "Sampling", "ANIC_WRAP_": "Wrap", "ANIC_WHEN_": "When",
+                "ANIC_DOMAIN_": "Domain", "ANIC_ALPHA_": "AlphaMode", "ANIC_SAMPLE_": "Sampling", "ANIC_WRAP_": "Wrap", "ANIC_WHEN_": "When", "ANIC_SIDE_": "Side",
                 "ANIC_FORMAT_": "VertexFormat", "ANIC_VALUE_": "ValueFormat", "ANIC_BASIS_": "BasisKind",
                 "ANIC_TARGET_": "Target", "ANIC_GOAL_": "Goal", "ANIC_RECONSTRUCTION_": "Reconstruction", "ANIC_OPEN_": "OpenFlags", "ANIC_TEXTURE_": "BasisTexture"}
 # Names that are a constant of no enumeration of the header.
@@ -78,7 +78,7 @@ def layout_faults(layout, checkout, work, compiler):
     known |= {(struct, member.split("[")[0]) for (struct, _), member in ARRAYS.items()}
     for struct, body in re.findall(r"^typedef struct (anic_\w+) \{\n(.*?)^\}", header, re.MULTILINE | re.DOTALL):
         declared = {words[1] for words in lines if words[0] == "struct"}
-        if struct in ("anic_box", "anic_correction"):
+        if struct in ("anic_box", "anic_correction", "anic_hit", "anic_surface_frame", "anic_surface_point"):
             continue  # public structs of the package with names of their own
         if struct not in declared:
             yield f"C# has no struct {struct}"

@@ -289,3 +289,26 @@ def test_frames_that_memory_does_not_hold_are_refused(clip):
     assert len(small[:]) == len(small)
     with pytest.raises(anicodec.LimitError, match="frames take"):
         small.frames([0] * (10**7 // (12 * small.vertex_count) + 1))
+
+
+def test_points_of_the_surface(clip):
+    triangle = clip.triangles[40].tolist()
+    a, b, c = clip.at(0.31)[triangle]
+    normal = np.cross(b - a, c - a)
+    frame = clip.surface_frame(triangle, (0.25, 0.25, 0.5), 0.31)
+    assert np.allclose(frame.position, (a + b + 2 * c) / 4, atol=1e-5)
+    assert np.allclose(frame.normal, normal / np.linalg.norm(normal), atol=1e-5)
+    assert np.allclose(frame.tangent, (b - a) / np.linalg.norm(b - a), atol=1e-5)
+    assert np.linalg.det(frame.matrix[:, :3]) == pytest.approx(1, abs=1e-5)
+    above = frame.position + 0.01 * frame.normal
+    hit = clip.intersect_ray(above, -frame.normal, 0.31, side="front")
+    assert hit.triangle == 40 and hit.vertices == tuple(triangle) and hit.side == "front"
+    assert hit.distance == pytest.approx(0.01, abs=1e-4) and hit.weights == pytest.approx((0.25, 0.25, 0.5), abs=1e-3)
+    assert np.allclose(clip.surface_frame(hit.vertices, hit.weights, 0.31).position, frame.position, atol=1e-4)
+    assert clip.intersect_ray(above, -frame.normal, 0.31, farthest=0.005) is None
+    assert clip.intersect_ray(above, -frame.normal, 0.31, farthest=0.02, side="back") is None
+    for wrong in (lambda: clip.surface_frame((0, 1, 144), (1, 0, 0), 0), lambda: clip.surface_frame((0, 1), (1, 0, 0), 0),
+                  lambda: clip.surface_frame((0, 1, 2), (np.nan, 0, 0), 0), lambda: clip.intersect_ray(above, (0, 0, 0), 0),
+                  lambda: clip.intersect_ray(above, (0, 0, 1), 0, side="left")):
+        with pytest.raises(ValueError):
+            wrong()

@@ -218,6 +218,9 @@ test('Babylon.js draws instances by the graphics card as the CPU does', { skip }
           cpu.refresh(true);
           const ray = scene.createPickingRay(160, 120, B.Matrix.Identity(), camera), hit = one.pick(ray), by = scene.pickWithRay(ray, (picked) => cpu.parts.includes(picked));
           outcome.picked = hit ? Math.abs(hit.distance - by.distance) < 1e-3 * size && hit.thinInstanceIndex === 0 : !by.hit;
+          const aim = by.hit ? by.pickedPoint : target, through = new B.Ray(camera.position, aim.subtract(camera.position).normalize(), 10 * size);
+          const byScene = scene.pickWithRay(through, (picked) => picked === one), byMesh = one.pick(through);
+          outcome.picked &&= byScene.hit === !!byMesh && (!byMesh || (byScene.pickedMesh === one && byScene.thinInstanceIndex === 0 && byScene.distance === byMesh.distance));
           one.dispose();
           // Many at once: one call, and little time of the script.
           cpu.setEnabled(false);

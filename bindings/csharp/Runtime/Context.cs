@@ -108,6 +108,36 @@ namespace Anicodec
                 return Native.Present(Native.anic_compute_bounds(handle, (uint)mesh, when, to));
         }
 
+        /// <summary>Computes axes at a point of the surface, for what is attached to it; false when the mesh is not there.</summary>
+        public bool GetSurfaceFrame(SurfacePoint point, out SurfaceFrame frame, int mesh = 0, When when = When.Current)
+        {
+            fixed (SurfaceFrame* to = &frame)
+                return Native.Present(Native.anic_get_surface_frame(handle, (uint)mesh, when, &point, to));
+        }
+
+        /// <summary>
+        /// Finds the first of the triangles on a ray; false when none is hit or the mesh is not there. `triangles` as
+        /// Asset.WriteIndices() gives them; `work` has three floats for each vertex of the mesh; `farthest` in lengths of the
+        /// direction, 0: any distance. Costs what positions do, and O(triangles).
+        /// </summary>
+        public bool IntersectRay(Point origin, Point direction, ReadOnlySpan<uint> triangles, Span<float> work, out Hit hit,
+            float farthest = 0, Side side = Side.Any, int mesh = 0, When when = When.Current)
+        {
+            Native.anic_ray ray = default(Native.anic_ray);
+            ray.struct_size = (UIntPtr)sizeof(Native.anic_ray);
+            ray.origin = origin;
+            ray.direction = direction;
+            ray.farthest = farthest;
+            ray.side = side;
+            fixed (uint* first = triangles)
+            fixed (float* place = work)
+            fixed (Hit* to = &hit)
+            {
+                return Native.Present(Native.anic_intersect_ray(handle, (uint)mesh, when, &ray, first, (uint)(triangles.Length / 3),
+                    place, (UIntPtr)(4L * work.Length), to)) && hit.Triangle != uint.MaxValue;
+            }
+        }
+
         /// <summary>How many parts a graphics card has to add up; 0: the mesh is not there.</summary>
         public int GetPartCount(int mesh = 0, When when = When.Current)
         {

@@ -47,6 +47,9 @@ namespace Anicodec
     /// <summary>The time of the last seek, or of the one before.</summary>
     public enum When { Current = 0, Previous = 1 }
 
+    /// <summary>A side of triangles: corners run counter-clockwise on the front.</summary>
+    public enum Side { Any = 0, Front = 1, Back = 2 }
+
     /// <summary>How a position or normal is stored.</summary>
     public enum VertexFormat
     {

@@ -289,6 +289,15 @@ namespace Anicodec
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        public struct anic_ray
+        {
+            public UIntPtr struct_size;
+            public Point origin, direction;
+            public float farthest;
+            public Side side;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         public struct anic_render_plan_options
         {
             public UIntPtr struct_size;
@@ -434,6 +443,8 @@ namespace Anicodec
         [DllImport(Library)] public static extern Status anic_compute_bounds(ContextHandle context, uint mesh, When when, Box* result);
         [DllImport(Library)] public static extern Status anic_get_frame_bounds(AssetHandle asset, uint mesh, uint frame, Box* result);
         [DllImport(Library)] public static extern Status anic_get_clip_bounds(AssetHandle asset, uint mesh, Box* result);
+        [DllImport(Library)] public static extern Status anic_get_surface_frame(ContextHandle context, uint mesh, When when, SurfacePoint* point, SurfaceFrame* result);
+        [DllImport(Library)] public static extern Status anic_intersect_ray(ContextHandle context, uint mesh, When when, anic_ray* ray, uint* triangles, uint triangle_count, float* work, UIntPtr work_size, Hit* result);
         [DllImport(Library)] public static extern Status anic_create_normal_plan(AssetHandle asset, uint mesh, anic_normal_plan_options* options, anic_allocator* allocator, out NormalPlanHandle result);
         [DllImport(Library)] public static extern void anic_destroy_normal_plan(IntPtr plan);
         [DllImport(Library)] public static extern uint anic_get_normal_count(NormalPlanHandle plan);

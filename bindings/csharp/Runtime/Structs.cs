@@ -18,6 +18,38 @@ namespace Anicodec
         public Point Min, Max;
     }
 
+    /// <summary>A point of the surface: vertices of a triangle, counter-clockwise seen from its front, and barycentric coordinates
+    /// in it, whose sum is 1.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct SurfacePoint
+    {
+        public uint A, B, C;
+        public float WeightOfA, WeightOfB, WeightOfC;
+    }
+
+    /// <summary>Axes at a point of the surface, of length 1; the third one is normal x tangent.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct SurfaceFrame
+    {
+        public Point Position;
+        /// <summary>Of the triangle, on its front.</summary>
+        public Point Normal;
+        /// <summary>From the triangle's first vertex to the second one.</summary>
+        public Point Tangent;
+    }
+
+    /// <summary>The first point of the surface on a ray.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Hit
+    {
+        public SurfacePoint Point;
+        /// <summary>From the origin, in lengths of the ray's direction; infinite when nothing was hit.</summary>
+        public float Distance;
+        /// <summary>Its number in the list; uint.MaxValue when nothing was hit.</summary>
+        public uint Triangle;
+        public Side Side;
+    }
+
     /// <summary>Moves one vertex in one frame, after everything else.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct Correction

@@ -18,6 +18,7 @@ from .errors import CorruptError, FrameError, InputError, LimitError
 from .material import Material, from_file
 
 _SAMPLING = {"step": 0, "linear": 1, "cubic": 2}
+_SIDES = {"any": 0, "front": 1, "back": 2}
 _WRAP = {"clamp": 0, "loop": 1, "ping-pong": 2}
 KINDS = ("uv", "normal", "tangent", "colour", "custom", "material", "part")
 DOMAINS = ("vertices", "corners", "polygons")
@@ -30,6 +31,12 @@ def chosen(table: Dict[str, Any], name: str, what: str) -> Any:
     if name not in table:
         raise InputError(f"{what} is one of {', '.join(table)}, not {name!r}")
     return table[name]
+
+
+def _three(values: Any, number: Any, what: str) -> list:
+    if np.shape(values) != (3,):
+        raise InputError(f"{what} are three numbers, not {values!r}")
+    return [number(value) for value in values]
 
 
 class Attribute(NamedTuple):
@@ -51,6 +58,29 @@ class RootMotion(NamedTuple):
     move: Tuple[float, float, float]
     pivot: Tuple[float, float, float]
     matrix: np.ndarray  #: the same as one map, 3 x 4
+
+
+class SurfaceFrame(NamedTuple):
+    """Axes at a point of the surface, of length 1."""
+
+    position: np.ndarray
+    normal: np.ndarray  #: of the triangle, on its front
+    tangent: np.ndarray  #: from the triangle's first vertex to the second one
+
+    @property
+    def matrix(self) -> np.ndarray:
+        """3 x 4: tangent, normal x tangent, normal and position as columns. It places an object whose z axis leaves the surface."""
+        return np.stack([self.tangent, np.cross(self.normal, self.tangent), self.normal, self.position], axis=1)
+
+
+class Hit(NamedTuple):
+    """The first point of the surface on a ray."""
+
+    distance: float  #: from the origin, in lengths of the direction
+    triangle: int  #: a row of Mesh.triangles
+    vertices: Tuple[int, int, int]
+    weights: Tuple[float, float, float]  #: barycentric coordinates; with `vertices` for Mesh.surface_frame()
+    side: str  #: front or back
 
 
 class ClipInfo(NamedTuple):
@@ -97,6 +127,7 @@ class Mesh:
         self._mesh = self._asset.mesh(number)
         self._plans: Dict[tuple, Any] = {}
         self._attributes: Optional[Tuple[Attribute, ...]] = None
+        self._triangles: Optional[np.ndarray] = None
 
     @property
     def name(self) -> str:
@@ -218,6 +249,39 @@ class Mesh:
         moment = self._moment(seconds, loop, sampling, None, clip, blend, None)
         self._asset.attribute_at(self._number, number, *moment, result, shape[0])
         return result
+
+    def surface_frame(self, vertices: Sequence[int], weights: Sequence[float], seconds: float, loop: bool = False,
+                      sampling: str = "linear", clip: Union[None, int, str] = None,
+                      blend: Optional[Blend] = None) -> SurfaceFrame:
+        """Axes at a point of the surface at a time, for what is attached to it.
+
+        vertices: of a triangle, as in `triangles`; weights: barycentric coordinates in it, whose sum is 1. Others: see at().
+        Cost: that of three vertices.
+        """
+        moment = self._moment(seconds, loop, sampling, None, clip, blend, None)
+        numbers = self._asset.surface_frame(self._number, *moment, _three(vertices, int, "vertices"),
+                                            _three(weights, float, "weights"))
+        return SurfaceFrame(*np.array(numbers, dtype=np.float32).reshape(3, 3))
+
+    def intersect_ray(self, origin: Sequence[float], direction: Sequence[float], seconds: float, loop: bool = False,
+                      sampling: str = "linear", clip: Union[None, int, str] = None, blend: Optional[Blend] = None,
+                      farthest: float = 0, side: str = "any") -> Optional[Hit]:
+        """The first point of the surface on a ray at a time; None if it meets nothing.
+
+        farthest: in lengths of the direction, 0 for any distance; side: of the triangles that count: any, front or back.
+        Others: see at(). Cost: that of at(), and O(triangles).
+        """
+        moment = self._moment(seconds, loop, sampling, None, clip, blend, None)
+        if self._triangles is None:
+            self._triangles = self.triangles
+        found = self._asset.intersect_ray(self._number, *moment, _three(origin, float, "origin"),
+                                          _three(direction, float, "direction"), float(farthest),
+                                          chosen(_SIDES, side, "side"), self._triangles)
+        if found is None:
+            return None
+        triangle, distance, weights, met = found
+        vertices = tuple(int(vertex) for vertex in self._triangles[triangle])
+        return Hit(distance, triangle, vertices, tuple(weights), ("any", "front", "back")[met])
 
     def normals(self, frame: Union[int, np.ndarray], crease: float = 0, per_corner: bool = False,
                 source_edges: bool = False, out: Optional[np.ndarray] = None) -> np.ndarray:
@@ -399,8 +463,8 @@ def read_bounds(source: Any, mesh: int = 0, first_frame: int = 0, frames: int = 
 
 
 #: Names that a clip of one mesh passes on to it.
-_OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "normals", "polygons", "shown_in", "to", "triangles",
-            "vertex_count"}
+_OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "intersect_ray", "normals", "polygons", "shown_in",
+            "surface_frame", "to", "triangles", "vertex_count"}
 
 
 def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = (),  # noqa: A001

@@ -275,6 +275,57 @@ class Asset {
                                       elements, &output));
   }
 
+  /// Position, normal and tangent of a point of the surface at a moment.
+  std::vector<float> surface_frame(uint32_t mesh, uint32_t clip, double seconds, int sampling,
+                                   int wrap, uint32_t other, double other_seconds, int other_wrap,
+                                   double weight, std::array<uint32_t, 3> vertices,
+                                   std::array<float, 3> weights) {
+    anic_surface_point point;
+    std::copy_n(vertices.data(), 3, point.vertices);
+    std::copy_n(weights.data(), 3, point.weights);
+    anic_surface_frame frame;
+    const nb::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    seek(clip, seconds, sampling, wrap);
+    blend(other, other_seconds, sampling, other_wrap, weight);
+    check_status(
+        anic_get_surface_frame(context_.get(), mesh, ANIC_WHEN_CURRENT, &point, &frame));
+    std::vector<float> result(frame.position, frame.position + 3);
+    result.insert(result.end(), frame.normal, frame.normal + 3);
+    result.insert(result.end(), frame.tangent, frame.tangent + 3);
+    return result;
+  }
+
+  /// Triangle, distance, weights and side of the first point on a ray at a moment; none if it meets nothing.
+  std::optional<std::tuple<uint32_t, float, std::array<float, 3>, int>> intersect_ray(
+      uint32_t mesh, uint32_t clip, double seconds, int sampling, int wrap, uint32_t other,
+      double other_seconds, int other_wrap, double weight, std::array<float, 3> origin,
+      std::array<float, 3> direction, float farthest, int side, const Array<uint32_t>& triangles) {
+    anic_ray ray = ANIC_INIT(anic_ray);
+    std::copy_n(origin.data(), 3, ray.origin);
+    std::copy_n(direction.data(), 3, ray.direction);
+    ray.farthest = farthest;
+    ray.side = static_cast<anic_side>(side);
+    anic_mesh sizes = ANIC_INIT(anic_mesh);
+    check_status(anic_get_mesh(asset_.get(), mesh, &sizes));
+    const auto count = static_cast<uint32_t>(triangles.size() / 3);
+    anic_hit hit;
+    {
+      const nb::gil_scoped_release release;
+      std::vector<float> work(size_t{3} * sizes.vertex_count);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      seek(clip, seconds, sampling, wrap);
+      blend(other, other_seconds, sampling, other_wrap, weight);
+      check_status(anic_intersect_ray(context_.get(), mesh, ANIC_WHEN_CURRENT, &ray,
+                                      triangles.data(), count, work.data(),
+                                      work.size() * sizeof(float), &hit));
+    }
+    if (hit.triangle == UINT32_MAX)
+      return std::nullopt;
+    const float* w = hit.point.weights;
+    return std::tuple(hit.triangle, hit.distance, std::array<float, 3>{w[0], w[1], w[2]}, int{hit.side});
+  }
+
   NormalPlan* normal_plan(uint32_t mesh, double crease, uint32_t frame, bool per_corner,
                           bool source_edges) const {
     return new NormalPlan(asset_.get(), mesh, crease, frame_of(frame), per_corner, source_edges);
@@ -458,6 +509,8 @@ void bind_clip(nb::module_& module) {
       .def("frames", &Asset::frames)
       .def("at", &Asset::at)
       .def("attribute_at", &Asset::attribute_at)
+      .def("surface_frame", &Asset::surface_frame)
+      .def("intersect_ray", &Asset::intersect_ray)
       .def("normal_plan", &Asset::normal_plan, nb::rv_policy::take_ownership,
            nb::keep_alive<0, 1>())
       .def("render_plan", &Asset::render_plan, nb::rv_policy::take_ownership,

@@ -435,6 +435,47 @@ EXPORT(compute_bounds) int web_compute_bounds(const anic_context* context, uint3
   return give_box(anic_compute_bounds(context, mesh, ANIC_WHEN_CURRENT, &box), &box);
 }
 
+/* numbers: position, normal, tangent */
+EXPORT(surface_frame)
+
+int web_surface_frame(const anic_context* context, uint32_t mesh, uint32_t a, uint32_t b,
+                      uint32_t c, double weight_a, double weight_b, double weight_c) {
+  const anic_surface_point point = {{a, b, c},
+                                    {(float)weight_a, (float)weight_b, (float)weight_c}};
+  anic_surface_frame frame = {{0}, {0}, {0}};
+  const anic_status status =
+      anic_get_surface_frame(context, mesh, ANIC_WHEN_CURRENT, &point, &frame);
+  for (int i = 0; i < 3; ++i) {
+    numbers[i] = (double)frame.position[i];
+    numbers[3 + i] = (double)frame.normal[i];
+    numbers[6 + i] = (double)frame.tangent[i];
+  }
+  return status;
+}
+
+/* values: origin, direction, farthest; numbers: distance, triangle, weights, side */
+EXPORT(intersect_ray)
+
+int web_intersect_ray(const anic_context* context, uint32_t mesh, const float* values, int32_t side,
+                      const uint32_t* triangles, uint32_t triangle_count, float* work,
+                      uint32_t work_size) {
+  anic_ray ray = ANIC_INIT(anic_ray);
+  anic_hit hit;
+  memcpy(ray.origin, values, sizeof ray.origin);
+  memcpy(ray.direction, values + 3, sizeof ray.direction);
+  ray.farthest = values[6];
+  ray.side = side;
+  const anic_status status = anic_intersect_ray(context, mesh, ANIC_WHEN_CURRENT, &ray, triangles,
+                                                triangle_count, work, work_size, &hit);
+  if (status == ANIC_OK) {
+    const double all[] = {(double)hit.distance,         hit.triangle,
+                          (double)hit.point.weights[0], (double)hit.point.weights[1],
+                          (double)hit.point.weights[2], hit.side};
+    memcpy(numbers, all, sizeof all);
+  }
+  return status;
+}
+
 /* ---- render vertices ---- */
 
 /* numbers: status, address of the plan */

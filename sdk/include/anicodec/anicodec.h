@@ -78,7 +78,7 @@
 #else
 #define ANIC_INT32
 typedef int32_t anic_status, anic_up_axis, anic_order, anic_attribute_kind, anic_alpha, anic_domain,
-    anic_sampling, anic_wrap, anic_when, anic_format, anic_value_format, anic_basis_kind,
+    anic_sampling, anic_wrap, anic_when, anic_side, anic_format, anic_value_format, anic_basis_kind,
     anic_target, anic_reconstruction, anic_texture;
 #endif
 
@@ -954,6 +954,77 @@ ANIC_API anic_status anic_get_frame_bounds(const anic_asset* asset, uint32_t mes
  * - Cost: O(1)
  */
 ANIC_API anic_status anic_get_clip_bounds(const anic_asset* asset, uint32_t mesh, anic_box* out);
+
+/* ---- points of the surface ------------------------------------------------------------------- */
+
+/** A point of a mesh's surface: vertices of a triangle, and barycentric coordinates in it. */
+typedef struct anic_surface_point {
+  uint32_t vertices[3]; /**< in the order of the triangle, counter-clockwise seen from its front */
+  float weights[3];     /**< of the vertices; their sum is 1 */
+} anic_surface_point;
+
+/** Axes at a point of the surface, of length 1; the third one is normal x tangent. */
+typedef struct anic_surface_frame {
+  float position[3];
+  float normal[3];  /**< of the triangle, on its front */
+  float tangent[3]; /**< from the triangle's first vertex to the second one */
+} anic_surface_frame;
+
+/**
+ * Computes the axes at a point of the surface at the time chosen: for what is attached to it, such as
+ * a sword in a hand. A triangle without an area gets axes of length 1, too: perpendicular to its longest
+ * edge, or those of space. Weights outside of [0, 1] give points of the triangle's plane.
+ *
+ * - Errors: as anic_write_positions(); ANIC_E_ARGUMENT: no such vertex, a weight that is not finite
+ * - Cost: that of three vertices; nothing is allocated
+ */
+ANIC_API anic_status anic_get_surface_frame(const anic_context* context, uint32_t mesh,
+                                            anic_when when, const anic_surface_point* point,
+                                            anic_surface_frame* out);
+
+/** A side of triangles. */
+enum anic_side ANIC_INT32 {
+  ANIC_SIDE_ANY = 0,
+  ANIC_SIDE_FRONT = 1, /**< its corners run counter-clockwise */
+  ANIC_SIDE_BACK = 2
+};
+
+/** A ray, in the space of the positions. */
+typedef struct anic_ray {
+  size_t struct_size;
+  float origin[3];
+  float direction[3]; /**< of any length but 0 */
+  float farthest;     /**< distance that still counts, in lengths of `direction`; 0: any */
+  anic_side side;     /**< of triangles that count */
+} anic_ray;
+
+/** The first point of the surface on a ray. */
+typedef struct anic_hit {
+  anic_surface_point point;
+  float distance;    /**< from the origin, in lengths of the ray's direction; infinite: none was hit */
+  uint32_t triangle; /**< its number in the list; UINT32_MAX: none was hit */
+  anic_side side;    /**< that the ray meets: ANIC_SIDE_FRONT or ANIC_SIDE_BACK */
+} anic_hit;
+
+/**
+ * Finds the first point on a ray of a mesh's triangles at the time chosen. A ray through an edge or a
+ * vertex hits one of the triangles around it; edge-on, a triangle is not hit. Among triangles at the
+ * same distance the first in the list counts. No hit is no error: see anic_hit.
+ *
+ * With ANIC_OPEN_BOUNDS, a ray that misses the boxes of the frames shown costs no positions, unless
+ * positions between these may leave the boxes (anic_get_clip_bounds()).
+ *
+ * - Params: triangles: of vertices, 3 x triangle_count, as anic_write_indices() gives them;
+ *   work: room for 3 x vertices floats, `work_size` bytes; its content afterwards is unspecified
+ * - Errors: as anic_write_positions(); ANIC_E_ARGUMENT: no such vertex, a ray without a direction or
+ *   one that is not finite; ANIC_E_BUFFER_SIZE
+ * - Cost: that of anic_write_positions() of the mesh, and O(triangles); nothing is allocated
+ * - Source: watertight intersection, Woop, Benthin, Wald 2013
+ */
+ANIC_API anic_status anic_intersect_ray(const anic_context* context, uint32_t mesh, anic_when when,
+                                        const anic_ray* ray, const uint32_t* triangles,
+                                        uint32_t triangle_count, float* work, size_t work_size,
+                                        anic_hit* out);
 
 /* ---- normals --------------------------------------------------------------------------------- */
 

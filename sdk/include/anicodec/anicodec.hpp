@@ -199,9 +199,8 @@ class Asset {
 
   /// Another asset of the same file, which shares its memory: see anic_share_asset().
   Status share(const Asset& of, const anic_options* options = nullptr) {
-    return detail::receive<anic_asset>(&handle_, [&](anic_asset** out) {
-      return anic_share_asset(of.get(), options, out);
-    });
+    return detail::receive<anic_asset>(
+        &handle_, [&](anic_asset** out) { return anic_share_asset(of.get(), options, out); });
   }
 
   void close() { handle_.reset(); }
@@ -350,6 +349,19 @@ class Context {
   Status compute_bounds(anic_box* out, anic_when when = ANIC_WHEN_CURRENT,
                         uint32_t mesh = 0) const {
     return anic_compute_bounds(get(), mesh, when, out);
+  }
+
+  Status surface_frame(const anic_surface_point& point, anic_surface_frame* out,
+                       anic_when when = ANIC_WHEN_CURRENT, uint32_t mesh = 0) const {
+    return anic_get_surface_frame(get(), mesh, when, &point, out);
+  }
+
+  /// `triangles`: three vertices each; `work`: three floats for each vertex of the mesh.
+  Status intersect_ray(const anic_ray& ray, Span<const uint32_t> triangles, Span<float> work,
+                       anic_hit* out, anic_when when = ANIC_WHEN_CURRENT, uint32_t mesh = 0) const {
+    return anic_intersect_ray(get(), mesh, when, &ray, triangles.data(),
+                              static_cast<uint32_t>(triangles.size() / 3), work.data(),
+                              work.size_bytes(), out);
   }
 
   Status parts(anic_parts* out, anic_when when = ANIC_WHEN_CURRENT, uint32_t mesh = 0) const {

@@ -7,8 +7,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Arc;
 
 use anicodec::{
-    AttributeKind, Clip, Error, Format, NormalOptions, OpenOptions, Output, Reconstruction,
-    RenderOptions, Sampling, Status, Stream, Texture, ValueFormat, ValueOutput, When, Wrap,
+    AttributeKind, Clip, Error, Format, NormalOptions, OpenOptions, Output, Ray, Reconstruction,
+    RenderOptions, Sampling, Side, Status, Stream, SurfacePoint, Texture, ValueFormat, ValueOutput,
+    When, Wrap,
 };
 
 fn bytes(name: &str) -> Vec<u8> {
@@ -449,6 +450,40 @@ fn boxes_are_exact_or_read_from_the_file() {
     context.seek_frame(1).unwrap();
     let now = context.shown(0, When::Current).bounds().unwrap();
     assert_eq!(clip.frame_bounds(0, 1).unwrap().unwrap(), now);
+    let shown = context.shown(0, When::Current);
+    let triangles = clip.mesh(0).unwrap().indices().unwrap();
+    let positions = shown.positions().unwrap();
+    let corners = [0, 1, 2].map(|i| triangles[i]);
+    let point = SurfacePoint {
+        vertices: corners,
+        weights: [0.25, 0.25, 0.5],
+    };
+    let on = shown.surface_frame(&point).unwrap();
+    for (c, &x) in on.position.iter().enumerate() {
+        let expected: f32 = (0..3)
+            .map(|i| point.weights[i] * positions[corners[i] as usize][c])
+            .sum();
+        assert!((x - expected).abs() < 1e-5);
+    }
+    let mut ray = Ray::new(
+        [0, 1, 2].map(|c| on.position[c] + 0.001 * on.normal[c]),
+        on.normal.map(|n| -n),
+    );
+    let mut work = vec![0.0; 3 * positions.len()];
+    let hit = shown
+        .intersect_ray(&ray, &triangles, &mut work)
+        .unwrap()
+        .unwrap();
+    assert!((hit.distance - 0.001).abs() < 1e-5 && hit.triangle == 0 && hit.side == Side::Front);
+    ray.farthest = 1e-4;
+    assert!(shown
+        .intersect_ray(&ray, &triangles, &mut work)
+        .unwrap()
+        .is_none());
+    assert_eq!(
+        status(shown.intersect_ray(&ray, &triangles, &mut work[1..])),
+        Status::BufferSize
+    );
     assert_eq!(status(Clip::open(&file).unwrap().bounds(0)), Status::State);
     assert_eq!(
         status(anicodec::read_bounds(&file, 9, 0..1)),

@@ -649,6 +649,78 @@ const _: () = {
 };
 #[repr(C)]
 #[derive(Copy, Clone)]
+pub struct anic_surface_point {
+    pub vertices: [u32; 3usize],
+    pub weights: [f32; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of anic_surface_point"][::core::mem::size_of::<anic_surface_point>() - 24usize];
+    ["Alignment of anic_surface_point"][::core::mem::align_of::<anic_surface_point>() - 4usize];
+    ["Offset of field: anic_surface_point::vertices"][::core::mem::offset_of!(anic_surface_point, vertices) - 0usize];
+    ["Offset of field: anic_surface_point::weights"][::core::mem::offset_of!(anic_surface_point, weights) - 12usize];
+};
+#[repr(C)]
+#[derive(Copy, Clone)]
+pub struct anic_surface_frame {
+    pub position: [f32; 3usize],
+    pub normal: [f32; 3usize],
+    pub tangent: [f32; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of anic_surface_frame"][::core::mem::size_of::<anic_surface_frame>() - 36usize];
+    ["Alignment of anic_surface_frame"][::core::mem::align_of::<anic_surface_frame>() - 4usize];
+    ["Offset of field: anic_surface_frame::position"][::core::mem::offset_of!(anic_surface_frame, position) - 0usize];
+    ["Offset of field: anic_surface_frame::normal"][::core::mem::offset_of!(anic_surface_frame, normal) - 12usize];
+    ["Offset of field: anic_surface_frame::tangent"][::core::mem::offset_of!(anic_surface_frame, tangent) - 24usize];
+};
+pub const ANIC_SIDE_ANY: anic_side = 0;
+pub const ANIC_SIDE_FRONT: anic_side = 1;
+pub const ANIC_SIDE_BACK: anic_side = 2;
+pub type anic_side = i32;
+#[repr(C)]
+#[derive(Copy, Clone)]
+pub struct anic_ray {
+    pub struct_size: usize,
+    pub origin: [f32; 3usize],
+    pub direction: [f32; 3usize],
+    pub farthest: f32,
+    pub side: anic_side,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of anic_ray"][::core::mem::size_of::<anic_ray>() - 40usize];
+    ["Alignment of anic_ray"][::core::mem::align_of::<anic_ray>() - 8usize];
+    ["Offset of field: anic_ray::struct_size"][::core::mem::offset_of!(anic_ray, struct_size) - 0usize];
+    ["Offset of field: anic_ray::origin"][::core::mem::offset_of!(anic_ray, origin) - 8usize];
+    ["Offset of field: anic_ray::direction"][::core::mem::offset_of!(anic_ray, direction) - 20usize];
+    ["Offset of field: anic_ray::farthest"][::core::mem::offset_of!(anic_ray, farthest) - 32usize];
+    ["Offset of field: anic_ray::side"][::core::mem::offset_of!(anic_ray, side) - 36usize];
+};
+#[repr(C)]
+#[derive(Copy, Clone)]
+pub struct anic_hit {
+    pub point: anic_surface_point,
+    pub distance: f32,
+    pub triangle: u32,
+    pub side: anic_side,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of anic_hit"][::core::mem::size_of::<anic_hit>() - 36usize];
+    ["Alignment of anic_hit"][::core::mem::align_of::<anic_hit>() - 4usize];
+    ["Offset of field: anic_hit::point"][::core::mem::offset_of!(anic_hit, point) - 0usize];
+    ["Offset of field: anic_hit::distance"][::core::mem::offset_of!(anic_hit, distance) - 24usize];
+    ["Offset of field: anic_hit::triangle"][::core::mem::offset_of!(anic_hit, triangle) - 28usize];
+    ["Offset of field: anic_hit::side"][::core::mem::offset_of!(anic_hit, side) - 32usize];
+};
+#[repr(C)]
+#[derive(Copy, Clone)]
 pub struct anic_normal_plan {
     _unused: [u8; 0],
 }
@@ -1187,6 +1259,24 @@ unsafe extern "C" {
     ) -> anic_status;
     pub fn anic_get_frame_bounds(asset: *const anic_asset, mesh: u32, frame: u32, out: *mut anic_box) -> anic_status;
     pub fn anic_get_clip_bounds(asset: *const anic_asset, mesh: u32, out: *mut anic_box) -> anic_status;
+    pub fn anic_get_surface_frame(
+        context: *const anic_context,
+        mesh: u32,
+        when: anic_when,
+        point: *const anic_surface_point,
+        out: *mut anic_surface_frame,
+    ) -> anic_status;
+    pub fn anic_intersect_ray(
+        context: *const anic_context,
+        mesh: u32,
+        when: anic_when,
+        ray: *const anic_ray,
+        triangles: *const u32,
+        triangle_count: u32,
+        work: *mut f32,
+        work_size: usize,
+        out: *mut anic_hit,
+    ) -> anic_status;
     pub fn anic_create_normal_plan(
         asset: *const anic_asset,
         mesh: u32,

@@ -11,8 +11,8 @@ use anicodec_sys as sys;
 use crate::clip::Clip;
 use crate::error::{Error, Result};
 use crate::mesh::first_and_count;
-use crate::output::{Bounds, Output, ValueOutput};
-use crate::raw::{check, enumeration, fill};
+use crate::output::{Bounds, Hit, Output, Ray, Side, SurfaceFrame, SurfacePoint, ValueOutput};
+use crate::raw::{check, enumeration, fill, init};
 
 enumeration! {
     /// The picture between two frames.
@@ -250,6 +250,74 @@ impl Shown<'_> {
         // SAFETY: the context lives.
         check(unsafe { sys::anic_compute_bounds(self.context.raw(), self.mesh, self.when.raw(), &mut raw) })?;
         Ok(Bounds { min: raw.min, max: raw.max })
+    }
+
+    /// Axes at a point of the surface, for what is attached to it, at the cost of three vertices.
+    ///
+    /// ```
+    /// use anicodec::{Clip, Ray, When};
+    ///
+    /// let clip = Clip::open(std::fs::read("examples/walk.anic")?)?;
+    /// let triangles = clip.mesh(0)?.indices()?;
+    /// let mut walker = clip.context()?;
+    /// walker.seek_frame(3)?;
+    /// let shown = walker.shown(0, When::Current);
+    /// let bounds = shown.bounds()?;
+    /// let middle = [0, 1, 2].map(|c| (bounds.min[c] + bounds.max[c]) / 2.0);
+    /// let above = [middle[0], middle[1], bounds.max[2] + 1.0];
+    /// let mut work = vec![0.0; 3 * clip.mesh(0)?.vertex_count as usize];
+    /// if let Some(hit) = shown.intersect_ray(&Ray::new(above, [0.0, 0.0, -1.0]), &triangles, &mut work)? {
+    ///     println!("hit at {:?}", shown.surface_frame(&hit.point)?.position);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn surface_frame(&self, point: &SurfacePoint) -> Result<SurfaceFrame> {
+        let raw = sys::anic_surface_point { vertices: point.vertices, weights: point.weights };
+        let mut out = sys::anic_surface_frame { position: [0.0; 3], normal: [0.0; 3], tangent: [0.0; 3] };
+        // SAFETY: the context lives, and the point is checked against its mesh.
+        check(unsafe { sys::anic_get_surface_frame(self.context.raw(), self.mesh, self.when.raw(), &raw, &mut out) })?;
+        Ok(SurfaceFrame { position: out.position, normal: out.normal, tangent: out.tangent })
+    }
+
+    /// The first of the triangles on a ray; none where it meets none. `triangles` holds three vertices each, as
+    /// [`Mesh::indices`](crate::Mesh::indices) gives them, and `work` three numbers for each vertex of the mesh. Costs what
+    /// positions do, and O(triangles); allocates nothing.
+    pub fn intersect_ray(&self, ray: &Ray, triangles: &[u32], work: &mut [f32]) -> Result<Option<Hit>> {
+        let mut raw: sys::anic_ray = init();
+        raw.origin = ray.origin;
+        raw.direction = ray.direction;
+        raw.side = ray.side.raw();
+        if ray.farthest <= 0.0 {
+            return Err(Error::ARGUMENT);
+        }
+        raw.farthest = ray.farthest;
+        let count = u32::try_from(triangles.len() / 3).map_err(|_| Error::ARGUMENT)?;
+        let mut out = sys::anic_hit {
+            point: sys::anic_surface_point { vertices: [0; 3], weights: [0.0; 3] },
+            distance: 0.0,
+            triangle: 0,
+            side: 0,
+        };
+        // SAFETY: the sizes are those of the slices, and vertices are checked against the mesh.
+        check(unsafe {
+            sys::anic_intersect_ray(
+                self.context.raw(),
+                self.mesh,
+                self.when.raw(),
+                &raw,
+                triangles.as_ptr(),
+                count,
+                work.as_mut_ptr(),
+                core::mem::size_of_val(work),
+                &mut out,
+            )
+        })?;
+        Ok((out.triangle != u32::MAX).then(|| Hit {
+            point: SurfacePoint { vertices: out.point.vertices, weights: out.point.weights },
+            distance: out.distance,
+            triangle: out.triangle,
+            side: Side::from_raw(out.side),
+        }))
     }
 }
 

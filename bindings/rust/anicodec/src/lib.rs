@@ -26,7 +26,7 @@ pub use error::{Chunk, Error, Result, Status};
 pub use gpu::{Basis, BasisKind, Correction, Part, Reconstruction, Target, Texture, TextureLayout};
 pub use mesh::{AlphaMode, Attribute, AttributeKind, Domain, Index, Material, Mesh, Polygons};
 pub use options::{OpenOptions, Progress, Requirements, Run};
-pub use output::{Bounds, Format, Output, ValueFormat, ValueOutput};
+pub use output::{Bounds, Format, Hit, Output, Ray, Side, SurfaceFrame, SurfacePoint, ValueFormat, ValueOutput};
 pub use plans::{NormalGroups, NormalOptions, NormalPlan, RenderOptions, RenderPlan};
 pub use stream::{Stream, StreamInfo};
 pub use text::Text;

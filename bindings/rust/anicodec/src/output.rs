@@ -16,6 +16,72 @@ pub struct Bounds {
     pub max: [f32; 3],
 }
 
+/// A point of a mesh's surface: vertices of a triangle, counter-clockwise seen from its front, and barycentric coordinates
+/// in it, whose sum is 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfacePoint {
+    /// The vertices.
+    pub vertices: [u32; 3],
+    /// One for each vertex.
+    pub weights: [f32; 3],
+}
+
+/// Axes at a point of the surface, of length 1; the third one is normal x tangent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceFrame {
+    /// The point.
+    pub position: [f32; 3],
+    /// The triangle's, on its front.
+    pub normal: [f32; 3],
+    /// From the triangle's first vertex to the second one.
+    pub tangent: [f32; 3],
+}
+
+enumeration! {
+    /// A side of triangles, whose corners run counter-clockwise on the front.
+    Side: Any {
+        /// Front or back.
+        Any = ANIC_SIDE_ANY,
+        /// The front.
+        Front = ANIC_SIDE_FRONT,
+        /// The back.
+        Back = ANIC_SIDE_BACK,
+    }
+}
+
+/// A ray in the space of the positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Its begin.
+    pub origin: [f32; 3],
+    /// Any length but 0.
+    pub direction: [f32; 3],
+    /// The distance that still counts, in lengths of the direction.
+    pub farthest: f32,
+    /// The side of triangles that count.
+    pub side: Side,
+}
+
+impl Ray {
+    /// A ray without an end, which meets both sides.
+    pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Self {
+        Self { origin, direction, farthest: f32::INFINITY, side: Side::Any }
+    }
+}
+
+/// The first point of the surface on a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// It, for [`Shown::surface_frame`](crate::Shown::surface_frame).
+    pub point: SurfacePoint,
+    /// From the origin, in lengths of the direction.
+    pub distance: f32,
+    /// Its number in the list of triangles.
+    pub triangle: u32,
+    /// The one that the ray meets.
+    pub side: Side,
+}
+
 enumeration! {
     /// How a position or normal is stored, in the machine's byte order. Formats of four components have 1 as the last one.
     /// The 16-bit formats store t = (x - offset) / scale: see [`Output::scaled`].

@@ -30,7 +30,7 @@ macro_rules! versioned {
 versioned! {
     anic_failure anic_options anic_requirements anic_asset_info anic_clip anic_event anic_mesh anic_polygons anic_attribute
     anic_material anic_root_motion anic_output anic_value_output anic_normal_plan_options anic_render_plan_options
-    anic_render_info anic_basis anic_parts anic_texture_layout anic_stream_info
+    anic_render_info anic_basis anic_parts anic_texture_layout anic_stream_info anic_ray
 }
 
 #[cfg(feature = "encoder")]
