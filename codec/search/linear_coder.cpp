@@ -4,7 +4,6 @@
 
 #include "codec/parallel/parallel.h"
 #include "codec/parallel/thread_count.h"
-#include "codec/search/bound_search.h"
 #include "codec/search/opening_time.h"
 #include "codec/sequence/error.h"
 
@@ -27,12 +26,17 @@ constexpr double kNear = 0.04;      // of the error asked for: sizes can be comp
 constexpr double kDoubt = 0.03;
 constexpr size_t kMostComponents = 2000;
 constexpr size_t kFirstComponents = 48;  // found at first; twice as many whenever all are of use
+constexpr size_t kFewComponents = 16;    // of regions: steps of what is found at first
+// The part of the whole's components is regions^this or less: on chicken, dance, horse and flag 0.5 to 0.7 in 2 and 4, 0.3 to 0.7 in 8.
+constexpr double kComponentsOfRegions = -0.3;
 constexpr int kRegionsEffort = 2;        // from here on, surfaces are cut
 constexpr size_t kRichComponents = 24;   // of clips whose surface is
 constexpr size_t kFewestVertices = 200;  // of a region, on average
 // Of the bytes of the whole, by expectation, which ranks cuts badly: all below are tried; and of the best, by a trial
 // that missed the error.
-constexpr double kWorthTrying = 1.05, kFarFromBest = 1.15;
+constexpr double kWorthTrying = 1.05, kFarFromBest = 1.06;
+// Errors of first trials are above the estimate by 1.06 to 1.25, 1.2 to 1.44 and 1.36 to 1.9 in 2, 4 and 8 regions.
+constexpr double kAimOfRegions = -0.24;
 
 /// How near to the error asked for is near enough, at first and after a few trials, and where to aim,
 /// as parts of it.
@@ -45,11 +49,16 @@ struct Nearness {
 constexpr Nearness kFirst{0.97, 0.97, 0.985};
 constexpr double kPieceLambda = 0.17;  // of pieces of live streams
 constexpr Nearness kPlain{0.997, 0.994, 0.9985};
-constexpr Nearness kThorough{0.994, 0.99, 0.997};  // errors vary by some thousandths
+constexpr Nearness kThorough{0.991, 0.99, 0.996};  // errors vary by some thousandths
 // Trials until `enough` is enough. On horse, face, chicken, dance and Fox, `encode` at its default, two trials took 0.84
 // of the time of three for 0.5 % more bytes.
 constexpr int kPatience = 3;
-constexpr double kLeastExponent = 0.35, kMostExponent = 1.5;  // of errors over steps
+// Joint rounding raises the error by 1 to 7 %.
+constexpr double kJointStep = 0.965;
+// Settings whose first thorough trial shows more bytes than so many times those of the best are not searched further.
+constexpr double kWorthSearching = 0.99;
+constexpr size_t kMostApproaches = 2;
+constexpr size_t kMostFailures = 5;  // steps in a row that do not help end the search for settings
 
 size_t most_components(const LinearSettings& settings) {
   return settings.components.empty() ? 0 : std::ranges::max(settings.components);
@@ -106,10 +115,7 @@ void LinearCoder::share_pose(std::shared_ptr<const EncodedPose> pose) {
 }
 
 LinearCoder::MadeBasis& LinearCoder::made_basis(const LinearChoice& choice, size_t wanted) {
-  // Never more than what was asked for before, for what a basis is must not depend on that.
-  size_t most = kFirstComponents;
-  while (most < std::min(wanted, kMostComponents))
-    most *= 2;
+  const size_t most = std::min(wanted, kMostComponents);
   const std::scoped_lock lock(bases_->mutex);
   const std::tuple key{choice.pose, choice.base, choice.regions, most};
   auto found = bases_->made.find(key);
@@ -124,7 +130,9 @@ LinearCoder::MadeBasis& LinearCoder::made_basis(const LinearChoice& choice, size
     const auto components = static_cast<double>(basis.most_components());
     MemoryShare memory = input_.take_memory(
         analysis_.clip().frame_count, "a basis of the components that the error takes",
-        [&](const EncodingMemory& m) { return m.basis(kind_, components, effort_, choice.regions); });
+        [&](const EncodingMemory& m) {
+          return m.basis(kind_, components, effort_, choice.regions);
+        });
     found = bases_->made.try_emplace(key).first;
     found->second.memory = std::move(memory);
     found->second.basis = std::move(basis);
@@ -147,8 +155,9 @@ std::shared_ptr<const EncodedPose> LinearCoder::coded_pose(MadeBasis& made,
 void LinearCoder::reserve(uint32_t regions) {
   Regions& cut = regions_[regions];
   if (!cut.memory)
-    cut.memory = input_.take_memory(analysis_.clip().frame_count, "the motion of regions of the surface",
-                                    [&](const EncodingMemory& m) { return m.regions(regions); });
+    cut.memory =
+        input_.take_memory(analysis_.clip().frame_count, "the motion of regions of the surface",
+                           [&](const EncodingMemory& m) { return m.regions(regions); });
 }
 
 const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
@@ -171,7 +180,13 @@ const RegionAnalysis& LinearCoder::analysis_of(uint32_t regions) {
 /// The choice with a step and a number of components that should meet the error.
 LinearChoice LinearCoder::started(LinearChoice choice, double rmse) {
   rmse *= choice.aim;
-  for (size_t wanted = kFirstComponents;; wanted *= 2) {
+  size_t first = kFirstComponents;
+  if (choice.regions > 1) {
+    const double some = choice.components_of_whole * std::pow(choice.regions, kComponentsOfRegions);
+    first = (static_cast<size_t>(some) / kFewComponents + 1) * kFewComponents;
+  }
+  for (size_t wanted = first;; wanted *= 2) {
+    choice.components_made = wanted;
     const LinearBasis& b = basis(choice, wanted);
     set_step(b, rmse, choice.settings);
     if (wanted >= kMostComponents || b.most_components() < wanted ||
@@ -200,8 +215,8 @@ void LinearCoder::set_step(const LinearBasis& b, double rmse, LinearSettings& se
       unexplained -= of_region.energies.head(static_cast<Eigen::Index>(k)).sum();
       coefficients += static_cast<double>(k * vertices_of(b, r) * (shapes ? 3 : 1));
     }
-    const double error = std::max(unexplained, 0.0) +
-                         0.12 * coefficients * settings.step * settings.step;
+    const double error =
+        std::max(unexplained, 0.0) + 0.12 * coefficients * settings.step * settings.step;
     (error > budget ? high : low) = settings.step;
   }
 }
@@ -227,7 +242,7 @@ std::vector<LinearCoder::Measured> LinearCoder::measured(const std::vector<Linea
 
 LinearCoder::Measured LinearCoder::trial(const LinearChoice& choice, double rmse) {
   Measured m;
-  MadeBasis& made = made_basis(choice, most_components(choice.settings));
+  MadeBasis& made = made_basis(choice, choice.components_made);
   std::optional<EncodedSegment> encoded =
       encode_linear(analysis_.clip(), made.basis, choice.settings, input_.layout,
                     coded_pose(made, choice.settings), runs_, pose_ ? input_.learning : Learning());
@@ -325,7 +340,7 @@ LinearCoder::Probed LinearCoder::probed(const Measured& trial, double rmse) {
 /// whole: coefficients of a region are fewer and dearer, for they have more of the motion.
 double LinearCoder::expected_bytes(const LinearChoice& choice) {
   constexpr double kOfWeight = 0.9, kOfCoefficient = 1.5;  // measured on pcow, crane, jumping
-  const LinearBasis& b = basis(choice, most_components(choice.settings));
+  const LinearBasis& b = basis(choice, choice.components_made);
   const auto whole = static_cast<double>(most_components(choice_.settings));
   double weights = 0, coefficients = 0;
   for (size_t r = 0; r < choice.settings.components.size(); ++r) {
@@ -362,6 +377,8 @@ void LinearCoder::try_regions(double rmse) {
   for (const uint32_t regions : counts) {
     LinearChoice cut = choice_;
     cut.regions = regions;
+    cut.components_of_whole = static_cast<double>(most_components(choice_.settings));
+    cut.aim *= std::pow(regions, kAimOfRegions);
     input_.begin(SearchStep::kAnalysis);
     try {
       cut = started(cut, rmse);
@@ -397,91 +414,108 @@ void LinearCoder::try_regions(double rmse) {
   }
 }
 
-void LinearCoder::choose_settings(double rmse) {
-  chosen_ = true;
+double LinearCoder::choose_settings(double rmse, int effort) {
+  if (chosen_ || effort_ == 0)
+    return least_;
+  if (steps_done_ == 1) {
+    least_rmse_ = rmse;
+    least_ = probe(rmse);
+  }
   const bool shapes = kind_ == BasisKind::kEigenshapes;
-  double least = probe(rmse);
-  for (int effort = 2; effort <= effort_; ++effort) {
+  while (steps_done_ < std::min(effort, effort_)) {
+    ++steps_done_;
     std::vector<LinearStep> steps;
     for (const LinearStep& step : linear_steps()) {
-      if (effort == (shapes ? step.shapes_from : step.trajectories_from) &&
+      if (steps_done_ == (shapes ? step.shapes_from : step.trajectories_from) &&
           input_.allows(step.name))
         steps.push_back(step);
     }
-    Candidate before{choice_, least};
-    if (try_steps(steps, rmse, &least))
+    Candidate before{choice_, least_};
+    if (try_steps(steps, rmse))
       earlier_.push_back(std::move(before));
   }
+  if (steps_done_ < effort_)
+    return least_;
+  chosen_ = true;
+  failures_ = 0;
   if (!smallest_ && effort_ > 1)
-    try_steps(opening_steps(), rmse, &least);
-  least_ = least;
+    try_steps(opening_steps(), rmse);
+  return least_;
 }
 
 /// Keeps the changes of the settings that help, each made to what those before it left. As many as
 /// there are threads are tried at a time: those after one that helps are then tried again.
-bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse, double* least) {
+bool LinearCoder::try_steps(std::span<const LinearStep> steps, double rmse) {
   const auto threads = thread_count();
   bool changes = false;
-  while (!steps.empty()) {
+  std::vector<LinearStep> left(steps.begin(), steps.end());
+  while (!left.empty() && failures_ < kMostFailures) {
     std::vector<LinearChoice> changed;
-    for (const LinearStep& step : steps.first(std::min(threads, steps.size()))) {
+    for (const LinearStep& step :
+         std::span(left).first(std::min({threads, left.size(), kMostFailures - failures_}))) {
       LinearChoice& choice = changed.emplace_back(choice_);
       step.change(choice, kind_);
       choice = started(choice, rmse);
     }
     const std::vector<Measured> trials = measured(changed, rmse);
-    const auto helps = std::ranges::find_if(
-        trials, [&](const Measured& trial) { return trial.bytes < *least; });
+    const auto helps =
+        std::ranges::find_if(trials, [&](const Measured& trial) { return trial.bytes < least_; });
     const auto at = static_cast<size_t>(helps - trials.begin());
+    const size_t done = std::min(at + 1, changed.size());
     if (helps != trials.end()) {
-      *least = helps->bytes;
+      least_ = helps->bytes;
       choice_ = changed[at];
-      choice_.steps.push_back(meaning_of(steps[at], choice_));
+      choice_.steps.push_back(meaning_of(left[at], choice_));
       learn(*helps, rmse, choice_);
       changes = true;
     }
-    steps = steps.subspan(std::min(at + 1, changed.size()));
+    failures_ = helps != trials.end() ? 0 : failures_ + done;
+    // A change that did not help does not help again.
+    const auto failed = helps != trials.end() ? nullptr : left[done - 1].change;
+    left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(done));
+    while (!left.empty() && failed && left[0].change == failed)
+      left.erase(left.begin());
   }
   return changes;
+}
+
+double LinearCoder::prepare(double rmse) {
+  choose_settings(rmse, effort_);
+  approaches_.clear();
+  approaches_.emplace_back(choice_);
+  // One trial tells a size but roughly: what a search of less effort ends with may be smaller yet.
+  for (Candidate& earlier : std::views::reverse(earlier_)) {
+    if (approaches_.size() < kMostApproaches && earlier.bytes * (1 - kDoubt) <= least_)
+      approaches_.emplace_back(std::move(earlier.choice));
+  }
+  earlier_.clear();
+  asked_ = rmse;
+  parallel_tasks(approaches_.size(), [&](size_t i) { advance(approaches_[i]); });
+  std::ranges::stable_sort(approaches_, {}, &Approach::expected);
+  return approaches_[0].expected;
 }
 
 std::optional<CodedPart> LinearCoder::at_rmse(double rmse) {
   if (!(rmse > 0))
     return std::nullopt;
-  if (!chosen_ && effort_ > 0)
-    choose_settings(rmse);
-  // The settings of less effort, if they will be wanted, are tried at the same time where a thread has nothing to do.
-  const bool thorough = thorough_;
-  std::optional<CodedPart> best, ahead;
-  LinearChoice choice_ahead;
-  const bool looks_ahead = !earlier_.empty() && thread_count() > 1;
-  parallel_invoke([&] { best = reached(choice_, rmse); },
-                       [&] {
-                         if (!looks_ahead)
-                           return;
-                         choice_ahead = earlier_.back().choice;
-                         ahead = reached(choice_ahead, rmse);
-                       });
-  if (thorough_ && best && least_ > 0 && bytes(*best) > least_)
-    turn_down(rmse, *best);
-  const double all_means = best && least_ > 0 ? std::min(bytes(*best) / least_, 1.0) : 1;
-  // One trial tells a size but roughly: what a search of less effort ends with may be smaller yet.
-  for (Candidate& earlier : std::views::reverse(earlier_)) {
-    if (best && earlier.bytes * all_means * (1 - kDoubt) > bytes(*best))
+  if (approaches_.empty() || asked_ != rmse)
+    prepare(rmse);
+  std::optional<CodedPart> best;
+  double worth = std::exchange(most_bytes_, kNoLimit);
+  for (Approach& approach : approaches_) {
+    if (approach.expected > worth)
       continue;
-    std::optional<CodedPart> part;
-    if (looks_ahead && &earlier == &earlier_.back() && thorough == thorough_) {
-      part = std::move(ahead);
-      earlier.choice = std::move(choice_ahead);
-    } else {
-      part = reached(earlier.choice, rmse);
-    }
-    if (part && (!best || bytes(*part) < bytes(*best))) {
-      best = std::move(part);
-      choice_ = std::move(earlier.choice);
-    }
+    std::optional<CodedPart> part = reached(approach);
+    if (!part || (best && bytes(*part) >= bytes(*best)))
+      continue;
+    best = std::move(part);
+    choice_ = std::move(approach.choice);
+    worth = std::min(worth, kWorthSearching * bytes(*best));
   }
-  earlier_.clear();
+  approaches_.clear();
+  if (thorough_ && best && least_ > 0 &&
+      bytes(*best) > least_ * std::pow(least_rmse_ / rmse, kRateSlope))
+    turn_down(rmse, *best);
   least_ = 0;
   return best;
 }
@@ -498,61 +532,73 @@ std::optional<CodedPart> LinearCoder::near_rmse(double rmse) {
 /// Does without the means that take longer where that is smaller.
 void LinearCoder::turn_down(double rmse, CodedPart& best) {
   thorough_ = false;
-  LinearChoice choice = choice_;
-  choice.step_factor = 1;
-  std::optional<CodedPart> plain = reached(choice, rmse);
+  Approach approach(choice_);
+  approach.choice.step_factor = 0;
+  asked_ = rmse;
+  std::optional<CodedPart> plain = reached(approach);
   thorough_ = !plain || bytes(*plain) >= bytes(best);
   if (thorough_)
     return;
   best = std::move(*plain);
-  choice_ = std::move(choice);
+  choice_ = std::move(approach.choice);
 }
 
-/// Meets an error. The choice keeps what helps to meet the next one sooner.
-std::optional<CodedPart> LinearCoder::reached(LinearChoice& choice, double rmse) {
-  LinearChoice tried = started(choice, rmse);
-  const double estimated = tried.settings.step;
-  tried.settings.step *= choice.step_factor;
+/// One more trial on the way to the error asked for.
+void LinearCoder::advance(Approach& a) {
   const Nearness& near = thorough_ ? kThorough : effort_ > 0 ? kPlain : kFirst;
-  const BoundSearch::Exponent exponent{choice.exponent, kLeastExponent, kMostExponent};
-  BoundSearch search(exponent);
-  std::optional<Measured> best;
-  double closest = 0;  // ratio of those that keep to the error
-  for (int round = 0; round < kStepRounds; ++round) {
-    if (thorough_) {
-      tried.settings.joint_lambda = input_.allows(kJointRoundingMean) ? tried.price : 0;
-      tried.settings.refit_weights = input_.allows(kRefittedWeightsMean);
-    }
-    Measured trial = measured(tried, rmse);
-    if (std::isinf(trial.rmse))
-      break;
-    if (tried.price == 0)
-      learn(trial, rmse, tried);
-    else if (round < kStepRounds / 2)
-      even_out(trial, tried);
-    const double ratio = std::max(trial.rmse / rmse, 1e-9), step = tried.settings.step;
-    if (ratio <= 1 && (!best || bytes(trial.part) < bytes(best->part))) {
-      best = std::move(trial);
-      choice.step_factor = step / estimated;
-    }
-    if (ratio <= 1)
-      closest = std::max(closest, ratio);
-    if (closest >= (round < kPatience ? near.close : near.enough))
-      break;
-    if (round >= kPatience && !best) {
-      // The components left out alone take most of the error: more of them.
-      for (size_t& k : tried.settings.components)
-        k += k / 16 + 1;
-      search = BoundSearch(exponent);
-    }
-    search.add(step, ratio);
-    tried.settings.step = search.next(near.aim, 1);
+  LinearChoice& tried = a.tried;
+  if (a.round == 0) {
+    tried = started(a.choice, asked_);
+    a.estimated = tried.settings.step;
+    tried.settings.step *= a.choice.step_factor > 0 ? a.choice.step_factor
+                           : thorough_              ? kJointStep
+                                                    : 1;
+  } else {
+    tried.settings.step = a.search.next(near.aim, 1);
   }
-  choice.exponent = search.exponent();
-  if (!best)
-    return std::nullopt;
-  best->part.asked = rmse;
-  return std::move(best->part);
+  if (thorough_) {
+    tried.settings.joint_lambda = input_.allows(kJointRoundingMean) ? tried.price : 0;
+    tried.settings.refit_weights = input_.allows(kRefittedWeightsMean);
+  }
+  Measured trial = measured(tried, asked_);
+  if (a.round == 0)
+    a.expected = trial.bytes;
+  if (std::isinf(trial.rmse)) {
+    a.ended = true;
+    return;
+  }
+  if (tried.price == 0)
+    learn(trial, asked_, tried);
+  else if (a.round < kStepRounds / 2)
+    even_out(trial, tried);
+  const double ratio = std::max(trial.rmse / asked_, 1e-9), step = tried.settings.step;
+  if (ratio <= 1) {
+    a.closest = std::max(a.closest, ratio);
+    if (!a.best || bytes(trial.part) < bytes(*a.best)) {
+      a.best = std::move(trial.part);
+      a.choice.step_factor = step / a.estimated;
+    }
+  }
+  a.ended =
+      a.closest >= (a.round < kPatience ? near.close : near.enough) || a.round + 1 == kStepRounds;
+  if (a.round >= kPatience && !a.best) {
+    // The components left out alone take most of the error: more of them.
+    for (size_t& k : tried.settings.components)
+      k += k / 16 + 1;
+    a.search = BoundSearch({a.search.exponent(), kLeastExponent, kMostExponent});
+  }
+  a.search.add(step, ratio);
+  ++a.round;
+}
+
+/// Meets the error. The choice keeps what helps to meet the next one sooner.
+std::optional<CodedPart> LinearCoder::reached(Approach& approach) {
+  while (!approach.ended)
+    advance(approach);
+  approach.choice.exponent = approach.search.exponent();
+  if (approach.best)
+    approach.best->asked = asked_;
+  return std::move(approach.best);
 }
 
 /// The bytes that the part takes in the file, and the price of its opening.

@@ -3,6 +3,7 @@
 #ifndef ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 #define ANICODEC_CODEC_SEARCH_LINEAR_CODER_H_
 
+#include "codec/search/bound_search.h"
 #include "codec/search/encoder_input.h"
 #include "codec/search/linear_choice.h"
 #include "codec/search/linear_steps.h"
@@ -11,12 +12,14 @@
 #include "codec/segment/linear_segment_encode.h"
 #include "codec/segment/reference_pose_encode.h"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace anicodec {
@@ -34,6 +37,19 @@ class LinearCoder : public SegmentCoder {
   std::optional<CodedPart> at_rmse(double rmse) override;
   std::optional<CodedPart> near_rmse(double rmse) override;
 
+  /// Chooses settings for an error by the steps of an effort, or goes on where a search of less effort ended; nothing is left to
+  /// do at the coder's own. About the bytes that they take before joint rounding; 0 without effort.
+  double choose_settings(double rmse, int effort);
+
+  /// Chooses settings for an error, and tells about the bytes of the part that at_rmse() makes of it.
+  double prepare(double rmse);
+
+  /// Makes the next at_rmse() give up once it is about to take more bytes.
+  void give_up_above(double bytes) { most_bytes_ = bytes; }
+
+  /// The bytes that a part takes in the file, and the price of its opening.
+  double bytes(const CodedPart& part) const;
+
   BasisKind kind() const { return kind_; }
 
   const LinearAnalysis& analysis() const { return analysis_; }
@@ -49,6 +65,7 @@ class LinearCoder : public SegmentCoder {
     choice_.settings = other.choice_.settings;
     choice_.settings.run_steps.clear();  // of other clips
     choice_.regions = other.choice_.regions;
+    choice_.components_of_whole = other.choice_.components_of_whole;
     if (choice_.regions > 1)
       regions_[choice_.regions].of_vertex = other.regions_.at(choice_.regions).of_vertex;
     choice_.steps = other.choice_.steps;
@@ -66,6 +83,9 @@ class LinearCoder : public SegmentCoder {
   bool tries_regions() const;
 
  private:
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  static constexpr double kLeastExponent = 0.35, kMostExponent = 1.5;  // of errors over steps
+
   struct Measured {
     CodedPart part;
     double rmse = 0;   ///< where clips have bounds, that of the clip furthest from its own
@@ -76,7 +96,7 @@ class LinearCoder : public SegmentCoder {
   /// The choice that a search begins with, tried at an error.
   struct Probed {
     double rmse = 0, bytes = 0;
-    bool is_near = false;  ///< close enough to the error for sizes to be compared
+    bool is_near = false;                  ///< close enough to the error for sizes to be compared
     double weights = 0, coefficients = 0;  ///< bytes of them, as they were coded
   };
 
@@ -84,6 +104,21 @@ class LinearCoder : public SegmentCoder {
   struct Candidate {
     LinearChoice choice;
     double bytes = 0;  ///< as one trial told; 0 if none did
+  };
+
+  /// A way to the error asked for, by some settings: trials that come closer.
+  struct Approach {
+    explicit Approach(LinearChoice by)
+        : choice(std::move(by)), search({choice.exponent, kLeastExponent, kMostExponent}) {}
+
+    LinearChoice choice, tried;
+    BoundSearch search;
+    std::optional<CodedPart> best;
+    double estimated = 0;  ///< step
+    double expected = 0;   ///< bytes, as the first trial tells
+    double closest = 0;    ///< ratio of errors to the one asked for, of trials that keep to it
+    int round = 0;
+    bool ended = false;
   };
 
   /// A cut of the surface, and the analysis of this clip by it.
@@ -118,8 +153,10 @@ class LinearCoder : public SegmentCoder {
   const RegionAnalysis& analysis_of(uint32_t regions);
   void try_regions(double rmse);
   double expected_bytes(const LinearChoice& choice);
+
   /// A pose chosen elsewhere; null: none.
   const Eigen::MatrixXd* given() const { return pose_ ? &given_pose_ : nullptr; }
+
   static Probed probed(const Measured& trial, double rmse);
   LinearChoice started(LinearChoice choice, double rmse);
   void set_step(const LinearBasis& b, double rmse, LinearSettings& settings) const;
@@ -130,11 +167,10 @@ class LinearCoder : public SegmentCoder {
   Measured trial(const LinearChoice& choice, double rmse);
   static void even_out(const Measured& trial, LinearChoice& choice);
   static void learn(const Measured& trial, double rmse, LinearChoice& choice);
-  bool try_steps(std::span<const LinearStep> steps, double rmse, double* least);
-  void choose_settings(double rmse);
+  bool try_steps(std::span<const LinearStep> steps, double rmse);
   void turn_down(double rmse, CodedPart& best);
-  std::optional<CodedPart> reached(LinearChoice& choice, double rmse);
-  double bytes(const CodedPart& part) const;
+  void advance(Approach& approach);
+  std::optional<CodedPart> reached(Approach& approach);
 
   const EncoderInput& input_;
   const LinearAnalysis& analysis_;
@@ -145,10 +181,15 @@ class LinearCoder : public SegmentCoder {
   int effort_;
   LinearChoice choice_;
   bool thorough_ = false;  ///< files are coded with joint rounding and refitted weights
+  int steps_done_ = 1;     ///< the effort whose steps were tried
+  size_t failures_ = 0;    ///< of steps, in a row
   double least_ = 0;       ///< bytes in the trial of the settings chosen, until an error is met
+  double least_rmse_ = 0;  ///< in that trial
   Probed probed_;
   bool tried_regions_ = false;
-  std::vector<Candidate> earlier_;  ///< until the first error is met
+  std::vector<Candidate> earlier_;    ///< until the first error is met
+  std::vector<Approach> approaches_;  ///< of the error asked for, prepared
+  double asked_ = 0, most_bytes_ = kNoLimit;
   bool chosen_ = false;
   std::shared_ptr<const EncodedPose> pose_;
   Eigen::MatrixXd given_pose_;

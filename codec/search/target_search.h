@@ -6,6 +6,7 @@
 #include "codec/file/encode_options.h"
 #include "codec/search/bound_search.h"
 #include "codec/search/encoder_input.h"
+#include "codec/search/linear_coder.h"
 #include "codec/search/segment_coder.h"
 #include "codec/search/solution.h"
 #include "codec/search/trial_files.h"
@@ -29,8 +30,8 @@ class TargetSearch {
   /// best if it is far behind `rival`, which another coder made: null for none.
   std::optional<Solution> reach(SegmentCoder& coder, const Solution* rival = nullptr);
 
-  /// The best of some coders. Where they meet an error directly they do so at the same time.
-  std::optional<Solution> best_of(std::span<SegmentCoder* const> coders);
+  /// The best of some coders. Where they meet an error directly they choose their settings at the same time.
+  std::optional<Solution> best_of(std::span<LinearCoder* const> coders);
 
   /// The root mean square error that the target is; nothing for a target that only leads to one.
   std::optional<double> rmse_asked() const;

@@ -13,7 +13,7 @@ namespace anicodec {
 namespace {
 
 // Entries of a column that are left out: docs/research/rate.md.
-constexpr float kNegligible = 0.08F;
+constexpr float kNegligible = 0.12F;
 constexpr int kSweeps = 4;  // over all vertices, in turns from either end
 
 /// What to add to a residual q: 0, a step either way, or what makes it 0, whichever lowers the error
