@@ -44,6 +44,14 @@ class LayerBuilder {
   void add_transforms(const pxr::SdfPath& prim);
   void add_root_motion(const std::shared_ptr<const ClipCodes>& codes, const pxr::SdfPath& prim);
   pxr::SdfPath material(const std::string& name, uint32_t mesh, uint32_t attribute, uint32_t label);
+  void add_surface(const pxr::SdfPath& material, const anic_material& look, uint32_t mesh);
+  pxr::SdfPath add_shader(const pxr::SdfPath& path, const char* id);
+  void add_input(const pxr::SdfPath& shader, const char* name, const char* type,
+                 pxr::VtValue value);
+  /// Makes the property where there is none.
+  void connect(const pxr::SdfPath& property, const char* type, const pxr::SdfPath& source,
+               const char* output);
+  std::string uv_name(uint32_t mesh) const;  ///< of the first texture coordinates
 
   /// The prim itself, or the part of it in a clip's variant.
   pxr::SdfPath in_clip(const pxr::SdfPath& prim, uint32_t clip) const;

@@ -337,12 +337,103 @@ def test_what_a_stage_has_besides_is_named():
     primvars.CreatePrimvar("heat", Sdf.ValueTypeNames.FloatArray, UsdGeom.Tokens.vertex).Set([1, 2, 3])
     material = UsdShade.Material.Define(stage, "/paint")
     material.CreateSurfaceOutput()
+    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+    UsdGeom.Subset.CreateGeomSubset(mesh, "cut", UsdGeom.Tokens.face, [0], "fracture")
     data = usd.encode(stage, effort=1)
     assert list(data.notes) == [
         "/group/a: variant detail=high is encoded, not low",
-        "not kept: 1 Camera, 2 Sphere, 1 Mesh of purpose guide, values of materials, 1 subdivision (catmullClark) of a mesh, "
-        "'creaseIndices' of meshes, primvar 'label'"]
-    assert [attribute.name for attribute in anicodec.open(data).attributes] == ["heat"]
+        "not kept: 1 Camera, 2 Sphere, 1 Mesh of purpose guide, 1 subdivision (catmullClark) of a mesh, 'creaseIndices' of meshes, "
+        "values of materials, GeomSubsets of faces, family 'fracture', primvar 'label'"]
+    assert [attribute.name for attribute in anicodec.open(data).attributes] == ["heat", ""]
+
+
+def test_numbers_above_meshes_are_inherited():
+    stage = timed_stage(1, 1, 24)
+    group = UsdGeom.Xform.Define(stage, "/group").GetPrim()
+    colour = UsdGeom.PrimvarsAPI(group).CreatePrimvar("displayColor", Sdf.ValueTypeNames.Color3fArray, "constant")
+    colour.Set([(1, 0, 0.5)])
+    triangle(stage, "/group/a")
+    attribute, = (each for each in anicodec.open(usd.encode(stage, effort=1)).attributes if each.kind == "colour")
+    assert np.allclose(attribute.values, (1, 0, 0.5), atol=0.01)
+
+
+def test_instancers_in_prototypes_are_followed():
+    stage = timed_stage(1, 2, 24)
+    outer = UsdGeom.PointInstancer.Define(stage, "/outer")
+    inner = UsdGeom.PointInstancer.Define(stage, "/outer/plant/leaves")
+    UsdGeom.Xform.Define(stage, "/outer/plant").AddScaleOp().Set((2, 2, 2))
+    triangle(stage, "/outer/plant/leaves/leaf").AddTranslateOp().Set((0, 0, 1))
+    for instancer, prototype, places in ((outer, "/outer/plant", [(0, 0, 0), (100, 0, 0)]), (inner, "/outer/plant/leaves/leaf", [(10, 0, 0), (20, 0, 0)])):
+        instancer.CreatePrototypesRel().SetTargets([prototype])
+        instancer.CreateProtoIndicesAttr([0, 0])
+        instancer.CreatePositionsAttr().Set(places, 1)
+        instancer.CreatePositionsAttr().Set([(x, 1, 0) for x, _, _ in places], 2)
+    inner.CreateInvisibleIdsAttr().Set([], 1)
+    inner.CreateInvisibleIdsAttr().Set([1], 2)
+    clip = anicodec.open(usd.encode(stage, lossless=True, effort=1))
+    firsts = {mesh.name: mesh[0][0].tolist() for mesh in clip.meshes}
+    assert firsts == {"leaf_0_0": [20, 0, 2], "leaf_0_1": [40, 0, 2], "leaf_1_0": [120, 0, 2], "leaf_1_1": [140, 0, 2]}
+    assert clip.meshes[2][1][0].tolist() == [120, 3, 2] and not clip.meshes[3].shown_in(1)
+    inner.GetPrototypesRel().SetTargets(["/outer"])
+    with pytest.raises(anicodec.InputError, match="/outer: the instancer is in its own prototype"):
+        usd.encode(stage)
+
+
+def test_materials_keep_values_and_names_of_textures(tmp_path):
+    (tmp_path / "shared").mkdir()
+    (tmp_path / "shared" / "skin.png").write_bytes(b"")
+    library = Usd.Stage.CreateNew(str(tmp_path / "shared" / "library.usda"))
+    mesh = triangle(library, "/a")
+    library.SetDefaultPrim(mesh.GetPrim())
+    mesh.CreateFaceVertexCountsAttr([3, 3])
+    mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 2, 1, 0])
+    mesh.CreateDoubleSidedAttr(True)
+    UsdGeom.PrimvarsAPI(mesh).CreatePrimvar("map", Sdf.ValueTypeNames.TexCoord2fArray, "vertex").Set([(0, 0), (1, 0), (0, 1)])
+    looks = []
+    for number, parent in enumerate(("/a/one", "/a/two")):
+        material = UsdShade.Material.Define(library, parent + "/paint")
+        surface = UsdShade.Shader.Define(library, parent + "/paint/shader")
+        surface.CreateIdAttr("UsdPreviewSurface")
+        material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
+        subset = UsdGeom.Subset.CreateGeomSubset(mesh, f"set{number}", UsdGeom.Tokens.face, [number], "materialBind")
+        UsdShade.MaterialBindingAPI.Apply(subset.GetPrim()).Bind(material)
+        looks.append(surface)
+    looks[0].CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set((0.25, 0.5, 1))
+    looks[0].CreateInput("opacity", Sdf.ValueTypeNames.Float).Set(0.5)
+    looks[0].CreateInput("clearcoat", Sdf.ValueTypeNames.Float).Set(0.5)
+    looks[0].CreateInput("ior", Sdf.ValueTypeNames.Float).Set(1.5)
+    for name, output, links in (("skin", "rgb", ("diffuseColor",)), ("bumps", "rgb", ("normal",)), ("orm", "g", ("roughness",)), ("orm", "b", ("metallic",))):
+        texture = UsdShade.Shader.Define(library, f"/a/two/paint/{name}")
+        texture.CreateIdAttr("UsdUVTexture")
+        texture.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath(f"./{name}.png"))
+        texture.CreateOutput(output, Sdf.ValueTypeNames.Float3)
+        for link in links:
+            looks[1].CreateInput(link, Sdf.ValueTypeNames.Float).ConnectToSource(texture.ConnectableAPI(), output)
+    library.Save()
+    (tmp_path / "shot.usda").write_text('#usda 1.0\ndef "a" (references = @./shared/library.usda@) {}\n')
+    data = usd.encode(tmp_path / "shot.usda", lossless=True, effort=1, order="all")
+    assert list(data.notes) == ["not kept: 'clearcoat' of materials"]
+    (tmp_path / "shot.anic").write_bytes(data)
+    usd.decode(data, tmp_path / "back.usda")
+    for path in (None, "back.usda", "shot.anic"):
+        if path == "shot.anic" and "anic" not in Sdf.FileFormat.FindAllFileFormatExtensions():
+            continue
+        again = anicodec.open(data if path is None else usd.encode(tmp_path / path, effort=1, order="all"))
+        material = next(attribute for attribute in again.attributes if attribute.kind == "material")
+        assert material.labels == ("paint", "paint_1") and material.values.ravel().tolist() == [1, 2]
+        plain, textured = material.looks
+        assert plain.base_colour == (0.25, 0.5, 1, 0.5) and (plain.alpha, plain.double_sided, plain.roughness) == ("blend", True, 0.5)
+        assert textured.base_colour == (1, 1, 1, 1) and textured.base_colour_texture == "shared/skin.png"
+        assert (textured.normal_texture, textured.metallic_roughness_texture) == ("./bumps.png", "./orm.png")
+        assert (textured.metallic, textured.roughness, textured.emissive_texture) == (1, 1, "")
+
+
+def test_parts_come_back():
+    positions = [[(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, z)] for z in (0, 1)]
+    mesh = anicodec.SourceMesh(positions, [(0, 1, 2), (1, 3, 2)], name="a", parts=(["left", "right"], [1, 0]))
+    back = usd.decode(anicodec.encode_meshes([mesh], effort=1, order="all"), Usd.Stage.CreateInMemory())
+    parts, = (attribute for attribute in anicodec.open(usd.encode(back, effort=1, order="all")).attributes if attribute.kind == "part")
+    assert [parts.labels[label - 1] for label in parts.values.ravel()] == ["right", "left"]
 
 
 def test_samples_that_no_rate_meets_are_frames():

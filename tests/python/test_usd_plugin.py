@@ -289,7 +289,7 @@ def test_other_releases_are_named():
 
 @pytest.mark.skipif(not shutil.which("nm"), reason="binutils are not installed")
 def test_one_plug_in_serves_all_pythons():
-    stable = {"PyBool_FromLong", "PyFloat_FromDouble", "PyLong_FromLong", "_Py_Dealloc"}
+    stable = {"PyBool_FromLong", "PyFloat_FromDouble", "PyLong_FromLong", "PyUnicode_FromStringAndSize", "_Py_Dealloc"}
     for library in _usd_plugin.folder().glob("anicodec_usd_*.so"):
         told = subprocess.run(["nm", "-D", "-u", library], check=True, stdout=subprocess.PIPE, text=True).stdout
         assert set(re.findall(r" U (_?Py\w+)", told)) <= stable

@@ -3,49 +3,81 @@
 """Meshes of a stage of USD, and of instances: where they stand, and what they hold at each time code."""
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from pxr import Sdf, Usd, UsdGeom, UsdShade
 
-from ._usd_stage import MATERIALS, identifier
+from ._usd_materials import read_look
+from ._usd_stage import MATERIALS, PARTS, identifier
 from .encoder import SourceMesh
 from .errors import InputError
+from .material import Material
 
 # Prims that become meshes or say how these move and look; materials keep their names.
 _KEPT_TYPES = ("", "Mesh", "Xform", "Scope", "GeomSubset", "Material", "Shader", "NodeGraph", "SkelRoot", "Skeleton", "SkelAnimation",
                "BlendShape", "PointInstancer")
 
 
-class _Place:
-    """A mesh, or one instance of it: matrices are those of pxr, for row vectors."""
+class _Instancer:
+    """An instancer, and what it shows at each code. Of an instance: its id (or number) and the number of its prototype."""
 
-    def __init__(self, mesh: UsdGeom.Mesh, instancer: Optional[UsdGeom.PointInstancer] = None,
-                 identity: Tuple[int, int] = (0, 0), prototype: Optional[Usd.Prim] = None):
-        self.mesh, self.prim = mesh, mesh.GetPrim()
-        self._instancer, self._identity, self._prototype = instancer, identity, prototype
-        self.name = self.prim.GetName() + (f"_{identity[0]}" if instancer else "")
-        self.path = str(instancer.GetPath().AppendChild(identifier(self.name)) if instancer else self.prim.GetPath())
+    def __init__(self, stage: Usd.Stage, prim: Usd.Prim):
+        self.prim, self._schema = prim, UsdGeom.PointInstancer(prim)
+        self.prototypes = [stage.GetPrimAtPath(path) for path in self._schema.GetPrototypesRel().GetForwardedTargets()]
+        self._shown: Dict[float, Dict[Tuple[int, int], np.ndarray]] = {}
+
+    def identities(self, code: float) -> List[Tuple[int, int]]:
+        numbers = list(self._schema.GetProtoIndicesAttr().Get(code) or [])
+        ids = list(self._schema.GetIdsAttr().Get(code) or [])
+        for number in numbers:
+            if not 0 <= number < len(self.prototypes) or not self.prototypes[number]:
+                raise InputError(f"{self.prim.GetPath()}: an instance has no prototype {number}")
+        return list(zip(ids if len(ids) == len(numbers) else range(len(numbers)), numbers))
+
+    def shown(self, code: float) -> Dict[Tuple[int, int], np.ndarray]:
+        """The matrix of each instance that is shown, to the space of the instancer."""
+        if code not in self._shown:
+            here, mask = self.identities(code), self._schema.ComputeMaskAtTime(code)
+            # All instances have a place, masked ones too.
+            places = self._schema.ComputeInstanceTransformsAtTime(
+                code, code, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask)
+            if len(places) != len(here):
+                raise InputError(f"{self.prim.GetPath()}: {len(here)} instances have {len(places)} positions at time code {code:g}")
+            self._shown[code] = {one: np.array(place) for i, (one, place) in enumerate(zip(here, places)) if not mask or mask[i]}
+        return self._shown[code]
+
+
+class _Step(NamedTuple):
+    """An instance on the way from the world to a mesh."""
+
+    instancer: _Instancer
+    identity: Tuple[int, int]
+
+    @property
+    def prototype(self) -> Usd.Prim:
+        return self.instancer.prototypes[self.identity[1]]
+
+
+class _Place:
+    """A mesh, or one instance of it, maybe in an instance of another: matrices are those of pxr, for row vectors."""
+
+    def __init__(self, mesh: UsdGeom.Mesh, steps: Sequence[_Step] = ()):
+        self.mesh, self.prim, self._steps = mesh, mesh.GetPrim(), steps
+        self.name = "_".join([self.prim.GetName(), *(str(step.identity[0]) for step in steps)])
+        self.path = str(steps[0].instancer.prim.GetPath().AppendChild(identifier(self.name)) if steps else self.prim.GetPath())
 
     def matrix(self, cache: UsdGeom.XformCache, code: float) -> Optional[np.ndarray]:
         """To world space; None where the mesh is not shown."""
-        if self._instancer is None:
-            hidden = UsdGeom.Imageable(self.prim).ComputeVisibility(code) == UsdGeom.Tokens.invisible
-            return None if hidden else np.array(cache.GetLocalToWorldTransform(self.prim))
-        here = _identities(self._instancer, code)
-        mask = self._instancer.ComputeMaskAtTime(code)
-        if self._identity not in here:
-            return None
-        number = here.index(self._identity)
-        of_instancer = UsdGeom.Imageable(self._instancer.GetPrim()).ComputeVisibility(code)
-        if of_instancer == UsdGeom.Tokens.invisible or (mask and not mask[number]) or _hides(self.prim, self._prototype, code):
-            return None
-        places = self._instancer.ComputeInstanceTransformsAtTime(
-            code, code, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask)
-        if len(places) != len(here):
-            raise InputError(f"{self._instancer.GetPath()}: {len(here)} instances have {len(places)} positions at time code {code:g}")
-        in_prototype = cache.GetLocalToWorldTransform(self.prim) * cache.GetLocalToWorldTransform(self._prototype).GetInverse()
-        return np.array(in_prototype * places[number] * cache.GetLocalToWorldTransform(self._instancer.GetPrim()))
+        matrix, prim = np.eye(4), self.prim
+        for step in reversed(self._steps):
+            place = step.instancer.shown(code).get(step.identity)
+            if place is None or _hides(prim, step.prototype, code):
+                return None
+            in_prototype = cache.GetLocalToWorldTransform(prim) * cache.GetLocalToWorldTransform(step.prototype).GetInverse()
+            matrix, prim = matrix @ np.array(in_prototype) @ place, step.instancer.prim
+        hidden = UsdGeom.Imageable(prim).ComputeVisibility(code) == UsdGeom.Tokens.invisible
+        return None if hidden else matrix @ np.array(cache.GetLocalToWorldTransform(prim))
 
 
 def _hides(prim: Usd.Prim, prototype: Usd.Prim, code: float) -> bool:
@@ -85,9 +117,7 @@ def places(stage: Usd.Stage, prims: Union[None, str, Sequence[str]], codes: List
             leave_out(kind)
         if prim.IsA(UsdGeom.PointInstancer):
             walk.PruneChildren()  # prototypes stand nowhere by themselves
-            found.extend(_instances(stage, UsdGeom.PointInstancer(prim), codes, leave_out))
-        elif kind == "Material" and UsdShade.Material(prim).GetSurfaceOutputs():
-            left_out["values of materials"] = 0
+            found.extend(_instances(stage, prim, (), codes, leave_out))
         elif prim.IsA(UsdGeom.Mesh):
             purpose = UsdGeom.Imageable(prim).ComputePurpose()
             if purpose in _PURPOSES:
@@ -110,38 +140,34 @@ def _shown_level(root: Usd.Prim) -> Optional[Usd.Prim]:
     return levels[min(max(index, 0), len(levels) - 1)] if levels else None
 
 
-def _instances(stage: Usd.Stage, instancer: UsdGeom.PointInstancer, codes: List[float], leave_out: Any) -> List[_Place]:
+def _instances(stage: Usd.Stage, prim: Usd.Prim, above: Tuple[_Step, ...], codes: List[float],
+               leave_out: Callable[[str], None]) -> List[_Place]:
     """The meshes of the prototype of each instance that is there at any code."""
-    roots = [stage.GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetForwardedTargets()]
-    seen: Dict[Tuple[int, int], None] = {}  # of an instance: its id, and the prototype that it shows
-    for code in codes:
-        for identity, number in _identities(instancer, code):
-            if number < 0 or number >= len(roots) or not roots[number]:
-                raise InputError(f"{instancer.GetPath()}: an instance has no prototype {number}")
-            seen.setdefault((identity, number))
+    if any(step.instancer.prim == prim for step in above):
+        raise InputError(f"{prim.GetPath()}: the instancer is in its own prototype")
+    instancer = _Instancer(stage, prim)
+    for primvar in UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithAuthoredValues():
+        if primvar.GetInterpolation() != UsdGeom.Tokens.constant:  # which meshes inherit
+            leave_out(f"primvar '{primvar.GetPrimvarName()}' of instances")
     found: List[_Place] = []
-    for identity, number in seen:
-        walk = iter(Usd.PrimRange(roots[number], Usd.TraverseInstanceProxies()))
-        for prim in walk:
-            if prim.IsA(UsdGeom.PointInstancer):
-                leave_out("PointInstancer in a prototype")
+    for identity in dict.fromkeys(one for code in codes for one in instancer.identities(code)):
+        steps = (*above, _Step(instancer, identity))
+        walk = iter(Usd.PrimRange(steps[-1].prototype, Usd.TraverseInstanceProxies()))
+        for inner in walk:
+            if inner.IsA(UsdGeom.PointInstancer):
+                found.extend(_instances(stage, inner, steps, codes, leave_out))
                 walk.PruneChildren()
-            elif prim.IsA(UsdGeom.Mesh) and UsdGeom.Imageable(prim).ComputePurpose() in _PURPOSES:
-                found.append(_Place(UsdGeom.Mesh(prim), instancer, (identity, number), roots[number]))
+            elif inner.IsA(UsdGeom.Mesh) and UsdGeom.Imageable(inner).ComputePurpose() in _PURPOSES:
+                found.append(_Place(UsdGeom.Mesh(inner), steps))
+            elif inner.GetTypeName() not in _KEPT_TYPES:
+                leave_out(f"{inner.GetTypeName()} of an instance")
     return found
-
-
-def _identities(instancer: UsdGeom.PointInstancer, code: float) -> List[Tuple[int, int]]:
-    """Of each instance at a code: its id (or number) and the number of its prototype."""
-    numbers = list(instancer.GetProtoIndicesAttr().Get(code) or [])
-    ids = list(instancer.GetIdsAttr().Get(code) or [])
-    return list(zip(ids if len(ids) == len(numbers) else range(len(numbers)), numbers))
 
 
 # Attributes of a mesh that are read, or say what the mesh says anyway.
 _KEPT_ATTRIBUTES = ("points", "faceVertexCounts", "faceVertexIndices", "holeIndices", "orientation", "normals", "extent", "visibility",
-                    "purpose", "subdivisionScheme", "interpolateBoundary", "faceVaryingLinearInterpolation",
-                    "triangleSubdivisionRule", "xformOpOrder", "velocities")
+                    "purpose", "doubleSided", "subdivisionScheme", "interpolateBoundary", "faceVaryingLinearInterpolation",
+                    "triangleSubdivisionRule", "xformOpOrder", "velocities", "accelerations")
 _KEPT_SPACES = ("primvars:", "xformOp:", "skel:")
 
 
@@ -221,9 +247,10 @@ class MeshReader:
         offsets = np.concatenate([[0], np.cumsum(counts[self._kept])])
         mesh = SourceMesh(np.stack(run["positions"]), (offsets, corners[self._order]), name=self._place.name,
                           runs=_runs(frames, len(self._codes)), uv={}, colours={}, normals={}, custom={},
-                          materials=self._materials(len(counts)))
+                          materials=self._materials(len(counts), self._codes[frames[0]]),
+                          parts=self._parts(len(counts), self._codes[frames[0]]))
         codes = [self._codes[frame] for frame in frames]
-        for primvar in UsdGeom.PrimvarsAPI(self._prim).GetPrimvarsWithValues():
+        for primvar in UsdGeom.PrimvarsAPI(self._prim).FindPrimvarsWithInheritance():
             self._add_primvar(mesh, primvar, run, codes)
         self._add_normals(mesh, run, codes[0])
         return mesh
@@ -289,23 +316,52 @@ class MeshReader:
             mesh.shared_normals = np.repeat(np.arange(self._kept.sum()), counts[self._kept])
         # Normals of vertices follow from positions.
 
-    def _materials(self, polygons: int) -> Optional[Tuple[List[str], np.ndarray]]:
-        names: List[str] = []
+    def _members(self, subset: UsdGeom.Subset, polygons: int, code: float) -> np.ndarray:
+        members = np.array(subset.GetIndicesAttr().Get(code) or [], np.int64)
+        if len(members) and (members.min() < 0 or members.max() >= polygons):
+            raise InputError(f"{subset.GetPrim().GetPath()}: a face is not of {polygons}")
+        return members
+
+    def _materials(self, polygons: int, code: float) -> Optional[Tuple[List[str], np.ndarray, List[Optional[Material]]]]:
+        """Names, the number of each face that is kept, and looks."""
         numbers = np.full(polygons, -1)
+        found: Dict[Usd.Prim, Optional[Material]] = {}  # a material, or a subset without one
+
+        def number_of(material: UsdShade.Material, other: Optional[Usd.Prim] = None) -> int:
+            prim = material.GetPrim() if material else other
+            if prim not in found:
+                sides = bool(self._mesh.GetDoubleSidedAttr().Get())
+                found[prim] = read_look(material, sides, self._leave_out) if material else None
+            return list(found).index(prim)
+
         whole = UsdShade.MaterialBindingAPI(self._prim).ComputeBoundMaterial()[0]
         if whole:
-            names.append(whole.GetPrim().GetName())
-            numbers[:] = 0
+            numbers[:] = number_of(whole)
         for subset in UsdGeom.Subset.GetGeomSubsets(self._mesh, UsdGeom.Tokens.face, MATERIALS):
             bound = UsdShade.MaterialBindingAPI(subset.GetPrim()).ComputeBoundMaterial()[0]
-            name = (bound or subset).GetPrim().GetName()
-            if name not in names:
-                names.append(name)
-            members = np.array(subset.GetIndicesAttr().Get() or [], np.int64)
-            if len(members) and (members.min() < 0 or members.max() >= polygons):
-                raise InputError(f"{subset.GetPrim().GetPath()}: a face is not of {polygons}")
-            numbers[members] = names.index(name)
+            numbers[self._members(subset, polygons, code)] = number_of(bound, subset.GetPrim())
+        if self._mesh.GetDoubleSidedAttr().Get() and not any(found.values()):
+            self._left_out["'doubleSided' of meshes without materials"] = 0
+        names: List[str] = []
+        for prim in found:  # those of one name are apart
+            name = prim.GetName()
+            names.append(name if name not in names else f"{name}_{len(names)}")
+        return (names, numbers[self._kept], list(found.values())) if names else None
+
+    def _parts(self, polygons: int, code: float) -> Optional[Tuple[List[str], np.ndarray]]:
+        names: List[str] = []
+        numbers = np.full(polygons, -1)
+        for subset in UsdGeom.Subset.GetAllGeomSubsets(self._mesh):
+            family, element = subset.GetFamilyNameAttr().Get() or "", subset.GetElementTypeAttr().Get()
+            if (family, element) == (PARTS, UsdGeom.Tokens.face):
+                numbers[self._members(subset, polygons, code)] = len(names)
+                names.append(subset.GetPrim().GetName())
+            elif (family, element) != (MATERIALS, UsdGeom.Tokens.face):
+                self._left_out[f"GeomSubsets of {element}s, family '{family}'"] = 0
         return (names, numbers[self._kept]) if names else None
+
+    def _leave_out(self, what: str) -> None:
+        self._left_out[what] = 0
 
 
 def _runs(frames: List[int], count: int) -> List[Tuple[int, int]]:

@@ -14,6 +14,7 @@ from pxr import Gf, Sdf, Tf, Usd, UsdSkel
 from .errors import InputError
 
 MATERIALS = "materialBind"  #: family of the subsets that have a material
+PARTS = "part"  #: family of those that are parts of a mesh
 
 
 def opened(stage: Any) -> Usd.Stage:
@@ -46,9 +47,8 @@ def bake_skins(stage: Usd.Stage) -> Usd.Stage:
     if not any(prim.IsA(UsdSkel.Root) for prim in stage.Traverse(Usd.TraverseInstanceProxies())):
         return stage
     copy = Usd.Stage.Open(stage.Flatten())
-    for prim in copy.Traverse():
-        if prim.IsInstance():
-            prim.SetInstanceable(False)
+    while any([prim.SetInstanceable(False) for prim in copy.Traverse() if prim.IsInstance()]):
+        pass  # instances in instances
     if not UsdSkel.BakeSkinning(copy.Traverse(), Gf.Interval.GetFullInterval()):
         raise InputError("the skins of the stage cannot be baked")
     return copy

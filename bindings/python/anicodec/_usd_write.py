@@ -5,22 +5,25 @@ from __future__ import annotations
 
 import contextlib
 import os
-from typing import Any, Dict, List, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
-from ._usd_stage import MATERIALS, identifier, snapped_rate
+from ._usd_materials import LookWriter
+from ._usd_stage import MATERIALS, PARTS, identifier, snapped_rate
 from .clip import Clip, open as open_clip
 
 
-def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage], *, over: bool = False, normals: bool = True) -> Usd.Stage:
+def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage], *, over: bool = False, normals: bool = True,
+           frames: slice = slice(None)) -> Usd.Stage:
     """Writes a clip (or what open() takes) to a stage, or to a new one at a path, which is saved; returns the stage.
 
     A mesh for each of the clip, in world space, with points at the time code of each frame; one that rests has them once.
     Meshes of a stage come back at their paths, time codes and units, others below a prim that is named for the clip and is at its
     origin. Several clips are variants "clip". over: prims are "over", and meshes leave the transforms above them, so that the
-    result fits as a layer over the stage that was encoded. normals=False leaves out those that say which edges are smooth.
+    result fits as a layer over the stage that was encoded. normals=False leaves out those that say which edges are smooth. frames: those of the file
+    to write; they keep their time codes.
     """
     source = clip if isinstance(clip, Clip) else open_clip(clip)
     stage = target if isinstance(target, Usd.Stage) else Usd.Stage.CreateNew(os.fspath(target))
@@ -32,31 +35,35 @@ def decode(clip: Any, target: Union[str, os.PathLike, Usd.Stage], *, over: bool 
     codes = _codes(source, float(snapped_rate(per_second)))
     stage.SetTimeCodesPerSecond(per_second)
     stage.SetFramesPerSecond(float(source.fps))
-    stage.SetStartTimeCode(min(codes))
-    stage.SetEndTimeCode(max(codes))
+    wanted = range(len(codes))[frames]
+    stage.SetStartTimeCode(min((codes[frame] for frame in wanted), default=min(codes)))
+    stage.SetEndTimeCode(max((codes[frame] for frame in wanted), default=max(codes)))
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z if source.info["up"] == "z" else UsdGeom.Tokens.y)
     if source.info["metres_per_unit"] > 0:
         UsdGeom.SetStageMetersPerUnit(stage, float(str(np.float32(source.info["metres_per_unit"]))))
     paths = _paths(source, about)
     prims = [_define(stage, path, over) for path in paths]
     roots = list(dict.fromkeys(path.GetPrefixes()[0] for path in paths))
-    wanted = about.get("defaultPrim")
-    default = next((root for root in roots if root.name == wanted), roots[0])
+    default = next((root for root in roots if root.name == about.get("defaultPrim")), roots[0])
     stage.SetDefaultPrim(stage.GetPrimAtPath(default))
     for prim in prims if over else map(stage.GetPrimAtPath, roots):
         _place_at_origin(UsdGeom.Xformable(prim) if not over else UsdGeom.Mesh(prim), source.info["origin"], over)
+    looks = None if over else LookWriter(stage)
     for prim, mesh in zip(prims, source.meshes):
-        _write_surface(UsdGeom.Mesh(prim), mesh)
+        _write_surface(UsdGeom.Mesh(prim), mesh, looks)
     for number, info in enumerate(source.clips):
+        shown = [frame for frame in range(info.first_frame, info.first_frame + info.frame_count) if frame in wanted]
+        if not shown:
+            continue
         variants = _addother_variants(stage, roots, info.name or f"clip{number}") if len(source.clips) > 1 else []
         for prim, mesh in zip(prims, source.meshes):
             sets = [chosen for chosen in variants if prim.GetPath().HasPrefix(chosen.GetPrim().GetPath())]
             with sets[0].GetVariantEditContext() if sets else contextlib.nullcontext():
-                _write_motion(UsdGeom.Mesh(prim), mesh, source, number, codes, normals)
+                _write_motion(UsdGeom.Mesh(prim), mesh, source, number, shown, codes, normals)
     if len(source.clips) > 1:
         for root in roots:
             chosen = stage.GetPrimAtPath(root).GetVariantSet("clip")
-            chosen.SetVariantSelection(identifier(source.clips[0].name or "clip0"))
+            chosen.SetVariantSelection(chosen.GetVariantNames()[0] if frames != slice(None) else identifier(source.clips[0].name or "clip0"))
     if not isinstance(target, Usd.Stage):
         stage.GetRootLayer().Save()
     return stage
@@ -128,7 +135,7 @@ def _whole(code: float) -> float:
     return code
 
 
-def _write_surface(prim: UsdGeom.Mesh, mesh: Any) -> None:
+def _write_surface(prim: UsdGeom.Mesh, mesh: Any, looks: Optional[LookWriter]) -> None:
     """What does not move."""
     offsets, corners = mesh.polygons
     prim.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.diff(offsets).astype(np.int32)))
@@ -136,14 +143,14 @@ def _write_surface(prim: UsdGeom.Mesh, mesh: Any) -> None:
     prim.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
     for number, attribute in enumerate(mesh.attributes):
         if attribute.labels:
-            _write_subsets(prim, attribute)
+            uv = next((other.name or "st" for other in mesh.attributes if other.kind == "uv"), "st")
+            _write_subsets(prim, attribute, identifier(uv), looks)
         elif not attribute.moves and attribute.kind != "normal":  # of corners that share one, without numbers
             _write_attribute(prim, attribute, number, [(Usd.TimeCode.Default(), attribute.values)])
 
 
-def _write_motion(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, chosen: int, codes: List[float], normals: bool) -> None:
-    """What moves, in the frames of one of the clips."""
-    frames = range(clip.frame_count)[clip.clips[chosen].frames]
+def _write_motion(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, chosen: int, frames: List[int], codes: List[float], normals: bool) -> None:
+    """What moves, in frames of one of the clips."""
     shown = [mesh.shown_in(frame) for frame in frames]
     there = [frame for frame, is_there in zip(frames, shown) if is_there]
     for number, frame in enumerate(frames):
@@ -176,12 +183,18 @@ def _write_motion(prim: UsdGeom.Mesh, mesh: Any, clip: Clip, chosen: int, codes:
             target.Set(Sdf.ValueBlock(), code)
 
 
-def _write_subsets(prim: UsdGeom.Mesh, attribute: Any) -> None:
-    family = MATERIALS if attribute.kind == "material" else "part"
+def _write_subsets(prim: UsdGeom.Mesh, attribute: Any, uv: str, looks: Optional[LookWriter]) -> None:
+    family = MATERIALS if attribute.kind == "material" else PARTS
     for label, name in enumerate(attribute.labels, 1):
         faces = np.flatnonzero(attribute.values == label).astype(np.int32)
-        if len(faces):
-            UsdGeom.Subset.CreateUniqueGeomSubset(prim, identifier(name), UsdGeom.Tokens.face, Vt.IntArray.FromNumpy(faces), family)
+        if not len(faces):
+            continue
+        subset = UsdGeom.Subset.CreateUniqueGeomSubset(prim, identifier(name), UsdGeom.Tokens.face, Vt.IntArray.FromNumpy(faces), family)
+        if family == MATERIALS and looks:
+            look = attribute.looks[label - 1] if attribute.looks else None
+            looks.bind(subset.GetPrim(), prim.GetPath().GetPrefixes()[0], name, look, uv)
+            if look is not None and look.double_sided:
+                prim.CreateDoubleSidedAttr(True)
 
 
 def _write_attribute(prim: UsdGeom.Mesh, attribute: Any, number: int, samples: List[Tuple[Any, np.ndarray]]) -> Usd.Attribute:

@@ -32,9 +32,9 @@ def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Se
     stage: a stage or the path of one. prims: paths; their meshes and all below them. Skins and blend shapes are baked.
     fps: frames per second; default the stage's, one for each time code, or more where samples stand between them, from the
     stage's start to its end; samples that no such rate meets are frames of their own. Texture coordinates, colours, other
-    numbers, hard edges, subsets as materials and visibility are kept; each instance of a PointInstancer is a mesh. Paths of
-    prims and time codes stay in the metadata, as "usd", for decode() and for the plug-in of USD. `notes` of the result names what
-    else the stage has. topology_changes: "refuse", or "keep" to store a mesh for each run of frames with equal faces. Other
+    numbers (those that meshes inherit, too), hard edges, materials (values and names of images of UsdPreviewSurface), parts and
+    visibility are kept; each instance of a PointInstancer is a mesh. Paths of prims and time codes stay in the metadata, as "usd",
+    for decode() and for the plug-in of USD. `notes` of the result names what else the stage has. topology_changes: "refuse", or "keep" to store a mesh for each run of frames with equal faces. Other
     options are those of encode().
 
     Raises InputError naming the prim, and what encode() raises.
