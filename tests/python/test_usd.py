@@ -231,9 +231,38 @@ def test_the_command_reads_and_writes_stages(stage, tmp_path):
     for arguments, status, text in ((("encode", tmp_path / "none.usda", "-o", tmp_path / "x.anic"), 1, "none.usda"),
                                     ((*encode, "-f", "--part", "0:2"), 1, "--part"), ((*encode, "-f", "--fps", "no"), 2, "fps must be"),
                                     (("decode", tmp_path / "bad.anic", "-o", tmp_path / "x.usdc"), 3, "bad.anic"),
+                                    (("encode", tmp_path / "shot.usda", "-o", tmp_path / "x.pc2"), 1, "an .anic file"),
+                                    (("decode", tmp_path / "clips" / "shot.anic", "-o", tmp_path / "x.usdc", "--frames", "99"), 1, "24 frames"),
+                                    (("decode", tmp_path / "clips" / "shot.anic", "-o", tmp_path / "x.usdc", "--hold"), 1, "--hold"),
                                     (("decode", tmp_path / "shot.usda", "-o", tmp_path / "x.pc2"), 2, "no .anic file")):
         told = run_command(*arguments)
         assert told.returncode == status and text in told.stderr and len(told.stderr.splitlines()) == 1, told.stderr
+
+
+def test_the_command_takes_stages_of_a_folder_and_some_frames(tmp_path):
+    folder = tmp_path / "in"
+    (folder / "props").mkdir(parents=True)
+    stage = timed_stage(1, 5, 24)
+    triangle(stage, "/a", range(1, 6))
+    stage.Export(str(folder / "props" / "a.usda"))
+    (folder / "shot.usda").write_text("#usda 1.0\n(subLayers = [@./props/a.usda@])\n")
+    (folder / "bad.usdc").write_bytes(b"no stage")
+    assert run_command("corpus", "limb", "-o", folder / "limb.pc2", "--vertices", 300, "--frame-count", 3).returncode == 0
+    batch = ("encode", "--batch", folder, "-o", tmp_path / "out", "--effort", 1, "-j", 1)
+    told = run_command(*batch)
+    assert told.returncode == 2 and "1 stage of" in told.stdout and "bad: FAILED: " in told.stdout, told.stdout + told.stderr
+    assert sorted(path.name for path in (tmp_path / "out").glob("*.anic")) == ["limb.anic", "shot.anic"]
+    (folder / "bad.usdc").unlink()
+    assert run_command(*batch).stdout.count("0 encoded, 1 done before, 0 failed") == 2
+    triangle(stage, "/b", range(1, 6))
+    stage.Export(str(folder / "props" / "a.usda"))  # a layer below counts, too
+    assert "1 encoded, 0 done before, 0 failed" in run_command(*batch).stdout
+    clips = [tmp_path / "out" / name for name in ("limb.anic", "shot.anic")]
+    told = run_command("decode", *clips, "--format", "usda", "-o", tmp_path / "back", "--frames", "0:5:2")
+    assert told.returncode == 0 and "3 frames of 2 meshes" in told.stdout, told.stderr
+    back = Usd.Stage.Open(str(tmp_path / "back" / "shot.usda"))
+    assert (back.GetStartTimeCode(), back.GetEndTimeCode()) == (1, 5)
+    assert UsdGeom.Mesh(back.GetPrimAtPath("/a")).GetPointsAttr().GetTimeSamples() == [1, 3, 5]
 
 
 def test_a_stage_far_from_zero_keeps_its_digits(stage, tmp_path):

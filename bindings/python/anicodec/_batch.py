@@ -20,7 +20,7 @@ from .errors import AnicodecError, InputError
 #: Workers that declare this resource, in bytes, are given no more clips at once than fit.
 MEMORY = "ANICODEC_MEMORY"
 _COPIES = 3  # of its positions that encoding a clip holds
-_RECORDS = ".anicodec"  # folder of what was done, in the folder of the results
+RECORDS = ".anicodec"  # folder of what was done, in the folder of the results
 
 Inputs = Union[str, os.PathLike, Sequence[Union[str, os.PathLike]]]
 
@@ -66,7 +66,7 @@ def batch(clips: Union[Iterable[Inputs], Mapping[str, Inputs]], out: Union[str, 
     except ImportError as error:
         raise ImportError("dask needs the extra of the package: pip install 'anicodec[dask]'") from error
     jobs = _jobs(clips, pathlib.Path(out).resolve())
-    (pathlib.Path(out) / _RECORDS).mkdir(parents=True, exist_ok=True)
+    (pathlib.Path(out) / RECORDS).mkdir(parents=True, exist_ok=True)
     arguments = _arguments(options)
     if client is not None:
         return _run(client, jobs, arguments, part_frames, retries)
@@ -78,19 +78,19 @@ def batch(clips: Union[Iterable[Inputs], Mapping[str, Inputs]], out: Union[str, 
 
 
 @dataclass(frozen=True)
-class _Job:
+class Job:
     name: str
     inputs: Tuple[str, ...]
     output: str
 
     @property
     def record(self) -> pathlib.Path:
-        return pathlib.Path(self.output).parent / _RECORDS / (self.name + ".json")
+        return pathlib.Path(self.output).parent / RECORDS / (self.name + ".json")
 
 
-def _jobs(clips: Any, out: pathlib.Path) -> List[_Job]:
+def _jobs(clips: Any, out: pathlib.Path) -> List[Job]:
     named = list(clips.items()) if isinstance(clips, Mapping) else [(None, inputs) for inputs in clips]
-    jobs: List[_Job] = []
+    jobs: List[Job] = []
     for name, inputs in named:
         paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
         if not paths:
@@ -99,7 +99,7 @@ def _jobs(clips: Any, out: pathlib.Path) -> List[_Job]:
         name = name or pathlib.Path(texts[-1]).stem
         if os.sep in name or name in (".", ".."):
             raise InputError(f"{name!r} is no name of a file")
-        jobs.append(_Job(name, texts, str(out / (name + ".anic"))))
+        jobs.append(Job(name, texts, str(out / (name + ".anic"))))
     twice = {job.name for job in jobs if sum(other.name == job.name for other in jobs) > 1}
     if twice:
         raise InputError(f"several clips have the name {sorted(twice)[0]!r}: give each its own")
@@ -116,12 +116,12 @@ def _arguments(options: Mapping[str, Any]) -> List[str]:
     return result
 
 
-def _run(client: Any, jobs: List[_Job], arguments: List[str], part_frames: Optional[int], retries: int) -> List[Result]:
+def _run(client: Any, jobs: List[Job], arguments: List[str], part_frames: Optional[int], retries: int) -> List[Result]:
     workers = client.scheduler_info(n_workers=-1)["workers"].values()
     limits = [worker.get("resources", {}).get(MEMORY) for worker in workers]
     limit = max(limits) if limits and all(limits) else None  # of the largest worker
 
-    def submit(function: Any, job: _Job, *rest: Any, memory: int) -> Any:
+    def submit(function: Any, job: Job, *rest: Any, memory: int) -> Any:
         resources = {MEMORY: min(memory, limit)} if limit else None
         return client.submit(function, job, *rest, retries=retries, pure=False, resources=resources)
 
@@ -131,7 +131,7 @@ def _run(client: Any, jobs: List[_Job], arguments: List[str], part_frames: Optio
         if not part_frames or frames <= part_frames:
             futures.append(submit(_encode_clip, job, arguments, part_frames, memory=_COPIES * size))
             continue
-        if _is_done(job, _key(job, arguments, part_frames)):
+        if is_done(job, key_of(job, arguments, part_frames)):
             futures.append(submit(_encode_clip, job, arguments, part_frames, memory=0))
             continue
         parts = []
@@ -143,7 +143,7 @@ def _run(client: Any, jobs: List[_Job], arguments: List[str], part_frames: Optio
     return [_result(job, future) for job, future in zip(jobs, futures)]
 
 
-def _result(job: _Job, future: Any) -> Result:
+def _result(job: Job, future: Any) -> Result:
     error = future.exception()
     if error is not None:
         return Result(job.name, job.output, "failed", 0, str(error) or type(error).__name__)
@@ -154,8 +154,20 @@ def _result(job: _Job, future: Any) -> Result:
 
 
 def _files(inputs: Sequence[str]) -> List[str]:
-    """The files that inputs name, patterns among them."""
-    return [path for text in inputs for path in (sorted(glob.glob(text)) if glob.has_magic(text) else [text])]
+    """The files that inputs name, patterns among them, and layers of stages."""
+    found = [path for text in inputs for path in (sorted(glob.glob(text)) if glob.has_magic(text) else [text])]
+    return [file for path in found for file in (_layers(path) if path.lower().endswith((".usd", ".usda", ".usdc")) else [path])]
+
+
+def _layers(stage: str) -> List[str]:
+    """The files of a stage that say what its meshes are."""
+    try:
+        from pxr import Sdf, UsdUtils
+
+        layers = UsdUtils.ComputeAllDependencies(Sdf.AssetPath(stage))[0]
+    except Exception:  # the command says what is wrong
+        return [stage]
+    return [stage, *sorted({layer.realPath for layer in layers} - {stage, os.path.realpath(stage), ""})]
 
 
 def _frames_and_size(inputs: Sequence[str]) -> Tuple[int, int]:
@@ -184,7 +196,7 @@ def _hash(paths: Sequence[str]) -> str:
     return digest.hexdigest()
 
 
-def _key(job: _Job, arguments: Sequence[str], part_frames: Optional[int]) -> str:
+def key_of(job: Job, arguments: Sequence[str], part_frames: Optional[int]) -> str:
     """All that the result depends on."""
     try:
         content = _hash(_files(job.inputs))
@@ -197,7 +209,7 @@ def _key(job: _Job, arguments: Sequence[str], part_frames: Optional[int]) -> str
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _is_done(job: _Job, key: str) -> bool:
+def is_done(job: Job, key: str) -> bool:
     try:
         record = json.loads(job.record.read_text(encoding="utf-8"))
         return bool(key) and record["key"] == key and record["file"] == _hash([job.output])
@@ -205,7 +217,7 @@ def _is_done(job: _Job, key: str) -> bool:
         return False
 
 
-def _note(job: _Job, key: str) -> Tuple[str, int]:
+def note(job: Job, key: str) -> Tuple[str, int]:
     text = json.dumps({"key": key, "file": _hash([job.output])})
     beside = job.record.with_suffix(".part")
     beside.write_text(text, encoding="utf-8")
@@ -226,30 +238,30 @@ def _command(*arguments: str) -> Optional[_Refused]:
     return None
 
 
-def _encode_clip(job: _Job, arguments: Sequence[str], part_frames: Optional[int]) -> Union[Tuple[str, int], _Refused]:
-    key = _key(job, arguments, part_frames)
-    if _is_done(job, key):
+def _encode_clip(job: Job, arguments: Sequence[str], part_frames: Optional[int]) -> Union[Tuple[str, int], _Refused]:
+    key = key_of(job, arguments, part_frames)
+    if is_done(job, key):
         return "kept", os.path.getsize(job.output)
-    return _command("encode", "-q", "-f", *job.inputs, "-o", job.output, *arguments) or _note(job, key)
+    return _command("encode", "-q", "-f", *job.inputs, "-o", job.output, *arguments) or note(job, key)
 
 
-def _part_path(job: _Job, first: int) -> str:
+def _part_path(job: Job, first: int) -> str:
     return str(job.record.with_name(f"{job.name}.{first}.anic"))
 
 
-def _encode_part(job: _Job, arguments: Sequence[str], first: int, end: int) -> Union[str, _Refused]:
+def _encode_part(job: Job, arguments: Sequence[str], first: int, end: int) -> Union[str, _Refused]:
     path = _part_path(job, first)
     return _command("encode", "-q", "-f", *job.inputs, "-o", path, "--part", f"{first}:{end}", *arguments) or path
 
 
-def _join_parts(job: _Job, arguments: Sequence[str], part_frames: int,
+def _join_parts(job: Job, arguments: Sequence[str], part_frames: int,
                 parts: Sequence[Union[str, _Refused]]) -> Union[Tuple[str, int], _Refused]:
     paths = [part for part in parts if isinstance(part, str)]
     refused = next((part for part in parts if isinstance(part, _Refused)), None)
     refused = refused or _command("join", "-q", "-f", *paths, "-o", job.output)
     for path in paths:
         os.remove(path)
-    return refused or _note(job, _key(job, arguments, part_frames))
+    return refused or note(job, key_of(job, arguments, part_frames))
 
 
 def summary(results: Sequence[Result]) -> Dict[str, int]:

@@ -10,12 +10,14 @@ import sys
 import tempfile
 from typing import Any, Dict, List, NoReturn, Optional
 
+from . import _usd_batch
+from ._usd_batch import SUFFIXES
 from .clip import Clip, open as open_clip
 from .errors import AbsentError, CorruptError, UnsupportedError
 
-SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
-_ENCODE_USAGE = "%(prog)s STAGE -o FILE.anic [options]"
-_DECODE_USAGE = "%(prog)s FILE.anic -o STAGE [options]"
+_FORMATS = tuple(suffix[1:] for suffix in SUFFIXES)
+_ENCODE_USAGE = "%(prog)s STAGE -o FILE.anic [options]\n       %(prog)s --batch DIR|LIST -o DIR [options]"
+_DECODE_USAGE = "%(prog)s FILE.anic -o STAGE [options]\n       %(prog)s FILE.anic... --format usdc -o DIR [options]"
 #: Options of the command that the package has under the same names, and their types.
 _OPTIONS: Dict[str, Any] = {
     **dict.fromkeys(("max-error", "rmse", "kg", "displacement", "sted", "quality", "size", "bpfv", "fps", "basis", "order", "unit", "up",
@@ -23,6 +25,16 @@ _OPTIONS: Dict[str, Any] = {
     **dict.fromkeys(("effort", "keyframes", "uv-bits", "colour-bits", "threads"), int),
     **dict.fromkeys(("massage-strength", "store-normals"), float)}
 _SWITCHES = ("no-attributes", "lossless", "loop", "smallest", "root-motion")
+#: Options of the command that stages have no use for, and why.
+_OF_OTHERS: Dict[str, Dict[str, str]] = {
+    "encode": {"--part": "meshes of a stage are stored apart, as by --split-objects, which goes without --part",
+               **dict.fromkeys(("--clip", "--clips"), "a stage has one time line; which variants it shows is chosen in the stage"),
+               **dict.fromkeys(("--live", "--piece", "--key-every", "--box"), "of captures, not of stages"),
+               "--no-weld": "of STL files, not of stages",
+               "--allow-outside": "USD finds the layers of a stage, wherever they are"},
+    "decode": {"--up": "a stage says which axis is up", "--textures": "a stage names the images of its materials",
+               "--normals": "a stage has them unless --no-normals leaves them out",
+               **dict.fromkeys(("--start", "--ascii"), "of files for each frame, not of stages"), "--hold": "of GLB, not of stages"}}
 _RENAMED = {"keyframe_selection": "selection", "store_normals": "normal_error", "memory": "max_bytes"}
 
 
@@ -43,7 +55,10 @@ def is_meant(arguments: List[str]) -> bool:
     """Whether the command line reads or writes a stage."""
     if arguments[:1] not in (["encode"], ["decode"]):
         return False
-    return any(text.lower().endswith(SUFFIXES) for text in arguments[1:])
+    if arguments[0] == "encode" and any(text.split("=")[0] == "--batch" for text in arguments):
+        return _usd_batch.is_meant(arguments[1:])
+    asked = " ".join(arguments).replace("=", " ").split("--format ")[1:]
+    return any(text.lower().endswith(SUFFIXES) for text in arguments[1:]) or any(text.split(" ")[0] in _FORMATS for text in asked)
 
 
 def _parser(command: str) -> argparse.ArgumentParser:
@@ -51,12 +66,16 @@ def _parser(command: str) -> argparse.ArgumentParser:
     parser = _Parser(prog=f"anicodec {command}", usage=_ENCODE_USAGE if encodes else _DECODE_USAGE, allow_abbrev=False,
                      description="Encodes the meshes of a USD stage; `anicodec encode --help` explains the options that other inputs have, too."
                      if encodes else "Writes a clip as a USD stage.")
-    parser.add_argument("input", metavar="STAGE" if encodes else "FILE.anic")
-    parser.add_argument("-o", "--output", required=True)
+    parser.add_argument("input", metavar="STAGE" if encodes else "FILE.anic", nargs=None if encodes else "+",
+                        help="a stage" if encodes else "clips; - for the standard input")
+    parser.add_argument("-o", "--output", required=True, help="the .anic file; - for the standard output" if encodes
+                        else "the stage: .usd, .usda, .usdc or .usdz; with --format the folder of the stages")
     parser.add_argument("-f", "--force", action="store_true", help="replace the output")
-    parser.add_argument("-q", "--quiet", action="store_true")
+    parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
     if not encodes:
+        parser.add_argument("--format", choices=_FORMATS, help="write each clip to the folder OUTPUT, by its name")
+        parser.add_argument("--frames", metavar="A:B[:STEP]", help="frames A to B - 1, every STEP-th (default: all)")
         parser.add_argument("--over", action="store_true", help="to be layered over the stage that was encoded")
         parser.add_argument("--no-normals", action="store_true", help="leave out normals, which programs then take for flat faces")
         parser.add_argument("--clip", help="the clip to write, of a file that has several (default: all, as variants)")
@@ -64,7 +83,8 @@ def _parser(command: str) -> argparse.ArgumentParser:
         return parser
     parser.add_argument("-v", "--verbose", action="store_true", help="print what is being done")
     parser.add_argument("--mesh", help="path of a prim; its meshes and all below it")
-    parser.add_argument("--topology-changes", choices=("refuse", "keep"))
+    parser.add_argument("--split-objects", action="store_true", help="what stages do anyway: each mesh is stored apart")
+    parser.add_argument("--topology-changes", choices=("refuse", "keep"), help="of frames whose faces differ (default: refuse)")
     parser.add_argument("--origin", help="auto, none or X,Y,Z")
     parser.add_argument("--memory", help="bytes, or 500M or 2G")
     parser.add_argument("--meta", action="append", default=[], metavar="KEY=VALUE")
@@ -76,6 +96,16 @@ def _parser(command: str) -> argparse.ArgumentParser:
     for name in _SWITCHES:
         parser.add_argument("--" + name, action="store_true", default=None)
     return parser
+
+
+def _frames(text: str) -> slice:
+    try:
+        parts = [int(part) if part else None for part in text.split(":")]
+        if not 1 <= len(parts) <= 3 or any(part is not None and part < 0 for part in parts) or parts[2:] == [0]:
+            raise ValueError
+    except ValueError:
+        raise _Fault(f"--frames is A:B or A:B:STEP, not {text!r}", 1) from None
+    return slice(*parts) if len(parts) > 1 else slice(parts[0], (parts[0] or 0) + 1)
 
 
 def _pair(text: str, option: str) -> List[str]:
@@ -151,8 +181,11 @@ def _encode(given: Dict[str, Any]) -> None:
 
     stage, output, prim = given.pop("input"), given.pop("output"), given.pop("mesh")
     force, quiet, as_json, verbose = (given.pop(name) for name in ("force", "quiet", "json", "verbose"))
+    del given["split_objects"]
     options = _encoding_options(given)
-    if os.path.exists(output) and not force:
+    if output != "-" and not output.lower().endswith(".anic"):
+        raise _Fault(f"{output}: the output is an .anic file, or -", 1)
+    if output != "-" and os.path.exists(output) and not force:
         raise _Fault(f"{output}: exists (-f replaces it)", 1)
     if verbose:
         last = [""]
@@ -169,6 +202,9 @@ def _encode(given: Dict[str, Any]) -> None:
     except (ValueError, MemoryError) as error:
         text = str(error)
         raise _Fault(text if text.startswith(stage) else f"{stage}: {text}", 2) from None
+    if output == "-":
+        sys.stdout.buffer.write(data)
+        return
     _write(output, data)
     report = _report(output, data, "fps" in options)
     if as_json:
@@ -181,28 +217,54 @@ def _encode(given: Dict[str, Any]) -> None:
               f"KG {report['kg']:.3g} %")
 
 
+def _opened(source: str, given: Dict[str, Any]) -> Clip:
+    try:
+        if source == "-":
+            data = sys.stdin.buffer.read()
+        else:
+            with open(source, "rb") as file:
+                data = file.read()
+        return Clip(data, quality=given["quality"], clips=[given["clip"]] if given["clip"] not in (None, "all") else ())
+    except (CorruptError, UnsupportedError) as error:
+        raise _Fault(f"{source}: {error}", 3 if isinstance(error, CorruptError) else 4) from None
+    except (ValueError, MemoryError, AbsentError) as error:
+        raise _Fault(f"{source}: {error}", 2) from None
+
+
 def _decode(given: Dict[str, Any]) -> None:
+    sources, output, suffix = given["input"], given["output"], given["format"]
+    if suffix is None and len(sources) > 1:
+        raise _Fault(f"{sources[1]}: several files need --format", 1)
+    for source in sources:
+        if source.lower().endswith(SUFFIXES):
+            raise _Fault(f"{source}: a stage is no .anic file", 2)
+    if suffix is None:
+        _decode_one(sources[0], output, given)
+    for source in sources if suffix else []:
+        name = os.path.splitext(os.path.basename(source))[0] if source != "-" else "clip"
+        _decode_one(source, os.path.join(output, f"{name}.{suffix}"), given)
+
+
+def _decode_one(source: str, output: str, given: Dict[str, Any]) -> None:
     from pxr import UsdUtils
 
     from . import usd
 
-    source, output = given["input"], given["output"]
     if not output.lower().endswith(SUFFIXES):
-        raise _Fault(f"{source}: a stage is no .anic file", 2)
+        raise _Fault(f"{output}: a stage is one of {', '.join(SUFFIXES)}", 1)
     if os.path.exists(output) and not given["force"]:
         raise _Fault(f"{output}: exists (-f replaces it)", 1)
-    try:
-        clip = Clip(open(source, "rb").read(), quality=given["quality"], clips=[given["clip"]] if given["clip"] else ())
-    except (CorruptError, UnsupportedError) as error:
-        raise _Fault(f"{source}: {error}", 3) from None
-    except (ValueError, MemoryError, AbsentError) as error:
-        raise _Fault(f"{source}: {error}", 2) from None
+    clip = _opened(source, given)
+    frames = _frames(given["frames"]) if given["frames"] else slice(None)
+    count = len(range(len(clip))[frames])
+    if not count:
+        raise _Fault(f"{source}: --frames {given['frames']}: it has {len(clip)} frames", 1)
     folder = os.path.dirname(output) or "."
     os.makedirs(folder, exist_ok=True)
     stem, suffix = os.path.splitext(os.path.basename(output))
     with tempfile.TemporaryDirectory(dir=folder) as work:  # so that the output is whole or not there
         path = os.path.join(work, stem + (".usdc" if suffix.lower() == ".usdz" else suffix))
-        usd.decode(clip, path, over=given["over"], normals=not given["no_normals"])
+        usd.decode(clip, path, over=given["over"], normals=not given["no_normals"], frames=frames)
         if suffix.lower() == ".usdz":
             packed = os.path.join(work, stem + ".usdz")
             if not UsdUtils.CreateNewUsdzPackage(path, packed):
@@ -211,20 +273,28 @@ def _decode(given: Dict[str, Any]) -> None:
         os.replace(path, output)
     meshes = len(clip.meshes)
     if given["json"]:
-        print(json.dumps({"file": output, "frames": len(clip), "meshes": meshes, "bytes": os.path.getsize(output)}, separators=(",", ":")))
+        print(json.dumps({"file": output, "frames": count, "meshes": meshes, "bytes": os.path.getsize(output)}, separators=(",", ":")))
     elif not given["quiet"]:
-        print(f"{output}: {len(clip)} frames of {meshes} {'mesh' if meshes == 1 else 'meshes'}, {os.path.getsize(output)} bytes")
+        print(f"{output}: {count} frames of {meshes} {'mesh' if meshes == 1 else 'meshes'}, {os.path.getsize(output)} bytes")
 
 
 def main(arguments: List[str]) -> int:
     """Encodes or decodes as the arguments say; the exit status of the command."""
+    command, batch = arguments[0], any(text.split("=")[0] == "--batch" for text in arguments)
     try:
-        given = vars(_parser(arguments[0]).parse_args(arguments[1:]))
+        for text in arguments[1:]:
+            reason = _OF_OTHERS[command].get(text.split("=")[0])
+            if reason:
+                raise _Fault(f"{text.split('=')[0]}: {reason}", 1)
+        given = {} if batch else vars(_parser(command).parse_args(arguments[1:]))
         try:
             from . import usd  # noqa: F401
         except ImportError as error:
-            raise _Fault(f"{given['input'] if arguments[0] == 'encode' else given['output']}: {error}", 4) from None
-        (_encode if arguments[0] == "encode" else _decode)(given)
+            place = "--batch" if batch else given["input"] if command == "encode" else given["output"]
+            raise _Fault(f"{place}: {error}", 4) from None
+        if batch:
+            return _usd_batch.main(arguments[1:])
+        (_encode if command == "encode" else _decode)(given)
     except _Fault as fault:
         print(f"anicodec: {fault}", file=sys.stderr)
         return fault.status
