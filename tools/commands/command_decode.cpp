@@ -37,7 +37,8 @@ metres, where the clip says which axis is up and what its unit is; a cache and t
 keep the axes of the clip, so that the cache fits the mesh that it came from (--up turns both).
 Frames are counted from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate
 that STEP divides is divided; PC2 carries no rate. A clip whose topology changes needs a file per
-frame, or .abc.
+frame, or .abc. OUT may be a stage of USD (.usd .usda .usdc .usdz) if pip has installed
+'anicodec[usd]': anicodec decode -o x.usd --help.
 
 Examples:
   anicodec decode clip.anic -o clip.pc2

@@ -110,6 +110,7 @@ void add_massage_map(Commands& commands, CommonOptions& common);
 void add_dump(Commands& commands, CommonOptions& common);
 void add_render(Commands& commands, CommonOptions& common);
 void add_corpus(Commands& commands, CommonOptions& common);
+void add_usd_plugin(Commands& commands, CommonOptions& common);
 
 }  // namespace anicodec::tools
 

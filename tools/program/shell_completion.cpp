@@ -39,6 +39,16 @@ std::vector<std::string> next_words(const Commands& commands, const std::string&
   return words;
 }
 
+/// The modes of a command, or the words that its argument may be.
+std::vector<std::string> following_words(const Commands& commands, const Command& command) {
+  std::vector<std::string> words = next_words(commands, command.help.name);
+  for (const Option& option : command.options.all()) {
+    if (option.is_argument())
+      words.insert(words.end(), option.words.begin(), option.words.end());
+  }
+  return words;
+}
+
 bool is_mode(const Command& command) {
   return command.help.name.find(' ') != std::string::npos;
 }
@@ -56,7 +66,7 @@ std::string mode_patterns(const Commands& commands) {
 std::string bash(const Program& program, const Commands& commands) {
   std::string values, options;
   for (const Command& command : commands) {
-    std::vector<std::string> words = next_words(commands, command.help.name);
+    std::vector<std::string> words = following_words(commands, command);
     for (const Option& option : command.options.all()) {
       if (option.is_argument())
         continue;
@@ -132,7 +142,7 @@ std::string zsh(const Program& program, const Commands& commands) {
       if (!option.is_argument())
         rows += zsh_argument(option);
     }
-    const std::vector<std::string> modes = next_words(commands, command.help.name);
+    const std::vector<std::string> modes = following_words(commands, command);
     const std::string rest =
         modes.empty()
             ? "'*:file:_files'"
@@ -196,6 +206,9 @@ std::string fish(const Program& program, const Commands& commands) {
       when += "; and __fish_seen_subcommand_from " + mode;
     }
     for (const Option& option : command.options.all()) {
+      if (option.is_argument() && !option.words.empty())
+        script += fmt::format("{} -n {} -xa {}\n", start, in_quotes(when),
+                              in_quotes(fmt::format("{}", fmt::join(option.words, " "))));
       if (option.is_argument())
         continue;
       script += start + " -n " + in_quotes(when);

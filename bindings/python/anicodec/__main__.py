@@ -15,7 +15,7 @@ def main() -> None:
         sys.stdout.flush()
         sys.stderr.flush()
         os._exit(status)  # USD destroys stages in threads of its own, which the end of the process would overtake
-    if sys.argv[1:2] == ["usd-plugin"]:
+    if _usd_plugin.is_meant(sys.argv[1:]):
         sys.exit(_usd_plugin.main(sys.argv[2:]))
     for name in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # as other commands, not as Python
         signal.signal(name, signal.SIG_DFL)

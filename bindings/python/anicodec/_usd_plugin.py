@@ -8,16 +8,9 @@ import os
 import pathlib
 import sys
 import warnings
-from typing import List, Tuple
+from typing import Any, Dict, List, Tuple
 
-_USAGE = """usage: anicodec usd-plugin install | remove | path
-
-Makes .anic files layers of OpenUSD, in every program that uses the usd-core of this Python.
-  install  writes a file beside usd-core that names the plug-in, so that nothing has to be imported first
-  remove   removes that file
-  path     prints the folder of the plug-in, for PXR_PLUGINPATH_NAME
-
-Without it, `import anicodec.usd` before the first stage is opened does the same for one process."""
+_ACTIONS = (["install"], ["remove"], ["path"])  # of `anicodec usd-plugin`, which the command explains
 
 
 def folder() -> pathlib.Path:
@@ -40,6 +33,11 @@ def fault(version: Tuple[int, ...]) -> str:
         told = ", ".join(".".join(map(str, release[1:])) for release in known)
         return f"the plug-in for USD is built for usd-core {told}, not {'.'.join(map(str, version[1:]))}: .anic files are no layers"
     return ""
+
+
+def is_meant(arguments: List[str]) -> bool:
+    """Whether the command line has an action of the plug-in; the command answers all others."""
+    return arguments[:1] == ["usd-plugin"] and [text for text in arguments[1:] if text != "--json"] in _ACTIONS
 
 
 def register() -> None:
@@ -90,26 +88,26 @@ def remove() -> None:
 
 
 def main(arguments: List[str]) -> int:
-    """`anicodec usd-plugin ...`: the exit status."""
-    if arguments in (["-h"], ["--help"]):
-        print(_USAGE)
-        return 0
-    if arguments not in (["install"], ["remove"], ["path"]):
-        print(_USAGE, file=sys.stderr)
-        return 1
+    """`anicodec usd-plugin ...`, one of the actions: the exit status."""
+    action, as_json = [text for text in arguments if text != "--json"][0], "--json" in arguments
+    told: Dict[str, Any] = {}
+    status, fault = 0, ""
     try:
-        if arguments == ["path"]:
-            if not releases():
-                raise RuntimeError("this build of anicodec has no plug-in for USD")
-            print(folder())
-        elif arguments == ["install"]:
-            print(install())
-        else:
+        if action == "path" and not releases():
+            raise RuntimeError("this build of anicodec has no plug-in for USD")
+        if action == "remove":
             remove()
+        else:
+            told["path"] = str(folder() if action == "path" else install())
     except ImportError:
-        print("anicodec: USD needs the extra of the package: pip install 'anicodec[usd]'", file=sys.stderr)
-        return 4
+        status, fault = 4, "USD needs the extra of the package: pip install 'anicodec[usd]'"
     except (OSError, RuntimeError) as error:
-        print(f"anicodec: {error}", file=sys.stderr)
-        return 2
-    return 0
+        status, fault = 2, str(error)
+    if fault:
+        print(f"anicodec: {fault}", file=sys.stderr)
+        told = {"error": fault, "status": status}
+    if as_json:
+        print(json.dumps(told))
+    elif "path" in told:
+        print(told["path"])
+    return status

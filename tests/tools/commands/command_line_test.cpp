@@ -18,9 +18,10 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::vector<std::string> kCommands = {
-    "encode",         "decode",      "join",    "info",        "verify",           "compare",
-    "analyze",        "interpolate", "massage", "massage fit", "massage transfer", "massage map",
-    "massage remesh", "dump",        "render",  "corpus",      "add",              "remove"};
+    "encode",           "decode",      "join",           "info",      "verify",
+    "compare",          "analyze",     "interpolate",    "massage",   "massage fit",
+    "massage transfer", "massage map", "massage remesh", "dump",      "render",
+    "corpus",           "add",         "remove",         "usd-plugin"};
 
 /// What a command prints as its help.
 std::string help_of(const std::string& command) {
@@ -62,9 +63,8 @@ TEST(CommandLine, EveryCommandHasHelpWithinAHundredColumns) {
 }
 
 TEST(CommandLine, OptionsThatCommandsShareAreWhereTheyApply) {
-  const std::vector<std::string> write = {"encode",      "decode",  "join",   "analyze",
-                                          "interpolate", "massage", "render", "corpus",
-                                          "add",         "remove"};
+  const std::vector<std::string> write = {"encode",  "decode", "join",   "analyze", "interpolate",
+                                          "massage", "render", "corpus", "add",     "remove"};
   for (const std::string& command : kCommands) {
     const std::string first = command.substr(0, command.find(' '));
     const bool writes = std::find(write.begin(), write.end(), first) != write.end();
@@ -124,7 +124,14 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_usage_error(anicodec({"info", "a.anic", "--colour"}));
   expect_usage_error(anicodec({"info"}));
   expect_usage_error(anicodec({"dump", "a.anic", "b.anic"}));
+  expect_usage_error(anicodec({"usd-plugin", "undo"}));
   expect_usage_error(anicodec({"encode", "a.pc2", "-o", "a.anic", "-j0"}));
+}
+
+TEST(CommandLine, NamesThePackageThatHasTheRest) {
+  const Outcome outcome = anicodec({"usd-plugin", "install"});
+  EXPECT_EQ(outcome.status, 4) << outcome;
+  EXPECT_THAT(outcome.err, HasSubstr("pip install 'anicodec[usd]'"));
 }
 
 TEST(CommandLine, SuggestsWhatWasMeant) {

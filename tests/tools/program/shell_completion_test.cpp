@@ -31,6 +31,8 @@ class ShellCompletion : public testing::Test {
     Options& twice =
         add_command(commands_, common_, 0, {"mix twice", "", "Mixes again", ""}, [] {});
     twice.number("--speed", colour_, "N", {1, 9}, "How fast");
+    Options& brush = add_command(commands_, common_, 0, {"brush", "wet|dry", "Cares", ""}, [] {});
+    brush.argument("ACTION", file_, "What is done").words = {"wet", "dry"};
   }
 
   std::string script(Shell shell) const { return shell_completion(program_, commands_, shell); }
@@ -73,6 +75,7 @@ TEST_F(ShellCompletion, CompletesInBash) {
   EXPECT_EQ(completed("brush paint -o ''", 3), "\n") << "files, by the shell itself";
   EXPECT_EQ(completed("brush mix t", 2), "twice\n");
   EXPECT_EQ(completed("brush mix twice --s", 3), "--speed\n");
+  EXPECT_EQ(completed("brush brush d", 2), "dry\n");
 }
 
 TEST_F(ShellCompletion, IsGoodZsh) {
@@ -80,6 +83,7 @@ TEST_F(ShellCompletion, IsGoodZsh) {
   const std::string text = script(Shell::kZsh);
   EXPECT_THAT(text, HasSubstr("'paint:It'\\''s colour'"));
   EXPECT_THAT(text, HasSubstr("'[''Colour \\[of it\\]'']'':word:(red green)'"));
+  EXPECT_THAT(text, HasSubstr("'1:mode:(wet dry)'"));
   const std::string said = run("zsh -n", text, &found);
   if (!found)
     GTEST_SKIP() << "no zsh";
@@ -90,6 +94,7 @@ TEST_F(ShellCompletion, CompletesInFish) {
   bool found = false;
   const std::string text = script(Shell::kFish);
   EXPECT_THAT(text, HasSubstr("-s c -l colour -xa 'red green'"));
+  EXPECT_THAT(text, HasSubstr("'__fish_seen_subcommand_from brush' -xa 'wet dry'"));
   const std::string said = run("fish",
                                text +
                                    "complete -C 'brush paint --col'\n"
