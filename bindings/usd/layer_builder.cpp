@@ -65,7 +65,7 @@ bool LayerBuilder::build(std::string* error) {
   read_metadata();
   std::vector<std::shared_ptr<const ClipCodes>> clocks;
   for (uint32_t clip = 0; clip < file_->clips().size(); ++clip) {
-    clocks.push_back(std::make_shared<ClipCodes>(file_, clip, codes_per_second_));
+    clocks.push_back(std::make_shared<ClipCodes>(file_, clip, snapped_rate(codes_per_second_)));
     root_moves_ = root_moves_ || file_->has_root_motion(clip);
     if (!clocks.back()->ascend()) {
       *error = "its frames are too near one another, or too far from zero, for time codes";

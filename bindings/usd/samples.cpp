@@ -40,7 +40,8 @@ double whole_code(double code) {
   for (const int parts :
        {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 24, 25, 30, 48, 50, 60, 120}) {
     const double near = std::nearbyint(code * parts) / parts;
-    if (std::abs(code - near) < (parts == 1 ? 1e-6 : 1e-9) * std::max(1.0, std::abs(code)))
+    // A rate of few digits moves whole codes by more than rounding does.
+    if (std::abs(code - near) < std::max(parts == 1 ? 1e-6 : 1e-9, 1e-9 * std::abs(code)))
       return near;
   }
   return code;

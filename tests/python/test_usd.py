@@ -168,12 +168,19 @@ def test_skins_are_baked():
     stage = Usd.Stage.CreateInMemory()
     stage.SetStartTimeCode(1)
     stage.SetEndTimeCode(9)
+    stage.SetTimeCodesPerSecond(30)
+    stage.SetFramesPerSecond(24)  # as Blender 5.2 writes; baking has samples at these, which are no frames
     add_skin(stage)
     clip = anicodec.open(usd.encode(stage, max_error=0.001))
-    assert clip.frame_count == 9
+    assert clip.frame_count == 9 and clip.fps == 30
     assert np.allclose(clip[0][5], [1, 2, 0], atol=0.002)
     assert np.allclose(clip[8][5], [1, 1, 1], atol=0.002)
     assert np.allclose(clip[4][5], [1, 1 + np.sqrt(0.5), np.sqrt(0.5)], atol=0.01)
+    hide = UsdGeom.Xformable(stage.GetPrimAtPath("/skin")).AddScaleOp()
+    for code, size in ((1, 0), (2, 1)):
+        hide.Set(Gf.Vec3f(size), code)
+    clip = anicodec.open(usd.encode(stage, max_error=0.001))
+    assert np.allclose(clip[0], 0, atol=0.002) and np.allclose(clip[8][5], [1, 1, 1], atol=0.002)
 
 
 def test_faults_name_the_prim(stage, tmp_path):

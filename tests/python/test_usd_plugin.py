@@ -162,7 +162,7 @@ def test_the_layer_says_what_decode_writes(sheet, tmp_path):
                     assert np.array_equal(np.array(twin.Get(code)), np.array(attribute.Get(code))), attribute
 
 
-@pytest.mark.parametrize("rate, codes", [(24 / float(np.float32(1.001)), range(1001, 1005)), (6000, range(0, 1001, 250)), (25, [-2, -1, 0.25, 1])])
+@pytest.mark.parametrize("rate, codes", [(24 / float(np.float32(1.001)), range(1001, 1005)), (24 / float(np.float32(1.001)), [1001, 1001.5, 1002, 1002.9995, 1003, 1005]), (6000, range(0, 1001, 250)), (25, [-2, -1, 0.25, 1])])
 def test_codes_are_those_of_the_stage(rate, codes, tmp_path):
     stage = Usd.Stage.CreateInMemory()
     stage.SetTimeCodesPerSecond(rate)
@@ -177,7 +177,7 @@ def test_codes_are_those_of_the_stage(rate, codes, tmp_path):
     layer = Usd.Stage.Open(str(path))
     assert layer.GetTimeCodesPerSecond() == rate
     found = UsdGeom.Mesh(layer.GetPrimAtPath("/a")).GetPointsAttr()
-    assert set(codes) <= set(found.GetTimeSamples()) and [found.Get(code)[0][2] for code in codes] == list(codes)
+    assert set(codes) <= set(found.GetTimeSamples()) and [found.Get(code)[0][2] for code in codes] == pytest.approx(list(codes))
 
 
 def test_the_layer_fits_over_its_stage(wave, tmp_path):

@@ -74,7 +74,7 @@ class _Place:
             place = step.instancer.shown(code).get(step.identity)
             if place is None or _hides(prim, step.prototype, code):
                 return None
-            in_prototype = cache.GetLocalToWorldTransform(prim) * cache.GetLocalToWorldTransform(step.prototype).GetInverse()
+            in_prototype = cache.ComputeRelativeTransform(prim, step.prototype)[0]
             matrix, prim = matrix @ np.array(in_prototype) @ place, step.instancer.prim
         hidden = UsdGeom.Imageable(prim).ComputeVisibility(code) == UsdGeom.Tokens.invisible
         return None if hidden else matrix @ np.array(cache.GetLocalToWorldTransform(prim))
@@ -199,7 +199,10 @@ class MeshReader:
             faces = self._faces(code)
             if len(faces[1]) and not 0 <= faces[1].min() <= faces[1].max() < len(points):
                 raise InputError(f"{self._prim.GetPath()}: a face has a vertex that is not of the {len(points)} points at time code {code:g}")
-            positions = np.array(points, np.float64).reshape(-1, 3) @ matrix[:3, :3] + matrix[3, :3]
+            local = np.array(points, np.float64).reshape(-1, 3)
+            if not matrix[:3, :3].any():  # a scale of 0 hides it, for which skins are baked to no numbers
+                local = np.zeros_like(local)
+            positions = local @ matrix[:3, :3] + matrix[3, :3]
             if not np.isfinite(positions).all():
                 raise InputError(f"{self._prim.GetPath()}: a point is not finite at time code {code:g}")
             same = [run for run in runs[-2:] if len(run["positions"][0]) == len(positions) and

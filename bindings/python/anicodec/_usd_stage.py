@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import re
 from fractions import Fraction
-from typing import Any, List, Tuple
+from typing import Any, List, Sequence, Tuple
 
 import numpy as np
 from pxr import Gf, Sdf, Tf, Usd, UsdSkel
@@ -42,11 +42,16 @@ def _reason(error: Exception) -> str:
     return (told.group(1).rstrip("'") if told else lines[0].strip()) if lines else type(error).__name__
 
 
-def bake_skins(stage: Usd.Stage) -> Usd.Stage:
-    """The stage, or a copy of it in which points move."""
+def bake_skins(stage: Usd.Stage, codes: Sequence[float], rate: float) -> Usd.Stage:
+    """The stage, or a copy of it in which points move, with samples at the codes of frames: so many a second."""
     if not any(prim.IsA(UsdSkel.Root) for prim in stage.Traverse(Usd.TraverseInstanceProxies())):
         return stage
     copy = Usd.Stage.Open(stage.Flatten())
+    # Skins are baked at samples of what moves them, and at frames of the stage.
+    copy.SetTimeCodesPerSecond(stage.GetTimeCodesPerSecond())
+    copy.SetFramesPerSecond(rate)
+    copy.SetStartTimeCode(codes[0])
+    copy.SetEndTimeCode(codes[-1])
     while any([prim.SetInstanceable(False) for prim in copy.Traverse() if prim.IsInstance()]):
         pass  # instances in instances
     if not UsdSkel.BakeSkinning(copy.Traverse(), Gf.Interval.GetFullInterval()):

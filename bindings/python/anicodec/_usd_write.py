@@ -130,7 +130,8 @@ def _whole(code: float) -> float:
     """A time code, whole or a whole part where only rounding keeps it from that."""
     for parts in _PARTS:
         near = round(code * parts) / parts
-        if abs(code - near) < (1e-6 if parts == 1 else 1e-9) * max(1.0, abs(code)):
+        # A rate of few digits moves whole codes by more than rounding does.
+        if abs(code - near) < max(1e-6 if parts == 1 else 1e-9, 1e-9 * abs(code)):
             return near
     return code
 

@@ -42,9 +42,9 @@ def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Se
     if topology_changes not in ("refuse", "keep"):
         raise InputError(f"topology_changes is 'refuse' or 'keep', not {topology_changes!r}")
     source = opened(stage)
-    baked = bake_skins(source)
     notes: List[str] = []
-    codes, rate, even = time_codes(baked, fps, notes)
+    codes, rate, even = time_codes(source, fps, notes)
+    baked = bake_skins(source, codes, float(rate))
     left_out: Dict[str, int] = {}
     readers = [MeshReader(place, codes, left_out) for place in places(baked, prims, codes, left_out)]
     read = [(mesh, reader.path) for reader in readers for mesh in reader.read(topology_changes == "keep")]
