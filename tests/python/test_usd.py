@@ -614,6 +614,31 @@ def test_what_rests_is_written_once_and_units_come_back(wave):
     assert UsdGeom.Mesh(back.GetPrimAtPath("/shot/xf/moving")).GetPointsAttr().GetTimeSamples() == [1001, 1002, 1003, 1004]
 
 
+def test_doubts_about_stages_are_notes(tmp_path):
+    stage = timed_stage(1, 2, 24)
+    stage.SetMetadata("upAxis", "X")
+    add_skin(stage)
+    stage.GetPrimAtPath("/skin").SetTypeName("Xform")
+    mesh = triangle(stage, "/clips", [])
+    clips = Usd.ClipsAPI(mesh.GetPrim())
+    part = Usd.Stage.CreateNew(str(tmp_path / "one.usda"))
+    triangle(part, "/a", [1])
+    part.Save()
+    clips.SetClipAssetPaths([Sdf.AssetPath(str(tmp_path / name)) for name in ("one.usda", "none.usda")])
+    clips.SetClipPrimPath("/a")
+    clips.SetClipActive([(1, 0), (2, 1)])
+    clips.SetClipTimes([(1, 1), (2, 2)])
+    paint = UsdShade.Material.Define(stage, "/paint")
+    shader = UsdShade.Shader.Define(stage, "/paint/surface")
+    shader.CreateIdAttr("UsdPreviewSurface")
+    shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.String).Set("red")
+    paint.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(paint)
+    notes = "\n".join(usd.encode(stage, effort=1).notes)
+    for text in ("the up axis X is taken for Y", "/skin/strip: the skin has no SkelRoot above it", "none.usda", "values of /paint, which are none"):
+        assert text in notes, notes
+
+
 def test_faults_of_stages_are_told(tmp_path):
     stage = timed_stage(1, 2, 24)
     with pytest.raises(anicodec.InputError, match="the stage has no mesh"):
@@ -625,6 +650,13 @@ def test_faults_of_stages_are_told(tmp_path):
     mesh.GetFaceVertexIndicesAttr().Set([0, 1, 9])
     mesh.GetPointsAttr().ClearAtTime(2)
     with pytest.raises(anicodec.InputError, match="/a: a face has a vertex that is not of the 3 points"):
+        usd.encode(stage)
+    UsdGeom.PrimvarsAPI(mesh).CreatePrimvar("heat", Sdf.ValueTypeNames.FloatArray, "vertex").Set([1, float("nan"), 3])
+    mesh.GetFaceVertexIndicesAttr().Set([0, 1, 2])
+    with pytest.raises(anicodec.InputError, match="/a: a value of primvar 'heat' is not finite"):
+        usd.encode(stage)
+    stage.SetEndTimeCode(float("inf"))
+    with pytest.raises(anicodec.InputError, match="the stage has no frames from 1 to inf"):
         usd.encode(stage)
     stage.SetTimeCodesPerSecond(0)
     with pytest.raises(anicodec.InputError, match="the stage has 0 time codes per second"):

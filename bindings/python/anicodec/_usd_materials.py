@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from typing import Any, Callable, Dict, Optional, Tuple
 
+import numpy as np
 from pxr import Gf, Sdf, Usd, UsdShade
 
 from .material import Material
@@ -56,8 +57,15 @@ def read_look(material: UsdShade.Material, double_sided: bool, leave_out: Callab
             leave_out("values of materials")
         return None
     path = material.GetPrim().GetStage().GetRootLayer().realPath
-    surface = _Surface(shader, os.path.dirname(path))
-    for given in shader.GetInputs():
+    try:
+        return _look_of(_Surface(shader, os.path.dirname(path)), double_sided, leave_out)
+    except (TypeError, ValueError, IndexError):  # inputs of other types than those of UsdPreviewSurface
+        leave_out(f"values of {material.GetPath()}, which are none of {_SURFACE}")
+        return None
+
+
+def _look_of(surface: _Surface, double_sided: bool, leave_out: Callable[[str], None]) -> Material:
+    for given in surface.shader.GetInputs():
         name = given.GetBaseName()
         plain = _PLAIN.get(name)
         if name not in _KEPT and (given.HasConnectedSource() or plain is None or surface.value(name, plain) != plain):
@@ -74,7 +82,7 @@ def read_look(material: UsdShade.Material, double_sided: bool, leave_out: Callab
     if seen_through and seen_through != colour:
         leave_out("texture of 'opacity' of materials")
     base = colour_scale if colour else (*surface.value("diffuseColor", Gf.Vec3f(0.18)), opacity)
-    return Material(
+    look = Material(
         base_colour=tuple(map(float, base)), metallic=float(metal_scale[2] if metal else surface.value("metallic", 0)),
         roughness=float(rough_scale[1] if rough else surface.value("roughness", 0.5)),
         emissive=tuple(map(float, (emitted_scale if emitted else surface.value("emissiveColor", Gf.Vec3f(0)))[:3])),
@@ -82,6 +90,9 @@ def read_look(material: UsdShade.Material, double_sided: bool, leave_out: Callab
         alpha_cutoff=cut if cut > 0 else 0.5, double_sided=double_sided, base_colour_texture=colour,
         metallic_roughness_texture=rough, normal_texture=surface.texture("normal")[0],
         occlusion_texture=surface.texture("occlusion")[0], emissive_texture=emitted)
+    if not np.isfinite([*look.base_colour, look.metallic, look.roughness, *look.emissive, look.alpha_cutoff]).all():
+        raise ValueError("not finite")
+    return look
 
 
 class LookWriter:

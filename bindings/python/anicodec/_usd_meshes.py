@@ -202,8 +202,9 @@ class MeshReader:
             local = np.array(points, np.float64).reshape(-1, 3)
             if not matrix[:3, :3].any():  # a scale of 0 hides it, for which skins are baked to no numbers
                 local = np.zeros_like(local)
-            positions = local @ matrix[:3, :3] + matrix[3, :3]
-            if not np.isfinite(positions).all():
+            with np.errstate(invalid="ignore", over="ignore"):
+                positions = local @ matrix[:3, :3] + matrix[3, :3]
+            if not (np.abs(positions) <= np.finfo(np.float32).max).all():
                 raise InputError(f"{self._prim.GetPath()}: a point is not finite at time code {code:g}")
             same = [run for run in runs[-2:] if len(run["positions"][0]) == len(positions) and
                     all(np.array_equal(a, b) for a, b in zip(run["faces"], faces))]
@@ -268,6 +269,8 @@ class MeshReader:
             self._left_out[f"primvar '{name}'"] = 0
             return
         values = frames[0] if len(frames) == 1 else np.stack(frames)
+        if not np.isfinite(values).all():
+            raise InputError(f"{self._prim.GetPath()}: a value of primvar '{name}' is not finite")
         is_uv = kind.role == "TextureCoordinate" or name.startswith(("st", "uv", "UV"))
         if is_uv and values.shape[-1] == 2:
             mesh.uv[name] = values

@@ -3,13 +3,14 @@
 """Stages of USD as a whole: opening, skins, time codes."""
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 from fractions import Fraction
-from typing import Any, List, Sequence, Tuple
+from typing import Any, Iterator, List, Sequence, Tuple
 
 import numpy as np
-from pxr import Gf, Sdf, Tf, Usd, UsdSkel
+from pxr import Gf, Sdf, Tf, Usd, UsdSkel, UsdUtils
 
 from .errors import InputError
 
@@ -35,6 +36,18 @@ def opened(stage: Any) -> Usd.Stage:
     return stage
 
 
+@contextlib.contextmanager
+def warnings_as_notes(notes: List[str]) -> Iterator[None]:
+    """Turns what USD warns of meanwhile, as of a value clip that is missing, into notes, each once."""
+    delegate = UsdUtils.CoalescingDiagnosticDelegate()
+    try:
+        yield
+    finally:
+        told = (" ".join(one.commentary.split()) for one in delegate.TakeUncoalescedDiagnostics())
+        notes.extend(text for text in dict.fromkeys(told) if text not in notes)
+        del delegate
+
+
 def _reason(error: Exception) -> str:
     """The first thing that USD says went wrong, without its places in USD's own source."""
     lines = str(error).strip().splitlines()
@@ -57,6 +70,12 @@ def bake_skins(stage: Usd.Stage, codes: Sequence[float], rate: float) -> Usd.Sta
     if not UsdSkel.BakeSkinning(copy.Traverse(), Gf.Interval.GetFullInterval()):
         raise InputError("the skins of the stage cannot be baked")
     return copy
+
+
+def resting_skins(stage: Usd.Stage) -> List[str]:
+    """A note for each skin that USD leaves at rest."""
+    return [f"{prim.GetPath()}: the skin has no SkelRoot above it, and rests" for prim in stage.Traverse()
+            if prim.HasAPI(UsdSkel.BindingAPI) and UsdSkel.BindingAPI(prim).GetJointIndicesPrimvar().HasValue() and not UsdSkel.Root.Find(prim)]
 
 
 def other_variants(stage: Usd.Stage) -> List[str]:
@@ -107,6 +126,8 @@ def time_codes(stage: Usd.Stage, fps: Any, notes: List[str]) -> Tuple[List[float
         start, end = stage.GetStartTimeCode(), stage.GetEndTimeCode()
     else:
         start, end = (samples[0], samples[-1]) if len(samples) else (0.0, 0.0)
+    if not np.isfinite([start, end]).all():
+        raise InputError(f"the stage has no frames from {start:g} to {end:g}")
     samples = samples[(samples >= start) & (samples <= end)]
     if fps is not None:
         rates = [fps]

@@ -16,7 +16,7 @@ except ImportError as error:
 
 from . import _usd_plugin
 from ._usd_meshes import MeshReader, places
-from ._usd_stage import bake_skins, opened, other_variants, snapped_rate, time_codes
+from ._usd_stage import bake_skins, opened, other_variants, resting_skins, snapped_rate, time_codes, warnings_as_notes
 from ._usd_write import decode
 from .encoder import Encoded, encode_meshes
 from .errors import InputError
@@ -34,20 +34,26 @@ def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Se
     stage's start to its end; samples that no such rate meets are frames of their own. Texture coordinates, colours, other
     numbers (those that meshes inherit, too), hard edges, materials (values and names of images of UsdPreviewSurface), parts and
     visibility are kept; each instance of a PointInstancer is a mesh. Paths of prims and time codes stay in the metadata, as "usd",
-    for decode() and for the plug-in of USD. `notes` of the result names what else the stage has. topology_changes: "refuse", or "keep" to store a mesh for each run of frames with equal faces. Other
-    options are those of encode().
+    for decode() and for the plug-in of USD. `notes` of the result names what else the stage has, and what USD warns of.
+    topology_changes: "refuse", or "keep" to store a mesh for each run of frames with equal faces. Other options are those of
+    encode().
 
     Raises InputError naming the prim, and what encode() raises.
     """
     if topology_changes not in ("refuse", "keep"):
         raise InputError(f"topology_changes is 'refuse' or 'keep', not {topology_changes!r}")
-    source = opened(stage)
     notes: List[str] = []
+    with warnings_as_notes(notes):
+        return _encode(stage, prims, fps, topology_changes == "keep", notes, options)
+
+
+def _encode(stage: Any, prims: Union[None, str, Sequence[str]], fps: Any, keep_changes: bool, notes: List[str], options: Dict[str, Any]) -> Encoded:
+    source = opened(stage)
     codes, rate, even = time_codes(source, fps, notes)
     baked = bake_skins(source, codes, float(rate))
     left_out: Dict[str, int] = {}
     readers = [MeshReader(place, codes, left_out) for place in places(baked, prims, codes, left_out)]
-    read = [(mesh, reader.path) for reader in readers for mesh in reader.read(topology_changes == "keep")]
+    read = [(mesh, reader.path) for reader in readers for mesh in reader.read(keep_changes)]
     if not read:
         raise InputError("the stage has no mesh that is visible")
     per_second = float(snapped_rate(baked.GetTimeCodesPerSecond()))
@@ -64,7 +70,9 @@ def encode(stage: Union[str, os.PathLike, Usd.Stage], prims: Union[None, str, Se
         about["defaultPrim"] = source.GetDefaultPrim().GetName()
     options["metadata"] = {"usd": about, **(options.get("metadata") or {})}
     result = encode_meshes([mesh for mesh, _ in read], frame_count=len(codes), fps=rate, **options)
-    notes.extend(other_variants(source))
+    notes.extend(other_variants(source) + resting_skins(source))
+    if UsdGeom.GetStageUpAxis(baked) not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
+        notes.append(f"the up axis {UsdGeom.GetStageUpAxis(baked)} is taken for Y")
     if left_out:
         notes.append("not kept: " + ", ".join(f"{count} {kind}" if count else kind for kind, count in left_out.items()))
     result.notes = notes
