@@ -169,7 +169,7 @@ def test_skins_are_baked():
     stage.SetStartTimeCode(1)
     stage.SetEndTimeCode(9)
     stage.SetTimeCodesPerSecond(30)
-    stage.SetFramesPerSecond(24)  # as Blender 5.2 writes; baking has samples at these, which are no frames
+    stage.SetFramesPerSecond(24)  # as stages have that name none; baking has samples at these, which are no frames
     add_skin(stage)
     clip = anicodec.open(usd.encode(stage, max_error=0.001))
     assert clip.frame_count == 9 and clip.fps == 30

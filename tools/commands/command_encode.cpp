@@ -77,10 +77,10 @@ input. What is written grows by a file every --piece seconds; anic_stream plays 
 and all commands take them together for one clip, which join -o makes a file that seeks and opens as
 others do. Of --effort, 1 is fast enough for 10,000 vertices.
 
---batch encodes many clips to the folder -o, -j of them side by side: of a folder every scene, every
-vertex cache with its mesh, and every run of numbered frames, of a list a clip per line, its inputs
-separated by tabs. Clips that are done already, by the content of what goes in and comes out, are
-left alone; one that fails does not stop the others.
+--batch encodes many clips to the folder -o, -j of them side by side: of a folder every scene or
+stage, every vertex cache with its mesh, and every run of numbered frames, of a list a clip per
+line, its inputs separated by tabs. Clips that are done already, by the content of what goes in and
+comes out, are left alone; one that fails does not stop the others.
 
 Texture coordinates, colours, other numbers, materials (values and names of images) and objects are
 kept; numbers in every frame, all others as they are in the first. Of normals the hard

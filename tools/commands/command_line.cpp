@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The anicodec authors
 #include "tools/commands/command_line.h"
 
+#include "tools/inputs/batch_clips.h"
 #include "tools/io/files/cleanup.h"
 #include "tools/program/command.h"
 
@@ -34,7 +35,9 @@ void declare_commands(Commands& commands, CommonOptions& common) {
 
 }  // namespace
 
-int run_command_line(int argc, const char* const* argv) {
+int run_command_line(int argc, const char* const* argv, bool leaves_stages) {
+  if (leaves_stages)
+    leave_stages_to_others();
   install_cleanup_on_signal();
   return run_program(
       {"anicodec", "Makes animated meshes small: encodes baked mesh sequences to .anic and back.",

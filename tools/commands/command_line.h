@@ -6,8 +6,9 @@
 namespace anicodec::tools {
 
 /// Does what the command line asks and returns the exit status. Every error ends here, as one line
-/// on stderr.
-int run_command_line(int argc, const char* const* argv);
+/// on stderr. leaves_stages: stages of USD in the folder of a batch are no clips; the Python package
+/// encodes them itself.
+int run_command_line(int argc, const char* const* argv, bool leaves_stages = false);
 
 }  // namespace anicodec::tools
 

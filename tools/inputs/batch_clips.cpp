@@ -6,6 +6,7 @@
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/mesh.h"
 #include "tools/io/base/printable.h"
+#include "tools/io/base/stage_hint.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
 
@@ -22,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool stages_are_left = false;
+
 /// Without the number at its end and the minus of one below zero.
 std::string without_number(const std::string& stem) {
   std::string before = stem.substr(0, stem.find_last_not_of("0123456789") + 1);
@@ -37,9 +40,10 @@ using FramesOfClips = std::map<std::pair<std::string, FileKind>, std::vector<std
 void join_fractions(FramesOfClips& frames) {
   for (auto group = frames.begin(); group != frames.end();) {
     const auto& [before, kind] = group->first;
-    const auto whole = before.ends_with('.')
-                           ? frames.find({without_number(before.substr(0, before.size() - 1)), kind})
-                           : frames.end();
+    const auto whole =
+        before.ends_with('.')
+            ? frames.find({without_number(before.substr(0, before.size() - 1)), kind})
+            : frames.end();
     if (whole == frames.end() || whole == group) {
       ++group;
       continue;
@@ -74,7 +78,7 @@ void add_folder(const fs::path& folder, const fs::path& relative, std::vector<Ba
     const std::string stem = fs::path(file).stem().string();
     if (is_cache(kind))
       cached.insert(stem);
-    if (is_cache(kind) || is_whole_clip(kind))
+    if (is_cache(kind) || is_whole_clip(kind) || (is_stage(file) && !stages_are_left))
       clips.push_back({joined(relative, stem), {(folder / file).string()}});
     else if (kind != FileKind::kUnknown && without_number(stem) != stem)
       frames[{without_number(stem), kind}].push_back(file);
@@ -123,6 +127,10 @@ std::vector<BatchClip> clips_of_list(const std::string& path) {
 }
 
 }  // namespace
+
+void leave_stages_to_others() {
+  stages_are_left = true;
+}
 
 std::vector<BatchClip> find_clips(const std::string& source) {
   std::vector<BatchClip> clips;

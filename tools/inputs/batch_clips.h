@@ -14,10 +14,13 @@ struct BatchClip {
   std::vector<std::string> inputs;  ///< as load_sequence takes them
 };
 
-/// The clips of a folder and the folders in it, in natural order of their names: every scene, every
-/// vertex cache, and every two or more meshes whose names differ in a number at the end. Of a list
-/// (any other file): a clip per line, its inputs separated by tabs; empty lines and those that
-/// begin with # mean nothing. Throws Error(kInput) when nothing is found, Error(kUsage) when two
+/// Takes stages of USD in folders for no clips from here on: the Python package encodes them itself.
+void leave_stages_to_others();
+
+/// The clips of a folder and the folders in it, in natural order of their names: every scene and
+/// stage, every vertex cache, and every two or more meshes whose names differ in a number at the
+/// end. Of a list (any other file): a clip per line, its inputs separated by tabs; empty lines and
+/// those that begin with # mean nothing. Throws Error(kInput) when nothing is found, Error(kUsage) when two
 /// clips have one name.
 std::vector<BatchClip> find_clips(const std::string& source);
 

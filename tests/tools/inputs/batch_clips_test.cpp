@@ -42,16 +42,27 @@ TEST(BatchClips, AreScenesCachesAndNumberedFramesOfAllFolders) {
   EXPECT_THAT(clips[1].inputs, SizeIs(1));
 }
 
+TEST(BatchClips, AreStagesUntilOthersTakeThem) {
+  TemporaryFolder folder;
+  folder.write("shot.usdc", "x");
+  EXPECT_THAT(names_of(find_clips(folder / ".")), ElementsAre("shot"));
+  const Outcome outcome = anicodec({"encode", "--batch", folder / ".", "-o", folder / "out"});
+  EXPECT_EQ(outcome.status, 2) << outcome;
+  EXPECT_THAT(outcome.out, HasSubstr("pip install 'anicodec[usd]'"));
+}
+
 TEST(BatchClips, HaveFramesBelowZeroAndBetweenFrames) {
   TemporaryFolder folder;
-  for (const char* file : {"sim.-0010.obj", "sim.-0009.obj", "sim.0000.obj", "sub.1.obj", "sub.1.25.obj", "sub.1.5.obj",
-                           "take.1.0001.obj", "take.1.0002.obj", "take.2.0001.obj", "take.2.0002.obj"})
+  for (const char* file :
+       {"sim.-0010.obj", "sim.-0009.obj", "sim.0000.obj", "sub.1.obj", "sub.1.25.obj",
+        "sub.1.5.obj", "take.1.0001.obj", "take.1.0002.obj", "take.2.0001.obj", "take.2.0002.obj"})
     folder.write(file, "x");
   const std::vector<BatchClip> clips = find_clips(folder / ".");
   EXPECT_THAT(names_of(clips), ElementsAre("sim", "sub", "take.1", "take.2"));
-  EXPECT_THAT(clips[0].inputs,
-              ElementsAre(HasSubstr("-0010.obj"), HasSubstr("-0009.obj"), HasSubstr("sim.0000.obj")));
-  EXPECT_THAT(clips[1].inputs, ElementsAre(HasSubstr("sub.1.obj"), HasSubstr("1.25.obj"), HasSubstr("1.5.obj")));
+  EXPECT_THAT(clips[0].inputs, ElementsAre(HasSubstr("-0010.obj"), HasSubstr("-0009.obj"),
+                                           HasSubstr("sim.0000.obj")));
+  EXPECT_THAT(clips[1].inputs,
+              ElementsAre(HasSubstr("sub.1.obj"), HasSubstr("1.25.obj"), HasSubstr("1.5.obj")));
 }
 
 TEST(BatchClips, ComeFromAListWithInputsBetweenTabs) {

@@ -8,12 +8,17 @@
 
 namespace anicodec::tools {
 
+/// Whether a path is that of a stage of USD.
+inline bool is_stage(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".usd" || extension == ".usda" || extension == ".usdc" ||
+         extension == ".usdz";
+}
+
 /// Names the package that reads and writes stages of USD, behind what is said of a path; empty for other files.
 inline std::string stage_hint(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  const bool is_stage =
-      extension == ".usd" || extension == ".usda" || extension == ".usdc" || extension == ".usdz";
-  return is_stage ? "; stages of USD need the Python package: pip install 'anicodec[usd]'" : "";
+  return is_stage(path) ? "; stages of USD need the Python package: pip install 'anicodec[usd]'"
+                        : "";
 }
 
 }  // namespace anicodec::tools
