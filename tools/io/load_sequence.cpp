@@ -12,9 +12,9 @@
 #include "tools/io/base/frame_changes.h"
 #include "tools/io/base/frame_rate.h"
 #include "tools/io/base/mesh.h"
+#include "tools/io/base/package_hint.h"
 #include "tools/io/base/printable.h"
 #include "tools/io/base/signed_axes.h"
-#include "tools/io/base/stage_hint.h"
 #include "tools/io/fbx/fbx.h"
 #include "tools/io/files/byte_source.h"
 #include "tools/io/files/natural_order.h"
@@ -109,7 +109,7 @@ std::vector<std::string> expand(std::span<const std::string> inputs) {
                            (fs::path(path) / "*.obj").string() + "'");
     if (kind_of(path) == FileKind::kUnknown)
       fail_input(path, "is of unknown kind; " + std::string(kReadableKinds) + " are read" +
-                           stage_hint(path));
+                           package_hint(path));
   }
   return paths;
 }

@@ -8,7 +8,7 @@
 #include "tools/io/base/file_kind.h"
 #include "tools/io/base/frame_attributes.h"
 #include "tools/io/base/mesh.h"
-#include "tools/io/base/stage_hint.h"
+#include "tools/io/base/package_hint.h"
 #include "tools/io/files/atomic_file.h"
 #include "tools/io/files/name_pattern.h"
 #include "tools/io/files/output_folder.h"
@@ -234,7 +234,7 @@ void check_sequence_output(const std::string& path, uint32_t frame_count,
     fail_usage(path, std::string(kind == FileKind::kUnknown ? "is of unknown kind"
                                                             : "is of a kind that is not written") +
                          "; .obj, .ply, .off, .stl, .pc2, .mdd, .glb and .abc can be written" +
-                         stage_hint(path));
+                         package_hint(path));
   if (kind == FileKind::kGlb || kind == FileKind::kAlembic)
     return check_output(path, options.overwrite);
   if (is_cache(kind)) {

@@ -5,16 +5,17 @@ import os
 import signal
 import sys
 
-from anicodec import _anicodec, _usd_command, _usd_plugin
+from anicodec import _anicodec, _usd_command, _usd_plugin, _vtk_command
 
 
 def main() -> None:
-    """Runs the command with the arguments of this process, and ends it. Stages of USD are read and written here."""
-    if _usd_command.is_meant(sys.argv[1:]):
-        status = _usd_command.main(sys.argv[1:])
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(status)  # USD destroys stages in threads of its own, which the end of the process would overtake
+    """Runs the command with the arguments of this process, and ends it. Stages of USD and results of simulations are read and written here."""
+    for command in (_usd_command, _vtk_command):
+        if command.is_meant(sys.argv[1:]):
+            status = command.main(sys.argv[1:])
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(status)  # USD destroys stages in threads of its own, which the end of the process would overtake
     if _usd_plugin.is_meant(sys.argv[1:]):
         sys.exit(_usd_plugin.main(sys.argv[2:]))
     for name in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ):  # as other commands, not as Python

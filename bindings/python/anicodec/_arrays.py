@@ -3,7 +3,7 @@
 """Arrays of callers, brought into the form that the extension module takes."""
 from __future__ import annotations
 
-from typing import Any, Optional, Tuple
+from typing import Any, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -38,6 +38,14 @@ def frames(values: Any, name: str = "positions") -> np.ndarray:
     if array.strides[2] != size or array.strides[1] % size or array.strides[0] % size:
         array = np.ascontiguousarray(array)
     return array
+
+
+def runs(shown: Sequence[int], count: int) -> List[Tuple[int, int]]:
+    """First and count of each run of the frames that show a mesh, of `count`; none where all do."""
+    if len(shown) == count:
+        return []
+    breaks = np.flatnonzero(np.diff(shown) > 1) + 1
+    return [(int(part[0]), len(part)) for part in np.split(np.array(shown), breaks)]
 
 
 def shape_text(array: np.ndarray) -> str:

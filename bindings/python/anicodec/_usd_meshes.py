@@ -8,6 +8,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tu
 import numpy as np
 from pxr import Sdf, Usd, UsdGeom, UsdShade
 
+from . import _arrays
 from ._usd_materials import read_look
 from ._usd_stage import MATERIALS, PARTS, identifier
 from .encoder import SourceMesh
@@ -250,7 +251,7 @@ class MeshReader:
         frames = run["frames"]
         offsets = np.concatenate([[0], np.cumsum(counts[self._kept])])
         mesh = SourceMesh(np.stack(run["positions"]), (offsets, corners[self._order]), name=self._place.name,
-                          runs=_runs(frames, len(self._codes)), uv={}, colours={}, normals={}, custom={},
+                          runs=_arrays.runs(frames, len(self._codes)), uv={}, colours={}, normals={}, custom={},
                           materials=self._materials(len(counts), self._codes[frames[0]]),
                           parts=self._parts(len(counts), self._codes[frames[0]]))
         codes = [self._codes[frame] for frame in frames]
@@ -366,12 +367,6 @@ class MeshReader:
                 self._left_out[f"GeomSubsets of {element}s, family '{family}'"] = 0
         return (names, numbers[self._kept]) if names else None
 
+
     def _leave_out(self, what: str) -> None:
         self._left_out[what] = 0
-
-
-def _runs(frames: List[int], count: int) -> List[Tuple[int, int]]:
-    if len(frames) == count:
-        return []
-    breaks = np.flatnonzero(np.diff(frames) > 1) + 1
-    return [(int(part[0]), len(part)) for part in np.split(np.array(frames), breaks)]

@@ -30,6 +30,7 @@ _NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bi
             "massage_tolerance", "store_normals")
 _FLAGS = {"no_attributes": _NO_ATTRIBUTES, "root_motion": _ROOT_MOTION, "smallest": _SMALLEST}
 _SWITCHES = ("quality", "lossless", "attribute_error", "metadata", *_FLAGS)
+_DOMAINS = {word: number for number, word in enumerate(DOMAINS)}
 _UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
 
 Progress = Callable[[str, float], Optional[bool]]
@@ -50,6 +51,14 @@ class Moving:
     components: int  #: 2 of uv, 3 or 4 of colours, 1 to 16 of others
 
 
+@dataclass(frozen=True)
+class Field:
+    """An attribute and its domain, where numbers of vertices, corners and polygons do not tell it."""
+
+    domain: str  #: "vertices", "corners" or "polygons"
+    values: Any  #: elements x components, or frames of these
+
+
 @dataclass
 class SourceMesh:
     """A mesh of encode_meshes()."""
@@ -64,7 +73,7 @@ class SourceMesh:
     normals: Any = None  #: vertices x 3 or corners x 3
     #: in place of normals: a number for each corner, of whose vertex those with the same number share a normal
     shared_normals: Any = None
-    custom: Mapping[str, Any] = field(default_factory=dict)  #: other numbers, as colours
+    custom: Mapping[str, Any] = field(default_factory=dict)  #: other numbers, as colours; any of these may be a Field
     #: names, and for each polygon a number of one or -1; then maybe looks: for each name a Material, or None
     materials: Optional[Tuple[Any, ...]] = None
     parts: Optional[Tuple[Sequence[str], Any]] = None  #: the same of objects
@@ -243,6 +252,8 @@ class _Adder:
         what = f"{kind} {name!r}" if name else kind
         if isinstance(given, Moving):
             return self._move(name, kind, what, given, components)
+        told = given.domain if isinstance(given, Field) else None
+        given = given.values if isinstance(given, Field) else given
         _arrays.check_size(given, what, self._max_bytes)
         values = _arrays.floats(given, what)
         moving = values.ndim == 3
@@ -252,7 +263,9 @@ class _Adder:
             wanted = " or ".join(map(str, components)) if len(components) < 5 else "1 to 16"
             domains = [f"{count} {domain}" for count, domain in zip(self._counts, DOMAINS)]
             raise InputError(f"{what} must be {', '.join(domains[:-1])} or {domains[-1]} x {wanted}, not {_arrays.shape_text(values)}")
-        domain = self._counts.index(elements)  # the first of those with as many elements
+        domain = self._counts.index(elements) if told is None else chosen(_DOMAINS, told, "domain")
+        if self._counts[domain] != elements:
+            raise InputError(f"{what} must be {self._counts[domain]} {told}, not {elements}")
         self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, values.shape[-1], frames, values,
                                     None, [], [])
 
@@ -261,7 +274,7 @@ class _Adder:
             raise InputError(f"{what}: a Moving is of a live stream; give frames of values")
         if kind == "normal" or given.components not in components:
             raise InputError(f"{what} cannot move with {given.components} components")
-        domain = chosen({word: i for i, word in enumerate(DOMAINS)}, given.domain, "domain")
+        domain = chosen(_DOMAINS, given.domain, "domain")
         self.moving.append((kind, name, (self._counts[domain], given.components)))
         self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, given.components, 0, None, None, [], [])
 

@@ -254,6 +254,7 @@ TEST(LoadSequence, RejectsFilesThatCannotBeRead) {
               HasSubstr("is a directory; name its frames with a pattern"));
   EXPECT_THAT(load_fault({folder.write("a.xyz", "")}), HasSubstr("a.xyz: is of unknown kind"));
   EXPECT_THAT(load_fault({folder.write("a.usda", "")}), HasSubstr("pip install 'anicodec[usd]'"));
+  EXPECT_THAT(load_fault({folder.write("a.pvd", "")}), HasSubstr("pip install 'anicodec[vtk]'"));
   EXPECT_THAT(load_fault({folder.write("a.abc", "")}), HasSubstr("a.abc: is not an Alembic file"));
   EXPECT_THAT(fault([&] { load_clip({folder.write("b.abc", "\x89HDF\r\n\x1a\n old")}); },
                     ErrorKind::kUnsupported),

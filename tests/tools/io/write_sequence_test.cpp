@@ -143,6 +143,7 @@ TEST(WriteSequence, RejectsBadNames) {
     EXPECT_THAT(name_fault(name), HasSubstr("a pattern has one %d or %0Nd")) << name;
   EXPECT_THAT(name_fault("a.xyz"), HasSubstr("of unknown kind"));
   EXPECT_THAT(name_fault("a.usdc"), HasSubstr("pip install 'anicodec[usd]'"));
+  EXPECT_THAT(name_fault("a.vtkhdf"), HasSubstr("pip install 'anicodec[vtk]'"));
   for (const char* name : {"a.fbx", "a_%d.md2", "a.dae"})
     EXPECT_THAT(name_fault(name), HasSubstr("of a kind that is not written")) << name;
 }

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The anicodec authors
+"""Results of simulations."""
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import anicodec
+from anicodec import _vtk_command
+
+vtk = pytest.importorskip("vtk", reason="the vtk wheel is not installed")
+
+import simulation_data as data  # noqa: E402
+from anicodec import vtk as simulations  # noqa: E402
+
+FORMS = ["beam.pvd", "beam.vtk.series", "beam.vtkhdf", "beam.xdmf", "beam.case", "beam.e"]
+
+
+@pytest.fixture(scope="module")
+def steps():
+    return [data.beam(number) for number in range(data.STEPS)]
+
+
+def surface_points(grid):
+    """Numbers of the points that outer faces have."""
+    copy = vtk.vtkUnstructuredGrid()
+    copy.ShallowCopy(grid)
+    data.put(copy.GetPointData(), "number", np.arange(grid.GetNumberOfPoints()))
+    extract = vtk.vtkDataSetSurfaceFilter()
+    extract.SetInputData(copy)
+    extract.Update()
+    return np.sort(data.vtk_to_numpy(extract.GetOutput().GetPointData().GetArray("number")))
+
+
+def field(clip, name, frame, mesh=0):
+    number = [attribute.name for attribute in clip.meshes[mesh].attributes].index(name)
+    return clip.meshes[mesh].attribute_at(number, clip.time(frame))
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_a_series_becomes_a_clip(tmp_path, steps, name):
+    encoded = simulations.encode(data.write_series(steps, tmp_path / name), effort=1)
+    clip = anicodec.open(encoded)
+    assert [clip.time(frame) for frame in range(len(clip))] == pytest.approx([0.5 * number for number in range(data.STEPS)])
+    outer = surface_points(steps[0])
+    if name == "beam.e":  # whose reader numbers points as cells use them
+        rest = data.points_of(steps[0])
+        outer = np.array([np.linalg.norm(rest - point, axis=1).argmin() for point in clip[0]])
+    for frame, grid in enumerate(steps):
+        assert np.linalg.norm(clip[frame] - data.points_of(grid)[outer], axis=1).max() <= 1.01 * clip.info["max_error"] + 1e-4
+        heat = data.vtk_to_numpy(grid.GetPointData().GetArray("heat"))[outer]
+        assert np.abs(field(clip, "heat", frame)[:, 0] - heat).max() <= 2e-3
+    assert encoded.notes == [f"not kept: {steps[0].GetNumberOfPoints() - len(outer)} points that no face has (--all-points keeps them)"]
+
+
+def test_fields_are_chosen_and_cells_keep_their_own(tmp_path, steps):
+    path = data.write_series(steps, tmp_path / "beam.pvd")
+    clip = anicodec.open(simulations.encode(path, fields="phase,stress", effort=1, order="all"))
+    shapes = {attribute.name: (attribute.domain, attribute.values.shape[1], attribute.moves) for attribute in clip.attributes}
+    assert shapes == {"stress": ("vertices", 6, True), "phase": ("polygons", 1, True)}
+    extract = vtk.vtkDataSetSurfaceFilter()
+    extract.SetInputData(steps[3])
+    extract.Update()
+    phases = data.vtk_to_numpy(extract.GetOutput().GetCellData().GetArray("phase"))
+    assert np.array_equal(np.rint(field(clip, "phase", 3)[:, 0]), phases)
+    assert not anicodec.open(simulations.encode(path, fields="none", effort=1)).attributes
+    with pytest.raises(anicodec.InputError, match="beam.pvd: step 0: there is no field 'heta'; there is displacement, heat"):
+        simulations.encode(path, fields=["heta"])
+
+
+def test_as_many_faces_as_vertices_are_told_apart(tmp_path):
+    """A torus of quads has as many of one as of the other."""
+    around = np.linspace(0, 2 * np.pi, 6, endpoint=False)
+    a, b = np.meshgrid(around, around, indexing="ij")
+    points = np.stack([(2 + np.cos(b)) * np.cos(a), (2 + np.cos(b)) * np.sin(a), np.sin(b)], axis=-1).reshape(-1, 3)
+    number = np.arange(36).reshape(6, 6)
+    quads = np.stack([number, np.roll(number, -1, 0), np.roll(np.roll(number, -1, 0), -1, 1), np.roll(number, -1, 1)], axis=-1).reshape(-1, 4)
+    data_of_cells = anicodec.Field("polygons", np.arange(36.0)[:, None])
+    clip = anicodec.open(anicodec.encode([points, points], quads, custom={"of cells": data_of_cells, "of points": np.arange(36.0)[:, None]}))
+    assert {a.name: a.domain for a in clip.attributes} == {"of cells": "polygons", "of points": "vertices"}
+    with pytest.raises(anicodec.InputError, match="must be 36 polygons, not 144"):
+        anicodec.encode([points, points], quads, custom={"x": anicodec.Field("polygons", np.arange(144.0)[:, None])})
+
+
+def test_all_points_stay_if_asked(tmp_path, steps):
+    path = data.write_series(steps, tmp_path / "beam.pvd")
+    encoded = simulations.encode(path, all_points=True, effort=1, fields="heat")
+    clip = anicodec.open(encoded)
+    assert clip.vertex_count == steps[0].GetNumberOfPoints() and encoded.notes == []
+    assert np.allclose(clip[2], data.points_of(steps[2]), atol=0.01)
+    particles = vtk.vtkPolyData()
+    data.place(particles, np.random.default_rng(1).random((20, 3)))
+    dust = data.write(particles, tmp_path / "dust.vtp")
+    with pytest.raises(anicodec.InputError, match="dust.vtp: no cell has a face; --all-points .* keeps its 20 points"):
+        simulations.encode(dust)
+    assert anicodec.open(simulations.encode([dust, dust], all_points=True)).vertex_count == 20
+
+
+@pytest.mark.parametrize("kind", [vtk.VTK_TETRA, vtk.VTK_WEDGE, vtk.VTK_QUADRATIC_TETRA, vtk.VTK_QUADRATIC_HEXAHEDRON, vtk.VTK_TRIANGLE])
+def test_surfaces_of_other_cells(tmp_path, kind):
+    made = [data.beam(number, (3, 2, 2), kind=kind) for number in range(3)]
+    clip = anicodec.open(simulations.encode([data.write(grid, tmp_path / f"cell_{n}.vtu") for n, grid in enumerate(made)], effort=1))
+    outer = surface_points(made[0])
+    assert np.allclose(clip[2], data.points_of(made[2])[outer], atol=0.01) and len(clip.polygons[0]) > 10
+    sizes = np.bincount(np.rint(field(clip, "material", 0)[:, 0]).astype(int), minlength=3)
+    assert sizes.sum() == len(clip.polygons[0]) - 1 and (sizes > 0).all()
+
+
+def test_strips_and_grids_have_faces(tmp_path):
+    strip = vtk.vtkPolyData()
+    data.place(strip, np.array([[i // 2, i % 2, 0.0] for i in range(8)]))
+    cells = vtk.vtkCellArray()
+    cells.InsertNextCell(8, range(8))
+    strip.SetStrips(cells)
+    data.put(strip.GetCellData(), "one", np.array([5.0]))
+    clip = anicodec.open(simulations.encode(data.write(strip, tmp_path / "strip.vtp"), order="all"))
+    corners = clip.triangles.astype(int)
+    sides = np.cross(clip[0][corners[:, 1]] - clip[0][corners[:, 0]], clip[0][corners[:, 2]] - clip[0][corners[:, 0]])[:, 2]
+    assert len(corners) == 6 and (np.sign(sides) == np.sign(sides[0])).all()
+    image = vtk.vtkImageData()
+    image.SetDimensions(4, 3, 1)
+    image.SetSpacing(0.5, 1, 1)
+    clip = anicodec.open(simulations.encode(data.write(image, tmp_path / "image.vti")))
+    assert clip.vertex_count == 12 and clip[0].max(axis=0) == pytest.approx([1.5, 2, 0], abs=1e-2)
+
+
+def test_blocks_are_meshes(tmp_path, steps):
+    made = []
+    for number in range(3):
+        blocks = vtk.vtkMultiBlockDataSet()
+        for index, name in enumerate(("frame", "wheel")):
+            blocks.SetBlock(index, data.beam(number, (3 + index, 2, 2)))
+            blocks.GetMetaData(index).Set(vtk.vtkCompositeDataSet.NAME(), name)
+        made.append(data.write(blocks, tmp_path / f"car_{number}.vtm"))
+    clip = anicodec.open(simulations.encode(str(tmp_path / "car_*.vtm"), effort=1))
+    assert [mesh.name for mesh in clip.meshes] == ["frame", "wheel"] and len(clip) == 3 and clip.name == "car"
+
+
+def test_a_fixed_mesh_is_moved_by_a_field(tmp_path):
+    made = [data.beam(number, moved=False) for number in range(4)]
+    paths = [data.write(grid, tmp_path / f"fixed_{number}.vtu") for number, grid in enumerate(made)]
+    told = simulations.encode(paths, effort=1, fields="none")
+    assert told.notes[0] == "the points never move; --warp (warp=) moves them by a vector field: displacement"
+    clip = anicodec.open(simulations.encode(paths, warp=("displacement", 3), effort=1, fields="none"))
+    outer = surface_points(made[0])
+    for frame, grid in enumerate(made):
+        points = data.points_of(grid)
+        assert np.allclose(clip[frame], (points + 3 * data.swing(points, frame))[outer], atol=0.01)
+    with pytest.raises(anicodec.InputError, match="fixed_0.vtu: has no vector field 'heat' of points; there is displacement"):
+        simulations.encode(paths, warp="heat")
+
+
+def test_displacements_of_exodus_are_not_added_twice(tmp_path, steps):
+    path = data.write_series([data.beam(number, moved=False) for number in range(3)], tmp_path / "beam.e")
+    moved, twice = (anicodec.open(simulations.encode(path, effort=1, fields="none", **warp)) for warp in ({}, {"warp": ("displacement_", 2)}))
+    rest = moved[0]
+    assert np.allclose(twice[2] - rest, 2 * (moved[2] - rest), atol=0.02) and np.abs(moved[2] - rest).max() > 0.5
+
+
+def test_meshes_that_change_are_segments_if_asked(tmp_path):
+    paths = [data.write(data.beam(number, (4 + number // 2, 2, 2)), tmp_path / f"grow_{number}.vtu") for number in range(4)]
+    with pytest.raises(anicodec.InputError, match=r"grow_2.vtu: has 54 points, not 45 as the steps before; --topology-changes keep"):
+        simulations.encode(paths)
+    clip = anicodec.open(simulations.encode(paths, topology_changes="keep", effort=1))
+    assert [[mesh.shown_in(frame) for frame in range(4)] for mesh in clip.meshes] == [[True, True, False, False], [False, False, True, True]]
+
+
+def test_times_come_from_data_and_stay_uneven(tmp_path):
+    paths = []
+    for number in range(4):
+        grid = data.beam(number)
+        data.put(grid.GetFieldData(), "TimeValue", np.array([2.0 + number ** 2]))
+        paths.append(data.write(grid, tmp_path / f"t_{number}.vtu"))
+    clip = anicodec.open(simulations.encode(paths, effort=1))
+    assert clip.info["start_time"] == 2 and [clip.time(frame) for frame in range(4)] == pytest.approx([0, 1, 4, 9])
+    encoded = simulations.encode(paths, effort=1, fps=25)
+    assert anicodec.open(encoded).duration == pytest.approx(3 / 25)
+    assert encoded.notes[0] == "the steps' times, 2 to 11, are not kept, as the rate is given"
+    with pytest.raises(anicodec.InputError, match=r"t_1.vtu: its time 3 is not after 6, that of the step before"):
+        simulations.encode([paths[2], paths[1]])
+
+
+def test_bad_steps_are_named(tmp_path):
+    def fault(change):
+        made = [data.beam(number) for number in range(3)]
+        change(made[1])
+        paths = [data.write(grid, tmp_path / f"bad_{number}.vtu") for number, grid in enumerate(made)]
+        with pytest.raises(anicodec.InputError) as told:
+            simulations.encode(paths)
+        return str(told.value).replace(str(tmp_path), "")
+
+    def not_a_number(grid):
+        data.vtk_to_numpy(grid.GetPointData().GetArray("heat"))[5] = np.nan
+
+    def no_point(grid):
+        data.points_of(grid)[3] = np.inf
+
+    assert fault(not_a_number) == "/bad_1.vtu: field 'heat' of point 5 is not a number; --fields (fields=) chooses others"
+    assert fault(no_point) == "/bad_1.vtu: the position of point 3 is infinite"
+    assert "/bad_1.vtu: the field 'heat' is missing" in fault(lambda grid: grid.GetPointData().RemoveArray("heat"))
+    assert "/bad_1.vtu: the field 'new' is there, which" in fault(
+        lambda grid: data.put(grid.GetCellData(), "new", np.zeros(grid.GetNumberOfCells())))
+    assert "/bad_1.vtu: has other cells" in fault(lambda grid: data.vtk_to_numpy(grid.GetCells().GetConnectivityArray())[:8].sort())
+
+
+def test_bad_files_are_named(tmp_path):
+    pieces = {"none.vtu": "<VTKFile", "cut.vtk": "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 9 float\n0 0",
+              "empty.pvd": "<VTKFile/>", "odd.pvd": "<a><", "gone.pvd": '<a><DataSet file="gone.vtu" timestep="0"/></a>',
+              "odd.vtk.series": "[]", "time.pvd": '<a><DataSet file="x" timestep="soon"/></a>', "odd.vtkhdf": "x", "odd.xdmf": "<x", "odd.e": "x",
+              "odd.case": "x"}
+    for name, text in pieces.items():
+        path = tmp_path / name
+        path.write_text(text)
+        with pytest.raises(anicodec.InputError, match=name):
+            simulations.encode(path)
+    with pytest.raises(FileNotFoundError):
+        simulations.encode(tmp_path / "no.vtu")
+    with pytest.raises(anicodec.InputError, match=r"no_\*.vtu: no file has such a name"):
+        simulations.encode(tmp_path / "no_*.vtu")
+
+
+def test_many_steps_lie_in_files(tmp_path):
+    grid = vtk.vtkSphereSource()
+    grid.Update()
+    data.write(grid.GetOutput(), tmp_path / "same.vtp")
+    entries = "".join(f'<DataSet timestep="{number}" file="same.vtp"/>' for number in range(500))
+    (tmp_path / "long.pvd").write_text(f"<VTKFile><Collection>{entries}</Collection></VTKFile>")
+    clip = anicodec.open(simulations.encode(tmp_path / "long.pvd", effort=1, fields="none"))
+    assert len(clip) == 500 and clip.fps == 1
+
+
+def test_the_command_reads_them(tmp_path, steps, capsys):
+    path, output = data.write_series(steps, tmp_path / "beam.pvd"), tmp_path / "beam.anic"
+    told = subprocess.run([sys.executable, "-m", "anicodec", "encode", path, "-o", output, "--effort", "1", "--fields", "heat", "--warp",
+                           "displacement:0.5", "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert told.returncode == 0, told.stderr
+    assert json.loads(told.stdout)["frames"] == data.STEPS
+    for arguments, status, text in (((path, "-o", output), 1, "beam.anic: exists"), ((tmp_path / "no.vtu", "-o", output, "-f"), 1, "no.vtu"),
+                                    ((path, "-o", output, "-f", "--fields", "x"), 2, "beam.pvd: step 0: there is no field 'x'"),
+                                    ((path, "-o", output, "-f", "--faces", "x.npy"), 1, "--faces goes with positions"),
+                                    ((path, "-o", output, "--nonsense"), 1, "--nonsense")):
+        assert _vtk_command.main(["encode", *map(str, arguments)]) == status
+        said = capsys.readouterr().err
+        assert text in said and len(said.splitlines()) == 1, said
