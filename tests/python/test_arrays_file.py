@@ -52,3 +52,19 @@ def test_the_command_names_the_extra():
              "from anicodec.__main__ import main; main()"
     result = subprocess.run([sys.executable, "-c", script], stderr=subprocess.PIPE, text=True)
     assert result.returncode == 4 and "pip install 'anicodec[vtk]'" in result.stderr, result.stderr
+
+
+def test_a_clip_becomes_arrays(tmp_path, wave, capsys):
+    positions, faces = wave
+    mixed = [*map(list, faces[:-1]), list(faces[-1][:3])]
+    for polygons in (faces, mixed):
+        clip = anicodec.open(anicodec.encode(positions, polygons, fps=12, start_time=3, effort=1, order="all",
+                                             custom={"times": positions[:, :, 2:], "weight": positions[0, :, :1]}))
+        (tmp_path / "wave.anic").write_bytes(clip.data)
+        assert _vtk_command.main(["decode", str(tmp_path / "wave.anic"), "-o", str(tmp_path / "wave.npz"), "-f"]) == 0
+        with np.load(tmp_path / "wave.npz") as stored:
+            assert np.array_equal(stored["positions"], clip[:]) and stored["times"][-1] == pytest.approx(3 + 23 / 12)
+            assert stored["times_"].shape == (24, 144, 1) and stored["weight"].shape == (144, 1)
+        assert _vtk_command.main(["encode", str(tmp_path / "wave.npz"), "-o", str(tmp_path / "again.anic"), "-f", "--lossless", "--order", "all"]) == 0
+        again = anicodec.open(tmp_path / "again.anic")
+        assert np.array_equal(again[:], clip[:]) and np.array_equal(again.triangles, clip.triangles) and again.fps == 12

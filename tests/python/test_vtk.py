@@ -245,3 +245,96 @@ def test_the_command_reads_them(tmp_path, steps, capsys):
         assert _vtk_command.main(["encode", *map(str, arguments)]) == status
         said = capsys.readouterr().err
         assert text in said and len(said.splitlines()) == 1, said
+
+
+OUTPUTS = ["out.pvd", "out.vtkhdf", "out.xdmf"]
+
+
+@pytest.fixture(scope="module")
+def two_meshes(tmp_path_factory):
+    """A clip whose second mesh is there in two steps, and what went into it."""
+    folder, made = tmp_path_factory.mktemp("two"), []
+    for number in range(5):
+        blocks = vtk.vtkMultiBlockDataSet()
+        for index, (name, grid) in enumerate((("beam", data.beam(number)), ("guest", data.beam(number, (3, 2, 2))))):
+            if name == "beam" or number in (2, 3):
+                blocks.SetBlock(index, grid)
+                blocks.GetMetaData(index).Set(vtk.vtkCompositeDataSet.NAME(), name)
+        made.append(data.write(blocks, folder / f"two_{number}.vtm"))
+    return anicodec.open(simulations.encode(made, fps=5, effort=1, order="all", max_error="0.001%"))
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_a_clip_becomes_a_series(tmp_path, steps, name):
+    """VTK reads the same positions, polygons, fields and times."""
+    clip = anicodec.open(simulations.encode(data.write_series(steps, tmp_path / "beam.pvd"), effort=1, order="all"))
+    assert simulations.decode(clip, tmp_path / name) == []
+    again = anicodec.open(simulations.encode(tmp_path / name, lossless=True, effort=1, order="all"))
+    assert np.array_equal(again[:], clip[:]) and np.array_equal(again.triangles, clip.triangles)
+    parts = {f"stress_{k}" for k in range(6)} if name == "out.xdmf" else {"stress"}  # which XDMF keeps one by one
+    assert again.fps == 2 and {a.name for a in again.attributes} == {"displacement", "heat", "phase", "material"} | parts
+    for field_name in ("heat", "phase", "material", "displacement"):
+        assert np.allclose(field(again, field_name, 4), field(clip, field_name, 4), atol=2e-2), field_name
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_meshes_come_and_go_in_a_series(tmp_path, two_meshes, name):
+    simulations.decode(two_meshes, tmp_path / name)
+    again = anicodec.open(simulations.encode(tmp_path / name, lossless=True, effort=1, order="all"))
+    assert [mesh.name for mesh in again.meshes] == ["beam", "guest"] and again.fps == 5
+    for mesh, source in zip(again.meshes, two_meshes.meshes):
+        shown = [source.shown_in(frame) for frame in range(5)]
+        assert [mesh.shown_in(frame) for frame in range(5)] == shown
+        for frame in np.flatnonzero(shown):
+            assert np.array_equal(mesh[int(frame)], source[int(frame)])
+
+
+def test_hdf_keeps_polygons_once(tmp_path, wave):
+    h5py = pytest.importorskip("h5py", reason="h5py is not installed")
+    positions, faces = wave
+    clip = anicodec.open(anicodec.encode(positions, faces, effort=1, custom={"rest": positions[0, :, :1], "heat": positions[:, :, 2:]}))
+    simulations.decode(clip, tmp_path / "wave.vtkhdf")
+    with h5py.File(tmp_path / "wave.vtkhdf") as file:
+        root = file["VTKHDF"]
+        assert len(root["Polygons/Connectivity"]) == faces.size and len(root["Points"]) == positions[..., 0].size
+        assert len(root["PointData/rest"]) == 144 and len(root["PointData/heat"]) == 144 * 24
+    simulations.decode(clip, tmp_path / "wave.xdmf")
+    with h5py.File(tmp_path / "wave.h5") as file:
+        assert len([name for name in file["mesh0"] if name.startswith("positions")]) == 24 and "polygons" in file["mesh0"]
+
+
+def test_origin_colours_and_labels_go_out(tmp_path, wave):
+    positions, faces = wave
+    far = positions.astype(np.float64) + np.array([4e5, 5e6, 0])
+    colours = np.tile(np.linspace(0, 1, 144)[:, None], 3)
+    clip = anicodec.open(anicodec.encode(far, faces, colours=colours, uv=np.zeros((faces.size, 2)), effort=1, order="all",
+                                         materials=(["cloth", "hem"], np.arange(len(faces)) % 2)))
+    notes = simulations.decode(clip, tmp_path / "far.pvd")
+    assert notes == ["not kept: uv of corners, names of materials"]
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(tmp_path / "far" / "07.vtp"))
+    reader.Update()
+    frame = reader.GetOutput()
+    assert np.abs(data.points_of(frame) - far[7]).max() < 0.01 and data.points_of(frame).dtype == np.float64
+    rgb = data.vtk_to_numpy(frame.GetPointData().GetArray("RGB"))
+    assert rgb.dtype == np.uint8 and np.abs(rgb / 255 - colours).max() < 0.01
+    assert set(data.vtk_to_numpy(frame.GetCellData().GetArray("material")).ravel()) == {1, 2}
+
+
+def test_the_command_writes_them(tmp_path, steps, two_meshes, capsys):
+    clip = tmp_path / "beam.anic"
+    clip.write_bytes(simulations.encode(data.write_series(steps, tmp_path / "beam.pvd"), effort=1, topology_changes="keep"))
+    for name in OUTPUTS:
+        assert _vtk_command.main(["decode", str(clip), "-o", str(tmp_path / "new" / name)]) == 0
+        assert "6 frames of 1 mesh, " in capsys.readouterr().out
+        assert _vtk_command.main(["decode", str(clip), "-o", str(tmp_path / "new" / name)]) == 1
+        assert "exists (-f replaces it)" in capsys.readouterr().err
+        assert _vtk_command.main(["decode", str(clip), "-o", str(tmp_path / "new" / name), "-f"]) == 0
+    (tmp_path / "two.anic").write_bytes(two_meshes.data)
+    (tmp_path / "bad.anic").write_bytes(two_meshes.data[:500])
+    capsys.readouterr()
+    for source, name, status, text in ((clip, "x.case", 1, "is not written; .pvd"), (tmp_path / "two.anic", "x.npz", 2, ".npz holds one mesh"),
+                                       (tmp_path / "bad.anic", "x.pvd", 3, "bad.anic: "), (tmp_path / "no.anic", "x.pvd", 1, "no.anic")):
+        assert _vtk_command.main(["decode", str(source), "-o", str(tmp_path / "other" / name)]) == status
+        told = capsys.readouterr().err
+        assert text in told and len(told.splitlines()) == 1 and not (tmp_path / "other" / name).exists(), told

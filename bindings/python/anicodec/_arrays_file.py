@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Mapping, Optional, Sequence, Union
+import zipfile
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _arrays, encoder
+from ._clock import set_clock
+from ._steps import clip_of, fields_of, left_out_text, positions_at, times_of, values_at
 from .errors import InputError
 
 SUFFIXES = (".npy", ".npz")
@@ -51,7 +54,7 @@ def encode(path: str, faces: Optional[str] = None, *, fields: Union[None, str, S
         if value is not None:
             raise InputError(f"{path}: {name} is of inputs that VTK reads")
     custom: Dict[str, Any] = {}
-    notes = []
+    notes: List[str] = []
     if path.lower().endswith(".npy"):
         positions, polygons = _loaded(path), None if faces is None else _loaded(faces)
     else:
@@ -63,9 +66,11 @@ def encode(path: str, faces: Optional[str] = None, *, fields: Union[None, str, S
         polygons = _loaded(faces) if faces is not None else None if named is None else arrays.pop(named)
         if "offsets" in arrays and polygons is not None:
             polygons = (arrays["offsets"], polygons)
-        for name, key in (("times", "times"), ("fps", "fps")):
-            if name in arrays and options.get(key) is None and options.get("fps") is None:
-                options[key] = arrays[name].ravel()[0] if name == "fps" else arrays[name]
+        if "times" in arrays:
+            times = arrays["times"].ravel().tolist()
+            notes += set_clock([f"{path}: frame {frame}" for frame in range(len(times))], times, options.get("fps"), options)
+        elif "fps" in arrays and options.get("fps") is None:
+            options["fps"] = float(arrays["fps"].ravel()[0])
         wanted = None if fields is None else [] if fields == "none" else fields.split(",") if isinstance(fields, str) else fields
         for name, values in arrays.items():
             if name in _OTHERS or (wanted is not None and name not in wanted):
@@ -79,3 +84,46 @@ def encode(path: str, faces: Optional[str] = None, *, fields: Union[None, str, S
     result = encoder.encode(positions, polygons, custom=custom, **options)
     result.notes = notes
     return result
+
+
+def decode(clip: Any, path: str) -> List[str]:
+    """Writes a clip (or what open() takes) of one mesh as .npz: positions, offsets and faces, times in seconds, and its fields; notes of
+    what has no place. Frames go into the file one by one. Raises InputError and OSError."""
+    source = clip_of(clip)
+    if len(source.meshes) != 1 or not all(map(source.meshes[0].shown_in, range(len(source)))):
+        raise InputError(f"{path}: .npz holds one mesh that is there in all frames; .vtkhdf holds others")
+    mesh = source.meshes[0]
+    frames = range(len(source))
+    offsets, corners = mesh.polygons
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        _store(archive, "positions", len(source), (positions_at(mesh, frame) for frame in frames))
+        sizes = np.diff(offsets)
+        if len(sizes) and (sizes == sizes[0]).all():
+            _store(archive, "faces", None, [corners.reshape(len(sizes), -1).astype(np.int64)])
+        elif len(sizes):
+            _store(archive, "faces", None, [corners.astype(np.int64)])
+            _store(archive, "offsets", None, [offsets.astype(np.int64)])
+        _store(archive, "times", None, [np.array(times_of(source))])
+        taken = [*_POSITIONS, *_FACES, *_OTHERS]
+        for field in fields_of(mesh)[0]:
+            name = field.name.replace("/", "_")
+            while name in taken:
+                name += "_"
+            taken.append(name)
+            if field.moves:
+                _store(archive, name, len(source), (values_at(mesh, field, frame) for frame in frames))
+            else:
+                _store(archive, name, None, [values_at(mesh, field, 0)])
+    return left_out_text(source)
+
+
+def _store(archive: zipfile.ZipFile, name: str, count: Optional[int], arrays: Iterable[np.ndarray]) -> None:
+    """Equal arrays as one of `count`, or one alone, as a member of an .npz file."""
+    with archive.open(name + ".npy", "w", force_zip64=True) as member:
+        for number, array in enumerate(arrays):
+            array = np.ascontiguousarray(array)
+            if number == 0:
+                shape: Tuple[int, ...] = array.shape if count is None else (count, *array.shape)
+                about = {"descr": np.lib.format.dtype_to_descr(array.dtype), "fortran_order": False, "shape": shape}
+                np.lib.format.write_array_header_1_0(member, about)
+            member.write(array.tobytes())

@@ -46,7 +46,6 @@ class Parser(argparse.ArgumentParser):
             return
         self.add_argument("input", metavar="FILE.anic", nargs="+", help="clips; - for the standard input")
         self.add_argument("--format", choices=[suffix[1:] for suffix in formats], help="write each clip to the folder OUTPUT, by its name")
-        self.add_argument("--frames", metavar="A:B[:STEP]", help="frames A to B - 1, every STEP-th (default: all)")
         self.add_argument("--quality", help="share of the components to use, above 0 to 1", type=float, default=1.0)
 
     def _add_encoding(self) -> None:
@@ -222,7 +221,7 @@ def opened(source: str, output: str, given: Dict[str, Any]) -> Tuple[Clip, slice
         raise Fault(f"{source}: {error}", 3 if isinstance(error, CorruptError) else 4) from None
     except (ValueError, MemoryError, AbsentError) as error:
         raise Fault(f"{source}: {error}", 2) from None
-    frames = _frames(given["frames"]) if given["frames"] else slice(None)
+    frames = _frames(given["frames"]) if given.get("frames") else slice(None)
     if not range(len(clip))[frames]:
         raise Fault(f"{source}: --frames {given['frames']}: it has {len(clip)} frames", 1)
     return clip, frames

@@ -47,6 +47,7 @@ def _parser(command: str) -> Parser:
         parser.add_argument("--mesh", help="path of a prim; its meshes and all below it")
         parser.add_argument("--split-objects", action="store_true", help="what stages do anyway: each mesh is stored apart")
     else:
+        parser.add_argument("--frames", metavar="A:B[:STEP]", help="frames A to B - 1, every STEP-th (default: all)")
         parser.add_argument("--over", action="store_true", help="to be layered over the stage that was encoded")
         parser.add_argument("--no-normals", action="store_true", help="leave out normals, which programs then take for flat faces")
         parser.add_argument("--clip", help="the clip to write, of a file that has several (default: all, as variants)")

@@ -367,6 +367,5 @@ class MeshReader:
                 self._left_out[f"GeomSubsets of {element}s, family '{family}'"] = 0
         return (names, numbers[self._kept]) if names else None
 
-
     def _leave_out(self, what: str) -> None:
         self._left_out[what] = 0

@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import functools
+import os
+import shutil
+import tempfile
 from typing import Any, Dict, List, Tuple, Union
 
 from . import _arrays_file, _package_command
@@ -12,7 +15,9 @@ from ._package_command import Fault, Parser
 #: Of files that VTK reads; here, as its package may be missing.
 _READ = (".vtk", ".vtp", ".vtu", ".vts", ".vtr", ".vti", ".vtm", ".pvtp", ".pvtu", ".pvts", ".pvtr", ".pvti", ".pvd", ".series",
          ".vtkhdf", ".xdmf", ".xmf", ".case", ".e", ".exo", ".ex2")
+_WRITTEN = (".pvd", ".vtkhdf", ".xdmf", ".npz")
 _ENCODE_USAGE = "%(prog)s STEPS... -o FILE.anic [options]"
+_DECODE_USAGE = "%(prog)s FILE.anic -o STEPS [options]\n       %(prog)s FILE.anic... --format vtkhdf -o DIR [options]"
 
 
 def is_meant(arguments: List[str]) -> bool:
@@ -21,6 +26,12 @@ def is_meant(arguments: List[str]) -> bool:
 
 
 def _parser(command: str) -> Parser:
+    if command == "decode":
+        parser = Parser(command, "results of simulations", _WRITTEN, usage=_DECODE_USAGE,
+                        description="Writes the frames of a clip, with its fields, as .pvd with a folder of .vtp files, as .vtkhdf, as .xdmf with "
+                        "an .h5 file, or one mesh as .npz.")
+        parser.add_argument("--clip", help="the clip to write, of a file that has several")
+        return parser
     parser = Parser(command, "results of simulations", (), usage=_ENCODE_USAGE,
                     description="Encodes a series of steps that VTK reads, or arrays of numpy; `anicodec encode --help` explains the options "
                     "that other inputs have, too.")
@@ -59,6 +70,49 @@ def _encode(given: Dict[str, Any]) -> None:
     _package_command.encode(given, inputs[0], functools.partial(vtk.encode, inputs))
 
 
+def _decode(given: Dict[str, Any]) -> None:
+    for source, output in _package_command.outputs(given, (*_READ, *_arrays_file.SUFFIXES), "a result of a simulation"):
+        _decode_one(source, output, given)
+
+
+def _decode_one(source: str, output: str, given: Dict[str, Any]) -> None:
+    suffix = os.path.splitext(output)[1].lower()
+    if suffix not in _WRITTEN:
+        raise Fault(f"{output}: is not written; {', '.join(_WRITTEN)} are", 1)
+    clip, frames = _package_command.opened(source, output, given)
+    try:
+        if suffix == ".npz":
+            write: Any = _arrays_file.decode
+        else:
+            from .vtk import decode as write
+        folder = os.path.dirname(output) or "."
+        os.makedirs(folder, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder) as work:  # so that the output is whole or not there
+            notes = write(clip, os.path.join(work, os.path.basename(output)))
+            # The file that names the others comes last.
+            for name in sorted(os.listdir(work), key=lambda name: name == os.path.basename(output)):
+                _replace(os.path.join(work, name), os.path.join(folder, name), given["force"])
+    except ImportError as error:
+        raise Fault(f"{output}: {error}", 4) from None
+    except (ValueError, MemoryError) as error:
+        raise Fault(f"{source}: {error}", 2) from None
+    size = sum(_size(path) for path in (output, os.path.splitext(output)[0], os.path.splitext(output)[0] + ".h5") if os.path.exists(path))
+    _package_command.report_decoded(given, output, clip, frames, size, notes)
+
+
+def _replace(source: str, target: str, force: bool) -> None:
+    if os.path.exists(target) and not force:
+        raise Fault(f"{target}: exists (-f replaces it)", 1)
+    if os.path.isdir(target):
+        shutil.rmtree(target)
+    os.replace(source, target)
+
+
+def _size(path: str) -> int:
+    return sum(os.path.getsize(os.path.join(path, name)) for name in os.listdir(path)) if os.path.isdir(path) else os.path.getsize(path)
+
+
 def main(arguments: List[str]) -> int:
     """Encodes or decodes as the arguments say; the exit status of the command."""
-    return _package_command.main(lambda: _encode(vars(_parser(arguments[0]).parse_args(arguments[1:]))))
+    work = _encode if arguments[0] == "encode" else _decode
+    return _package_command.main(lambda: work(vars(_parser(arguments[0]).parse_args(arguments[1:]))))

@@ -12,7 +12,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 from .errors import InputError
@@ -147,10 +147,12 @@ def _told(place: str) -> Iterator[None]:
     """Raises InputError for what VTK would print as an error."""
     before, window = vtkOutputWindow.GetInstance(), vtkStringOutputWindow()
     vtkOutputWindow.SetInstance(window)
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     try:
         yield
     finally:
         vtkOutputWindow.SetInstance(before)
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_INFO)
     text = window.GetOutput()
     if "ERROR:" in text or "ERR|" in text:
         first = text[text.find("ERR"):].split("\n\n")[0]
@@ -184,7 +186,7 @@ def _reader(path: str, suffix: str, at_rest: bool) -> Any:
 def _of_reader(path: str, suffix: str, at_rest: bool) -> List[Step]:
     """The steps in one file, which is opened for its times where it may have several."""
     if suffix in _OF_STEP:
-        return [Step(path, None, lambda: _output(_opened(path, suffix, at_rest), path, None))]
+        return [Step(path, None, lambda: _output(_opened(path, suffix, at_rest), path))]
     reader = _opened(path, suffix, at_rest)
     key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     with _told(path):
@@ -192,10 +194,10 @@ def _of_reader(path: str, suffix: str, at_rest: bool) -> List[Step]:
     information = reader.GetOutputInformation(0)
     times = list(information.Get(key)) if information is not None and information.Has(key) else []
     if not times:
-        return [Step(path, None, lambda: _output(reader, path, None))]
+        return [Step(path, None, lambda: _output(reader, path))]
 
     def read_at(number: int) -> Callable[[], List[Tuple[str, Any]]]:
-        return lambda: _output(reader, f"{path}: step {number}", times[number])
+        return lambda: _output(reader, f"{path}: step {number}", number, times[number])
     return [Step(f"{path}: step {number}", moment, read_at(number)) for number, moment in enumerate(times)]
 
 
@@ -204,9 +206,11 @@ def _opened(path: str, suffix: str, at_rest: bool) -> Any:
         return _reader(path, suffix, at_rest)
 
 
-def _output(reader: Any, place: str, moment: Optional[float]) -> List[Tuple[str, Any]]:
+def _output(reader: Any, place: str, number: int = 0, moment: Optional[float] = None) -> List[Tuple[str, Any]]:
     with _told(place):
-        if moment is None:
+        if hasattr(reader, "SetStep"):  # of vtkHDFReader, which gives the same step again of collections if asked for another time
+            reader.SetStep(number)
+        if moment is None or hasattr(reader, "SetStep"):
             reader.Update()
         else:
             reader.UpdateTimeStep(moment)

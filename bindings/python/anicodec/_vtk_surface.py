@@ -3,6 +3,7 @@
 """Outer surfaces of data sets of VTK: which points and cells they take, so that all steps of a series give the same ones."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Any, Dict, List, Tuple
 
@@ -47,6 +48,7 @@ def leaves(name: str, data: Any) -> List[Tuple[str, Any]]:
             about = data.GetMetaData(number) if data.HasMetaData(number) else None
             key = vtkCompositeDataSet.NAME()
             own = about.Get(key) if about is not None and about.Has(key) else ""
+            own = re.sub(r"\[[0-9]+\]$", "", own)  # with which the reader of XDMF tells grids of equal names in other steps apart
             own = own or (f"part {number}" if count > 1 else "")
             found += leaves("/".join(part for part in (name, own) if part), block)
         return found

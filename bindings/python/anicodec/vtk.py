@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The anicodec authors
-"""VTK: results of simulations to a clip. Needs the extra: pip install 'anicodec[vtk]'."""
+"""VTK: results of simulations to a clip, and back. Needs the extra: pip install 'anicodec[vtk]'."""
 from __future__ import annotations
 
 import os
-from fractions import Fraction
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -14,13 +13,16 @@ try:
 except ImportError as error:
     raise ImportError("results of simulations need the extra of the package: pip install 'anicodec[vtk]'") from error
 
+from ._clock import set_clock
+from ._steps import clip_of, left_out_text
 from ._vtk_meshes import Choice, MeshReader
 from ._vtk_series import Step, steps_of, time_in
 from ._vtk_surface import leaves
+from ._vtk_write import WRITERS
 from .encoder import Encoded, encode_meshes
 from .errors import InputError
 
-__all__ = ["encode"]
+__all__ = ["decode", "encode"]
 
 
 def encode(source: Union[str, os.PathLike, Sequence[Any]], *, fields: Union[None, str, Sequence[str]] = None,
@@ -61,7 +63,7 @@ def encode(source: Union[str, os.PathLike, Sequence[Any]], *, fields: Union[None
     absent = [name for name in choice.fields or () if name not in seen]
     if absent:
         raise InputError(f"{steps[0].place}: there is no field {absent[0]!r}; there is {', '.join(seen) or 'none'}")
-    notes = _clock(steps, times, fps, options)
+    notes = set_clock([step.place for step in steps], times, fps, options)
     if choice.warp is None and all(reader.rests() for reader in readers.values()) and len(steps) > 1:
         vectors = {name: None for reader in readers.values() for name in reader.vectors}
         notes.append("the points never move; " + (f"--warp (warp=) moves them by a vector field: {', '.join(vectors)}" if vectors else
@@ -74,6 +76,21 @@ def encode(source: Union[str, os.PathLike, Sequence[Any]], *, fields: Union[None
         notes.append("not kept: " + ", ".join(f"{count} {kind}" if count else kind for kind, count in left_out.items()))
     result.notes = notes
     return result
+
+
+def decode(clip: Any, path: Union[str, os.PathLike]) -> List[str]:
+    """Writes a clip (or what open() takes) as .pvd (with a folder of .vtp files), .vtkhdf or .xdmf (with an .h5 file); notes of what
+    these cannot hold.
+
+    In .vtkhdf and .xdmf polygons and fields that rest are stored once. Positions have the origin of the clip, colours are bytes.
+    Raises InputError, OSError, and what open() raises.
+    """
+    source = clip_of(clip)
+    suffix = os.path.splitext(os.fspath(path))[1].lower()
+    if suffix not in WRITERS:
+        raise InputError(f"{os.fspath(path)}: {', '.join(WRITERS)} can be written")
+    WRITERS[suffix](source, os.fspath(path))
+    return left_out_text(source)
 
 
 def _leaves_of(step: Step, data: List[Tuple[str, Any]]) -> List[Tuple[str, Any]]:
@@ -101,31 +118,3 @@ def _warp_of(warp: Union[None, str, Tuple[str, float]]) -> Optional[Tuple[str, f
     if not np.isfinite(scale):
         raise InputError(f"the scale of warp is a number, not {scale!r}")
     return name, float(scale)
-
-
-def _clock(steps: Sequence[Step], times: Sequence[Optional[float]], fps: Any, options: Dict[str, Any]) -> List[str]:
-    """Sets rate, start and times among the options, where the steps tell them; notes of what is lost."""
-    known = [moment for moment in times if moment is not None]
-    if len(known) < len(times) or not known:
-        options["fps"] = fps
-        return []
-    for before, after, step in zip(known, known[1:], steps[1:]):
-        if not after > before:
-            raise InputError(f"{step.place}: its time {after:g} is not after {before:g}, that of the step before")
-    if not np.isfinite(known).all():
-        raise InputError(f"{steps[int(np.argmin(np.isfinite(known)))].place}: its time is not finite")
-    if fps is not None:
-        options["fps"] = fps
-        return [f"the steps' times, {known[0]:g} to {known[-1]:g}, are not kept, as the rate is given"] if len(known) > 1 else []
-    options.setdefault("start_time", known[0])
-    if len(known) == 1:
-        options["fps"] = None
-        return []
-    seconds = np.array(known) - known[0]
-    rate = Fraction((len(known) - 1) / seconds[-1]).limit_denominator(100000)
-    if rate <= 0 or rate.numerator >= 2**32:
-        raise InputError(f"the steps' times, {known[0]:g} to {known[-1]:g}, need another rate: --fps (fps=)")
-    options["fps"] = rate
-    if np.abs(np.arange(len(known)) / float(rate) - seconds).max() > 1e-6 * seconds[-1] / (len(known) - 1):
-        options.setdefault("times", seconds)
-    return []
