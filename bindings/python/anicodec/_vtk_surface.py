@@ -48,11 +48,21 @@ def leaves(name: str, data: Any) -> List[Tuple[str, Any]]:
             about = data.GetMetaData(number) if data.HasMetaData(number) else None
             key = vtkCompositeDataSet.NAME()
             own = about.Get(key) if about is not None and about.Has(key) else ""
+            own = own or (_name_in_assembly(data, number) if collection else "")
             own = re.sub(r"\[[0-9]+\]$", "", own)  # with which the reader of XDMF tells grids of equal names in other steps apart
             own = own or (f"part {number}" if count > 1 else "")
             found += leaves("/".join(part for part in (name, own) if part), block)
         return found
     raise InputError(f"{data.GetClassName()} is not read" + (f" ({name})" if name else ""))
+
+
+def _name_in_assembly(data: Any, number: int) -> str:
+    """The name of a part of a collection, which some readers give to its place in the assembly alone."""
+    assembly = data.GetDataAssembly()
+    for node in assembly.GetChildNodes(assembly.GetRootNode()) if assembly is not None else ():
+        if number in assembly.GetDataSetIndices(node, True):
+            return assembly.GetNodeName(node)
+    return ""
 
 
 def signature(data: Any) -> List[Any]:
