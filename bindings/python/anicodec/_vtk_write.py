@@ -87,7 +87,7 @@ def write_vtkhdf(clip: Clip, path: str) -> None:
             block.attrs["Version"] = np.array([2, 2], np.int64)
             block.attrs["Index"] = np.int64(number)
             _write_poly(block, clip, mesh)
-            assembly[key] = h5py.SoftLink(block.name)
+            assembly.create_group(key, track_order=True)[key] = h5py.SoftLink(block.name)
 
 
 def _type(group: Any, kind: str) -> None:
