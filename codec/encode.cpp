@@ -55,6 +55,13 @@ EncodeResult result_of(const std::vector<MeasuredClip>& clips, const EncoderInpu
   return result;
 }
 
+std::vector<const Attribute*> addresses(const std::vector<Attribute>& attributes) {
+  std::vector<const Attribute*> result;
+  for (const Attribute& attribute : attributes)
+    result.push_back(&attribute);
+  return result;
+}
+
 void check_part(const FrameRun& part, const MeshSequence& sequence, const EncodeOptions& options) {
   if (part.count == 0 || part.first >= sequence.frame_count ||
       part.count > sequence.frame_count - part.first)
@@ -203,8 +210,11 @@ EncodeResult encode_within(MeshSequence sequence, const EncodeOptions& options, 
   if (options.learning)
     input.learning = {true, options.learning->latest(0)};
   input.layout.has_bounds = options.bounds;
-  if (!options.metadata.empty())
-    input.layout.metadata = checked_metadata(options.metadata);
+  std::string metadata = options.metadata;
+  if (options.attributes.keep)
+    metadata = with_fields(metadata, addresses(input.sequence.attributes));
+  if (!metadata.empty())
+    input.layout.metadata = checked_metadata(metadata);
   ClipSearch search(input, stored, options, searched);
   SearchProgress steps(progress);
   input.without = options.without;

@@ -5,6 +5,7 @@
 #include "codec/file/clip_record.h"
 #include "codec/file/encoding_memory.h"
 #include "codec/file/join_clips.h"
+#include "codec/file/metadata_json.h"
 #include "codec/file/target.h"
 #include "codec/sequence/error.h"
 #include "format/container.h"
@@ -156,6 +157,14 @@ EncodeResult encode_scene(Scene scene, const EncodeOptions& options, const Progr
   of_mesh.target = shared(options.target, spread, length);
   if (options.cap)
     of_mesh.cap = in_scene_units(*options.cap, length);
+
+  std::vector<const Attribute*> attributes;
+  for (const SceneMesh& mesh : scene.meshes) {
+    for (const Attribute& attribute : mesh.sequence.attributes)
+      attributes.push_back(&attribute);
+  }
+  if (options.attributes.keep)
+    of_mesh.metadata = with_fields(options.metadata, attributes);
 
   EncodeResult all;
   all.frames = scene.clip.frame_count;

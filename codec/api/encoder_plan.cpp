@@ -107,10 +107,10 @@ void set_attributes(const anic_encode_options& host, AttributeOptions& attribute
   attributes.uv_bits = within(host.uv_bits, attributes.uv_bits, 24, "the bits of UV");
   attributes.colour_bits =
       within(host.colour_bits, attributes.colour_bits, 16, "the bits of colours");
-  if (amount(host.attribute_error, "the error of attributes") > 0) {
-    attributes.error = host.attribute_error;
-    attributes.error_percent = host.flags & ANIC_ENCODE_ERROR_PERCENT;
-  }
+  if (amount(host.attribute_error, "the error of attributes") > 0)
+    attributes.error = {host.flags & ANIC_ENCODE_ERROR_PERCENT ? AttributeBound::Measure::kPercent
+                                                               : AttributeBound::Measure::kUnits,
+                        host.attribute_error};
   if (amount(host.normal_error, "the error of normals") > 0)
     attributes.normals = host.normal_error;
 }

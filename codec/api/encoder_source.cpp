@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace anicodec {
 namespace {
@@ -171,6 +172,25 @@ bool fits(anic_attribute_kind kind, uint32_t components) {
   return false;
 }
 
+/// Its own bound, if it has one.
+std::optional<AttributeBound> bound_of(const anic_source_attribute& host) {
+  using Measure = AttributeBound::Measure;
+  switch (host.bound) {
+    case ANIC_BOUND_USUAL:
+      return std::nullopt;
+    case ANIC_BOUND_EXACT:
+      return AttributeBound{Measure::kExact};
+    case ANIC_BOUND_UNITS:
+    case ANIC_BOUND_PERCENT:
+      if (!(std::isfinite(host.error) && host.error > 0))
+        fail(ANIC_E_ARGUMENT,
+             text_of(host.name) + ": the largest error must be finite and greater than 0");
+      return AttributeBound{host.bound == ANIC_BOUND_UNITS ? Measure::kUnits : Measure::kPercent,
+                            host.error};
+  }
+  fail(ANIC_E_ARGUMENT, text_of(host.name) + ": the bound is none of ANIC_BOUND");
+}
+
 }  // namespace
 
 /// Timing, axes and units of the clip for a mesh that is there in all of it.
@@ -239,6 +259,8 @@ void take_attribute(const anic_source_attribute& host, MeshSequence* mesh) {
   attribute.domain = static_cast<AttributeDomain>(host.domain);
   attribute.components = host.components;
   attribute.frames = is_pushed ? 0 : frames;
+  attribute.bound = bound_of(host);
+  attribute.unit = text_of(host.unit);
   if (host.values)
     attribute.values.assign(host.values, host.values + elements * host.components * frames);
   mesh->attributes.push_back(std::move(attribute));

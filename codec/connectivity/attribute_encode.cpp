@@ -20,6 +20,12 @@ namespace anicodec {
 namespace {
 
 constexpr double kLargest = 1 << 28;  // of the integers on a grid
+constexpr double kRounding = 0x1p-23;  // of a value in binary32, against its magnitude
+constexpr float kLargestExact = 1 << 24, kLargestExactMoving = 1 << 18;
+
+bool is_exact(const Attribute& attribute) {
+  return attribute.bound && attribute.bound->measure == AttributeBound::Measure::kExact;
+}
 
 String text(const std::string& s) {
   return String(s.begin(), s.end());
@@ -128,6 +134,32 @@ class AttributeWriter {
                                          std::to_string(wanted) + " vertices or corners");
   }
 
+  /// "temperature: frame 3, vertex 17", of a number among the values.
+  static std::string place_of(const Attribute& attribute, size_t number) {
+    constexpr const char* kElements[] = {"vertex", "corner", "polygon"};
+    const size_t element = number / attribute.components,
+                 elements = attribute.values.size() / attribute.components / attribute.frames;
+    return attribute.name + (attribute.name.empty() ? "an attribute: frame " : ": frame ") +
+           std::to_string(element / elements) + ", " +
+           kElements[static_cast<size_t>(attribute.domain)] + " " +
+           std::to_string(element % elements);
+  }
+
+  /// Throws unless all values are finite, and whole where they are to be exact.
+  static void check_values(const Attribute& attribute) {
+    const bool exact = is_exact(attribute);
+    const float most = attribute.frames > 1 ? kLargestExactMoving : kLargestExact;
+    for (size_t i = 0; i < attribute.values.size(); ++i) {
+      const float value = attribute.values[i];
+      if (!std::isfinite(value))
+        throw Error(ErrorKind::kInput, place_of(attribute, i) + ": the value is not finite");
+      if (exact && !(value == std::round(value) && std::abs(value) <= most))
+        throw Error(ErrorKind::kInput, place_of(attribute, i) + ": " + std::to_string(value) +
+                                           " cannot be exact: it is no whole number of at most " +
+                                           std::to_string(static_cast<uint32_t>(most)));
+    }
+  }
+
   AttributeHeader& add_header(AttributeKind kind, AttributeDomain domain, const std::string& name) {
     if (headers_.size() == kMaxAttributes)
       throw Error(ErrorKind::kInput, "more than 256 attributes");
@@ -154,14 +186,17 @@ class AttributeWriter {
       throw Error(ErrorKind::kInput,
                   attribute.name + ": 1 to 16 components are possible, not " + std::to_string(n));
     check_count(attribute.values.size(), rows.size() * n * attribute.frames, attribute.name);
+    check_values(attribute);
     AttributeHeader& header = add_header(attribute.kind, attribute.domain, attribute.name);
+    stored->moves = moves(attribute, stored->source);
     for (uint32_t i = 0; i < n; ++i)
       header.grids.push_back(grid_of(attribute, i));
-    stored->moves = moves(attribute, stored->source);
-    if (stored->moves) {
+    if (stored->moves || attribute.bound)
       stored->bound = error_bound(attribute, stored->source);
+    if (stored->moves)
       refine(attribute, stored->bound, &header);
-    }
+    else if (attribute.bound)
+      coarsen(attribute, stored->bound, &header);
     std::vector<int32_t> truth;
     truth.reserve(rows.size() * n);
     for (uint32_t row : rows) {
@@ -170,9 +205,8 @@ class AttributeWriter {
         const auto value = static_cast<double>(attribute.values[size_t{row} * n + i]);
         const double integer = std::round((value - grid.origin) * grid.scale);
         if (!(std::abs(integer) <= kLargest))
-          throw Error(ErrorKind::kInput,
-                      attribute.name + ": the value of element " + std::to_string(row) +
-                          (std::isfinite(value) ? " is too large for its grid" : " is not finite"));
+          throw Error(ErrorKind::kInput, place_of(attribute, size_t{row} * n + i) +
+                                             ": the value is too large for its grid");
         truth.push_back(static_cast<int32_t>(integer));
       }
     }
@@ -235,11 +269,18 @@ class AttributeWriter {
 
   /// The largest error that an attribute which moves may have.
   double error_bound(const Attribute& attribute, uint32_t number) const {
-    constexpr double kDefaultPercent = 0.1;
-    if (options_.error && !options_.error_percent)
-      return *options_.error;
-    if (!options_.error && attribute.kind == AttributeKind::kColour)
+    constexpr AttributeBound kDefault{AttributeBound::Measure::kPercent, 0.1};
+    constexpr double kExact = 0.4;  // which rounding to whole numbers undoes
+    const std::optional<AttributeBound>& asked = attribute.bound ? attribute.bound : options_.error;
+    if (!asked && attribute.kind == AttributeKind::kColour)
       return 0.5 / (std::exp2(options_.colour_bits) - 1);
+    const AttributeBound bound = asked.value_or(kDefault);
+    if (bound.measure == AttributeBound::Measure::kExact)
+      return kExact;
+    if (!(std::isfinite(bound.value) && bound.value > 0))
+      throw Error(ErrorKind::kUsage, attribute.name + ": the largest error must be greater than 0");
+    if (bound.measure == AttributeBound::Measure::kUnits)
+      return bound.value;
     double range = 0;
     for (uint32_t i = 0; i < attribute.components; ++i) {
       const auto [low, high] = range_of(attribute, i);
@@ -247,7 +288,24 @@ class AttributeWriter {
     }
     if (range == 0 && will_move(number))
       range = 1;  // nobody knows yet
-    return options_.error.value_or(kDefaultPercent) / 100 * range;
+    return bound.value / 100 * range;
+  }
+
+  /// The coarsest grids that keep an attribute which rests within its own bound.
+  static void coarsen(const Attribute& attribute, double bound, AttributeHeader* header) {
+    if (is_exact(attribute))
+      return;
+    double largest = 0;
+    for (float value : attribute.values)
+      largest = std::max(largest, std::abs(static_cast<double>(value)));
+    const double half_step = bound - kRounding * largest;
+    if (bound > 0 && !(half_step > bound / 2))
+      throw Error(ErrorKind::kUsage,
+                  attribute.name + ": the error asked for is finer than float32 values can keep");
+    for (AttributeHeader::Grid& grid : header->grids) {
+      if (bound > 0)  // else all values are the same
+        grid.scale = 0.5 / half_step;
+    }
   }
 
   static std::vector<float> values_on_grid(const Attribute& attribute,
@@ -282,6 +340,8 @@ class AttributeWriter {
 
   AttributeHeader::Grid grid_of(const Attribute& attribute, uint32_t component) const {
     AttributeHeader::Grid grid;
+    if (is_exact(attribute))
+      return grid;
     auto steps = [](uint32_t bits) { return std::exp2(bits); };
     switch (attribute.kind) {
       case AttributeKind::kUv:

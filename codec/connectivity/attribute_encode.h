@@ -23,10 +23,9 @@ struct AttributeOptions {
   /// degrees off. Nothing: of normals the hard edges alone, and no tangents: players make these
   /// from positions and texture coordinates.
   std::optional<double> normals;
-  /// Largest error of an attribute that moves, in units of its values or per cent of its range;
-  /// nothing: half a step of colour_bits for colours, 0.1 % for others.
-  std::optional<double> error;
-  bool error_percent = false;
+  /// Largest error of attributes that move and have no bound of their own; nothing: half a step of colour_bits for
+  /// colours, 0.1 % for others.
+  std::optional<AttributeBound> error;
   std::vector<uint32_t>
       moving;  ///< numbers of attributes that later frames move, of a live stream, though these may not
   bool share = true;  ///< whether elements at one vertex that move alike are coded once
@@ -55,9 +54,11 @@ bool moves_as_stored(const Attribute& attribute, const StoredAttribute& stored);
 /// ask for more: corners at one coded vertex whose normals are less than half a degree apart share
 /// one. Materials and parts become labels of polygons. The steps of an attribute that moves are
 /// halved until its first frame takes a quarter of its error at most, and its elements share what moves only where
-/// their values stay within an eighth of it. Returns the attributes that
-/// are stored as numbers. Throws Error(kInput) for values that are not
-/// finite, that do not fit the mesh, or that the grid cannot hold. Cost: O(corners log corners).
+/// their values stay within an eighth of it. An attribute that rests and has a bound of its own has the coarsest steps
+/// that keep it. Returns the attributes that are stored as numbers. Throws Error(kInput), naming frame and element, for
+/// values that are not finite, that no grid can hold or that are not whole although they are to be exact, or if there
+/// are not as many as the mesh has elements; Error(kUsage) for a bound that cannot be kept. Cost: O(values + corners log
+/// corners).
 std::vector<StoredAttribute> encode_attributes(const MeshSequence& sequence,
                                                const AttributeOptions& options, MeshLayout* layout);
 

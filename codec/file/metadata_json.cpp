@@ -22,4 +22,39 @@ String checked_metadata(const std::string& json) {
   return String(text.begin(), text.end());
 }
 
+std::string with_fields(const std::string& json, const std::vector<const Attribute*>& attributes) {
+  const auto is_whole = [](const Attribute& a) {
+    return a.bound && a.bound->measure == AttributeBound::Measure::kExact;
+  };
+  nlohmann::ordered_json fields = nlohmann::ordered_json::object();
+  for (const Attribute* a : attributes) {
+    if (a->unit.empty() && !is_whole(*a))
+      continue;
+    if (a->name.empty())
+      throw Error(ErrorKind::kUsage,
+                  "an attribute without a name has neither a unit nor exact values");
+    for (const Attribute* other : attributes) {
+      if (other->name == a->name && (other->unit != a->unit || is_whole(*other) != is_whole(*a)))
+        throw Error(ErrorKind::kUsage,
+                    "attributes " + a->name + " differ in their units, or not all are exact");
+    }
+    nlohmann::ordered_json& field = fields[a->name] = nlohmann::ordered_json::object();
+    if (!a->unit.empty())
+      field["unit"] = a->unit;
+    if (is_whole(*a))
+      field["whole"] = true;
+  }
+  if (fields.empty())
+    return json;
+  auto metadata = json.empty() ? nlohmann::ordered_json::object()
+                               : nlohmann::ordered_json::parse(json, nullptr, false);
+  if (!metadata.is_object())
+    return json;  // which checked_metadata() refuses
+  nlohmann::ordered_json& all = metadata["fields"];
+  if (!all.is_null() && !all.is_object())
+    throw Error(ErrorKind::kUsage, "\"fields\" of the metadata is no object");
+  all.update(fields);
+  return metadata.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 }  // namespace anicodec

@@ -22,8 +22,7 @@ struct MovingAttributes {
 /// Codes how the values of attributes differ from those stored for frame 0, to the error that the options ask for:
 /// three components at a time are trajectories of the attribute's entries, as positions are of coded vertices, over
 /// the geometry of `pose` (null: one of their own). Elements of an entry move by the mean of what they do. Components
-/// that stay within the error have no segment. Throws Error(kUsage) for an error that cannot be reached, Error(kInput)
-/// for values that are not finite.
+/// that stay within the error have no segment. Throws Error(kUsage) for an error that cannot be reached.
 MovingAttributes encode_moving_attributes(const EncoderInput& input,
                                           const std::vector<StoredAttribute>& stored,
                                           const EncodeOptions& options,

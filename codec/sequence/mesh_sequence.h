@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,6 +49,16 @@ using Point = std::array<double, 3>;
 
 enum class UpAxis : uint8_t { kUnknown = 0, kY = 1, kZ = 2 };
 
+/// The largest error that numbers of an attribute may have: in units of its values, in per cent of its range over all
+/// frames, or none of whole numbers.
+struct AttributeBound {
+  enum class Measure : uint8_t { kUnits, kPercent, kExact };
+  Measure measure = Measure::kUnits;
+  double value = 0;  ///< above 0 but for kExact
+
+  bool operator==(const AttributeBound&) const = default;
+};
+
 /// Values that stand beside the positions: of each vertex, of each corner of the polygons, or of each polygon.
 struct Attribute {
   AttributeKind kind = AttributeKind::kUv;
@@ -56,6 +67,8 @@ struct Attribute {
   uint32_t components = 2;    ///< 2 for UV, 3 for normals, 4 for tangents, 3 or 4 for colours
   uint32_t frames = 1;        ///< 1: static, or as in the first frame; else as many as the sequence
   FrameArray values;  ///< frames x elements x components, row-major
+  std::optional<AttributeBound> bound = {};  ///< its own; nothing: that of all attributes
+  std::string unit = {};                     ///< of the values, as "K"; empty: unknown
 
   bool per_vertex() const { return domain == AttributeDomain::kVertex; }
 

@@ -96,11 +96,14 @@ SceneMesh taken(const MeshSequence& whole, const PartMembers& members,
   }
   out.frame_count = static_cast<uint32_t>(frames.size());
   for (const Attribute& attribute : whole.attributes) {
-    Attribute& mesh_attribute = out.attributes.emplace_back(Attribute{.kind = attribute.kind,
-                                                                    .name = attribute.name,
-                                                                    .domain = attribute.domain,
-                                                                    .components = attribute.components,
-                                                                    .values = {}});
+    Attribute& mesh_attribute =
+        out.attributes.emplace_back(Attribute{.kind = attribute.kind,
+                                              .name = attribute.name,
+                                              .domain = attribute.domain,
+                                              .components = attribute.components,
+                                              .values = {},
+                                              .bound = attribute.bound,
+                                              .unit = attribute.unit});
     const std::vector<uint32_t>& rows = attribute.per_corner()   ? members.corners
                                         : attribute.per_vertex() ? members.vertices
                                                                  : members.polygons;

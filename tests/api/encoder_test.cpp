@@ -219,6 +219,38 @@ TEST_F(AnicEncoder, KeepsAttributesAndLabels) {
   EXPECT_EQ(text(), "polygon 2 has label 2 of 1");
 }
 
+TEST_F(AnicEncoder, KeepsBoundsAndUnitsOfAttributes) {
+  std::vector<float> heat(size_t{sequence_.vertex_count} * sequence_.frame_count);
+  for (size_t i = 0; i < heat.size(); ++i)
+    heat[i] = static_cast<float>(i % 97);
+  anic_source_attribute attribute = ANIC_INIT(anic_source_attribute);
+  attribute.name = "heat";
+  attribute.kind = ANIC_ATTRIBUTE_CUSTOM;
+  attribute.components = 1;
+  attribute.frames = sequence_.frame_count;
+  attribute.values = heat.data();
+  attribute.unit = "K";
+  add();
+  for (const double error : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+    attribute.error = error;
+    for (const anic_bound bound : {ANIC_BOUND_UNITS, ANIC_BOUND_PERCENT}) {
+      attribute.bound = bound;
+      ASSERT_EQ(anic_add_source_attribute(encoder_, 0, &attribute), ANIC_E_ARGUMENT) << error;
+    }
+  }
+  attribute.bound = static_cast<anic_bound>(4);
+  ASSERT_EQ(anic_add_source_attribute(encoder_, 0, &attribute), ANIC_E_ARGUMENT);
+  EXPECT_EQ(text(), "heat: the bound is none of ANIC_BOUND");
+  attribute.bound = ANIC_BOUND_EXACT;
+  ASSERT_EQ(anic_add_source_attribute(encoder_, 0, &attribute), ANIC_OK) << text();
+  ASSERT_EQ(encode(), ANIC_OK) << text();
+  const char* metadata;
+  size_t metadata_bytes;
+  ASSERT_EQ(anic_read_metadata(result_.file, result_.size, &metadata, &metadata_bytes), ANIC_OK);
+  EXPECT_EQ(std::string(metadata, metadata_bytes),
+            R"({"fields":{"heat":{"unit":"K","whole":true}}})");
+}
+
 TEST_F(AnicEncoder, EncodesSeveralMeshesSomeForSomeFrames) {
   const anic_frame_run runs[] = {{2, 4}, {8, 2}};
   add();

@@ -246,11 +246,43 @@ def test_limits_and_types():
         anicodec.encode(GOOD, effort="high")
 
 
+def test_fields_have_bounds_of_their_own():
+    frames, vertices = np.mgrid[0:12, 0:GOOD.shape[1]]
+    heat = 300 + 50 * np.sin(0.3 * frames + 0.2 * vertices)
+    phase = (heat > 320).astype(np.int32)
+    clip = anicodec.Clip(anicodec.encode(
+        np.repeat(GOOD[:1], 12, 0), custom={"heat": heat[..., None], "phase": phase[..., None], "other": heat[..., None]},
+        field_errors={"heat": 0.5}, field_units={"heat": "K"}, fields=["heat", "phase"], effort=1))
+    first, second = clip.attributes
+    assert (first.name, first.unit, first.whole) == ("heat", "K", False)
+    assert (second.name, second.unit, second.whole) == ("phase", "", True)
+    for f in range(12):
+        assert np.abs(clip.attribute_at(0, f / 24)[:, 0] - heat[f]).max() <= 0.5
+        assert np.array_equal(clip.attribute_at(1, f / 24)[:, 0], phase[f])
+    assert clip.field("heat") == {"unit": "K"} and clip.field("nothing") == {}
+
+
+def test_fields_that_make_no_sense_are_refused():
+    values = np.zeros((*GOOD.shape[:2], 1))
+    for options, text in (({"field_errors": {"cold": 1}}, "there is no attribute 'cold', but heat"),
+                          ({"field_errors": {"heat": "-1%"}}, "must be greater than 0"),
+                          ({"field_errors": {"heat": "some"}}, "the error of heat must be a number or a text"),
+                          ({"fields": ["cold"]}, "fields: there is no attribute 'cold'"),
+                          ({"fields": "heat"}, "names in a list"),
+                          ({"field_units": {"cold": "K"}}, "field_units")):
+        with pytest.raises(anicodec.InputError, match=text):
+            anicodec.encode(GOOD, custom={"heat": values}, **options)
+    values[2, 1] = np.nan
+    with pytest.raises(anicodec.InputError, match="heat: frame 2, vertex 1: the value is not finite"):
+        anicodec.encode(GOOD, custom={"heat": values})
+
+
 def test_options_are_those_of_the_command(command):
     """Words and values; those for arrays and files apart."""
     arrays = {"positions", "faces", "uv", "colours", "normals", "custom", "materials", "parts", "vertex_count", "frame_count",
               "times", "start_time", "clips", "progress", "meshes", "options"}
-    others = {"metadata": "meta", "events": "event", "max_bytes": "memory"}
+    others = {"metadata": "meta", "events": "event", "max_bytes": "memory", "field_errors": "field-error",
+              "field_units": "field-unit"}
     text = command("encode", "--help")
     values = dict(re.findall(r"^  --([a-z-]+) ([a-z0-9|]+)\s", text, re.M))
     for name in encoder.option_names():

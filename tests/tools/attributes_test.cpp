@@ -264,6 +264,43 @@ TEST_F(AttributesThatMove, HaveTheErrorThatIsAskedFor) {
       0);
 }
 
+TEST_F(AttributesThatMove, HaveBoundsAndUnitsByTheirNames) {
+  const Outcome encoded =
+      anicodec({"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "--kg", "0.5", "--effort",
+                "1", "--json", "--field-error", "temperature=5%", "--field-unit", "temperature=K",
+                "--meta", "author=A"});
+  ASSERT_EQ(encoded.status, 0) << encoded.err;
+  for (const nlohmann::json& a : encoded.json()["moving_attributes"])
+    EXPECT_EQ(a["asked"] > 1, a["name"] == "temperature");
+  const nlohmann::json info = anicodec({"info", folder_ / "b.anic", "--json"}).json();
+  EXPECT_EQ(info["metadata"]["author"], "A");
+  const auto heat = std::ranges::find_if(info["attributes"],
+                                         [](const auto& a) { return a["name"] == "temperature"; });
+  ASSERT_NE(heat, info["attributes"].end());
+  EXPECT_EQ((*heat)["unit"], "K");
+  EXPECT_EQ((*heat)["whole"], false);
+  const auto [low, high] = std::ranges::minmax(source_.attributes[2].values);
+  EXPECT_NEAR((*heat)["ranges"][0][0], low, 25);
+  EXPECT_NEAR((*heat)["ranges"][0][1], high, 25);
+  EXPECT_THAT(anicodec({"info", folder_ / "b.anic"}).out, HasSubstr(" K\n"));
+}
+
+TEST_F(AttributesThatMove, AreChosenByTheirNames) {
+  const auto encode = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"encode", folder_ / "a_*.ply", "-o", folder_ / "b.anic", "-f",
+                               "--kg", "0.5", "--effort", "1", "--json"});
+    return anicodec(more);
+  };
+  EXPECT_EQ(encode({"--fields", "temperature"}).json()["moving_attributes"].size(), 3U);
+  EXPECT_EQ(encode({"--fields", "none"}).json()["moving_attributes"].size(), 2U);
+  EXPECT_THAT(encode({"--fields", "pressure"}).err,
+              HasSubstr("--fields: there is no attribute pressure, but "));
+  EXPECT_THAT(encode({"--field-error", "pressure=1"}).err, HasSubstr("temperature"));
+  EXPECT_THAT(encode({"--field-error", "temperature"}).err,
+              HasSubstr("--field-error takes NAME=VALUE, not temperature"));
+  EXPECT_THAT(encode({"--field-error", "temperature=exact"}).err, HasSubstr("cannot be exact"));
+}
+
 TEST(ObjAttributes, OfCornersThatMoveComeBackInEveryFrame) {
   TemporaryFolder folder;
   const auto frame = [](int f) {

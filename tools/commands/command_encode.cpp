@@ -131,6 +131,7 @@ MeshSequence load(const EncodeArguments& command, const Progress& progress,
     sequence = load_sequence(command.inputs, options);
   }
   set_metadata(command, sequence);
+  set_fields(command, {&sequence});
   return sequence;
 }
 
@@ -198,6 +199,10 @@ EncodeResult encode_meshes(const EncodeArguments& command, EncodeOptions options
   if (changes) {
     scene = load_topologies(command.inputs, load_options(command, progress));
     set_metadata(command, scene.clip);
+    std::vector<MeshDetails*> meshes;
+    for (SceneMesh& mesh : scene.meshes)
+      meshes.push_back(&mesh.sequence);
+    set_fields(command, meshes);
   } else {
     scene = split_parts(load(command, progress, &options));
   }

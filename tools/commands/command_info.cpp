@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,21 +44,23 @@ nlohmann::ordered_json events_json(const ClipRecord& clip) {
 
 constexpr const char* kInfoFooter =
     R"(--json prints an object a file: file, bytes, ratio (float32 positions against the file), bpfv,
-resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while opening,
-for each instance), format, encoder, name, vertices, coded_vertices, faces (of the first mesh),
-meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of those that show
-it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats the first), up,
-metres_per_unit, origin (positions count from it), order, diagonal, asked (metric, value),
-max_error, max_error_percent, rmse, kg, massaged, surface_error, surface_error_mean (those of a
-clip, of the first one), clips (name, first_frame, frames, fps, fps_assumed, start_time, loop,
-closed, diagonal, asked, max_error, max_error_percent, rmse, kg), attributes (mesh, kind, of, name,
-components, labels, looks, moves; of those that move, bytes, max_error, rmse in units of their
-values), segments (mesh, basis, of, reconstruction, first_frame, frames, components, regions,
-corrections; coder of key-frames), chunks (type, offset, size, required, mesh, segment). Lengths are
-in scene units, errors those the encoder measured. A live stream is described as the clip that its
-files make, with stream: files (offset, bytes, start_time, frames, has_mesh, key: begins anew,
-plays), losses, incomplete_bytes. If a file was lost, the stream stands alone, and the status is
-3; the same, with status 0, of files that have different meshes.)";
+resident_bytes, opening_bytes, context_bytes (memory of the SDK: while open, at most while
+opening, for each instance), format, encoder, name, vertices, coded_vertices, faces (of the
+first mesh), meshes (name, vertices, coded_vertices, faces, frames: pairs of first and end of
+those that show it), frames, fps, fps_assumed, start_time, loop, closed (the last frame repeats
+the first), up, metres_per_unit, origin (positions count from it), order, diagonal, asked
+(metric, value), max_error, max_error_percent, rmse, kg, massaged, surface_error,
+surface_error_mean (those of a clip, of the first one), clips (name, first_frame, frames, fps,
+fps_assumed, start_time, loop, closed, diagonal, asked, max_error, max_error_percent, rmse, kg),
+attributes (mesh, kind, of, name, components, labels, looks, moves; of numbers, unit, whole:
+exact once rounded, ranges of components; of those that move, bytes, max_error, rmse in units of
+their values), segments (mesh, basis, of, reconstruction, first_frame, frames, components,
+regions, corrections; coder of key-frames), chunks (type, offset, size, required, mesh,
+segment). Lengths are in scene units, errors those the encoder measured. A live stream is
+described as the clip that its files make, with stream: files (offset, bytes, start_time,
+frames, has_mesh, key: begins anew, plays), losses, incomplete_bytes. If a file was lost, the
+stream stands alone, and the status is 3; the same, with status 0, of files that have different
+meshes.)";
 
 struct Contents {
   uint64_t bytes = 0;
@@ -111,6 +115,65 @@ const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t
       return &e;
   }
   return nullptr;
+}
+
+/// What the metadata say of an attribute's numbers; null for nothing.
+nlohmann::ordered_json field_of(const Contents& c, const MeshAttribute& attribute) {
+  const auto fields = c.metadata.find("fields");
+  if (fields == c.metadata.end() || !fields->is_object())
+    return nullptr;
+  const auto field =
+      fields->find(std::string(attribute.header.name.begin(), attribute.header.name.end()));
+  return field == fields->end() || !field->is_object() ? nlohmann::ordered_json() : *field;
+}
+
+std::string unit_of(const Contents& c, const MeshAttribute& attribute) {
+  const nlohmann::ordered_json field = field_of(c, attribute);
+  const auto unit = field.find("unit");
+  return field.is_null() || unit == field.end() || !unit->is_string() ? std::string()
+                                                                      : unit->get<std::string>();
+}
+
+bool is_whole(const Contents& c, const MeshAttribute& attribute) {
+  const nlohmann::ordered_json field = field_of(c, attribute);
+  const auto whole = field.find("whole");
+  return !field.is_null() && whole != field.end() && *whole == true;
+}
+
+using Range = std::pair<float, float>;
+
+/// Least and largest value of each component, over all frames that show the mesh; empty without values.
+std::vector<Range> ranges_of(const Contents& c, uint32_t mesh, uint32_t number) {
+  const MeshAttribute& attribute = c.clip.meshes()[mesh].attributes[number];
+  std::vector<float> values(attribute.values.begin(), attribute.values.end());
+  std::vector<Range> ranges;
+  const uint32_t n = attribute.header.components();
+  if (values.empty())
+    return ranges;
+  for (uint32_t i = 0; i < n; ++i)
+    ranges.emplace_back(values[i], values[i]);
+  const auto widen = [&] {
+    for (size_t i = 0; i < values.size(); ++i) {
+      auto& [low, high] = ranges[i % n];
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+  };
+  if (!moves(c.clip, mesh, number)) {
+    widen();
+    return ranges;
+  }
+  bool is_first = true;
+  for (const FrameRun& run : frames_of_mesh(c.clip, mesh)) {
+    for (uint32_t f = run.first; f < run.first + run.count; ++f) {
+      c.clip.attribute_values(mesh, number, f, values.data());
+      for (uint32_t i = 0; is_first && i < n; ++i)
+        ranges[i] = {values[i], values[i]};
+      is_first = false;
+      widen();
+    }
+  }
+  return ranges;
 }
 
 /// The coder of key-frames.
@@ -228,6 +291,11 @@ nlohmann::ordered_json json_of(const std::string& path, const Contents& c) {
                                       {"moves", moves(c.clip, m, i)}};
       if (!a.header.looks.empty())
         entry["looks"] = looks_json(a.header.looks);
+      if (a.header.components() > 0) {
+        entry["unit"] = unit_of(c, a);
+        entry["whole"] = is_whole(c, a);
+        entry["ranges"] = ranges_of(c, m, i);
+      }
       if (const AttributeError* error = error_of(record, m, i)) {
         entry["bytes"] = moving_bytes(c, m, i);
         entry["max_error"] = error->max_error;
@@ -310,7 +378,9 @@ void print_chunks(const Contents& c) {
   }
 }
 
-std::string attribute_text(const AttributeHeader& a) {
+std::string attribute_text(const Contents& c, uint32_t mesh, uint32_t number) {
+  const MeshAttribute& attribute = c.clip.meshes()[mesh].attributes[number];
+  const AttributeHeader& a = attribute.header;
   std::string text = fmt::format("{} of {}", name_of(a.kind), name_of(a.domain));
   if (!a.name.empty())
     text += fmt::format(" \"{}\"", a.name);
@@ -319,8 +389,18 @@ std::string attribute_text(const AttributeHeader& a) {
                               a.looks.empty() ? "" : " with their values");
   if (a.components() == 0)
     return text + ": hard edges";
-  return text +
-         fmt::format(", {} components in steps of {:.3g}", a.components(), 1 / a.grids[0].scale);
+  text += fmt::format(", {} in steps of {:.3g}", counted(a.components(), "component"),
+                      1 / a.grids[0].scale);
+  const std::vector<Range> ranges = ranges_of(c, mesh, number);
+  if (ranges.empty())
+    return text;
+  Range all = ranges[0];
+  for (const auto& [low, high] : ranges)
+    all = {std::min(all.first, low), std::max(all.second, high)};
+  const std::string unit = unit_of(c, attribute);
+  return text + fmt::format(", {:.6g} to {:.6g}{}{}{}", all.first, all.second,
+                            unit.empty() ? "" : " ", unit,
+                            is_whole(c, attribute) ? ", whole numbers, exact" : "");
 }
 
 void row(const char* name, const std::string& value) {
@@ -342,7 +422,7 @@ void print_meshes(const Contents& c) {
                               limits.meshes[m].coded_vertices, limits.meshes[m].polygons, frames));
     }
     for (uint32_t i = 0; i < mesh.attributes.size(); ++i) {
-      row("attribute", attribute_text(mesh.attributes[i].header));
+      row("attribute", attribute_text(c, m, i));
       if (const AttributeError* error = error_of(c.clip.clips()[0], m, i))
         row("", fmt::format("{}, {} bytes, max error {:.4g}, RMSE {:.4g}",
                             moves(c.clip, m, i) ? "moves" : "as in frame 0",

@@ -132,6 +132,7 @@ MeshSequence load_mesh(const EncodeArguments& command) {
     throw Error(ErrorKind::kUsage, "encode --live: one INPUT is wanted, the mesh");
   MeshSequence mesh = load_sequence(command.inputs, load_options(command, {}));
   set_metadata(command, mesh);
+  set_fields(command, {&mesh});
   return mesh;
 }
 

@@ -17,8 +17,11 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace anicodec::tools {
@@ -223,6 +226,15 @@ void add_attributes(Options& options, EncodeArguments& a) {
                  "Largest error of colours, texture coordinates and other numbers that change, in "
                  "their own units or per cent of their range (default: half a step of "
                  "--colour-bits for colours, 0.1% for others)");
+  options.option(
+      "--fields", a.fields, "NAME,...|none",
+      "Numbers beside positions, colours and texture coordinates that are kept (default: all)");
+  options.repeated("--field-error", a.field_errors, "NAME=X|exact",
+                   "Largest error of one of them, or of another attribute, in its units or per "
+                   "cent of its range; exact: "
+                   "whole numbers stay as they are");
+  options.repeated("--field-unit", a.field_units, "NAME=TEXT",
+                   "Unit of its values, as K or m/s: shown by info");
   options.option("--store-normals", a.normal_error, "DEG",
                  "Normals and tangents of the first frame as numbers, not only the hard edges: to "
                  "within an angle in degrees, as 0.05");
@@ -356,6 +368,50 @@ OrderMode order_of(OrderChoice choice, const std::vector<std::string>& inputs) {
   return scenes ? OrderMode::kFree : OrderMode::kVertices;
 }
 
+namespace {
+
+AttributeBound parse_bound(const std::string& text, const std::string& option) {
+  const Length error = parse_length(text, option);
+  if (error.metres > 0)
+    throw Error(ErrorKind::kUsage, option + ": colours and numbers have no length");
+  return {error.percent ? AttributeBound::Measure::kPercent : AttributeBound::Measure::kUnits,
+          error.value};
+}
+
+/// Does something with all attributes of a name. Throws Error(kUsage) if there are none.
+template <class Work>
+void with_attributes(const std::vector<MeshDetails*>& meshes, const std::string& name,
+                     const std::string& option, const Work& work) {
+  bool found = false;
+  std::set<std::string> others;
+  for (MeshDetails* mesh : meshes) {
+    for (Attribute& attribute : mesh->attributes) {
+      if (attribute.name == name) {
+        found = true;
+        work(attribute);
+      } else if (!attribute.name.empty()) {
+        others.insert(attribute.name);
+      }
+    }
+  }
+  if (!found)
+    throw Error(ErrorKind::kUsage,
+                others.empty() ? fmt::format("{}: there is no attribute with a name", option)
+                               : fmt::format("{}: there is no attribute {}, but {}", option, name,
+                                             fmt::join(others, ", ")));
+}
+
+/// NAME and VALUE of NAME=VALUE.
+std::pair<std::string, std::string> name_and_value(const std::string& text,
+                                                   const std::string& option) {
+  const size_t equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0)
+    throw Error(ErrorKind::kUsage, fmt::format("{} takes NAME=VALUE, not {}", option, text));
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
 EncodeOptions encode_options(const EncodeArguments& command) {
   EncodeOptions options;
   options.basis = command.basis;
@@ -382,11 +438,7 @@ EncodeOptions encode_options(const EncodeArguments& command) {
   if (!command.normal_error.empty())
     options.attributes.normals = parse_positive(command.normal_error, "--store-normals");
   if (!command.attribute_error.empty()) {
-    const Length error = parse_length(command.attribute_error, "--attribute-error");
-    if (error.metres > 0)
-      throw Error(ErrorKind::kUsage, "--attribute-error: colours and numbers have no length");
-    options.attributes.error = error.value;
-    options.attributes.error_percent = error.percent;
+    options.attributes.error = parse_bound(command.attribute_error, "--attribute-error");
   }
   options.root_motion = command.root_motion;
   options.metadata = metadata_of(command);
@@ -467,6 +519,32 @@ void set_metadata(const EncodeArguments& command, MeshSequence& sequence) {
     clip.loop = command.loop;
   set_names(command.names, sequence);
   set_events(command.events, sequence);
+}
+
+void set_fields(const EncodeArguments& command, const std::vector<MeshDetails*>& meshes) {
+  if (!command.fields.empty()) {
+    std::vector<std::string> kept;
+    if (command.fields != "none")
+      kept = split_at_commas(command.fields);
+    for (const std::string& name : kept)
+      with_attributes(meshes, name, "--fields", [](const Attribute&) {});
+    for (MeshDetails* mesh : meshes)
+      std::erase_if(mesh->attributes, [&](const Attribute& a) {
+        return a.kind == AttributeKind::kCustom && std::ranges::count(kept, a.name) == 0;
+      });
+  }
+  for (const std::string& text : command.field_errors) {
+    const auto [name, value] = name_and_value(text, "--field-error");
+    const std::string option = "--field-error " + name;
+    const AttributeBound bound = value == "exact" ? AttributeBound{AttributeBound::Measure::kExact}
+                                                  : parse_bound(value, option);
+    with_attributes(meshes, name, option, [&](Attribute& a) { a.bound = bound; });
+  }
+  for (const std::string& text : command.field_units) {
+    const auto [name, unit] = name_and_value(text, "--field-unit");
+    with_attributes(meshes, name, "--field-unit " + name,
+                    [unit = unit](Attribute& a) { a.unit = unit; });
+  }
 }
 
 std::string settings_of(const EncodeArguments& c, const EncodeOptions& options) {

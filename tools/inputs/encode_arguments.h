@@ -68,6 +68,9 @@ struct EncodeArguments {
   bool no_attributes = false;
   AttributeOptions attributes;
   std::string attribute_error, normal_error;
+  std::string fields;                     ///< names of the numbers that are kept, "none"; empty: all
+  std::vector<std::string> field_errors;  ///< NAME=X[%]|exact
+  std::vector<std::string> field_units;   ///< NAME=TEXT
   /// Told what of the input is left out; may be empty.
   std::function<void(const std::string& text)> note;
 };
@@ -97,6 +100,10 @@ MassageOptions massage_options(const EncodeArguments& arguments, const MeshSeque
 
 /// Axes, unit and loop that they give a clip.
 void set_metadata(const EncodeArguments& arguments, MeshSequence& sequence);
+
+/// Drops the numbers that are not among those to be kept, and gives bounds and units to attributes by their names.
+/// `meshes` are those of a file. Throws Error(kUsage) naming the option for a name that none has.
+void set_fields(const EncodeArguments& arguments, const std::vector<MeshDetails*>& meshes);
 
 /// All that an output depends on beside its clip, for comparing.
 std::string settings_of(const EncodeArguments& arguments, const EncodeOptions& options);

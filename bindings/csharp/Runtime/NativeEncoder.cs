@@ -75,6 +75,9 @@ namespace Anicodec
             public byte** label_names;
             public uint label_count;
             public void* materials;
+            public byte* unit;
+            public double error;
+            public int bound;
         }
 
         [StructLayout(LayoutKind.Sequential)]

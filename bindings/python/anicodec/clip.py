@@ -49,6 +49,8 @@ class Attribute(NamedTuple):
     labels: Tuple[str, ...]  #: names of the labels 1, 2 ...
     moves: bool  #: other frames have other values: Mesh.attribute_at()
     looks: Tuple[Optional[Material], ...] = ()  #: of materials: one for each name, None where it is unknown
+    unit: str = ""  #: of the values
+    whole: bool = False  #: the values are whole numbers, which come back exactly in frames
 
 
 class RootMotion(NamedTuple):
@@ -163,9 +165,11 @@ class Mesh:
             found = []
             for i in range(self._mesh["attribute_count"]):
                 a = self._asset.attribute(self._number, i)
+                field = self._clip.field(a["name"]) if a["values"].ndim == 2 else {}
                 found.append(Attribute(a["name"], KINDS[a["kind"]], DOMAINS[a["domain"]], a["values"],
                                        tuple(a.get("labels", ())), a["moves"],
-                                       tuple(from_file(look) for look in a.get("looks", ()))))
+                                       tuple(from_file(look) for look in a.get("looks", ())),
+                                       str(field.get("unit", "")), field.get("whole") is True))
             self._attributes = tuple(found)
         return self._attributes
 
@@ -241,13 +245,16 @@ class Mesh:
     def attribute_at(self, number: int, seconds: float, loop: bool = False, sampling: str = "linear",
                      out: Optional[np.ndarray] = None, clip: Union[None, int, str] = None,
                      blend: Optional[Blend] = None) -> np.ndarray:
-        """Values of attribute `number` at a time: vertices, corners or polygons x components, float32. See at()."""
+        """Values of attribute `number` at a time: vertices, corners or polygons x components, float32. See at().
+        Whole numbers are rounded between frames, too."""
         if not 0 <= number < len(self.attributes) or self.attributes[number].values.ndim != 2:
             raise InputError(f"there is no attribute {number} of numbers")
         shape = self.attributes[number].values.shape
         result = _arrays.output(out, shape)
         moment = self._moment(seconds, loop, sampling, None, clip, blend, None)
         self._asset.attribute_at(self._number, number, *moment, result, shape[0])
+        if self.attributes[number].whole:
+            np.rint(result, out=result)
         return result
 
     def surface_frame(self, vertices: Sequence[int], weights: Sequence[float], seconds: float, loop: bool = False,
@@ -327,6 +334,7 @@ class Clip:
         self.info: Dict[str, Any] = self._asset.info()  #: counts, timing, axes, units and the promise of the file
         self.info["up"] = UP[self.info["up"]]
         self.meshes = tuple(Mesh(self, m) for m in range(self.info["mesh_count"]))
+        self._fields: Optional[Dict[str, Any]] = None
         #: The clips that were opened; frames count through them.
         self.clips = tuple(ClipInfo(**{**c, "fps": Fraction(*c["fps"])}) for c in self._asset.clips())
 
@@ -338,6 +346,17 @@ class Clip:
     def metadata(self) -> Dict[str, Any]:
         """What the file says of itself: see encode(); empty if nothing."""
         return read_metadata(self.data)
+
+    def field(self, name: str) -> Dict[str, Any]:
+        """What the metadata say of the attributes of a name: see field_errors of encode(). Empty if nothing."""
+        if self._fields is None:
+            try:
+                fields = self.metadata.get("fields")
+            except CorruptError:  # it says nothing of them, and the clip plays
+                fields = None
+            self._fields = fields if isinstance(fields, dict) else {}
+        field = self._fields.get(name)
+        return field if isinstance(field, dict) else {}
 
     @property
     def frame_count(self) -> int:

@@ -31,9 +31,11 @@ _NUMBERS = ("keyframes", "effort", "threads", "max_bytes", "uv_bits", "colour_bi
 _FLAGS = {"no_attributes": _NO_ATTRIBUTES, "root_motion": _ROOT_MOTION, "smallest": _SMALLEST}
 _SWITCHES = ("quality", "lossless", "attribute_error", "metadata", *_FLAGS)
 _DOMAINS = {word: number for number, word in enumerate(DOMAINS)}
+_BOUNDS = {"usual": 0, "units": 1, "percent": 2, "exact": 3}
 _UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
 
 Progress = Callable[[str, float], Optional[bool]]
+Bound = Union[float, str]  # units of the values, a text "0.1%" of their range, or "exact"
 
 
 class Encoded(bytes):
@@ -196,11 +198,53 @@ def _named(values: Any) -> Dict[str, Any]:
     return dict(values) if isinstance(values, Mapping) else {"": values}
 
 
+class _Fields:
+    """The attributes that are kept, their bounds and units, by their names."""
+
+    def __init__(self, fields: Optional[Sequence[str]] = None, errors: Optional[Mapping[str, Bound]] = None,
+                 units: Optional[Mapping[str, str]] = None):
+        if isinstance(fields, str):
+            raise InputError(f"fields are names in a list, not {fields!r}")
+        self._fields, self._units = fields, dict(units or {})
+        self._bounds = {name: self._bound(name, error) for name, error in (errors or {}).items()}
+
+    @staticmethod
+    def _bound(name: str, error: Bound) -> Tuple[int, float]:
+        if error == "exact":
+            return _BOUNDS["exact"], 0.0
+        number, percent = _length(error, f"the error of {name}")
+        if not number > 0 or not np.isfinite(number):
+            raise InputError(f"the error of {name} must be greater than 0, not {error!r}")
+        return _BOUNDS["percent" if percent else "units"], number
+
+    def check(self, meshes: Sequence[SourceMesh]) -> None:
+        """Refuses a name that no attribute has."""
+        custom = {name for mesh in meshes for name in mesh.custom}
+        named = custom.union(*(_named(values) for mesh in meshes for values in (mesh.uv, mesh.colours, mesh.normals)))
+        for what, names, known in (("fields", self._fields or (), custom), ("field_errors", self._bounds, named),
+                                   ("field_units", self._units, named)):
+            for name in names:
+                if name not in known:
+                    there = ", ".join(sorted(known - {""})) or "no name"
+                    raise InputError(f"{what}: there is no attribute {name!r}, but {there}")
+
+    def keeps(self, name: str) -> bool:
+        return self._fields is None or name in self._fields
+
+    def of(self, name: str, kind: str, values: Any) -> Tuple[int, float, str]:
+        """Bound, error and unit of an attribute. Numbers of an integer type are exact as a rule."""
+        is_whole = kind == "custom" and getattr(values, "dtype", np.dtype(float)).kind in "biu"
+        bound, error = self._bounds.get(name, (_BOUNDS["exact" if is_whole else "usual"], 0.0))
+        return bound, error, self._units.get(name, "")
+
+
 class _Adder:
     """Adds a mesh and its attributes to an encoder."""
 
-    def __init__(self, encoder: Any, number: int, mesh: SourceMesh, frame_count: int, max_bytes: int):
+    def __init__(self, encoder: Any, number: int, mesh: SourceMesh, frame_count: int, max_bytes: int,
+                 fields: Optional[_Fields] = None):
         self._encoder, self._number, self._max_bytes = encoder, number, max_bytes
+        self._choice = fields or _Fields()
         self.moving: List[Tuple[str, str, Tuple[int, int]]] = []  #: kind, name and shape of attributes that come with each frame
         self._frames = sum(count for _, count in mesh.runs) if mesh.runs else frame_count
         for part in mesh.faces if isinstance(mesh.faces, tuple) else (mesh.faces,):
@@ -236,6 +280,8 @@ class _Adder:
         for name, values in _named(mesh.normals).items():
             self._values(name, "normal", values, (3,))
         for name, values in mesh.custom.items():
+            if not self._choice.keeps(name):
+                continue
             self._values(name, "custom", values, tuple(range(1, 17)))
         if mesh.shared_normals is not None:
             labels = np.asarray(mesh.shared_normals)
@@ -243,7 +289,7 @@ class _Adder:
                 raise InputError(f"shared_normals must be a number for each of {len(self._corners)} corners, "
                                  f"not {_arrays.shape_text(labels)}")
             encoder.add_attribute(number, "", KINDS.index("normal"), DOMAINS.index("corners"), 0, 1, None,
-                                  _arrays.indices(labels, "shared_normals"), [], [])
+                                  _arrays.indices(labels, "shared_normals"), [], [], 0, 0, "")
         for kind, labels in (("material", mesh.materials), ("part", mesh.parts)):
             if labels is not None:
                 self._labels(kind, *labels)
@@ -267,7 +313,7 @@ class _Adder:
         if self._counts[domain] != elements:
             raise InputError(f"{what} must be {self._counts[domain]} {told}, not {elements}")
         self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, values.shape[-1], frames, values,
-                                    None, [], [])
+                                    None, [], [], *self._choice.of(name, kind, given))
 
     def _move(self, name: str, kind: str, what: str, given: Moving, components: Tuple[int, ...]) -> None:
         if self._frames > 0:
@@ -276,7 +322,8 @@ class _Adder:
             raise InputError(f"{what} cannot move with {given.components} components")
         domain = chosen(_DOMAINS, given.domain, "domain")
         self.moving.append((kind, name, (self._counts[domain], given.components)))
-        self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, given.components, 0, None, None, [], [])
+        self._encoder.add_attribute(self._number, name, KINDS.index(kind), domain, given.components, 0, None, None, [], [],
+                                    *self._choice.of(name, kind, None))
 
     def _labels(self, kind: str, names: Sequence[str], of_polygon: Any,
                 looks: Sequence[Optional[Material]] = ()) -> None:
@@ -286,7 +333,7 @@ class _Adder:
                              f"not {_arrays.shape_text(labels)}")
         self._encoder.add_attribute(self._number, "", KINDS.index(kind), DOMAINS.index("polygons"), 0, 1, None,
                                     _arrays.indices(labels.astype(np.int64) + 1, kind), list(names),
-                                    to_file(looks, names))
+                                    to_file(looks, names), 0, 0, "")
 
 
 def _clock(clip: SourceClip, fps: Any, loop: bool) -> Tuple[int, int, bool, float, Optional[np.ndarray]]:
@@ -335,7 +382,8 @@ def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = 
                   times: Any = None, start_time: float = 0, up: Optional[str] = None,
                   unit: Union[None, float, str] = None, loop: bool = False,
                   origin: Any = "auto", clips: Optional[Sequence[SourceClip]] = None, events: Sequence[Tuple[str, float]] = (), progress: Optional[Progress] = None,
-                  **options: Any) -> Encoded:
+                  fields: Optional[Sequence[str]] = None, field_errors: Optional[Mapping[str, Bound]] = None,
+                  field_units: Optional[Mapping[str, str]] = None, **options: Any) -> Encoded:
     """Encodes several meshes to one file; arguments and options are those of encode().
 
     frame_count is needed only where no mesh is shown in all frames by an array.
@@ -358,9 +406,11 @@ def encode_meshes(meshes: Sequence[SourceMesh], *, frame_count: Optional[int] = 
         raise InputError("name, times, events and start_time are those of each clip")
     if clips is None:
         clips = [SourceClip(name, frame_count, start_time=start_time, times=times, events=events)]
+    choice = _Fields(fields, field_errors, field_units)
+    choice.check(meshes)
     encoder = _anicodec.Encoder()
     _add_clips(encoder, clips, frame_count, fps, loop, UP.index(up), metres, origin)
-    keep: List[_Adder] = [_Adder(encoder, i, mesh, frame_count, choices.get("max_bytes", 0)) for i, mesh in enumerate(meshes)]
+    keep: List[_Adder] = [_Adder(encoder, i, mesh, frame_count, choices.get("max_bytes", 0), choice) for i, mesh in enumerate(meshes)]
     data, measured = encoder.encode(choices, progress)
     del keep
     result = Encoded(data)
@@ -382,6 +432,10 @@ def encode(positions: Any, faces: Any = None, *, uv: Any = None, colours: Any = 
         an error as viewers see it; size: bytes, or a text as "40k"; bpfv: bits per frame and vertex. max_error may stand beside any other;
         or lossless=True: positions, as float32, come back bit for bit.
     uv, colours, normals, custom, materials, parts: see SourceMesh.
+    field_errors: the largest error of an attribute by its name: in units of its values, as a text "0.1%" of its range over all
+        frames, or "exact" for whole numbers (up to 2^24, up to 2^18 where they move), which arrays of integers in custom are
+        without it. Others: attribute_error where they move. field_units: of an attribute's values, as {"temperature": "K"}.
+    fields: names of those of custom that are kept; None: all.
     fps, times, start_time, name, up ("y", "z"), unit (metres, or "cm"), loop, events (pairs of a name and seconds): stored.
     origin: a point that positions count from, as float32 has few digits for a small mesh far from zero: three numbers, "none",
         or "auto" for one amid such a mesh where positions are arrays. It is taken from arrays in double, not from what a

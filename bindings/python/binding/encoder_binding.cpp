@@ -140,13 +140,17 @@ class Encoder {
                      const std::optional<Array<float>>& values,
                      const std::optional<Array<uint32_t>>& labels,
                      const std::vector<std::string>& names,
-                     const std::vector<std::optional<Look>>& looks) {
+                     const std::vector<std::optional<Look>>& looks, int bound, double error,
+                     const std::string& unit) {
     anic_source_attribute attribute = ANIC_INIT(anic_source_attribute);
     attribute.name = name.c_str();
     attribute.kind = static_cast<anic_attribute_kind>(kind);
     attribute.domain = static_cast<anic_domain>(domain);
     attribute.components = components;
     attribute.frames = frames;
+    attribute.bound = static_cast<anic_bound>(bound);
+    attribute.error = error;
+    attribute.unit = unit.c_str();
     attribute.values = values ? values->data() : nullptr;
     attribute.labels = labels ? labels->data() : nullptr;
     std::vector<const char*> texts;
@@ -315,7 +319,8 @@ void bind_encoder(nb::module_& module) {
            nb::arg("corners"), nb::arg("positions").none(), nb::arg("runs"))
       .def("add_attribute", &Encoder::add_attribute, nb::arg("mesh"), nb::arg("name"),
            nb::arg("kind"), nb::arg("domain"), nb::arg("components"), nb::arg("frames"),
-           nb::arg("values").none(), nb::arg("labels").none(), nb::arg("names"), nb::arg("looks"))
+           nb::arg("values").none(), nb::arg("labels").none(), nb::arg("names"), nb::arg("looks"),
+           nb::arg("bound"), nb::arg("error"), nb::arg("unit"))
       .def("encode", &Encoder::encode, nb::arg("choices"), nb::arg("progress").none())
       .def("begin_live", &Encoder::begin_live, nb::arg("choices"), nb::arg("piece"),
            nb::arg("key_every"), nb::arg("box"), nb::arg("most_waiting"));

@@ -39,7 +39,7 @@
 #include <anicodec/anicodec.h>
 
 #ifndef __cplusplus
-typedef int32_t anic_scalar, anic_goal, anic_basis_choice, anic_selection, anic_interpolation,
+typedef int32_t anic_scalar, anic_bound, anic_goal, anic_basis_choice, anic_selection, anic_interpolation,
     anic_keyframe_coder, anic_massage;
 #endif
 
@@ -157,6 +157,16 @@ typedef struct anic_source_mesh {
 ANIC_API anic_status anic_add_source_mesh(anic_encoder* encoder, const anic_source_mesh* mesh,
                                           uint32_t* number);
 
+/** The largest error of the numbers of an attribute. */
+enum anic_bound ANIC_INT32 {
+  ANIC_BOUND_USUAL = 0,   /**< of one that moves attribute_error of anic_encode_options; one that rests has steps of
+                               uv_bits, of colour_bits, or of a 4095th of its range */
+  ANIC_BOUND_UNITS = 1,   /**< `error`, in units of its values */
+  ANIC_BOUND_PERCENT = 2, /**< `error`, in per cent of its range: of the component with the largest, over all frames */
+  ANIC_BOUND_EXACT = 3    /**< none once values are rounded: they are whole, up to 2^24, up to 2^18 of one that moves. The
+                               metadata's "fields" say "whole": true of its name */
+};
+
 /** Values beside the positions, or names of polygons: see anic_attribute. */
 typedef struct anic_source_attribute {
   size_t struct_size;
@@ -176,6 +186,10 @@ typedef struct anic_source_attribute {
   /** Looks of ANIC_ATTRIBUTE_MATERIAL: label_count pointers, NULL where one is unknown; NULL: all are.
    * Their names do not matter, NULL is no texture. */
   const anic_material* const* materials;
+  const char* unit;  /**< UTF-8, of the values, as "K"; NULL: none. Kept in the metadata: its object "fields"
+                          has an object for the name, and that a text "unit" */
+  double error;      /**< in what `bound` says */
+  anic_bound bound;
 } anic_source_attribute;
 
 /**
@@ -289,7 +303,7 @@ typedef struct anic_encode_options {
   uint32_t colour_bits;     /**< of a component of a colour; 0 means 8 */
   double massage_strength;  /**< of shape against distance, between 0 and 1; 0 means 0.5 */
   double massage_tolerance; /**< how far the surface may move, units of the clip; 0: any */
-  double attribute_error;   /**< largest error of attributes that change; 0: half a step of
+  double attribute_error;   /**< largest error of attributes that change and have no bound of their own; 0: half a step of
                                colour_bits for colours, 0.1 % of their range for others */
   double normal_error;      /**< degrees: normals and tangents of frame 0 as numbers that are not
                                further off; 0: hard edges alone */

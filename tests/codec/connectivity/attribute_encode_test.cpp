@@ -230,6 +230,41 @@ TEST(AttributeEncode, KeepsDirectionsWithinTheAngle) {
   }
 }
 
+TEST(AttributeEncode, KeepsBoundsOfAttributesThatRest) {
+  using Measure = AttributeBound::Measure;
+  MeshSequence clip = detailed("limb");
+  const size_t usual = encode(clip, quick(OrderMode::kAll)).file.size();
+  const auto largest_error = [](const MeshSequence& source) {
+    const MeshSequence back = decoded(encode(source, quick(OrderMode::kAll)).file);
+    const Attribute *a = find(source, AttributeKind::kCustom),
+                    *b = find(back, AttributeKind::kCustom);
+    EXPECT_EQ(a->values.size(), b->values.size());
+    float largest = 0;
+    for (size_t i = 0; i < a->values.size(); ++i)
+      largest = std::max(largest, std::abs(a->values[i] - b->values[i]));
+    return largest;
+  };
+  Attribute& weight = clip.attributes[3];
+  weight.bound = {Measure::kPercent, 1};
+  EXPECT_LE(largest_error(clip), 20);
+  EXPECT_GT(largest_error(clip), 10);
+  EXPECT_LT(encode(clip, quick(OrderMode::kAll)).file.size(), usual);
+  weight.bound = {Measure::kUnits, 0.01};
+  EXPECT_LE(largest_error(clip), 0.01);
+  weight.bound = {Measure::kUnits, 1e-6};
+  EXPECT_THROW(encode(clip, quick(OrderMode::kAll)), Error);
+  weight.bound = {Measure::kUnits, 0};
+  EXPECT_THROW(encode(clip, quick(OrderMode::kAll)), Error);
+  weight.bound = {Measure::kExact};
+  EXPECT_THROW(encode(clip, quick(OrderMode::kAll)), Error);
+  for (float& value : weight.values)
+    value = std::round(value * 1e4F);
+  EXPECT_EQ(largest_error(clip), 0);
+  std::ranges::fill(weight.values, 3.25F);
+  weight.bound = {Measure::kPercent, 1};
+  EXPECT_EQ(largest_error(clip), 0);
+}
+
 TEST(AttributeEncode, RefusesWhatDoesNotFit) {
   auto fails = [](auto change) {
     MeshSequence clip = detailed("quad_box");

@@ -97,17 +97,15 @@ INSTANTIATE_TEST_SUITE_P(Bases, MovingAttributesOf,
 TEST(SlowMovingAttributes, KeepToTheErrorThatIsAskedFor) {
   const MeshSequence clip = corpus::make_clip("heated");
   EncodeOptions options = coarse();
-  options.attributes.error = 1;
-  options.attributes.error_percent = true;
+  options.attributes.error = {AttributeBound::Measure::kPercent, 1};
   const EncodeResult coarser = encode(clip, options);
-  options.attributes.error = 0.02;
-  options.attributes.error_percent = false;
+  options.attributes.error = {AttributeBound::Measure::kUnits, 0.02};
   const EncodeResult finer = encode(clip, options);
   EXPECT_NEAR(coarser.attributes[2].asked, 4.6, 0.5);  // of some 460 degrees
   EXPECT_GT(coarser.attributes[2].max_error, 1);
   EXPECT_LE(finer.attributes[2].max_error, 0.02);
   EXPECT_GT(finer.attributes[2].bytes, coarser.attributes[2].bytes);
-  options.attributes.error = 1e-7;
+  options.attributes.error = {AttributeBound::Measure::kUnits, 1e-7};
   EXPECT_THROW(encode(clip, options), Error);
 }
 
@@ -236,7 +234,7 @@ TEST(MovingAttributes, WithinTheirErrorTakeNoSegment) {
   MeshSequence clip = corpus::make_clip("heated");
   clip.attributes.resize(1);
   EncodeOptions options = coarse();
-  options.attributes.error = 0.5;
+  options.attributes.error = {AttributeBound::Measure::kUnits, 0.5};
   const EncodeResult result = encode(clip, options);
   EXPECT_EQ(result.attributes[0].bytes, 0U);
   EXPECT_LE(result.attributes[0].max_error, 0.5);
@@ -282,11 +280,58 @@ TEST(SlowMovingAttributes, AreJoinedFromParts) {
               back.clips()[0].attribute_errors[i].max_error * (1 + 1e-9));
 }
 
+/// The text of the error that encoding ends with.
+std::string fault_of(const MeshSequence& clip) {
+  try {
+    encode(clip, coarse());
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "none";
+}
+
+TEST(MovingAttributes, HaveBoundsOfTheirOwn) {
+  using Measure = AttributeBound::Measure;
+  MeshSequence clip = corpus::make_clip("heated");
+  clip.attributes[0].bound = {Measure::kUnits, 0.01};
+  clip.attributes[2].bound = {Measure::kPercent, 2};
+  clip.attributes[2].unit = "K";
+  const EncodeResult result = encode(clip, coarse());
+  EXPECT_EQ(result.attributes[0].asked, 0.01);
+  EXPECT_NEAR(result.attributes[1].asked, 0.5 / 255, 1e-9);
+  EXPECT_NEAR(result.attributes[2].asked, 9.2, 1);  // of some 460 degrees
+  for (const AttributeResult& a : result.attributes)
+    EXPECT_LE(a.max_error, a.asked);
+  EXPECT_LT(result.attributes[2].bytes,
+            encode(corpus::make_clip("heated"), coarse()).attributes[2].bytes);
+}
+
+TEST(MovingAttributes, OfWholeNumbersAreExactOnceRounded) {
+  MeshSequence clip = corpus::make_clip("heated");
+  Attribute& phase = clip.attributes[2];
+  phase.bound = {AttributeBound::Measure::kExact};
+  for (float& value : phase.values)
+    value = std::floor(value / 50);
+  const Clip back = opened(encode(clip, coarse()).file);
+  const size_t row = phase.values.size() / phase.frames;
+  std::vector<float> values(row);
+  for (uint32_t f = 0; f < phase.frames; ++f) {
+    ASSERT_EQ(back.attribute_values(0, 2, f, values.data()), Status::kOk);
+    for (size_t i = 0; i < row; ++i)
+      ASSERT_EQ(std::round(values[i]), phase.values[f * row + i]);
+  }
+  phase.values[row + 3] = 1.5;
+  EXPECT_THAT(fault_of(clip), testing::HasSubstr("frame 1, vertex 3: 1.5"));
+  phase.values[row + 3] = 1e6;
+  EXPECT_THAT(fault_of(clip), testing::HasSubstr("it is no whole number of at most 262144"));
+}
+
 TEST(MovingAttributes, RefuseValuesThatDoNotFitOrAreNotFinite) {
   MeshSequence clip = corpus::make_clip("heated");
-  clip.attributes[2].values[3000] = NAN;
-  EXPECT_THROW(encode(clip, coarse()), Error);
-  clip.attributes[2].values[3000] = 0;
+  const size_t row = clip.attributes[2].values.size() / clip.attributes[2].frames;
+  clip.attributes[2].values[7 * row + 5] = NAN;
+  EXPECT_THAT(fault_of(clip), testing::HasSubstr("frame 7, vertex 5: the value is not finite"));
+  clip.attributes[2].values[7 * row + 5] = 0;
   clip.attributes[2].frames = 7;
   EXPECT_THROW(encode(clip, coarse()), Error);
 }

@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 
 use anicodec::encode::{
-    EncodeOptions, Encoder, Goal, LiveOptions, Look, SourceAttribute, SourceClip, SourceMesh,
+    AttributeBound, EncodeOptions, Encoder, Goal, LiveOptions, Look, SourceAttribute, SourceClip, SourceMesh,
 };
 use anicodec::{read_metadata, AttributeKind, Clip, Domain, Error, Order, Rate, Status, UpAxis};
 
@@ -82,6 +82,8 @@ fn a_clip_comes_back_within_its_promise() {
         name: "heat",
         components: 1,
         values: &heat,
+        bound: AttributeBound::Percent(0.2),
+        unit: "K",
         ..Default::default()
     };
     encoder.add_attribute(0, &temperature).unwrap();
@@ -115,7 +117,7 @@ fn a_clip_comes_back_within_its_promise() {
     );
     assert_eq!(
         read_metadata(&encoded.file).unwrap(),
-        Some("{\"by\":\"test\"}")
+        Some("{\"by\":\"test\",\"fields\":{\"heat\":{\"unit\":\"K\"}}}")
     );
 
     let opened = Clip::open(&encoded.file).unwrap();

@@ -116,6 +116,11 @@ const _: () = {
     ["Offset of field: anic_source_mesh::user"][::core::mem::offset_of!(anic_source_mesh, user) - 80usize];
     ["Offset of field: anic_source_mesh::read"][::core::mem::offset_of!(anic_source_mesh, read) - 88usize];
 };
+pub const ANIC_BOUND_USUAL: anic_bound = 0;
+pub const ANIC_BOUND_UNITS: anic_bound = 1;
+pub const ANIC_BOUND_PERCENT: anic_bound = 2;
+pub const ANIC_BOUND_EXACT: anic_bound = 3;
+pub type anic_bound = i32;
 #[repr(C)]
 pub struct anic_source_attribute {
     pub struct_size: usize,
@@ -129,11 +134,14 @@ pub struct anic_source_attribute {
     pub label_names: *const *const ::core::ffi::c_char,
     pub label_count: u32,
     pub materials: *const *const anic_material,
+    pub unit: *const ::core::ffi::c_char,
+    pub error: f64,
+    pub bound: anic_bound,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 #[cfg(target_pointer_width = "64")]
 const _: () = {
-    ["Size of anic_source_attribute"][::core::mem::size_of::<anic_source_attribute>() - 72usize];
+    ["Size of anic_source_attribute"][::core::mem::size_of::<anic_source_attribute>() - 96usize];
     ["Alignment of anic_source_attribute"][::core::mem::align_of::<anic_source_attribute>() - 8usize];
     ["Offset of field: anic_source_attribute::struct_size"]
         [::core::mem::offset_of!(anic_source_attribute, struct_size) - 0usize];
@@ -155,6 +163,9 @@ const _: () = {
         [::core::mem::offset_of!(anic_source_attribute, label_count) - 56usize];
     ["Offset of field: anic_source_attribute::materials"]
         [::core::mem::offset_of!(anic_source_attribute, materials) - 64usize];
+    ["Offset of field: anic_source_attribute::unit"][::core::mem::offset_of!(anic_source_attribute, unit) - 72usize];
+    ["Offset of field: anic_source_attribute::error"][::core::mem::offset_of!(anic_source_attribute, error) - 80usize];
+    ["Offset of field: anic_source_attribute::bound"][::core::mem::offset_of!(anic_source_attribute, bound) - 88usize];
 };
 pub const ANIC_GOAL_DEFAULT: anic_goal = 0;
 pub const ANIC_GOAL_MAX_ERROR: anic_goal = 1;

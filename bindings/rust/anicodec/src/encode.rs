@@ -95,6 +95,35 @@ pub struct SourceAttribute<'a> {
     pub label_names: &'a [&'a str],
     /// Looks of materials, none where one is unknown; empty: all are.
     pub looks: &'a [Option<Look<'a>>],
+    /// The largest error of its numbers.
+    pub bound: AttributeBound,
+    /// Of the values, as "K", kept in the metadata; may be empty.
+    pub unit: &'a str,
+}
+
+/// The largest error of the numbers of an attribute.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum AttributeBound {
+    /// As [`EncodeOptions`] say.
+    #[default]
+    Usual,
+    /// In units of the values.
+    Units(f64),
+    /// In per cent of the range: of the component with the largest, over all frames.
+    Percent(f64),
+    /// None once values are rounded: they are whole, up to 2^24, up to 2^18 where they move. The metadata say so.
+    Exact,
+}
+
+impl AttributeBound {
+    fn raw(self) -> (sys::anic_bound, f64) {
+        match self {
+            Self::Usual => (sys::ANIC_BOUND_USUAL, 0.0),
+            Self::Units(error) => (sys::ANIC_BOUND_UNITS, error),
+            Self::Percent(error) => (sys::ANIC_BOUND_PERCENT, error),
+            Self::Exact => (sys::ANIC_BOUND_EXACT, 0.0),
+        }
+    }
 }
 
 /// The look of a material: [`Material`](crate::Material) without its name.
@@ -467,7 +496,7 @@ impl<'a> Encoder<'a> {
         if !attribute.looks.is_empty() && attribute.looks.len() != attribute.label_names.len() {
             return Err(refused("there is not one look for each name"));
         }
-        let name = c_text(attribute.name)?;
+        let (name, unit) = (c_text(attribute.name)?, c_text(attribute.unit)?);
         let names = Texts::new(attribute.label_names)?;
         let looks = attribute.looks.iter().map(|look| look.as_ref().map(RawLook::new).transpose());
         let looks: Vec<Option<RawLook>> = looks.collect::<Result<_>>()?;
@@ -484,6 +513,8 @@ impl<'a> Encoder<'a> {
         raw.label_names = address(&names.addresses);
         raw.label_count = count(attribute.label_names.len())?;
         raw.materials = address(&materials);
+        raw.unit = unit.as_ptr();
+        (raw.bound, raw.error) = attribute.bound.raw();
         // SAFETY: everything is copied, and there is as much of it as was checked.
         let status = unsafe { sys::anic_add_source_attribute(self.raw.as_ptr(), mesh, &raw) };
         self.check(status)?;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The anicodec authors
+#include "codec/file/metadata_json.h"
+
+#include "codec/sequence/error.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace anicodec {
+namespace {
+
+Attribute named(const std::string& name, const std::string& unit, bool exact = false) {
+  Attribute attribute{
+      .kind = AttributeKind::kCustom, .name = name, .components = 1, .values = {}, .unit = unit};
+  if (exact)
+    attribute.bound = {AttributeBound::Measure::kExact};
+  return attribute;
+}
+
+TEST(MetadataJson, SayWhatNumbersMean) {
+  const Attribute heat = named("heat", "K"), phase = named("phase", "", true),
+                  plain = named("plain", "");
+  EXPECT_EQ(with_fields("", {&heat, &phase, &plain}),
+            R"({"fields":{"heat":{"unit":"K"},"phase":{"whole":true}}})");
+  EXPECT_EQ(with_fields(R"({"author":"A","fields":{"speed":{"unit":"m/s"}}})", {&heat}),
+            R"({"author":"A","fields":{"speed":{"unit":"m/s"},"heat":{"unit":"K"}}})");
+  EXPECT_EQ(with_fields("", {&plain}), "");
+  EXPECT_EQ(with_fields("[]", {&heat}), "[]");
+}
+
+TEST(MetadataJson, RefuseFieldsThatContradict) {
+  const Attribute kelvin = named("heat", "K"), celsius = named("heat", "C"),
+                  nameless = named("", "K");
+  EXPECT_NO_THROW(with_fields("", {&kelvin, &kelvin}));
+  EXPECT_THROW(with_fields("", {&kelvin, &celsius}), Error);
+  EXPECT_THROW(with_fields("", {&nameless}), Error);
+  EXPECT_THROW(with_fields(R"({"fields":3})", {&kelvin}), Error);
+}
+
+TEST(MetadataJson, IsCheckedAndShortened) {
+  const String text = checked_metadata(R"( { "a" : 1 } )");
+  EXPECT_EQ(std::string(text.begin(), text.end()), R"({"a":1})");
+  EXPECT_THROW(checked_metadata("[]"), Error);
+}
+
+}  // namespace
+}  // namespace anicodec
