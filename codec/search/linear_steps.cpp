@@ -95,12 +95,6 @@ const std::vector<LinearStep>& opening_steps() {
   return steps;
 }
 
-size_t steps_up_to(int effort) {
-  const auto tried = [effort](const LinearStep& step) { return step.trajectories_from <= effort; };
-  return static_cast<size_t>(std::ranges::count_if(linear_steps(), tried) +
-                             std::ranges::count_if(opening_steps(), tried));
-}
-
 const char* mean_of(WeightPredictor predictor) {
   switch (predictor) {
     case WeightPredictor::kLine:

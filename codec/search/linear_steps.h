@@ -28,9 +28,6 @@ const std::vector<LinearStep>& linear_steps();
 /// from 2 on.
 const std::vector<LinearStep>& opening_steps();
 
-/// How many steps a search of this effort tries, those of opening too, about.
-size_t steps_up_to(int effort);
-
 /// The change that a step made to a choice, for `encode -v`: one of "finer or yet coarser".
 const char* meaning_of(const LinearStep& step, const LinearChoice& changed);
 

@@ -36,8 +36,8 @@ constexpr double kHopelessMsgi = 8;
 
 Solution RateControl::solve() {
   notes_.clear();
-  constexpr double kProbes = 6;
-  TrialsLeft all = search_.expected(1);
+  constexpr double kProbes = 8;
+  TrialsLeft all = search_.expected(options_.basis == BasisChoice::kAuto ? 2 : 1, false);
   all.plain += kProbes;
   input_.expect(all);
   std::optional<Solution> best;
@@ -231,6 +231,7 @@ RateControl::LinearCoders RateControl::linear_coders(const LinearAnalysis& analy
     };
     if (is_behind(kFarBehind))
       coders.pop_back();
+    input_.expect(search_.expected(coders.size(), false));
     for (const int effort : {kFewSteps, options_.effort}) {
       probe([&](LinearCoder& coder) { return coder.choose_settings(rmse, effort); });
       if (is_behind(kBehind))
@@ -244,13 +245,13 @@ std::optional<Solution> RateControl::by_linear_bases() {
   if (!analysis_) {
     analysis_.emplace(input_.frames());
     linear_coders_ = linear_coders(*analysis_);
-    input_.expect(search_.expected(linear_coders_.size()));
+    input_.expect(search_.expected(linear_coders_.size(), options_.basis == BasisChoice::kAuto));
   }
   std::vector<LinearCoder*> coders;
   for (const std::unique_ptr<LinearCoder>& coder : linear_coders_)
     coders.push_back(coder.get());
   std::optional<Solution> best = search_.best_of(coders);
-  input_.expect(search_.expected(0));
+  input_.expect(search_.expected(0, true));
   if (!best || options_.effort == 0)
     return best;
   const BasisKind kind = best->parts[0].encoded.sizes.kind;

@@ -245,7 +245,7 @@ std::optional<Solution> TargetSearch::best_of(std::span<LinearCoder* const> code
   std::optional<Solution> best;
   size_t left = coders.size();
   for (LinearCoder* coder : order) {
-    input_.expect(expected(left--));
+    input_.expect(expected(left--, true));
     if (best && (rmse || target_.metric == ErrorMetric::kMaxError))
       coder->give_up_above(far_behind * coder->bytes(best->parts[0]));
     keep_better(rmse ? at_rmse(*coder, *rmse) : reach(*coder, best ? &*best : nullptr), &best);
@@ -294,10 +294,10 @@ double TargetSearch::typical_rmse(SegmentCoder& coder) {
   }
 }
 
-TrialsLeft TargetSearch::expected(size_t coders) const {
-  // From searches of dance, horse, chicken, face and flag, default effort (tests/codec/search/recorded_searches.h).
-  // Cuts in time and key-frames come last.
-  constexpr double kOfOneError = 7, kOfSeveral = 17.2, kOfSize = 30, kLast = 2, kWithoutEffort = 3;
+TrialsLeft TargetSearch::expected(size_t coders, bool are_chosen) const {
+  // From searches of dance, horse, chicken, face and flag, default effort (tests/codec/search/recorded_searches.h): of the first
+  // coder and of each other one. Cuts in time and key-frames come last.
+  constexpr double kOfOneError = 3, kOfSeveral = 10, kOfSize = 25, kOfOther = 1, kSteps = 13, kLast = 7, kWithoutEffort = 3;
   if (effort_ == 0)
     return {kWithoutEffort, 0};
   double trials = kOfOneError;
@@ -315,9 +315,10 @@ TrialsLeft TargetSearch::expected(size_t coders) const {
       break;
   }
   const auto of_all = static_cast<double>(coders);
-  if (effort_ == 1)  // nothing is thorough
-    return {of_all * trials + kLast, 0};
-  return {of_all * static_cast<double>(steps_up_to(effort_)), of_all * trials + kLast};
+  const double of_errors = coders == 0 ? 0 : trials + kOfOther * (of_all - 1);
+  if (effort_ == 1)  // nothing is thorough, and no steps are tried
+    return {of_errors + kLast, 0};
+  return {(are_chosen ? 0 : kSteps * of_all) + kLast, of_errors};
 }
 
 }  // namespace anicodec

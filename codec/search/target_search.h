@@ -53,8 +53,8 @@ class TargetSearch {
   /// Asks for another size. What was learnt of the coders goes on to count.
   void ask_size(double bytes) { target_ = {ErrorMetric::kSize, bytes, false}; }
 
-  /// About how many trials a search takes that has so many coders yet to search.
-  TrialsLeft expected(size_t coders) const;
+  /// About how many trials a search takes that has so many coders yet to search, whose settings are chosen or not.
+  TrialsLeft expected(size_t coders, bool are_chosen) const;
 
   TrialFiles& files() { return files_; }
 
