@@ -49,7 +49,7 @@ EncodeResult result_of(const std::vector<MeasuredClip>& clips, const EncoderInpu
     result.max_displacement_error =
         std::max(result.max_displacement_error, clip.max_displacement_error);
   }
-  result.rmse = std::sqrt(squared / result.frames);
+  result.rmse = clips.size() == 1 ? clips[0].positions.rmse : std::sqrt(squared / result.frames);
   result.kg = clips.size() == 1 ? clips[0].positions.kg
                                 : 100 * std::sqrt(squared * result.vertices / input.kg_reference);
   return result;

@@ -6,7 +6,8 @@
 use std::ops::ControlFlow;
 
 use anicodec::encode::{
-    AttributeBound, EncodeOptions, Encoder, Goal, LiveOptions, Look, SourceAttribute, SourceClip, SourceMesh,
+    AttributeBound, EncodeOptions, Encoder, Goal, LiveOptions, Look, SourceAttribute, SourceClip,
+    SourceMesh,
 };
 use anicodec::{read_metadata, AttributeKind, Clip, Domain, Error, Order, Rate, Status, UpAxis};
 
