@@ -172,11 +172,30 @@ _KEPT_ATTRIBUTES = ("points", "faceVertexCounts", "faceVertexIndices", "holeIndi
 _KEPT_SPACES = ("primvars:", "xformOp:", "skel:")
 
 
-class MeshReader:
-    """Reads a mesh at all time codes."""
+class Extent:
+    """The box around all positions, and the point that they count from."""
 
-    def __init__(self, place: _Place, codes: List[float], left_out: Dict[str, int]):
+    def __init__(self) -> None:
+        self._least, self._most = np.full(3, np.inf), np.full(3, -np.inf)
+        self.origin = np.zeros(3)
+
+    def add(self, positions: np.ndarray) -> None:
+        self._least, self._most = np.minimum(self._least, positions.min(axis=0)), np.maximum(self._most, positions.max(axis=0))
+
+    def move_origin(self) -> None:
+        """To a point amid the box where it is small and far from zero, as the encoder has it for arrays (PositionBox)."""
+        size = np.linalg.norm(self._most - self._least)
+        if size > 0 and max(np.abs(self._least).max(), np.abs(self._most).max()) > 800 * size:
+            step = 2.0 ** np.ceil(np.log2(size))
+            self.origin = np.round((self._least + self._most) / 2 / step) * step
+
+
+class MeshReader:
+    """Reads a mesh at all time codes: faces and what else rests at once, positions when the encoder wants them."""
+
+    def __init__(self, place: _Place, codes: List[float], left_out: Dict[str, int], extent: Extent):
         self._place, self._mesh, self._prim, self._codes, self._left_out = place, place.mesh, place.prim, codes, left_out
+        self._extent, self._cache = extent, UsdGeom.XformCache()
         self.path = place.path
         scheme = self._mesh.GetSubdivisionSchemeAttr().Get()
         if scheme != UsdGeom.Tokens.none:
@@ -190,24 +209,19 @@ class MeshReader:
     def read(self, keep_changes: bool) -> List[SourceMesh]:
         """The mesh, or several where its faces change; none where it is never there."""
         runs: List[Dict[str, Any]] = []
-        cache = UsdGeom.XformCache()
         for frame, code in enumerate(self._codes):
-            cache.SetTime(code)
-            matrix = self._place.matrix(cache, code)
+            matrix = self._matrix(code)
             points = None if matrix is None else self._points(code)
             if points is None or not len(points):
                 continue
             faces = self._faces(code)
             if len(faces[1]) and not 0 <= faces[1].min() <= faces[1].max() < len(points):
                 raise InputError(f"{self._prim.GetPath()}: a face has a vertex that is not of the {len(points)} points at time code {code:g}")
-            local = np.array(points, np.float64).reshape(-1, 3)
-            if not matrix[:3, :3].any():  # a scale of 0 hides it, for which skins are baked to no numbers
-                local = np.zeros_like(local)
-            with np.errstate(invalid="ignore", over="ignore"):
-                positions = local @ matrix[:3, :3] + matrix[3, :3]
+            positions = _world(points, matrix)
             if not (np.abs(positions) <= np.finfo(np.float32).max).all():
                 raise InputError(f"{self._prim.GetPath()}: a point is not finite at time code {code:g}")
-            same = [run for run in runs[-2:] if len(run["positions"][0]) == len(positions) and
+            self._extent.add(positions)
+            same = [run for run in runs[-2:] if run["vertices"] == len(positions) and
                     all(np.array_equal(a, b) for a, b in zip(run["faces"], faces))]
             if same and same[-1] is not runs[-1]:
                 same = []
@@ -218,11 +232,17 @@ class MeshReader:
             mirrored = bool(np.linalg.det(matrix[:3, :3]) < 0)
             run = next((run for run in same if run["mirrored"] == mirrored), None)
             if run is None:
-                run = {"faces": faces, "mirrored": mirrored, "positions": [], "frames": []}
+                run = {"faces": faces, "mirrored": mirrored, "vertices": len(positions), "frames": []}
                 runs.append(run)
-            run["positions"].append(positions)
             run["frames"].append(frame)
         return [self._source(run) for run in runs]
+
+    def _matrix(self, code: float) -> Optional[np.ndarray]:
+        self._cache.SetTime(code)
+        return self._place.matrix(self._cache, code)
+
+    def _positions(self, code: float) -> np.ndarray:
+        return (_world(self._points(code), self._matrix(code)) - self._extent.origin).astype(np.float32)
 
     def _points(self, code: float) -> Any:
         # Velocities say how points move from the last sample on; the samples of both stay as they are.
@@ -250,8 +270,9 @@ class MeshReader:
         self._order = self._order[np.repeat(self._kept, counts)]
         frames = run["frames"]
         offsets = np.concatenate([[0], np.cumsum(counts[self._kept])])
-        mesh = SourceMesh(np.stack(run["positions"]), (offsets, corners[self._order]), name=self._place.name,
-                          runs=_arrays.runs(frames, len(self._codes)), uv={}, colours={}, normals={}, custom={},
+        mesh = SourceMesh(lambda frame: self._positions(self._codes[frames[frame]]), (offsets, corners[self._order]),
+                          name=self._place.name, vertex_count=run["vertices"], runs=_arrays.runs(frames, len(self._codes)),
+                          uv={}, colours={}, normals={}, custom={},
                           materials=self._materials(len(counts), self._codes[frames[0]]),
                           parts=self._parts(len(counts), self._codes[frames[0]]))
         codes = [self._codes[frame] for frame in frames]
@@ -296,7 +317,7 @@ class MeshReader:
             return None
         values = values.reshape(len(values) // width, -1).astype(np.float32)
         counts = run["faces"][0]
-        vertices, corners = len(run["positions"][0]), counts.sum()
+        vertices, corners = run["vertices"], counts.sum()
         interpolation = primvar.GetInterpolation()
         if interpolation in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying):
             return values if len(values) == vertices else None
@@ -369,3 +390,12 @@ class MeshReader:
 
     def _leave_out(self, what: str) -> None:
         self._left_out[what] = 0
+
+
+def _world(points: Any, matrix: np.ndarray) -> np.ndarray:
+    """Points in world space, in double."""
+    local = np.array(points, np.float64).reshape(-1, 3)
+    if not matrix[:3, :3].any():  # a scale of 0 hides them, for which skins are baked to no numbers
+        local = np.zeros_like(local)
+    with np.errstate(invalid="ignore", over="ignore"):
+        return local @ matrix[:3, :3] + matrix[3, :3]

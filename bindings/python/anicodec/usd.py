@@ -9,16 +9,18 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, List, Sequence, Union
 
+import numpy as np
+
 try:
     from pxr import Usd, UsdGeom
 except ImportError as error:
     raise ImportError("USD needs the extra of the package: pip install 'anicodec[usd]'") from error
 
 from . import _usd_plugin
-from ._usd_meshes import MeshReader, places
+from ._usd_meshes import Extent, MeshReader, places
 from ._usd_stage import bake_skins, opened, other_variants, resting_skins, snapped_rate, time_codes, warnings_as_notes
 from ._usd_write import decode
-from .encoder import Encoded, encode_meshes
+from .encoder import Encoded, _origin, encode_meshes
 from .errors import InputError
 
 __all__ = ["decode", "encode"]
@@ -52,10 +54,17 @@ def _encode(stage: Any, prims: Union[None, str, Sequence[str]], fps: Any, keep_c
     codes, rate, even = time_codes(source, fps, notes)
     baked = bake_skins(source, codes, float(rate))
     left_out: Dict[str, int] = {}
-    readers = [MeshReader(place, codes, left_out) for place in places(baked, prims, codes, left_out)]
+    extent = Extent()
+    readers = [MeshReader(place, codes, left_out, extent) for place in places(baked, prims, codes, left_out)]
     read = [(mesh, reader.path) for reader in readers for mesh in reader.read(keep_changes)]
     if not read:
         raise InputError("the stage has no mesh that is visible")
+    origin = _origin(options.get("origin", "auto"))
+    if origin is None:
+        extent.move_origin()
+    else:
+        extent.origin = np.array(origin)
+    options["origin"] = extent.origin.tolist()
     per_second = float(snapped_rate(baked.GetTimeCodesPerSecond()))
     options.setdefault("up", "z" if UsdGeom.GetStageUpAxis(baked) == UsdGeom.Tokens.z else "y")
     options.setdefault("unit", UsdGeom.GetStageMetersPerUnit(baked))
