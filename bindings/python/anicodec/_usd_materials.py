@@ -50,7 +50,7 @@ class _Surface:
 
 
 def read_look(material: UsdShade.Material, double_sided: bool, leave_out: Callable[[str], None]) -> Optional[Material]:
-    """The look of a material; None where it has no UsdPreviewSurface. What a look has no place for is told to leave_out."""
+    """The look of a material; None where it has no UsdPreviewSurface. leave_out is told what a look has no place for."""
     shader = material.ComputeSurfaceSource()[0]
     if not shader or shader.GetIdAttr().Get() != _SURFACE:
         if shader or material.GetSurfaceOutputs():

@@ -21,7 +21,7 @@ _KEPT_TYPES = ("", "Mesh", "Xform", "Scope", "GeomSubset", "Material", "Shader",
 
 
 class _Instancer:
-    """An instancer, and what it shows at each code. Of an instance: its id (or number) and the number of its prototype."""
+    """An instancer, and what it shows at each code. An instance is known by its id (or number) and the number of its prototype."""
 
     def __init__(self, stage: Usd.Stage, prim: Usd.Prim):
         self.prim, self._schema = prim, UsdGeom.PointInstancer(prim)
