@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Results of simulations."""
 import json
+import pathlib
 import subprocess
 import sys
 
@@ -69,6 +70,30 @@ def test_fields_are_chosen_and_cells_keep_their_own(tmp_path, steps):
     assert not anicodec.open(simulations.encode(path, fields="none", effort=1)).attributes
     with pytest.raises(anicodec.InputError, match="beam.pvd: step 0: there is no field 'heta'; there is displacement, heat"):
         simulations.encode(path, fields=["heta"])
+
+
+def test_fields_have_bounds_and_units_of_their_own(tmp_path):
+    made = [data.beam(number, (4, 2, 2)) for number in range(4)]
+    for grid in made:
+        grid.GetPointData().GetArray("heat").GetInformation().Set(vtk.vtkDataArray.UNITS_LABEL(), "K")
+    paths = [data.write(grid, tmp_path / f"unit_{number}.vtu") for number, grid in enumerate(made)]
+    output = tmp_path / "unit.anic"
+    assert _vtk_command.main(["encode", *map(str, paths), "-o", str(output), "-q", "--effort", "1", "--order", "all", "--fields", "heat,phase",
+                              "--field-error", "heat=0.0001", "--field-unit", "phase=1"]) == 0
+    clip = anicodec.open(output)
+    assert {a.name: (a.unit, a.whole) for a in clip.attributes} == {"heat": ("K", False), "phase": ("1", True)}
+    outer = surface_points(made[0])
+    for frame, grid in enumerate(made):
+        heat = data.vtk_to_numpy(grid.GetPointData().GetArray("heat"))[outer]
+        assert np.abs(field(clip, "heat", frame)[:, 0] - heat).max() <= 1.01e-4
+    simulations.decode(clip, tmp_path / "unit.pvd")
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(tmp_path / "unit" / "2.vtp"))
+    reader.Update()
+    frame = reader.GetOutput()
+    phases = data.vtk_to_numpy(frame.GetCellData().GetArray("phase"))
+    assert phases.dtype == np.int32 and np.array_equal(phases, field(clip, "phase", 2)[:, 0])
+    assert frame.GetPointData().GetArray("heat").GetInformation().Get(vtk.vtkDataArray.UNITS_LABEL()) == "K"
 
 
 def test_as_many_faces_as_vertices_are_told_apart(tmp_path):
@@ -338,3 +363,15 @@ def test_the_command_writes_them(tmp_path, steps, two_meshes, capsys):
         assert _vtk_command.main(["decode", str(source), "-o", str(tmp_path / "other" / name)]) == status
         told = capsys.readouterr().err
         assert text in told and len(told.splitlines()) == 1 and not (tmp_path / "other" / name).exists(), told
+
+
+def test_the_page_runs(tmp_path):
+    """Every command of docs/howto/simulation.md, with the package's command and Python."""
+    pytest.importorskip("h5py", reason="h5py is not installed")
+    root = pathlib.Path(__file__).parents[2]
+    for name, command in (("anicodec", f'"{sys.executable}" -m anicodec'), ("python3", f'"{sys.executable}"')):
+        (tmp_path / name).write_text(f'#!/bin/sh\nexec {command} "$@"\n')
+        (tmp_path / name).chmod(0o755)
+    told = subprocess.run([sys.executable, root / "tests" / "scripts" / "run_howto.py", tmp_path, root / "docs" / "howto" / "simulation.md"],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert told.returncode == 0, told.stdout

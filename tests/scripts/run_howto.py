@@ -5,7 +5,8 @@
 
 usage: run_howto.py FOLDER[:FOLDER...] PAGE
 The folders hold the built programs. Blocks of `sh` run one after the other in a temporary folder, blocks of `sh checkout`
-at the top of the checkout; a command that fails ends the test. Other blocks are not run.
+at the top of the checkout; `sh package` are those of a page whose programs are the Python package's. A command that fails ends the test. Other
+blocks are not run.
 """
 import os
 import pathlib
@@ -15,7 +16,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BLOCK = re.compile(r"^```(sh|sh checkout)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(sh|sh checkout|sh package)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def main():

@@ -56,6 +56,8 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("--meta", action="append", default=[], metavar="KEY=VALUE")
         self.add_argument("--meta-file", metavar="FILE.json")
         self.add_argument("--event", action="append", default=[], metavar="NAME=SECONDS")
+        self.add_argument("--field-error", action="append", default=[], metavar="NAME=X|exact")
+        self.add_argument("--field-unit", action="append", default=[], metavar="NAME=TEXT")
         self.add_argument("-j", dest="threads", type=int)
         for name, kind in _OPTIONS.items():
             self.add_argument("--" + name, type=kind)
@@ -108,9 +110,10 @@ def _bytes_of(text: str) -> int:
 
 
 def _encoding_options(given: Dict[str, Any]) -> Dict[str, Any]:
-    """What is left of the arguments, as functions of the package take it."""
+    """The rest of the arguments, as functions of the package take it."""
     metadata = _metadata(given.pop("meta"), given.pop("meta_file"))
     events = [_pair(text, "--event") for text in given.pop("event")]
+    bounds, units = (dict(_pair(text, "--" + name.replace("_", "-")) for text in given.pop(name)) for name in ("field_error", "field_unit"))
     options = {name: value for name, value in given.items() if value is not None}
     if "memory" in options:
         options["max_bytes"] = _bytes_of(options.pop("memory"))
@@ -118,6 +121,7 @@ def _encoding_options(given: Dict[str, Any]) -> Dict[str, Any]:
         options["origin"] = options["origin"].split(",")
     if "massage_tolerance" in options:
         options["massage_tolerance"] = float(options["massage_tolerance"])
+    options.update({name: value for name, value in (("field_errors", bounds), ("field_units", units)) if value})
     if metadata:
         options["metadata"] = metadata
     if events:
@@ -136,7 +140,7 @@ def _write(path: str, data: bytes) -> None:
 
 
 def _report(path: str, data: Any, asked: bool) -> Dict[str, Any]:
-    """What --json prints of any other input, as far as it is known here."""
+    """The report that --json prints of any other input, as far as it is known here."""
     clip = open_clip(bytes(data))
     measured = data.measured
     vertices = sum(mesh.vertex_count for mesh in clip.meshes)

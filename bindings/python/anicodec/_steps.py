@@ -21,6 +21,7 @@ class StepField(NamedTuple):
     number: int  #: of the attribute
     kind: str
     moves: bool
+    unit: str
 
 
 def clip_of(clip: Any) -> Clip:
@@ -61,19 +62,19 @@ def fields_of(mesh: Mesh) -> Tuple[List[StepField], List[str]]:
             name = name[:-len(_OF_CELLS)]
         while any(f.name == name and f.of_cells == of_cells for f in found):
             name += "_"
-        found.append(StepField(name, of_cells, number, attribute.kind, attribute.moves))
+        found.append(StepField(name, of_cells, number, attribute.kind, attribute.moves, attribute.unit))
     return found, left_out
 
 
 def values_at(mesh: Mesh, field: StepField, frame: int) -> np.ndarray:
-    """Elements x components: float32, uint8 of colours, int32 of labels."""
+    """Elements x components: float32, uint8 of colours, int32 of labels and of whole numbers."""
     attribute = mesh.attributes[field.number]
     if attribute.labels:
         return attribute.values.reshape(-1, 1).astype(np.int32)
     values = mesh.attribute_at(field.number, mesh._clip.time(frame)) if field.moves else attribute.values
     if field.kind == "colour":
         return np.rint(255 * np.clip(values, 0, 1)).astype(np.uint8)
-    return values
+    return np.rint(values).astype(np.int32) if attribute.whole else values
 
 
 def positions_at(mesh: Mesh, frame: int) -> np.ndarray:

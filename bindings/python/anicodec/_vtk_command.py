@@ -12,7 +12,7 @@ from typing import Any, Dict, List, Tuple, Union
 from . import _arrays_file, _package_command
 from ._package_command import Fault, Parser
 
-#: Of files that VTK reads; here, as its package may be missing.
+#: Suffixes that VTK reads; here, as its package may be missing.
 _READ = (".vtk", ".vtp", ".vtu", ".vts", ".vtr", ".vti", ".vtm", ".pvtp", ".pvtu", ".pvts", ".pvtr", ".pvti", ".pvd", ".series",
          ".vtkhdf", ".xdmf", ".xmf", ".case", ".e", ".exo", ".ex2")
 _WRITTEN = (".pvd", ".vtkhdf", ".xdmf", ".npz")

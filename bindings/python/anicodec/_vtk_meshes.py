@@ -67,7 +67,7 @@ class _Run:
 
 
 class Choice:
-    """What of the data is taken."""
+    """The parts of the data that are taken."""
 
     def __init__(self, fields: Optional[Sequence[str]], warp: Optional[Tuple[str, float]], all_points: bool, keep_changes: bool):
         self.fields, self.warp, self.all_points, self.keep_changes = fields, warp, all_points, keep_changes
@@ -81,6 +81,7 @@ class MeshReader:
         self._runs: List[_Run] = []
         self.vectors: Dict[str, None] = {}  #: fields that may move the points
         self.seen: Dict[str, None] = {}  #: names of all fields
+        self.units: Dict[str, str] = {}  #: of fields whose arrays tell them
 
     def add(self, frame: int, place: str, data: Any) -> None:
         """A step. Raises InputError naming it."""
@@ -129,6 +130,8 @@ class MeshReader:
                 if values is not None and len(chosen):
                     _check_finite(values[chosen], what, f"field {name!r} of {'point' if domain == 'vertices' else 'cell'}", chosen)
                     here[domain, name] = values[chosen]
+                    if array.GetInformation().Has(vtkDataArray.UNITS_LABEL()):
+                        self.units[name] = array.GetInformation().Get(vtkDataArray.UNITS_LABEL())
         self.vectors.update(dict.fromkeys(_vectors(data)))
         if not run.shown:
             run.fields = {key: _Frames() for key in here}

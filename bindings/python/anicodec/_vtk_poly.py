@@ -7,7 +7,7 @@ from typing import Any, Dict, Optional
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from ._steps import fields_of, positions_at, values_at
@@ -50,6 +50,8 @@ class PolyBuilder:
             if array is None:
                 array = numpy_to_vtk(np.ascontiguousarray(values_at(self._mesh, field, frame)), deep=True)
                 array.SetName(field.name)
+                if field.unit:
+                    array.GetInformation().Set(vtkDataArray.UNITS_LABEL(), field.unit)
                 if not field.moves:
                     self._resting[field.number] = array
             (data.GetCellData() if field.of_cells else data.GetPointData()).AddArray(array)

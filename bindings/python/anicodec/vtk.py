@@ -37,7 +37,8 @@ def encode(source: Union[str, os.PathLike, Sequence[Any]], *, fields: Union[None
     warp: a vector field that is added to the points, as "displacement" or ("displacement", 20) with a scale.
     fps: frames per second, instead of the times of the steps, which are seconds.
     topology_changes: "refuse", or "keep" to store a mesh for each run of steps with equal cells. Other options are those of
-    encode(). `notes` of the result names what else the steps have.
+    encode(), as field_errors; integers are exact, and units are kept if arrays tell them. `notes` of the result names what else
+    the steps have.
 
     Cost: every step is read once; arrays of all steps lie in files in TMPDIR or /var/tmp.
     Raises InputError naming file, step and reason, and what encode() raises.
@@ -69,6 +70,9 @@ def encode(source: Union[str, os.PathLike, Sequence[Any]], *, fields: Union[None
         notes.append("the points never move; " + (f"--warp (warp=) moves them by a vector field: {', '.join(vectors)}" if vectors else
                                                   "there is no vector field to move them by"))
     meshes = [mesh for reader in readers.values() for mesh in reader.meshes(len(steps))]
+    units = {name: unit for reader in readers.values() for name, unit in reader.units.items()}
+    if units:
+        options["field_units"] = {**units, **(options.get("field_units") or {})}
     first = os.fspath(source) if isinstance(source, (str, os.PathLike)) else os.fspath(source[0])
     options.setdefault("name", os.path.basename(first).split(".")[0].rstrip("*?_-"))
     result = encode_meshes(meshes, frame_count=len(steps), **options)
