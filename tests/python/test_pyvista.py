@@ -51,3 +51,11 @@ def test_a_damaged_file_raises(path):
     path.write_bytes(path.read_bytes()[:200])
     with pytest.raises(anicodec.CorruptError):
         pyvista.get_reader(path)
+
+
+def test_a_clip_becomes_a_reader(path):
+    clip = anicodec.open(path)
+    reader = clip.to("pyvista")
+    reader.set_active_time_point(9)
+    assert reader.number_time_points == 24 and np.array_equal(reader.read().points, clip[9])
+    assert isinstance(clip.to("pyvista", 3), pyvista.PolyData)

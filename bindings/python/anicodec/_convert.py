@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 PACKAGES = ("trimesh", "pyvista", "meshio")
+PLAYERS = ("rerun", "k3d", "viser", "polyscope", "pyvista", "open3d")  #: which take whole clips
 
 
 def to_package(mesh: Any, frame: int, package: str) -> Any:
     """A frame of a mesh as trimesh.Trimesh, pyvista.PolyData or meshio.Mesh. Raises ImportError naming the extra."""
     if package not in PACKAGES:
-        raise ValueError(f"package is one of {', '.join(PACKAGES)}, not {package!r}")
+        raise ValueError(f"package is one of {', '.join(PACKAGES)}, or of a whole clip {', '.join(PLAYERS)}, not {package!r}")
     try:
         module = __import__(package)
     except ImportError as error:

@@ -54,7 +54,11 @@ class ClipSource(VTKPythonAlgorithmBase):
     def _open(self) -> None:
         if self._clip is not None or not self._path:
             return
-        self._clip = clip_of(self._path)
+        self.SetClip(clip_of(self._path))
+
+    def SetClip(self, clip: Any) -> None:
+        """An opened clip instead of a file."""
+        self._clip = clip
         self._times = times_of(self._clip)
         self._builders = [PolyBuilder(mesh) for mesh in self._clip.meshes]
         for mesh in self._clip.meshes:

@@ -13,7 +13,7 @@ from typing import Any, Dict, Iterator, NamedTuple, Optional, Sequence, Tuple, U
 import numpy as np
 
 from . import _anicodec, _arrays, _page
-from ._convert import to_package
+from ._convert import PLAYERS, to_package
 from .errors import CorruptError, FrameError, InputError, LimitError
 from .material import Material, from_file
 
@@ -425,6 +425,14 @@ class Clip:
         """
         return _page.show(self.page(against), height)
 
+    def to(self, package: str, frame: Optional[int] = None) -> Any:
+        """The whole clip in another package: "rerun" (a RecordingStream), "k3d" (a plot), "viser" (a server), "polyscope" (ready for
+        show()), "pyvista" (a reader with times), "open3d" (for visualization.draw()); or a frame of its only mesh: see Mesh.to()."""
+        if frame is None and package in PLAYERS:
+            from ._play import to_player  # which imports this module
+            return to_player(self, package)
+        return self.mesh.to(package, frame or 0)
+
     def __len__(self) -> int:
         return self.frame_count
 
@@ -483,7 +491,7 @@ def read_bounds(source: Any, mesh: int = 0, first_frame: int = 0, frames: int = 
 
 #: Names that a clip of one mesh passes on to it.
 _OF_MESH = {"at", "attribute_at", "attributes", "faces", "frames", "intersect_ray", "normals", "polygons", "shown_in",
-            "surface_frame", "to", "triangles", "vertex_count"}
+            "surface_frame", "triangles", "vertex_count"}
 
 
 def open(source: Any, quality: float = 1.0, max_bytes: int = 0, clips: Sequence[str] = (),  # noqa: A001

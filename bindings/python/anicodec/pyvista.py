@@ -12,6 +12,7 @@ import pyvista
 from pyvista.core.utilities.reader import BaseReader, PointCellDataSelection, TimeReader
 
 from ._vtk_source import ClipSource
+from .clip import Clip
 
 __all__ = ["ClipReader"]
 
@@ -20,6 +21,23 @@ class ClipReader(BaseReader, PointCellDataSelection, TimeReader):
     """Frames as PolyData, or as MultiBlock where the clip has several meshes. Times are seconds on the clock of the source."""
 
     _class_reader = ClipSource
+
+    def __init__(self, path: Any) -> None:
+        """path: of a file, or a Clip."""
+        self._given = path if isinstance(path, Clip) else None
+        super().__init__("" if self._given is not None else path)
+
+    @property
+    def path(self) -> Any:
+        return super().path if self._given is None else self._given.name
+
+    @path.setter
+    def path(self, path: Any) -> None:
+        if self._given is None:
+            BaseReader.path.fset(self, path)
+        else:
+            self.reader.SetClip(self._given)
+            self._update_information()
 
     def _set_defaults(self) -> None:
         self._active: int = 0
