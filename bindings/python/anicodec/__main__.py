@@ -12,7 +12,11 @@ def main() -> None:
     """Runs the command with the arguments of this process, and ends it. Stages of USD and results of simulations are read and written here."""
     for command in (_usd_command, _vtk_command):
         if command.is_meant(sys.argv[1:]):
-            status = command.main(sys.argv[1:])
+            signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+            try:
+                status = command.main(sys.argv[1:])
+            except KeyboardInterrupt:
+                status = 128 + signal.SIGINT
             sys.stdout.flush()
             sys.stderr.flush()
             os._exit(status)  # USD destroys stages in threads of its own, which the end of the process would overtake
