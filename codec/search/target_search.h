@@ -30,7 +30,7 @@ class TargetSearch {
   /// best if it is far behind `rival`, which another coder made: null for none.
   std::optional<Solution> reach(SegmentCoder& coder, const Solution* rival = nullptr);
 
-  /// The best of some coders. Where they meet an error directly they choose their settings at the same time.
+  /// The best of some coders. Targets that are an error let them choose their settings at the same time.
   std::optional<Solution> best_of(std::span<LinearCoder* const> coders);
 
   /// The root mean square error that the target is; nothing for a target that only leads to one.

@@ -117,7 +117,7 @@ const AttributeError* error_of(const ClipRecord& record, uint32_t mesh, uint32_t
   return nullptr;
 }
 
-/// What the metadata say of an attribute's numbers; null for nothing.
+/// The field of the metadata that is about an attribute's numbers; null if there is none.
 nlohmann::ordered_json field_of(const Contents& c, const MeshAttribute& attribute) {
   const auto fields = c.metadata.find("fields");
   if (fields == c.metadata.end() || !fields->is_object())

@@ -97,7 +97,7 @@ pub struct SourceAttribute<'a> {
     pub looks: &'a [Option<Look<'a>>],
     /// The largest error of its numbers.
     pub bound: AttributeBound,
-    /// Of the values, as "K", kept in the metadata; may be empty.
+    /// The values' unit, as "K", kept in the metadata; may be empty.
     pub unit: &'a str,
 }
 
