@@ -134,6 +134,28 @@ def test_surfaces_of_other_cells(tmp_path, kind):
     assert sizes.sum() == len(clip.polygons[0]) - 1 and (sizes > 0).all()
 
 
+def test_cells_of_several_kinds_and_pieces(tmp_path):
+    """A cube, a plate beside it, a line; then the same in two pieces of a parallel file."""
+    grid = vtk.vtkUnstructuredGrid()
+    data.place(grid, np.array([[x, y, z] for z in range(2) for y in range(2) for x in range(3)], float))
+    for kind, corners in ((vtk.VTK_VOXEL, [0, 1, 3, 4, 6, 7, 9, 10]), (vtk.VTK_TRIANGLE, [1, 2, 5]), (vtk.VTK_QUAD, [7, 8, 11, 10]), (vtk.VTK_LINE, [2, 8])):
+        grid.InsertNextCell(kind, len(corners), corners)
+    data.put(grid.GetCellData(), "which", np.arange(4))
+    path = data.write(grid, tmp_path / "mixed.vtu")
+    encoded = simulations.encode([path, path], order="all", effort=1)
+    clip = anicodec.open(encoded)
+    assert sorted(np.diff(clip.polygons[0])) == [3] + [4] * 7 and "1 lines" in encoded.notes[-1]
+    assert sorted(field(clip, "which", 0)[:, 0]) == [0] * 6 + [1, 2]
+    writer = vtk.vtkXMLPUnstructuredGridWriter()
+    writer.SetFileName(str(tmp_path / "pieces.pvtu"))
+    writer.SetInputData(data.beam(1))
+    writer.SetNumberOfPieces(2)
+    writer.SetEndPiece(1)
+    writer.Write()
+    pieces = anicodec.open(simulations.encode(tmp_path / "pieces.pvtu", effort=1))
+    assert np.allclose(pieces[0].max(axis=0), data.points_of(data.beam(1)).max(axis=0), atol=0.02)
+
+
 def test_strips_and_grids_have_faces(tmp_path):
     strip = vtk.vtkPolyData()
     data.place(strip, np.array([[i // 2, i % 2, 0.0] for i in range(8)]))

@@ -208,7 +208,7 @@ def _opened(path: str, suffix: str, at_rest: bool) -> Any:
 
 def _output(reader: Any, place: str, number: int = 0, moment: Optional[float] = None) -> List[Tuple[str, Any]]:
     with _told(place):
-        if hasattr(reader, "SetStep"):  # of vtkHDFReader, which gives the same step again of collections if asked for another time
+        if hasattr(reader, "SetStep"):  # of vtkHDFReader, which of collections may give the same step again if asked for another time
             reader.SetStep(number)
         if moment is None or hasattr(reader, "SetStep"):
             reader.Update()
