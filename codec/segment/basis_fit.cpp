@@ -37,7 +37,10 @@ MatrixXd solved(const MatrixXd& fields, const MatrixXd& products) {
   MatrixXd gram = MatrixXd::Zero(fields.cols(), fields.cols());
   add_self_products(fields, gram);
   mirror_upper(gram);
-  gram.diagonal().array() += 1e-12 * gram.trace();
+  // By the size of each field: one may be millions of times as large as another.
+  constexpr double kRidge = 1e-12;
+  const double least = 1e-24 * gram.trace() + 1e-300;
+  gram.diagonal().array() += kRidge * gram.diagonal().array().max(least);
   return solve_symmetric(gram, MatrixXd(products.transpose())).transpose();
 }
 

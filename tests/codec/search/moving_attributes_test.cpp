@@ -306,6 +306,17 @@ TEST(MovingAttributes, HaveBoundsOfTheirOwn) {
             encode(corpus::make_clip("heated"), coarse()).attributes[2].bytes);
 }
 
+TEST(MovingAttributes, TakeAsManyBytesInSmallUnits) {
+  MeshSequence clip = corpus::make_clip("heated");
+  clip.attributes.erase(clip.attributes.begin(), clip.attributes.begin() + 2);
+  EncodeOptions options = coarse();
+  options.effort = 2;
+  const auto bytes = static_cast<double>(encode(clip, options).attributes[0].bytes);
+  for (float& value : clip.attributes[0].values)
+    value *= 1e5F;
+  EXPECT_NEAR(static_cast<double>(encode(clip, options).attributes[0].bytes), bytes, 0.03 * bytes);
+}
+
 TEST(MovingAttributes, OfWholeNumbersAreExactOnceRounded) {
   MeshSequence clip = corpus::make_clip("heated");
   Attribute& phase = clip.attributes[2];
