@@ -280,6 +280,21 @@ test('the viewer plays the clips that are in it, without a network', { skip: ski
     await page.waitForFunction((text) => document.getElementById('clock').textContent !== text, early);  // it plays
     await page.keyboard.press(' ');
     assert.equal(await page.locator('#play').textContent(), 'Play');
+    // A field as colours, and its range.
+    const reds = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+      const gl = document.getElementById('canvas').getContext('webgl2'), [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+      const pixels = new Uint8Array(4 * w * h);
+      gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      done(pixels.reduce((sum, value, i) => sum + (i % 4 === 0 ? value : 0), 0));
+    }))));
+    const own = await reds();
+    assert.ok(!await page.locator('#legend').isVisible());
+    await page.locator('#field').selectOption('temperature');
+    assert.match(await page.locator('#legend').textContent(), /^19\.7.*431/);
+    assert.ok(Math.abs(await reds() - own) > 0.02 * own);
+    await page.locator('#field').selectOption('');
+    assert.ok(!await page.locator('#legend').isVisible());
+    assert.ok(Math.abs(await reds() - own) < 0.001 * own);
     await page.locator('#error').click();
     await page.locator('#wires').click();
     assert.match(await page.locator('#figures').textContent(), /largest 0/);  // the clip against itself

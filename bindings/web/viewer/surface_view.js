@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The anicodec authors
 //
-// Draws the meshes of clips by WebGL2: shaded, as wires, or in colours of their error.
+// Draws the meshes of clips by WebGL2: shaded, as wires, or in colours of numbers.
 
 const VERTEX = `#version 300 es
 in vec3 position, normal, colour;
@@ -148,16 +148,16 @@ export class ClipView {
       surface.seek(time, options);
   }
 
-  /** Colours by error: of each surface, distances of its vertices as shares of the largest; undefined: its own colours. */
-  colour(errors) {
+  /** Colours of numbers: of each surface, a share of each vertex, from 0 to 1; undefined: its own colours. */
+  colour(shares, colourOf) {
     this.surfaces.forEach((surface, m) => {
-      const of = errors?.[m];
+      const of = shares?.[m];
       if (!of) {
         surface.fill('colour', surface.plain);
         return;
       }
       const colours = new Float32Array(3 * of.length);
-      of.forEach((share, v) => colours.set(errorColour(share), 3 * v));
+      of.forEach((share, v) => colours.set(colourOf(share), 3 * v));
       surface.fill('colour', colours);
     });
   }

@@ -3,10 +3,11 @@
 //
 // The viewer: one page that holds the decoder, and a clip where `anicodec render` has put one.
 import { clipInGlb } from '../glb.js';
-import { open } from '../index.js';
+import { open, readMetadata } from '../index.js';
 import { provideModule } from '../module.js';
 import { MEANINGS, chunkSizes } from './chunks.js';
-import { ClipView, Orbit, SurfaceView } from './surface_view.js';
+import { fieldColour, fieldNames, gradient, rangeOf, sharesOf } from './fields.js';
+import { ClipView, Orbit, SurfaceView, errorColour } from './surface_view.js';
 
 const SPEEDS = [-1, 0.1, 0.25, 0.5, 1, 2, 4];
 const $ = (id) => document.getElementById(id);
@@ -70,7 +71,7 @@ const correspond = () => state.clips.length === 2 && state.clips[0].clip.meshes.
 /** The clip of a file that is shown: the one that was chosen, where the file has it. */
 const shown = (clip) => clip.clips.find(({ name }) => name === state.name) ?? clip.find();
 
-/** Distances of the vertices of the second clip from those of the first at this time. */
+/** Distances of the vertices of the second clip from those of the first at this time, as shares of the largest. */
 function measure() {
   const [a, b] = state.clips.map(({ clip }) => clip);
   let largest = 0, sum = 0, count = 0;
@@ -88,7 +89,35 @@ function measure() {
     return Array.from(mesh.sourceVertices, (v) => far[v]);
   });
   state.errors = { largest, rmse: Math.sqrt(sum / Math.max(count, 1)) };
-  state.clips[1].colour(state.error ? distances.map((d) => d?.map((x) => (largest > 0 ? x / largest : 0))) : undefined);
+  return distances.map((d) => d?.map((x) => (largest > 0 ? x / largest : 0)));
+}
+
+/** Colours by the error of the second clip, by a field, or their own. */
+function paint() {
+  const errors = correspond() ? measure() : undefined;
+  state.clips.forEach((one, i) => {
+    if (i === 1 && state.error && errors) {
+      one.colour(errors, errorColour);
+      return;
+    }
+    const { index } = shown(one.clip), options = { clip: index, wrap: state.loop ? 'loop' : 'clamp' };
+    one.colour(state.field && sharesOf(one.clip, state.field.name, state.field, state.time, options), fieldColour);
+  });
+}
+
+/** Shows a field of the first clip as colours, in both; without a name none. */
+function chooseField(name) {
+  const [{ clip, metadata }] = state.clips, range = name ? rangeOf(clip, name, shown(clip)) : undefined;
+  state.field = range && { name, ...range };
+  $('field').value = range ? name : '';
+  $('legend').hidden = !range;
+  if (range) {
+    const unit = metadata?.fields?.[name]?.unit, text = (value) => `${+value.toPrecision(4)}`;
+    $('legend').title = `${name} of the frames${unit ? ` in ${unit}` : ''}`;
+    $('low').textContent = text(range.low);
+    $('high').textContent = `${text(range.high)}${unit ? ` ${unit}` : ''}`;
+  }
+  state.dirty = true;
 }
 
 function background() {
@@ -103,8 +132,7 @@ function draw() {
   for (const one of state.clips)
     one.seek(state.time, { clip: shown(one.clip).index, wrap: state.loop ? 'loop' : 'clamp' });
   state.decode = performance.now() - before;
-  if (correspond())
-    measure();
+  paint();
   view.draw(state.clips, orbit, { wires: state.wires, unlit: false, background: background() });
   const end = duration(), frame = state.clips.length ? Math.round(Math.min(state.time, end) * shown(state.clips[0].clip).rate) : 0;
   $('time').value = end > 0 ? state.time / end : 0;
@@ -149,13 +177,13 @@ function set(name, value) {
 
 /** Adds a file; a third one begins anew. */
 async function add(name, file) {
-  const bytes = clipInGlb(file), before = performance.now(), clip = await open(bytes, { worker: false });
+  const bytes = clipInGlb(file), metadata = await readMetadata(bytes), before = performance.now(), clip = await open(bytes, { worker: false });
   if (state.clips.length === 2) {
     for (const old of state.clips)
       old.dispose();
     state.clips = [];
   }
-  state.clips.push(Object.assign(new ClipView(view, clip), { name, bytes, openMs: performance.now() - before }));
+  state.clips.push(Object.assign(new ClipView(view, clip), { name, bytes, metadata, openMs: performance.now() - before }));
   if (state.clips.length === 1) {
     orbit.show(clip.bounds, clip.info.up === 'z');
     state.time = 0;
@@ -168,12 +196,18 @@ async function add(name, file) {
   const { clips } = state.clips[0].clip;
   $('clip').replaceChildren(...clips.map((one) => Object.assign(document.createElement('option'), { value: one.name, textContent: one.name || `clip ${one.index}` })));
   $('clip').hidden = clips.length === 1;
+  const fields = fieldNames(state.clips[0].clip);
+  $('field').replaceChildren(...['', ...fields].map((value) => Object.assign(document.createElement('option'), { value, textContent: value || 'Colours' })));
+  $('field').hidden = fields.length === 0;
+  chooseField(fields.includes(state.field?.name) ? state.field.name : '');
   choose(shown(state.clips[0].clip).name);
 }
 
 function choose(name) {
   state.name = $('clip').value = name;
   state.time = 0;
+  if (state.field)
+    chooseField(state.field.name);
   describe();
   set('playing', state.clips.some(({ clip }) => shown(clip).frames > 1));
 }
@@ -193,6 +227,8 @@ function listen() {
     $('speed').append(Object.assign(document.createElement('option'), { value: speed, textContent: `${speed} ×` }));
   $('speed').onchange = () => set('speed', Number($('speed').value));
   $('clip').onchange = () => choose($('clip').value);
+  $('field').onchange = () => chooseField($('field').value);
+  $('legend').querySelector('i').style.background = gradient;
   $('play').onclick = () => set('playing', !state.playing);
   for (const id of ['loop', 'wires', 'error', 'about'])
     $(id).onclick = () => set(id, !state[id]);
@@ -254,10 +290,15 @@ function listen() {
     if (clips.length > 1)
       choose(clips[(shown(state.clips[0].clip).index + 1) % clips.length].name);
   };
+  const nextField = () => {
+    const names = Array.from($('field').options, ({ value }) => value);
+    if (names.length > 1)
+      chooseField(names[(names.indexOf($('field').value) + 1) % names.length]);
+  };
   const speed = (by) => set('speed', SPEEDS[Math.min(Math.max(SPEEDS.indexOf(state.speed) + by, 0), SPEEDS.length - 1)]);
   const keys = {
     ' ': () => set('playing', !state.playing), l: () => set('loop', !state.loop), w: () => set('wires', !state.wires),
-    e: () => correspond() && set('error', !state.error), i: () => set('about', !state.about), c: other, o: () => $('files').click(),
+    e: () => correspond() && set('error', !state.error), i: () => set('about', !state.about), c: other, f: nextField, o: () => $('files').click(),
     ',': () => step(-1), '.': () => step(1), '[': () => speed(-1), ']': () => speed(1), Home: () => step(-1e9),
     '+': () => orbit.zoom(0.9), '-': () => orbit.zoom(1.1), ArrowLeft: () => orbit.turn(0.1, 0), ArrowRight: () => orbit.turn(-0.1, 0),
     ArrowUp: () => orbit.turn(0, 0.1), ArrowDown: () => orbit.turn(0, -0.1),
