@@ -25,7 +25,7 @@ import anicodec
 
 POINTS = 5e-4  # of the diagonal: the largest distance of a vertex
 FIELD = 1e-3  # of the range of a field
-EFFORT = 2
+EFFORT = 5  # the default
 CLIPS = ("classic/dance", "classic/horse", "simulated/flag", "captured/face", "classic/chicken")
 
 

@@ -38,7 +38,8 @@ keep the axes of the clip, so that the cache fits the mesh that it came from (--
 Frames are counted from 0; A:B is A to B - 1, both may be left out, and A alone is one frame. A rate
 that STEP divides is divided; PC2 carries no rate. A clip whose topology changes needs a file per
 frame, or .abc. OUT may be a stage of USD (.usd .usda .usdc .usdz) if pip has installed
-'anicodec[usd]': anicodec decode -o x.usd --help.
+'anicodec[usd]', or a result of a simulation (.pvd .vtkhdf .xdmf .npz) with 'anicodec[vtk]':
+anicodec decode -o x.usd --help.
 
 Examples:
   anicodec decode clip.anic -o clip.pc2

@@ -37,8 +37,9 @@ constexpr const char* kEncodeFooter =
 given by --mesh, a quoted pattern ('frames/*.obj', in natural order), a list of frames of equal
 connectivity, a scene, or an archive. Meshes: .obj .ply .off .stl; caches: .pc2 .mdd; scenes: .gltf
 .glb .fbx .md3, and in builds with assimp .dae .md2 .3ds and others; archives: .abc (Alembic).
-Stages of USD (.usd .usda .usdc .usdz) are read if pip has installed 'anicodec[usd]', and have a
-help of their own: anicodec encode x.usd --help.
+Stages of USD (.usd .usda .usdc .usdz) are read if pip has installed 'anicodec[usd]', results of
+simulations (.pvd .vtu .vtkhdf .xdmf .case .npz and others) with 'anicodec[vtk]'; they have a help
+of their own: anicodec encode x.usd --help.
 
 INPUT - is a scene in one file or a mesh from the standard input; -o - writes the .anic file to the
 standard output, and nothing else; decode, info and verify read one from -.
