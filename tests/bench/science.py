@@ -3,8 +3,8 @@
 # SPDX-FileCopyrightText: The anicodec authors
 """Results of simulations against other ways to store them, at one largest error: science.py [--clips] [--made] [--fields] [--seek]
 
-Without arguments all of it. It runs in a Python with anicodec, numpy, zfpy and pysz; scikit-fem makes some of the data, and h5py and vtk
-are measured where they are installed; nothing is installed here. --clips needs the folder of real clips, $ANICODEC_DATA.
+Without arguments all of it. It runs in a Python with anicodec, numpy, zfpy and pysz; scikit-fem makes some of the data, and h5py, vtk, pyvista-zstd and
+bodycompress are measured where they are installed; nothing is installed here. --clips needs the folder of real clips, $ANICODEC_DATA.
 
 A largest error is that of any single number. Ours bounds the distance of a vertex, the root of 3 times as far. Peers get the layout
 that suits them best of those tried; SZ3 once more an image for each step where points are those of a grid. Bytes of a field are those that a file has more with it.
@@ -145,6 +145,38 @@ def vtkhdf(points, faces, field, folder):
     writer.SetCompressionLevel(9)
     writer.Write()
     return path.stat().st_size
+
+
+def pyvista_zstd(points, faces, field, folder):
+    """A file for each step: the first with the faces, the others points or a field alone."""
+    import pyvista
+    import pyvista_zstd as package
+    size = 0
+    for number in range(len(points if field is None else field)):
+        if number == 0:
+            sides = [corner for face in faces for corner in (len(face), *face)]
+            mesh = pyvista.PolyData(points[0], faces=np.array(sides))
+        else:
+            mesh = pyvista.PolyData(points[number] if field is None else points[0][:0])
+        if field is not None:
+            mesh.field_data["field"] = np.ascontiguousarray(field[number, :, 0])
+        path = pathlib.Path(folder) / "peer.pv"
+        package.write(mesh, path, level=19, shuffle=True)
+        size += path.stat().st_size
+    return size
+
+
+def bodycompress(points, bound, folder):
+    """Coordinates as multiples of twice the bound, whatever its name says of millimetres."""
+    from bodycompress import BodyCompressor, BodyDecompressor
+    path, unit = str(pathlib.Path(folder) / "peer.xz"), 1 / (2 * bound)  # a multiple is 1 mm
+    with BodyCompressor(path, quantization_mm=1.0, compression_level=9, vertex_order=None) as file:
+        for step in points:
+            file.append(vertices=step.astype(np.float64) * unit)
+    for step, back in zip(points, BodyDecompressor(path)):
+        if np.abs(back["vertices"] / unit - step).max() > bound * 1.001:
+            return None
+    return os.path.getsize(path)
 
 
 # ---- data
@@ -288,10 +320,12 @@ def peers(values, bound, grid, points, faces, field, folder):
     even = not isinstance(faces, list)
     by_grid = sz3([np.ascontiguousarray(values[:, :, 0]).reshape(-1, *grid)], bound) if grid else None
     return [best(sz3, arrays, bound), best(zfp, arrays, bound), by_grid, npz(values), hdf5(values) if version("h5py") else None,
-            vtkhdf(points, faces, field, folder) if version("vtk") and even else None]
+            vtkhdf(points, faces, field, folder) if version("vtk") and even else None,
+            pyvista_zstd(points, faces, field, folder) if version("pyvista-zstd") else None,
+            bodycompress(points, bound, folder) if version("bodycompress") and field is None else None]
 
 
-HEAD = "ours, bytes | SZ3 | zfp | SZ3, told the grid | npz | HDF5 gzip (XDMF) | vtkhdf |"
+HEAD = "ours, bytes | SZ3 | zfp | SZ3, told the grid | npz | HDF5 gzip (XDMF) | vtkhdf | pyvista-zstd | bodycompress |"
 
 
 def mean(ratios):
@@ -299,7 +333,7 @@ def mean(ratios):
 
 
 def table_of_points(clips, folder):
-    print(f"| points, largest distance {100 * POINTS:g} % of the diagonal | frames x points | {HEAD}\n|---|---|---|---|---|---|---|---|---|")
+    print(f"| points, largest distance {100 * POINTS:g} % of the diagonal | frames x points | {HEAD}\n|---|---|---|---|---|---|---|---|---|---|---|")
     columns = [[], []]
     for name, points, faces in clips:
         flat = points.reshape(-1, 3)
@@ -309,11 +343,11 @@ def table_of_points(clips, folder):
         for column, size in zip(columns, sizes):
             column.append(size / ours)
         print(f"| {name} | {points.shape[0]} x {points.shape[1]} | {ours} | {' | '.join(cell(s, ours) for s in sizes)} |", flush=True)
-    print(f"| geometric mean | | | {mean(columns[0])} | {mean(columns[1])} | | | | |\n")
+    print(f"| geometric mean | | | {mean(columns[0])} | {mean(columns[1])} | | | | | | |\n")
 
 
 def table_of_fields(folder):
-    print(f"| field, largest error {100 * FIELD:g} % of its range | frames x points | {HEAD}\n|---|---|---|---|---|---|---|---|---|")
+    print(f"| field, largest error {100 * FIELD:g} % of its range | frames x points | {HEAD}\n|---|---|---|---|---|---|---|---|---|---|---|")
     for name, points, faces, fields, grid in made():
         rest = points[:1]
         for field, values in fields.items():
@@ -354,7 +388,7 @@ def main():
         parser.add_argument(f"--{part}", action="store_true")
     asked = vars(parser.parse_args())
     parts = {name for name, wanted in asked.items() if wanted} or set(asked)
-    names = ("anicodec", "numpy", "pysz", "zfpy", "h5py", "vtk", "scikit-fem")
+    names = ("anicodec", "numpy", "pysz", "zfpy", "h5py", "vtk", "pyvista-zstd", "bodycompress", "scikit-fem")
     print(", ".join(f"{name} {version(name) or 'not installed'}" for name in names) + f"; effort {EFFORT}. Others in multiples of our bytes.\n")
     with tempfile.TemporaryDirectory() as folder:
         if "clips" in parts:
