@@ -150,6 +150,9 @@ export class ClipView {
 
   /** Colours of numbers: of each surface, a share of each vertex, from 0 to 1; undefined: its own colours. */
   colour(shares, colourOf) {
+    if (!shares && !this.shares)
+      return;
+    this.shares = shares;
     this.surfaces.forEach((surface, m) => {
       const of = shares?.[m];
       if (!of) {

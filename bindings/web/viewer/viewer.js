@@ -199,15 +199,15 @@ async function add(name, file) {
   const fields = fieldNames(state.clips[0].clip);
   $('field').replaceChildren(...['', ...fields].map((value) => Object.assign(document.createElement('option'), { value, textContent: value || 'Colours' })));
   $('field').hidden = fields.length === 0;
-  chooseField(fields.includes(state.field?.name) ? state.field.name : '');
+  if (!fields.includes(state.field?.name))
+    state.field = undefined;
   choose(shown(state.clips[0].clip).name);
 }
 
 function choose(name) {
   state.name = $('clip').value = name;
   state.time = 0;
-  if (state.field)
-    chooseField(state.field.name);
+  chooseField(state.field?.name);
   describe();
   set('playing', state.clips.some(({ clip }) => shown(clip).frames > 1));
 }
