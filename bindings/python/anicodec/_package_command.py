@@ -21,6 +21,10 @@ _OPTIONS: Dict[str, Any] = {
 _SWITCHES = ("no-attributes", "lossless", "loop", "smallest", "root-motion")
 
 
+#: Options whose value may look like the name of such a file.
+_OF_TEXT = ("--meta", "--name", "--event", "--clip", "--clips", "--field-error", "--field-unit")
+
+
 class Fault(Exception):
     """A line for the user, and the exit status."""
 
@@ -73,7 +77,8 @@ def is_meant(arguments: Sequence[str], suffixes: Sequence[str]) -> bool:
     if list(arguments[:1]) not in (["encode"], ["decode"]):
         return False
     asked = " ".join(arguments).replace("=", " ").split("--format ")[1:]
-    return any(text.lower().endswith(tuple(suffixes)) for text in arguments[1:]) or any("." + text.split(" ")[0] in suffixes for text in asked)
+    names = [text for before, text in zip(arguments, arguments[1:]) if before not in _OF_TEXT and text.split("=")[0] not in _OF_TEXT]
+    return any(text.lower().endswith(tuple(suffixes)) for text in names) or any("." + text.split(" ")[0] in suffixes for text in asked)
 
 
 def refuse(arguments: Sequence[str], of_others: Dict[str, str]) -> None:
