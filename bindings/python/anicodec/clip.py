@@ -348,7 +348,7 @@ class Clip:
         return read_metadata(self.data)
 
     def field(self, name: str) -> Dict[str, Any]:
-        """What the metadata say of the attributes of a name: see field_errors of encode(). Empty if nothing."""
+        """The metadata of the attributes with a name: see field_errors of encode(). Empty if there are none."""
         if self._fields is None:
             try:
                 fields = self.metadata.get("fields")
